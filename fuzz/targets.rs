@@ -18,7 +18,7 @@ use partsight::{
     robot::{
         arm::{Arm, Obstacles},
         calibration::CellCalibration,
-        frame_poses::FramePoses,
+        frame_poses::read_frame_poses,
         pairs::{PairConventions, read_arm_poses, read_pairs},
     },
     run, scene_from_image,
@@ -52,7 +52,7 @@ pub(crate) fn texts(bytes: &[u8]) {
     let _ = read_pairs(&path, PairConventions::default());
     let _ = read_arm_poses(&path, None);
     let _ = SprayPath::read(&path);
-    let _ = FramePoses::read(&path, &["a.png".into(), "b.png".into()]);
+    let _ = read_frame_poses(&path, &["a.png".into(), "b.png".into()]);
     let _ = RecipeFile::<Recipe>::read(&path);
     let _ = RecipeFile::<Coat>::read(&path);
     let _ = read_stripe(&path);

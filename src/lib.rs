@@ -85,8 +85,8 @@ mod kit;
 
 pub use self::{
     capture::{
-        CaptureError, CaptureWarning, Captured, DepthSource, Image, NextCapture, SourceSpec,
-        open as open_source, read_image,
+        CaptureError, Captured, DepthSource, Image, NextCapture, SourceSpec, open as open_source,
+        read_image,
     },
     error::Advice,
     files::{FileContent, FileError, open as open_file},
@@ -94,12 +94,12 @@ pub use self::{
         cloud::{Grid, PointCloud},
         depth_frame::{DepthFrame, Intrinsics},
         distortion::Distortion,
-        mesh::{MeshError, TriangleMesh},
+        mesh::TriangleMesh,
         rigid::RigidTransform,
     },
     library::{
-        EnrolError, EnrolParams, EnrolWarning, Enrolled, Library, LibraryError, LibraryFolder,
-        LibraryLoad, Part, PartDescription, PartName, enrol_captured, enrol_mesh,
+        EnrolError, EnrolParams, Enrolled, Library, LibraryError, LibraryFolder, LibraryLoad, Part,
+        PartDescription, PartName, enrol_captured, enrol_mesh,
     },
     pipeline::{
         AcceptParams, Cancelled, Inspection, PoseChoice, ProgressObserver, Recipe, RecipeError,

@@ -2,7 +2,6 @@
 //!
 //! The window, the command line and the tests are three callers of [`run`].
 
-mod identity;
 pub mod live;
 mod mirror;
 mod named_recipe;
@@ -19,6 +18,7 @@ mod watch;
 
 use crate::{
     error::{Fault, guarded},
+    files::crc32,
     library::Library,
     stages::{
         confirm::{CUT_SHARE, ConfirmParams, ConfirmedRanking},
@@ -39,7 +39,9 @@ use crate::{
 };
 
 use self::{
-    mirror::check_mirror_image, surface::inspect_surface, unsound::refuse_unsound,
+    mirror::check_mirror_image,
+    surface::{InspectionInputs, inspect_surface},
+    unsound::refuse_unsound,
     watch::StageClock,
 };
 pub use self::{
@@ -91,6 +93,14 @@ impl Recipe {
             contour: self.contour.clone(),
             signature: self.signature.clone(),
         }
+    }
+
+    /// Returns eight hexadecimal digits that depend on all parameters: the CRC-32 of the recipe as JSON, in the order
+    /// of its fields. Collisions are unlikely, but nothing prevents forgery. A version of the program that adds a
+    /// parameter gives another identity.
+    pub fn identity(&self) -> String {
+        let json = serde_json::to_vec(self).expect("numbers and names have a JSON form");
+        format!("{:08x}", crc32(&json))
     }
 }
 
@@ -160,7 +170,13 @@ fn inspect(
     recipe: &Recipe,
     watch: &dyn ProgressObserver,
 ) -> Result<Inspection, Cancelled> {
-    let clock = StageClock::start(watch);
+    let clock = &StageClock::start(watch);
+    let inputs = &InspectionInputs {
+        scene,
+        library,
+        recipe,
+        clock,
+    };
     let segmentation = clock.time(Stage::Segment, || segment(scene, &recipe.segment))?;
     let mut inspection = Inspection {
         segmentation,
@@ -173,7 +189,7 @@ fn inspect(
         timings: Timings::default(),
     };
     let part = inspection.segmentation.part.as_ref();
-    let first = part.map(|part| inspect_surface(part, scene, library, recipe, 0.0, &clock));
+    let first = part.map(|part| inspect_surface(part, inputs, 0.0));
     match first.map_err(|no_part| *no_part) {
         Ok(first) => {
             first?.keep(&mut inspection);
@@ -181,9 +197,9 @@ fn inspect(
             let looks_whole = evidence.is_some_and(|evidence| evidence.cut < CUT_SHARE);
             if should_try_alternatives(&inspection, recipe) {
                 let likeliest = inspection.segmentation.part.clone();
-                try_other_segments(&mut inspection, scene, library, recipe, &clock)?;
+                try_other_segments(&mut inspection, inputs)?;
                 if should_try_alternatives(&inspection, recipe) {
-                    check_mirror_image(&mut inspection, scene, library, recipe, &clock)?;
+                    check_mirror_image(&mut inspection, inputs)?;
                 }
                 if let Ok(likeliest) = &likeliest {
                     if is_nothing_like_it(&inspection, recipe) && looks_whole {
@@ -191,17 +207,10 @@ fn inspect(
                             is_piece: true,
                             ..likeliest.clone()
                         };
-                        try_segment(&mut inspection, piece, scene, library, recipe, &clock)?;
+                        try_segment(&mut inspection, piece, inputs)?;
                     }
                     if is_nothing_like_it(&inspection, recipe) {
-                        try_without_bars(
-                            &mut inspection,
-                            likeliest,
-                            scene,
-                            library,
-                            recipe,
-                            &clock,
-                        )?;
+                        try_without_bars(&mut inspection, likeliest, inputs)?;
                     }
                 }
             }
@@ -223,8 +232,7 @@ const WORTH_CHANGING: f64 = 0.1;
 fn should_try_alternatives(inspection: &Inspection, recipe: &Recipe) -> bool {
     let is_ours = recipe.rank.matcher == Matcher::Default
         && recipe.pose == PoseChoice::By(PoseMethod::Global);
-    let is_accepted = matches!(inspection.verdict, Verdict::Part { rejected: None, .. });
-    is_ours && !is_accepted && !inspection.ranking.entries.is_empty()
+    is_ours && !inspection.verdict.is_accepted() && !inspection.ranking.entries.is_empty()
 }
 
 /// True if neither an enrolled part nor a likeness of one, such as its mirror image, was found.
@@ -235,16 +243,14 @@ fn is_nothing_like_it(inspection: &Inspection, recipe: &Recipe) -> bool {
 /// Tries the next largest surfaces, and keeps the one most likely to be an enrolled part.
 fn try_other_segments(
     inspection: &mut Inspection,
-    scene: &SceneCloud,
-    library: &Library,
-    recipe: &Recipe,
-    clock: &StageClock<'_>,
+    inputs: &InspectionInputs<'_>,
 ) -> Result<(), Cancelled> {
-    let others = clock.time(Stage::Segment, || {
-        other_segments(scene, &inspection.segmentation, &recipe.segment, MAX_OTHERS)
+    let others = inputs.clock.time(Stage::Segment, || {
+        let params = &inputs.recipe.segment;
+        other_segments(inputs.scene, &inspection.segmentation, params, MAX_OTHERS)
     })?;
     for part in others {
-        try_segment(inspection, part, scene, library, recipe, clock)?;
+        try_segment(inspection, part, inputs)?;
         if inspection.verdict.is_accepted() {
             break;
         }
@@ -256,13 +262,10 @@ fn try_other_segments(
 fn try_segment(
     inspection: &mut Inspection,
     part: SegmentedPart,
-    scene: &SceneCloud,
-    library: &Library,
-    recipe: &Recipe,
-    clock: &StageClock<'_>,
+    inputs: &InspectionInputs<'_>,
 ) -> Result<(), Cancelled> {
     let least = inspection.best_score().max(WORTH_CHANGING);
-    let found = inspect_surface(&part, scene, library, recipe, least, clock)?;
+    let found = inspect_surface(&part, inputs, least)?;
     if found.best_score() > least {
         inspection.segmentation.take(part);
         found.keep(inspection);
@@ -274,11 +277,9 @@ fn try_segment(
 fn try_without_bars(
     inspection: &mut Inspection,
     surface: &SegmentedPart,
-    scene: &SceneCloud,
-    library: &Library,
-    recipe: &Recipe,
-    clock: &StageClock<'_>,
+    inputs: &InspectionInputs<'_>,
 ) -> Result<(), Cancelled> {
+    let InspectionInputs { scene, clock, .. } = *inputs;
     let mut num_before = 0;
     for bars in [Bars::All, Bars::AllButSlats] {
         let bare = clock.time(Stage::Segment, || without_bars(scene, surface, bars))?;
@@ -286,7 +287,7 @@ fn try_without_bars(
             continue;
         };
         num_before = bare.indices.len();
-        try_segment(inspection, bare, scene, library, recipe, clock)?;
+        try_segment(inspection, bare, inputs)?;
         if inspection.verdict.is_accepted() {
             break;
         }
@@ -354,5 +355,38 @@ impl Inspection {
 
     fn best_score(&self) -> f64 {
         self.ranking.entries.first().map_or(0.0, |e| e.score)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_same_recipe_has_the_same_identity_and_another_another() {
+        let recipe = Recipe::default();
+        assert_eq!(recipe.identity(), Recipe::default().identity());
+        assert!(
+            recipe.identity().len() == 8
+                && recipe.identity().bytes().all(|c| c.is_ascii_hexdigit())
+        );
+        let mut others: Vec<Recipe> = vec![Recipe::default(); 4];
+        others[0].accept.min_score += 1e-15;
+        others[1].stand_off.taught = Metres(0.151);
+        others[2].pose = PoseChoice::Skip;
+        others[3].icp_ga.seed += 1;
+        let mut all: Vec<String> = others.iter().map(Recipe::identity).collect();
+        all.push(recipe.identity());
+        all.sort();
+        all.dedup();
+        assert_eq!(all.len(), 5);
+    }
+
+    #[test]
+    fn a_recipe_that_was_saved_and_read_again_keeps_its_identity() {
+        let recipe = Recipe::default();
+        let json = serde_json::to_string(&recipe).expect("JSON");
+        let read: Recipe = serde_json::from_str(&json).expect("a recipe");
+        assert_eq!(read.identity(), recipe.identity());
     }
 }

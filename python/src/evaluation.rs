@@ -12,7 +12,7 @@ use partsight::{
     },
     geometry::rigid::{PoseDelta, row_major},
     run,
-    stages::pose::Uncertainty,
+    stages::pose::PoseEstimate,
 };
 use pyo3::{
     exceptions::{PyIndexError, PyKeyboardInterrupt, PyValueError},
@@ -271,9 +271,8 @@ impl ResultRow {
             pose_error,
             timings,
         } = result;
-        let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
-        let bounds = pose.and_then(|pose| pose.uncertainty);
-        let bounds = bounds.filter(Uncertainty::is_held);
+        let pose = inspection.found_pose();
+        let bounds = pose.and_then(PoseEstimate::bounds);
         let refusal = inspection.verdict.refusal();
         Self {
             case: name,

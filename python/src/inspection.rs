@@ -5,7 +5,7 @@ use std::{collections::BTreeMap, sync::Arc};
 use numpy::{PyArray1, PyArray2, PyArrayDyn, PyArrayMethods as _, ndarray::IxDyn};
 use partsight::{
     PointLabel, PoseEstimate, RigidTransform, SceneCloud, pipeline::NamedRecipe,
-    report::InspectionLine, run, stages::pose::Uncertainty,
+    report::InspectionLine, run,
 };
 use pyo3::{exceptions::PyKeyboardInterrupt, prelude::*};
 
@@ -133,7 +133,7 @@ impl Inspection {
     /// The pose of the part ranked first, accepted or not; `None` if there is none.
     #[getter]
     fn pose(&self) -> Option<Pose> {
-        let pose = self.found.pose.as_ref()?.as_ref().ok()?;
+        let pose = self.found.found_pose()?;
         let reference = self.found.reference().map(str::to_owned);
         let is_approximate = self.found.verdict.is_approximate();
         Some(Pose::of(pose, reference, is_approximate))
@@ -242,7 +242,7 @@ pub(crate) struct Pose {
 
 impl Pose {
     fn of(pose: &PoseEstimate, reference: Option<String>, is_approximate: bool) -> Self {
-        let held = pose.uncertainty.filter(Uncertainty::is_held);
+        let held = pose.bounds();
         let freedom = pose.uncertainty.and_then(|bounds| bounds.freedom);
         Self {
             camera_from_part: pose.camera_from_part(),

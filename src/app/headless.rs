@@ -30,6 +30,8 @@ use super::{
 };
 use crate::bench::ProcessorWatch;
 
+/// Size of the measured windows, logical pixels.
+const SIZE: [u32; 2] = [1440, 900];
 /// Format of the target texture.
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
@@ -61,6 +63,7 @@ pub struct HeadlessWindow {
     target: wgpu::TextureView,
     size: [u32; 2],
     began: Instant,
+    #[cfg(test)]
     closes: bool,
     #[cfg(test)]
     says: Vec<String>,
@@ -112,6 +115,7 @@ impl HeadlessWindow {
             queue,
             size,
             began: Instant::now(),
+            #[cfg(test)]
             closes: false,
             #[cfg(test)]
             says: Vec::new(),
@@ -123,9 +127,10 @@ impl HeadlessWindow {
         &self.window
     }
 
-    /// True once the window has asked to be closed.
-    pub fn closes(&self) -> bool {
-        self.closes
+    /// Number of the result in front.
+    fn generation(&self) -> Option<u64> {
+        let shown = self.window.state().session.shown.as_ref();
+        shown.map(|shown| shown.generation)
     }
 
     /// Work done by its frames so far.
@@ -171,8 +176,7 @@ impl HeadlessWindow {
         self.draw(events);
         let busy = watch.elapsed().as_secs_f64();
         if pace == Pace::InStep {
-            // Fails for a lost device, which draws nothing to wait for.
-            let _ = self.device.poll(wgpu::PollType::wait_indefinitely());
+            self.wait();
         }
         FrameTime {
             busy,
@@ -182,6 +186,7 @@ impl HeadlessWindow {
 
     /// Waits until the device has drawn everything.
     pub fn wait(&self) {
+        // Fails for a lost device, which draws nothing to wait for.
         let _ = self.device.poll(wgpu::PollType::wait_indefinitely());
     }
 
@@ -202,12 +207,8 @@ impl HeadlessWindow {
             window.fetch(&ctx);
             window.show(ui);
         });
-        let commands = output.viewport_output.values().flat_map(|v| &v.commands);
-        self.closes |= commands
-            .into_iter()
-            .any(|command| *command == egui::ViewportCommand::Close);
         #[cfg(test)]
-        tests::take_words(&output, &mut self.says);
+        tests::take_in(self, &output);
         self.submit(output);
     }
 

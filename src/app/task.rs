@@ -74,9 +74,9 @@ impl fmt::Debug for TaskRunner {
     }
 }
 
-/// What a task reports.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum TaskEvent<T> {
+/// What a job reports.
+#[derive(Debug, PartialEq)]
+enum TaskEvent<T> {
     /// A partial result; the run continues.
     Partial(T),
     /// The final result; the run has ended.
@@ -225,8 +225,16 @@ impl<T: Send + 'static> Task<T> {
         }
     }
 
-    /// Returns the next event, if there is one, without waiting.
-    pub fn poll(&mut self) -> Option<TaskEvent<T>> {
+    /// Returns the next partial or final result, or the error, if there is one, without waiting. The run goes on only
+    /// after a partial one.
+    pub fn poll(&mut self) -> Option<Result<T, UserError>> {
+        Some(match self.event()? {
+            TaskEvent::Partial(result) | TaskEvent::Done(result) => Ok(result),
+            TaskEvent::Failed(error) => Err(error),
+        })
+    }
+
+    fn event(&mut self) -> Option<TaskEvent<T>> {
         let run = self.run.as_mut()?;
         let progress = *lock(&run.shared.progress);
         run.running.stage = progress.stage;
@@ -460,7 +468,7 @@ mod tests {
     fn next<T: Send + 'static>(task: &mut Task<T>) -> TaskEvent<T> {
         let until = Instant::now() + Duration::from_secs(10);
         while Instant::now() < until {
-            if let Some(event) = task.poll() {
+            if let Some(event) = task.event() {
                 return event;
             }
             thread::sleep(Duration::from_millis(1));
@@ -633,9 +641,9 @@ mod tests {
         assert!(task.running().is_some() && task.poll().is_none());
         assert!(task.run_waiting() && !task.run_waiting());
         for number in 0..100 {
-            assert_eq!(task.poll(), Some(TaskEvent::Partial(number)));
+            assert_eq!(task.event(), Some(TaskEvent::Partial(number)));
         }
-        assert_eq!(task.poll(), Some(TaskEvent::Done(100)));
+        assert_eq!(task.event(), Some(TaskEvent::Done(100)));
     }
 
     #[test]
@@ -649,8 +657,8 @@ mod tests {
             Ok(0)
         });
         assert!(task.run_waiting_until(2));
-        assert_eq!(task.poll(), Some(TaskEvent::Partial(0)));
-        assert_eq!(task.poll(), Some(TaskEvent::Partial(1)));
+        assert_eq!(task.event(), Some(TaskEvent::Partial(0)));
+        assert_eq!(task.event(), Some(TaskEvent::Partial(1)));
         assert!(task.poll().is_none() && task.running().is_some());
     }
 }

@@ -22,3 +22,9 @@ impl UserError {
         }
     }
 }
+
+impl From<[String; 2]> for UserError {
+    fn from([what, advice]: [String; 2]) -> Self {
+        Self { what, advice }
+    }
+}

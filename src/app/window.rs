@@ -25,7 +25,7 @@ use super::{
         settings,
         settings_file::Memory,
         shift,
-        state::{HelpPage, State},
+        state::State,
         top_bar,
         workspace::Workspace,
     },
@@ -420,7 +420,7 @@ impl Window {
             self.lend(kind, ctx, Workspace::update);
         }
         let history = self.workspace::<HistoryWorkspace>();
-        let is_failing = history.is_some_and(|history| history.state().trouble.is_some());
+        let is_failing = history.is_some_and(|history| history.state.trouble.is_some());
         self.state.session.is_history_failing = is_failing;
         shift::update(&mut self.state, self.services.library_cache.history(), ctx);
         if let Some(action) = self.with_robot(ctx, RobotCell::update) {
@@ -510,7 +510,7 @@ impl Window {
     /// True while any dialog is on top of the workspaces, including the system's.
     fn is_behind_dialog(&self, ctx: &egui::Context) -> bool {
         let state = &self.state;
-        let is_own = state.help == HelpPage::Open
+        let is_own = state.is_help_open
             || state.session.live.setup.is_some()
             || state.roles.asked.is_some()
             || matches!(state.closing, Closing::Asked(_))

@@ -6,18 +6,18 @@
 
 mod subject;
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::Point3;
 use serde::Serialize;
 
-pub(super) use self::subject::hung_from_mesh;
+pub(super) use self::subject::hung;
 pub use self::subject::{BoundsLibrary, BoundsPart};
-use super::suites::pushed_out_of_the_picture;
+use super::suites::{middle_of_seen, pushed_out_of_the_picture};
 use crate::{
-    geometry::rigid::{PoseDelta, pose_error},
-    pipeline::{Cancelled, Inspection, ProgressObserver, Recipe, run},
+    geometry::rigid::{PoseDelta, RigidTransform, pose_error},
+    pipeline::{Recipe, Unwatched, run},
     simulate::{self, CellSetup, PartPose, PoseRange, frame_of_mesh},
     stages::{
-        pose::{PoseWarning, Uncertainty},
+        pose::{PoseEstimate, PoseWarning, Uncertainty},
         scene::scene_from_frame,
     },
     units::{Metres, Radians},
@@ -59,14 +59,14 @@ pub struct BoundsCase {
     pub is_named: bool,
     /// True if the verdict was accepted.
     pub is_accepted: bool,
-    /// The pose found, if the part was named correctly.
+    /// The pose found, if the part was named correctly, with the error's shift at the centroid of the visible points.
     pub found: Option<PoseAgainstTruth>,
 }
 
 /// A pose compared with the truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PoseAgainstTruth {
-    /// Pose error, with the shift at the centroid of the visible points.
+    /// Pose error.
     pub error: PoseDelta,
     /// Reported bounds of the error.
     pub bounds: Option<Uncertainty>,
@@ -75,6 +75,19 @@ pub struct PoseAgainstTruth {
 }
 
 impl PoseAgainstTruth {
+    /// Compares a pose with the true one; the error's shift is that of `middle`, a point of the source.
+    pub(super) fn of(
+        pose: &PoseEstimate,
+        target_from_source: &RigidTransform,
+        middle: &Point3<f64>,
+    ) -> Self {
+        Self {
+            error: pose_error(&pose.target_from_source, target_from_source, middle),
+            bounds: pose.uncertainty,
+            doubt: pose.doubt(),
+        }
+    }
+
     /// Returns whether the error is at most 5° and 40 mm, so that this is not another pose altogether.
     pub fn is_near(&self) -> bool {
         self.error.rotation.degrees() <= 5.0 && self.error.shift.mm() <= 40.0
@@ -99,35 +112,27 @@ fn placement() -> PoseRange {
 /// Share of the part outside the picture in a cut view.
 const CUT: std::ops::Range<f64> = 0.2..0.5;
 
-/// Inspects every part of a library in `num_poses` frames of each view, and calls `after_each` with every case.
+/// Inspects every part of a library in `num_poses` frames of each view, and calls `after_each` after every case.
 pub fn bounds_cases(
     library: &BoundsLibrary,
     num_poses: u64,
     first_seed: u64,
-    watch: &dyn ProgressObserver,
-    mut after_each: impl FnMut(&BoundsCase),
-) -> Result<Vec<BoundsCase>, Cancelled> {
+    after_each: impl Fn(),
+) -> Vec<BoundsCase> {
     let mut cases = Vec::new();
     let mut seeds = first_seed..;
     for subject in &library.subjects {
         for view in View::ALL {
             for seed in seeds.by_ref().take(num_poses as usize) {
-                let case = inspected(subject, library, view, seed, watch)?;
-                after_each(&case);
-                cases.push(case);
+                cases.push(inspected(subject, library, view, seed));
+                after_each();
             }
         }
     }
-    Ok(cases)
+    cases
 }
 
-fn inspected(
-    subject: &BoundsPart,
-    library: &BoundsLibrary,
-    view: View,
-    seed: u64,
-    watch: &dyn ProgressObserver,
-) -> Result<BoundsCase, Cancelled> {
+fn inspected(subject: &BoundsPart, library: &BoundsLibrary, view: View, seed: u64) -> BoundsCase {
     let mut setup = CellSetup::new(simulate::SimulatedObject::Nothing, seed);
     setup.pose = PartPose::Drawn(placement());
     if view == View::Cut {
@@ -138,47 +143,29 @@ fn inspected(
     }
     let shot = frame_of_mesh(&setup, &subject.mesh);
     let scene = scene_from_frame(&shot.frame);
-    let inspection = run(&scene, &library.library, &Recipe::default(), watch)?;
+    let recipe = Recipe::default();
+    let inspection = run(&scene, &library.library, &recipe, &Unwatched).expect("not cancelled");
     let first = inspection.ranking.entries.first();
     let is_named = first.is_some_and(|entry| entry.part == subject.name);
     let part_from_camera = (shot.truth.camera_from_part * subject.mesh_from_part).inverse();
-    let pose = inspection
-        .pose
-        .as_ref()
-        .and_then(|pose| pose.as_ref().ok())
-        .filter(|_| is_named);
+    let pose = inspection.found_pose().filter(|_| is_named);
     let found = pose
         .zip(middle_of_seen(&inspection))
-        .map(|(pose, middle)| PoseAgainstTruth {
-            error: pose_error(&pose.target_from_source, &part_from_camera, &middle),
-            bounds: pose.uncertainty,
-            doubt: pose.doubt(),
-        });
-    Ok(BoundsCase {
+        .map(|(pose, middle)| PoseAgainstTruth::of(pose, &part_from_camera, &middle));
+    BoundsCase {
         part: subject.name.clone(),
         view,
         seed,
         is_named,
         is_accepted: inspection.verdict.is_accepted(),
         found,
-    })
-}
-
-fn middle_of_seen(inspection: &Inspection) -> Option<Point3<f64>> {
-    let part = inspection.segmentation.part.as_ref().ok()?;
-    let points = &part.cloud.points;
-    let sum = points
-        .iter()
-        .fold(Vector3::zeros(), |sum: Vector3<f64>, p| {
-            sum + p.coords.cast::<f64>()
-        });
-    Some(Point3::from(sum / points.len().max(1) as f64))
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{pipeline::Unwatched, simulate::PartKind};
+    use crate::simulate::PartKind;
 
     #[test]
     fn parts_of_another_car_are_found_within_their_bounds_mostly() {
@@ -187,7 +174,7 @@ mod tests {
         library
             .subjects
             .retain(|subject| kinds.iter().any(|kind| kind.name() == subject.name));
-        let cases = bounds_cases(&library, 4, 3_000_000, &Unwatched, |_| ()).expect("to the end");
+        let cases = bounds_cases(&library, 4, 3_000_000, || ());
         assert_eq!(cases.len(), 16);
         let found = cases.iter().filter(|case| case.is_accepted);
         let found: Vec<PoseAgainstTruth> = found.filter_map(|case| case.found).collect();

@@ -65,11 +65,6 @@ impl EvaluationReport<'_> {
     /// Returns the report in English, line by line.
     pub fn lines(&self) -> Vec<String> {
         let mut text = Text::default();
-        self.show(&mut text);
-        text.lines
-    }
-
-    fn show(&self, text: &mut Text) {
         let Evaluation {
             results,
             problems,
@@ -84,14 +79,14 @@ impl EvaluationReport<'_> {
             .iter()
             .map(|(words, tally)| (words.as_deref().unwrap_or("not given"), tally));
         let all = std::iter::once(("all", &confusion.tally));
-        show_tallies("what it is", by_truth.chain(all), text);
+        show_tallies("what it is", by_truth.chain(all), &mut text);
         text.line(&"");
-        show_tallies("difficulty", by_difficulty, text);
+        show_tallies("difficulty", by_difficulty, &mut text);
         text.line(&"");
-        show_mistakes(self.evaluation, text);
-        show_confusion(confusion, text);
+        show_mistakes(self.evaluation, &mut text);
+        show_confusion(confusion, &mut text);
         text.line(&"");
-        show_calibration(calibration, text);
+        show_calibration(calibration, &mut text);
         let errors = PoseErrors::of(results);
         if let (Some(median), Some(p95)) = (errors.median, errors.p95) {
             text.line(&"");
@@ -102,7 +97,7 @@ impl EvaluationReport<'_> {
         }
         if !self.times.is_empty() {
             text.line(&"");
-            show_times(&self.times, self.num_threads, text);
+            show_times(&self.times, self.num_threads, &mut text);
         }
         if !problems.is_empty() {
             text.line(&"");
@@ -111,6 +106,7 @@ impl EvaluationReport<'_> {
                 problems.len()
             ));
         }
+        text.lines
     }
 }
 

@@ -5,9 +5,9 @@ use std::{sync::Arc, time::Instant};
 use jiff::{SignedDuration, Timestamp};
 use serde::Serialize;
 
-use super::quantile;
 use crate::{
     error::Advice as _,
+    geometry::statistics::quantile,
     history::{
         Filter, History, HistoryError, HungId, InspectionDetail, KeepFrames, NewEntry, Record,
         Retention, StoredRefusal, StoredVerdict, Summary,

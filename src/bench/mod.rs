@@ -22,5 +22,5 @@ pub use self::{
     history::{HistoryTime, history_times},
     process_usage::ProcessUsage,
     processor_time::{ProcessorWatch, cpu_wait_seconds, process_seconds},
-    speed::{SetTimes, StageTimes, quantile, stage_times},
+    speed::{SetTimes, StageTimes, stage_times},
 };

@@ -14,8 +14,8 @@ use crate::{
     geometry::rigid::RigidTransform,
     library::{PathPoint, SprayPath},
     paint::{
-        Coat, Film, FilmFigures, PaintError, PaintSurface, PathFigures, Pattern, best_speed,
-        propose, simulate,
+        Coat, Film, FilmFigures, PaintError, PaintSurface, PathFigures, Pattern, Proposal,
+        best_speed, propose, simulate,
     },
     robot::{program::ProgramSettings, spray::carry},
     stages::{reference::Reference, stand_off::StandOffParams},
@@ -128,16 +128,7 @@ pub fn paint_part(
     };
     let rings = propose(&surface, &rings, &[])?;
     let rings = PaintTrial::of("contour", start, &rings.coat, &rings.path, &rings.film);
-    let pose_costs = POSE_ERRORS.iter().map(|[turn, shift]| {
-        pose_cost(
-            &surface,
-            &found.path,
-            &found.coat,
-            &found.film,
-            *turn,
-            *shift,
-        )
-    });
+    let pose_costs = POSE_ERRORS.map(|error| pose_cost(&surface, &found, error));
     let tilt = ProgramSettings::default().max_tilt.0;
     let along = surface.longest;
     let across = surface.side.cross(&along);
@@ -155,14 +146,14 @@ pub fn paint_part(
         });
         points.collect()
     });
-    let tilt_cost = film_change(&surface, tilted, &found.coat, &found.film)?;
+    let tilt_cost = film_change(&surface, tilted, &found)?;
     Ok(PaintedPart {
         name: reference.name.clone(),
         num_surface_points: surface.points.len(),
         surface_spacing: surface.spacing,
         trials: vec![planned, plain, rings],
-        hung_change: hung_change(reference, &surface, &found.path, &found.coat, &found.film)?,
-        pose_costs: pose_costs.collect::<Result<_, _>>()?,
+        hung_change: hung_change(reference, &surface, &found)?,
+        pose_costs: pose_costs.into_iter().collect::<Result<_, _>>()?,
         tilt_cost,
         film: found.film,
         surface,
@@ -245,10 +236,9 @@ fn moved(surface: &PaintSurface, by: &RigidTransform) -> PaintSurface {
 fn hung_change(
     reference: &Reference,
     surface: &PaintSurface,
-    path: &SprayPath,
-    coat: &Coat,
-    standard: &Film,
+    standard: &Proposal,
 ) -> Result<f64, PaintError> {
+    let Proposal { coat, path, film } = standard;
     let turn = UnitQuaternion::from_axis_angle(
         &Unit::new_normalize(Vector3::from(HUNG_AXIS)),
         HUNG_TURN.to_radians(),
@@ -270,8 +260,8 @@ fn hung_change(
                 .then(|| Unit::new_normalize(carried.camera_from_nozzle * Vector3::x())),
         });
     let carried = SprayPath::new(points.collect()).ok_or(PaintError::NoRows)?;
-    let film = simulate(&moved(surface, &hung), &carried, coat, &[])?;
-    Ok(changes(standard, &film, coat)
+    let hung_film = simulate(&moved(surface, &hung), &carried, coat, &[])?;
+    Ok(changes(film, &hung_film, coat)
         .into_iter()
         .fold(0.0, f64::max))
 }
@@ -290,11 +280,8 @@ fn changes(before: &Film, after: &Film, coat: &Coat) -> Vec<f64> {
 
 fn pose_cost(
     surface: &PaintSurface,
-    path: &SprayPath,
-    coat: &Coat,
-    standard: &Film,
-    turn_deg: f64,
-    shift_m: f64,
+    standard: &Proposal,
+    [turn_deg, shift_m]: [f64; 2],
 ) -> Result<PoseCost, PaintError> {
     let across = surface.side.cross(&surface.longest);
     let wrong = [surface.longest, across, surface.side].map(|axis| {
@@ -303,7 +290,7 @@ fn pose_cost(
         let about = surface.middle.coords;
         let shift = *axis * shift_m + about - turn * about;
         let wrong = Isometry3::from_parts(Translation3::from(shift), turn);
-        let points = path.points().iter().map(|point| PathPoint {
+        let points = standard.path.points().iter().map(|point| PathPoint {
             nozzle: wrong * point.nozzle,
             direction: wrong * point.direction,
             fan: point.fan.map(|fan| wrong * fan),
@@ -314,16 +301,15 @@ fn pose_cost(
     Ok(PoseCost {
         turn_deg,
         shift_m,
-        film: film_change(surface, wrong, coat, standard)?,
+        film: film_change(surface, wrong, standard)?,
     })
 }
 
-/// Simulates paths with errors, and returns the worst of their films.
+/// Simulates paths with errors, and returns the worst of their films against that without.
 fn film_change(
     surface: &PaintSurface,
     wrong: impl IntoIterator<Item = Vec<PathPoint>>,
-    coat: &Coat,
-    standard: &Film,
+    standard: &Proposal,
 ) -> Result<FilmChange, PaintError> {
     let mut cost = FilmChange {
         least_within: 1.0,
@@ -333,14 +319,14 @@ fn film_change(
     };
     for points in wrong {
         let wrong = SprayPath::new(points).ok_or(PaintError::NoRows)?;
-        let film = simulate(surface, &wrong, coat, &[])?;
-        let mut changes = changes(standard, &film, coat);
+        let film = simulate(surface, &wrong, &standard.coat, &[])?;
+        let mut changes = changes(&standard.film, &film, &standard.coat);
         changes.sort_by(f64::total_cmp);
         let at = |share: f64| changes[((changes.len() - 1) as f64 * share) as usize];
         cost.least_within = cost.least_within.min(film.figures.within);
         cost.mean_change = cost
             .mean_change
-            .max((film.figures.mean / standard.figures.mean - 1.0).abs());
+            .max((film.figures.mean / standard.film.figures.mean - 1.0).abs());
         cost.change_95 = cost.change_95.max(at(0.95));
         cost.most_change = cost.most_change.max(at(1.0));
     }

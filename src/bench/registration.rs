@@ -13,18 +13,14 @@ use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64;
 
 use self::clouds::{hide, noisy_sample, random_sample, seen_from_outside, stray, view};
-use super::bounds::hung_from_mesh;
+use super::bounds::{PoseAgainstTruth, hung};
 use crate::{
     geometry::{
-        cloud::PointCloud,
-        mesh::TriangleMesh,
-        principal::principal_axes,
-        rigid::{self, RigidTransform, pose_error},
+        cloud::PointCloud, mesh::TriangleMesh, principal::principal_axes, rigid::RigidTransform,
     },
     simulate::{PartKind, PartModel, Side},
     stages::pose::{
-        AlignParams, PoseError, PoseMethod, PoseWarning, PreparedTarget, Uncertainty, align_to,
-        displacements::displacements,
+        AlignParams, PoseError, PoseMethod, PreparedTarget, align_to, displacements::displacements,
     },
     units::Metres,
 };
@@ -114,13 +110,8 @@ impl RegistrationPart {
     }
 
     /// Creates a part from any mesh in metres.
-    pub fn of_mesh(name: String, mesh: &TriangleMesh) -> Self {
-        let hung = hung_from_mesh(mesh);
-        let hang = |p: &Point3<f32>| (hung * p.cast::<f64>()).cast();
-        let mesh = TriangleMesh {
-            vertices: mesh.vertices.iter().map(hang).collect(),
-            triangles: mesh.triangles.clone(),
-        };
+    pub fn of_mesh(name: String, mesh: TriangleMesh) -> Self {
+        let (mesh, _) = hung(mesh);
         Self { name, mesh }
     }
 }
@@ -151,19 +142,8 @@ pub struct Attempt {
     pub source: usize,
     /// Time of the estimation, without preparing the target.
     pub time: Duration,
-    /// The pose found, or why there is none.
+    /// The pose found, with the error's shift at the source's centroid, or why there is none.
     pub found: Result<PoseAgainstTruth, PoseError>,
-}
-
-/// A pose compared with the truth.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PoseAgainstTruth {
-    /// Pose error, with the shift at the source's centroid.
-    pub error: rigid::PoseDelta,
-    /// Warning against relying on the pose.
-    pub doubt: Option<PoseWarning>,
-    /// Reported bounds of the error.
-    pub uncertainty: Option<Uncertainty>,
 }
 
 impl Attempt {
@@ -177,7 +157,7 @@ impl Attempt {
     /// Returns whether the error is within the reported bounds.
     pub fn is_within_bounds(&self) -> bool {
         self.found.as_ref().is_ok_and(|f| {
-            f.uncertainty
+            f.bounds
                 .is_some_and(|u| f.error.rotation.0 <= u.turn.0 && f.error.shift.0 <= u.shift.0)
         })
     }
@@ -197,17 +177,8 @@ pub struct Registration {
     pub preparations: Vec<Duration>,
 }
 
-/// The caller cancelled.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the registration was cancelled")]
-pub struct Cancelled;
-
-/// Registers all sources, and calls `after_each` with every attempt.
-pub fn register_all(
-    setup: &RegistrationSetup,
-    mut after_each: impl FnMut(&Attempt),
-    is_cancelled: &dyn Fn() -> bool,
-) -> Result<Registration, Cancelled> {
+/// Registers all sources, and calls `after_each` after every attempt.
+pub fn register_all(setup: &RegistrationSetup, after_each: impl Fn()) -> Registration {
     let mut registration = Registration::default();
     for (k, part) in setup.parts.iter().enumerate() {
         let shared = noisy_sample(&part.mesh, NOISE, setup.seed ^ 0x7a6e);
@@ -223,28 +194,21 @@ pub fn register_all(
                 .map_or(Point3::origin(), |axes| axes.mean);
             for (method, params) in &setup.methods {
                 let clock = Instant::now();
-                let aligned = align_to(&cloud, &prepared, params, None, is_cancelled);
+                let aligned = align_to(&cloud, &prepared, params, None, &|| false);
                 let time = clock.elapsed();
-                if is_cancelled() {
-                    return Err(Cancelled);
-                }
-                let attempt = Attempt {
+                registration.attempts.push(Attempt {
                     method: method.clone(),
                     part: part.name.clone(),
                     source,
                     time,
-                    found: aligned.map(|pose| PoseAgainstTruth {
-                        error: pose_error(&pose.target_from_source, &target_from_source, &middle),
-                        doubt: pose.doubt(),
-                        uncertainty: pose.uncertainty,
-                    }),
-                };
-                after_each(&attempt);
-                registration.attempts.push(attempt);
+                    found: aligned
+                        .map(|pose| PoseAgainstTruth::of(&pose, &target_from_source, &middle)),
+                });
+                after_each();
             }
         }
     }
-    Ok(registration)
+    registration
 }
 
 impl Registration {
@@ -361,7 +325,7 @@ mod tests {
             methods: vec![("global".to_owned(), PoseMethod::Global.into())],
         };
         let right = |condition| {
-            let done = register_all(&setup(condition), |_| (), &|| false).expect("to the end");
+            let done = register_all(&setup(condition), || ());
             assert_eq!(done.attempts.len(), 8);
             done.attempts.iter().filter(|a| a.is_right()).count()
         };
@@ -370,17 +334,5 @@ mod tests {
         assert!(right(Condition::View) >= 7);
         assert_eq!(right(Condition::Resampled), 8);
         assert!(right(Condition::Outside) >= 7);
-    }
-
-    #[test]
-    fn cancelling_ends_it() {
-        let setup = RegistrationSetup {
-            parts: RegistrationPart::simulated(),
-            condition: Condition::Whole,
-            num_sources: 1,
-            seed: 1,
-            methods: vec![("global".to_owned(), PoseMethod::Global.into())],
-        };
-        assert_eq!(register_all(&setup, |_| (), &|| true), Err(Cancelled));
     }
 }

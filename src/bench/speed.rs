@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
-use crate::pipeline::Timings;
+use crate::{geometry::statistics::quantile, pipeline::Timings};
 
 /// Times of one stage over many inspections.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -82,16 +82,6 @@ pub fn stage_times(timings: &[Timings]) -> Vec<StageTimes> {
         .collect()
 }
 
-/// Returns the value below which a share (0..1) of the values lies; `None` without values.
-pub fn quantile(values: impl Iterator<Item = f64>, share: f64) -> Option<f64> {
-    let mut values: Vec<f64> = values.collect();
-    if values.is_empty() {
-        return None;
-    }
-    let position = ((values.len() - 1) as f64 * share).round() as usize;
-    Some(*values.select_nth_unstable_by(position, f64::total_cmp).1)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -111,14 +101,5 @@ mod tests {
             assert!((ratio - expected).abs() < 1e-9, "{ratio}");
         }
         assert_eq!(of(&[]), None);
-    }
-
-    #[test]
-    fn quantiles_are_values_of_the_list() {
-        let values = || [5.0, 1.0, 4.0, 2.0, 3.0].into_iter();
-        assert_eq!(quantile(values(), 0.5), Some(3.0));
-        assert_eq!(quantile(values(), 0.0), Some(1.0));
-        assert_eq!(quantile(values(), 1.0), Some(5.0));
-        assert_eq!(quantile(std::iter::empty(), 0.5), None);
     }
 }

@@ -12,7 +12,7 @@ use crate::{
     geometry::{
         cloud::PointCloud,
         principal::principal_axes,
-        rigid::{self, RigidTransform, pose_error},
+        rigid::{PoseDelta, RigidTransform, pose_error},
     },
     library::Library,
     simulate::PartKind,
@@ -57,7 +57,7 @@ pub struct PoseAgainstTruth {
     /// E (eq. 12) over all points of the source, square metres.
     pub e_m2: f64,
     /// Pose error, with the shift at the source's centroid.
-    pub error: rigid::PoseDelta,
+    pub error: PoseDelta,
     /// Number of iterations, including generations.
     pub num_iterations: usize,
     /// Why the estimation stopped.
@@ -78,13 +78,8 @@ impl Attempt {
     }
 }
 
-/// The caller cancelled.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("Table I was cancelled")]
-pub struct Cancelled;
-
 /// Returns the parts of a library that have a cloud, in the order of Table I, others last.
-pub fn parts(library: &Library) -> Vec<&Reference> {
+fn parts(library: &Library) -> Vec<&Reference> {
     let place = |reference: &&Reference| {
         let known = PartKind::ALL.iter();
         let mut names = known.map(|kind| kind.name());
@@ -101,40 +96,32 @@ pub fn parts(library: &Library) -> Vec<&Reference> {
     parts
 }
 
-/// Computes the table, and calls `on_row` with each row. The method in `params` is ignored.
-pub fn table1(
-    library: &Library,
-    params: &AlignParams,
-    on_row: &mut dyn FnMut(&Row),
-    is_cancelled: &dyn Fn() -> bool,
-) -> Result<Vec<Row>, Cancelled> {
+/// Computes the table with each method's default parameters, and calls `after_row` after each row.
+pub fn table1(library: &Library, after_row: impl Fn()) -> Vec<Row> {
     let mut rows = Vec::new();
     for reference in parts(library) {
         let clock = Instant::now();
         let prepared = PreparedTarget::new(&reference.cloud);
         let preparation = clock.elapsed();
         for (k, transform) in displacements().iter().enumerate() {
-            let row = Row {
+            rows.push(Row {
                 part: reference.name.clone(),
                 transform: k + 1,
                 num_points: reference.cloud.num_finite(),
                 preparation,
-                attempts: attempts(reference, &prepared, transform, params, is_cancelled)?,
-            };
-            on_row(&row);
-            rows.push(row);
+                attempts: attempts(reference, &prepared, transform),
+            });
+            after_row();
         }
     }
-    Ok(rows)
+    rows
 }
 
 fn attempts(
     reference: &Reference,
     prepared: &Result<PreparedTarget, PoseError>,
     source_from_target: &RigidTransform,
-    params: &AlignParams,
-    is_cancelled: &dyn Fn() -> bool,
-) -> Result<[Attempt; 3], Cancelled> {
+) -> [Attempt; 3] {
     let moved = reference
         .cloud
         .points
@@ -144,15 +131,12 @@ fn attempts(
     let truth = source_from_target.inverse();
     let middle = principal_axes(source.points.iter().map(|p| (p.cast(), 1.0)))
         .map_or(Point3::origin(), |axes| axes.mean);
-    let attempts = PoseMethod::ALL.map(|method| {
-        let params = AlignParams {
-            method,
-            ..params.clone()
-        };
+    PoseMethod::ALL.map(|method| {
+        let params = AlignParams::from(method);
         let clock = Instant::now();
         let prepared = prepared.as_ref().map_err(|error| *error);
         let aligned =
-            prepared.and_then(|target| align_to(&source, target, &params, None, is_cancelled));
+            prepared.and_then(|target| align_to(&source, target, &params, None, &|| false));
         let time = clock.elapsed();
         let found = aligned.map(|pose| PoseAgainstTruth {
             e_m2: e_m2(&source, reference, &pose.target_from_source),
@@ -165,14 +149,7 @@ fn attempts(
             time,
             found,
         }
-    });
-    let was_cancelled = attempts
-        .iter()
-        .any(|attempt| attempt.found == Err(PoseError::Cancelled));
-    if was_cancelled || is_cancelled() {
-        return Err(Cancelled);
-    }
-    Ok(attempts)
+    })
 }
 
 /// Computes E (eq. 12).
@@ -189,8 +166,6 @@ fn e_m2(source: &PointCloud, target: &Reference, pose: &RigidTransform) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use std::cell::Cell;
-
     use super::*;
     use crate::library::{LibraryPlace, PartName, open_library};
 
@@ -206,33 +181,14 @@ mod tests {
 
     #[test]
     fn icp_ga_and_global_solve_the_grille_from_t1_to_t5_and_icp_alone_does_not() {
-        let mut shown = 0;
-        let rows = table1(
-            &shipped("grille"),
-            &AlignParams::default(),
-            &mut |_| shown += 1,
-            &|| false,
-        )
-        .expect("not cancelled");
-        assert_eq!((rows.len(), shown), (5, 5));
+        let rows = table1(&shipped("grille"), || ());
+        assert_eq!(rows.len(), 5);
         for row in &rows {
             let [icp, icp_ga, global] = &row.attempts;
             assert!(!icp.is_below_target(), "{row:?}");
             assert!(icp_ga.is_below_target() && icp_ga.is_exact(), "{row:?}");
             assert!(global.is_below_target() && global.is_exact(), "{row:?}");
         }
-    }
-
-    #[test]
-    fn a_cancelled_table_ends_within_the_row() {
-        let num_rows = Cell::new(0);
-        let ended = table1(
-            &shipped("grille"),
-            &AlignParams::default(),
-            &mut |_| num_rows.set(num_rows.get() + 1),
-            &|| num_rows.get() == 1,
-        );
-        assert_eq!((ended, num_rows.get()), (Err(Cancelled), 1));
     }
 
     #[test]

@@ -58,7 +58,7 @@ pub enum FeedItem {
 }
 
 /// Status of a feed.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct FeedStatus {
     /// What the feed is doing.
     pub state: FeedState,
@@ -66,9 +66,7 @@ pub struct FeedStatus {
     pub title: Option<String>,
     /// Whether its captures are simulated, once it is open.
     pub is_simulated: Option<bool>,
-    /// Number of captures that the source has delivered.
-    pub num_captured: u64,
-    /// Number of them that were dropped for a newer one.
+    /// Number of captures that were dropped for a newer one.
     pub num_dropped: u64,
     /// Number of things that could not be read.
     pub num_skipped: u64,
@@ -77,9 +75,10 @@ pub struct FeedStatus {
 }
 
 /// State of a feed.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub enum FeedState {
     /// The source is being opened.
+    #[default]
     Opening,
     /// Captures arrive.
     Running,
@@ -259,7 +258,7 @@ impl Camera<'_> {
         if recovery == Recovery::None {
             return Some(StopReason::Over(FeedState::Failed(error)));
         }
-        self.slot.lost(error);
+        self.slot.set_state(FeedState::Lost { error });
         self.slot.sleep(self.retry);
         self.retry = (2 * self.retry).min(LONGEST_RETRY);
         (recovery == Recovery::Reopen).then_some(StopReason::ToReopen)

@@ -77,11 +77,6 @@ pub(super) struct Genicam {
     warnings: Vec<CaptureWarning>,
 }
 
-/// Opens the camera with the given ID, or the first that answers, and starts its stream.
-pub(super) fn open(spec: &GenicamSpec) -> Result<Box<dyn DepthSource>, CaptureError> {
-    Ok(Box::new(Genicam::open(spec)?))
-}
-
 /// Lists the cameras that answer, or why there are none, using the environment's or the system's aravis. Takes about a
 /// second, the time cameras have to answer.
 pub(super) fn list() -> Vec<SourceListing> {
@@ -153,7 +148,8 @@ fn choose(
 }
 
 impl Genicam {
-    fn open(spec: &GenicamSpec) -> Result<Self, CaptureError> {
+    /// Opens the camera with the given ID, or the first that answers, and starts its stream.
+    pub(super) fn open(spec: &GenicamSpec) -> Result<Self, CaptureError> {
         let file = spec.camera.as_deref().map(DepthCamera::read).transpose()?;
         let aravis = ARAVIS
             .find(spec.library.as_deref(), Functions::load)

@@ -9,7 +9,6 @@
 //! Motor and LED are not used. (libfreenect itself lights the LED of the later models, 1473 and Kinect for Windows, while
 //! it opens them.) Only one Kinect can be open in a process.
 
-mod claim;
 mod error;
 mod freenect;
 mod header;
@@ -88,11 +87,6 @@ enum Units {
     Steps(Vec<u16>),
 }
 
-/// Opens the Kinect with the given serial number, or the first one, and starts its depth stream.
-pub(super) fn open(spec: &KinectSpec) -> Result<Box<dyn DepthSource>, CaptureError> {
-    Ok(Box::new(Kinect::open(spec)?))
-}
-
 /// Lists the Kinects that are plugged in, or why there are none, using the environment's or the system's libfreenect.
 pub(super) fn list() -> Vec<SourceListing> {
     found_devices().unwrap_or_else(|error| vec![cannot_be_opened(error)])
@@ -149,7 +143,8 @@ fn start(library: &'static Library) -> Result<(Context, Option<usize>), KinectEr
 }
 
 impl Kinect {
-    fn open(spec: &KinectSpec) -> Result<Self, KinectError> {
+    /// Opens the Kinect with the given serial number, or the first one, and starts its depth stream.
+    pub(super) fn open(spec: &KinectSpec) -> Result<Self, KinectError> {
         let library = FREENECT.find(spec.library.as_deref(), Library::load)?;
         let (context, num_entries) = start(library)?;
         let mut device = open_device(context, num_entries.is_some(), spec.serial.as_deref())?;

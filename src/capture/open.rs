@@ -2,7 +2,9 @@
 
 use super::{
     error::CaptureError,
-    genicam, kinect, openni, realsense,
+    genicam::{self, Genicam},
+    kinect::{self, Kinect},
+    openni, realsense,
     recording::Replay,
     simulated::SimulatedCell,
     source::DepthSource,
@@ -16,8 +18,8 @@ pub fn open(spec: &SourceSpec) -> Result<Box<dyn DepthSource>, CaptureError> {
         SourceSpec::Simulated(spec) => Box::new(SimulatedCell::new(spec.clone())),
         SourceSpec::Recording(spec) => Box::new(Replay::open(spec)?),
         SourceSpec::Watched(spec) => Box::new(WatchedFolder::new(spec)),
-        SourceSpec::Kinect(spec) => kinect::open(spec)?,
-        SourceSpec::Genicam(spec) => genicam::open(spec)?,
+        SourceSpec::Kinect(spec) => Box::new(Kinect::open(spec)?),
+        SourceSpec::Genicam(spec) => Box::new(Genicam::open(spec)?),
         SourceSpec::OpenNi(spec) => openni::open(spec)?,
         SourceSpec::Realsense(spec) => realsense::open(spec)?,
     })

@@ -27,7 +27,7 @@ use self::{
         STREAM_CROPPING, STREAM_HORIZONTAL_VIEW, STREAM_MIRRORING, STREAM_MODE,
         STREAM_VERTICAL_VIEW, VideoMode,
     },
-    oni::{Context, Device, Failed, FoundDevice, Functions, Received},
+    oni::{Context, Device, FoundDevice, Functions, Messages, Received},
 };
 use super::{
     driver_search::CameraLibrary,
@@ -110,7 +110,7 @@ fn found_devices(library: Option<&Path>) -> Result<(Context, Vec<FoundDevice>), 
     let context = start(library)?;
     let devices = context
         .devices()
-        .map_err(|Failed { said }| OpenNiError::NotOpened { said })?;
+        .map_err(|said| OpenNiError::NotOpened { said })?;
     if devices.is_empty() {
         return Err(OpenNiError::NoDevice);
     }
@@ -163,11 +163,11 @@ impl OpenNi {
             let speed = speed(spec.pace, mode.rate);
             let set = device.set_device(DEVICE_SPEED, speed);
             set.and_then(|()| device.set_device(DEVICE_REPEAT, 0))
-                .map_err(|Failed { said }| OpenNiError::NotStarted { said })?;
+                .map_err(|said| OpenNiError::NotStarted { said })?;
         }
         device
             .start()
-            .map_err(|Failed { said }| OpenNiError::NotStarted { said })?;
+            .map_err(|said| OpenNiError::NotStarted { said })?;
         Ok(Self {
             device: Some(device),
             title,
@@ -218,7 +218,7 @@ impl OpenNi {
                 Some(seconds) => self.end(OpenNiError::Silent { seconds }),
                 None => Ok(NextCapture::NotYet),
             },
-            Err(Failed { said }) => self.end(OpenNiError::Lost { said }),
+            Err(said) => self.end(OpenNiError::Lost { said }),
         }
     }
 
@@ -292,7 +292,7 @@ fn open_file(path: &Path, library: Option<&Path>) -> Result<Device, OpenNiError>
         return Err(unusable(what));
     }
     let context = start(library)?;
-    open_device(context, &name).map_err(|Failed { said }| {
+    open_device(context, &name).map_err(|said| {
         let said = quoted(said.first());
         unusable(format!("OpenNI cannot read it{said}"))
     })
@@ -311,8 +311,8 @@ fn open_camera(uri: Option<&str>, library: Option<&Path>) -> Result<(Device, Str
             found: devices.into_iter().map(|device| device.uri).collect(),
         });
     };
-    let device = open_device(context, &chosen.uri)
-        .map_err(|Failed { said }| OpenNiError::NotOpened { said })?;
+    let device =
+        open_device(context, &chosen.uri).map_err(|said| OpenNiError::NotOpened { said })?;
     // Not every device has all these settings or needs them; what it reports afterwards is checked.
     if let Some(mode) = best_mode(&device.modes()) {
         let _ = device.set(STREAM_MODE, mode);
@@ -323,11 +323,9 @@ fn open_camera(uri: Option<&str>, library: Option<&Path>) -> Result<(Device, Str
     Ok((device, title(chosen)))
 }
 
-fn open_device(context: Context, uri: &str) -> Result<Device, Failed> {
+fn open_device(context: Context, uri: &str) -> Result<Device, Messages> {
     // URIs with a NUL inside were refused before, as no file or device has such a name.
-    let uri = CString::new(uri).map_err(|error| Failed {
-        said: vec![error.to_string()],
-    })?;
+    let uri = CString::new(uri).map_err(|error| vec![error.to_string()])?;
     context.open(&uri)
 }
 

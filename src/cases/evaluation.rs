@@ -15,10 +15,10 @@ use super::{
 };
 use crate::{
     geometry::{
-        parallel::map_in_order,
+        parallel::map_each,
         rigid::{PoseDelta, pose_error},
     },
-    library::{CloudCheck, Library},
+    library::{FileCheck, Library},
     pipeline::{self, Cancelled, Inspection, ProgressObserver, Recipe, Unwatched},
     stages::scene::SceneCloud,
 };
@@ -35,7 +35,7 @@ impl<'a> CaseJudge<'a> {
     /// Uses this library and recipe.
     pub fn new(library: &'a Library, recipe: &'a Recipe) -> Self {
         let references = library.references.iter();
-        let clouds = references.map(|reference| CloudCheck::of_cloud(&reference.cloud).crc32);
+        let clouds = references.map(|reference| FileCheck::of_cloud(&reference.cloud).crc32);
         Self {
             library,
             recipe,
@@ -80,7 +80,7 @@ impl<'a> CaseJudge<'a> {
 
     fn pose_error(&self, case: &KeptCase, inspection: &Inspection) -> Option<PoseDelta> {
         let truth = case.meta.about.pose.as_ref()?;
-        let found = inspection.pose.as_ref()?.as_ref().ok()?;
+        let found = inspection.found_pose()?;
         let place = inspection.ranking.entries.first()?.reference;
         let is_of_it = |crc32: &String| self.clouds.get(place) == Some(crc32);
         if !truth.cloud_crc32.as_ref().is_none_or(is_of_it) {
@@ -152,7 +152,7 @@ pub fn evaluate(
         cases,
         mut problems,
     } = list;
-    let inspect = |(): &mut (), place: usize| {
+    let inspect = |place: usize| {
         let case = &cases[place];
         let judged = folder.read_scene(case).map(|scene| {
             let judged = judge.judge(case, &scene, &Unwatched);
@@ -162,7 +162,7 @@ pub fn evaluate(
         judged
     };
     let mut results = Vec::new();
-    for judged in map_in_order(cases.len(), num_workers, || (), inspect) {
+    for judged in map_each(cases.len(), num_workers, inspect) {
         match judged {
             Ok(result) => results.push(result),
             Err(problem) => problems.push(problem),

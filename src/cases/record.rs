@@ -32,6 +32,7 @@ use super::{
 use crate::{
     error::Advice,
     files::{FileError, read_bytes},
+    geometry::statistics::quantile,
     pipeline::{
         NamedRecipe, Recipe, RecipeBlock,
         parameters::{Parameter, changed_settings},
@@ -136,15 +137,9 @@ impl PoseErrors {
     pub fn of(results: &[CaseResult]) -> Self {
         let errors: Vec<_> = results.iter().filter_map(|r| r.pose_error).collect();
         let off = |share: f64| {
-            let of = |value: &dyn Fn(usize) -> f64| {
-                let mut values: Vec<f64> = (0..errors.len()).map(value).collect();
-                values.sort_by(f64::total_cmp);
-                let place = (errors.len().saturating_sub(1) as f64 * share).round() as usize;
-                values.get(place).copied()
-            };
             Some(PoseOff {
-                rotation_deg: of(&|i| errors[i].rotation.degrees())?,
-                shift_mm: of(&|i| errors[i].shift.mm())?,
+                rotation_deg: quantile(errors.iter().map(|e| e.rotation.degrees()), share)?,
+                shift_mm: quantile(errors.iter().map(|e| e.shift.mm()), share)?,
             })
         };
         Self {

@@ -3,8 +3,7 @@
 //! Readers never write, so cases can be read from a write-protected medium. A lock admits one writer at a time.
 
 use std::{
-    fs::{self},
-    io::{self},
+    fs, io,
     path::{Path, PathBuf},
 };
 
@@ -14,8 +13,8 @@ use super::{
 };
 use crate::{
     files::{
-        FileError, disk, in_counting_order, lock_exclusively, new_folder, open_regular, read_bytes,
-        sync_folder, user_data, words_of, write_file,
+        FileError, disk, in_counting_order, lock_exclusively, new_folder, open_regular,
+        parse_versioned, read_bytes, sync_folder, user_data, words_of, write_file,
     },
     history::{FrameRecord, read_frame_by, write_frame},
     stages::scene::SceneCloud,
@@ -92,7 +91,7 @@ impl CaseFolder {
             disk::create_dir_all(&self.path)?;
             self.writing(|| {
                 self.clear_leftovers()?;
-                let (name, place) = self.free_name(&plain_name(&about.origin))?;
+                let (name, place) = free_name(&self.path, &plain_name(&about.origin))?;
                 let building = new_folder(&self.path, NEW_PREFIX)?;
                 let meta = CaseMeta {
                     schema_version: SCHEMA_VERSION,
@@ -150,10 +149,7 @@ impl CaseFolder {
         let moved = || -> io::Result<PathBuf> {
             self.writing(|| {
                 disk::create_dir_all(&trash)?;
-                let place = numbered(name)
-                    .map(|name| trash.join(name))
-                    .find(|place| !place.exists())
-                    .ok_or(io::ErrorKind::AlreadyExists)?;
+                let (_, place) = free_name(&trash, name)?;
                 disk::rename(&folder, &place)?;
                 sync_folder(&self.path)?;
                 Ok(place)
@@ -256,15 +252,6 @@ impl CaseFolder {
         }
     }
 
-    /// Returns the first free name among `plain`, `plain_2` and so on, and its path.
-    fn free_name(&self, plain: &str) -> io::Result<(String, PathBuf)> {
-        numbered(plain)
-            .map(|name| (self.path.join(&name), name))
-            .find(|(place, _)| !place.exists())
-            .map(|(place, name)| (name, place))
-            .ok_or_else(|| io::ErrorKind::AlreadyExists.into())
-    }
-
     /// Removes what an interrupted writer left. Call it only under the lock: the folder of an active writer is not a leftover.
     fn clear_leftovers(&self) -> io::Result<()> {
         for entry in fs::read_dir(&self.path)? {
@@ -337,24 +324,17 @@ impl PackedCase {
 
 /// Reads the text of a `case.toml`.
 fn parse_meta(name: &str, text: &str) -> Result<CaseMeta, CaseError> {
-    #[derive(serde::Deserialize)]
-    struct Versioned {
-        schema_version: u32,
-    }
     let damaged = |what: String| CaseError::Damaged {
         name: name.to_owned(),
         what,
     };
     let bad = |error: toml::de::Error| damaged(format!("{META}: {}", error.message()));
-    let Versioned { schema_version } = toml::from_str(text).map_err(bad)?;
-    if schema_version > SCHEMA_VERSION {
-        return Err(CaseError::Newer {
-            name: name.to_owned(),
-            found: schema_version,
-            known: SCHEMA_VERSION,
-        });
-    }
-    let meta: CaseMeta = toml::from_str(text).map_err(bad)?;
+    let newer = |found| CaseError::Newer {
+        name: name.to_owned(),
+        found,
+        known: SCHEMA_VERSION,
+    };
+    let meta: CaseMeta = parse_versioned(text, SCHEMA_VERSION, newer, bad)?;
     let cell = meta.scene.empty_cell.as_deref();
     if !is_plain(&meta.scene.file) || cell.is_some_and(|file| !is_plain(file)) {
         return Err(damaged(format!("{META} names no file of its own")));
@@ -362,12 +342,16 @@ fn parse_meta(name: &str, text: &str) -> Result<CaseMeta, CaseError> {
     Ok(meta)
 }
 
-/// `name`, `name_2`, `name_3` and so on.
-fn numbered(name: &str) -> impl Iterator<Item = String> {
-    (1..=99_999).map(move |n| match n {
-        1 => name.to_owned(),
-        n => format!("{name}_{n}"),
-    })
+/// Returns the first name in a folder that is free among `plain`, `plain_2` and so on, and its path.
+fn free_name(folder: &Path, plain: &str) -> io::Result<(String, PathBuf)> {
+    let mut names = (1..=99_999).map(|n| match n {
+        1 => plain.to_owned(),
+        n => format!("{plain}_{n}"),
+    });
+    let free = names.find(|name| !folder.join(name).exists());
+    let name = free.ok_or(io::ErrorKind::AlreadyExists)?;
+    let place = folder.join(&name);
+    Ok((name, place))
 }
 
 /// Returns true for the name of a visible file or folder, without a path.

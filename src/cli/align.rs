@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::{
     MethodChoice, Outcome,
     console::{Advised as _, Console, Table, advised_error},
-    input::{FileAdvice, open_cloud},
+    input::{open_cloud, warn_of},
 };
 use crate::{
     error::Advice as _,
@@ -76,12 +76,7 @@ struct AlignLine<'a> {
 pub(super) fn run(args: &AlignArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     let open = |path: &PathBuf| -> anyhow::Result<PointCloud> {
         let (cloud, warnings) = open_cloud(path).advised()?;
-        for warning in &warnings {
-            console.warn(
-                &format_args!("{}: {warning}", path.display()),
-                &FileAdvice(warning),
-            );
-        }
+        warn_of(path, &warnings, console);
         Ok(PointCloud::from_points(cloud.points))
     };
     let (source, target) = (open(&args.source)?, open(&args.target)?);
@@ -98,8 +93,7 @@ pub(super) fn run(args: &AlignArgs, console: &mut Console) -> anyhow::Result<Out
     }
     let doubt = aligned.as_ref().ok().and_then(PoseEstimate::doubt);
     if let Some(doubt) = &doubt {
-        console.note(&format_args!("warning: {doubt}"));
-        console.note(&format_args!("  to do: {}", doubt_advice(doubt)));
+        console.advise(&format_args!("warning: {doubt}"), &doubt_advice(doubt));
     }
     if args.json {
         let pose = aligned.as_ref().ok();

@@ -18,7 +18,10 @@ mod table1;
 #[cfg(feature = "window")]
 mod window;
 
-use std::path::{Path, PathBuf};
+use std::{
+    collections::BTreeMap,
+    path::{Path, PathBuf},
+};
 
 use anyhow::Context as _;
 use clap::{Args, ValueEnum};
@@ -26,10 +29,10 @@ use serde::Serialize;
 
 use super::{
     LibraryChoice, Outcome,
-    console::{Advised as _, Console, advised_error},
+    console::{Console, advised_error},
     recipe::RecipeSource,
 };
-use crate::{bench::registration::Condition, files::write_atomically, stages::rank::Matcher};
+use crate::{bench::registration::Condition, stages::rank::Matcher};
 
 /// Measure recognition, pose and speed on simulated frames with known truth
 #[derive(Debug, Args)]
@@ -246,12 +249,24 @@ fn check(args: &BenchArgs) -> anyhow::Result<()> {
 }
 
 fn write_json(path: &Path, file: &impl Serialize) -> anyhow::Result<()> {
-    write_atomically(path, |writer| {
-        serde_json::to_writer_pretty(&mut *writer, file)?;
-        writeln!(writer)
-    })
-    .advised()
-    .with_context(|| format!("{} was not written", path.display()))
+    super::write_json(path, file).with_context(|| format!("{} was not written", path.display()))
+}
+
+/// Writes results on simulated parts to a file, under this name.
+fn write_results(path: &Path, name: &str, results: &impl Serialize) -> anyhow::Result<()> {
+    #[derive(Serialize)]
+    struct ResultsFile<'a, T> {
+        schema: u32,
+        simulated: bool,
+        #[serde(flatten)]
+        results: BTreeMap<&'a str, &'a T>,
+    }
+    let file = ResultsFile {
+        schema: 1,
+        simulated: true,
+        results: BTreeMap::from([(name, results)]),
+    };
+    write_json(path, &file)
 }
 
 fn name_of(matcher: Matcher) -> &'static str {

@@ -268,19 +268,14 @@ impl CalibrationChoice {
         let Ok(path) = default_path() else {
             return Ok(None);
         };
-        match CellCalibration::load_if_there(&path) {
-            Ok(Some(Loaded { calibration, .. })) => match calibration.frame(None) {
-                Ok(frame) => Ok(Some(frame)),
-                Err(error) => {
-                    console.warn(&format_args!("no poses for the robot: {error}"), &error);
-                    Ok(None)
-                }
-            },
-            Ok(None) => Ok(None),
-            Err(error) => {
-                console.warn(&format_args!("no poses for the robot: {error}"), &error);
-                Ok(None)
-            }
-        }
+        let own = CellCalibration::load_if_there(&path).unwrap_or_else(|error| {
+            console.warn(&format_args!("no poses for the robot: {error}"), &error);
+            None
+        });
+        let frame = own.map(|own| own.calibration.frame(None)).transpose();
+        Ok(frame.unwrap_or_else(|error| {
+            console.warn(&format_args!("no poses for the robot: {error}"), &error);
+            None
+        }))
     }
 }

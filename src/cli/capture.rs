@@ -193,8 +193,10 @@ fn show_list(console: &mut Console) -> Outcome {
     table.show(console);
     for listed in &found {
         if let Some(trouble) = &listed.trouble {
-            console.note(&format_args!("{}: {trouble}", listed.title));
-            console.note(&format_args!("  to do: {}", trouble.advice()));
+            console.advise(
+                &format_args!("{}: {trouble}", listed.title),
+                &trouble.advice(),
+            );
         }
     }
     Outcome::Accepted

@@ -10,7 +10,7 @@ use super::{
     Outcome,
     console::{Advised as _, Console, Table, advised_error, marked_simulated},
     follow::{follow, parse_source},
-    input::{FileAdvice, from_to, open_scene, within},
+    input::{from_to, open_scene, warn_of, within},
     recipe::RecipeSource,
 };
 use crate::{
@@ -188,11 +188,7 @@ fn check(
     if !args.no_list {
         folder.add(&check).advised()?;
     }
-    Ok(if check.finding == CellFinding::InPlace {
-        Outcome::Accepted
-    } else {
-        Outcome::NotAccepted
-    })
+    Ok(Outcome::accepted_if(check.finding == CellFinding::InPlace))
 }
 
 fn json_line(check: &CellCheck) -> serde_json::Result<String> {
@@ -342,12 +338,7 @@ fn views(args: &Views, console: &mut Console) -> anyhow::Result<CellViews> {
     }
     for path in &args.files {
         let (scene, warnings) = open_scene(path).advised()?;
-        for warning in &warnings {
-            console.warn(
-                &format_args!("{}: {warning}", path.display()),
-                &FileAdvice(warning),
-            );
-        }
+        warn_of(path, &warnings, console);
         look(&scene, &path.display().to_string())?;
     }
     Ok(taken)

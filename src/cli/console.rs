@@ -78,8 +78,13 @@ impl Console {
 
     /// Writes a warning and its advice.
     pub(super) fn warn(&self, what: &dyn Display, advice: &dyn Advice) {
-        self.note(&format_args!("warning: {what}"));
-        self.note(&format_args!("  to do: {}", advice.advice()));
+        self.advise(&format_args!("warning: {what}"), &advice.advice());
+    }
+
+    /// Writes a message next to the answer, and what to do about it.
+    pub(super) fn advise(&self, text: &dyn Display, to_do: &dyn Display) {
+        self.note(text);
+        self.note(&format_args!("  to do: {to_do}"));
     }
 
     /// Writes an error and its advice.

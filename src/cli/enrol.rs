@@ -7,7 +7,8 @@ use clap::Args;
 use super::{
     LibraryChoice, Outcome,
     console::{Advised as _, Console, advised_error},
-    input::{FileAdvice, ImportChoice},
+    input::{ImportChoice, warn_of},
+    library::seen_from,
     recipe::RecipeSource,
     scan::{PosesChoice, open_scan},
 };
@@ -21,7 +22,7 @@ use crate::{
         most_similar, surfaces_to_enrol,
     },
     stages::{
-        reference::{Coverage, ReferenceParams},
+        reference::ReferenceParams,
         scene::{SceneCloud, scene_from_cloud, scene_from_frame},
     },
 };
@@ -91,23 +92,16 @@ pub(super) fn run(mut args: EnrolArgs, console: &mut Console) -> anyhow::Result<
     for warning in &enrolled.warnings {
         console.warn(warning, warning);
     }
-    let folder = match &args.library.library {
-        Some(path) => LibraryFolder::open_or_create(path).advised()?,
-        None => args.library.open_to_change()?,
-    };
+    let folder = args.library.open_or_create()?;
     let saved = folder.save(&enrolled.part).advised()?;
     let part = &enrolled.part;
-    let sides = match part.meta.coverage {
-        Coverage::OneSide => "seen from one side",
-        Coverage::AllAround => "seen from all around",
-        Coverage::SeveralSides => "seen from several sides",
-    };
     let of = part.meta.reference_of();
     let of = of.map_or_else(String::new, |of| format!(" as one more reference of {of}"));
     console.line(&format_args!(
-        "Enrolled {}{of} from {}, {sides}: {} points, outline of {:.0} mm, openings: {}",
+        "Enrolled {}{of} from {}, seen from {}: {} points, outline of {:.0} mm, openings: {}",
         args.name,
         part.meta.enrolled.how.describe(),
+        seen_from(part.meta.coverage),
         part.cloud.points.len(),
         part.signature.perimeter_m * 1000.0,
         part.signature.openings_m.len(),
@@ -186,38 +180,19 @@ fn about(args: &EnrolArgs, from: &Path, simulated: bool) -> anyhow::Result<PartD
     })
 }
 
-fn enrolled_from_scan(
-    args: &EnrolArgs,
-    first: &Path,
-    params: &EnrolParams,
-    console: &mut Console,
-) -> anyhow::Result<Enrolled> {
-    let scan = open_scan(&args.scan, &args.poses, &params.segment, console)?;
-    let about = about(args, first, scan.cloud.cloud.is_simulated)?;
-    enrol_scan(&scan, &about, params).advised()
-}
-
 fn enrolled_from(args: &EnrolArgs, console: &mut Console) -> anyhow::Result<Enrolled> {
     let params = EnrolParams {
         segment: args.recipe.recipe()?.segment.clone(),
         ..EnrolParams::default()
     };
     if let [first, ..] = args.scan.as_slice() {
-        return enrolled_from_scan(args, first, &params, console);
+        let scan = open_scan(&args.scan, &args.poses, &params.segment, console)?;
+        let about = about(args, first, scan.cloud.cloud.is_simulated)?;
+        return enrol_scan(&scan, &about, &params).advised();
     }
-    let Some(file) = &args.file else {
-        return Err(advised_error(
-            "no file to enrol",
-            "Give a file, or --scan DIR",
-        ));
-    };
+    let file = args.file.as_deref().expect("required without --scan");
     let opened = files::open(file).advised()?;
-    for warning in opened.warnings() {
-        console.warn(
-            &format_args!("{}: {warning}", file.display()),
-            &FileAdvice(&warning),
-        );
-    }
+    warn_of(file, &opened.warnings(), console);
     let about = about(args, file, opened.is_simulated())?;
     let path = file.display();
     let captured = |scene: &SceneCloud| match args.segment.filter(|number| *number > 0) {

@@ -9,6 +9,7 @@ use super::{
     LibraryChoice, Outcome,
     console::{Advised as _, Console, advised_error},
     recipe::RecipeChoice,
+    write_json,
 };
 use crate::{
     bench::EvaluationReport,
@@ -16,7 +17,6 @@ use crate::{
         CaseChange, CaseFolder, CaseJudge, CaseOutcome, Changes, EarlierRun, Evaluation,
         FoundVerdict, RecipeRecord, evaluate,
     },
-    files::write_atomically,
     geometry::parallel::num_cores,
     report::{evaluation_picture, write_png},
 };
@@ -114,12 +114,8 @@ pub(super) fn run(args: &EvaluateArgs, console: &mut Console) -> anyhow::Result<
         show_changes(changes, console);
     }
     if let Some(path) = &args.json {
-        write_atomically(path, |writer| {
-            serde_json::to_writer_pretty(&mut *writer, &report.record())?;
-            writeln!(writer)
-        })
-        .advised()
-        .with_context(|| format!("{} was not written", path.display()))?;
+        write_json(path, &report.record())
+            .with_context(|| format!("{} was not written", path.display()))?;
         console.note(&format_args!("The results are in {}", path.display()));
     }
     if let Some(path) = &args.report {

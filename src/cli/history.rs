@@ -150,10 +150,9 @@ impl FilterArgs {
             verdict: self.verdict.and_then(VerdictChoice::verdict),
             is_accepted: (self.verdict == Some(VerdictChoice::NotAccepted)).then_some(false),
             is_simulated: self.simulated,
-            source: None,
             with_below: self.reinspections,
             text: self.text.clone().unwrap_or_default(),
-            shown: Vec::new(),
+            ..Filter::default()
         }
     }
 }

@@ -79,7 +79,7 @@ impl ImportChoice {
 }
 
 /// Advice on a file for the command line, which names the option to use.
-pub(super) struct FileAdvice<'a>(pub(super) &'a FileWarning);
+struct FileAdvice<'a>(&'a FileWarning);
 
 impl Advice for FileAdvice<'_> {
     fn advice(&self) -> String {
@@ -92,6 +92,16 @@ impl Advice for FileAdvice<'_> {
             }
             other => other.advice(),
         }
+    }
+}
+
+/// Shows the warnings about a file.
+pub(super) fn warn_of(path: &Path, warnings: &[FileWarning], console: &Console) {
+    for warning in warnings {
+        console.warn(
+            &format_args!("{}: {warning}", path.display()),
+            &FileAdvice(warning),
+        );
     }
 }
 

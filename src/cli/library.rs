@@ -11,6 +11,7 @@ pub(super) use self::bundle::{open_store, taken_version};
 use super::{
     LibraryChoice, Outcome,
     console::{Advised as _, Console, Table, advised_error, marked_simulated},
+    read_part,
 };
 use crate::{
     library::{
@@ -117,12 +118,11 @@ pub(super) fn run(args: &LibraryArgs, console: &mut Console) -> anyhow::Result<O
 
 fn list(choice: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outcome> {
     let (place, load) = choice.load(&ReferenceParams::default(), console)?;
-    let num = load.parts.len();
     console.line(&format_args!(
-        "{} ({}): {num} {}",
+        "{} ({}): {}",
         place.location(),
         place.describe(),
-        if num == 1 { "part" } else { "parts" }
+        counted(load.parts.len(), "part", "parts")
     ));
     #[cfg(feature = "plant")]
     if let Some(version) = taken_version(&place, console) {
@@ -171,10 +171,7 @@ fn show(choice: &LibraryChoice, name: &PartName, console: &mut Console) -> anyho
         meta,
         reference,
         warnings,
-    } = place
-        .read(name.as_str(), &ReferenceParams::default())
-        .advised()?
-        .advised()?;
+    } = read_part(&place, name)?;
     for warning in &warnings {
         console.warn(warning, warning);
     }
@@ -286,11 +283,7 @@ fn verify(choice: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outco
         console.warn(error, error);
     }
     let is_sound = load.problems.is_empty() && load.warnings.is_empty() && numbers.is_ok();
-    Ok(if is_sound {
-        Outcome::Accepted
-    } else {
-        Outcome::NotAccepted
-    })
+    Ok(Outcome::accepted_if(is_sound))
 }
 
 fn remove(
@@ -408,7 +401,7 @@ fn numbers_of(place: &LibraryPlace, console: &Console) -> PartNumbers {
     })
 }
 
-fn seen_from(coverage: Coverage) -> &'static str {
+pub(super) fn seen_from(coverage: Coverage) -> &'static str {
     match coverage {
         Coverage::OneSide => "one side",
         Coverage::AllAround => "all around",

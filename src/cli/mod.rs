@@ -44,12 +44,14 @@ use std::{
 };
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use serde::Serialize;
 
 use self::console::{Advised as _, Console, advised_error};
 #[cfg(feature = "window")]
 use crate::app;
 use crate::{
-    library::{LibraryFolder, LibraryLoad, LibraryPlace, open_library},
+    files::write_atomically,
+    library::{LibraryFolder, LibraryLoad, LibraryPlace, PartName, StoredPart, open_library},
     stages::{pose::PoseMethod, reference::ReferenceParams},
 };
 
@@ -115,6 +117,17 @@ pub enum Outcome {
     NotAccepted,
     /// 2: the call, or one of its inputs, could not run.
     CouldNotRun,
+}
+
+impl Outcome {
+    /// Returns the outcome of a call that ran.
+    fn accepted_if(is_accepted: bool) -> Self {
+        if is_accepted {
+            Self::Accepted
+        } else {
+            Self::NotAccepted
+        }
+    }
 }
 
 impl From<Outcome> for ExitCode {
@@ -276,6 +289,14 @@ impl LibraryChoice {
             .advised()
     }
 
+    /// As [`Self::open_to_change`]; a named folder is created if it is missing.
+    fn open_or_create(&self) -> anyhow::Result<LibraryFolder> {
+        match &self.library {
+            Some(path) => LibraryFolder::open_or_create(path).advised(),
+            None => self.open_to_change(),
+        }
+    }
+
     /// Loads the library, prepared with these parameters; warns of the parts that could not be loaded.
     fn load(
         &self,
@@ -321,6 +342,20 @@ impl LibraryChoice {
         }
         Ok((place, load))
     }
+}
+
+fn read_part(place: &LibraryPlace, name: &PartName) -> anyhow::Result<StoredPart> {
+    let part = place.read(name.as_str(), &ReferenceParams::default());
+    part.advised()?.advised()
+}
+
+/// Writes a file of indented JSON.
+fn write_json(path: &Path, content: &impl Serialize) -> anyhow::Result<()> {
+    write_atomically(path, |writer| {
+        serde_json::to_writer_pretty(&mut *writer, content)?;
+        writeln!(writer)
+    })
+    .advised()
 }
 
 /// Returns advice on a folder without parts, if it looks like the wrong one.

@@ -4,9 +4,8 @@ use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
 
-use super::console::{Advised as _, Console};
+use super::console::{Advised as _, Console, with_advice};
 use crate::{
-    error::Advice as _,
     pipeline::{
         BUILT_IN, NamedRecipe, PoseChoice, Recipe, RecipeFile, RecipeFolder, RecipeLabel,
         open_recipe,
@@ -145,5 +144,5 @@ pub(super) fn show_recipe(recipe: &NamedRecipe, console: &mut Console) {
 
 pub(super) fn parse_setting<R: Parameters>(text: &str) -> Result<Setting<R>, String> {
     let setting = text.parse::<Setting<R>>();
-    setting.map_err(|error| format!("{error}\n  to do: {}", error.advice()))
+    setting.map_err(|error| with_advice(&error))
 }

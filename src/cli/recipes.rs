@@ -16,6 +16,7 @@ use crate::{
         BUILT_IN, MAX_NOTES, Recipe, RecipeError, RecipeFile, RecipeFolder, Replace,
         parameters::{PARAMETERS, Parameter, num_changed},
     },
+    units::counted,
 };
 
 /// List, show, save, rename, remove, export and import recipes: named sets of parameters
@@ -237,18 +238,11 @@ fn show(file: &RecipeFile, against: &RecipeFile, json: bool, console: &mut Conso
     if !line.notes.is_empty() {
         console.entry("notes", &line.notes);
     }
-    let num = line.changed.len();
-    match num {
-        0 => console.entry("same as", &line.against),
-        1 => console.entry(
-            "differs",
-            &format_args!("in 1 parameter from {}", line.against),
-        ),
-        _ => console.entry(
-            "differs",
-            &format_args!("in {num} parameters from {}", line.against),
-        ),
+    if line.changed.is_empty() {
+        return console.entry("same as", &line.against);
     }
+    let num = counted(line.changed.len(), "parameter", "parameters");
+    console.entry("differs", &format_args!("in {num} from {}", line.against));
     let mut table = Table::new(&["PARAMETER", "VALUE", &line.against.to_uppercase()]);
     for change in &line.changed {
         table.row([
@@ -257,19 +251,14 @@ fn show(file: &RecipeFile, against: &RecipeFile, json: bool, console: &mut Conso
             change.against.clone(),
         ]);
     }
-    if num > 0 {
-        table.show(console);
-    }
-}
-
-fn replacing(replace: bool) -> Replace {
-    if replace { Replace::Yes } else { Replace::No }
+    table.show(console);
 }
 
 /// Saves a recipe; if the name is taken, the error gives advice.
 fn keep(file: &RecipeFile, replace: bool, console: &mut Console) -> anyhow::Result<()> {
     let folder = folder()?;
-    let kept = match folder.save(file, replacing(replace)) {
+    let replace = if replace { Replace::Yes } else { Replace::No };
+    let kept = match folder.save(file, replace) {
         Err(error @ RecipeError::Exists { .. }) => Err(advised_error(
             error.to_string(),
             "Give another name, or add --replace",

@@ -1,10 +1,6 @@
 //! Recording of inspections in the history, after every verdict.
 
-use std::{
-    collections::BTreeMap,
-    path::{Path, PathBuf},
-    sync::Arc,
-};
+use std::{collections::BTreeMap, path::PathBuf, sync::Arc};
 
 use clap::Args;
 use jiff::Timestamp;
@@ -33,17 +29,10 @@ use crate::{
 pub(super) struct HistoryChoice {
     /// Folder of the history; default: your own, which the window uses too
     #[arg(long, value_name = "DIR", global = true)]
-    history: Option<PathBuf>,
+    pub(super) history: Option<PathBuf>,
 }
 
 impl HistoryChoice {
-    /// Selects the history in this folder.
-    pub(super) fn in_folder(folder: &Path) -> Self {
-        Self {
-            history: Some(folder.to_owned()),
-        }
-    }
-
     /// Returns the folder.
     pub(super) fn folder(&self) -> Result<PathBuf, HistoryError> {
         self.history.clone().map_or_else(users_folder, Ok)
@@ -207,10 +196,10 @@ fn titles_of(library: &LibraryLoad) -> BTreeMap<String, String> {
 fn tell_of(news: HistoryEvent, console: &Console) {
     match news {
         HistoryEvent::Failed { what, advice } => {
-            console.note(&format_args!("warning: {what}"));
-            console.note(&format_args!(
-                "  to do: {advice}; the verdicts are not affected"
-            ));
+            console.advise(
+                &format_args!("warning: {what}"),
+                &format_args!("{advice}; the verdicts are not affected"),
+            );
         }
         HistoryEvent::SetAside(aside) => {
             console.note(&format_args!("warning: the history: {}", aside.what));

@@ -12,12 +12,9 @@ use super::{
     LibraryChoice, Outcome,
     calibrate::CalibrationChoice,
     console::{Advised as _, Console, Table},
-    input::{
-        EmptyCellChoice, FileAdvice, OpenedScene, Scenes, before, open_ahead, parse_convention,
-    },
+    input::{EmptyCellChoice, OpenedScene, Scenes, before, open_ahead, parse_convention, warn_of},
     recipe::RecipeChoice,
     trace::TraceChoice,
-    verdict::outcome_of,
 };
 #[cfg(feature = "plant")]
 use crate::plant::mqtt::messages_schema;
@@ -27,9 +24,7 @@ use crate::{
     pipeline::{self, Inspection, NamedRecipe, Unwatched},
     report::{
         ReportFolder,
-        pose_report::{
-            CsvAppended, PdfPictures, PoseReport, ReportSubject, SeenBy, append_csv, pose_pdf,
-        },
+        pose_report::{PdfPictures, PoseReport, ReportSubject, SeenBy, append_csv, pose_pdf},
         stage_pictures,
     },
     robot::{Convention, RobotFrame},
@@ -192,9 +187,7 @@ impl Reporter<'_> {
                 return Ok(Outcome::CouldNotRun);
             }
         };
-        for warning in &warnings {
-            console.warn(&format_args!("{name}: {warning}"), &FileAdvice(warning));
-        }
+        warn_of(path, &warnings, console);
         before(&mut scene, self.empty_cell.as_ref(), &name, console);
         let inspection = pipeline::run(&scene, &self.load.library, &self.recipe, &Unwatched)?;
         let report = self.report_of(&name, &scene, &inspection);
@@ -215,7 +208,7 @@ impl Reporter<'_> {
                     "{name}: {part}, {accepted}: {}",
                     written.join(", ")
                 ));
-                Ok(outcome_of(&inspection))
+                Ok(Outcome::accepted_if(verdict.accepted))
             }
             // Go on: the next report may fit on the disk, or the stick may be back.
             Err(error) => {
@@ -227,7 +220,7 @@ impl Reporter<'_> {
 
     fn report_of(&self, name: &str, scene: &SceneCloud, inspection: &Inspection) -> PoseReport {
         let reference = inspection.best_reference(&self.load.library);
-        let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+        let pose = inspection.found_pose();
         let stand_off = reference
             .zip(pose)
             .filter(|_| inspection.verdict.is_accepted())
@@ -283,7 +276,7 @@ impl Reporter<'_> {
         let mut written = self.folder.write_pose(path, &files).advised()?;
         if is_csv {
             let csv = self.folder.csv(self.args.convention);
-            if let CsvAppended::SetAside(aside) = append_csv(&csv, report).advised()? {
+            if let Some(aside) = append_csv(&csv, report).advised()? {
                 console.note(&format_args!(
                     "note: the last row of {} was incomplete; it was set aside in {}",
                     csv.display(),

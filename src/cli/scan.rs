@@ -1,22 +1,24 @@
 //! `partsight scan`: fuses several frames with known camera poses into one cloud.
 
 mod output;
-mod shots;
 
-use std::path::{Path, PathBuf};
+use std::{
+    ops::ControlFlow,
+    path::{Path, PathBuf},
+};
 
 use clap::Args;
 
 use self::output::{ScanLine, show};
-pub(super) use self::shots::open_scan;
 use super::{
     Outcome,
+    calibrate::scan_calibration,
     console::{Advised as _, Console, advised_error},
 };
 use crate::{
-    error::Advice as _,
     files::{write_atomically, write_ply_with},
-    scan::{FusedCloud, Scan},
+    robot::scan_frames::{FrameNews, read_frames, with_poses},
+    scan::{FusedCloud, Scan, ScanParams, Unwatched, assemble},
     stages::segment::SegmentParams,
 };
 
@@ -101,21 +103,48 @@ pub(super) fn run(args: &ScanArgs, console: &mut Console) -> anyhow::Result<Outc
         console.line(&format_args!("Written to {}", args.out.display()));
     }
     let all_used = scan.shots.iter().all(|shot| shot.excluded.is_none());
-    Ok(if all_used && has_part {
-        Outcome::Accepted
-    } else {
-        Outcome::NotAccepted
-    })
+    Ok(Outcome::accepted_if(all_used && has_part))
 }
 
-/// Warns of the frames that were left out.
-pub(super) fn warn_of_excluded(scan: &Scan, console: &Console) {
+/// Reads frames with their poses and fuses them, each segmented with these parameters; warns of frames left out.
+pub(super) fn open_scan(
+    paths: &[PathBuf],
+    given: &PosesChoice,
+    segment: &SegmentParams,
+    console: &mut Console,
+) -> anyhow::Result<Scan> {
+    let frames = read_frames(paths, &mut |news| {
+        match news {
+            FrameNews::Total(num) => console.start_progress(num),
+            FrameNews::Read(name, warnings) => {
+                console.begin(&name);
+                for warning in warnings {
+                    console.warn(&format_args!("{name}: {warning}"), warning);
+                }
+                console.done();
+            }
+            FrameNews::Skipped(skipped) => console.warn(
+                &format_args!("{} is left out: {}", skipped.name, skipped.error),
+                &*skipped.error,
+            ),
+        }
+        ControlFlow::Continue(())
+    })
+    .advised()?;
+    let calibration = scan_calibration(given.calibration.as_deref(), console)?;
+    let shots = with_poses(paths, given.poses.as_deref(), frames, calibration);
+    let params = ScanParams {
+        segment: segment.clone(),
+        ..ScanParams::default()
+    };
+    let scan = assemble(&shots.advised()?, &params, &Unwatched).advised()?;
+    console.end_progress();
     for shot in &scan.shots {
         if let Some(why) = &shot.excluded {
-            console.note(&format_args!("warning: {} is left out: {why}", shot.name));
-            console.note(&format_args!("  to do: {}", why.advice()));
+            console.warn(&format_args!("{} is left out: {why}", shot.name), why);
         }
     }
+    Ok(scan)
 }
 
 /// Splits each mask into its low and its high half.

@@ -210,7 +210,7 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
     let empty_cell = args.empty_cell.open(console)?;
     let camera = Arc::new(Camera::start(&args.source).advised()?);
     let interrupt = Interrupt::listen()?;
-    let StartedServer { mut server, events } = start(args, &listeners, &camera)?;
+    let (mut server, events) = start(args, &listeners, &camera)?;
     let recording = (!args.no_history)
         .then(|| HistoryRecorder::start(&args.history, &load, &recipe, &trace, console))
         .flatten();
@@ -287,7 +287,7 @@ fn announce(
 ) {
     console.end_progress();
     for (at, listener) in server.addresses().iter().zip(listeners) {
-        let convention = listener.convention().title();
+        let convention = listener.convention.title();
         console.note(&format_args!("Listening: {at}, poses as {convention}"));
         if let Some(doubt) = listener.doubt() {
             console.warn(&doubt, &doubt);
@@ -305,17 +305,12 @@ fn show_numbers(parts: &[NumberedPart], load: &LibraryLoad, console: &Console) {
     }
 }
 
-/// A server and the events of its clients.
-struct StartedServer {
-    server: Server,
-    events: Receiver<ClientEvent>,
-}
-
+/// Starts the server; also returns the events of its clients.
 fn start(
     args: &ServeArgs,
     listeners: &[Listener],
     camera: &Arc<Camera>,
-) -> anyhow::Result<StartedServer> {
+) -> anyhow::Result<(Server, Receiver<ClientEvent>)> {
     let settings = ServerSettings {
         max_age: Duration::from_secs_f64(args.max_age),
         max_clients: usize::from(args.max_clients),
@@ -329,8 +324,7 @@ fn start(
         let _ = tell.try_send(event);
     };
     let server = Server::start(listeners, settings, move || camera.status(), on_event);
-    let server = server.advised()?;
-    Ok(StartedServer { server, events })
+    Ok((server.advised()?, events))
 }
 
 #[cfg(test)]

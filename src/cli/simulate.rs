@@ -10,10 +10,11 @@ use clap::{Args, ValueEnum, builder::PossibleValuesParser};
 use super::{
     Outcome,
     console::{Advised as _, Console, advised_error},
+    input::within,
+    write_json,
 };
 use crate::{
-    error::Advice,
-    files::{depth_png::intrinsics_path, save_cloud, write_atomically, write_depth_png},
+    files::{depth_png::intrinsics_path, save_cloud, write_depth_png},
     geometry::written_pose::{GivenPose, parse_pose},
     simulate::{
         CellSetup, Clutter, ObjectKind, PartKind, PartPose, PoseRange, Side, SimulatedFrame,
@@ -74,7 +75,7 @@ pub(super) struct SimulateArgs {
     #[arg(long, conflicts_with_all = ["placement", "clutter", "stand"])]
     booth: bool,
     /// Camera noise as a multiple of a Kinect's; 0 is none
-    #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = parse_noise)]
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = |text: &str| within(text, &(0.0..=5.0)))]
     noise: f64,
     /// The file: .pcd (organised), .png (16-bit depth, intrinsics in a .json beside it), .ply or .xyz (points only)
     #[arg(long, value_name = "FILE", required_unless_present_any = ["cases", "scan"])]
@@ -120,16 +121,9 @@ fn parse_shots(text: &str) -> Result<usize, String> {
         .ok_or_else(|| "expected a number from 2 to 64".into())
 }
 
-fn parse_noise(text: &str) -> Result<f64, String> {
-    let noise = text.parse::<f64>().ok();
-    noise
-        .filter(|noise| (0.0..=5.0).contains(noise))
-        .ok_or_else(|| "expected a number from 0 to 5".into())
-}
-
 impl SimulateArgs {
     /// Returns the objects to simulate.
-    fn subjects(&self) -> anyhow::Result<Vec<SimulatedObject>> {
+    fn subjects(&self) -> Vec<SimulatedObject> {
         let part = |kind| SimulatedObject::Part {
             kind,
             side: match self.side {
@@ -139,24 +133,21 @@ impl SimulateArgs {
             model_seed: self.model,
         };
         if self.part.is_empty() {
-            return Ok(PartKind::ALL.map(part).to_vec());
+            return PartKind::ALL.map(part).to_vec();
         }
         let mut subjects = Vec::new();
         for name in &self.part {
-            match (
-                name.as_str(),
-                PartKind::from_name(name),
-                ObjectKind::from_name(name),
-            ) {
-                (EMPTY, ..) => subjects.push(SimulatedObject::Nothing),
-                (ALL, ..) => subjects.extend(PartKind::ALL.map(part)),
-                (OBJECTS, ..) => subjects.extend(ObjectKind::ALL.map(SimulatedObject::Object)),
-                (_, Some(kind), _) => subjects.push(part(kind)),
-                (_, None, Some(kind)) => subjects.push(SimulatedObject::Object(kind)),
-                (_, None, None) => anyhow::bail!("no part is called {name}"),
+            match name.as_str() {
+                EMPTY => subjects.push(SimulatedObject::Nothing),
+                ALL => subjects.extend(PartKind::ALL.map(part)),
+                OBJECTS => subjects.extend(ObjectKind::ALL.map(SimulatedObject::Object)),
+                name => {
+                    subjects.extend(PartKind::from_name(name).map(part));
+                    subjects.extend(ObjectKind::from_name(name).map(SimulatedObject::Object));
+                }
             }
         }
-        Ok(subjects)
+        subjects
     }
 
     /// Creates the cell with this object; the pose is drawn.
@@ -246,7 +237,7 @@ pub(super) fn run(args: &SimulateArgs, console: &mut Console) -> anyhow::Result<
     if let Some(folder) = &args.scan {
         return scan::run(folder, args, console);
     }
-    let (subjects, out) = (args.subjects()?, args.out.as_deref());
+    let (subjects, out) = (args.subjects(), args.out.as_deref());
     let (&[subject], &[placement], Some(out)) = (&subjects[..], &args.placement[..], out) else {
         return Err(advised_error(
             "one file shows one part at one placement",
@@ -266,11 +257,7 @@ pub(super) fn run(args: &SimulateArgs, console: &mut Console) -> anyhow::Result<
     write_frame(out, &simulated)?;
     let truth = &simulated.truth;
     if let Some(path) = &args.truth {
-        write_atomically(path, |writer| {
-            serde_json::to_writer_pretty(&mut *writer, truth)?;
-            writeln!(writer)
-        })
-        .advised()?;
+        write_json(path, truth)?;
     }
     let what = match subject {
         SimulatedObject::Part { kind, .. } => kind.title().to_lowercase(),
@@ -287,23 +274,16 @@ pub(super) fn run(args: &SimulateArgs, console: &mut Console) -> anyhow::Result<
         truth.visible_share * 100.0
     ));
     if truth.visible_share < LEAST_VISIBLE {
-        console.warn(&OutOfSight, &OutOfSight);
+        console.advise(
+            &"warning: the camera does not see the part at this pose",
+            &"Put the part near the camera's axis, about 1.3 m away: --pose \"0 0 0 0 0 1.3\"",
+        );
     }
     Ok(Outcome::Accepted)
 }
 
 /// Below this visible share "0 %" is shown.
 const LEAST_VISIBLE: f64 = 0.005;
-
-#[derive(Debug, thiserror::Error)]
-#[error("the camera does not see the part at this pose")]
-struct OutOfSight;
-
-impl Advice for OutOfSight {
-    fn advice(&self) -> String {
-        "Put the part near the camera's axis, about 1.3 m away: --pose \"0 0 0 0 0 1.3\"".into()
-    }
-}
 
 /// Refuses a call in which one output file would overwrite another.
 fn check_outputs_differ(args: &SimulateArgs, out: &Path) -> anyhow::Result<()> {

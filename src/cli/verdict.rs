@@ -1,6 +1,6 @@
 //! Verdicts for people: as a card or a row.
 
-use super::{Outcome, console::Console};
+use super::console::Console;
 use crate::{
     files::visible,
     library::Library,
@@ -10,18 +10,10 @@ use crate::{
     units::Metres,
 };
 
-/// Returns the exit code of an inspection.
-pub(super) fn outcome_of(inspection: &Inspection) -> Outcome {
-    match &inspection.verdict {
-        Verdict::Part { rejected: None, .. } => Outcome::Accepted,
-        Verdict::Part { .. } | Verdict::NoPart(_) => Outcome::NotAccepted,
-    }
-}
-
 /// Returns the part's position, the middle of its reference's extent (x, y, z in mm), and its rotation (rx, ry, rz in
 /// degrees).
 pub(super) fn place_of(inspection: &Inspection, library: &Library) -> Option<([f64; 3], [f64; 3])> {
-    let pose = inspection.pose.as_ref()?.as_ref().ok()?.camera_from_part();
+    let pose = inspection.found_pose()?.camera_from_part();
     let middle = pose * inspection.best_reference(library)?.middle()?;
     // nalgebra's angles are those of Rz·Ry·Rx.
     let (rx, ry, rz) = pose.rotation.euler_angles();
@@ -70,6 +62,7 @@ pub(super) fn show_card(
     console: &mut Console,
 ) {
     let mut line = |what: &str, text: String| console.entry(what, &text);
+    line("scene", visible(scene).into_owned());
     match &inspection.verdict {
         Verdict::Part {
             part,
@@ -79,7 +72,6 @@ pub(super) fn show_card(
             ..
         } => {
             let verdict = rejected.as_ref().map_or("accepted", |_| "NOT ACCEPTED");
-            line("scene", visible(scene).into_owned());
             let part = match rejected {
                 Some(Rejection::Mirrored { part, .. } | Rejection::MirroredImage { part, .. }) => {
                     format!("mirror image of {part}")
@@ -98,10 +90,7 @@ pub(super) fn show_card(
             });
             line("score", format!("{score:.2}{margin}"));
         }
-        Verdict::NoPart(_) => {
-            line("scene", visible(scene).into_owned());
-            line("part", "none: NOT ACCEPTED".to_owned());
-        }
+        Verdict::NoPart(_) => line("part", "none: NOT ACCEPTED".to_owned()),
     }
     let is_named = inspection.verdict.is_named();
     let place = place_of(inspection, library).filter(|_| is_named);
@@ -118,7 +107,7 @@ pub(super) fn show_card(
         );
     }
     // Without the part's name, the figures of its pose are of no use.
-    let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+    let pose = inspection.found_pose();
     let pose = pose.filter(|_| is_named);
     if let Some(pose) = pose {
         if let Some(other) = inspection.other_reference() {

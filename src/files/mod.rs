@@ -70,7 +70,8 @@ pub use self::ply::{write_ply, write_ply_with};
 pub(crate) use self::source::{
     lock_exclusively, open_lock, open_regular, read_bytes, read_limited, shortened,
 };
-pub(crate) use self::text::{read_text, visible};
+pub(crate) use self::text::{parse_versioned, read_text, toml_problem, visible};
+pub(crate) use self::write::write_text;
 pub use self::write::{save_cloud, write_atomically};
 pub use self::xyz::write_xyz;
 

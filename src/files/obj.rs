@@ -4,14 +4,11 @@
 //! polygons are split into fans about their first corner. An OBJ without faces is a cloud. Texture coordinates, normals,
 //! materials, lines and curves are ignored.
 
-use nalgebra::Point3;
-
 use super::error::FileError;
 use super::open::FileContent;
 use super::readings::tidy;
-use super::scalar::parse_real;
 use super::source::Source;
-use super::surface::{checked_mesh, push_fan};
+use super::surface::{checked_mesh, point_of, push_fan};
 use crate::geometry::cloud::PointCloud;
 
 /// Returns true if the first line that is neither empty nor a comment begins with a keyword of the format.
@@ -84,11 +81,6 @@ pub(super) fn read(source: Source<'_>) -> Result<FileContent, FileError> {
     }
 }
 
-fn point_of<'a>(mut words: impl Iterator<Item = &'a str>) -> Option<Point3<f32>> {
-    let mut coordinate = || words.next().and_then(parse_real).map(|real| real as f32);
-    Some(Point3::new(coordinate()?, coordinate()?, coordinate()?))
-}
-
 /// Returns the vertex named by `7/1/2` or `-1//3`, from 0; `None` if there is no such vertex yet.
 fn index_of(corner: &str, num_points: usize) -> Option<u32> {
     let number: i64 = corner.split('/').next()?.parse().ok()?;
@@ -105,6 +97,8 @@ fn index_of(corner: &str, num_points: usize) -> Option<u32> {
 #[cfg(test)]
 mod tests {
     use std::path::Path;
+
+    use nalgebra::Point3;
 
     use super::*;
 

@@ -11,9 +11,8 @@ use std::collections::HashMap;
 use nalgebra::Point3;
 
 use super::error::FileError;
-use super::scalar::parse_real;
 use super::source::Source;
-use super::surface::checked_mesh;
+use super::surface::{checked_mesh, point_of};
 use crate::geometry::mesh::TriangleMesh;
 
 const HEADER_BYTES: usize = 84;
@@ -95,10 +94,8 @@ fn corners_of_text(source: Source<'_>) -> Result<Vec<[Point3<f32>; 3]>, FileErro
             Some("endsolid") => is_open = false,
             Some("facet") => corners.clear(),
             Some("vertex") => {
-                let mut coordinate = || words.next().and_then(parse_real).map(|real| real as f32);
-                let corner = coordinate().zip(coordinate()).zip(coordinate());
-                let ((x, y), z) = corner.ok_or_else(|| wrong("vertex and three numbers"))?;
-                corners.push(Point3::new(x, y, z));
+                let corner = point_of(words);
+                corners.push(corner.ok_or_else(|| wrong("vertex and three numbers"))?);
             }
             Some("endfacet") => match *corners.as_slice() {
                 [a, b, c] => {

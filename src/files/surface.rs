@@ -4,6 +4,7 @@ use nalgebra::Point3;
 
 use super::error::FileError;
 use super::readings::MAX_COORDINATE;
+use super::scalar::parse_real;
 use super::source::Source;
 use crate::geometry::mesh::TriangleMesh;
 
@@ -31,4 +32,10 @@ pub(super) fn push_fan(polygon: &[u32], triangles: &mut Vec<[u32; 3]>) {
         let pairs = others.windows(2).filter_map(<[u32]>::first_chunk::<2>);
         triangles.extend(pairs.map(|&[second, third]| [first, second, third]));
     }
+}
+
+/// Reads three coordinates; `None` if one is missing or no number.
+pub(super) fn point_of<'a>(mut words: impl Iterator<Item = &'a str>) -> Option<Point3<f32>> {
+    let mut coordinate = || words.next().and_then(parse_real).map(|real| real as f32);
+    Some(Point3::new(coordinate()?, coordinate()?, coordinate()?))
 }

@@ -2,6 +2,8 @@
 
 use std::{borrow::Cow, fmt::Write as _, path::Path};
 
+use serde::{Deserialize, de::DeserializeOwned};
+
 use super::{FileError, read_limited};
 
 /// Reads a text file of at most `limit` bytes, without a byte order mark.
@@ -18,6 +20,35 @@ pub(crate) fn read_text(path: &Path, limit: u64) -> Result<String, FileError> {
         Some(rest) => rest.to_owned(),
         None => text,
     })
+}
+
+/// Parses TOML whose `schema_version` is at most `known`. Any other error than a `newer` version is `bad`.
+pub(crate) fn parse_versioned<T: DeserializeOwned, E>(
+    text: &str,
+    known: u32,
+    newer: impl Fn(u32) -> E,
+    bad: impl Fn(toml::de::Error) -> E,
+) -> Result<T, E> {
+    /// The one field that every version has.
+    #[derive(Deserialize)]
+    struct Versioned {
+        schema_version: u32,
+    }
+    let Versioned { schema_version } = toml::from_str(text).map_err(&bad)?;
+    if schema_version > known {
+        return Err(newer(schema_version));
+    }
+    toml::from_str(text).map_err(bad)
+}
+
+/// What is wrong with a TOML text, in one line.
+pub(crate) fn toml_problem(error: &toml::de::Error) -> String {
+    error
+        .message()
+        .lines()
+        .next()
+        .unwrap_or_default()
+        .to_owned()
 }
 
 /// A text from a file, or a file's name, for a terminal: control characters, which could move the cursor or recolour what

@@ -44,6 +44,11 @@ pub fn write_atomically(
     written().map_err(|error| FileError::writing(path, error))
 }
 
+/// Writes a text file as [`write_atomically`] does.
+pub(crate) fn write_text(path: &Path, text: &str) -> Result<(), FileError> {
+    write_atomically(path, |writer| writer.write_all(text.as_bytes()))
+}
+
 /// Beginning and end of the names of temporary files.
 const PREFIX: &str = ".partsight-";
 const SUFFIX: &str = ".part";

@@ -85,6 +85,11 @@ impl TriangleMesh {
         Some(self.vertices.iter().fold((first, first), widened))
     }
 
+    /// Returns the vertices, each moved by `place`.
+    pub fn placed_vertices(&self, place: impl Fn(Point3<f64>) -> Point3<f64>) -> Vec<Point3<f64>> {
+        self.vertices.iter().map(|p| place(p.cast())).collect()
+    }
+
     /// Returns the total area of the triangles, square metres.
     pub fn area(&self) -> f64 {
         self.faces().map(|face| face.area).sum()

@@ -17,6 +17,7 @@ pub mod rays;
 pub mod rigid;
 pub mod segment;
 pub mod sixteen_numbers;
+pub mod statistics;
 pub mod surface_grid;
 pub mod voxel;
 pub mod written_pose;

@@ -88,6 +88,15 @@ pub fn map_in_order<S, T: Send>(
         .collect()
 }
 
+/// As [`map_in_order`], for work that needs no state.
+pub fn map_each<T: Send>(
+    num_pieces: usize,
+    num_workers: usize,
+    work: impl Fn(usize) -> T + Sync,
+) -> Vec<T> {
+    map_in_order(num_pieces, num_workers, || (), |(), i| work(i))
+}
+
 /// Number of blocks per worker, on average.
 const BLOCKS_EACH: usize = 8;
 

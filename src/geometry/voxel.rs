@@ -3,6 +3,8 @@
 //! Points are sorted by the number of their cube, so the result depends only on the points: the same cloud gives
 //! the same bytes on every run.
 
+use std::collections::BTreeMap;
+
 use nalgebra::{Point3, Vector3};
 
 use super::cloud::PointCloud;
@@ -57,6 +59,26 @@ pub fn downsample(cloud: &PointCloud, size: Metres) -> PointCloud {
         is_simulated: cloud.is_simulated,
         surplus_bytes: cloud.surplus_bytes,
     }
+}
+
+/// Returns the values of the cubes with these numbers along x, y and z, piece by piece: cubes are of one piece if they are
+/// connected by faces, edges or corners.
+pub fn connected_pieces<V>(mut cubes: BTreeMap<[i32; 3], V>) -> Vec<Vec<V>> {
+    let mut pieces = Vec::new();
+    while let Some((first, value)) = cubes.pop_first() {
+        let mut piece = vec![value];
+        let mut open = vec![first];
+        while let Some([x, y, z]) = open.pop() {
+            for neighbour in (0..27).map(|n| [x + n / 9 - 1, y + n / 3 % 3 - 1, z + n % 3 - 1]) {
+                if let Some(value) = cubes.remove(&neighbour) {
+                    piece.push(value);
+                    open.push(neighbour);
+                }
+            }
+        }
+        pieces.push(piece);
+    }
+    pieces
 }
 
 fn mean_position(points: &[Point3<f32>], cube: &[(u64, u32)]) -> Point3<f32> {

@@ -71,9 +71,7 @@ impl HistoryBuffer {
     pub fn new(place: Option<PathBuf>) -> Self {
         Self {
             place,
-            inner: Mutex::default(),
-            news: Mutex::default(),
-            num_events: AtomicU64::default(),
+            ..Self::default()
         }
     }
 

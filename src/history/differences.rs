@@ -8,7 +8,7 @@ use super::entry::{Record, StoredRefusal, StoredVerdict};
 use crate::{
     geometry::rigid::{PoseDelta, RigidTransform, pose_error},
     pipeline::{Inspection, Recipe, RefusalKind, Verdict, parameters::PARAMETERS},
-    stages::pose::{PoseEstimate, Uncertainty},
+    stages::pose::PoseEstimate,
 };
 
 /// The results of an inspection that are compared.
@@ -48,7 +48,7 @@ impl InspectionSummary {
             } => (Some(part.clone()), Some([*score, *margin])),
             Verdict::NoPart(_) => (None, None),
         };
-        let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+        let pose = inspection.found_pose();
         Self {
             verdict: StoredVerdict::from(&inspection.verdict),
             nearest,
@@ -66,7 +66,7 @@ impl InspectionSummary {
 
 /// Bounds of a pose, unless it is unconstrained.
 fn bounds_of(pose: &PoseEstimate) -> Option<PoseDelta> {
-    let bounds = pose.uncertainty.filter(Uncertainty::is_held)?;
+    let bounds = pose.bounds()?;
     Some(PoseDelta {
         rotation: bounds.turn,
         shift: bounds.shift,

@@ -288,7 +288,7 @@ impl NewEntry {
             StoredVerdict::Unknown => format!("Unknown · nearest {name}"),
             StoredVerdict::NoPart => "No part".to_owned(),
         };
-        let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+        let pose = inspection.found_pose();
         let is_named = !matches!(verdict, StoredVerdict::Unknown | StoredVerdict::NoPart);
         let micro = about.at.as_microsecond();
         let summary = Summary {

@@ -343,7 +343,7 @@ fn set_aside_damaged(path: &Path) -> Result<Option<SetAside>, HistoryError> {
         let magic = bytes.first_chunk().map_or(0, |b| u32::from_be_bytes(*b));
         if magic & !1 != LOG_MAGIC {
             // SQLite would silently ignore this log. Everything written before it is intact.
-            let aside = aside(&log, "damaged")?;
+            let aside = aside(&log)?;
             disk::rename(&log, &aside).map_err(|error| HistoryError::io(path, error))?;
             let what =
                 "the log of its last writes is damaged: the newest inspections may be missing";
@@ -398,7 +398,7 @@ fn check(path: &Path, was_left_open: bool) -> Result<(), HistoryError> {
 
 /// Moves the file, its log and its frames to free names; deletes nothing.
 fn set_aside(path: &Path) -> Result<PathBuf, HistoryError> {
-    let aside = aside(path, "damaged")?;
+    let aside = aside(path)?;
     let frames = path.with_file_name(FRAMES);
     let moves = [
         (path.to_owned(), aside.clone()),
@@ -418,10 +418,10 @@ fn set_aside(path: &Path) -> Result<PathBuf, HistoryError> {
 }
 
 /// Returns a free name next to a file.
-fn aside(path: &Path, word: &str) -> Result<PathBuf, HistoryError> {
+fn aside(path: &Path) -> Result<PathBuf, HistoryError> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let (stem, ending) = name.rsplit_once('.').unwrap_or((&name, ""));
-    let numbered = |number| path.with_file_name(format!("{stem}.{word}-{number}.{ending}"));
+    let numbered = |number| path.with_file_name(format!("{stem}.damaged-{number}.{ending}"));
     (1..1000)
         .map(numbered)
         .find(|aside| !aside.exists())

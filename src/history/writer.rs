@@ -5,7 +5,7 @@ use std::{
     sync::{
         Arc,
         atomic::{AtomicUsize, Ordering},
-        mpsc::{Receiver, RecvTimeoutError, Sender, SyncSender, channel, sync_channel},
+        mpsc::{Receiver, RecvTimeoutError, Sender, channel, sync_channel},
     },
     thread::{self, JoinHandle},
     time::Instant,
@@ -25,17 +25,8 @@ const MAX_SCENES: usize = 8;
 /// Maximum number of queued inspections; beyond it they are dropped and counted.
 const MAX_INSPECTIONS: usize = 4096;
 
-/// A request to the thread.
-#[derive(Debug)]
-enum Job {
-    Add(u64, Box<NewEntry>),
-    Trace(HungId, TraceChange),
-    Remark(i64, String),
-    Label(i64, Option<Truth>),
-    Retention(Retention),
-    /// Answers once all earlier jobs are done.
-    Answer(SyncSender<()>),
-}
+/// Work for the thread.
+type Job = Box<dyn FnOnce(&HistoryBuffer) + Send>;
 
 /// The writing thread. Dropping it waits until everything passed to it is written.
 #[derive(Debug)]
@@ -66,7 +57,6 @@ impl Writer {
     ) -> io::Result<Self> {
         let (jobs, received) = channel();
         let counts = Arc::<Counts>::default();
-        let of_thread = Arc::clone(&counts);
         let thread = thread::Builder::new()
             .name("history".into())
             .spawn(move || {
@@ -74,7 +64,7 @@ impl Writer {
                 on_news();
                 loop {
                     match next(&received, &keeper) {
-                        Ok(job) => work(&keeper, job, &of_thread),
+                        Ok(job) => job(keeper.as_ref()),
                         Err(RecvTimeoutError::Timeout) => keeper.retry(Instant::now()),
                         Err(RecvTimeoutError::Disconnected) => break,
                     }
@@ -109,40 +99,47 @@ impl Writer {
         counts.waiting.fetch_add(1, Ordering::Relaxed);
         let num_scenes = usize::from(entry.scene.is_some());
         counts.scenes.fetch_add(num_scenes, Ordering::Relaxed);
-        self.post(Job::Add(ticket, Box::new(entry)));
+        let counts = Arc::clone(counts);
+        self.post(move |keeper| {
+            counts.waiting.fetch_sub(1, Ordering::Relaxed);
+            counts.scenes.fetch_sub(num_scenes, Ordering::Relaxed);
+            keeper.add(ticket, entry, Instant::now());
+        });
     }
 
     /// Queues a change of a part's traceability after its verdict.
     pub fn trace(&self, hung: HungId, change: TraceChange) {
-        self.post(Job::Trace(hung, change));
+        self.post(move |keeper| keeper.trace_part(&hung, &change, Instant::now()));
     }
 
     /// Queues a remark.
     pub fn remark(&self, number: i64, remark: String) {
-        self.post(Job::Remark(number, remark));
+        self.post(move |keeper| keeper.set_remark(number, &remark));
     }
 
     /// Queues a true label; `None` clears it.
     pub fn label(&self, number: i64, label: Option<Truth>) {
-        self.post(Job::Label(number, label));
+        self.post(move |keeper| keeper.set_label(number, label.as_ref()));
     }
 
     /// Queues a new retention rule.
     pub fn retention(&self, retention: Retention) {
-        self.post(Job::Retention(retention));
+        self.post(move |keeper| keeper.set_retention(retention));
     }
 
-    fn post(&self, job: Job) {
+    fn post(&self, job: impl FnOnce(&HistoryBuffer) + Send + 'static) {
         if let Some(jobs) = &self.jobs {
             // Sending fails only if the thread has panicked.
-            let _ = jobs.send(job);
+            let _ = jobs.send(Box::new(job));
         }
     }
 
     /// Waits until everything queued is written.
     pub fn finish(&self) {
         let (answer, answered) = sync_channel(1);
-        self.post(Job::Answer(answer));
+        self.post(move |_| {
+            let _ = answer.send(());
+        });
         let _ = answered.recv();
     }
 
@@ -169,23 +166,6 @@ fn next(received: &Receiver<Job>, keeper: &HistoryBuffer) -> Result<Job, RecvTim
     match keeper.next_try() {
         Some(at) => received.recv_timeout(at.saturating_duration_since(Instant::now())),
         None => Ok(received.recv()?),
-    }
-}
-
-fn work(keeper: &HistoryBuffer, job: Job, counts: &Counts) {
-    match job {
-        Job::Add(ticket, entry) => {
-            let num_scenes = usize::from(entry.scene.is_some());
-            counts.waiting.fetch_sub(1, Ordering::Relaxed);
-            counts.scenes.fetch_sub(num_scenes, Ordering::Relaxed);
-            keeper.add(ticket, *entry, Instant::now());
-        }
-        Job::Trace(hung, change) => keeper.trace_part(&hung, &change, Instant::now()),
-        Job::Remark(number, remark) => keeper.set_remark(number, &remark),
-        Job::Label(number, label) => keeper.set_label(number, label.as_ref()),
-        Job::Retention(retention) => keeper.set_retention(retention),
-        // The asker may be gone.
-        Job::Answer(answer) => drop(answer.send(())),
     }
 }
 

@@ -24,7 +24,7 @@ pub use self::{
 use super::{
     name::PartName,
     part::{
-        CloudCheck, EnrolMethod, Enrolment, PLAIN_VERSION, Part, PartMeta, SCANNED_VERSION,
+        EnrolMethod, Enrolment, FileCheck, PLAIN_VERSION, Part, PartMeta, SCANNED_VERSION,
         StoredSignature,
     },
     thumbnail,
@@ -166,18 +166,15 @@ pub fn enrol_selected(
         });
     }
     let mut enrolled = enrol_chosen(&found, scene, about, params)?;
-    let percent = |share: f64| (share * 100.0).round() as u8;
-    let on_background = percent(share_on_background(scene, &found.indices, &params.segment));
-    if on_background > 0 {
-        let percent = on_background;
-        enrolled
-            .warnings
-            .push(EnrolWarning::OnBackground { percent });
+    let warnings = &mut enrolled.warnings;
+    let in_percent = |share: f64| (share * 100.0).round() as u8;
+    let percent = in_percent(share_on_background(scene, &found.indices, &params.segment));
+    if percent > 0 {
+        warnings.push(EnrolWarning::OnBackground { percent });
     }
-    let apart = percent(share_apart(&found.cloud.points));
-    if apart > 0 {
-        let percent = apart;
-        enrolled.warnings.push(EnrolWarning::Apart { percent });
+    let percent = in_percent(share_apart(&found.cloud.points));
+    if percent > 0 {
+        warnings.push(EnrolWarning::Apart { percent });
     }
     Ok(enrolled)
 }
@@ -313,7 +310,7 @@ fn assemble(
             notes: about.notes.clone(),
             coverage: source.coverage,
             simulated: about.simulated,
-            cloud: CloudCheck::of_cloud(&cloud),
+            cloud: FileCheck::of_cloud(&cloud),
             cut: source.cut,
             enrolled: Enrolment {
                 at: about.at,

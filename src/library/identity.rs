@@ -1,6 +1,6 @@
 //! Identity of a library.
 
-use super::{CloudCheck, LibraryLoad};
+use super::{FileCheck, LibraryLoad};
 use crate::files::crc32;
 
 impl LibraryLoad {
@@ -12,7 +12,7 @@ impl LibraryLoad {
             .parts
             .iter()
             .map(|part| {
-                let CloudCheck { num_points, crc32 } = &part.cloud;
+                let FileCheck { num_points, crc32 } = &part.cloud;
                 format!("{} {num_points} {crc32}\n", part.part_name().as_str())
             })
             .collect();
@@ -24,7 +24,7 @@ impl LibraryLoad {
 #[cfg(test)]
 mod tests {
     use crate::{
-        library::{CloudCheck, load::load_shipped},
+        library::{FileCheck, load::load_shipped},
         stages::reference::ReferenceParams,
     };
 
@@ -46,9 +46,9 @@ mod tests {
         let mut moved = load();
         let mut cloud = moved.library.references[0].cloud.clone();
         // The checksum in the file is that of the cloud.
-        assert_eq!(CloudCheck::of_cloud(&cloud), moved.parts[0].cloud);
+        assert_eq!(FileCheck::of_cloud(&cloud), moved.parts[0].cloud);
         cloud.points[7].z += 1e-6;
-        moved.parts[0].cloud = CloudCheck::of_cloud(&cloud);
+        moved.parts[0].cloud = FileCheck::of_cloud(&cloud);
         assert_ne!(moved.identity(), identity);
     }
 }

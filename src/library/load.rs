@@ -8,25 +8,26 @@ use std::{
     time::SystemTime,
 };
 
-use serde::Deserialize;
-
 use super::{
     Library,
     entry::{CLOUD, Entry, META, SIGNATURE, THUMBNAIL},
     error::LibraryError,
-    part::{CloudCheck, PartMeta, SCHEMA_VERSION, StoredSignature},
+    part::{FileCheck, PartMeta, SCHEMA_VERSION, StoredSignature},
     problem::{EntryError, EntryIssue, EntryProblem, EntryWarning, MAX_POINTS},
     shipped::shipped_entries,
     spray_store::read_spray_path,
     store::LibraryFolder,
 };
 use crate::{
-    files::{FileContent, FileError, open_bytes, open_regular, read_bytes, read_picture},
+    files::{
+        FileContent, FileError, open_bytes, open_regular, parse_versioned, read_bytes,
+        read_picture, toml_problem,
+    },
     geometry::{
         cloud::PointCloud,
         nearest::KdTree,
         normals::estimate_normals,
-        parallel::{map_in_order, num_cores},
+        parallel::{map_each, num_cores},
     },
     stages::reference::{Reference, ReferenceParams},
     units::Metres,
@@ -74,12 +75,12 @@ enum CloudCheckLevel {
 impl LibraryFolder {
     /// Loads all parts. It is an error only if the folder cannot be listed; damaged parts are in `problems`.
     pub fn load(&self, params: &ReferenceParams) -> Result<LibraryLoad, LibraryError> {
-        self.load_looking(CloudCheckLevel::Quick, params)
+        self.load_unchanged(|entries| load_entries(entries, CloudCheckLevel::Quick, params))
     }
 
     /// As [`Self::load`], and checks every file of every part against its cloud.
     pub fn verify(&self, params: &ReferenceParams) -> Result<LibraryLoad, LibraryError> {
-        self.load_looking(CloudCheckLevel::Thorough, params)
+        self.load_unchanged(|entries| load_entries(entries, CloudCheckLevel::Thorough, params))
     }
 
     /// Loads one part.
@@ -99,14 +100,6 @@ impl LibraryFolder {
     pub fn thumbnail(&self, name: &str) -> Option<PathBuf> {
         let path = self.entry(name).ok()?.path.join(THUMBNAIL);
         path.exists().then_some(path)
-    }
-
-    fn load_looking(
-        &self,
-        look: CloudCheckLevel,
-        params: &ReferenceParams,
-    ) -> Result<LibraryLoad, LibraryError> {
-        self.load_unchanged(|entries| load_entries(entries, look, params))
     }
 
     /// Loads again if a writer moved or changed parts meanwhile: some would be missing, or be of the former library.
@@ -150,8 +143,9 @@ pub(super) fn read_shipped(
 }
 
 fn load_entries(entries: &[Entry], look: CloudCheckLevel, params: &ReferenceParams) -> LibraryLoad {
+    let read_one = |i: usize| read_entry(&entries[i], look, params);
     let mut load = LibraryLoad::default();
-    for read in read_in_parallel(entries, look, params) {
+    for read in map_each(entries.len(), num_cores(), read_one) {
         match read {
             Ok(part) => {
                 load.library.references.push(part.reference);
@@ -162,20 +156,6 @@ fn load_entries(entries: &[Entry], look: CloudCheckLevel, params: &ReferencePara
         }
     }
     load
-}
-
-/// Reads all entries on all cores; the results are in the order of the entries.
-fn read_in_parallel(
-    entries: &[Entry],
-    look: CloudCheckLevel,
-    params: &ReferenceParams,
-) -> Vec<Result<StoredPart, EntryProblem>> {
-    map_in_order(
-        entries.len(),
-        num_cores(),
-        || (),
-        |(), i| read_entry(&entries[i], look, params),
-    )
 }
 
 fn read_entry(
@@ -227,11 +207,6 @@ pub(super) fn meta_of(entry: &Entry) -> Result<PartMeta, EntryProblem> {
 }
 
 fn read_meta(entry: &Entry) -> Result<PartMeta, EntryError> {
-    /// The field that every version has.
-    #[derive(Deserialize)]
-    struct Versioned {
-        schema_version: u32,
-    }
     let text = meta_text(entry).map_err(|source| match source.kind() {
         io::ErrorKind::NotFound => EntryError::Missing { file: META },
         io::ErrorKind::InvalidData => EntryError::BadMeta {
@@ -240,21 +215,13 @@ fn read_meta(entry: &Entry) -> Result<PartMeta, EntryError> {
         _ => EntryError::Unreadable { source },
     })?;
     let bad = |error: toml::de::Error| EntryError::BadMeta {
-        found: error
-            .message()
-            .lines()
-            .next()
-            .unwrap_or("no TOML")
-            .to_owned(),
+        found: toml_problem(&error),
     };
-    let Versioned { schema_version } = toml::from_str(&text).map_err(bad)?;
-    if schema_version > SCHEMA_VERSION {
-        return Err(EntryError::Newer {
-            found: schema_version,
-            known: SCHEMA_VERSION,
-        });
-    }
-    let meta: PartMeta = toml::from_str(&text).map_err(bad)?;
+    let newer = |found| EntryError::Newer {
+        found,
+        known: SCHEMA_VERSION,
+    };
+    let meta: PartMeta = parse_versioned(&text, SCHEMA_VERSION, newer, bad)?;
     if meta.name.as_str() == entry.name {
         Ok(meta)
     } else {
@@ -281,7 +248,7 @@ fn read_text(path: &Path) -> io::Result<String> {
 }
 
 /// Reads the cloud and checks it against `part.toml`.
-fn read_cloud(entry: &Entry, expected: &CloudCheck) -> Result<PointCloud, EntryError> {
+fn read_cloud(entry: &Entry, expected: &FileCheck) -> Result<PointCloud, EntryError> {
     let path = entry.path.join(CLOUD);
     let not_a_cloud = |found: &str| EntryError::NotACloud {
         found: found.to_owned(),
@@ -301,7 +268,7 @@ fn read_cloud(entry: &Entry, expected: &CloudCheck) -> Result<PointCloud, EntryE
         FileContent::Mesh(_) => return Err(not_a_cloud("a mesh")),
         FileContent::Depth(_) => return Err(not_a_cloud("a depth image")),
     };
-    let found = CloudCheck::of(&bytes, cloud.points.len());
+    let found = FileCheck::of(&bytes, cloud.points.len());
     if found != *expected {
         return Err(EntryError::ChangedCloud {
             found,

@@ -52,8 +52,8 @@ pub use self::{
     name::{BadName, PartName},
     numbers::{GivenNumbers, PartNumbers},
     part::{
-        CloudCheck, EnrolMethod, Enrolment, MAX_TITLE, Part, PartMeta, PartNaming, SCHEMA_VERSION,
-        SprayCheck, StoredLiteral, StoredSignature,
+        EnrolMethod, Enrolment, FileCheck, MAX_TITLE, Part, PartMeta, PartNaming, SCHEMA_VERSION,
+        StoredLiteral, StoredSignature,
     },
     place::{LibraryPlace, open_library},
     problem::{EntryError, EntryIssue, EntryProblem, EntryWarning},

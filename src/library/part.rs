@@ -60,7 +60,7 @@ pub struct PartMeta {
     #[serde(default)]
     pub simulated: bool,
     /// Size and checksum of the cloud.
-    pub cloud: CloudCheck,
+    pub cloud: FileCheck,
     /// Where the field of view of its capture cut the part off; nothing if the file has no such entry.
     #[serde(default, skip_serializing_if = "ViewCut::is_nothing")]
     pub cut: ViewCut,
@@ -68,7 +68,7 @@ pub struct PartMeta {
     pub enrolled: Enrolment,
     /// The stored spray path, if any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub spray: Option<SprayCheck>,
+    pub spray: Option<FileCheck>,
 }
 
 impl PartMeta {
@@ -115,42 +115,16 @@ pub struct PartNaming {
 /// Maximum length of a title, characters: one line of a list.
 pub const MAX_TITLE: usize = 80;
 
-/// Size and checksum that identify the enrolled `cloud.ply`, byte for byte.
+/// Size and checksum that identify a file of a part, its cloud or its spray path, byte for byte.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct CloudCheck {
+pub struct FileCheck {
     /// Number of points.
     pub num_points: usize,
     /// CRC-32 of the file, eight hexadecimal digits.
     pub crc32: String,
 }
 
-/// Size and checksum that identify the stored spray path.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct SprayCheck {
-    /// Number of points.
-    pub num_points: usize,
-    /// CRC-32 of the file, eight hexadecimal digits; part of the file name.
-    pub crc32: String,
-}
-
-impl SprayCheck {
-    /// Computes the check of a path that is written as this text.
-    pub(super) fn of(text: &str, num_points: usize) -> Self {
-        Self {
-            num_points,
-            crc32: format!("{:08x}", crc32(text.as_bytes())),
-        }
-    }
-
-    /// Returns the file name in the part's folder; `None` if the checksum is malformed.
-    pub(super) fn file_name(&self) -> Option<String> {
-        let is_checksum =
-            self.crc32.len() == 8 && self.crc32.bytes().all(|c| c.is_ascii_hexdigit());
-        is_checksum.then(|| format!("{SPRAY_PREFIX}{}.csv", self.crc32))
-    }
-}
-
-impl CloudCheck {
+impl FileCheck {
     /// Computes the check of a file with these bytes and this number of points.
     pub(super) fn of(bytes: &[u8], num_points: usize) -> Self {
         Self {
@@ -162,6 +136,13 @@ impl CloudCheck {
     /// Computes the check of the file that this cloud is written as.
     pub fn of_cloud(cloud: &PointCloud) -> Self {
         Self::of(&cloud_bytes(cloud), cloud.points.len())
+    }
+
+    /// Returns the name of the spray path's file in the part's folder; `None` if the checksum is malformed.
+    pub(super) fn spray_file_name(&self) -> Option<String> {
+        let is_checksum =
+            self.crc32.len() == 8 && self.crc32.bytes().all(|c| c.is_ascii_hexdigit());
+        is_checksum.then(|| format!("{SPRAY_PREFIX}{}.csv", self.crc32))
     }
 }
 

@@ -5,7 +5,7 @@ use std::{io, path::PathBuf};
 use super::{
     entry::{CLOUD, META},
     name::PartName,
-    part::CloudCheck,
+    part::FileCheck,
 };
 use crate::{error::Advice, files::FileError, stages::reference::ReferenceError};
 
@@ -77,9 +77,9 @@ pub enum EntryError {
     )]
     ChangedCloud {
         /// Check of the present file.
-        found: CloudCheck,
+        found: FileCheck,
         /// Check of the enrolled cloud.
-        expected: CloudCheck,
+        expected: FileCheck,
     },
     /// The cloud cannot be used as a reference.
     #[error(transparent)]

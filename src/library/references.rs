@@ -14,9 +14,8 @@ use super::{
 impl LibraryFolder {
     /// Returns the part that a verdict names for the entry `name`: itself, or the part that it is a reference of.
     pub fn part_of(&self, name: &PartName) -> Result<PartName, LibraryError> {
-        let meta = meta_of(&self.entry(name.as_str())?);
-        meta.map(|meta| meta.part_name().clone())
-            .map_err(|problem| LibraryError::Damaged(Box::new(problem)))
+        let (_, meta) = self.entry_with_meta(name.as_str())?;
+        Ok(meta.part_name().clone())
     }
 
     /// Returns the names of a part's additional references, in order; unreadable entries are skipped.

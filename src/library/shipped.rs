@@ -8,7 +8,7 @@ use std::{
 use super::{
     entry::{CLOUD, Entry, META, SIGNATURE, ShippedFiles, THUMBNAIL},
     numbers::PartNumbers,
-    part::CloudCheck,
+    part::FileCheck,
 };
 use crate::{
     files::{FileContent, disk, open_bytes, sync_folder, write_file},
@@ -79,7 +79,7 @@ pub struct EnrolledAt {
     /// Transform from the simulated model to the camera, whose frame is part space.
     pub part_from_model: RigidTransform,
     /// Size and checksum of its cloud.
-    pub cloud: CloudCheck,
+    pub cloud: FileCheck,
 }
 
 /// Returns the pose at enrolment of the shipped part with this name; `None` if there is none.
@@ -92,7 +92,7 @@ pub fn shipped_enrolled_at(name: &str) -> Option<EnrolledAt> {
     Some(EnrolledAt {
         // Frontal, 1.3 m in front of the camera: see the README of the folder.
         part_from_model: RigidTransform::translation(0.0, 0.0, 1.3),
-        cloud: CloudCheck::of(bytes, cloud.points.len()),
+        cloud: FileCheck::of(bytes, cloud.points.len()),
     })
 }
 

@@ -8,9 +8,8 @@ use std::{fs, io, path::Path};
 use super::{
     entry::{SPRAY_PREFIX, rewrite_meta},
     error::LibraryError,
-    load::meta_of,
     name::PartName,
-    part::{PartMeta, SprayCheck},
+    part::{FileCheck, PartMeta},
     spray_path::{MAX_BYTES, SprayPath, SprayPathError},
     store::LibraryFolder,
 };
@@ -19,10 +18,7 @@ use crate::files::{disk, read_text, sync_folder, write_file};
 impl LibraryFolder {
     /// Reads the stored spray path of a part; `None` if none is stored.
     pub fn spray_path(&self, name: &str) -> Result<Option<SprayPath>, SprayPathError> {
-        let library = |error: LibraryError| SprayPathError::Library(Box::new(error));
-        let entry = self.entry(name).map_err(library)?;
-        let meta =
-            meta_of(&entry).map_err(|problem| library(LibraryError::Damaged(Box::new(problem))))?;
+        let (entry, meta) = self.entry_with_meta(name).map_err(Box::new)?;
         read_spray_path(&entry.path, &meta)
     }
 
@@ -45,18 +41,15 @@ impl LibraryFolder {
         name: &PartName,
         path: Option<&SprayPath>,
     ) -> io::Result<Result<(), LibraryError>> {
-        let meta = self.entry(name.as_str()).and_then(|entry| {
-            meta_of(&entry).map_err(|problem| LibraryError::Damaged(Box::new(problem)))
-        });
-        let meta = match meta {
-            Ok(meta) => meta,
+        let meta = match self.entry_with_meta(name.as_str()) {
+            Ok((_, meta)) => meta,
             Err(error) => return Ok(Err(error)),
         };
         let folder = self.path().join(name.as_str());
         let text = path.map(SprayPath::to_text);
         let check = path.zip(text.as_ref());
-        let check = check.map(|(path, text)| SprayCheck::of(text, path.points().len()));
-        let file_name = check.as_ref().and_then(SprayCheck::file_name);
+        let check = check.map(|(path, text)| FileCheck::of(text.as_bytes(), path.points().len()));
+        let file_name = check.as_ref().and_then(FileCheck::spray_file_name);
         if let (Some(text), Some(file_name)) = (&text, &file_name) {
             write_file(&folder.join(file_name), text.as_bytes())?;
         }
@@ -95,14 +88,14 @@ pub(super) fn read_spray_path(
         found,
         expected: expected.crc32.clone(),
     };
-    let Some(file_name) = expected.file_name() else {
+    let Some(file_name) = expected.spray_file_name() else {
         return Err(changed(folder, "missing".into()));
     };
     let file = folder.join(file_name);
     let text = read_text(&file, MAX_BYTES)?;
     let path = SprayPath::parse(&text, &file);
     let num_points = path.as_ref().map_or(0, |path| path.points().len());
-    let found = SprayCheck::of(&text, num_points);
+    let found = FileCheck::of(text.as_bytes(), num_points);
     if found != *expected {
         return Err(changed(&file, found.crc32));
     }

@@ -19,7 +19,7 @@ use super::{
     install::RenamedFolder,
     load::meta_of,
     name::PartName,
-    part::{Part, PartMeta, PartNaming, SprayCheck},
+    part::{FileCheck, Part, PartMeta, PartNaming},
     trash,
 };
 use crate::files::{disk, new_folder, sync_folder, write_file};
@@ -164,9 +164,8 @@ impl LibraryFolder {
     /// The files of a part that the program reads, those that are there: description, cloud, signature, thumbnail and
     /// spray path, in this order.
     pub fn files_of(&self, name: &PartName) -> Result<Vec<PathBuf>, LibraryError> {
-        let entry = self.entry(name.as_str())?;
-        let meta = meta_of(&entry).map_err(|problem| LibraryError::Damaged(Box::new(problem)))?;
-        let spray = meta.spray.as_ref().and_then(SprayCheck::file_name);
+        let (entry, meta) = self.entry_with_meta(name.as_str())?;
+        let spray = meta.spray.as_ref().and_then(FileCheck::spray_file_name);
         let fixed = [META, CLOUD, SIGNATURE, THUMBNAIL].map(str::to_owned);
         let files = fixed.into_iter().chain(spray);
         let files = files.map(|file| entry.path.join(file));
@@ -188,12 +187,19 @@ impl LibraryFolder {
             })
     }
 
+    /// The folder and the `part.toml` of one part.
+    pub(super) fn entry_with_meta(&self, name: &str) -> Result<(Entry, PartMeta), LibraryError> {
+        let entry = self.entry(name)?;
+        let meta = meta_of(&entry).map_err(Box::new)?;
+        Ok((entry, meta))
+    }
+
     /// Saves a part; an existing part of that name goes to the trash once the new one is in place.
     pub fn save(&self, part: &Part) -> Result<Saved, LibraryError> {
         self.writing(|| {
             self.finish_interrupted_write()?;
             let name = part.meta.name.as_str();
-            let former = self.entry(name).ok().and_then(|entry| meta_of(&entry).ok());
+            let former = self.entry_with_meta(name);
             let building = new_folder(&self.path, &format!("{NEW_PREFIX}{name}-"))?;
             write_part(building.path(), part)?;
             let replaced = self.replace_entry(building.path(), name, name)?;
@@ -201,7 +207,7 @@ impl LibraryFolder {
             let _ = building.keep();
             Ok(Saved {
                 folder: self.path.join(name),
-                left_path: former.is_some_and(|former| former.spray.is_some()),
+                left_path: former.is_ok_and(|(_, former)| former.spray.is_some()),
                 replaced,
             })
         })
@@ -220,9 +226,8 @@ impl LibraryFolder {
 
     /// Returns name, title and notes of a part.
     pub fn words(&self, name: &PartName) -> Result<PartNaming, LibraryError> {
-        let meta = meta_of(&self.entry(name.as_str())?);
-        meta.map(|meta| meta.words())
-            .map_err(|problem| LibraryError::Damaged(Box::new(problem)))
+        let (_, meta) = self.entry_with_meta(name.as_str())?;
+        Ok(meta.words())
     }
 
     /// Changes name, title and notes of a part. Under another name, a new folder is built from the same files; the
@@ -300,8 +305,8 @@ impl LibraryFolder {
                 name: to.clone(),
             });
         }
-        let entry = self.entry(name.as_str())?;
-        meta_of(&entry).map_err(|problem| LibraryError::Damaged(Box::new(problem)))
+        let (_, meta) = self.entry_with_meta(name.as_str())?;
+        Ok(meta)
     }
 }
 

@@ -174,7 +174,8 @@ impl Coat {
 
     /// Thickness on a flat plate far from its edges, metres: the volume sprayed on a strip as wide as the spacing, over
     /// its area.
-    pub fn flat_thickness(&self) -> f64 {
+    #[cfg(test)]
+    pub(super) fn flat_thickness(&self) -> f64 {
         let passes = if self.pattern == Pattern::CrossHatch {
             2.0
         } else {

@@ -60,7 +60,7 @@ impl Goal {
     pub(super) fn film(&self, deposits: &[&Deposit], which: &[usize], dwells: &[f64]) -> Vec<f64> {
         let mut film = vec![0.0; self.is_wanted.len()];
         for (deposit, way) in deposits.iter().zip(which) {
-            for (point, thickness) in &deposit.film {
+            for (point, thickness) in *deposit {
                 film[*point as usize] += dwells[*way] * f64::from(*thickness);
             }
         }
@@ -94,7 +94,7 @@ impl Goal {
         let mut sums = Vec::with_capacity(deposits.len());
         for deposit in deposits {
             let mut sum = 0.0;
-            for (point, thickness) in &deposit.film {
+            for (point, thickness) in *deposit {
                 let thickness = f64::from(*thickness) / self.level;
                 all[*point as usize] += thickness;
                 if self.is_wanted[*point as usize] {
@@ -118,7 +118,7 @@ impl Goal {
                 if *sum <= 0.0 {
                     continue;
                 }
-                let each = deposit.film.iter();
+                let each = deposit.iter();
                 let each = each.map(|(i, thickness)| errors[*i as usize] * f64::from(*thickness));
                 let step = each.sum::<f64>() / (self.level * sum);
                 let [least, most] = ways[*way].bounds;
@@ -212,9 +212,8 @@ mod tests {
                 let off = (at - 0.025 * (f64::from(way) + 0.5)) / 0.02;
                 (point, (share(at) * (-0.5 * off * off).exp()) as f32)
             });
-            Deposit {
-                film: each.filter(|(_, thickness)| *thickness > 1e-3).collect(),
-            }
+            let each = each.filter(|(_, thickness)| *thickness > 1e-3);
+            each.collect::<Deposit>()
         });
         let way = Way {
             length: 0.025,

@@ -19,7 +19,7 @@ use super::{
     film::{Deposit, are_reachable, deposits},
     propose::{GOOD, SPEEDS, best_factor},
     region::KeepOut,
-    surface::PaintSurface,
+    surface::{PaintSurface, tree_of},
     travel::keep_clear,
 };
 use crate::{
@@ -79,17 +79,14 @@ pub(super) fn evened(
     {
         return Ok((at_speed(points, speed, |_| 1.0), speed));
     }
-    let goal = Goal {
-        is_wanted: are_reachable(surface, coat, keep_outs),
-        level: coat.target,
-        tolerance: coat.tolerance,
-    };
+    let is_wanted = are_reachable(surface, coat, keep_outs);
     let left = deposits(surface, &points, coat);
     let upright: Vec<&Deposit> = left.iter().collect();
     let film = film_of(&left, surface.points.len());
     let goal = Goal {
-        level: coat.target / best_factor(&film, &goal.is_wanted, coat).0,
-        ..goal
+        level: coat.target / best_factor(&film, &is_wanted, coat),
+        is_wanted,
+        tolerance: coat.tolerance,
     };
     let speed = match speed {
         Speed::Given(speed) => speed,
@@ -163,7 +160,7 @@ pub(super) fn evened(
 /// The sum of all deposits.
 fn film_of(deposits: &[Deposit], num_points: usize) -> Vec<f64> {
     let mut film = vec![0.0; num_points];
-    for (point, thickness) in deposits.iter().flat_map(|deposit| &deposit.film) {
+    for (point, thickness) in deposits.iter().flatten() {
         film[*point as usize] += f64::from(*thickness);
     }
     film
@@ -271,11 +268,6 @@ fn thin_points(
         .collect()
 }
 
-fn tree_of(points: &[Point3<f64>]) -> KdTree {
-    let stored: Vec<Point3<f32>> = points.iter().map(|p| p.cast()).collect();
-    KdTree::new(&stored)
-}
-
 /// Leaves the gun of a row on only where it aims at thin points and is not too near to any point of the surface.
 fn aimed(
     mut row: Vec<PathPoint>,
@@ -308,6 +300,7 @@ fn aimed(
 }
 
 /// Pieces of rows.
+#[derive(Default)]
 struct Chosen {
     points: Vec<PathPoint>,
     /// Indices of the sprayed ways among those of all rows.
@@ -317,10 +310,7 @@ struct Chosen {
 /// Chooses the ways that dwell at least this long, with their leads.
 fn chosen(rows: &[Vec<PathPoint>], dwells: &[f64], least: f64, coat: &Coat) -> Chosen {
     let lead = (coat.lead / coat.point_spacing).ceil() as usize;
-    let mut chosen = Chosen {
-        points: Vec::new(),
-        which: Vec::new(),
-    };
+    let mut chosen = Chosen::default();
     let mut next = 0;
     for row in rows {
         let mut row = row.clone();

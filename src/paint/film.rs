@@ -16,7 +16,7 @@ use super::{
     error::PaintError,
     region::{KeepOut, are_kept_out},
     shadow::{DISC, DirectionGrid, Seen, ViewFromAfar},
-    surface::{PaintSurface, across},
+    surface::{PaintSurface, across, tree_of},
 };
 use crate::{
     geometry::{
@@ -197,12 +197,9 @@ fn tilts(side: &Vector3<f64>, limit: f64) -> impl Iterator<Item = Vector3<f64>> 
     std::iter::once(side).chain(leaned)
 }
 
-/// What the gun leaves on its way from one point of a path to the next.
-#[derive(Debug)]
-pub(super) struct Deposit {
-    /// Points of the surface that get paint, each with its thickness, metres.
-    pub(super) film: Vec<(u32, f32)>,
-}
+/// What the gun leaves on its way from one point of a path to the next: points of the surface, each with its thickness,
+/// metres.
+pub(super) type Deposit = Vec<(u32, f32)>;
 
 /// Computes what each way with the gun on leaves on a surface, in the order of the path. Their sum is the film.
 pub(super) fn deposits(surface: &PaintSurface, points: &[PathPoint], coat: &Coat) -> Vec<Deposit> {
@@ -224,9 +221,7 @@ pub(super) fn deposits(surface: &PaintSurface, points: &[PathPoint], coat: &Coat
                 });
             }
             let taken = |index| (index as u32, std::mem::take(&mut sum[index]) as f32);
-            Deposit {
-                film: reached.into_iter().map(taken).collect(),
-            }
+            reached.into_iter().map(taken).collect::<Deposit>()
         },
     )
 }
@@ -286,11 +281,10 @@ struct Jet<'a> {
 
 impl<'a> Jet<'a> {
     fn new(surface: &'a PaintSurface, coat: &'a Coat) -> Self {
-        let stored: Vec<Point3<f32>> = surface.points.iter().map(|p| p.cast()).collect();
         Self {
             surface,
             coat,
-            tree: KdTree::new(&stored),
+            tree: tree_of(&surface.points),
         }
     }
 

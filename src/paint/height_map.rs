@@ -9,8 +9,8 @@
 
 use nalgebra::{Matrix2, Point3, Vector2, Vector3};
 
-use super::{error::PaintError, surface::PaintSurface};
-use crate::geometry::parallel::{map_in_order, num_cores};
+use super::{coat::Coat, error::PaintError, region::KeepOuts, surface::PaintSurface};
+use crate::geometry::parallel::{map_each, num_cores};
 
 /// Most cells of a map; smaller cells show nothing more of a part.
 const MOST_CELLS: f64 = 1_000_000.0;
@@ -51,17 +51,16 @@ pub(super) struct Spot {
 }
 
 impl HeightMap {
-    /// Maps a surface, with rows along `along`, part space. Points that `is_kept_out` are not painted. Openings too
-    /// narrow for a circle of the diameter `opening` are painted over. The map extends beyond the surface by `reach`.
+    /// Maps a surface for a coat; `axes` are those of [`Self::axes_of`]. Points in keep-out regions are not painted.
+    /// Openings too narrow for a circle of the coat's diameter `opening` are painted over.
     pub(super) fn new(
         surface: &PaintSurface,
-        along: &Vector3<f64>,
-        smoothing: f64,
-        opening: f64,
-        reach: f64,
-        is_kept_out: &dyn Fn(&Point3<f64>) -> bool,
+        axes: [Vector3<f64>; 3],
+        coat: &Coat,
+        keep_outs: &KeepOuts<'_>,
     ) -> Result<Self, PaintError> {
-        let axes = Self::axes_of(surface, along);
+        // Rows extend beyond the surface by no more than this.
+        let reach = coat.overrun + coat.lead + coat.spacing;
         let of = |p: &Point3<f64>| Self::in_axes(surface, &axes, p);
         let points: Vec<[f64; 3]> = surface.points.iter().map(of).collect();
         let bound = |axis: usize, pick: fn(f64, f64) -> f64| {
@@ -105,12 +104,12 @@ impl HeightMap {
             {
                 *sum += term;
             }
-            map.is_painted[index] |= !is_kept_out(at);
+            map.is_painted[index] |= keep_outs.distance(at, [u, v]) >= 0.0;
         }
         map.close_gaps();
-        map.fill_openings(opening);
+        map.fill_openings(coat.opening);
         map.outside = distances(&map.is_painted, size, cell);
-        map.fit_planes(&moments, smoothing / 2.0)?;
+        map.fit_planes(&moments, coat.smoothing / 2.0)?;
         Ok(map)
     }
 
@@ -235,25 +234,20 @@ impl HeightMap {
 
     /// Fits height and slope of every cell; `sigma` is the standard deviation of the narrowest Gaussian, metres.
     fn fit_planes(&mut self, moments: &[Moments], sigma: f64) -> Result<(), PaintError> {
-        let blurred = map_in_order(
-            9,
-            num_cores(),
-            || (),
-            |(), which| {
-                let image: Vec<f64> = moments.iter().map(|m| m[which]).collect();
-                let total: f64 = image.iter().sum();
-                // So small that it only matters where no point is in reach.
-                let mut sum = vec![total * 1e-12; image.len()];
-                for scale in 0..NUM_SCALES {
-                    let weight = FAINTER.powi(scale as i32);
-                    let sigma = (sigma / self.cell * f64::from(1 << scale)).max(0.5);
-                    for (sum, value) in sum.iter_mut().zip(blur(&image, self.size, sigma)) {
-                        *sum += weight * value;
-                    }
+        let blurred = map_each(9, num_cores(), |which| {
+            let image: Vec<f64> = moments.iter().map(|m| m[which]).collect();
+            let total: f64 = image.iter().sum();
+            // So small that it only matters where no point is in reach.
+            let mut sum = vec![total * 1e-12; image.len()];
+            for scale in 0..NUM_SCALES {
+                let weight = FAINTER.powi(scale as i32);
+                let sigma = (sigma / self.cell * f64::from(1 << scale)).max(0.5);
+                for (sum, value) in sum.iter_mut().zip(blur(&image, self.size, sigma)) {
+                    *sum += weight * value;
                 }
-                sum
-            },
-        );
+            }
+            sum
+        });
         for row in 0..self.size[1] {
             for column in 0..self.size[0] {
                 let i = self.index(column, row);
@@ -298,32 +292,27 @@ fn distances(is_set: &[bool], [width, height]: [usize; 2], cell: f64) -> Vec<f64
             along[i] = along[i].min(last);
         }
     }
-    let rows = map_in_order(
-        height,
-        num_cores(),
-        || (),
-        |(), row| {
-            let along = &along[row * width..(row + 1) * width];
-            let each = (0..width).map(|column| {
-                let mut best = along[column] * along[column];
-                for step in 1..width {
-                    let squared = (step * step) as f64;
-                    if squared >= best {
-                        break;
-                    }
-                    let mut consider = |other: f64| best = best.min(squared + other * other);
-                    if column >= step {
-                        consider(along[column - step]);
-                    }
-                    if column + step < width {
-                        consider(along[column + step]);
-                    }
+    let rows = map_each(height, num_cores(), |row| {
+        let along = &along[row * width..(row + 1) * width];
+        let each = (0..width).map(|column| {
+            let mut best = along[column] * along[column];
+            for step in 1..width {
+                let squared = (step * step) as f64;
+                if squared >= best {
+                    break;
                 }
-                (best.sqrt() - 0.5).max(0.0) * cell
-            });
-            each.collect::<Vec<f64>>()
-        },
-    );
+                let mut consider = |other: f64| best = best.min(squared + other * other);
+                if column >= step {
+                    consider(along[column - step]);
+                }
+                if column + step < width {
+                    consider(along[column + step]);
+                }
+            }
+            (best.sqrt() - 0.5).max(0.0) * cell
+        });
+        each.collect::<Vec<f64>>()
+    });
     rows.concat()
 }
 

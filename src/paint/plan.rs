@@ -17,7 +17,7 @@ use super::{
     height_map::HeightMap,
     region::{KeepOut, KeepOuts},
     rings::lay_rings,
-    rows::{RowParams, RowPlace, lay_rows},
+    rows::{RowPlace, lay_rows},
     surface::PaintSurface,
     travel::keep_clear,
 };
@@ -100,32 +100,14 @@ fn laid(
     along: &Vector3<f64>,
     towards: Option<&Vector3<f64>>,
 ) -> Result<Vec<Vec<PathPoint>>, PaintError> {
-    let reach = coat.overrun + coat.lead + coat.spacing;
-    let frame = HeightMap::axes_of(surface, along);
-    let inside = KeepOuts::new(regions, |p| HeightMap::in_axes(surface, &frame, p));
-    let is_kept_out = |p: &Point3<f64>| {
-        let [u, v, _] = HeightMap::in_axes(surface, &frame, p);
-        inside.distance(p, [u, v]) < 0.0
-    };
-    let map = HeightMap::new(
-        surface,
-        along,
-        coat.smoothing,
-        coat.opening,
-        reach,
-        &is_kept_out,
-    )?;
-    let params = RowParams {
-        spacing: coat.spacing,
-        overrun: coat.overrun,
-        lead: coat.lead,
-        margin: coat.margin,
-    };
+    let axes = HeightMap::axes_of(surface, along);
+    let inside = KeepOuts::new(regions, |p| HeightMap::in_axes(surface, &axes, p));
+    let map = HeightMap::new(surface, axes, coat, &inside)?;
     let is_raster = coat.pattern != Pattern::Contour;
     let rows = if is_raster {
-        lay_rows(&map, &inside, &params)
+        lay_rows(&map, &inside, coat)
     } else {
-        lay_rings(&map, &inside, &params)
+        lay_rings(&map, &inside, coat)
     };
     let (mut all, mut found) = (Vec::new(), 0);
     for (k, mut row) in rows.into_iter().enumerate() {

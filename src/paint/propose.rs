@@ -69,14 +69,14 @@ pub fn propose(
 
 /// Returns the speed that brings most of a film within the coat's tolerance, m/s.
 pub fn best_speed(film: &Film, coat: &Coat) -> f64 {
-    let (factor, _) = best_factor(&film.thickness, &film.is_reachable, coat);
+    let factor = best_factor(&film.thickness, &film.is_reachable, coat);
     (coat.speed / factor).clamp(SPEEDS[0], SPEEDS[1])
 }
 
-/// Returns the factor on all thicknesses that brings most of the reachable points within the tolerance, and their
-/// share. If more than enough are within it, the factor moves towards a mean at the target: a film at the upper end of
-/// its tolerance wastes paint.
-pub(super) fn best_factor(thickness: &[f64], is_reachable: &[bool], coat: &Coat) -> (f64, f64) {
+/// Returns the factor on all thicknesses that brings most of the reachable points within the tolerance. If more than
+/// enough are within it, the factor moves towards a mean at the target: a film at the upper end of its tolerance wastes
+/// paint.
+pub(super) fn best_factor(thickness: &[f64], is_reachable: &[bool], coat: &Coat) -> f64 {
     let each = thickness.iter().zip(is_reachable);
     let mut reached: Vec<f64> = each.filter(|(_, is)| **is).map(|(t, _)| *t).collect();
     reached.sort_by(f64::total_cmp);
@@ -115,7 +115,7 @@ pub(super) fn best_factor(thickness: &[f64], is_reachable: &[bool], coat: &Coat)
             wanted = between;
         }
     }
-    (good, share(good))
+    good
 }
 
 #[cfg(test)]

@@ -14,11 +14,7 @@
 
 use std::{cmp::Reverse, collections::BinaryHeap};
 
-use super::{
-    height_map::HeightMap,
-    region::KeepOuts,
-    rows::{RowParams, RowPlace},
-};
+use super::{coat::Coat, height_map::HeightMap, region::KeepOuts, rows::RowPlace};
 
 /// Greatest distance of the outermost ring beyond the edge, in spacings: the film at the edge lacks 1 %.
 const BEYOND: f64 = 1.0;
@@ -39,12 +35,12 @@ struct Ring {
 pub(super) fn lay_rings(
     map: &HeightMap,
     keep_outs: &KeepOuts<'_>,
-    params: &RowParams,
+    coat: &Coat,
 ) -> Vec<Vec<RowPlace>> {
     let depth = depths(map);
     let widest = depth.iter().copied().fold(0.0, f64::max);
     let mut rings = Vec::new();
-    for (level, at) in levels(widest, params).into_iter().enumerate() {
+    for (level, at) in levels(widest, coat).into_iter().enumerate() {
         for line in level_lines(map, &depth, at) {
             let places = smoothed(line);
             if circumference(&places) >= LEAST_CELLS * map.cell {
@@ -54,16 +50,16 @@ pub(super) fn lay_rings(
     }
     let laid = in_order(rings)
         .into_iter()
-        .map(|ring| with_leads(map, &ring, keep_outs, params));
+        .map(|ring| with_leads(map, &ring, keep_outs, coat));
     laid.filter(|row| row.iter().any(|place| place.is_gun_on))
         .collect()
 }
 
 /// The distances of all levels from the outline, from the outermost inwards; below 0 beyond the edge.
-fn levels(widest: f64, params: &RowParams) -> Vec<f64> {
-    let beyond = params.overrun.min(BEYOND * params.spacing);
+fn levels(widest: f64, coat: &Coat) -> Vec<f64> {
+    let beyond = coat.overrun.min(BEYOND * coat.spacing);
     let room = widest + beyond;
-    let num_gaps = (room / params.spacing - 0.5).round().max(0.0);
+    let num_gaps = (room / coat.spacing - 0.5).round().max(0.0);
     let spacing = room / (num_gaps + 0.5);
     (0..=num_gaps as usize)
         .map(|k| k as f64 * spacing - beyond)
@@ -265,7 +261,7 @@ fn with_leads(
     map: &HeightMap,
     ring: &Ring,
     keep_outs: &KeepOuts<'_>,
-    params: &RowParams,
+    coat: &Coat,
 ) -> Vec<RowPlace> {
     let num = ring.places.len();
     // A lead is at most half of a short ring.
@@ -275,12 +271,12 @@ fn with_leads(
         let ways = (1..most).take_while(|k| {
             let (a, b) = ((k - 1) * step % num, k * step % num);
             way += apart(ring.places[a], ring.places[b]);
-            way <= params.lead
+            way <= coat.lead
         });
         ways.count()
     };
     let (before, behind) = (lead(num - 1), lead(1));
-    let on = |at: [f64; 2]| keep_outs.distance(&map.spot(at).at, at) >= params.margin;
+    let on = |at: [f64; 2]| keep_outs.distance(&map.spot(at).at, at) >= coat.margin;
     let place = |k: usize| {
         let at = ring.places[k % num];
         let is_around = k >= num && k <= 2 * num;

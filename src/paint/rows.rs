@@ -7,7 +7,7 @@
 //! Known limits: the arc length is measured across the rows in the plane of the map. Where a row deviates from its
 //! direction by an angle α, its neighbours are closer by the factor cos α.
 
-use super::{height_map::HeightMap, region::KeepOuts};
+use super::{coat::Coat, height_map::HeightMap, region::KeepOuts};
 
 /// A place of a row on the map.
 #[derive(Clone, Copy, Debug)]
@@ -17,36 +17,23 @@ pub(super) struct RowPlace {
     pub(super) is_gun_on: bool,
 }
 
-/// Parameters of rows and rings.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct RowParams {
-    /// Distance between rows along the surface, metres.
-    pub(super) spacing: f64,
-    /// Distance from painted cells up to which the gun sprays.
-    pub(super) overrun: f64,
-    /// Way with the gun off at both ends.
-    pub(super) lead: f64,
-    /// Distance from a keep-out region within which the gun is off.
-    pub(super) margin: f64,
-}
-
 /// Lays rows in order, each from low to high u, in steps of about a cell; rows that never spray are left out.
 pub(super) fn lay_rows(
     map: &HeightMap,
     keep_outs: &KeepOuts<'_>,
-    params: &RowParams,
+    coat: &Coat,
 ) -> Vec<Vec<RowPlace>> {
     let arc = arc_lengths(map);
     let Some([low, high]) = painted_range(map, &arc) else {
         return Vec::new();
     };
     // The first and the last row are equally far out, within the overrun.
-    let room = high - low + 2.0 * params.overrun;
-    let num_gaps = (room / params.spacing).floor();
-    let first = 0.5 * (low + high) - 0.5 * num_gaps * params.spacing;
+    let room = high - low + 2.0 * coat.overrun;
+    let num_gaps = (room / coat.spacing).floor();
+    let first = 0.5 * (low + high) - 0.5 * num_gaps * coat.spacing;
     let rows = (0..=num_gaps as usize).map(|k| {
-        let level = first + k as f64 * params.spacing;
-        row(map, &arc, level, keep_outs, params)
+        let level = first + k as f64 * coat.spacing;
+        row(map, &arc, level, keep_outs, coat)
     });
     rows.filter(|row| !row.is_empty()).collect()
 }
@@ -88,7 +75,7 @@ fn row(
     arc: &[f64],
     level: f64,
     keep_outs: &KeepOuts<'_>,
-    params: &RowParams,
+    coat: &Coat,
 ) -> Vec<RowPlace> {
     let places: Vec<RowPlace> = (0..map.size[0])
         .filter_map(|column| {
@@ -96,8 +83,8 @@ fn row(
                 map.place(column, 0)[0],
                 level_in_column(map, arc, column, level)?,
             ];
-            let is_near = map.outside_at(at) <= params.overrun;
-            let is_gun_on = is_near && keep_outs.distance(&map.spot(at).at, at) >= params.margin;
+            let is_near = map.outside_at(at) <= coat.overrun;
+            let is_gun_on = is_near && keep_outs.distance(&map.spot(at).at, at) >= coat.margin;
             Some(RowPlace { at, is_gun_on })
         })
         .collect();
@@ -108,7 +95,7 @@ fn row(
         .iter()
         .rposition(|place| place.is_gun_on)
         .unwrap_or(first);
-    let lead = (params.lead / map.cell).ceil() as usize;
+    let lead = (coat.lead / map.cell).ceil() as usize;
     let end = (last + lead + 1).min(places.len());
     let row = &places[first.saturating_sub(lead)..end];
     // A single place has no direction.

@@ -134,16 +134,21 @@ pub(super) fn across(axis: &Vector3<f64>) -> Vector3<f64> {
     (other - axis * axis.dot(&other)).normalize()
 }
 
+/// A search tree of points.
+pub(super) fn tree_of(points: &[Point3<f64>]) -> KdTree {
+    let stored: Vec<Point3<f32>> = points.iter().map(|p| p.cast()).collect();
+    KdTree::new(&stored)
+}
+
 fn check_size(points: &[Point3<f64>]) -> Result<(), PaintError> {
-    let first = points.first().ok_or(PaintError::TooFew { found: 0 })?;
-    if points.len() < LEAST_POINTS {
-        return Err(PaintError::TooFew {
-            found: points.len(),
-        });
+    let found = points.len();
+    if found < LEAST_POINTS {
+        return Err(PaintError::TooFew { found });
     }
+    let first = points[0];
     let (low, high) = points
         .iter()
-        .fold((*first, *first), |(low, high), p| (low.inf(p), high.sup(p)));
+        .fold((first, first), |(low, high), p| (low.inf(p), high.sup(p)));
     let extent = (high - low).amax();
     if !(LEAST_EXTENT..=MOST_EXTENT).contains(&extent) {
         return Err(PaintError::Extent { metres: extent });

@@ -10,7 +10,10 @@
 
 use nalgebra::{Point3, Unit, Vector3};
 
-use super::{coat::Coat, surface::PaintSurface};
+use super::{
+    coat::Coat,
+    surface::{PaintSurface, tree_of},
+};
 use crate::{geometry::nearest::KdTree, library::PathPoint};
 
 /// Distance from the surface that moves with the gun off keep, as a share of the stand-off.
@@ -42,9 +45,8 @@ pub(super) fn keep_clear(
     surface: &PaintSurface,
     coat: &Coat,
 ) -> Vec<PathPoint> {
-    let stored: Vec<Point3<f32>> = surface.points.iter().map(|p| p.cast()).collect();
     let clearance = Clearance {
-        tree: KdTree::new(&stored),
+        tree: tree_of(&surface.points),
         side: surface.side,
         kept: CLEAR * coat.stand_off,
         step: STEP * coat.stand_off,

@@ -10,11 +10,11 @@ use std::collections::BTreeSet;
 use super::{
     Inspection, Recipe,
     rejection::Rejection,
-    surface::{SurfaceResult, inspect_surface},
+    surface::{InspectionInputs, SurfaceResult, inspect_surface},
     verdict::{Verdict, model_deviation, verdict},
-    watch::{Cancelled, StageClock},
+    watch::Cancelled,
 };
-use crate::{error::Advice, library::Library, stages::scene::SceneCloud};
+use crate::error::Advice;
 
 /// Least lead of a mirror image's score over that of the part itself.
 const MIRROR_LEAD: f64 = 0.3;
@@ -25,10 +25,7 @@ const CLOSER: f64 = 2.0;
 /// becomes the first of the ranking.
 pub(super) fn check_mirror_image(
     inspection: &mut Inspection,
-    scene: &SceneCloud,
-    library: &Library,
-    recipe: &Recipe,
-    clock: &StageClock<'_>,
+    inputs: &InspectionInputs<'_>,
 ) -> Result<(), Cancelled> {
     let Ok(part) = &inspection.segmentation.part else {
         return Ok(());
@@ -44,7 +41,8 @@ pub(super) fn check_mirror_image(
         // No score can lead by that much.
         return Ok(());
     }
-    let scene = scene.mirrored();
+    let scene = &inputs.scene.mirrored();
+    let recipe = inputs.recipe;
     let least = if is_other_model {
         recipe.accept.min_score
     } else {
@@ -53,14 +51,8 @@ pub(super) fn check_mirror_image(
             .unknown_below
             .max(inspection.best_score() + MIRROR_LEAD)
     };
-    let found = inspect_surface(
-        &part.mirrored(&scene),
-        &scene,
-        library,
-        recipe,
-        least,
-        clock,
-    )?;
+    let mirrored = InspectionInputs { scene, ..*inputs };
+    let found = inspect_surface(&part.mirrored(scene), &mirrored, least)?;
     let seen = if is_other_model {
         closer_mirror_match(inspection, &found, recipe)
     } else {
@@ -216,7 +208,7 @@ mod tests {
         bench::suites::enrol_standard_parts,
         kit::scene_of,
         library::EnrolParams,
-        pipeline::{Unwatched, run},
+        pipeline::{Unwatched, run, watch::StageClock},
         simulate::{CellSetup, PartKind, Side},
     };
 
@@ -244,13 +236,17 @@ mod tests {
             inspection.verdict = verdict(&inspection.ranking, inspection.pose.as_ref(), &recipe);
             assert_ne!(inspection.verdict.guess(), Some("front_door"));
 
-            let clock = StageClock::start(&Unwatched);
-            check_mirror_image(&mut inspection, &scene, &library, &recipe, &clock)
-                .expect("not cancelled");
+            let inputs = InspectionInputs {
+                scene: &scene,
+                library: &library,
+                recipe: &recipe,
+                clock: &StageClock::start(&Unwatched),
+            };
+            check_mirror_image(&mut inspection, &inputs).expect("not cancelled");
             assert!(inspection.verdict.is_mirrored());
             assert_eq!(inspection.verdict.guess(), Some("front_door"));
             assert_eq!(inspection.reference(), Some("front_door"));
-            let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+            let pose = inspection.found_pose();
             assert_eq!(pose, door.pose.as_ref());
             let [score, margin] = inspection.verdict.score().expect("a part");
             assert!((score - door.score).abs() < 1e-12 && margin >= 0.0);

@@ -28,7 +28,7 @@ use super::{
     recipe_error::RecipeError,
 };
 use crate::{
-    files::{read_text, write_atomically},
+    files::{read_text, toml_problem, write_text},
     library::PartName,
 };
 
@@ -184,12 +184,9 @@ impl<R: Parameters> RecipeFile<R> {
 
     /// Parses a recipe from text; errors name `path` as its file.
     pub(crate) fn parse(path: &Path, text: &str) -> Result<Self, RecipeError> {
-        let garbled = |error: toml::de::Error| {
-            let message = error.message();
-            RecipeError::Garbled {
-                path: path.to_owned(),
-                reason: message.lines().next().unwrap_or(message).to_owned(),
-            }
+        let garbled = |error: toml::de::Error| RecipeError::Garbled {
+            path: path.to_owned(),
+            reason: toml_problem(&error),
         };
         let Versioned { schema: found } = toml::from_str(text).map_err(garbled)?;
         if found != SCHEMA {
@@ -244,7 +241,7 @@ impl<R: Parameters> RecipeFile<R> {
         }
         let text = self.text();
         let as_read = Self::parse(path, &text)?;
-        write_atomically(path, |writer| writer.write_all(text.as_bytes()))?;
+        write_text(path, &text)?;
         Ok(as_read)
     }
 }

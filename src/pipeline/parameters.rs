@@ -305,9 +305,7 @@ impl<R: Parameters> Parameter<R> {
             }
         }
     }
-}
 
-impl<R: Parameters> Parameter<R> {
     /// The value as in a [`Setting`], with all digits.
     pub fn setting_text(&self, recipe: &R) -> String {
         match &self.kind {

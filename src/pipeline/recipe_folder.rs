@@ -10,7 +10,7 @@ use super::{
     recipe_error::RecipeError,
 };
 use crate::{
-    files::{FileError, disk, folder_of, read_text, sync_folder, user_data, write_atomically},
+    files::{FileError, disk, folder_of, read_text, sync_folder, user_data, write_text},
     library::PartName,
 };
 
@@ -81,8 +81,15 @@ impl RecipeFolder {
         Ok(list)
     }
 
-    /// The sorted names; none if the folder does not exist.
+    /// The sorted names, without the built-in one.
     fn names(&self) -> Result<Vec<PartName>, RecipeError> {
+        let mut names = self.file_names()?;
+        names.retain(|name| name.as_str() != BUILT_IN);
+        Ok(names)
+    }
+
+    /// The sorted names of the files; none if the folder does not exist.
+    pub(crate) fn file_names(&self) -> Result<Vec<PartName>, RecipeError> {
         let reading = |error| FileError::reading(&self.path, error);
         let entries = match fs::read_dir(&self.path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
@@ -93,8 +100,7 @@ impl RecipeFolder {
             let path = PathBuf::from(entry.map_err(reading)?.file_name());
             let stem = path.file_stem().and_then(|stem| stem.to_str());
             if path.extension().is_some_and(|ending| ending == ENDING) {
-                let name = stem.and_then(|stem| PartName::new(stem).ok());
-                names.extend(name.filter(|name| name.as_str() != BUILT_IN));
+                names.extend(stem.and_then(|stem| PartName::new(stem).ok()));
             }
         }
         names.sort();
@@ -187,9 +193,7 @@ impl RecipeFolder {
     pub fn set_default(&self, name: &PartName) -> Result<(), RecipeError> {
         self.read(name)?;
         self.make()?;
-        write_atomically(&self.path.join(DEFAULT), |writer| {
-            writeln!(writer, "{name}")
-        })?;
+        write_text(&self.path.join(DEFAULT), &format!("{name}\n"))?;
         Ok(())
     }
 
@@ -213,7 +217,8 @@ impl RecipeFolder {
         Ok(self.file(name))
     }
 
-    fn make(&self) -> Result<(), RecipeError> {
+    /// Makes the folder unless it exists.
+    pub(crate) fn make(&self) -> Result<(), RecipeError> {
         let made = disk::create_dir_all(&self.path);
         let made = made.and_then(|()| sync_folder(folder_of(&self.path)));
         made.map_err(|error| FileError::writing(&self.path, error).into())

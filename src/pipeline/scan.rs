@@ -25,7 +25,11 @@ use crate::{
             ConfirmedMatch, ConfirmedRanking, Evidence, Scene,
             joint::{JointFit, JointPart, fit_jointly, own_outline},
         },
-        pose::{PoseError, PoseEstimate, VisibilityShares, refine::AlignmentSource},
+        pose::{
+            PoseError, PoseEstimate, VisibilityShares,
+            quality::{LEAST_FACING, NUM_LOOKED_FOR, VisibilityCounts},
+            refine::AlignmentSource,
+        },
         rank::Query,
         reference::Reference,
         segment::NoPart,
@@ -54,10 +58,6 @@ const NUM_EDGES: usize = 120;
 const NEAR_PART: f32 = 0.015;
 /// First entries of a frame's ranking whose poses the joint fit starts from.
 const NUM_ENTRIES: usize = 6;
-/// Points of a reference, approximately, that are looked for in all frames.
-const NUM_LOOKED_FOR: usize = 2000;
-/// A camera often loses a surface seen at a flatter angle than this (cosine), so its absence is no evidence.
-const LEAST_FACING: f64 = 0.3;
 
 /// Recognises the part of a scan from all its frames together.
 pub fn run_scan(
@@ -70,11 +70,7 @@ pub fn run_scan(
     for (number, shot) in scan.used() {
         frames.push((number, run(&shot.scene, library, recipe, watch)?));
     }
-    let (first, mut inspection) = frames
-        .iter()
-        .map(|(number, inspection)| (*number, inspection.clone()))
-        .next()
-        .ok_or(Cancelled)?;
+    let (first, mut inspection) = frames.first().cloned().ok_or(Cancelled)?;
     let base_from_first = scan.shots[first].base_from_camera;
     let Some(part) = joint_part(scan, &frames, recipe) else {
         if inspection.segmentation.part.is_ok() {
@@ -260,16 +256,6 @@ fn entry_of(
     })
 }
 
-/// Numbers of points of a reference, by what the frames see in their places.
-#[derive(Default)]
-struct VisibilityCounts {
-    confirmed: f64,
-    missing: f64,
-    hidden: f64,
-    unknown: f64,
-    outside: f64,
-}
-
 /// The used shots, each with the pose of the part in its camera frame.
 fn shots_of<'a>(
     scan: &'a Scan,
@@ -359,25 +345,11 @@ fn evidence(
         };
         *count += 1.0;
     }
-    let VisibilityCounts {
-        confirmed,
-        missing,
-        hidden,
-        unknown,
-        outside,
-    } = sights;
-    let total = confirmed + missing + hidden + unknown;
-    let sight = (total >= 1.0).then(|| VisibilityShares {
-        confirmed: confirmed / total,
-        missing: missing / total,
-        hidden: hidden / total,
-        unknown: unknown / total,
-        outside: outside / (total + outside),
-    });
+    let sight = sights.shares();
     let evidence = Evidence {
         off: fit.off,
         beyond: 0.0,
-        missing: missing / (confirmed + missing).max(f64::MIN_POSITIVE),
+        missing: sights.missing / (sights.confirmed + sights.missing).max(f64::MIN_POSITIVE),
         hidden: sight.map_or(0.0, |s| s.hidden),
         outside: sight.map_or(1.0, |s| s.outside),
         relief_m: fit.relief_m,

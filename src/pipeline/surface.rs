@@ -21,6 +21,15 @@ use crate::{
     },
 };
 
+/// What every surface of a scene is inspected with.
+#[derive(Clone, Copy)]
+pub(super) struct InspectionInputs<'a> {
+    pub(super) scene: &'a SceneCloud,
+    pub(super) library: &'a Library,
+    pub(super) recipe: &'a Recipe,
+    pub(super) clock: &'a StageClock<'a>,
+}
+
 /// Results of the stages after segmentation, for one surface.
 #[derive(Default)]
 pub(super) struct SurfaceResult {
@@ -60,24 +69,13 @@ impl SurfaceResult {
 /// Runs the stages after segmentation on one surface. A score below `least_score` is of no use to the caller.
 pub(super) fn inspect_surface(
     part: &SegmentedPart,
-    scene: &SceneCloud,
-    library: &Library,
-    recipe: &Recipe,
+    inputs: &InspectionInputs<'_>,
     least_score: f64,
-    clock: &StageClock<'_>,
 ) -> Result<SurfaceResult, Cancelled> {
     let mut surface = SurfaceResult::default();
-    let recognised = recognise(
-        &mut surface,
-        part,
-        scene,
-        library,
-        recipe,
-        least_score,
-        clock,
-    )?;
+    let recognised = recognise(&mut surface, part, inputs, least_score)?;
     surface.verdict = Some(match recognised {
-        Ok(()) => verdict(&surface.ranking, surface.pose.as_ref(), recipe),
+        Ok(()) => verdict(&surface.ranking, surface.pose.as_ref(), inputs.recipe),
         Err(reason) => Verdict::NoPart(reason),
     });
     Ok(surface)
@@ -87,12 +85,15 @@ pub(super) fn inspect_surface(
 fn recognise(
     inspection: &mut SurfaceResult,
     part: &SegmentedPart,
-    scene: &SceneCloud,
-    library: &Library,
-    recipe: &Recipe,
+    inputs: &InspectionInputs<'_>,
     least_score: f64,
-    clock: &StageClock<'_>,
 ) -> Result<Result<(), Unrecognisable>, Cancelled> {
+    let InspectionInputs {
+        scene,
+        library,
+        recipe,
+        clock,
+    } = *inputs;
     let plane = match clock.time(Stage::Project, || project(part, &recipe.project))? {
         Ok(plane) => inspection.plane.insert(plane),
         Err(error) => return Ok(Err(error.into())),

@@ -1,7 +1,7 @@
 //! The verdict on a scene, and how it follows from the evidence.
 
 use super::{
-    Recipe,
+    Inspection, Recipe,
     refusal::Refusal,
     rejection::{Rejection, Unrecognisable, is_like},
 };
@@ -173,6 +173,13 @@ impl Verdict {
     /// True if the part was named and accepted.
     pub fn is_accepted(&self) -> bool {
         matches!(self, Self::Part { rejected: None, .. })
+    }
+}
+
+impl Inspection {
+    /// Returns the pose of the first reference, if one was asked for and found.
+    pub fn found_pose(&self) -> Option<&PoseEstimate> {
+        self.pose.as_ref()?.as_ref().ok()
     }
 }
 

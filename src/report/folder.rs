@@ -9,7 +9,7 @@ use std::{
 use super::pictures::{Picture, strip, write_png};
 use crate::{
     error::Advice,
-    files::{FileError, advice_on, disk, words_of, write_atomically},
+    files::{FileError, advice_on, disk, words_of, write_atomically, write_text},
     robot::Convention,
 };
 
@@ -81,7 +81,7 @@ impl ReportFolder {
         let pictures: Vec<&Picture> = pictures.iter().chain(shown).collect();
         let stem = self.free_stem(scene, &pictures);
         let json = self.json(&stem);
-        write_atomically(&json, |writer| writeln!(writer, "{line}"))?;
+        write_text(&json, &format!("{line}\n"))?;
         for picture in pictures {
             write_png(&self.picture(&stem, picture), &picture.image)?;
         }

@@ -9,14 +9,13 @@ use crate::{
     history::Traceability,
     pipeline::{Inspection, NamedRecipe, RecipeBlock, Timings, Verdict},
     robot::RobotFrame,
-    stages::pose::{PoseEstimate, Uncertainty},
 };
 
 /// Version of the JSON lines.
 pub const SCHEMA: u32 = 1;
 
 /// An inspection as one line of JSON, as `inspect --json` writes it. Later versions only add fields.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Default, Serialize)]
 pub struct InspectionLine<'a> {
     schema: u32,
     scene: &'a str,
@@ -80,10 +79,12 @@ struct RobotLine<'a> {
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct CaptureLine<'a> {
     /// The source, in the form that opens it again.
-    source: &'a str,
+    pub source: &'a str,
     number: u64,
-    taken_at: Timestamp,
-    simulated: bool,
+    /// Time of the capture.
+    pub taken_at: Timestamp,
+    /// True if the capture does not come from a camera.
+    pub simulated: bool,
     /// Captures dropped since the source was opened, because others were being inspected.
     dropped: u64,
 }
@@ -98,21 +99,6 @@ impl<'a> CaptureLine<'a> {
             simulated: captured.is_simulated,
             dropped: num_dropped,
         }
-    }
-
-    /// Returns the source.
-    pub fn source(&self) -> &'a str {
-        self.source
-    }
-
-    /// Returns the time of the capture.
-    pub fn taken_at(&self) -> Timestamp {
-        self.taken_at
-    }
-
-    /// Returns whether the capture does not come from a camera.
-    pub fn is_simulated(&self) -> bool {
-        self.simulated
     }
 }
 
@@ -163,11 +149,6 @@ pub struct TimingsLine {
     pub total: f64,
 }
 
-/// Returns the bounds of a pose, unless it is unconstrained.
-fn bounds_of(pose: &PoseEstimate) -> Option<Uncertainty> {
-    pose.uncertainty.filter(Uncertainty::is_held)
-}
-
 /// Returns `ok`, `unknown` or `no_part`.
 pub(super) fn status_of(verdict: &Verdict) -> &'static str {
     match verdict {
@@ -183,24 +164,9 @@ impl<'a> InspectionLine<'a> {
         Self {
             schema: SCHEMA,
             scene,
-            capture: None,
-            simulated: None,
             status: "unreadable",
-            part: None,
-            accepted: false,
-            score: None,
-            margin: None,
             reason: Some(reason.to_string()),
-            reason_kind: None,
-            touches_edge: false,
-            pose: None,
-            robot: None,
-            ranking: Vec::new(),
-            timings_ms: None,
-            recipe: None,
-            scan: None,
-            trace: None,
-            reported_as: None,
+            ..Self::default()
         }
     }
 
@@ -268,7 +234,7 @@ impl<'a> InspectionLine<'a> {
     /// a robot could move by.
     #[must_use]
     pub fn in_robot(self, frame: Option<&'a RobotFrame>, inspection: &Inspection) -> Self {
-        let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+        let pose = inspection.found_pose();
         let accepted = pose.filter(|_| inspection.verdict.is_accepted());
         let robot = frame.zip(accepted).map(|(frame, pose)| {
             let camera_from_part = pose.camera_from_part();
@@ -290,26 +256,22 @@ impl<'a> InspectionLine<'a> {
             examined: entry.is_examined,
             distance: entry.distance,
         });
-        let pose = inspection
-            .pose
-            .as_ref()
-            .and_then(|pose| pose.as_ref().ok())
-            .map(|pose| PoseLine {
-                reference: inspection.reference(),
-                camera_from_part: row_major(&pose.camera_from_part()),
-                method: pose.method.name(),
-                rms_m: pose.fit.rms_m,
-                overlap: pose.fit.overlap,
-                shift_bound_m: bounds_of(pose).map(|bounds| bounds.shift.0),
-                turn_bound_rad: bounds_of(pose).map(|bounds| bounds.turn.0),
-                unconstrained: pose
-                    .uncertainty
-                    .and_then(|bounds| bounds.freedom)
-                    .map(|freedom| freedom.to_string()),
-                stopped: pose.stopped.name(),
-                ambiguous: pose.is_ambiguous(),
-                approximate: inspection.verdict.is_approximate(),
-            });
+        let pose = inspection.found_pose().map(|pose| PoseLine {
+            reference: inspection.reference(),
+            camera_from_part: row_major(&pose.camera_from_part()),
+            method: pose.method.name(),
+            rms_m: pose.fit.rms_m,
+            overlap: pose.fit.overlap,
+            shift_bound_m: pose.bounds().map(|bounds| bounds.shift.0),
+            turn_bound_rad: pose.bounds().map(|bounds| bounds.turn.0),
+            unconstrained: pose
+                .uncertainty
+                .and_then(|bounds| bounds.freedom)
+                .map(|freedom| freedom.to_string()),
+            stopped: pose.stopped.name(),
+            ambiguous: pose.is_ambiguous(),
+            approximate: inspection.verdict.is_approximate(),
+        });
         let verdict = &inspection.verdict;
         Self {
             status: status_of(verdict),

@@ -23,8 +23,6 @@ mod pictures;
 pub mod pose_report;
 #[cfg(feature = "cli")]
 mod runner_up_picture;
-#[cfg(feature = "cli")]
-mod score_plots;
 mod text_table;
 
 #[cfg(feature = "cli")]
@@ -33,7 +31,7 @@ pub use self::{
     evaluation::evaluation_picture,
     film::{FilmPicture, film_picture},
     folder::{ReportError, ReportFolder},
-    pictures::{Picture, binary_picture, segmentation_picture, stage_pictures, strip, write_png},
+    pictures::{Picture, binary_picture, segmentation_picture, stage_pictures, write_png},
     runner_up_picture::runner_up_picture,
 };
 pub use self::{

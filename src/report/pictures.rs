@@ -44,12 +44,6 @@ const PAPER_OPENING: Rgb<u8> = Rgb([16, 88, 176]);
 const PAPER_RAY: Rgb<u8> = Rgb([176, 182, 190]);
 const PAPER_RULE: Rgb<u8> = Rgb([222, 226, 231]);
 pub(super) const OPENING: Rgb<u8> = Rgb([96, 176, 255]);
-const PLANES: [Rgb<u8>; 4] = [
-    Rgb([44, 82, 130]),
-    Rgb([40, 108, 96]),
-    Rgb([104, 70, 120]),
-    Rgb([120, 84, 60]),
-];
 
 /// Colours of a picture of the segmentation.
 struct Palette {
@@ -63,7 +57,12 @@ struct Palette {
 
 const ON_SCREEN: Palette = Palette {
     no_reading: Rgb([0; 3]),
-    planes: PLANES,
+    planes: [
+        Rgb([44, 82, 130]),
+        Rgb([40, 108, 96]),
+        Rgb([104, 70, 120]),
+        Rgb([120, 84, 60]),
+    ],
     rest: Rgb([190; 3]),
     part: PART,
     farthest: 0.55,
@@ -120,7 +119,7 @@ pub fn stage_pictures(scene: &SceneCloud, inspection: &Inspection) -> Vec<Pictur
 }
 
 /// Combines the pictures side by side at one height.
-pub fn strip(pictures: &[Picture]) -> RgbImage {
+pub(super) fn strip(pictures: &[Picture]) -> RgbImage {
     const HEIGHT: u32 = 360;
     const GAP: u32 = 8;
     let scaled: Vec<RgbImage> = pictures

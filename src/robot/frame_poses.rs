@@ -62,12 +62,6 @@ impl FramePose {
     }
 }
 
-/// Poses of frames, by the frame's name.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FramePoses {
-    frames: BTreeMap<String, FramePose>,
-}
-
 /// Why a file gives no pose for a frame.
 #[derive(Debug, thiserror::Error)]
 pub enum FramePosesError {
@@ -184,18 +178,13 @@ impl Advice for FramePosesError {
 const SHOWN: usize = 3;
 
 fn listed(frames: &[String], num_frames: usize) -> String {
-    let shown = frames.iter().take(SHOWN).cloned().collect::<Vec<_>>();
-    let more = frames.len().saturating_sub(SHOWN);
-    let rest = if more > 0 {
-        format!(" and {more} more")
-    } else {
-        String::new()
+    let num = frames.len();
+    let shown = frames[..num.min(SHOWN)].join(", ");
+    let rest = match num.saturating_sub(SHOWN) {
+        0 => String::new(),
+        more => format!(" and {more} more"),
     };
-    format!(
-        "{}{rest} ({} of {num_frames} frames)",
-        shown.join(", "),
-        frames.len()
-    )
+    format!("{shown}{rest} ({num} of {num_frames} frames)")
 }
 
 /// Largest file that is read, bytes.
@@ -248,43 +237,35 @@ fn matrix(numbers: &[f64]) -> Result<RigidTransform, EntryProblem> {
     Ok(pose)
 }
 
-impl FramePoses {
-    /// Reads the poses of the frames called `names`; entries of other frames are ignored.
-    pub fn read(path: &Path, names: &[String]) -> Result<Self, FramePosesError> {
-        let text = read_text(path, MAX_BYTES)?;
-        let file: PoseFile =
-            serde_json::from_str(&text).map_err(|error| FramePosesError::Format {
-                path: path.to_owned(),
-                found: error.to_string(),
-            })?;
-        let mut entries = file.frames;
-        let (mut frames, mut missing) = (BTreeMap::new(), Vec::new());
-        for name in names {
-            let Some(entry) = entries.remove(name) else {
-                missing.push(name.clone());
-                continue;
-            };
-            let pose = entry.pose().map_err(|found| FramePosesError::Entry {
-                path: path.to_owned(),
-                frame: name.clone(),
-                found,
-            })?;
-            frames.insert(name.clone(), pose);
-        }
-        if !missing.is_empty() {
-            return Err(FramePosesError::Missing {
-                path: path.to_owned(),
-                frames: missing,
-                num_frames: names.len(),
-            });
-        }
-        Ok(Self { frames })
+/// Reads the poses of the frames called `names`, in their order; entries of other frames are ignored.
+pub fn read_frame_poses(path: &Path, names: &[String]) -> Result<Vec<FramePose>, FramePosesError> {
+    let text = read_text(path, MAX_BYTES)?;
+    let file: PoseFile = serde_json::from_str(&text).map_err(|error| FramePosesError::Format {
+        path: path.to_owned(),
+        found: error.to_string(),
+    })?;
+    let mut entries = file.frames;
+    let (mut poses, mut missing) = (Vec::new(), Vec::new());
+    for name in names {
+        let Some(entry) = entries.remove(name) else {
+            missing.push(name.clone());
+            continue;
+        };
+        let pose = entry.pose().map_err(|found| FramePosesError::Entry {
+            path: path.to_owned(),
+            frame: name.clone(),
+            found,
+        })?;
+        poses.push(pose);
     }
-
-    /// Returns the pose of a frame that [`read`](Self::read) was asked for.
-    pub fn of(&self, name: &str) -> Option<&FramePose> {
-        self.frames.get(name)
+    if !missing.is_empty() {
+        return Err(FramePosesError::Missing {
+            path: path.to_owned(),
+            frames: missing,
+            num_frames: names.len(),
+        });
     }
+    Ok(poses)
 }
 
 #[cfg(test)]
@@ -295,11 +276,11 @@ mod tests {
         robot::calibration::Origin,
     };
 
-    fn read(text: &str) -> Result<FramePoses, FramePosesError> {
+    fn read(text: &str) -> Result<Vec<FramePose>, FramePosesError> {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join(FRAME_POSES);
         std::fs::write(&path, text).expect("written");
-        FramePoses::read(&path, &["a.png".into(), "b.png".into()])
+        read_frame_poses(&path, &["a.png".into(), "b.png".into()])
     }
 
     fn entries(a: &str, b: &str) -> String {
@@ -320,8 +301,8 @@ mod tests {
         let arm = from_euler_zyx([0.1, -0.3, 2.0, 0.9, -0.2, 1.4]);
         let flange = format!(r#"{{"robot_from_flange": {}}}"#, numbers(&arm));
         let poses = read(&entries(FINE, &flange)).expect("two poses");
-        let Some(FramePose::Camera(camera)) = poses.of("a.png") else {
-            panic!("a camera's pose");
+        let [FramePose::Camera(camera), pose] = poses[..] else {
+            panic!("a camera's pose, and another");
         };
         assert!((camera.translation.vector.z - 3.0).abs() < 1e-12);
         let flange_from_camera = from_euler_zyx([0.0, 0.0, 1.5, 0.05, 0.0, 0.1]);
@@ -336,7 +317,6 @@ mod tests {
             flange_from_camera,
             capture_pose: None,
         });
-        let pose = poses.of("b.png").expect("a pose");
         let found = pose
             .base_from_camera("b.png", Some(&on_flange))
             .expect("a camera");

@@ -46,29 +46,19 @@ impl Advice for NoTarget {
 
 /// Returns the part of an accepted inspection as a target.
 pub fn seen_part(inspection: &Inspection, library: &Library) -> Result<ObservedTarget, NoTarget> {
-    let part = match &inspection.verdict {
-        Verdict::Part {
-            part,
-            rejected: None,
-            is_approximate: false,
-            ..
-        } => part,
-        Verdict::Part {
-            rejected: Some(why),
-            ..
-        } => {
-            return Err(NoTarget::NotAccepted {
-                reason: why.to_string(),
-            });
-        }
-        Verdict::Part { .. } => return Err(NoTarget::NoPose),
-        Verdict::NoPart(why) => {
-            return Err(NoTarget::NotAccepted {
-                reason: why.to_string(),
-            });
-        }
+    if let Some(why) = inspection.verdict.refusal() {
+        let reason = why.to_string();
+        return Err(NoTarget::NotAccepted { reason });
+    }
+    let Verdict::Part {
+        part,
+        is_approximate: false,
+        ..
+    } = &inspection.verdict
+    else {
+        return Err(NoTarget::NoPose);
     };
-    let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+    let pose = inspection.found_pose();
     let pose = pose.filter(|pose| !pose.is_ambiguous());
     let first = inspection.ranking.entries.first();
     let (pose, first) = pose.zip(first).ok_or(NoTarget::NoPose)?;

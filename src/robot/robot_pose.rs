@@ -77,14 +77,18 @@ pub struct RobotValue {
 impl RobotValue {
     /// The number rounded for people, without its unit.
     pub fn rounded(&self) -> String {
-        let text = format!("{:.*}", self.unit.num_decimals(), self.value);
-        // No minus sign before a number that rounds to zero.
-        let is_zero = text.bytes().all(|c| matches!(c, b'-' | b'.' | b'0'));
-        if is_zero {
-            text.trim_start_matches('-').to_owned()
-        } else {
-            text
-        }
+        fixed(self.value, self.unit.num_decimals())
+    }
+}
+
+/// Formats a number with fixed decimals; one that rounds to zero has no minus sign.
+pub(super) fn fixed(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    let is_zero = text.bytes().all(|c| matches!(c, b'-' | b'.' | b'0'));
+    if is_zero {
+        text.trim_start_matches('-').to_owned()
+    } else {
+        text
     }
 }
 
@@ -213,15 +217,10 @@ impl Convention {
                 angles.to_vec()
             }
         };
+        let shift = pose.translation.vector;
         let numbers: Vec<f64> = match self.layout() {
             Layout::Matrix => row_major(pose).to_vec(),
-            _ => pose
-                .translation
-                .vector
-                .iter()
-                .copied()
-                .chain(turn)
-                .collect(),
+            _ => shift.iter().copied().chain(turn).collect(),
         };
         let values = self.names().iter().zip(self.units()).zip(numbers);
         let values = values.map(|((name, unit), number)| RobotValue {

@@ -11,7 +11,7 @@ use std::{
 
 use super::{
     calibration::{CalibrationError, CellCalibration},
-    frame_poses::{FRAME_POSES, FramePose, FramePoses, FramePosesError},
+    frame_poses::{FRAME_POSES, FramePose, FramePosesError, read_frame_poses},
 };
 use crate::{
     capture::{
@@ -19,6 +19,7 @@ use crate::{
         SkippedCapture, read_image,
     },
     error::Advice,
+    files::file_name,
     geometry::rigid::RigidTransform,
     scan::Shot,
     stages::scene::{SceneCloud, scene_from_image},
@@ -118,8 +119,7 @@ pub fn read_frames(
     tell(FrameNews::Total(paths.len()))?;
     for file in paths {
         let (image, warnings) = read_image(file)?;
-        let name = file.file_name().unwrap_or(file.as_os_str());
-        let name = name.to_string_lossy().into_owned();
+        let name = file_name(file);
         tell(FrameNews::Read(&name, &warnings))?;
         frames.push(ScanFrame {
             name,
@@ -159,9 +159,7 @@ pub fn with_poses(
         let file = given.map(Path::to_owned).or_else(|| poses_beside(paths));
         let file = file.ok_or(ScanFramesError::NoPoses)?;
         let names: Vec<String> = frames.iter().map(|frame| frame.name.clone()).collect();
-        let poses = FramePoses::read(&file, &names)?;
-        let of_frames = names.iter().filter_map(|name| poses.of(name).copied());
-        of_frames.collect::<Vec<FramePose>>()
+        read_frame_poses(&file, &names)?
     };
     let needs_calibration = poses.iter().any(|p| matches!(p, FramePose::Flange(_)));
     let calibration = if needs_calibration {

@@ -8,34 +8,23 @@ use super::{
     FusedCloud, Scan, ScanError, ScanObserver, ScanParams, ScanStep, ScannedShot, Shot,
     ShotSurface,
     error::MAX_SHOTS,
-    fuse::{FusionShot, fuse},
+    fuse::fuse,
     overlap::{Agreement, overlap},
     part::keep_best_piece,
     register::{register, samples_of},
-    suspects::{ShotFit, worst},
+    suspects::worst,
 };
 use crate::{
     geometry::{
-        parallel::map_in_order,
+        parallel::map_each,
         rigid::{PoseDelta, RigidTransform, pose_error},
     },
-    stages::{
-        field_of_view::FieldOfView,
-        segment::{Segmentation, segment},
-    },
+    stages::{field_of_view::FieldOfView, segment::segment},
     units::{Metres, Radians},
 };
 
 /// The fewest readings on a surface from which a pose is determined.
 const LEAST_READINGS: usize = 500;
-
-/// A shot with its surface and segmentation.
-struct PreparedShot {
-    surface: Arc<ShotSurface>,
-    segmentation: Arc<Segmentation>,
-    /// Mean of the surface's readings, in camera space.
-    middle: Point3<f64>,
-}
 
 /// Assembles shots: refines their poses, excludes those that do not fit, fuses the rest and finds the part.
 pub fn assemble(
@@ -52,26 +41,17 @@ pub fn assemble(
     }
     let shots = &with_common_view(shots);
     let num_workers = params.register.num_workers;
-    let prepared = map_in_order(
-        found,
-        num_workers,
-        || (),
-        |(), i| {
-            if watch.is_cancelled() {
-                return Err(ScanError::Cancelled);
-            }
-            watch.begins(ScanStep::Shot(i));
-            prepare(&shots[i], params)
-        },
-    );
-    let prepared: Vec<PreparedShot> = prepared.into_iter().collect::<Result<_, _>>()?;
+    let prepared = map_each(found, num_workers, |i| {
+        if watch.is_cancelled() {
+            return Err(ScanError::Cancelled);
+        }
+        watch.begins(ScanStep::Shot(i));
+        prepare(&shots[i], params)
+    });
+    let prepared = prepared.into_iter().collect::<Result<Vec<_>, _>>()?;
     go_on(watch, ScanStep::Align)?;
-    let mut scanned: Vec<ScannedShot> = shots
-        .iter()
-        .zip(&prepared)
-        .map(|(shot, prepared)| ScannedShot::new(shot, prepared))
-        .collect();
-    align(&mut scanned, &prepared, params, watch)?;
+    let (mut scanned, middles): (Vec<_>, Vec<_>) = prepared.into_iter().unzip();
+    align(&mut scanned, &middles, params, watch)?;
     go_on(watch, ScanStep::Fuse)?;
     let mut cloud = fused(&scanned, params);
     cloud.cloud.is_simulated = shots.iter().any(|shot| shot.scene.cloud.is_simulated);
@@ -106,7 +86,8 @@ fn go_on(watch: &dyn ScanObserver, next: ScanStep) -> Result<(), ScanError> {
     Ok(())
 }
 
-fn prepare(shot: &Shot, params: &ScanParams) -> Result<PreparedShot, ScanError> {
+/// Returns a shot with its surface and segmentation, and the mean of the surface's readings, in camera space.
+fn prepare(shot: &Shot, params: &ScanParams) -> Result<(ScannedShot, Point3<f64>), ScanError> {
     let name = || shot.name.clone();
     let num_finite = shot.scene.cloud.finite().take(LEAST_READINGS).count();
     let surface = ShotSurface::of(&shot.scene);
@@ -127,39 +108,31 @@ fn prepare(shot: &Shot, params: &ScanParams) -> Result<PreparedShot, ScanError> 
     let sum = samples.iter().fold(Vector3::zeros(), |sum, &i| {
         sum + surface.points[i as usize].coords.cast::<f64>()
     });
-    Ok(PreparedShot {
-        middle: Point3::from(sum / samples.len() as f64),
+    let middle = Point3::from(sum / samples.len() as f64);
+    let scanned = ScannedShot {
+        name: name(),
+        scene: Arc::clone(&shot.scene),
         surface: Arc::new(surface),
         segmentation: Arc::new(segment(&shot.scene, &params.segment)),
-    })
-}
-
-impl ScannedShot {
-    fn new(shot: &Shot, prepared: &PreparedShot) -> Self {
-        Self {
-            name: shot.name.clone(),
-            scene: Arc::clone(&shot.scene),
-            surface: Arc::clone(&prepared.surface),
-            segmentation: Arc::clone(&prepared.segmentation),
-            given: shot.base_from_camera,
-            base_from_camera: shot.base_from_camera,
-            moved: PoseDelta {
-                rotation: Radians(0.0),
-                shift: Metres(0.0),
-            },
-            before: None,
-            after: None,
-            after_on_part: None,
-            num_new: 0,
-            excluded: None,
-        }
-    }
+        given: shot.base_from_camera,
+        base_from_camera: shot.base_from_camera,
+        moved: PoseDelta {
+            rotation: Radians(0.0),
+            shift: Metres(0.0),
+        },
+        before: None,
+        after: None,
+        after_on_part: None,
+        num_new: 0,
+        excluded: None,
+    };
+    Ok((scanned, middle))
 }
 
 /// Refines the poses and excludes the shot that fits worst, until all remaining shots agree.
 fn align(
     scanned: &mut [ScannedShot],
-    prepared: &[PreparedShot],
+    middles: &[Point3<f64>],
     params: &ScanParams,
     watch: &dyn ScanObserver,
 ) -> Result<(), ScanError> {
@@ -168,23 +141,14 @@ fn align(
         if watch.is_cancelled() {
             return Err(ScanError::Cancelled);
         }
-        let surfaces: Vec<&ShotSurface> = used.iter().map(|&i| &*prepared[i].surface).collect();
+        let surfaces: Vec<&ShotSurface> = used.iter().map(|&i| &*scanned[i].surface).collect();
         let given: Vec<RigidTransform> = used.iter().map(|&i| scanned[i].given).collect();
         let poses = register(&surfaces, &given, &params.register);
         for (&i, pose) in used.iter().zip(&poses) {
             scanned[i].base_from_camera = *pose;
-            scanned[i].moved = pose_error(pose, &scanned[i].given, &prepared[i].middle);
+            scanned[i].moved = pose_error(pose, &scanned[i].given, &middles[i]);
         }
-        let candidates: Vec<ShotFit<'_>> = used
-            .iter()
-            .map(|&i| ShotFit {
-                surface: &prepared[i].surface,
-                segmentation: &prepared[i].segmentation,
-                base_from_camera: scanned[i].base_from_camera,
-                given: scanned[i].given,
-                moved: scanned[i].moved,
-            })
-            .collect();
+        let candidates: Vec<&ScannedShot> = used.iter().map(|&i| &scanned[i]).collect();
         let num_workers = params.register.num_workers;
         let Some((which, why)) = worst(&candidates, &params.suspect, num_workers) else {
             return Ok(());
@@ -225,22 +189,10 @@ fn agreement(
 }
 
 fn fused(scanned: &[ScannedShot], params: &ScanParams) -> FusedCloud {
-    let seen: Vec<FusionShot<'_>> = scanned
-        .iter()
-        .enumerate()
-        .filter(|(_, shot)| shot.excluded.is_none())
-        .map(|(number, shot)| FusionShot {
-            number,
-            surface: &shot.surface,
-            base_from_camera: shot.base_from_camera,
-            labels: shot
-                .segmentation
-                .part
-                .is_ok()
-                .then_some(&shot.segmentation.labels[..]),
-        })
-        .collect();
-    let mut cloud = fuse(&seen, params.voxel, params.register.num_workers);
+    let all = scanned.iter().enumerate();
+    let used = all.filter(|(_, shot)| shot.excluded.is_none());
+    let used: Vec<(usize, &ScannedShot)> = used.collect();
+    let mut cloud = fuse(&used, params.voxel, params.register.num_workers);
     keep_best_piece(&mut cloud);
     cloud
 }

@@ -8,11 +8,12 @@
 use nalgebra::{Point3, Vector3};
 
 use super::{
-    surface::{ShotSurface, Use},
+    ScannedShot,
+    surface::Use,
     visibility::{Visibility, visibility_at},
 };
 use crate::{
-    geometry::{cloud::PointCloud, parallel::map_in_order, rigid::RigidTransform},
+    geometry::{cloud::PointCloud, parallel::map_each, rigid::RigidTransform},
     stages::segment::PointLabel,
     units::Metres,
 };
@@ -87,16 +88,6 @@ impl PartCells {
     }
 }
 
-/// The input of the fusion from one shot.
-pub(super) struct FusionShot<'a> {
-    /// Its index among all shots of the scan.
-    pub(super) number: usize,
-    pub(super) surface: &'a ShotSurface,
-    pub(super) base_from_camera: RigidTransform,
-    /// The segmentation's label of each reading; `None` if it found no part.
-    pub(super) labels: Option<&'a [PointLabel]>,
-}
-
 /// A fused point, before and after it is pulled to the surface.
 #[derive(Clone, Copy)]
 struct Voxel {
@@ -122,26 +113,26 @@ const PIECE: usize = 4096;
 /// Bits of a voxel's index along each axis.
 const BITS: u32 = 21;
 
-/// Fuses the readings of the shots and lets the shots vote on which points are the part.
-pub(super) fn fuse(shots: &[FusionShot<'_>], voxel: Metres, num_workers: usize) -> FusedCloud {
+/// Fuses the readings of the shots, each with its index among all shots of the scan, and lets the shots vote on which
+/// points are the part.
+pub(super) fn fuse(
+    shots: &[(usize, &ScannedShot)],
+    voxel: Metres,
+    num_workers: usize,
+) -> FusedCloud {
     let means = means_of_readings(shots, voxel);
     let pieces = means.len().div_ceil(PIECE);
     let cameras: Vec<RigidTransform> = shots
         .iter()
-        .map(|shot| shot.base_from_camera.inverse())
+        .map(|(_, shot)| shot.base_from_camera.inverse())
         .collect();
-    let drawn = map_in_order(
-        pieces,
-        num_workers,
-        || (),
-        |(), piece| {
-            let start = piece * PIECE;
-            let end = means.len().min(start + PIECE);
-            let kept = means[start..end].iter();
-            kept.filter_map(|mean| drawn_to_surface(mean, shots, &cameras))
-                .collect::<Vec<Voxel>>()
-        },
-    );
+    let drawn = map_each(pieces, num_workers, |piece| {
+        let start = piece * PIECE;
+        let end = means.len().min(start + PIECE);
+        let kept = means[start..end].iter();
+        kept.filter_map(|mean| drawn_to_surface(mean, shots, &cameras))
+            .collect::<Vec<Voxel>>()
+    });
     let drawn: Vec<Voxel> = drawn.into_iter().flatten().collect();
     let merged = merged(&drawn, voxel);
     FusedCloud {
@@ -167,10 +158,10 @@ fn voxel_of(point: &Point3<f64>, per_metre: f64) -> u64 {
 }
 
 /// Returns the mean of each voxel's readings, ordered by voxel.
-fn means_of_readings(shots: &[FusionShot<'_>], voxel: Metres) -> Vec<Voxel> {
+fn means_of_readings(shots: &[(usize, &ScannedShot)], voxel: Metres) -> Vec<Voxel> {
     let per_metre = 1.0 / voxel.0;
     let mut readings: Vec<(u64, u32, u32)> = Vec::new();
-    for (k, shot) in shots.iter().enumerate() {
+    for (k, (_, shot)) in shots.iter().enumerate() {
         for (i, used) in shot.surface.uses.iter().enumerate() {
             if *used != Use::None {
                 let at = shot.base_from_camera * shot.surface.points[i].cast::<f64>();
@@ -185,7 +176,7 @@ fn means_of_readings(shots: &[FusionShot<'_>], voxel: Metres) -> Vec<Voxel> {
         .map(|readings| {
             let (mut point, mut normal, mut weight) = (Vector3::zeros(), Vector3::zeros(), 0.0);
             for &(_, k, i) in readings {
-                let (shot, i) = (&shots[k as usize], i as usize);
+                let ((_, shot), i) = (shots[k as usize], i as usize);
                 let one = 1.0 / shot.surface.sigma(i).powi(2);
                 let at = shot.base_from_camera * shot.surface.points[i].cast::<f64>();
                 let facing = shot.base_from_camera.rotation * shot.surface.normals[i].cast::<f64>();
@@ -208,29 +199,30 @@ fn means_of_readings(shots: &[FusionShot<'_>], voxel: Metres) -> Vec<Voxel> {
 /// Returns the mean moved to the surface that the shots see there; `None` if too many of them look through it.
 fn drawn_to_surface(
     mean: &Voxel,
-    shots: &[FusionShot<'_>],
+    shots: &[(usize, &ScannedShot)],
     cameras: &[RigidTransform],
 ) -> Option<Voxel> {
     let (mut num_here, mut num_through) = (0_u32, 0_u32);
     let (mut off_sum, mut weight_sum) = (0.0, 0.0);
     let (mut seen_by, mut votes, mut part_votes) = (0_u64, 0, 0);
-    for (shot, camera_from_base) in shots.iter().zip(cameras) {
+    for ((number, shot), camera_from_base) in shots.iter().zip(cameras) {
         let at = camera_from_base * mean.point;
         let normal = camera_from_base.rotation * mean.normal;
         // A sheet seen from behind is another surface.
         if normal.dot(&at.coords) > 0.0 {
             continue;
         }
-        let surface = shot.surface;
+        let surface = &shot.surface;
         let noise = surface.noise_at_1m.0 * at.z * at.z;
         match visibility_at(surface, &at, &normal, TOLERANCE + 3.0 * noise) {
             Visibility::Here(i) => {
                 num_here += 1;
-                seen_by |= 1 << shot.number;
+                seen_by |= 1 << *number;
                 let weight = 1.0 / surface.sigma(i).powi(2);
                 off_sum += weight * normal.dot(&(surface.points[i].cast::<f64>() - at));
                 weight_sum += weight;
-                let label = shot.labels.and_then(|labels| labels.get(i));
+                let segmentation = Some(&shot.segmentation).filter(|found| found.part.is_ok());
+                let label = segmentation.and_then(|found| found.labels.get(i));
                 part_votes += u16::from(label == Some(&PointLabel::Part));
                 votes += match label {
                     Some(PointLabel::Part) => PART_VOTE,

@@ -12,7 +12,7 @@ use super::{
     surface::ShotSurface,
 };
 use crate::{
-    geometry::{parallel::map_in_order, rigid::RigidTransform},
+    geometry::{parallel::map_each, rigid::RigidTransform},
     units::Metres,
 };
 
@@ -72,22 +72,17 @@ pub fn overlap(
     num_workers: usize,
 ) -> Agreement {
     let n = surfaces.len();
-    let distances = map_in_order(
-        n,
-        num_workers,
-        || (),
-        |(), i| {
-            let samples = samples_of(surfaces[i], NUM_SAMPLES);
-            let others = (0..n).map(|j| {
-                if i == j {
-                    return Vec::new();
-                }
-                let (from, to) = (surfaces[i], surfaces[j]);
-                distances(from, &samples, to, &poses[i], &poses[j], &is_part)
-            });
-            others.collect::<Vec<Vec<(f32, bool)>>>()
-        },
-    );
+    let distances = map_each(n, num_workers, |i| {
+        let samples = samples_of(surfaces[i], NUM_SAMPLES);
+        let others = (0..n).map(|j| {
+            if i == j {
+                return Vec::new();
+            }
+            let (from, to) = (surfaces[i], surfaces[j]);
+            distances(from, &samples, to, &poses[i], &poses[j], &is_part)
+        });
+        others.collect::<Vec<Vec<(f32, bool)>>>()
+    });
     let of_shot = |i: usize, is_counted: fn(&(f32, bool)) -> bool| {
         let own = distances[i].iter().flatten();
         let others = distances.iter().flat_map(|others| &others[i]);

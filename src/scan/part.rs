@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use super::FusedCloud;
-use crate::units::Metres;
+use crate::{geometry::voxel::connected_pieces, units::Metres};
 
 /// Points of the part further apart than this belong to different pieces. Segmentation links at the same distance.
 const LINK: Metres = Metres(0.02);
@@ -20,22 +20,8 @@ pub(super) fn keep_best_piece(cloud: &mut FusedCloud) {
         cells.entry(cell(i)).or_default().push(i as u32);
     }
     let (mut best, mut most) = (Vec::new(), 0);
-    while let Some((start, members)) = cells.pop_first() {
-        let mut piece = members;
-        let mut open = vec![start];
-        while let Some([x, y, z]) = open.pop() {
-            for dz in -1..=1 {
-                for dy in -1..=1 {
-                    for dx in -1..=1 {
-                        let next = [x + dx, y + dy, z + dz];
-                        if let Some(members) = cells.remove(&next) {
-                            piece.extend(members);
-                            open.push(next);
-                        }
-                    }
-                }
-            }
-        }
+    for piece in connected_pieces(cells) {
+        let piece: Vec<u32> = piece.concat();
         let votes = piece
             .iter()
             .map(|&i| u64::from(cloud.part_votes[i as usize]));

@@ -19,7 +19,7 @@ use super::{
 };
 use crate::{
     geometry::{
-        parallel::{map_in_order, num_cores},
+        parallel::{map_each, num_cores},
         rigid::RigidTransform,
     },
     units::{Metres, Radians},
@@ -135,12 +135,7 @@ fn step(
     params: &RegisterParams,
 ) -> Option<Vec<Vector6<f64>>> {
     let n = posed.len();
-    let blocks = map_in_order(
-        n,
-        params.num_workers,
-        || (),
-        |(), i| blocks_of(posed, i, scale),
-    );
+    let blocks = map_each(n, params.num_workers, |i| blocks_of(posed, i, scale));
     let mut matrix = DMatrix::zeros(6 * n, 6 * n);
     let mut right = DVector::zeros(6 * n);
     // Sum in the order of the shots, so that the number of threads does not matter.

@@ -1,16 +1,16 @@
 //! Finds the shot that does not fit: its pose is wrong, or the part stood elsewhere when it was taken.
 
 use super::{
+    ScannedShot,
     pairs::{ProjectedReading, Reach, meet},
     register::samples_of,
-    surface::ShotSurface,
 };
 use crate::{
     geometry::{
-        parallel::map_in_order,
+        parallel::map_each,
         rigid::{PoseDelta, RigidTransform},
     },
-    stages::segment::{PointLabel, Segmentation},
+    stages::segment::PointLabel,
     units::{Metres, Radians},
 };
 
@@ -81,16 +81,6 @@ impl crate::error::Advice for Excluded {
     }
 }
 
-/// A shot at its refined pose.
-pub(super) struct ShotFit<'a> {
-    pub(super) surface: &'a ShotSurface,
-    pub(super) segmentation: &'a Segmentation,
-    pub(super) base_from_camera: RigidTransform,
-    /// The robot's pose.
-    pub(super) given: RigidTransform,
-    pub(super) moved: PoseDelta,
-}
-
 /// Readings of one place in two shots: how many agree, and how many do not.
 #[derive(Clone, Copy, Debug, Default)]
 struct Count {
@@ -125,26 +115,21 @@ const REACH: Reach = Reach {
 
 /// Returns the shot that fits worst, and why; `None` if all fit.
 pub(super) fn worst(
-    shots: &[ShotFit<'_>],
+    shots: &[&ScannedShot],
     params: &SuspectParams,
     num_workers: usize,
 ) -> Option<(usize, Excluded)> {
     let n = shots.len();
-    let counts: Vec<Vec<[Count; 2]>> = map_in_order(
-        n,
-        num_workers,
-        || (),
-        |(), i| {
-            let samples = samples_of(shots[i].surface, NUM_SAMPLES);
-            let others = (0..n).map(|j| {
-                if i == j {
-                    return Default::default();
-                }
-                count(&shots[i], &samples, &shots[j])
-            });
-            others.collect()
-        },
-    );
+    let counts: Vec<Vec<[Count; 2]>> = map_each(n, num_workers, |i| {
+        let samples = samples_of(&shots[i].surface, NUM_SAMPLES);
+        let others = (0..n).map(|j| {
+            if i == j {
+                return Default::default();
+            }
+            count(shots[i], &shots[i].base_from_camera, &samples, shots[j])
+        });
+        others.collect()
+    });
     let of_shot = |i: usize, which: usize| {
         let mut sum = Count::default();
         for (j, of_other) in counts.iter().enumerate() {
@@ -187,36 +172,37 @@ pub(super) fn worst(
 
 /// Returns [`Excluded::PartMoved`] if the shot's cell fits the other shots better at the robot's pose than at the refined
 /// one: a part that stands elsewhere pulls the pose along.
-fn part_moved(shots: &[ShotFit<'_>], which: usize) -> Option<Excluded> {
-    let suspect = &shots[which];
-    let samples = samples_of(suspect.surface, NUM_SAMPLES);
-    let at = |base_from_camera: RigidTransform| {
-        let posed = ShotFit {
-            base_from_camera,
-            ..*suspect
-        };
+fn part_moved(shots: &[&ScannedShot], which: usize) -> Option<Excluded> {
+    let suspect = shots[which];
+    let samples = samples_of(&suspect.surface, NUM_SAMPLES);
+    let at = |base_from_suspect: &RigidTransform| {
         let others = shots.iter().enumerate().filter(|(j, _)| *j != which);
         let (mut part, mut cell_fit) = (Count::default(), 0.0);
         for (_, other) in others {
-            part.add(count(&posed, &samples, other)[1]);
-            cell_fit += fit_of_cell(&posed, &samples, other);
+            part.add(count(suspect, base_from_suspect, &samples, other)[1]);
+            cell_fit += fit_of_cell(suspect, base_from_suspect, &samples, other);
         }
         (part.share(), cell_fit)
     };
-    let (part, as_given) = at(suspect.given);
-    let (_, as_moved) = at(suspect.base_from_camera);
+    let (part, as_given) = at(&suspect.given);
+    let (_, as_moved) = at(&suspect.base_from_camera);
     let share = part.filter(|_| as_given > as_moved)?;
     Some(Excluded::PartMoved { share })
 }
 
 /// Sums how well readings of the cell, without the part, lie on another shot's surface: 1 for each exactly on it.
-fn fit_of_cell(from: &ShotFit<'_>, samples: &[u32], to: &ShotFit<'_>) -> f64 {
-    let to_from = to.base_from_camera.inverse() * from.base_from_camera;
+fn fit_of_cell(
+    from: &ScannedShot,
+    base_from_from: &RigidTransform,
+    samples: &[u32],
+    to: &ScannedShot,
+) -> f64 {
+    let to_from = to.base_from_camera.inverse() * base_from_from;
     let fit = |&i: &u32| {
         let i = i as usize;
         let is_part = from.segmentation.labels.get(i) == Some(&PointLabel::Part);
         let base_from_to = &to.base_from_camera;
-        match meet(from.surface, i, to.surface, &to_from, base_from_to, REACH) {
+        match meet(&from.surface, i, &to.surface, &to_from, base_from_to, REACH) {
             ProjectedReading::Pair(pair) if !is_part => {
                 (-(pair.off() / pair.sigma).powi(2) / 2.0).exp()
             }
@@ -227,13 +213,18 @@ fn fit_of_cell(from: &ShotFit<'_>, samples: &[u32], to: &ShotFit<'_>) -> f64 {
 }
 
 /// Counts agreement over all readings, and on the part alone.
-fn count(from: &ShotFit<'_>, samples: &[u32], to: &ShotFit<'_>) -> [Count; 2] {
-    let to_from = to.base_from_camera.inverse() * from.base_from_camera;
+fn count(
+    from: &ScannedShot,
+    base_from_from: &RigidTransform,
+    samples: &[u32],
+    to: &ScannedShot,
+) -> [Count; 2] {
+    let to_from = to.base_from_camera.inverse() * base_from_from;
     let mut counts = [Count::default(); 2];
     for &i in samples {
         let i = i as usize;
         let base_from_to = &to.base_from_camera;
-        let met = meet(from.surface, i, to.surface, &to_from, base_from_to, REACH);
+        let met = meet(&from.surface, i, &to.surface, &to_from, base_from_to, REACH);
         let agrees = match met {
             ProjectedReading::Pair(pair) => pair.off().abs() < AGREES + 3.0 * pair.sigma,
             ProjectedReading::Through => false,

@@ -137,23 +137,26 @@ pub struct Trouble {
 }
 
 impl Trouble {
-    /// Puts an error and its advice into words.
-    pub fn of<E: std::fmt::Display + Advice>(reason: impl Into<String>, error: &E) -> Self {
+    /// Joins what happened and what to do about it in one line.
+    pub(super) fn new(reason: impl Into<String>, what: &str, advice: &str) -> Self {
         Self {
             reason: reason.into(),
-            message: in_words(&error.to_string(), &error.advice()),
+            message: format!("{what} (to do: {advice})"),
         }
+    }
+
+    /// Puts an error and its advice into words.
+    pub fn of<E: std::fmt::Display + Advice>(reason: impl Into<String>, error: &E) -> Self {
+        Self::new(reason, &error.to_string(), &error.advice())
     }
 
     /// The maximum number of clients is connected.
     pub(super) fn full(max_clients: usize) -> Self {
-        Self {
-            reason: "full".into(),
-            message: in_words(
-                &format!("{max_clients} clients are connected"),
-                "Close a connection that is not used, or raise --max-clients",
-            ),
-        }
+        Self::new(
+            "full",
+            &format!("{max_clients} clients are connected"),
+            "Close a connection that is not used, or raise --max-clients",
+        )
     }
 }
 
@@ -164,11 +167,6 @@ pub struct LibraryStatus {
     pub version: Option<u32>,
     /// Why a newer version could not be taken or used; null if there is none.
     pub trouble: Option<Trouble>,
-}
-
-/// Joins what happened and what to do about it in one line.
-pub(super) fn in_words(what: &str, advice: &str) -> String {
-    format!("{what} (to do: {advice})")
 }
 
 /// A nozzle pose of the spray path, for the part as it hangs now.
@@ -360,10 +358,7 @@ impl Answer {
             } else {
                 "Ask for points from 1 to the number of points in PATH's answer"
             };
-            self.trouble = Trouble {
-                reason: "no_such_point".into(),
-                message: in_words(&what, advice),
-            };
+            self.trouble = Trouble::new("no_such_point", &what, advice);
             return;
         };
         self.point = point;
@@ -387,32 +382,18 @@ pub(super) fn judged(
     if found.verdict != VerdictCode::Accepted {
         return (found.verdict, found.trouble.clone());
     }
-    let refused = |verdict, reason: &str, what: &str, advice: &str| {
-        let trouble = Trouble {
-            reason: reason.into(),
-            message: in_words(what, advice),
-        };
-        (verdict, trouble)
-    };
     let is_fresh = age.is_some_and(|age| age <= max_age);
     let poses = found.path.iter().map(|step| &step.robot_from_nozzle);
     let mut poses = poses.chain(&found.pose);
     let is_finite = poses.all(|pose| row_major(pose).iter().all(|number| number.is_finite()));
     if !is_fresh {
         let what = format!("the frame is older than {} s", max_age.as_secs_f64());
-        refused(
-            VerdictCode::Stale,
-            "stale",
-            &what,
-            "TRIGGER again; if a path takes longer to fetch, raise --max-age",
-        )
+        let advice = "TRIGGER again; if a path takes longer to fetch, raise --max-age";
+        (VerdictCode::Stale, Trouble::new("stale", &what, advice))
     } else if found.pose.is_none() || !is_finite {
-        refused(
-            VerdictCode::Refused,
-            "no_pose",
-            "the part was accepted without a pose",
-            "Start the server without --pose none, and TRIGGER again",
-        )
+        let what = "the part was accepted without a pose";
+        let advice = "Start the server without --pose none, and TRIGGER again";
+        (VerdictCode::Refused, Trouble::new("no_pose", what, advice))
     } else {
         (VerdictCode::Accepted, found.trouble.clone())
     }

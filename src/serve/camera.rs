@@ -34,7 +34,7 @@ const CLOCK_TOLERANCE: Duration = Duration::from_millis(100);
 
 /// A source that keeps running while nobody requests frames.
 pub struct Camera {
-    start: Box<dyn Fn() -> Result<(Feed, NewFrame), CaptureError> + Send + Sync>,
+    start: Box<dyn Fn() -> Result<Opened, CaptureError> + Send + Sync>,
     opened: Mutex<Opened>,
 }
 
@@ -43,15 +43,6 @@ pub struct Camera {
 struct Opened {
     feed: Arc<Feed>,
     rule: NewFrame,
-}
-
-impl From<(Feed, NewFrame)> for Opened {
-    fn from((feed, rule): (Feed, NewFrame)) -> Self {
-        Self {
-            feed: Arc::new(feed),
-            rule,
-        }
-    }
 }
 
 /// How a frame is known to have been captured after a trigger.
@@ -76,9 +67,7 @@ impl NewFrame {
             | SourceSpec::Realsense(_) => Self::SecondArrived,
         }
     }
-}
 
-impl NewFrame {
     /// The time of capture, from which the frame's age is computed.
     pub fn captured_at(self, captured: &Captured) -> Instant {
         match self {
@@ -224,7 +213,12 @@ impl Camera {
     pub fn start_with(
         start: impl Fn() -> Result<(Feed, NewFrame), CaptureError> + Send + Sync + 'static,
     ) -> Result<Self, CaptureError> {
-        let opened = Mutex::new(start()?.into());
+        let start = move || -> Result<Opened, CaptureError> {
+            let (feed, rule) = start()?;
+            let feed = Arc::new(feed);
+            Ok(Opened { feed, rule })
+        };
+        let opened = Mutex::new(start()?);
         Ok(Self {
             start: Box::new(start),
             opened,
@@ -317,10 +311,9 @@ impl Camera {
     }
 
     fn start_again(&self, opened: &mut Opened) -> Result<(), NoFrame> {
-        let started = (self.start)().map_err(|error| NoFrame::Failed {
+        *opened = (self.start)().map_err(|error| NoFrame::Failed {
             error: Arc::new(error),
         })?;
-        *opened = started.into();
         Ok(())
     }
 }

@@ -5,7 +5,7 @@ use std::time::Instant;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::answer::{Answer, Found, PathStep, Trouble, VerdictCode, in_words};
+use super::answer::{Answer, Found, PathStep, Trouble, VerdictCode};
 use crate::{
     geometry::rigid::RigidTransform,
     library::SprayPath,
@@ -82,22 +82,17 @@ impl PartFinder {
                 Verdict::Part { .. } => VerdictCode::Refused,
                 Verdict::NoPart(_) => VerdictCode::NoPart,
             };
-            found.trouble = Trouble {
-                reason: why.kind().to_string(),
-                message: in_words(&what, &advice),
-            };
+            found.trouble = Trouble::new(why.kind().to_string(), &what, &advice);
             return found;
         }
-        let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+        let pose = inspection.found_pose();
         if pose.is_some_and(PoseEstimate::is_ambiguous) {
             found.verdict = VerdictCode::Refused;
-            found.trouble = Trouble {
-                reason: "ambiguous_pose".into(),
-                message: in_words(
-                    "another pose fits nearly as well",
-                    "Turn the part's face to the camera, all of it inside the picture",
-                ),
-            };
+            found.trouble = Trouble::new(
+                "ambiguous_pose",
+                "another pose fits nearly as well",
+                "Turn the part's face to the camera, all of it inside the picture",
+            );
             return found;
         }
         found.verdict = VerdictCode::Accepted;
@@ -196,7 +191,7 @@ mod tests {
         let recipe = Recipe::default();
         let scene = facing_part(PartKind::Fender, Side::Left, 5);
         let inspection = run(&scene, &library, &recipe, &Unwatched).expect("not cancelled");
-        let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+        let pose = inspection.found_pose();
         let pose = pose.expect("found").camera_from_part();
         let best = inspection
             .ranking

@@ -132,7 +132,8 @@ impl fmt::Display for ListenAddress {
 pub struct Listener {
     /// Protocol and address.
     pub at: ListenAddress,
-    pub(super) convention: Convention,
+    /// Convention of the poses sent there.
+    pub convention: Convention,
 }
 
 impl Listener {
@@ -148,11 +149,6 @@ impl Listener {
             });
         }
         Ok(Self { at, convention })
-    }
-
-    /// The convention of the poses sent there.
-    pub fn convention(&self) -> Convention {
-        self.convention
     }
 
     /// Returns a warning if other computers can reach the address.
@@ -242,7 +238,7 @@ mod tests {
 
     #[test]
     fn the_numbers_are_those_of_the_protocol_or_have_to_be_chosen() {
-        let of = |text, chosen| Listener::new(read(text), chosen).map(|found| found.convention());
+        let of = |text, chosen| Listener::new(read(text), chosen).map(|found| found.convention);
         let chosen = Some(Convention::Abb);
         assert_eq!(of("ascii=1", chosen), Ok(Convention::Abb));
         assert_eq!(of("binary=1", chosen), Ok(Convention::Abb));

@@ -41,10 +41,9 @@ pub use self::{
     handle::ServerHandle,
     listen::{ListenAddress, ListenError, Listener, OpenToNetwork, parse_address},
     protocol::{
-        ByteOrder, Protocol,
+        ByteOrder, Parsed, Protocol,
         bad_request::BadRequest,
         binary::{ANSWER_BYTES, MAX_NUMBERS, REQUEST_BYTES, request as binary_request},
-        parsed::Parsed,
     },
     record::{InspectionRecord, InspectionRecorder},
     server::{

@@ -49,25 +49,12 @@ impl Assembly {
     /// Adds a finished mesh, every vertex transformed by `place`.
     pub(super) fn add(&mut self, mesh: &TriangleMesh, place: impl Fn(Point3<f64>) -> Point3<f64>) {
         let first = self.vertices.len() as u32;
-        self.vertices
-            .extend(mesh.vertices.iter().map(|p| place(p.cast::<f64>())));
+        self.vertices.extend(mesh.placed_vertices(place));
         self.triangles.extend(
             mesh.triangles
                 .iter()
                 .map(|corners| corners.map(|i| first + i)),
         );
-    }
-
-    /// Returns the centre of the bounding box; the origin for an empty assembly.
-    pub(super) fn middle(&self) -> Point3<f64> {
-        let Some(&first) = self.vertices.first() else {
-            return Point3::origin();
-        };
-        let (low, high) = self
-            .vertices
-            .iter()
-            .fold((first, first), |(low, high), p| (low.inf(p), high.sup(p)));
-        nalgebra::center(&low, &high)
     }
 
     /// Moves the mesh by `shift`.
@@ -80,7 +67,7 @@ impl Assembly {
 
     /// Returns the mesh with the centre of its bounding box at the origin.
     pub(super) fn centred(self) -> TriangleMesh {
-        let middle = self.middle();
+        let middle = middle_of_box(&self.vertices);
         self.moved(-middle.coords).into_mesh()
     }
 
@@ -105,6 +92,19 @@ impl Assembly {
             triangles,
         }
     }
+}
+
+/// Returns the smallest and largest coordinates of points.
+pub(super) fn bounds(points: &[Point3<f64>]) -> Option<(Point3<f64>, Point3<f64>)> {
+    let first = *points.first()?;
+    let widened =
+        |(low, high): (Point3<f64>, Point3<f64>), p: &Point3<f64>| (low.inf(p), high.sup(p));
+    Some(points.iter().fold((first, first), widened))
+}
+
+/// Returns the centre of the bounding box of points; the origin if there are none.
+pub(super) fn middle_of_box(points: &[Point3<f64>]) -> Point3<f64> {
+    bounds(points).map_or_else(Point3::origin, |(low, high)| nalgebra::center(&low, &high))
 }
 
 /// Mirrors a mesh about x = 0, and reverses the winding so that outside stays outside.

@@ -179,13 +179,14 @@ impl<'a> Cell<'a> {
                 fully_visible: is_in_frame(part, &camera_from_part, &setup.intrinsics),
             },
         };
-        let hung: Vec<Point3<f64>> = part
-            .vertices
-            .iter()
-            .map(|p| camera_from_part * p.cast::<f64>())
-            .collect();
-        let mut wall = behind(setup.wall, &hung, &mut random);
-        let mut floor = below(setup.floor, &hung, &mut random);
+        let hung = part.placed_vertices(|p| camera_from_part * p);
+        let mut wall = beyond(
+            Vector3::z(),
+            setup.wall.0.clamp(2.2, 3.0),
+            &hung,
+            &mut random,
+        );
+        let mut floor = beyond(Vector3::y(), setup.floor.0, &hung, &mut random);
         if setup.stand == Stand::Floor {
             let down = down_from_above(&mut random);
             // The wall stays upright.
@@ -197,24 +198,22 @@ impl<'a> Cell<'a> {
             Stand::None | Stand::Floor => Assembly::default(),
             Stand::Post => post(&hung, &floor),
         };
-        let clutter = match setup.clutter {
+        let mut clutter = match setup.clutter {
             Clutter::None => Assembly::default(),
-            Clutter::OnFloor => on_floor(&hung, &floor, &wall, &mut random),
-            Clutter::InFront => {
-                let mut clutter = on_floor(&hung, &floor, &wall, &mut random);
-                let draw_part = |picture: &mut Rendering| {
-                    picture.draw_mesh(part, &camera_from_part, SurfaceLabel::Part);
-                };
-                plank(
-                    &mut clutter,
-                    &hung,
-                    &setup.intrinsics,
-                    draw_part,
-                    &mut random,
-                );
-                clutter
-            }
+            Clutter::OnFloor | Clutter::InFront => on_floor(&hung, &floor, &wall, &mut random),
         };
+        if setup.clutter == Clutter::InFront {
+            let draw_part = |picture: &mut Rendering| {
+                picture.draw_mesh(part, &camera_from_part, SurfaceLabel::Part);
+            };
+            plank(
+                &mut clutter,
+                &hung,
+                &setup.intrinsics,
+                draw_part,
+                &mut random,
+            );
+        }
         Self {
             part,
             camera_from_part,
@@ -271,12 +270,4 @@ fn beyond(normal: Vector3<f64>, wished: f64, hung: &[Point3<f64>], random: &mut 
         normal,
         offset: wished.max(reach + CLEARANCE),
     }
-}
-
-fn behind(wall: Metres, hung: &[Point3<f64>], random: &mut Pcg64) -> Plane {
-    beyond(Vector3::z(), wall.0.clamp(2.2, 3.0), hung, random)
-}
-
-fn below(floor: Metres, hung: &[Point3<f64>], random: &mut Pcg64) -> Plane {
-    beyond(Vector3::y(), floor.0, hung, random)
 }

@@ -47,11 +47,7 @@ pub(super) fn on_floor(
             random.random_range(-1.1..1.1),
             random.random_range(1.5..2.2),
         );
-        let turned: Vec<Point3<f64>> = mesh
-            .vertices
-            .iter()
-            .map(|p| turn * p.cast::<f64>())
-            .collect();
+        let turned = mesh.placed_vertices(|p| turn * p);
         let foot = turned.iter().map(|p| p.y).fold(0.0, f64::max);
         let shift = Vector3::new(x, floor.height_at(x, z) - foot, z);
         let is_before_wall = turned

@@ -68,9 +68,9 @@ impl ObjectKind {
         match self {
             Self::Hood => hood(),
             Self::Wheel => wheel(),
-            Self::Box => cardboard_box(),
+            Self::Box => cuboid(0.50, 0.38, 0.34),
             Self::Chair => chair(),
-            Self::Board => board(),
+            Self::Board => cuboid(1.00, 0.60, 0.018),
             Self::Ladder => ladder(),
             Self::Stool => stool(),
             Self::Bucket => bucket(),
@@ -95,7 +95,6 @@ fn hood() -> Assembly {
             x * x / 2.4 + (y + 0.2).powi(2) / 3.0 + 0.5 * bend(y - 0.34, 0.03) - crease,
         )
     };
-    let mut hood = Assembly::default();
     Sheet {
         region: &outline,
         u_range: (-0.65, 0.65),
@@ -104,8 +103,7 @@ fn hood() -> Assembly {
         lift: &lift,
         fold: &|_, _| 0.022,
     }
-    .press_into(&mut hood);
-    hood
+    .pressed()
 }
 
 fn wheel() -> Assembly {
@@ -146,24 +144,14 @@ fn wheel() -> Assembly {
     wheel
 }
 
-fn cardboard_box() -> Assembly {
-    let mut cardboard = Assembly::default();
+fn cuboid(width: f64, height: f64, depth: f64) -> Assembly {
+    let mut cuboid = Assembly::default();
     block(
-        &mut cardboard,
+        &mut cuboid,
         Point3::origin(),
-        Vector3::new(0.50, 0.38, 0.34),
+        Vector3::new(width, height, depth),
     );
-    cardboard
-}
-
-fn board() -> Assembly {
-    let mut board = Assembly::default();
-    block(
-        &mut board,
-        Point3::origin(),
-        Vector3::new(1.00, 0.60, 0.018),
-    );
-    board
+    cuboid
 }
 
 fn chair() -> Assembly {

@@ -96,11 +96,7 @@ impl PoseRange {
             OFF_AXIS * (2.0 * random.random::<f64>() - 1.0),
         ];
 
-        let turned: Vec<Point3<f64>> = mesh
-            .vertices
-            .iter()
-            .map(|p| rotation * p.cast::<f64>())
-            .collect();
+        let turned = mesh.placed_vertices(|p| rotation * p);
         let axes = [
             ShiftRange::new(&turned, 0, intrinsics.cx, intrinsics.fx, intrinsics.width),
             ShiftRange::new(&turned, 1, intrinsics.cy, intrinsics.fy, intrinsics.height),

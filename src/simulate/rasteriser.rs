@@ -86,11 +86,7 @@ impl Rendering {
         camera_from_mesh: &RigidTransform,
         label: SurfaceLabel,
     ) {
-        let points: Vec<Point3<f64>> = mesh
-            .vertices
-            .iter()
-            .map(|p| camera_from_mesh * p.cast::<f64>())
-            .collect();
+        let points = mesh.placed_vertices(|p| camera_from_mesh * p);
         for corners in &mesh.triangles {
             let corners = corners.map(|i| points[i as usize]);
             if corners.iter().all(|p| p.z >= NEAR) {

@@ -111,7 +111,7 @@ fn sense(rendering: &Rendering, noise: &SensorNoise) -> DepthFrame {
         rendering
             .depth
             .iter()
-            .map(|&z| in_units(f64::from(z)))
+            .map(|&z| in_units(f64::from(z), METRES_PER_UNIT))
             .collect()
     };
     DepthFrame {
@@ -122,9 +122,9 @@ fn sense(rendering: &Rendering, noise: &SensorNoise) -> DepthFrame {
     }
 }
 
-fn in_units(metres: f64) -> u16 {
+pub(super) fn in_units(metres: f64, metres_per_unit: f64) -> u16 {
     // The cast truncates, so adding a half rounds. Larger distances become no reading.
-    let units = metres / METRES_PER_UNIT + 0.5;
+    let units = metres / metres_per_unit + 0.5;
     if units < f64::from(u16::MAX) {
         units as u16
     } else {
@@ -179,7 +179,7 @@ fn with_noise(rendering: &Rendering, noise: &SensorNoise) -> Vec<u16> {
             let steps = ((true_disparity + error) * STEPS_PER_PIXEL + 0.5) as u32;
             let z = focal_baseline * STEPS_PER_PIXEL / f64::from(steps);
             if (RANGE.0..=RANGE.1).contains(&z) {
-                depth[pixel] = in_units(z);
+                depth[pixel] = in_units(z, METRES_PER_UNIT);
             }
         }
     }

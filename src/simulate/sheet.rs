@@ -56,6 +56,13 @@ impl CellVertex {
 }
 
 impl Sheet<'_> {
+    /// Returns the pressed sheet alone.
+    pub(super) fn pressed(&self) -> Assembly {
+        let mut assembly = Assembly::default();
+        self.press_into(&mut assembly);
+        assembly
+    }
+
     /// Adds the sheet to the part.
     pub(super) fn press_into(&self, assembly: &mut Assembly) {
         let columns = (((self.u_range.1 - self.u_range.0) / self.spacing).ceil() as usize).max(1);

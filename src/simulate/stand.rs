@@ -5,7 +5,7 @@ use rand::RngExt as _;
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 
-use super::assembly::Assembly;
+use super::assembly::{Assembly, bounds};
 use super::beam::{Section, sweep};
 use super::rasteriser::Plane;
 
@@ -66,12 +66,9 @@ pub(super) fn floor_below(hung: &[Point3<f64>], down: &Vector3<f64>) -> Option<P
 /// Builds a post behind the part, a cross bar at its upper edge, and two hooks over that edge.
 pub(super) fn post(hung: &[Point3<f64>], floor: &Plane) -> Assembly {
     let mut stand = Assembly::default();
-    let Some(&first) = hung.first() else {
+    let Some((low, high)) = bounds(hung) else {
         return stand;
     };
-    let (low, high) = hung
-        .iter()
-        .fold((first, first), |(low, high), p| (low.inf(p), high.sup(p)));
     let x = 0.5 * (low.x + high.x);
     let z = high.z + 0.05;
     let reach = 0.2 * (high.x - low.x);

@@ -41,11 +41,6 @@ impl RaySpectra {
         }
         all
     }
-
-    /// Returns the number of rays of each outline.
-    pub fn num_rays(&self) -> usize {
-        self.num_rays
-    }
 }
 
 /// A cached planner for one precision: planning takes as long as dozens of transforms.

@@ -13,7 +13,7 @@ use super::{
     scene::SceneCloud,
     segment::SegmentedPart,
 };
-use crate::units::Metres;
+use crate::{geometry::statistics::sample_evenly, units::Metres};
 
 /// Number of points used to measure a fit.
 const NUM_MEASURED: usize = 5000;
@@ -28,9 +28,8 @@ pub fn locate(
 ) -> Result<PoseEstimate, PoseError> {
     let target = reference.target(0).ok_or(PoseError::NoReferenceCloud)?;
     let mut estimate = align_to(&part.cloud, reference.whole()?, params, None, is_cancelled)?;
-    let points = &part.cloud.points;
-    let step = points.len().div_ceil(NUM_MEASURED).max(1);
-    let measured: Vec<Point3<f32>> = points.iter().step_by(step).copied().collect();
+    let measured = sample_evenly(&part.cloud.points, NUM_MEASURED);
+    let measured: Vec<Point3<f32>> = measured.copied().collect();
     let tolerance = Tolerance {
         base: Metres::from_mm(10.0),
         noise_at_1m: part.noise_at_1m,

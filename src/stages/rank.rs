@@ -13,7 +13,7 @@ use placement::{PlacementSearch, refine_first};
 
 pub use self::placement::ImagePlacement;
 use crate::{
-    geometry::parallel::{map_in_order, num_cores},
+    geometry::parallel::{map_each, map_in_order, num_cores},
     stages::{
         contour::Contour,
         project::PlaneImage,
@@ -136,12 +136,11 @@ fn rank_literally(
     references: &[Reference],
 ) -> Vec<MatchEntry> {
     let of_query = LiteralSignature::of(&query.contour.outline_pixels);
-    let score = |(): &mut (), reference: usize| {
+    let distances = map_each(references.len(), num_workers, |reference| {
         let literal = references[reference].literal();
         let distance = literal.distance(&of_query);
         (distance, distance / literal.norm().max(f64::MIN_POSITIVE))
-    };
-    let distances = map_in_order(references.len(), num_workers, || (), score);
+    });
     let least = distances.iter().map(|d| d.0).fold(f64::INFINITY, f64::min);
     distances
         .into_iter()

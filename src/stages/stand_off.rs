@@ -27,7 +27,7 @@ use nalgebra::{Isometry3, Point3, Vector3};
 
 use self::ray::{Ray, ReferenceSurface};
 use crate::{
-    geometry::rigid::RigidTransform,
+    geometry::{rigid::RigidTransform, statistics::sample_evenly},
     stages::reference::Reference,
     units::{Metres, Radians},
 };
@@ -144,8 +144,7 @@ pub fn stand_off(
         .zip(normals)
         .filter(|(p, normal)| sees(p, normal))
         .collect();
-    let step = seen.len().div_ceil(params.num_rays.max(1)).max(1);
-    let taught = seen.iter().step_by(step);
+    let taught = sample_evenly(&seen, params.num_rays);
     let num_taught = taught.len();
     let part_from_camera: Isometry3<f32> = camera_from_part.inverse().cast();
     let met: Vec<(f32, NozzleRay)> = taught

@@ -6,7 +6,7 @@ use nalgebra::{Point3, Vector3};
 use partsight::{
     files::{FileContent, open},
     geometry::{nearest::KdTree, rigid::RigidTransform},
-    robot::frame_poses::{FramePose, FramePoses},
+    robot::frame_poses::{FramePose, read_frame_poses},
     scan::{Scan, ScanParams, Shot, ShotSurface, Unwatched, assemble, surface::Use},
     stages::scene::scene_from_frame,
 };
@@ -15,21 +15,21 @@ use crate::data_folder;
 
 fn shots(folder: &Path, series: &str, num: usize) -> Vec<Shot> {
     let names: Vec<String> = (0..num).map(|k| format!("{series}_{k:02}.png")).collect();
-    let poses = FramePoses::read(&folder.join("truth.json"), &names).expect("poses");
-    let shot = |name: &String| {
+    let poses = read_frame_poses(&folder.join("truth.json"), &names).expect("poses");
+    let shot = |(name, pose): (&String, FramePose)| {
         let Ok(FileContent::Depth(frame)) = open(&folder.join(name)) else {
             panic!("{name}: no depth image");
         };
-        let Some(FramePose::Camera(base_from_camera)) = poses.of(name) else {
+        let FramePose::Camera(base_from_camera) = pose else {
             panic!("{name}: no pose of the camera");
         };
         Shot {
             name: name.clone(),
             scene: Arc::new(scene_from_frame(&frame)),
-            base_from_camera: *base_from_camera,
+            base_from_camera,
         }
     };
-    names.iter().map(shot).collect()
+    names.iter().zip(poses).map(shot).collect()
 }
 
 /// Part and stand are nearer to the camera than this, metres; floor and walls are not.

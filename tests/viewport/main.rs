@@ -14,7 +14,10 @@ use egui_kittest::wgpu::{create_render_state, default_wgpu_setup};
 use image::RgbaImage;
 use nalgebra::Point3;
 use partsight::{
-    app::ui::viewport::{PointSet, TextLabel, ViewError, ViewScene, ViewportGpu, furniture},
+    app::ui::viewport::{
+        PointSet, TextLabel, ViewCamera, ViewError, ViewScene, ViewShot, ViewStyle, ViewportGpu,
+        furniture,
+    },
     geometry::{nearest::KdTree, rigid::RigidTransform},
     simulate::{self, CellSetup, PartKind, PartPose, PoseRange, Side},
     stages::{
@@ -46,6 +49,26 @@ fn render_state() -> Option<RenderState> {
         default_wgpu_setup(),
         RendererOptions::PREDICTABLE,
     ))
+}
+
+/// Draws a scene off screen.
+fn screenshot(
+    gpu: &ViewportGpu,
+    camera: &ViewCamera,
+    scene: &ViewScene,
+    style: &ViewStyle,
+    size: [u32; 2],
+    pixels_per_point: f32,
+) -> Result<RgbaImage, ViewError> {
+    let shot = ViewShot {
+        gpu: gpu.clone(),
+        camera: *camera,
+        scene: scene.clone(),
+        style: style.clone(),
+        size,
+        pixels_per_point,
+    };
+    shot.take()
 }
 
 /// Keeps a picture if the environment asks for it.

@@ -5,12 +5,12 @@ use std::collections::HashSet;
 use eframe::egui::Color32;
 use image::RgbaImage;
 use partsight::app::ui::viewport::{
-    Colouring, PointSet, PointSize, Role, StandardView, ViewCamera, ViewColours, ViewError,
-    ViewScene, ViewStyle, screenshot,
+    Colouring, PointSet, Role, StandardView, ViewCamera, ViewColours, ViewError, ViewScene,
+    ViewStyle,
 };
 use partsight::units::Metres;
 
-use crate::{device, example, keep};
+use crate::{device, example, keep, screenshot};
 
 const SIZE: [u32; 2] = [800, 600];
 
@@ -72,17 +72,13 @@ fn other_directions_and_sizes_draw_as_well() {
     let Some(gpu) = device() else { return };
     let example = example();
     let mut style = ViewStyle::new(ViewColours::dark());
-    for (name, view, size) in [
-        ("top", StandardView::Top, PointSize::Pixels(2.0)),
-        (
-            "side",
-            StandardView::Side,
-            PointSize::Metres(Metres::from_mm(4.0)),
-        ),
+    for (name, view, mm) in [
+        ("top", StandardView::Top, 2.0),
+        ("side", StandardView::Side, 4.0),
     ] {
         let mut camera = ViewCamera::default();
         camera.look(view);
-        style.point_size = size;
+        style.point_size = Metres::from_mm(mm);
         let picture = screenshot(&gpu, &camera, &example, &style, SIZE, 1.0).expect("a picture");
         keep(name, &picture);
         assert!(num_colours(&picture) > 100);
@@ -110,7 +106,7 @@ fn nearer_points_hide_farther_ones() {
     };
     let mut style = ViewStyle::new(ViewColours::dark());
     style.eye_dome = 0.0;
-    style.point_size = PointSize::Metres(Metres::from_mm(9.0));
+    style.point_size = Metres::from_mm(9.0);
     let (near, far) = (
         PointSet::new(square(1.0), Role::Part),
         PointSet::new(square(1.2), Role::Moving),

@@ -9,10 +9,9 @@ use eframe::egui::Vec2;
 use egui_kittest::{Harness, wgpu::WgpuTestRenderer};
 use partsight::app::ui::viewport::{
     PointSet, Role, ViewCamera, ViewColours, ViewScene, ViewStyle, Viewport, ViewportGpu,
-    screenshot,
 };
 
-use crate::{device, example, render_state};
+use crate::{device, example, render_state, screenshot};
 
 /// Processor time of all threads of this process so far, seconds: it does not depend on the load of the machine, as
 /// wall time does. 0 if there is no /proc.

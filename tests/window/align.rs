@@ -35,7 +35,7 @@ fn open() -> WindowHarness {
 
 fn own(harness: &WindowHarness) -> &AlignState {
     let workspace = harness.state().workspace::<AlignWorkspace>();
-    workspace.expect("the workspace").state()
+    &workspace.expect("the workspace").state
 }
 
 /// Presses a button without waiting for the result.
@@ -147,7 +147,7 @@ fn a_cancelled_table_keeps_its_rows_and_a_row_opens() {
     press_quickly(&mut harness, "Run Table I");
     wait_for(&mut harness, |window| {
         let workspace = window.workspace::<AlignWorkspace>();
-        workspace.is_some_and(|align| !align.state().table.rows.is_empty())
+        workspace.is_some_and(|align| !align.state.table.rows.is_empty())
     });
     harness.get_by_label_contains(" of 40 done");
     press_quickly(&mut harness, "Cancel Table I");
@@ -176,7 +176,7 @@ fn a_cancelled_table_keeps_its_rows_and_a_row_opens() {
     let path = folder.path().join("table1.csv");
     let chosen = AlignAction::Chosen(AlignFile::TableFile, path.clone());
     act_in(&mut harness, |workspace: &mut AlignWorkspace, cx| {
-        workspace.state_mut().apply(chosen, cx);
+        workspace.state.apply(chosen, cx);
     });
     let text = std::fs::read_to_string(&path).expect("written");
     assert_eq!(text.lines().count(), 1 + num);

@@ -198,7 +198,7 @@ fn a_robot_is_told_the_pose_that_the_window_shows_and_the_history_keeps_it() {
     wait_for(&mut harness, |window| shown_pose(window).is_some());
     let is_settled = |window: &Window| {
         let history = window.workspace::<HistoryWorkspace>();
-        history.is_some_and(|history| history.state().is_settled())
+        history.is_some_and(|history| history.state.is_settled())
     };
     wait_for(&mut harness, is_settled);
     let num_rows = history_of(&harness).num_rows();
@@ -476,7 +476,8 @@ fn trigger(harness: &mut WindowHarness, wire: &Sender<Step>, at: SocketAddr, pla
 fn wait_for_rows(harness: &mut WindowHarness, num_parts: usize, num_below: usize) {
     wait_for(harness, |window| {
         let history = window.workspace::<HistoryWorkspace>();
-        history.map(HistoryWorkspace::state).is_some_and(|history| {
+        let history = history.map(|history| &history.state);
+        history.is_some_and(|history| {
             let below = history.row(0).map(|row| row.num_below);
             history.is_settled() && (history.num_rows(), below) == (num_parts, Some(num_below))
         })

@@ -44,12 +44,12 @@ fn open(cases: &Path) -> WindowHarness {
 
 fn own(harness: &WindowHarness) -> &CompareState {
     let workspace = harness.state().workspace::<CompareWorkspace>();
-    workspace.expect("the workspace").state()
+    &workspace.expect("the workspace").state
 }
 
 fn act_in_compare(harness: &mut WindowHarness, action: CompareAction) {
     act_in(harness, |workspace: &mut CompareWorkspace, cx| {
-        workspace.state_mut().apply(action, cx);
+        workspace.state.apply(action, cx);
     });
 }
 
@@ -660,7 +660,7 @@ fn recipes_that_a_command_saves_are_listed_and_what_is_on_trial_stays() {
     recipes.save(&strict, Replace::No).expect("saved");
     wait_for(&mut harness, |window| {
         let compare = window.workspace::<CompareWorkspace>();
-        let list = compare.map(|compare| &compare.state().recipes.list);
+        let list = compare.map(|compare| &compare.state.recipes.list);
         list.is_some_and(|list| list.recipes.len() == 1)
     });
     settle(&mut harness);
@@ -676,7 +676,7 @@ fn recipes_that_a_command_saves_are_listed_and_what_is_on_trial_stays() {
     recipes.save(&strict, Replace::Yes).expect("saved");
     wait_for(&mut harness, |window| {
         let compare = window.workspace::<CompareWorkspace>();
-        let tried = compare.and_then(|compare| compare.state().tried.clone());
+        let tried = compare.and_then(|compare| compare.state.tried.clone());
         tried.is_some_and(|tried| tried.label.is_changed)
     });
     let tried = own(&harness).tried.as_ref().expect("on trial");

@@ -8,12 +8,7 @@ use partsight::{
     app::{
         WindowOptions,
         inspection::source::CellChoice,
-        shell::{
-            action::{Action, DialogRequest},
-            live::SourceState,
-            session::WorkspaceKind,
-            state::State,
-        },
+        shell::{action::Action, live::SourceState, session::WorkspaceKind, state::State},
         ui::viewport::DrawnShape,
         workspaces::{
             enrol::{EnrolAction, EnrolWorkspace, draft::Field},
@@ -30,7 +25,7 @@ use crate::kit::{copy_library, facing_part};
 
 use super::set_up::{
     SMALL, USUAL, WindowHarness, act, act_in, drop_file, enrol_of, history_of, open_with,
-    plain_options, press, settle, wait_for, wait_until,
+    plain_options, press, settle, wait_for, wait_until, watch_folder,
 };
 
 fn open_at(library: &Path, size: Vec2) -> WindowHarness {
@@ -244,14 +239,9 @@ fn a_capture_of_a_followed_folder_is_enrolled_and_not_inspected() {
     let (library, folder) = (library(), tempfile::tempdir().expect("a folder"));
     let mut harness = open(library.path());
     let before = history_of(&harness).num_rows();
-    let context = harness.ctx.clone();
-    let watched = Action::Chosen(DialogRequest::WatchedFolder, folder.path().to_owned());
-    harness.state_mut().act(watched, &context);
-    wait_until(&mut harness, |state| {
-        let status = state.session.live.status.as_ref();
-        status.is_some_and(|status| status.source == SourceState::Running)
-    });
+    watch_folder(&mut harness, folder.path());
     state(&harness).session.trace.set_serial("4711");
+    let context = harness.ctx.clone();
     harness.state_mut().act(Action::Capture, &context);
     wait_until(&mut harness, |state| state.follower.is_idle());
     let mut said = notices(&harness).into_iter();
@@ -273,16 +263,13 @@ fn after_a_save_the_newest_file_of_a_followed_folder_is_the_current_part_and_liv
     let (library, folder) = (library(), tempfile::tempdir().expect("a folder"));
     copy_library(library.path());
     let mut harness = open_at(library.path(), USUAL);
+    watch_folder(&mut harness, folder.path());
     let context = harness.ctx.clone();
-    let watched = Action::Chosen(DialogRequest::WatchedFolder, folder.path().to_owned());
-    harness.state_mut().act(watched, &context);
     let num_inspected = |state: &State| {
         let status = state.session.live.status.as_ref();
         let running = status.filter(|status| status.source == SourceState::Running);
         running.map(|status| status.num_inspected)
     };
-    wait_until(&mut harness, |state| num_inspected(state) == Some(0));
-    // Nothing settles while a folder is followed.
     let arrives = |harness: &mut WindowHarness, name: &str, kind, side, number| {
         let scene = facing_part(kind, side, 5);
         save_cloud(&folder.path().join(name), &scene.cloud).expect("written");
@@ -292,7 +279,7 @@ fn after_a_save_the_newest_file_of_a_followed_folder_is_the_current_part_and_liv
     let apply = |harness: &mut WindowHarness, action| {
         let window = harness.state_mut();
         let done = window.with(&context, |enrol: &mut EnrolWorkspace, cx| {
-            enrol.state_mut().apply(action, cx);
+            enrol.state.apply(action, cx);
         });
         done.expect("Enrol is there");
     };
@@ -302,7 +289,7 @@ fn after_a_save_the_newest_file_of_a_followed_folder_is_the_current_part_and_liv
     apply(&mut harness, EnrolAction::TakeShown);
     wait_for(&mut harness, |window| {
         let enrol = window.workspace::<EnrolWorkspace>().expect("there");
-        let draft = enrol.state().draft.as_ref();
+        let draft = enrol.state.draft.as_ref();
         draft.is_some_and(|draft| draft.ready().is_some())
     });
     let title = Field::Title("Wing".into());
@@ -327,7 +314,7 @@ fn after_a_save_the_newest_file_of_a_followed_folder_is_the_current_part_and_liv
     // It is another inspection of the same part.
     wait_for(&mut harness, |window| {
         let history = window.workspace::<HistoryWorkspace>().expect("there");
-        let newest = history.state().row(0);
+        let newest = history.state.row(0);
         newest.is_some_and(|row| row.num_below == 1)
     });
     let num_rows = history_of(&harness).num_rows();
@@ -1053,7 +1040,7 @@ fn a_draft_outlives_a_program_that_is_killed_until_it_is_discarded_or_saved() {
     assert_eq!(draft.form.name, "grille");
     let apply = |harness: &mut WindowHarness, action| {
         act_in(harness, |enrol: &mut EnrolWorkspace, cx| {
-            enrol.state_mut().apply(action, cx);
+            enrol.state.apply(action, cx);
         });
         pass_time(harness);
     };
@@ -1086,7 +1073,7 @@ fn a_draft_is_written_when_the_window_closes_and_a_bad_one_is_set_aside() {
     capture(&mut harness, PartKind::Grille, Side::Right);
     act_in(&mut harness, |enrol: &mut EnrolWorkspace, cx| {
         let title = Field::Title("Grille".into());
-        enrol.state_mut().apply(EnrolAction::Write(title), cx);
+        enrol.state.apply(EnrolAction::Write(title), cx);
     });
     eframe::App::on_exit(harness.state_mut());
     drop(harness);

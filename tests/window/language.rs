@@ -79,7 +79,7 @@ fn what_enrol_says_follows_the_language_of_the_window() {
     act(&mut harness, Action::Capture);
     let write = |harness: &mut WindowHarness, field: Field| {
         act_in(harness, |enrol: &mut EnrolWorkspace, cx| {
-            enrol.state_mut().apply(EnrolAction::Write(field), cx);
+            enrol.state.apply(EnrolAction::Write(field), cx);
         });
     };
     harness.get_by_label("零件, 保留");
@@ -393,7 +393,7 @@ fn in_every_language_everything_fits_where_it_does_in_english() {
         for language in languages {
             let found = misfits(&shown(language, SMALL, scenery));
             let found = only_here(found, &usual).into_iter();
-            wrong.extend(found.map(|misfit| format!("{language}, {scenery:?}: {misfit}")));
+            wrong.extend(found.map(|misfit| format!("{language:?}, {scenery:?}: {misfit}")));
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
@@ -410,7 +410,7 @@ fn in_no_language_do_the_buttons_of_the_top_bar_touch() {
         for (left, right) in rects.iter().zip(rects.iter().skip(1)) {
             assert!(
                 right.left() - left.right() > 3.0,
-                "{language}: {left} {right}"
+                "{language:?}: {left} {right}"
             );
         }
     }
@@ -487,7 +487,7 @@ fn in_every_language_the_check_of_the_cell_fits_where_it_does_in_english() {
     let usual = checked(Language::English);
     for language in [Language::German, Language::Spanish, Language::Chinese] {
         let wrong = only_here(checked(language), &usual);
-        assert!(wrong.is_empty(), "{language}: {}", wrong.join("\n"));
+        assert!(wrong.is_empty(), "{language:?}: {}", wrong.join("\n"));
     }
 }
 
@@ -507,7 +507,7 @@ fn in_every_language_the_page_of_robots_that_ask_fits_where_it_does_in_english()
     let usual = shown(Language::English);
     for language in [Language::German, Language::Spanish, Language::Chinese] {
         let wrong = only_here(shown(language), &usual);
-        assert!(wrong.is_empty(), "{language}: {}", wrong.join("\n"));
+        assert!(wrong.is_empty(), "{language:?}: {}", wrong.join("\n"));
     }
 }
 

@@ -221,7 +221,7 @@ fn a_part_counts_once_it_hangs_still_and_no_longer_when_it_moves() {
 fn settle_history(harness: &mut WindowHarness) {
     let is_settled = |window: &Window| {
         let history = window.workspace::<HistoryWorkspace>();
-        history.is_some_and(|history| history.state().is_settled())
+        history.is_some_and(|history| history.state.is_settled())
     };
     wait_for(harness, is_settled);
 }
@@ -263,7 +263,7 @@ fn two_parts_one_after_the_other_are_two_rows_and_one_that_swings_through_is_one
 fn newest_of(harness: &mut WindowHarness, num_rows: usize) -> (bool, String) {
     wait_for(harness, |window| {
         let history = window.workspace::<HistoryWorkspace>();
-        history.is_some_and(|history| history.state().num_rows() == num_rows)
+        history.is_some_and(|history| history.state.num_rows() == num_rows)
     });
     settle_history(harness);
     let newest = history_of(harness).row(0).expect("listed");

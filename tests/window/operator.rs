@@ -14,8 +14,7 @@ use partsight::{
         inspection::source::CellChoice,
         language::Language,
         shell::{
-            action::{Action, DialogRequest},
-            live::SourceState,
+            action::Action,
             notice::Notice,
             robot::{AnswerSetup, RobotAction},
             roles::RoleAction,
@@ -36,7 +35,7 @@ use super::{
     robot::save_calibration,
     set_up::{
         SMALL, USUAL, WindowHarness, act, act_in, drop_file, history_of, open, open_with,
-        plain_options, press, settle, wait_for, wait_until,
+        plain_options, press, settle, wait_for, wait_until, watch_folder,
     },
 };
 
@@ -316,13 +315,7 @@ fn a_source_that_has_delivered_nothing_has_no_verdict() {
     toggle(&mut harness);
     sees(&mut harness, &wire, [0.0; 22]);
     harness.get_by_label("OK");
-    let context = harness.ctx.clone();
-    let watched = Action::Chosen(DialogRequest::WatchedFolder, folder.path().to_owned());
-    harness.state_mut().act(watched, &context);
-    wait_until(&mut harness, |state| {
-        let status = state.session.live.status.as_ref();
-        status.is_some_and(|status| status.source == SourceState::Running)
-    });
+    watch_folder(&mut harness, folder.path());
     harness.run_steps(2);
     harness.get_by_label("Waiting for a new file");
     harness.get_by_label("Save a capture to the folder: it is inspected automatically");
@@ -446,7 +439,7 @@ pub(crate) fn pass_time(harness: &mut WindowHarness) {
 pub(crate) fn wait_for_serial(harness: &mut WindowHarness, place: usize, serial: &str) {
     wait_for(harness, |window| {
         let history = window.workspace::<HistoryWorkspace>().expect("there");
-        let row = history.state().row(place);
+        let row = history.state.row(place);
         row.is_some_and(|row| row.trace.serial == serial)
     });
 }
@@ -609,14 +602,8 @@ fn an_empty_cell_is_said_in_plain_words_without_figures() {
 fn a_file_of_a_watched_folder_that_cannot_be_read_is_named_and_advice_fits_the_folder() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut harness = open_operators(plain_options());
-    let context = harness.ctx.clone();
-    let watched = Action::Chosen(DialogRequest::WatchedFolder, folder.path().to_owned());
-    harness.state_mut().act(watched, &context);
     // What lies there before is no capture.
-    wait_until(&mut harness, |state| {
-        let status = state.session.live.status.as_ref();
-        status.is_some_and(|status| status.source == SourceState::Running)
-    });
+    watch_folder(&mut harness, folder.path());
     std::fs::write(folder.path().join("text.png"), "no picture").expect("written");
     wait_until(&mut harness, |state| state.session.failed.is_some());
     harness.run_steps(2);

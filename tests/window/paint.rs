@@ -54,7 +54,7 @@ fn open_own(folder: &Path) -> WindowHarness {
 
 fn own(harness: &WindowHarness) -> &PaintState {
     let workspace = harness.state().workspace::<PaintWorkspace>();
-    workspace.expect("the workspace").state()
+    &workspace.expect("the workspace").state
 }
 
 /// The title of the part that is painted.
@@ -161,7 +161,7 @@ fn a_path_is_stored_with_its_part_and_shown_again() {
     let to = file.clone();
     act_in(&mut harness, |paint: &mut PaintWorkspace, cx| {
         let chosen = PaintAction::Chosen(PaintFile::Table, to);
-        paint.state_mut().apply(chosen, cx);
+        paint.state.apply(chosen, cx);
     });
     assert_eq!(SprayPath::read(&file).expect("read").points().len(), num);
     press(&mut harness, "Undo");
@@ -253,7 +253,7 @@ fn an_arm_is_chosen_its_reach_shown_and_the_program_exported() {
     harness.get_by_label("Collisions");
     act_in(&mut harness, |paint: &mut PaintWorkspace, cx| {
         let chosen = PaintAction::Chosen(PaintFile::Obstacles, boxes);
-        paint.state_mut().apply(chosen, cx);
+        paint.state.apply(chosen, cx);
     });
     harness.get_by_label_contains("too near to lamp");
     press(&mut harness, "Obstacles: boxes.toml");
@@ -265,7 +265,7 @@ fn an_arm_is_chosen_its_reach_shown_and_the_program_exported() {
         let to = file.clone();
         act_in(harness, |paint: &mut PaintWorkspace, cx| {
             let chosen = PaintAction::Chosen(PaintFile::Program, to);
-            paint.state_mut().apply(chosen, cx);
+            paint.state.apply(chosen, cx);
         });
         settle(harness);
     };
@@ -295,7 +295,7 @@ fn the_base_of_the_arm_is_entered_a_better_one_applied_and_both_are_undone() {
             ..ProgramSetup::default()
         };
         act_in(harness, |paint: &mut PaintWorkspace, cx| {
-            paint.state_mut().apply(PaintAction::SetUp(setup), cx);
+            paint.state.apply(PaintAction::SetUp(setup), cx);
         });
     };
     // The notice goes as soon as the nozzle is entered.
@@ -341,7 +341,7 @@ fn the_base_of_the_arm_is_entered_a_better_one_applied_and_both_are_undone() {
     act_in(&mut harness, |paint: &mut PaintWorkspace, cx| {
         let mut setup = cx.session.program.clone();
         setup.base[0] = -8000.0;
-        paint.state_mut().apply(PaintAction::SetUp(setup), cx);
+        paint.state.apply(PaintAction::SetUp(setup), cx);
     });
     assert_eq!(num_reached(&harness), 0);
     harness.get_by_label("not checked");

@@ -132,7 +132,7 @@ fn run_again_in_no_time(harness: &mut WindowHarness) {
     let context = harness.ctx.clone();
     let window = harness.state_mut();
     window.with(&context, |workspace: &mut AlignWorkspace, _| {
-        let align = workspace.state_mut();
+        let align = &mut workspace.state;
         let shown = align.shown.as_ref().expect("aligned");
         let (pair, runs) = (Arc::clone(&shown.pair), shown.runs.clone());
         let runs = runs.iter().map(|run| {
@@ -395,7 +395,7 @@ fn a_path_with_a_keep_out_looks_as_it_did() {
     act(&mut harness, Action::GoTo(WorkspaceKind::Paint));
     act(&mut harness, Action::SwitchTheme);
     act_in(&mut harness, |paint: &mut PaintWorkspace, cx| {
-        paint.state_mut().apply(PaintAction::Step(5), cx);
+        paint.state.apply(PaintAction::Step(5), cx);
     });
     press(&mut harness, "Keep out: box");
     paint::draw(&mut harness, &[(0.4, 0.4), (0.55, 0.6)]);

@@ -349,7 +349,7 @@ pub(crate) fn door_path() -> SprayPath {
 /// Applies an action in the Enrol workspace.
 fn in_enrol(harness: &mut WindowHarness, action: EnrolAction) {
     act_in(harness, |enrol: &mut EnrolWorkspace, cx| {
-        enrol.state_mut().apply(action, cx);
+        enrol.state.apply(action, cx);
     });
 }
 
@@ -361,7 +361,7 @@ fn no_program_is_written_for_a_path_off_the_part(
 ) {
     act_in(harness, |paint: &mut PaintWorkspace, cx| {
         let setup = PaintAction::SetUp(ProgramSetup::default());
-        paint.state_mut().apply(setup, cx);
+        paint.state.apply(setup, cx);
     });
     let far = folder.join("far.csv");
     let text = "x_mm,y_mm,z_mm,normal_x,normal_y,normal_z\n5000,5000,9000,0,0,-1\n";
@@ -469,7 +469,7 @@ fn a_spray_path_is_stored_carried_shown_and_exported() {
             nozzle: "kuka 0 0 250 0 45 0".into(),
             ..ProgramSetup::default()
         };
-        paint.state_mut().apply(PaintAction::SetUp(setup), cx);
+        paint.state.apply(PaintAction::SetUp(setup), cx);
     });
     choose_in_inspect(&mut harness, InspectFile::SprayPath, program.clone());
     assert!(!program.exists());

@@ -11,7 +11,13 @@ use egui::Vec2;
 use egui_kittest::{Harness, kittest::Queryable as _};
 use partsight::app::{
     Window, WindowOptions,
-    shell::{action::Action, context::ShellContext, state::State, workspace::Workspace},
+    shell::{
+        action::{Action, DialogRequest},
+        context::ShellContext,
+        live::SourceState,
+        state::State,
+        workspace::Workspace,
+    },
     workspaces::{
         enrol::{EnrolState, EnrolWorkspace},
         history::{HistoryState, HistoryWorkspace},
@@ -96,6 +102,17 @@ pub(crate) fn act(harness: &mut WindowHarness, action: Action) {
     settle(harness);
 }
 
+/// Follows a folder, and waits until it is watched. From then on, nothing settles.
+pub(crate) fn watch_folder(harness: &mut WindowHarness, folder: &Path) {
+    let context = harness.ctx.clone();
+    let watched = Action::Chosen(DialogRequest::WatchedFolder, folder.to_owned());
+    harness.state_mut().act(watched, &context);
+    wait_until(harness, |state| {
+        let status = state.session.live.status.as_ref();
+        status.is_some_and(|status| status.source == SourceState::Running)
+    });
+}
+
 /// Runs a closure on the workspace of this type, and waits for the result.
 pub(crate) fn act_in<W: Workspace>(
     harness: &mut WindowHarness,
@@ -110,27 +127,27 @@ pub(crate) fn act_in<W: Workspace>(
 /// State of the History workspace.
 pub(crate) fn history_of(harness: &WindowHarness) -> &HistoryState {
     let workspace = harness.state().workspace::<HistoryWorkspace>();
-    workspace.expect("the workspace").state()
+    &workspace.expect("the workspace").state
 }
 
 /// State of the Inspect workspace.
 pub(crate) fn inspect_of(harness: &WindowHarness) -> &InspectState {
     let workspace = harness.state().workspace::<InspectWorkspace>();
-    workspace.expect("the workspace").state()
+    &workspace.expect("the workspace").state
 }
 
 /// Chooses a file in Inspect, as the user does in a file dialog.
 pub(crate) fn choose_in_inspect(harness: &mut WindowHarness, file: InspectFile, path: PathBuf) {
     let chosen = InspectAction::Chosen(file, path);
     act_in(harness, |inspect: &mut InspectWorkspace, cx| {
-        inspect.apply(chosen, cx);
+        inspect.state.apply(chosen, cx);
     });
 }
 
 /// State of the Enrol workspace.
 pub(crate) fn enrol_of(harness: &WindowHarness) -> &EnrolState {
     let workspace = harness.state().workspace::<EnrolWorkspace>();
-    workspace.expect("the workspace").state()
+    &workspace.expect("the workspace").state
 }
 
 #[derive(Debug)]

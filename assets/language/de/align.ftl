@@ -78,7 +78,6 @@ align-way = „Starten“ zeigt hier, wie der mittlere quadratische Abstand E vo
 ## Table I
 align-table = Tabelle I
 align-table-says = Jedes eingelernte Teil von T1 bis T5 (Gl. 15) verschoben und mit jedem Verfahren zurückgeführt: E in m², das beste je Zeile markiert
-align-cancel = Abbrechen
 align-cancel-table = Tabelle I abbrechen
 align-run-table = Tabelle I starten
 align-go-on = Fortsetzen
@@ -100,7 +99,6 @@ align-method = Verfahren
 align-rotation = Drehung
 align-shift = Verschiebung
 align-unconstrained = nicht bestimmt
-align-export-csv = CSV exportieren…
 align-copy = Kopieren
 align-copy-hint = Tabelle I als Text, Zellen durch Tabulatoren getrennt
 
@@ -116,8 +114,5 @@ align-keys-on = . oder → im Diagramm
 ## Work and notices
 align-open-title = Punktwolke oder Netz öffnen
 align-export-title = Tabelle I exportieren
-align-csv-files = Kommagetrennte Werte
 align-aligning = Ausrichtung läuft
 align-copied = Tabelle I kopiert
-align-writing = { $file } wird geschrieben
-align-wrote = { $path } geschrieben

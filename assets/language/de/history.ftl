@@ -19,7 +19,6 @@ history-row =
 ## The bar above the list
 history-show-all = Alle zeigen
 history-counted = { $matching } von { $count } Einträgen
-history-export-csv = CSV exportieren…
 history-export-csv-hint = Die angezeigten Prüfungen in eine Tabelle schreiben
 history-export-cases = Fälle exportieren…
 history-export-cases-hint = Die angezeigten Prüfungen, zu denen es ein Bild und ein tatsächliches Teil gibt, als Fälle für „Vergleich“ und partsight evaluate speichern
@@ -56,15 +55,11 @@ history-counts = zählt
 history-of-this-part = Dieses Teil: Prüfung { $number }, { $verdict }
 history-found-same = Prüfung { $number }: gleiches Ergebnis
 history-found-other = Prüfung { $number }: anderes Ergebnis
-history-figure-scene = Szene
 history-figure-source = Quelle
 history-figure-time = Zeitpunkt
 history-figure-serial = Seriennummer
-history-figure-order = Auftrag
-history-figure-operator = Bediener
 history-figure-score = Score
 history-figure-margin = Vorsprung
-history-figure-recipe = Rezept
 history-figure-library = Bibliothek
 history-figure-program = Programm
 history-figure-frame = Bild
@@ -80,7 +75,6 @@ history-stage-signature = Signatur
 history-stage-rank = Rangliste
 history-stage-pose = Pose
 history-stage-total = gesamt
-history-recipe-modified = { $name } (geändert)
 history-times = Zeiten
 history-open = Öffnen
 history-open-hint = Mit allen Stufen öffnen, mit dem eigenen Rezept der Prüfung
@@ -121,15 +115,11 @@ history-keep-used =
     }, { $size }. Die ältesten werden zuerst gelöscht
 history-keep-marked = Solche mit Bemerkung oder tatsächlichem Teil bleiben erhalten: { $size }
 history-apply = Übernehmen
-history-close = Schließen
 
 ## Statistics
-history-counting = Wird gezählt…
 history-none-counted = Keine passenden Teile: Filter ändern
 history-by-part = Nach Teil
 history-by-reason = Nach Grund
-history-ok = IO
-history-not-ok = NIO
 history-ok-share = IO, %
 history-shift = Schicht vom { $start }: { $ok } IO, { $nok } NIO
 history-by-shift = Teile nach Schicht
@@ -154,10 +144,7 @@ history-drift-place = Lage des Teils: vom ersten zum letzten Fünftel x { $x }, 
 
 ## Work and notices
 history-looking = Verlauf wird gelesen
-history-counting-parts = Teile werden gezählt
-history-writing = { $file } wird geschrieben
 history-export-csv-title = Angezeigte Prüfungen exportieren
-history-csv-files = Kommagetrennte Werte
 history-export-cases-title = Ordner für die Fälle der angezeigten Prüfungen
 history-wrote =
     { $count ->

@@ -6,7 +6,6 @@ inspect-another-make = { $part }, anderes Fabrikat
 inspect-another-model = { $part }, anderes Modell
 inspect-unknown-part = Unbekanntes Teil
 inspect-not-recognised = Nicht erkannt
-inspect-no-part = Kein Teil
 inspect-no-verdict = Kein Ergebnis
 inspect-live-stopped = Live wurde beendet, bevor ein Ergebnis galt
 inspect-stopped-moving = beim Beenden von Live hat sich etwas bewegt
@@ -64,7 +63,6 @@ inspect-serial = Serien-Nr.
 inspect-order = Auftrag
 inspect-operator = Bediener
 inspect-recipe = Rezept
-inspect-recipe-modified = { $name } (geändert)
 
 ## Stand-off
 
@@ -194,7 +192,6 @@ inspect-report-folder = Ordner für den Bericht dieser Prüfung
 inspect-save-picture = Bild der Ansicht speichern
 inspect-pictures = Bilder
 inspect-export-path-title = Lackierbahn für den Roboter exportieren
-inspect-csv = Kommagetrennte Werte
 inspect-saving-picture = Bild wird gespeichert
 inspect-writing-report = Bericht wird geschrieben
 inspect-writing-path = Lackierbahn wird geschrieben

@@ -65,6 +65,5 @@ live-clutter = Störobjekte
 live-no-clutter = Keine
 live-on-floor = Am Boden
 live-plank = Brett davor
-live-use-it = Verwenden
 live-line-runs = Linie läuft, ein Teil alle { $seconds } s
 live-nothing = Nichts

@@ -1,7 +1,6 @@
 # The operator's view
 operator-ok = IO
 operator-not-ok = NIO
-operator-wait = Einen Moment warten
 operator-opening-camera = Kamera wird geöffnet…
 operator-no-camera = Keine Kamera
 operator-no-camera-next = Stecker und Stromversorgung der Kamera prüfen. Bleibt es dabei, die Instandhaltung rufen
@@ -13,18 +12,15 @@ operator-no-result = Kein Ergebnis
 operator-no-result-next = Den Einrichter rufen oder mit „Aufnehmen“ erneut versuchen
 operator-unreadable = { $file } ist nicht lesbar
 operator-unreadable-next = Die Aufnahme erneut im Ordner speichern; bleibt es dabei, den Einrichter rufen
-operator-no-library = Keine Bibliothek
 operator-no-parts = Keine Teile eingelernt
 operator-no-parts-why = In der Bibliothek ist kein Teil eingelernt
 operator-ask-to-enrol = Den Einrichter bitten, die Teile einzulernen
 operator-no-new-file = Noch keine neue Datei im Ordner
 operator-save-capture = Eine Aufnahme im Ordner speichern: Sie wird automatisch geprüft
-operator-looking = Suche läuft
 operator-nothing-captured = Noch nichts aufgenommen
 operator-ready = Bereit
 operator-nothing-inspected = Noch nichts geprüft
 operator-hang-and-capture = Ein Teil aufhängen und „Aufnehmen“ drücken
-operator-from-history = Aus dem Verlauf, nicht das aktuelle Teil
 operator-capture-current = Für das aktuelle Teil „Aufnehmen“ drücken
 operator-follow-current = Für das aktuelle Teil „Live“ oder „Aufnehmen“ drücken
 operator-simulated-next = Den Einrichter eine Kamera wählen lassen: Dieses Bild ist simuliert

@@ -13,14 +13,10 @@ paint-coat = Beschichtung
 paint-coat-changed = { $coat }, geändert
 paint-coat-named = Beschichtung: { $coat }
 paint-coat-name = Name der Beschichtung
-paint-save-coat-as = Speichern unter…
-paint-save = Speichern
-paint-cancel = Abbrechen
 paint-reset-coat = Zurücksetzen
 paint-saved-coat = Beschichtung { $coat } gespeichert
 paint-no-coat-folder = Es gibt keinen Ordner für Beschichtungen
 paint-no-coat-folder-advice = Das Fenster als Benutzer mit einem Home-Ordner starten
-paint-more = Mehr zu { $group } ({ $count })
 
 ## What the film comes to
 paint-check = Schicht
@@ -36,12 +32,9 @@ paint-histogram = Flächenanteil nach Schichtdicke
 paint-histogram-hint = Flächenanteil nach Schichtdicke in Prozent des Sollwerts; grün liegt in der Toleranz
 
 ## Tools
-paint-rotate = Drehen
-paint-rotate-hint = Ziehen dreht die 3D-Ansicht (R)
 paint-keep-out = Aussparen
 paint-keep-out-box = Aussparen: Box
 paint-keep-out-lasso = Aussparen: Lasso
-paint-lasso = Lasso
 paint-brush = Pinsel
 paint-keep-out-brush = Aussparen: Pinsel
 paint-keep-out-hint = Um das ziehen, was keinen Lack bekommt. Esc: wieder drehen
@@ -61,8 +54,6 @@ paint-turn-gun = Pistole neigen
 paint-turn-gun-hint = Von einem Punkt einer Bahn ziehen, um die Pistole dorthin zu neigen. Esc: wieder drehen
 paint-edits-dropped = Von Hand Verschobenes gehörte zur vorigen Bahn und wurde verworfen
 paint-edits-dropped-advice = Rückgängig holt es zurück; die Bahn zuletzt von Hand korrigieren
-paint-undo = Rückgängig
-paint-redo = Wiederholen
 paint-film-colours = Schichtfarben
 paint-film-colours-hint = Teil nach der Schichtdicke einfärben
 
@@ -88,18 +79,12 @@ paint-proposing = Bahnabstand und Geschwindigkeit werden gesucht
 paint-storing = Bahn wird gespeichert
 paint-propose = Vorschlagen
 paint-propose-hint = Bahnabstand und Geschwindigkeit suchen, mit denen die Schicht ihren Sollwert erreicht
-paint-export = Exportieren…
 paint-export-hint = Bahn als Tabelle schreiben
 paint-export-title = Lackierbahn exportieren
-paint-csv-files = Kommagetrennte Werte
-paint-writing = { $file } wird geschrieben
-paint-wrote = { $path } geschrieben
 paint-store = Beim Teil speichern
 paint-store-short = Speichern
 paint-store-hint = Bahn beim Teil speichern; Prüfungen und Roboterprogramme verwenden sie von da an
 paint-is-stored = Diese Bahn ist beim Teil gespeichert
-paint-stored = Lackierbahn mit { $count } Punkten zu { $part } gespeichert
-paint-path-removed = Lackierbahn von { $part } entfernt
 paint-planned-path = Geplant
 paint-stored-path = Gespeichert, { $count } Punkte
 paint-unsaved = Die in Lackieren gezeichneten Bereiche sind nicht als Bahn gespeichert

@@ -6,6 +6,7 @@ results-accepted = Akzeptiert
 results-not-accepted = Nicht akzeptiert
 results-unknown = Unbekannt
 results-no-part = Kein Teil
+results-recipe-modified = { $name } (geändert)
 results-title-not-recognised = Nicht erkannt · am nächsten { $part }
 results-title-refused = { $part } · nicht akzeptiert
 results-title-unknown = Unbekannt · am nächsten { $part }

@@ -119,9 +119,7 @@ robot-check-time = Zeit
 robot-check-shift = Verschiebung
 robot-check-turn = Drehung
 robot-check-finding = Befund
-robot-export-checks = CSV exportieren…
 robot-export-checks-title = Kontrollen der Zelle exportieren
-robot-csv-files = Kommagetrennte Werte
 robot-checks-written =
     { $count ->
         [one] Eine Kontrolle

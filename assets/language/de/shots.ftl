@@ -2,8 +2,6 @@
 shots-shots = Aufnahmen
 shots-add = Aufnahme hinzufügen…
 shots-add-says = Ein Bild desselben Teils; seine Pose muss in der Posendatei oder in poses.json daneben stehen
-shots-redo = Wiederholen
-shots-undo = Rückgängig
 shots-redo-label = Änderung der Aufnahmen wiederholen
 shots-undo-label = Änderung der Aufnahmen rückgängig machen
 shots-all-used = { $num } Aufnahmen

@@ -78,7 +78,6 @@ align-way = Press Run to see how the mean squared distance E falls, iteration by
 ## Table I
 align-table = Table I
 align-table-says = Every enrolled part from T1 to T5 (eq. 15), moved and brought back by every method: E in m², the best of a row marked
-align-cancel = Cancel
 align-cancel-table = Cancel Table I
 align-run-table = Run Table I
 align-go-on = Go on
@@ -100,7 +99,6 @@ align-method = method
 align-rotation = rotation
 align-shift = shift
 align-unconstrained = unconstrained
-align-export-csv = Export CSV…
 align-copy = Copy
 align-copy-hint = Table I as text, cells separated by tabs
 
@@ -116,8 +114,5 @@ align-keys-on = . or → on the plot
 ## Work and notices
 align-open-title = Open a cloud or a mesh
 align-export-title = Export Table I
-align-csv-files = Comma-separated values
 align-aligning = Aligning
 align-copied = Copied Table I
-align-writing = Writing { $file }
-align-wrote = Wrote { $path }

@@ -19,7 +19,6 @@ history-row =
 ## The bar above the list
 history-show-all = Show all
 history-counted = { $matching } of { $count } entries
-history-export-csv = Export CSV…
 history-export-csv-hint = Write the listed inspections to a table
 history-export-cases = Export cases…
 history-export-cases-hint = Save the listed inspections that have a frame and an actual part as cases, for Compare and partsight evaluate
@@ -56,15 +55,11 @@ history-counts = counts
 history-of-this-part = Of this part: inspection { $number }, { $verdict }
 history-found-same = Inspection { $number } found the same
 history-found-other = Inspection { $number } found something else
-history-figure-scene = scene
 history-figure-source = source
 history-figure-time = time
 history-figure-serial = serial
-history-figure-order = order
-history-figure-operator = operator
 history-figure-score = score
 history-figure-margin = margin
-history-figure-recipe = recipe
 history-figure-library = library
 history-figure-program = program
 history-figure-frame = frame
@@ -80,7 +75,6 @@ history-stage-signature = signature
 history-stage-rank = rank
 history-stage-pose = pose
 history-stage-total = total
-history-recipe-modified = { $name } (modified)
 history-times = Times
 history-open = Open
 history-open-hint = Open with every stage, using its own recipe
@@ -121,15 +115,11 @@ history-keep-used =
     }, { $size }. The oldest go first
 history-keep-marked = Those with a remark or an actual part stay: { $size }
 history-apply = Apply
-history-close = Close
 
 ## Statistics
-history-counting = Counting…
 history-none-counted = No matching parts: change the filter
 history-by-part = By part
 history-by-reason = By reason
-history-ok = OK
-history-not-ok = NOK
 history-ok-share = OK, %
 history-shift = Shift of { $start }: { $ok } OK, { $nok } NOK
 history-by-shift = Parts by shift
@@ -154,10 +144,7 @@ history-drift-place = Place of the part: from first to last fifth x { $x }, y { 
 
 ## Work and notices
 history-looking = Looking into the history
-history-counting-parts = Counting parts
-history-writing = Writing { $file }
 history-export-csv-title = Export the listed inspections
-history-csv-files = Comma-separated values
 history-export-cases-title = Folder for the cases of the listed inspections
 history-wrote =
     Wrote { $count ->

@@ -6,7 +6,6 @@ inspect-another-make = { $part }, another make
 inspect-another-model = { $part }, another model
 inspect-unknown-part = Unknown part
 inspect-not-recognised = Not recognised
-inspect-no-part = No part
 inspect-no-verdict = No verdict
 inspect-live-stopped = Live was stopped before a verdict counted
 inspect-stopped-moving = something was moving when Live was stopped
@@ -64,7 +63,6 @@ inspect-serial = serial
 inspect-order = order
 inspect-operator = operator
 inspect-recipe = recipe
-inspect-recipe-modified = { $name } (modified)
 
 ## Stand-off
 
@@ -194,7 +192,6 @@ inspect-report-folder = Folder for the report of this inspection
 inspect-save-picture = Save a picture of the view
 inspect-pictures = Pictures
 inspect-export-path-title = Export the spray path for the robot
-inspect-csv = Comma-separated values
 inspect-saving-picture = Saving the picture
 inspect-writing-report = Writing the report
 inspect-writing-path = Writing the spray path

@@ -65,6 +65,5 @@ live-clutter = Clutter
 live-no-clutter = None
 live-on-floor = On the floor
 live-plank = A plank in front
-live-use-it = Use it
 live-line-runs = The line runs, a part every { $seconds } s
 live-nothing = Nothing

@@ -1,7 +1,6 @@
 # The operator's view
 operator-ok = OK
 operator-not-ok = NOK
-operator-wait = Wait a moment
 operator-opening-camera = Opening the camera…
 operator-no-camera = No camera
 operator-no-camera-next = Check the plug and the power of the camera. If it persists, call maintenance
@@ -13,18 +12,15 @@ operator-no-result = No result
 operator-no-result-next = Ask the engineer, or press Capture to try again
 operator-unreadable = { $file } cannot be read
 operator-unreadable-next = Save the capture to the folder again; if it persists, ask the engineer
-operator-no-library = No library
 operator-no-parts = No parts enrolled
 operator-no-parts-why = No part is enrolled in the library
 operator-ask-to-enrol = Ask the engineer to enrol the parts
 operator-no-new-file = No new file in the folder yet
 operator-save-capture = Save a capture to the folder: it is inspected automatically
-operator-looking = Looking
 operator-nothing-captured = Nothing was captured yet
 operator-ready = Ready
 operator-nothing-inspected = Nothing was inspected yet
 operator-hang-and-capture = Hang a part and press Capture
-operator-from-history = From the history, not the current part
 operator-capture-current = Press Capture for the current part
 operator-follow-current = Press Live or Capture for the current part
 operator-simulated-next = Ask the engineer to choose a camera: this frame is simulated

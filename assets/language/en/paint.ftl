@@ -13,14 +13,10 @@ paint-coat = Coat
 paint-coat-changed = { $coat }, changed
 paint-coat-named = Coat: { $coat }
 paint-coat-name = Name of the coat
-paint-save-coat-as = Save as…
-paint-save = Save
-paint-cancel = Cancel
 paint-reset-coat = Reset
 paint-saved-coat = Saved the coat { $coat }
 paint-no-coat-folder = There is no folder for coats
 paint-no-coat-folder-advice = Start the window as a user with a home folder
-paint-more = More of { $group } ({ $count })
 
 ## What the film comes to
 paint-check = Film
@@ -36,12 +32,9 @@ paint-histogram = Share of the surface by thickness
 paint-histogram-hint = Share of the surface by thickness, in per cent of the target; green is within the tolerance
 
 ## Tools
-paint-rotate = Rotate
-paint-rotate-hint = Dragging turns the 3-D view (R)
 paint-keep-out = Keep out
 paint-keep-out-box = Keep out: box
 paint-keep-out-lasso = Keep out: lasso
-paint-lasso = Lasso
 paint-brush = Brush
 paint-keep-out-brush = Keep out: brush
 paint-keep-out-hint = Drag around what gets no paint. Esc to rotate
@@ -61,8 +54,6 @@ paint-turn-gun = Turn gun
 paint-turn-gun-hint = Drag from a point of a stroke to lean the gun that way. Esc to rotate
 paint-edits-dropped = What was moved by hand belonged to the previous path and was dropped
 paint-edits-dropped-advice = Undo brings it back; correct the path by hand last
-paint-undo = Undo
-paint-redo = Redo
 paint-film-colours = Film colours
 paint-film-colours-hint = Colour the part by the thickness of its film
 
@@ -88,18 +79,12 @@ paint-proposing = Finding spacing and speed
 paint-storing = Storing the path
 paint-propose = Propose
 paint-propose-hint = Find the row spacing and the speed that bring the film to its target
-paint-export = Export…
 paint-export-hint = Write the path as a table
 paint-export-title = Export the spray path
-paint-csv-files = Comma-separated values
-paint-writing = Writing { $file }
-paint-wrote = Wrote { $path }
 paint-store = Store with the part
 paint-store-short = Store
 paint-store-hint = Store the path with the part; inspections and robot programs use it from then on
 paint-is-stored = This path is stored with the part
-paint-stored = Stored a spray path of { $count } points with { $part }
-paint-path-removed = Removed the spray path of { $part }
 paint-planned-path = Planned
 paint-stored-path = Stored, { $count } points
 paint-unsaved = The regions drawn in Paint are not stored as a path

@@ -119,9 +119,7 @@ robot-check-time = time
 robot-check-shift = shift
 robot-check-turn = turn
 robot-check-finding = finding
-robot-export-checks = Export CSV…
 robot-export-checks-title = Export the checks of the cell
-robot-csv-files = Comma-separated values
 robot-checks-written =
     { $count ->
         [one] One check

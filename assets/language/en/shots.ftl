@@ -2,8 +2,6 @@
 shots-shots = Shots
 shots-add = Add a shot…
 shots-add-says = A frame of the same part; its pose must be in the file of the poses or in poses.json beside it
-shots-redo = Redo
-shots-undo = Undo
 shots-redo-label = Redo the change of the shots
 shots-undo-label = Undo the change of the shots
 shots-all-used = { $num } shots

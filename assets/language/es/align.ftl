@@ -78,7 +78,6 @@ align-way = Ejecutar muestra aquí cómo disminuye la distancia cuadrática medi
 ## Table I
 align-table = Tabla I
 align-table-says = Cada pieza registrada, movida de T1 a T5 (ec. 15) y devuelta con cada método: E en m², con el mejor de cada fila marcado
-align-cancel = Cancelar
 align-cancel-table = Cancelar la tabla I
 align-run-table = Calcular tabla I
 align-go-on = Continuar
@@ -100,7 +99,6 @@ align-method = método
 align-rotation = rotación
 align-shift = desplazam.
 align-unconstrained = no determinada
-align-export-csv = Exportar CSV…
 align-copy = Copiar
 align-copy-hint = La tabla I como texto, con celdas separadas por tabuladores
 
@@ -116,8 +114,5 @@ align-keys-on = . o → en el gráfico
 ## Work and notices
 align-open-title = Abrir una nube o una malla
 align-export-title = Exportar la tabla I
-align-csv-files = Valores separados por comas
 align-aligning = Alineando
 align-copied = Tabla I copiada
-align-writing = Escribiendo { $file }
-align-wrote = Se ha escrito { $path }

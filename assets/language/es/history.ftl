@@ -19,7 +19,6 @@ history-row =
 ## The bar above the list
 history-show-all = Mostrar todo
 history-counted = { $matching } de { $count } entradas
-history-export-csv = Exportar CSV…
 history-export-csv-hint = Escribir en una tabla las inspecciones mostradas
 history-export-cases = Exportar casos…
 history-export-cases-hint = Guardar como casos, para Comparar y partsight evaluate, las inspecciones mostradas que tienen imagen y pieza real
@@ -56,15 +55,11 @@ history-counts = cuenta
 history-of-this-part = De esta pieza: inspección { $number }, { $verdict }
 history-found-same = La inspección { $number } dio el mismo resultado
 history-found-other = La inspección { $number } dio otro resultado
-history-figure-scene = escena
 history-figure-source = fuente
 history-figure-time = fecha
 history-figure-serial = n.º de serie
-history-figure-order = orden
-history-figure-operator = operador
 history-figure-score = puntuación
 history-figure-margin = margen
-history-figure-recipe = receta
 history-figure-library = biblioteca
 history-figure-program = programa
 history-figure-frame = imagen
@@ -80,7 +75,6 @@ history-stage-signature = signatura
 history-stage-rank = clasificación
 history-stage-pose = pose
 history-stage-total = total
-history-recipe-modified = { $name } (modificada)
 history-times = Tiempos
 history-open = Abrir
 history-open-hint = Abrir con todas las etapas y con su propia receta
@@ -121,15 +115,11 @@ history-keep-used =
     }, { $size }. Las más antiguas se borran primero
 history-keep-marked = Las que tienen observación o pieza real se conservan: { $size }
 history-apply = Aplicar
-history-close = Cerrar
 
 ## Statistics
-history-counting = Contando…
 history-none-counted = Ninguna pieza coincide: cambiar el filtro
 history-by-part = Por pieza
 history-by-reason = Por motivo
-history-ok = OK
-history-not-ok = NOK
 history-ok-share = OK, %
 history-shift = Turno del { $start }: { $ok } OK, { $nok } NOK
 history-by-shift = Piezas por turno
@@ -154,10 +144,7 @@ history-drift-place = Posición de la pieza: del primer al último quinto x { $x
 
 ## Work and notices
 history-looking = Consultando el historial
-history-counting-parts = Contando piezas
-history-writing = Escribiendo { $file }
 history-export-csv-title = Exportar las inspecciones mostradas
-history-csv-files = Valores separados por comas
 history-export-cases-title = Carpeta para los casos de las inspecciones mostradas
 history-wrote =
     { $count ->

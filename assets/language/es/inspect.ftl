@@ -6,7 +6,6 @@ inspect-another-make = { $part }, otra marca
 inspect-another-model = { $part }, otro modelo
 inspect-unknown-part = Pieza desconocida
 inspect-not-recognised = No reconocida
-inspect-no-part = Sin pieza
 inspect-no-verdict = Sin resultado
 inspect-live-stopped = En vivo se detuvo antes de que un resultado contara
 inspect-stopped-moving = algo se movía cuando se detuvo En vivo
@@ -64,7 +63,6 @@ inspect-serial = n.º de serie
 inspect-order = orden
 inspect-operator = operador
 inspect-recipe = receta
-inspect-recipe-modified = { $name } (modificada)
 
 ## Stand-off
 
@@ -194,7 +192,6 @@ inspect-report-folder = Carpeta para el informe de esta inspección
 inspect-save-picture = Guardar una imagen de la vista
 inspect-pictures = Imágenes
 inspect-export-path-title = Exportar la trayectoria de pintura para el robot
-inspect-csv = Valores separados por comas
 inspect-saving-picture = Guardando la imagen
 inspect-writing-report = Escribiendo el informe
 inspect-writing-path = Escribiendo la trayectoria de pintura

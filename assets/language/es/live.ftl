@@ -65,6 +65,5 @@ live-clutter = Objetos sueltos
 live-no-clutter = Ninguno
 live-on-floor = En el suelo
 live-plank = Una tabla delante
-live-use-it = Usar
 live-line-runs = La línea avanza, una pieza cada { $seconds } s
 live-nothing = Nada

@@ -1,7 +1,6 @@
 # The operator's view
 operator-ok = OK
 operator-not-ok = NOK
-operator-wait = Esperar un momento
 operator-opening-camera = Abriendo la cámara…
 operator-no-camera = Sin cámara
 operator-no-camera-next = Comprobar el enchufe y la alimentación de la cámara. Si persiste, avisar a mantenimiento
@@ -13,18 +12,15 @@ operator-no-result = Sin resultado
 operator-no-result-next = Avisar al técnico, o pulsar Capturar para volver a intentarlo
 operator-unreadable = No se puede leer { $file }
 operator-unreadable-next = Guardar de nuevo la captura en la carpeta; si persiste, avisar al técnico
-operator-no-library = Sin biblioteca
 operator-no-parts = Sin piezas registradas
 operator-no-parts-why = No hay ninguna pieza registrada en la biblioteca
 operator-ask-to-enrol = Pedir al técnico que registre las piezas
 operator-no-new-file = Aún no hay ningún archivo nuevo en la carpeta
 operator-save-capture = Guardar una captura en la carpeta: se inspecciona automáticamente
-operator-looking = Buscando
 operator-nothing-captured = Aún no se ha capturado nada
 operator-ready = Listo
 operator-nothing-inspected = Aún no se ha inspeccionado nada
 operator-hang-and-capture = Colgar una pieza y pulsar Capturar
-operator-from-history = Del historial, no es la pieza actual
 operator-capture-current = Pulsar Capturar para la pieza actual
 operator-follow-current = Pulsar En vivo o Capturar para la pieza actual
 operator-simulated-next = Pedir al técnico que elija una cámara: esta imagen es simulada

@@ -13,14 +13,10 @@ paint-coat = Capa
 paint-coat-changed = { $coat }, modificada
 paint-coat-named = Capa: { $coat }
 paint-coat-name = Nombre de la capa
-paint-save-coat-as = Guardar como…
-paint-save = Guardar
-paint-cancel = Cancelar
 paint-reset-coat = Restablecer
 paint-saved-coat = Capa { $coat } guardada
 paint-no-coat-folder = No hay carpeta para las capas
 paint-no-coat-folder-advice = Iniciar la ventana como usuario con carpeta personal
-paint-more = Más de { $group } ({ $count })
 
 ## What the film comes to
 paint-check = Película
@@ -36,12 +32,9 @@ paint-histogram = Parte de la superficie por espesor
 paint-histogram-hint = Parte de la superficie por espesor, en porcentaje del objetivo; en verde lo que está dentro de la tolerancia
 
 ## Tools
-paint-rotate = Girar
-paint-rotate-hint = Al arrastrar se gira la vista 3D (R)
 paint-keep-out = Excluir
 paint-keep-out-box = Excluir: recuadro
 paint-keep-out-lasso = Excluir: lazo
-paint-lasso = Lazo
 paint-brush = Pincel
 paint-keep-out-brush = Excluir: pincel
 paint-keep-out-hint = Arrastrar alrededor de lo que no lleva pintura. Esc para girar
@@ -61,8 +54,6 @@ paint-turn-gun = Inclinar pistola
 paint-turn-gun-hint = Arrastrar desde un punto de una pasada para inclinar la pistola hacia ahí. Esc para girar
 paint-edits-dropped = Lo movido a mano era de la trayectoria anterior y se descartó
 paint-edits-dropped-advice = Deshacer lo recupera; corregir la trayectoria a mano al final
-paint-undo = Deshacer
-paint-redo = Rehacer
 paint-film-colours = Colores de película
 paint-film-colours-hint = Colorear la pieza según el espesor de la película
 
@@ -88,18 +79,12 @@ paint-proposing = Buscando separación y velocidad
 paint-storing = Guardando la trayectoria
 paint-propose = Proponer
 paint-propose-hint = Buscar la separación y la velocidad con las que la película alcanza su objetivo
-paint-export = Exportar…
 paint-export-hint = Escribir la trayectoria como tabla
 paint-export-title = Exportar la trayectoria de pintura
-paint-csv-files = Valores separados por comas
-paint-writing = Escribiendo { $file }
-paint-wrote = Se ha escrito { $path }
 paint-store = Guardar con la pieza
 paint-store-short = Guardar
 paint-store-hint = Guardar la trayectoria con la pieza; las inspecciones y los programas de robot la usan desde entonces
 paint-is-stored = Esta trayectoria está guardada con la pieza
-paint-stored = Trayectoria de pintura de { $count } puntos guardada con { $part }
-paint-path-removed = Trayectoria de pintura de { $part } eliminada
 paint-planned-path = Planificada
 paint-stored-path = Guardada, { $count } puntos
 paint-unsaved = Las zonas dibujadas en Pintar no están guardadas como trayectoria

@@ -6,6 +6,7 @@ results-accepted = Aceptada
 results-not-accepted = No aceptada
 results-unknown = Desconocida
 results-no-part = Sin pieza
+results-recipe-modified = { $name } (modificada)
 results-title-not-recognised = No reconocida · la más parecida: { $part }
 results-title-refused = { $part } · no aceptada
 results-title-unknown = Desconocida · la más parecida: { $part }

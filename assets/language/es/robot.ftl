@@ -119,9 +119,7 @@ robot-check-time = hora
 robot-check-shift = desplazamiento
 robot-check-turn = rotación
 robot-check-finding = resultado
-robot-export-checks = Exportar CSV…
 robot-export-checks-title = Exportar las comprobaciones de la celda
-robot-csv-files = Valores separados por comas
 robot-checks-written =
     { $count ->
         [one] Una comprobación escrita

@@ -2,8 +2,6 @@
 shots-shots = Tomas
 shots-add = Añadir una toma…
 shots-add-says = Una imagen de la misma pieza; su pose debe estar en el archivo de poses o en poses.json junto a ella
-shots-redo = Rehacer
-shots-undo = Deshacer
 shots-redo-label = Rehacer el cambio de las tomas
 shots-undo-label = Deshacer el cambio de las tomas
 shots-all-used = { $num } tomas

@@ -78,7 +78,6 @@ align-way = 按“运行”后，此处显示均方距离 E 逐次迭代下降�
 ## Table I
 align-table = 表 I
 align-table-says = 每个已注册零件按 T1 至 T5（式 15）移动，再用每种方法还原：E 单位为 m²，每行标出最佳者
-align-cancel = 取消
 align-cancel-table = 取消表 I
 align-run-table = 计算表 I
 align-go-on = 继续
@@ -100,7 +99,6 @@ align-method = 方法
 align-rotation = 旋转
 align-shift = 平移
 align-unconstrained = 未约束
-align-export-csv = 导出 CSV…
 align-copy = 复制
 align-copy-hint = 将表 I 作为文本，单元格以制表符分隔
 
@@ -116,8 +114,5 @@ align-keys-on = . 或在图中按 →
 ## Work and notices
 align-open-title = 打开点云或网格
 align-export-title = 导出表 I
-align-csv-files = 逗号分隔值
 align-aligning = 正在配准
 align-copied = 已复制表 I
-align-writing = 正在写入 { $file }
-align-wrote = 已写入 { $path }

@@ -6,7 +6,6 @@ inspect-another-make = { $part }（其他品牌）
 inspect-another-model = { $part }（其他型号）
 inspect-unknown-part = 未知零件
 inspect-not-recognised = 未识别
-inspect-no-part = 无零件
 inspect-no-verdict = 无判定
 inspect-live-stopped = “实时”在判定生效前已停止
 inspect-stopped-moving = 停止“实时”时有物体在移动
@@ -64,7 +63,6 @@ inspect-serial = 序列号
 inspect-order = 订单
 inspect-operator = 操作员
 inspect-recipe = 配方
-inspect-recipe-modified = { $name }（已修改）
 
 ## Stand-off
 
@@ -187,7 +185,6 @@ inspect-report-folder = 本次检测报告的文件夹
 inspect-save-picture = 保存视图图片
 inspect-pictures = 图片
 inspect-export-path-title = 为机器人导出喷涂轨迹
-inspect-csv = 逗号分隔值
 inspect-saving-picture = 正在保存图片
 inspect-writing-report = 正在写入报告
 inspect-writing-path = 正在写入喷涂轨迹

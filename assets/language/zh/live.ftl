@@ -53,6 +53,5 @@ live-clutter = 杂物
 live-no-clutter = 无
 live-on-floor = 地面上
 live-plank = 前方有木板
-live-use-it = 使用
 live-line-runs = 产线运行，每 { $seconds } s 一件
 live-nothing = 无

@@ -1,7 +1,6 @@
 # The operator's view
 operator-ok = OK
 operator-not-ok = NG
-operator-wait = 请稍候
 operator-opening-camera = 正在打开相机…
 operator-no-camera = 无相机
 operator-no-camera-next = 请检查相机的插头和电源。若仍如此，请联系维修人员
@@ -13,18 +12,15 @@ operator-no-result = 无结果
 operator-no-result-next = 请联系工程师，或按“采集”重试
 operator-unreadable = 无法读取 { $file }
 operator-unreadable-next = 请重新将采集保存到文件夹；若仍如此，请联系工程师
-operator-no-library = 无零件库
 operator-no-parts = 未注册零件
 operator-no-parts-why = 零件库中没有已注册的零件
 operator-ask-to-enrol = 请工程师注册零件
 operator-no-new-file = 文件夹中尚无新文件
 operator-save-capture = 将采集保存到文件夹：会自动检测
-operator-looking = 正在查看
 operator-nothing-captured = 尚未采集
 operator-ready = 就绪
 operator-nothing-inspected = 尚未检测
 operator-hang-and-capture = 挂上零件，然后按“采集”
-operator-from-history = 来自历史记录，不是当前零件
 operator-capture-current = 按“采集”检测当前零件
 operator-follow-current = 按“实时”或“采集”检测当前零件
 operator-simulated-next = 请工程师选择相机：此帧为仿真数据

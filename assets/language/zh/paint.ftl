@@ -13,14 +13,10 @@ paint-coat = 涂层
 paint-coat-changed = { $coat }，已更改
 paint-coat-named = 涂层：{ $coat }
 paint-coat-name = 涂层名称
-paint-save-coat-as = 另存为…
-paint-save = 保存
-paint-cancel = 取消
 paint-reset-coat = 重置
 paint-saved-coat = 已保存涂层 { $coat }
 paint-no-coat-folder = 没有涂层文件夹
 paint-no-coat-folder-advice = 请以有主文件夹的用户启动窗口
-paint-more = 更多{ $group }参数（{ $count }）
 
 ## What the film comes to
 paint-check = 漆膜
@@ -36,12 +32,9 @@ paint-histogram = 各膜厚的面积占比
 paint-histogram-hint = 按目标膜厚百分比统计的面积占比；绿色在公差内
 
 ## Tools
-paint-rotate = 旋转
-paint-rotate-hint = 拖动可旋转三维视图（R）
 paint-keep-out = 排除
 paint-keep-out-box = 排除：框选
 paint-keep-out-lasso = 排除：套索
-paint-lasso = 套索
 paint-brush = 画笔
 paint-keep-out-brush = 排除：画笔
 paint-keep-out-hint = 拖动圈出不喷涂的部分。按 Esc 恢复旋转
@@ -61,8 +54,6 @@ paint-turn-gun = 转动喷枪
 paint-turn-gun-hint = 从行程上的一点拖动，使喷枪向该方向倾斜。按 Esc 恢复旋转
 paint-edits-dropped = 手动移动的内容属于先前的轨迹，已丢弃
 paint-edits-dropped-advice = 可用“撤销”恢复；请最后再手动修正轨迹
-paint-undo = 撤销
-paint-redo = 重做
 paint-film-colours = 膜厚着色
 paint-film-colours-hint = 按膜厚为零件着色
 
@@ -88,18 +79,12 @@ paint-proposing = 正在求取行距和速度
 paint-storing = 正在保存轨迹
 paint-propose = 推荐
 paint-propose-hint = 求取使膜厚达到目标的行距和速度
-paint-export = 导出…
 paint-export-hint = 将轨迹写成表格
 paint-export-title = 导出喷涂轨迹
-paint-csv-files = 逗号分隔值
-paint-writing = 正在写入 { $file }
-paint-wrote = 已写入 { $path }
 paint-store = 随零件保存
 paint-store-short = 保存
 paint-store-hint = 将轨迹随零件保存；此后检测和机器人程序将使用它
 paint-is-stored = 此轨迹已随零件保存
-paint-stored = 已为 { $part } 保存含 { $count } 个点的喷涂轨迹
-paint-path-removed = 已移除 { $part } 的喷涂轨迹
 paint-planned-path = 已规划
 paint-stored-path = 已保存，{ $count } 个点
 paint-unsaved = 喷涂中绘制的区域尚未保存为轨迹

@@ -6,6 +6,7 @@ results-accepted = 已接受
 results-not-accepted = 未接受
 results-unknown = 未知
 results-no-part = 无零件
+results-recipe-modified = { $name }（已修改）
 results-title-not-recognised = 未识别 · 最接近 { $part }
 results-title-refused = { $part } · 未接受
 results-title-unknown = 未知 · 最接近 { $part }

@@ -2,8 +2,6 @@
 shots-shots = 拍摄
 shots-add = 添加拍摄…
 shots-add-says = 同一零件的一帧；其位姿须在位姿文件或同目录的 poses.json 中
-shots-redo = 重做
-shots-undo = 撤销
 shots-redo-label = 重做拍摄更改
 shots-undo-label = 撤销拍摄更改
 shots-all-used = { $num } 次拍摄

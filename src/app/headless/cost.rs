@@ -8,7 +8,7 @@ use std::{
 use egui::{Event, Modifiers, PointerButton, Pos2, Vec2};
 use serde::Serialize;
 
-use super::{FrameTime, HeadlessWindow, Pace};
+use super::{FrameTime, HeadlessWindow, Pace, SIZE};
 use crate::{
     app::{
         shell::{action::Action, live::LiveAction, session::WorkspaceKind},
@@ -19,7 +19,8 @@ use crate::{
             enrol::{EnrolAction, EnrolWorkspace},
         },
     },
-    bench::{process_seconds, quantile},
+    bench::process_seconds,
+    geometry::statistics::quantile,
 };
 
 /// Times over many frames, milliseconds.
@@ -52,9 +53,6 @@ pub struct WindowCost {
     /// One entry per kind of frame.
     pub frames: Vec<FrameCost>,
 }
-
-/// Size of the window, logical pixels.
-const SIZE: [u32; 2] = [1440, 900];
 
 /// Opens the window without a display and measures `num_frames` frames of each kind: Inspect at rest, while its view is
 /// rotated, and live, then every other workspace with that scene while the pointer moves over it.
@@ -105,10 +103,6 @@ pub fn window_cost(num_frames: usize, options: WindowOptions) -> Result<WindowCo
 
 /// Measures frames that show a new result while the simulated cell is followed; those in between cost as much as at rest.
 fn live(window: &mut HeadlessWindow, num_frames: usize) -> FrameCost {
-    let generation = |window: &HeadlessWindow| {
-        let shown = window.window().state().session.shown.as_ref();
-        shown.map(|shown| shown.generation)
-    };
     window.act(Action::Live(LiveAction::Toggle));
     let cost = measured(
         "Inspect, live",
@@ -116,10 +110,10 @@ fn live(window: &mut HeadlessWindow, num_frames: usize) -> FrameCost {
         num_frames,
         Pace::Ahead,
         |window, _| {
-            let (before, began) = (generation(window), Instant::now());
+            let (before, began) = (window.generation(), Instant::now());
             loop {
                 let time = window.frame(Vec::new(), Pace::Ahead);
-                if generation(window) != before || began.elapsed().as_secs() > 10 {
+                if window.generation() != before || began.elapsed().as_secs() > 10 {
                     return time;
                 }
                 thread::sleep(Duration::from_millis(2));
@@ -139,13 +133,13 @@ fn other_workspaces(window: &mut HeadlessWindow, num_frames: usize) -> Vec<Frame
     let prepared: [(&str, WorkspaceKind, Prepare); 5] = [
         ("Enrol, pointer moving", WorkspaceKind::Enrol, |window| {
             window.with(|enrol: &mut EnrolWorkspace, cx| {
-                enrol.state_mut().apply(EnrolAction::TakeShown, cx);
+                enrol.state.apply(EnrolAction::TakeShown, cx);
             });
         }),
         ("Compare, pointer moving", WorkspaceKind::Compare, |_| {}),
         ("Align, pointer moving", WorkspaceKind::Align, |window| {
             window.with(|align: &mut AlignWorkspace, cx| {
-                align.state_mut().apply(AlignAction::Run, cx);
+                align.state.apply(AlignAction::Run, cx);
             });
         }),
         ("Paint, pointer moving", WorkspaceKind::Paint, |_| {}),

@@ -8,7 +8,7 @@ use std::{
 
 use serde::Serialize;
 
-use super::{HeadlessWindow, Pace};
+use super::{HeadlessWindow, Pace, SIZE};
 use crate::{
     app::{
         shell::{
@@ -18,7 +18,8 @@ use crate::{
         ui::viewport::ViewError,
         window::WindowOptions,
     },
-    bench::{cpu_wait_seconds, quantile},
+    bench::cpu_wait_seconds,
+    geometry::statistics::quantile,
 };
 
 /// Measurements of one stretch of time.
@@ -46,8 +47,6 @@ pub struct LiveSample {
     pub memory_mb: Option<f64>,
 }
 
-/// Size of the window, logical pixels.
-const SIZE: [u32; 2] = [1440, 900];
 /// Refresh interval of a display.
 const TICK: Duration = Duration::from_micros(16_667);
 
@@ -112,12 +111,8 @@ struct UiThreadTime {
 fn draw_until(window: &mut HeadlessWindow, end: Instant) -> (Vec<f64>, UiThreadTime) {
     let mut busy = Vec::new();
     let mut longest = UiThreadTime::default();
-    let generation = |window: &HeadlessWindow| {
-        let shown = window.window().state().session.shown.as_ref();
-        shown.map(|shown| shown.generation)
-    };
     while Instant::now() < end {
-        let before = generation(window);
+        let before = window.generation();
         let waited_before = cpu_wait_seconds();
         let began = Instant::now();
         let time = window.frame(Vec::new(), Pace::Ahead);
@@ -127,7 +122,7 @@ fn draw_until(window: &mut HeadlessWindow, end: Instant) -> (Vec<f64>, UiThreadT
             let waited_s = waited.map(|(now, before)| now - before);
             longest = UiThreadTime { whole_s, waited_s };
         }
-        if generation(window) != before {
+        if window.generation() != before {
             busy.push(time.busy * 1e3);
         }
         // Not measured: keeps the queue of a slow device from filling the memory.

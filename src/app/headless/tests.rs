@@ -73,8 +73,13 @@ fn another_choice_of_lines_uploads_lines_alone_and_once() {
     assert_eq!(window.counts(), after);
 }
 
-/// Collects the texts for a screen reader.
-pub(super) fn take_words(output: &FullOutput, says: &mut Vec<String>) {
+/// Collects the texts for a screen reader, and notes whether the window asks to be closed.
+pub(super) fn take_in(window: &mut HeadlessWindow, output: &FullOutput) {
+    let commands = output.viewport_output.values().flat_map(|v| &v.commands);
+    window.closes |= commands
+        .into_iter()
+        .any(|command| *command == egui::ViewportCommand::Close);
+    let says = &mut window.says;
     let Some(update) = &output.platform_output.accesskit_update else {
         return;
     };
@@ -108,7 +113,7 @@ fn a_device_that_refuses_something_is_said_in_words_and_the_rest_works() {
     });
     window.frame(Vec::new(), Pace::InStep);
     assert!(says(&window, "No 3-D view") && says(&window, "reported an error"));
-    assert!(says(&window, "Front door, left") && !window.closes());
+    assert!(says(&window, "Front door, left") && !window.closes);
     // The next part is still captured and inspected.
     window.frame(press(Key::Space), Pace::InStep);
     assert!(window.settle());
@@ -122,7 +127,7 @@ fn a_window_whose_device_is_gone_closes_instead_of_breaking_off() {
     for _ in 0..3 {
         window.frame(Vec::new(), Pace::InStep);
     }
-    assert!(window.closes());
+    assert!(window.closes);
     let gpu = window.window().gpu().as_ref().expect("a device once");
     assert!(matches!(gpu.trouble(), Some(ViewError::DeviceLost { .. })));
 }

@@ -285,14 +285,6 @@ impl FoundScan {
 }
 
 impl FinishedInspection {
-    /// Middle of the best reference's extent, part frame, metres.
-    pub(in crate::app) fn middle(
-        inspection: &Inspection,
-        library: &Library,
-    ) -> Option<Point3<f64>> {
-        inspection.best_reference(library)?.middle()
-    }
-
     /// Prepares the data of the panels; goes through every point.
     pub(in crate::app) fn prepared(self, library: &Library, shown: &Arc<LibraryView>) -> Inspected {
         let Self {
@@ -316,7 +308,7 @@ impl FinishedInspection {
         let seen_by_all = scan
             .as_ref()
             .map(|found| PointCloud::from_points(found.part().map(|(_, point)| point)));
-        let middle = Self::middle(&inspection, library);
+        let middle = best.and_then(Reference::middle);
         let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
         // No stand-off or path for a part that was not recognised.
         let sprayed = best.zip(pose).filter(|_| inspection.verdict.is_accepted());

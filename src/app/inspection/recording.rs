@@ -46,32 +46,25 @@ impl SharedRecording {
             *recording = None;
             return Ok(None);
         };
-        if recording
-            .as_ref()
-            .is_none_or(|known| known.parent != parent)
-        {
-            let title = feed.title.clone().unwrap_or_else(|| spec.title());
-            let folder = parent.join(name());
-            let recorder =
-                Recorder::create(&folder, &title, &spec.to_string(), captured.is_simulated)?;
-            *recording = Some(Open {
-                parent: parent.to_owned(),
-                recorder,
-            });
-        }
-        let Some(Open { recorder, .. }) = &mut *recording else {
-            return Ok(None);
+        // An error ends the recording.
+        let mut open = match recording.take() {
+            Some(open) if open.parent == parent => open,
+            _ => {
+                let title = feed.title.clone().unwrap_or_else(|| spec.title());
+                let (folder, source) = (parent.join(name()), spec.to_string());
+                Open {
+                    parent: parent.to_owned(),
+                    recorder: Recorder::create(&folder, &title, &source, captured.is_simulated)?,
+                }
+            }
         };
-        let written = recorder.write(captured);
+        open.recorder.write(captured)?;
         let recorded = Recorded {
-            folder: recorder.folder().to_owned(),
-            num_frames: recorder.num_frames(),
-            num_bytes: recorder.num_bytes(),
+            folder: open.recorder.folder().to_owned(),
+            num_frames: open.recorder.num_frames(),
+            num_bytes: open.recorder.num_bytes(),
         };
-        if let Err(error) = written {
-            *recording = None;
-            return Err(error);
-        }
+        *recording = Some(open);
         Ok(Some(recorded))
     }
 

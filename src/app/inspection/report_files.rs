@@ -21,9 +21,7 @@ use crate::{
     history::Traceability,
     report::{
         InspectionLine, ReportError, ReportFolder,
-        pose_report::{
-            CsvAppended, PdfPictures, PoseReport, ReportSubject, SeenBy, append_csv, pose_pdf,
-        },
+        pose_report::{PdfPictures, PoseReport, ReportSubject, SeenBy, append_csv, pose_pdf},
         stage_pictures,
     },
     robot::{
@@ -304,7 +302,7 @@ pub(in crate::app) fn report(
     let files = [("json", report.to_json().into_bytes()), ("pdf", pdf)];
     let written = out.write_pose(&name, &files).map_err(trouble)?;
     let table = out.csv(report.robot.convention);
-    let appended = append_csv(&table, report).map_err(|error| UserError::of(&error))?;
+    let aside = append_csv(&table, report).map_err(|error| UserError::of(&error))?;
     let names: Vec<String> = [&path]
         .into_iter()
         .chain(&written)
@@ -312,15 +310,15 @@ pub(in crate::app) fn report(
         .collect();
     let (files, table) = (names.join(", "), file_name(&table));
     let folder = folder.display().to_string();
-    Ok(match appended {
-        CsvAppended::SetAside(aside) => text!(
+    Ok(match aside {
+        Some(aside) => text!(
             "inspect-report-set-aside",
             files = files,
             table = table,
             folder = folder,
             aside = file_name(&aside)
         ),
-        CsvAppended::Row => text!(
+        None => text!(
             "inspect-report-written",
             files = files,
             table = table,

@@ -128,9 +128,8 @@ impl ScanOrder {
                 poses: Some(file),
                 ..files
             }),
-            Self::Known(choice) => Self::Known(choice),
-            Self::Kept(kept) => Self::Kept(kept),
             Self::Add(choice, frame, _) => Self::Add(choice, frame, Some(file)),
+            Self::Known(_) | Self::Kept(_) => self,
         }
     }
 }

@@ -8,7 +8,7 @@ use nalgebra::{Isometry3, Point3};
 
 use super::scan_figure::ScanFigure;
 use crate::{
-    app::ui::viewport::{Line, LineSet, PointSet, Role, furniture},
+    app::ui::viewport::{Line, LineSet, PointSet, Role, furniture, vec3},
     geometry::rigid::RigidTransform,
     pipeline::Inspection,
     robot::spray::{BandStatus, CarriedPath},
@@ -196,10 +196,6 @@ fn strokes(path: &CarriedPath, mouths: &[Vec3]) -> Vec<Line> {
     lines
 }
 
-fn vec3(p: &Point3<f64>) -> Vec3 {
-    Vec3::new(p.x as f32, p.y as f32, p.z as f32)
-}
-
 impl NozzleFigure {
     fn of(ray: &NozzleRay) -> Self {
         let mouth = vec3(&ray.mouth);
@@ -270,7 +266,6 @@ mod tests {
         let num_lines = |num: usize| {
             let point = |i: usize| CarriedPoint {
                 camera_from_nozzle: from_euler_zyx([0.0, 0.0, 0.0, 0.01 * i as f64, 0.0, 1.0]),
-                part_from_nozzle: RigidTransform::identity(),
                 meets: None,
                 band: match i {
                     50 => BandStatus::TooFar,

@@ -188,9 +188,7 @@ impl Origin {
             | Self::Frame { is_simulated, .. } => *is_simulated,
         }
     }
-}
 
-impl Origin {
     /// Returns a source that gives the same scene again, by simulating the same frame or reading the files again. `None` for a
     /// frame of a camera, which cannot be had again.
     pub fn source(&self) -> Option<SceneOrScan> {

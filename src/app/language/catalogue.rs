@@ -1,6 +1,6 @@
 //! The messages of each language, parsed when its first text is requested.
 
-use std::sync::LazyLock;
+use std::sync::OnceLock;
 
 use fluent_bundle::{FluentArgs, FluentResource, FluentValue, concurrent::FluentBundle};
 use unic_langid::LanguageIdentifier;
@@ -33,16 +33,9 @@ type Bundle = FluentBundle<FluentResource>;
 
 /// Returns the parsed messages of a language.
 fn bundle(language: Language) -> &'static Bundle {
-    static ENGLISH: LazyLock<Bundle> = LazyLock::new(|| parsed(Language::English));
-    static GERMAN: LazyLock<Bundle> = LazyLock::new(|| parsed(Language::German));
-    static SPANISH: LazyLock<Bundle> = LazyLock::new(|| parsed(Language::Spanish));
-    static CHINESE: LazyLock<Bundle> = LazyLock::new(|| parsed(Language::Chinese));
-    match language {
-        Language::English => &ENGLISH,
-        Language::German => &GERMAN,
-        Language::Spanish => &SPANISH,
-        Language::Chinese => &CHINESE,
-    }
+    static BUNDLES: [OnceLock<Bundle>; Language::ALL.len()] =
+        [const { OnceLock::new() }; Language::ALL.len()];
+    BUNDLES[language as usize].get_or_init(|| parsed(language))
 }
 
 fn parsed(language: Language) -> Bundle {

@@ -218,7 +218,7 @@ mod tests {
         for language in [Language::German, Language::Spanish, Language::Chinese] {
             language.make_current();
             for (own, english) in said().iter().zip(&english) {
-                assert_ne!(own, english, "{language}");
+                assert_ne!(own, english, "{language:?}");
             }
         }
     }

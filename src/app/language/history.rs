@@ -357,7 +357,7 @@ mod tests {
             language.make_current();
             let names: std::collections::BTreeSet<String> =
                 kinds.iter().map(|kind| refusal_kind(*kind)).collect();
-            assert_eq!(names.len(), kinds.len(), "{language}");
+            assert_eq!(names.len(), kinds.len(), "{language:?}");
         }
         Language::English.make_current();
     }

@@ -23,7 +23,7 @@ pub(in crate::app) mod parameters;
 pub(in crate::app) mod results;
 pub(in crate::app) mod robot;
 
-use std::{cell::Cell, fmt};
+use std::cell::Cell;
 
 use serde::{Deserialize, Serialize};
 
@@ -108,12 +108,6 @@ impl Language {
     /// Sets the language of this thread.
     pub(in crate::app) fn make_current(self) {
         CURRENT.set(self);
-    }
-}
-
-impl fmt::Display for Language {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.own_name())
     }
 }
 

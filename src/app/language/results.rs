@@ -530,7 +530,7 @@ pub(in crate::app) fn traced(name: &str) -> String {
 /// Returns the name of a recipe, marked if it was modified; the name itself is not translated.
 pub(in crate::app) fn recipe_label(label: &RecipeLabel) -> String {
     if label.is_changed {
-        text!("inspect-recipe-modified", name = &label.name)
+        text!("results-recipe-modified", name = &label.name)
     } else {
         label.name.clone()
     }

@@ -10,7 +10,7 @@ use super::{
     robot::RobotAction,
     roles::{self, RoleAction},
     session::{Source, WorkspaceKind},
-    state::{HelpPage, State},
+    state::State,
 };
 use crate::{
     app::{
@@ -172,8 +172,8 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         }
         Action::Export => return Some(Effect::Tell(Event::Export)),
         Action::CloseTop => {
-            if state.help == HelpPage::Open {
-                state.help = HelpPage::Closed;
+            if state.is_help_open {
+                state.is_help_open = false;
             } else {
                 return Some(Effect::Tell(Event::Escape));
             }
@@ -185,12 +185,7 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
             state.session.language = language;
             state.session.chosen_language = Some(language);
         }
-        Action::ToggleHelp => {
-            state.help = match state.help {
-                HelpPage::Closed => HelpPage::Open,
-                HelpPage::Open => HelpPage::Closed,
-            }
-        }
+        Action::ToggleHelp => state.is_help_open = !state.is_help_open,
         Action::Dismiss(place) => {
             if place < state.notices.len() {
                 state.notices.remove(place);
@@ -290,20 +285,20 @@ mod tests {
 
     #[test]
     fn a_relative_path_is_remembered_from_the_root_on() {
-        use crate::app::shell::settings::{RememberedSource, Settings};
+        use crate::app::shell::settings::Settings;
         let here = std::env::current_dir().expect("a folder");
         let mut state = State::default();
         apply(&mut state, Action::Open("door.pcd".into()));
         let remembered = Settings::of(&state, None).source;
-        assert_eq!(remembered, RememberedSource::File(here.join("door.pcd")));
+        assert_eq!(remembered, Source::File(here.join("door.pcd")));
         apply(&mut state, Action::Open("reference_parts".into()));
         let scan = ScanFiles::of_folder(here.join("reference_parts"));
         let remembered = Settings::of(&state, None).source;
-        assert_eq!(remembered, RememberedSource::Scan(scan));
+        assert_eq!(remembered, Source::Scan(scan));
         let watched = Action::Chosen(DialogRequest::WatchedFolder, "captures".into());
         apply(&mut state, watched);
         let remembered = Settings::of(&state, None).source;
-        let RememberedSource::Camera(SourceSpec::Watched(spec)) = remembered else {
+        let Some(SourceSpec::Watched(spec)) = remembered.followed() else {
             panic!("{remembered:?}");
         };
         assert_eq!(spec.folder, here.join("captures"));
@@ -320,7 +315,7 @@ mod tests {
         let mut state = State::default();
         apply(&mut state, Action::ToggleHelp);
         assert!(apply(&mut state, Action::CloseTop).is_none());
-        assert_eq!(state.help, HelpPage::Closed);
+        assert!(!state.is_help_open);
         let effect = apply(&mut state, Action::CloseTop);
         assert!(matches!(effect, Some(Effect::Tell(Event::Escape))));
     }

@@ -1,7 +1,14 @@
 //! What the shell lends to a workspace while it draws or handles results.
 
-use super::{file_dialog::DialogLock, message::Message, notice::Notice, session::Session};
-use crate::app::inspection::library_cache::LibraryCache;
+use std::path::PathBuf;
+
+use super::{
+    file_dialog::{DialogLock, FileDialog},
+    message::Message,
+    notice::Notice,
+    session::Session,
+};
+use crate::app::{inspection::library_cache::LibraryCache, task::Task};
 
 /// Data shared by tasks. Clones go into jobs.
 #[derive(Clone, Debug)]
@@ -48,6 +55,27 @@ impl<'a> ShellContext<'a> {
     /// Shows a notice.
     pub fn notify(&mut self, notice: impl Into<Notice>) {
         self.send(Message::Notify(notice.into()));
+    }
+
+    /// Shows the result of a task, which describes what was written, or its error.
+    pub fn notify_written(&mut self, task: &mut Task<String>) {
+        match task.poll() {
+            Some(Ok(what)) => self.notify(Notice::done(what)),
+            Some(Err(error)) => self.notify(error),
+            None => {}
+        }
+    }
+
+    /// The path chosen in a dialog, and what it is for; shows why a path cannot be used.
+    pub fn chosen<K: Copy>(&mut self, dialog: &mut FileDialog<K>) -> Option<(K, PathBuf)> {
+        let (asked, path) = dialog.poll()?;
+        match path {
+            Ok(path) => Some((asked, path)),
+            Err(notice) => {
+                self.notify(notice);
+                None
+            }
+        }
     }
 }
 

@@ -11,7 +11,7 @@ use std::{
     sync::{Arc, Mutex},
 };
 
-use egui::{Align2, Context, RichText, TextEdit, Ui, WidgetInfo, vec2};
+use egui::{Context, RichText, Ui, WidgetInfo};
 
 use super::{
     message::Event,
@@ -22,7 +22,10 @@ use crate::{
     app::{
         inspection::inspected::Inspected,
         language::{history::stored_title, text},
-        ui::{theme::space, widgets::text_button},
+        ui::{
+            theme::space,
+            widgets::{line_edit, text_button},
+        },
     },
     error::lock,
     history::{HungId, StoredVerdict, Summary, TraceChange, Traceability},
@@ -257,7 +260,7 @@ impl Session {
 
     /// True if a part of this shift other than the latest has this serial number.
     fn is_in_shift(&self, serial: &str) -> bool {
-        let latest = self.latest(|_| true).map(Inspected::hung);
+        let latest = self.latest(|_| true).map(|part| part.hung());
         let mut rows = self.shift.last.iter();
         !serial.is_empty()
             && rows.any(|row| row.trace.serial == serial && Some(&row.hung) != latest)
@@ -332,7 +335,7 @@ impl Session {
 
 /// Returns the events that write serial numbers which came after the verdict on their part, or were moved from there.
 pub(in crate::app) fn settle(session: &Session, now: f64) -> Vec<Event> {
-    let latest = session.latest(|_| true).map(Inspected::hung);
+    let latest = session.latest(|_| true).map(|part| part.hung());
     let mut events = Vec::new();
     for (hung, change) in session.trace.settle(latest, now) {
         // Live's next frames of this part have it.
@@ -379,12 +382,8 @@ pub(in crate::app) fn fields(ui: &mut Ui, session: &Session) {
             let from = ui.cursor().left();
             let label = ui.label(RichText::new(&name).weak());
             ui.add_space((from + NAME - ui.cursor().left()).max(0.0));
-            let field = TextEdit::singleline(&mut text)
-                .hint_text(says)
-                .char_limit(Traceability::MAX_LETTERS)
-                .align(Align2::LEFT_CENTER)
-                .desired_width(f32::INFINITY)
-                .min_size(vec2(0.0, space::TARGET));
+            let field =
+                line_edit(&mut text, says, f32::INFINITY).char_limit(Traceability::MAX_LETTERS);
             let field = ui.add(field).labelled_by(label.id);
             field.widget_info(|| WidgetInfo::labeled(egui::Role::TextInput, true, &name));
             field

@@ -26,7 +26,7 @@ use crate::{
             source::{Origin, SceneSource, file_name},
         },
         language::text,
-        task::{Running, Task, TaskContext, TaskError, TaskEvent, TaskRunner},
+        task::{Running, Task, TaskContext, TaskError, TaskRunner},
         user_error::UserError,
     },
     capture::SourceSpec,
@@ -42,8 +42,6 @@ pub struct Inspector {
     /// Loads the library at the start, and again after another program has changed it.
     pub loader: LibraryLoader,
     library_cache: LibraryCache,
-    /// Generation of the newest run and its result.
-    generation: u64,
     /// Purpose of the newest run.
     purpose: ReinspectionPurpose,
     /// Number of frames captured from the simulated cell.
@@ -74,7 +72,6 @@ impl Inspector {
             task: Task::new("inspect", runner),
             loader: LibraryLoader::new(runner, library_cache),
             library_cache: library_cache.clone(),
-            generation: 0,
             purpose: ReinspectionPurpose::New,
             num_captures: 0,
             former_source: None,
@@ -275,8 +272,9 @@ impl State {
             } else {
                 purpose
             };
-            let part = PartAtHand::of(&shown.inspected);
-            let job = self.session.inspect_job(shown.inspected.again());
+            let inspected = &shown.inspected;
+            let part = PartAtHand::Known(inspected.hung().clone(), inspected.trace().clone());
+            let job = self.session.inspect_job(inspected.again());
             self.inspect_part(title.to_owned(), job, purpose, part);
         }
     }
@@ -338,14 +336,12 @@ impl State {
 
     /// Records the start of a run; returns the shared data that it works with.
     fn begins(&mut self, title: &str, purpose: ReinspectionPurpose) -> LibraryCache {
-        self.generation += 1;
         self.session.failed = None;
         self.session.inspecting = Some(Inspecting {
             title: title.to_owned(),
             purpose,
         });
         let inspector = &mut self.inspector;
-        inspector.generation = self.generation;
         inspector.purpose = purpose;
         inspector.has_ended_live = false;
         inspector.library_cache.clone()
@@ -414,12 +410,6 @@ enum PartAtHand {
     MaybeSeen(CurrentTrace),
 }
 
-impl PartAtHand {
-    fn of(inspected: &Inspected) -> Self {
-        Self::Known(inspected.hung().clone(), inspected.trace().clone())
-    }
-}
-
 /// Runs the job of the task.
 fn run(
     job: &InspectJob,
@@ -479,7 +469,7 @@ pub(in crate::app) fn update(state: &mut State) -> Option<Event> {
         state.session.inspecting = None;
     }
     match event? {
-        TaskEvent::Partial(result) | TaskEvent::Done(result) => match result {
+        Ok(result) => match result {
             InspectorResult::Inspected(inspected) => {
                 let event = show(state, inspected);
                 if std::mem::take(&mut state.inspector.has_ended_live) {
@@ -497,7 +487,7 @@ pub(in crate::app) fn update(state: &mut State) -> Option<Event> {
                 state.inspect_again();
             }
         },
-        TaskEvent::Failed(error) => {
+        Err(error) => {
             state.session.failed = Some(error.clone());
             let topic = match state.inspector.purpose {
                 ReinspectionPurpose::New | ReinspectionPurpose::Past => NoticeTopic::Scene,
@@ -519,10 +509,7 @@ pub(in crate::app) fn update(state: &mut State) -> Option<Event> {
 
 /// Shows a result made elsewhere as a new inspection; cancels a running one.
 pub(in crate::app) fn show_made(state: &mut State, inspected: Arc<Inspected>) -> Event {
-    state.generation += 1;
-    let inspector = &mut state.inspector;
-    inspector.generation = state.generation;
-    inspector.purpose = ReinspectionPurpose::New;
+    state.inspector.purpose = ReinspectionPurpose::New;
     state.cancel_inspection();
     show(state, inspected)
 }
@@ -549,11 +536,8 @@ fn show(state: &mut State, inspected: Arc<Inspected>) -> Event {
         let warning = Notice::from(warning.clone());
         notify(state, warning.about(NoticeTopic::Scene));
     }
-    let Inspector {
-        generation,
-        purpose,
-        ..
-    } = state.inspector;
+    let purpose = state.inspector.purpose;
+    state.generation += 1;
     state.session.failed = None;
     state.session.live.unseen = None;
     // A result from the history stays past and an outdated one outdated, with whatever recipe or library it is inspected again.
@@ -567,7 +551,7 @@ fn show(state: &mut State, inspected: Arc<Inspected>) -> Event {
         ReinspectionPurpose::New => (false, false),
     };
     state.session.shown = Some(Shown {
-        generation,
+        generation: state.generation,
         inspected: Arc::clone(&inspected),
         is_past,
         session: None,

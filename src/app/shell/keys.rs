@@ -9,7 +9,7 @@ use super::{
     robot::RobotAction,
     roles::{self, RoleAction},
     session::WorkspaceKind,
-    state::{HelpPage, State},
+    state::State,
 };
 use crate::app::{
     language::{keys, text},
@@ -163,15 +163,6 @@ fn is_operators(binding: &KeyBinding, has_pin: bool) -> bool {
     }
 }
 
-/// Effect of a key.
-#[derive(Clone, Copy)]
-enum Pressed {
-    /// The workspace's own key at this index.
-    Own(usize),
-    /// This action.
-    Named(fn() -> Action),
-}
-
 /// Collects the actions of pressed keys. Called after the panels, so that a focused control gets its keys first.
 ///
 /// The space bar presses a focused control; `space_is_free` means that the focused one does not use it. While the user types
@@ -193,11 +184,11 @@ pub(in crate::app) fn shortcuts(
     let is_pressing = !space_is_free && ctx.memory(|memory| memory.focused().is_some());
     let workspace = state.session.workspace;
     let own = own.iter().copied().enumerate();
-    let own = own.map(|(place, binding)| (binding, Pressed::Own(place)));
+    let own = own.map(|(place, binding)| (binding, Action::Press(workspace, place)));
     let named = SHORTCUTS
         .iter()
-        .map(|shortcut| (shortcut.binding(), Pressed::Named(shortcut.action)));
-    for (binding, pressed) in own.chain(named) {
+        .map(|shortcut| (shortcut.binding(), (shortcut.action)()));
+    for (binding, action) in own.chain(named) {
         let is_plain = binding.modifiers.is_none();
         // In a text field, Ctrl Z undoes typing.
         let is_of_text = is_plain || binding.key == Key::Z;
@@ -209,10 +200,7 @@ pub(in crate::app) fn shortcuts(
         }
         let keys = KeyboardShortcut::new(binding.modifiers, binding.key);
         if ctx.input_mut(|input| input.consume_shortcut(&keys)) {
-            actions.push(match pressed {
-                Pressed::Own(place) => Action::Press(workspace, place),
-                Pressed::Named(action) => action(),
-            });
+            actions.push(action);
         }
     }
     if is_writing || was_writing {
@@ -256,7 +244,7 @@ pub(in crate::app) fn help(
     own: &[KeyBinding],
     actions: &mut Vec<Action>,
 ) {
-    if state.help == HelpPage::Closed {
+    if !state.is_help_open {
         return;
     }
     let modal = widgets::dialog(ctx, "help", |ui| {

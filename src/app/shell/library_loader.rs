@@ -14,7 +14,7 @@ use crate::app::{
         library_cache::{LibraryCache, LibraryView},
     },
     language::text,
-    task::{Task, TaskEvent, TaskRunner},
+    task::{Task, TaskRunner},
     user_error::UserError,
 };
 
@@ -100,24 +100,22 @@ impl State {
 pub(super) fn update(state: &mut State) {
     match state.inspector.loader.loading.poll() {
         // A library that came with a result or that the user chose is newer.
-        Some(TaskEvent::Partial(library) | TaskEvent::Done(library))
-            if state.session.library.is_none() =>
-        {
+        Some(Ok(library)) if state.session.library.is_none() => {
             state.use_library(&library);
         }
-        Some(TaskEvent::Failed(error)) => notify(state, error.into()),
+        Some(Err(error)) => notify(state, error.into()),
         _ => {}
     }
     let library = state.session.library.as_ref();
     let is_loaded = library.is_some_and(|library| library.unloaded.is_none());
     let reloaded = match state.inspector.loader.reloading.poll() {
-        Some(TaskEvent::Done(library) | TaskEvent::Partial(library)) => {
+        Some(Ok(library)) => {
             remove_notices(state, NoticeTopic::Library);
             library
         }
         // A library that was never there is reported already.
-        Some(TaskEvent::Failed(_)) if !is_loaded => None,
-        Some(TaskEvent::Failed(UserError { what, advice })) => {
+        Some(Err(_)) if !is_loaded => None,
+        Some(Err(UserError { what, advice })) => {
             remove_notices(state, NoticeTopic::Library);
             let what = text!("shell-library-still-in-use", error = what);
             notify(

@@ -83,10 +83,9 @@ pub enum Message {
 }
 
 /// Purpose of an inspection, returned with its result.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ReinspectionPurpose {
     /// A new inspection.
-    #[default]
     New,
     /// Repeats the inspection of the scene in front because something that it depends on has changed.
     Repeated,

@@ -32,4 +32,5 @@ mod source_menu;
 pub mod state;
 pub(in crate::app) mod top_bar;
 pub(in crate::app) mod truth_menu;
+pub mod undo_stack;
 pub mod workspace;

@@ -16,10 +16,9 @@ use crate::{
 const IN_MILLIMETRES: std::ops::RangeInclusive<f64> = 0.1..=50.0;
 
 /// Kind of a notice.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoticeKind {
     /// Something needs attention.
-    #[default]
     Look,
     /// Something was done.
     Done,
@@ -28,10 +27,9 @@ pub enum NoticeKind {
 }
 
 /// What a notice is about; some notices go with it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoticeTopic {
     /// Something that was done or happened.
-    #[default]
     Other,
     /// A scene: removed when another one is shown.
     Scene,
@@ -195,11 +193,7 @@ impl Notice {
     pub fn done(what: impl Into<String>) -> Self {
         Self {
             kind: NoticeKind::Done,
-            topic: NoticeTopic::Other,
-            what: what.into(),
-            advice: String::new(),
-            in_millimetres: None,
-            num_more: 0,
+            ..Self::look(what, "")
         }
     }
 
@@ -214,14 +208,7 @@ impl Notice {
 
 impl From<UserError> for Notice {
     fn from(UserError { what, advice }: UserError) -> Self {
-        Self {
-            kind: NoticeKind::Look,
-            topic: NoticeTopic::Other,
-            what,
-            advice,
-            in_millimetres: None,
-            num_more: 0,
-        }
+        Self::look(what, advice)
     }
 }
 

@@ -171,8 +171,9 @@ fn lower(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
             .shortcut_text(key(&space).color(theme.on_accent))
             .fill(theme.accent)
     };
-    let capture = capture.min_size(vec2(200.0, BUTTON));
-    if labelled_large(ui, capture, &name).clicked() {
+    let capture = ui.add(capture.min_size(vec2(200.0, BUTTON)));
+    capture.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &name));
+    if capture.clicked() {
         actions.push(Action::Capture);
     }
     let [strong, weak] = if is_live {
@@ -211,12 +212,6 @@ fn lower(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         source(ui, &state.session);
     });
-}
-
-fn labelled_large(ui: &mut Ui, button: Button<'_>, label: &str) -> egui::Response {
-    let response = ui.add(button);
-    response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, label));
-    response
 }
 
 /// Draws the source, and whether frames arrive.

@@ -170,10 +170,8 @@ impl ProgramSetup {
         if self.nozzle.trim().is_empty() {
             return Ok(None);
         }
-        let written = parse_nozzle(&self.nozzle).map_err(|error| {
-            let [what, advice] = written_pose_error(&error);
-            UserError { what, advice }
-        })?;
+        let written = parse_nozzle(&self.nozzle)
+            .map_err(|error| UserError::from(written_pose_error(&error)))?;
         Ok(Some(written.pose))
     }
 

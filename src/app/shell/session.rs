@@ -125,17 +125,16 @@ impl Session {
     pub(in crate::app) fn latest(
         &self,
         is_wanted: impl FnOnce(&Shown) -> bool,
-    ) -> Option<&Inspected> {
+    ) -> Option<&Arc<Inspected>> {
         let shown = self.shown.as_ref().filter(|shown| is_wanted(shown));
         let unseen = self.live.unseen.as_ref();
-        let latest = unseen.or_else(|| shown.map(|shown| &shown.inspected));
-        latest.map(|inspected| &**inspected)
+        unseen.or_else(|| shown.map(|shown| &shown.inspected))
     }
 
     /// The latest result while its verdict counts: not while the part moves or is only looked at, nor for a past inspection,
     /// nor once it is outdated, nor while another inspection runs or after one has failed. In the history it is the newest one.
     pub(in crate::app) fn current_result(&self) -> Option<&Inspected> {
-        let inspected = self.latest(|shown| !shown.is_past && !shown.is_outdated)?;
+        let inspected = &**self.latest(|shown| !shown.is_past && !shown.is_outdated)?;
         let has_come = !self.is_live()
             || self.live.status.as_ref().is_some_and(|status| {
                 status.source == SourceState::Running && status.num_inspected > 0
@@ -189,7 +188,8 @@ pub struct Inspecting {
 }
 
 /// Where Capture takes a scene from.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Source {
     /// The simulated cell.
     Cell(CellChoice),

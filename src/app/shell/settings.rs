@@ -21,17 +21,13 @@ use super::{
 };
 use crate::{
     app::{
-        inspection::{
-            library_cache::LibraryCache, scan_choice::ScanFiles, source::CellChoice,
-            unit_system::UnitSystem,
-        },
+        inspection::{library_cache::LibraryCache, unit_system::UnitSystem},
         language::{Language, text},
         task::TaskRunner,
         user_error::UserError,
     },
-    capture::SourceSpec,
     error::Advice as _,
-    files::{advice_on, disk, open_regular, user_settings, write_atomically},
+    files::{advice_on, disk, open_regular, user_settings, write_text},
     history::Traceability,
     pipeline::{NamedRecipe, Recipe, RecipeLabel},
     robot::Convention,
@@ -70,7 +66,7 @@ pub struct Settings {
     /// Inner width and height of the window, logical pixels.
     pub window: Option<[f32; 2]>,
     /// Where Capture takes a scene from.
-    pub source: RememberedSource,
+    pub source: Source,
     /// Whether the source was followed.
     pub live: bool,
     /// Parameters of the inspection; `None` for the defaults of the running version.
@@ -95,26 +91,6 @@ pub struct Settings {
     pub traceability: Traceability,
 }
 
-/// A source as stored in the file.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum RememberedSource {
-    /// The simulated cell.
-    Cell(CellChoice),
-    /// A file.
-    File(PathBuf),
-    /// The shots of a scan.
-    Scan(ScanFiles),
-    /// A camera, a recording, a watched folder, or a simulated cell with settings of its own.
-    Camera(SourceSpec),
-}
-
-impl Default for RememberedSource {
-    fn default() -> Self {
-        Self::Cell(CellChoice::default())
-    }
-}
-
 impl Default for Settings {
     fn default() -> Self {
         Self {
@@ -128,7 +104,7 @@ impl Default for Settings {
             library: None,
             recent: Vec::new(),
             window: None,
-            source: RememberedSource::default(),
+            source: Source::default(),
             live: false,
             recipe: None,
             recipe_label: RecipeLabel::default(),
@@ -158,12 +134,7 @@ impl Settings {
             library: state.session.chosen_library.clone(),
             recent: state.session.recent.clone(),
             window,
-            source: match &state.session.source {
-                Source::Cell(choice) => RememberedSource::Cell(*choice),
-                Source::File(path) => RememberedSource::File(path.clone()),
-                Source::Scan(files) => RememberedSource::Scan(files.clone()),
-                Source::Camera(spec) => RememberedSource::Camera((**spec).clone()),
-            },
+            source: state.session.source.clone(),
             live: state.session.is_live(),
             recipe: (**state.session.recipe != Recipe::default())
                 .then(|| Recipe::clone(&state.session.recipe)),
@@ -177,41 +148,6 @@ impl Settings {
             answering: state.session.answering,
             traceability: state.session.trace.remembered(),
         }
-    }
-
-    /// True if the settings equal those of the state.
-    pub fn is_of(&self, state: &State, window: Option<[f32; 2]>) -> bool {
-        let has_source = match (&self.source, &state.session.source) {
-            (RememberedSource::Cell(a), Source::Cell(b)) => a == b,
-            (RememberedSource::File(a), Source::File(b)) => a == b,
-            (RememberedSource::Scan(a), Source::Scan(b)) => a == b,
-            (RememberedSource::Camera(a), Source::Camera(b)) => *a == **b,
-            _ => false,
-        };
-        let has_recipe = match &self.recipe {
-            Some(recipe) => *recipe == **state.session.recipe,
-            None => **state.session.recipe == Recipe::default(),
-        } && self.recipe_label == state.session.recipe.label;
-        has_source
-            && has_recipe
-            && self.live == state.session.is_live()
-            && self.theme == state.session.theme
-            && self.units == state.session.units
-            && self.language == state.session.chosen_language
-            && self.convention == state.session.convention
-            && self.program == state.session.program
-            && self.workspace == state.session.workspace
-            && self.library == state.session.chosen_library
-            && self.recent == state.session.recent
-            && self.average == state.session.live.params.average
-            && self.lock_after == state.roles.lock_after
-            && self.pin == state.roles.pin
-            && self.role == state.session.role
-            && self.shifts == state.session.shift_starts
-            && self.cell == state.session.cell
-            && self.answering == state.session.answering
-            && self.traceability == state.session.trace.remembered()
-            && self.window == window
     }
 
     /// Makes the state to start with; its tasks run on `runner` and share `library_cache`.
@@ -231,12 +167,7 @@ impl Settings {
             program: self.program,
             chosen_library: self.library,
             recent: self.recent,
-            source: match self.source {
-                RememberedSource::Cell(choice) => Source::Cell(choice),
-                RememberedSource::File(path) => Source::File(path),
-                RememberedSource::Scan(files) => Source::Scan(files),
-                RememberedSource::Camera(spec) => Source::Camera(Box::new(spec)),
-            },
+            source: self.source,
             recipe: Arc::new(NamedRecipe {
                 label: self.recipe_label,
                 parameters: Arc::new(self.recipe.unwrap_or_default()),
@@ -386,10 +317,7 @@ fn read(path: &Path) -> Result<ReadSettings, BadSettings> {
     let mut settings: Settings = table.try_into().map_err(garbled)?;
     if !has_live {
         // Formerly, the window always started to follow a watched folder.
-        settings.live = matches!(
-            settings.source,
-            RememberedSource::Camera(SourceSpec::Watched(_))
-        );
+        settings.live = settings.source.is_watched();
     }
     let is_sensible = |size: &[f32; 2]| size.iter().all(|side| SIDES.contains(side));
     settings.window = settings.window.filter(is_sensible);
@@ -441,8 +369,7 @@ pub fn save(path: &Path, settings: &Settings) -> Result<(), UserError> {
         let words = crate::files::words_of(&error);
         not_kept(format!("{}: {words}", folder.display()), advice_on(&error))
     })?;
-    write_atomically(path, |writer| writer.write_all(text.as_bytes()))
-        .map_err(|error| not_kept(error.to_string(), &error.advice()))
+    write_text(path, &text).map_err(|error| not_kept(error.to_string(), &error.advice()))
 }
 
 #[cfg(test)]
@@ -450,7 +377,7 @@ mod tests {
     use std::fs;
 
     use super::*;
-    use crate::serve::PoseKind;
+    use crate::{app::inspection::scan_choice::ScanFiles, serve::PoseKind};
 
     fn unusual() -> Settings {
         let mut recipe = Recipe::default();
@@ -463,7 +390,9 @@ mod tests {
             library: Some("/media/stick/reference_parts".into()),
             recent: vec!["a.pcd".into(), "b c.ply".into()],
             window: Some([1024.0, 768.0]),
-            source: RememberedSource::Camera("recording,pace=step:a b".parse().expect("a source")),
+            source: Source::Camera(Box::new(
+                "recording,pace=step:a b".parse().expect("a source"),
+            )),
             recipe: Some(recipe),
             recipe_label: RecipeLabel {
                 name: "glossy".into(),
@@ -492,7 +421,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("new").join("settings.toml");
         let scan = Settings {
-            source: RememberedSource::Scan(ScanFiles {
+            source: Source::Scan(ScanFiles {
                 frames: vec!["a b".into()],
                 poses: Some("truth.json".into()),
                 added: vec![("c.png".into(), "c.json".into())],

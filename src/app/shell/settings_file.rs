@@ -13,7 +13,7 @@ use super::{
 use crate::{
     app::{
         language::text,
-        task::{Task, TaskEvent, TaskRunner},
+        task::{Task, TaskRunner},
     },
     error::lock,
 };
@@ -40,15 +40,16 @@ impl Memory {
         }
     }
 
-    /// Writes changed settings; returns a notice if writing failed. Costs only a comparison in a frame without changes.
+    /// Writes changed settings; returns a notice if writing failed.
     pub(in crate::app) fn keep(&mut self, state: &State, ctx: &egui::Context) -> Option<Notice> {
         let path = self.path.as_ref()?;
         let window = ctx.input(|input| input.viewport().inner_rect.map(|rect| rect.size()));
         let window = window.map_or(self.kept.window, |size| Some([size.x, size.y]));
-        if !self.kept.is_of(state, window) {
-            self.kept = Settings::of(state, window);
+        let settings = Settings::of(state, window);
+        if settings != self.kept {
+            self.kept = settings.clone();
             self.has_changed = true;
-            let (path, settings) = (path.clone(), self.kept.clone());
+            let path = path.clone();
             let turn = Arc::clone(&self.turn);
             self.writing
                 .start(text!("shell-writing-settings"), move |context| {
@@ -57,10 +58,7 @@ impl Memory {
                     save(&path, &settings).map_err(Into::into)
                 });
         }
-        match self.writing.poll()? {
-            TaskEvent::Failed(error) => Some(error.into()),
-            TaskEvent::Partial(()) | TaskEvent::Done(()) => None,
-        }
+        self.writing.poll()?.err().map(Notice::from)
     }
 
     /// Writes what may not have been written yet.

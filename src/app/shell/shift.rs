@@ -16,7 +16,7 @@ use crate::{
     app::{
         inspection::inspected::Inspected,
         language::text,
-        task::{Task, TaskEvent, TaskRunner},
+        task::{Task, TaskRunner},
         user_error::UserError,
     },
     history::{Filter, HistoryBuffer, HistoryError, HungId, StoredVerdict, Summary},
@@ -157,9 +157,9 @@ impl ShiftWatch {
 pub(in crate::app) fn update(state: &mut State, history: &Arc<HistoryBuffer>, ctx: &egui::Context) {
     let time = ctx.input(|input| input.time);
     match state.shift_watch.counting.poll() {
-        Some(TaskEvent::Done(parts) | TaskEvent::Partial(parts)) => state.session.shift = parts,
+        Some(Ok(parts)) => state.session.shift = parts,
         // The History workspace reports why the history cannot be read.
-        Some(TaskEvent::Failed(_)) => state.shift_watch.retry_at = Some(time + RETRY),
+        Some(Err(_)) => state.shift_watch.retry_at = Some(time + RETRY),
         None => {}
     }
     if state.session.source.followed().is_some() {

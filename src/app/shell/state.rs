@@ -17,11 +17,11 @@ pub struct State {
     pub follower: Follower,
     /// Notices, oldest first.
     pub notices: Vec<Notice>,
-    /// Whether the list of shortcuts is open.
-    pub help: HelpPage,
+    /// True while the list of shortcuts is open.
+    pub is_help_open: bool,
     /// Whether the window may close.
     pub closing: Closing,
-    /// The last generation number given to a run of the inspector or a result.
+    /// The last generation number given to a result.
     pub generation: u64,
     /// PIN, lock and open question of the roles.
     pub roles: RoleState,
@@ -44,21 +44,11 @@ impl State {
             inspector: Inspector::new(runner, library_cache),
             follower: Follower::new(runner, library_cache),
             notices: Vec::new(),
-            help: HelpPage::default(),
+            is_help_open: false,
             closing: Closing::default(),
             generation: 0,
             roles: RoleState::default(),
             shift_watch: ShiftWatch::new(runner),
         }
     }
-}
-
-/// Whether the list of shortcuts is open.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum HelpPage {
-    /// The list is closed.
-    #[default]
-    Closed,
-    /// The list is open.
-    Open,
 }

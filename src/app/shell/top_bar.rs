@@ -321,15 +321,10 @@ pub(super) fn progress(
             )
         }
         (None, Some(panel)) => {
-            let place = StagePanel::ALL
-                .iter()
-                .position(|p| *p == panel)
-                .unwrap_or(0)
-                + 1;
             text!(
                 "shell-progress",
                 work = panel.title(),
-                done = place,
+                done = panel as usize + 1,
                 total = StagePanel::ALL.len()
             )
         }

@@ -1,9 +1,9 @@
 //! Menu entries for choosing the true label of a scene.
 
-use egui::{ScrollArea, Ui, WidgetInfo};
+use egui::{Ui, WidgetInfo};
 
 use crate::{
-    app::{inspection::library_cache::LibraryView, language::text, ui::widgets::show_scroll_bar},
+    app::{inspection::library_cache::LibraryView, language::text, ui::widgets::menu_list},
     library::Truth,
 };
 
@@ -40,8 +40,7 @@ pub(in crate::app) fn truth_entries(
         }
     };
     ui.set_min_width(220.0);
-    show_scroll_bar(ui);
-    ScrollArea::vertical().max_height(420.0).show(ui, |ui| {
+    menu_list(ui, |ui| {
         for truth in first {
             entry(ui, truth.clone());
         }

@@ -8,7 +8,10 @@ use egui::{
     pos2, vec2,
 };
 
-use super::state::{ShotsAction, ShotsFile, ShotsState, StripTab};
+use super::{
+    overlay::percent,
+    state::{ShotsAction, ShotsFile, ShotsState, StripTab},
+};
 use crate::app::{
     inspection::{
         fuse::FusedShots,
@@ -92,13 +95,13 @@ impl ShotList {
                 if session.workspace != WorkspaceKind::Enrol {
                     for (text, label, can, action) in [
                         (
-                            text!("shots-redo"),
+                            text!("shell-redo"),
                             text!("shots-redo-label"),
                             shots.can_redo(),
                             ShotsAction::Redo,
                         ),
                         (
-                            text!("shots-undo"),
+                            text!("shell-undo"),
                             text!("shots-undo-label"),
                             shots.can_undo(),
                             ShotsAction::Undo,
@@ -295,11 +298,8 @@ fn words(ui: &mut Ui, row: &ShotRow, is_taken: bool, units: UnitSystem) {
             let all = text!("shots-seen-says", num = grouped(row.num_points));
             small(ui, seen, theme.text).on_hover_text(all);
             if has_part {
-                let only = match row.only * 100.0 {
-                    only if only > 0.0 && only < 1.0 => "< 1 %".to_owned(),
-                    only => format!("{only:.0} %"),
-                };
-                small(ui, text!("shots-alone", share = only), theme.weak_text);
+                let alone = text!("shots-alone", share = percent(row.only));
+                small(ui, alone, theme.weak_text);
             } else {
                 let says = text!("shots-no-part-says");
                 small(ui, text!("shots-no-part"), theme.warning).on_hover_text(says);

@@ -8,14 +8,22 @@ use crate::{
         language::text,
         ui::{
             theme::{ROUNDING, Theme, font},
-            viewport::{PointSet, PointSize, Role, TextLabel, ViewColours, ViewScene},
+            viewport::{PointSet, Role, TextLabel, ViewColours, ViewScene},
         },
     },
     units::Metres,
 };
 
 /// Diameter of a scan's points: they are means over voxels of 4 mm, whose diagonal is longer.
-pub(in crate::app) const POINT_SIZE: PointSize = PointSize::Metres(Metres(0.006));
+pub(in crate::app) const POINT_SIZE: Metres = Metres(0.006);
+
+/// Formats a share as a percentage, so that a small one differs from none.
+pub(super) fn percent(share: f64) -> String {
+    match share * 100.0 {
+        percent if percent > 0.0 && percent < 1.0 => "< 1 %".to_owned(),
+        percent => format!("{percent:.0} %"),
+    }
+}
 
 /// Overlay of the points of a scan.
 pub(in crate::app) struct Overlay<'a> {
@@ -66,10 +74,6 @@ impl Overlay<'_> {
 
     /// Returns the colours of the legend with their texts.
     fn entries(&self, colours: &ViewColours) -> Vec<(Color32, String)> {
-        let percent = |share: f64| match share * 100.0 {
-            percent if percent > 0.0 && percent < 1.0 => "< 1 %".to_owned(),
-            percent => format!("{percent:.0} %"),
-        };
         let mut entries = Vec::new();
         if self.unseen_points().is_some() {
             let text = match self.unseen {

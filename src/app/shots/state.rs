@@ -9,6 +9,7 @@ use crate::app::{
         file_dialog::{FileChoice, FileRequest, all_files},
         notice::Notice,
         session::Source,
+        undo_stack::{UndoDirection, UndoStack},
     },
 };
 
@@ -21,10 +22,8 @@ pub struct ShotsState {
     pub looked_at: Option<usize>,
     /// What the last started run was asked for.
     asked: Option<Asked>,
-    /// Former choices, latest last.
-    done: Vec<ShotChoice>,
-    /// Choices that were undone, latest last.
-    undone: Vec<ShotChoice>,
+    /// Former choices.
+    steps: UndoStack<ShotChoice, 30>,
     /// The request that waits for the user to choose the file of the poses.
     wants_poses: Option<ScanOrder>,
 }
@@ -33,18 +32,8 @@ pub struct ShotsState {
 #[derive(Debug)]
 pub struct Asked {
     choice: Option<ShotChoice>,
-    way: Way,
-}
-
-/// How a choice was reached.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Way {
-    /// By a new change.
-    First,
-    /// By undo.
-    Back,
-    /// By redo.
-    Again,
+    /// `None` if the choice is a new one.
+    way: Option<UndoDirection>,
 }
 
 /// Content of the strip at the bottom while a scan is in front.
@@ -105,8 +94,6 @@ impl ShotsFile {
     }
 }
 
-/// Maximum number of undo steps; the oldest are dropped.
-const MAX_STEPS: usize = 30;
 /// Minimum number of shots that can be put together.
 const LEAST_SHOTS: usize = 2;
 
@@ -115,7 +102,7 @@ impl Asked {
     pub fn first() -> Self {
         Self {
             choice: None,
-            way: Way::First,
+            way: None,
         }
     }
 }
@@ -123,12 +110,12 @@ impl Asked {
 impl ShotsState {
     /// True if a change can be undone.
     pub fn can_undo(&self) -> bool {
-        !self.done.is_empty()
+        !self.steps.done.is_empty()
     }
 
     /// True if a change can be redone.
     pub fn can_redo(&self) -> bool {
-        !self.undone.is_empty()
+        !self.steps.undone.is_empty()
     }
 
     /// The choice that the last started run was asked for, until that run ends.
@@ -169,7 +156,7 @@ impl ShotsState {
                         text!("shots-take-another"),
                     ));
                 }
-                Some(choose(choice, Way::First))
+                Some(choose(choice, None))
             }
             ShotsAction::LookAt(place) => {
                 self.looked_at = (self.looked_at != Some(place)).then_some(place);
@@ -180,12 +167,12 @@ impl ShotsState {
                 None
             }
             ShotsAction::Undo => {
-                let former = self.done.last().cloned();
-                former.map(|choice| choose(choice, Way::Back))
+                let former = self.steps.done.last().cloned();
+                former.map(|choice| choose(choice, Some(UndoDirection::Back)))
             }
             ShotsAction::Redo => {
-                let later = self.undone.last().cloned();
-                later.map(|choice| choose(choice, Way::Again))
+                let later = self.steps.undone.last().cloned();
+                later.map(|choice| choose(choice, Some(UndoDirection::Again)))
             }
             // The owner of the dialog opens it.
             ShotsAction::Ask(_) => None,
@@ -221,29 +208,15 @@ impl ShotsState {
             files.is_some_and(|files| files.frames == former.set.files.frames)
         };
         match (self.asked.take(), former.filter(is_same)) {
-            (Some(asked), Some(former)) => match asked.way {
-                Way::First => {
-                    self.undone.clear();
-                    self.done.push(former);
-                    if self.done.len() > MAX_STEPS {
-                        self.done.remove(0);
-                    }
+            (Some(asked), Some(former)) => {
+                if let Some(way) = asked.way {
+                    self.steps.from(way).pop();
                 }
-                Way::Back => {
-                    self.done.pop();
-                    self.undone.push(former);
-                }
-                Way::Again => {
-                    self.undone.pop();
-                    self.done.push(former);
-                }
-            },
+                self.steps.add_inverse(asked.way, former);
+            }
             // The same shots again, with another recipe or library.
             (None, Some(_)) => {}
-            _ => {
-                self.done.clear();
-                self.undone.clear();
-            }
+            _ => self.steps = UndoStack::default(),
         }
     }
 }

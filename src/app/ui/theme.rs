@@ -129,7 +129,8 @@ const LIGHT: Theme = Theme {
     reference_series: rgb(0x5b_44b8),
 };
 
-const fn rgb(hex: u32) -> Color32 {
+/// Makes a colour from `0xRRGGBB`.
+pub(super) const fn rgb(hex: u32) -> Color32 {
     let [_, red, green, blue] = hex.to_be_bytes();
     Color32::from_rgb(red, green, blue)
 }
@@ -238,11 +239,8 @@ impl Theme {
         Stroke::new(1.0, self.edge)
     }
 
-    fn visuals(&self, choice: ThemeChoice) -> Visuals {
-        let mut visuals = match choice {
-            ThemeChoice::Dark => Visuals::dark(),
-            ThemeChoice::Light => Visuals::light(),
-        };
+    fn visuals(&self, theme: egui::Theme) -> Visuals {
+        let mut visuals = theme.default_visuals();
         let control = |fill: Color32, edge: Color32| WidgetVisuals {
             bg_fill: fill,
             weak_bg_fill: fill,
@@ -251,7 +249,6 @@ impl Theme {
             fg_stroke: Stroke::new(1.0, self.text),
             expansion: 0.0,
         };
-        visuals.override_text_color = None;
         visuals.weak_text_color = Some(self.weak_text);
         visuals.panel_fill = self.panel;
         visuals.window_fill = self.panel;
@@ -279,7 +276,7 @@ impl Theme {
         };
         ctx.set_theme(egui_theme);
         let mut style = Style {
-            visuals: choice.colours().visuals(choice),
+            visuals: choice.colours().visuals(egui_theme),
             ..Style::default()
         };
         style.text_styles = [

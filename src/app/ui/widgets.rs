@@ -5,8 +5,8 @@ use std::sync::Arc;
 use egui::{
     Align, Align2, Area, Button, Color32, ColorImage, ComboBox, Context, Event, FontId, Frame,
     Galley, Id, Key, Label, Layout, Margin, Modal, ModalResponse, Painter, Pos2, Rect, Response,
-    RichText, Sense, Stroke, StrokeKind, TextStyle, TextureHandle, TextureOptions, Ui, Vec2,
-    WidgetInfo, pos2,
+    RichText, ScrollArea, Sense, Stroke, StrokeKind, TextEdit, TextStyle, TextureHandle,
+    TextureOptions, Ui, Vec2, WidgetInfo, pos2,
     style::{ScrollStyle, StyleModifier},
     text::LayoutJob,
     vec2,
@@ -78,14 +78,16 @@ pub(in crate::app) fn line_mark(ui: &mut Ui, side: f32, radius: f32, sign: Mark)
     response
 }
 
+/// Returns the width of a text in one line.
+fn text_width(painter: &Painter, text: &str, font: &FontId) -> f32 {
+    let galley = painter.layout_no_wrap(text.to_owned(), font.clone(), Color32::PLACEHOLDER);
+    galley.size().x
+}
+
 /// Draws a name on the left and its value on the right, or below it if there is no room for both.
 pub(in crate::app) fn row(ui: &mut Ui, name: &str, value: &str) {
     let font = TextStyle::Body.resolve(ui.style());
-    let width = |text: &str| {
-        let painter = ui.painter();
-        let galley = painter.layout_no_wrap(text.to_owned(), font.clone(), Color32::PLACEHOLDER);
-        galley.size().x
-    };
+    let width = |text: &str| text_width(ui.painter(), text, &font);
     let needed = width(name) + ui.spacing().item_spacing.x + width(value);
     if needed > ui.available_width() {
         ui.weak(name);
@@ -125,14 +127,10 @@ pub(in crate::app) fn fitted_path(
     font: &FontId,
     room: f32,
 ) -> String {
-    let width = |text: &str| {
-        let galley = painter.layout_no_wrap(text.to_owned(), font.clone(), Color32::PLACEHOLDER);
-        galley.size().x
-    };
     let begin = text.rfind(" · ").map_or(0, |at| at + " · ".len());
     let (before, mut path) = text.split_at(begin);
     let mut shown = text.to_owned();
-    while width(&shown) > room {
+    while text_width(painter, &shown, font) > room {
         let Some((_, rest)) = path.split_once(['/', '\\']) else {
             break;
         };
@@ -144,7 +142,7 @@ pub(in crate::app) fn fitted_path(
 
 /// Draws the heading of a group.
 pub(in crate::app) fn heading(ui: &mut Ui, text: &str) {
-    ui.add_space(super::theme::space::MEDIUM);
+    ui.add_space(space::MEDIUM);
     ui.label(RichText::new(text).font(font::heading()).weak());
 }
 
@@ -224,13 +222,19 @@ pub(in crate::app) fn labelled(ui: &mut Ui, button: Button<'_>, label: &str) -> 
     response
 }
 
+/// A text field of one line, as high as a button.
+pub(in crate::app) fn line_edit(text: &mut String, hint: String, width: f32) -> TextEdit<'_> {
+    TextEdit::singleline(text)
+        .hint_text(hint)
+        .align(Align2::LEFT_CENTER)
+        .desired_width(width)
+        .min_size(vec2(0.0, space::TARGET))
+}
+
 /// Returns the width of a button with this text.
 pub(in crate::app) fn button_width(ui: &Ui, text: &str) -> f32 {
     let font = TextStyle::Button.resolve(ui.style());
-    let text = ui
-        .painter()
-        .layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER);
-    text.size().x + 2.0 * ui.spacing().button_padding.x
+    text_width(ui.painter(), text, &font) + 2.0 * ui.spacing().button_padding.x
 }
 
 /// Opening brackets and quotation marks of Chinese, which may not end a row.
@@ -321,10 +325,7 @@ pub(in crate::app) fn fitted_middle(
     font: &FontId,
     room: f32,
 ) -> String {
-    let fits = |text: &String| {
-        let galley = painter.layout_no_wrap(text.clone(), font.clone(), Color32::PLACEHOLDER);
-        galley.size().x <= room
-    };
+    let fits = |text: &String| text_width(painter, text, font) <= room;
     let lengths = (2..=text.chars().count()).rev();
     let mut texts = lengths.map(|most| shortened(text, most));
     texts.find(fits).unwrap_or_else(|| text.to_owned())
@@ -344,6 +345,12 @@ fn bar_of_menu() -> ScrollStyle {
 /// Shows the scroll bar of a menu even without the pointer: it is the only sign of further entries.
 pub(in crate::app) fn show_scroll_bar(ui: &mut Ui) {
     ui.spacing_mut().scroll = bar_of_menu();
+}
+
+/// Draws the entries of a menu, which scroll if there are many.
+pub(in crate::app) fn menu_list(ui: &mut Ui, entries: impl FnOnce(&mut Ui)) {
+    show_scroll_bar(ui);
+    ScrollArea::vertical().max_height(420.0).show(ui, entries);
 }
 
 /// Draws a list that drops down below a button with the chosen entry. `label` is its accessible name.

@@ -76,14 +76,10 @@ impl BoundsLibrary {
             let reference = enrol_mesh(&mesh, &about, &EnrolParams::default())?.reference;
             reference.prefetch();
             all.library.references.push(reference);
-            let mesh_from_part = hung_from_mesh(&mesh);
-            let hang = |p: &Point3<f32>| (mesh_from_part * p.cast::<f64>()).cast();
+            let (mesh, mesh_from_part) = hung(mesh);
             all.subjects.push(BoundsPart {
                 name: about.name.as_str().to_owned(),
-                mesh: TriangleMesh {
-                    vertices: mesh.vertices.iter().map(hang).collect(),
-                    triangles: mesh.triangles,
-                },
+                mesh,
                 mesh_from_part,
             });
         }
@@ -102,9 +98,18 @@ impl BoundsLibrary {
 /// A mesh counts as closed if the norm of its summed area vectors is at most this share of its area.
 const LEAST_ONE_SIDED: f64 = 0.2;
 
+/// Hangs a mesh as the simulated cell hangs parts, and returns by which transform.
+pub(in crate::bench) fn hung(mut mesh: TriangleMesh) -> (TriangleMesh, RigidTransform) {
+    let hung_from_mesh = hung_from_mesh(&mesh);
+    for p in &mut mesh.vertices {
+        *p = (hung_from_mesh * p.cast::<f64>()).cast();
+    }
+    (mesh, hung_from_mesh)
+}
+
 /// Centres a mesh and turns its face, the side that more of its area points to, towards -z: the camera. A closed mesh
 /// is turned by its axis of least extent.
-pub(in crate::bench) fn hung_from_mesh(mesh: &TriangleMesh) -> RigidTransform {
+fn hung_from_mesh(mesh: &TriangleMesh) -> RigidTransform {
     let corner = |i: u32| mesh.vertices[i as usize].cast::<f64>();
     let facing = mesh.triangles.iter().fold(Vector3::zeros(), |sum, t| {
         let (a, b, c) = (corner(t[0]), corner(t[1]), corner(t[2]));

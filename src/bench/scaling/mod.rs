@@ -15,10 +15,9 @@ use std::time::{Duration, Instant};
 use serde::Serialize;
 
 use self::references::{nth_reference, originals};
-use super::quantile;
 use crate::{
     error::Advice,
-    geometry::parallel::num_cores,
+    geometry::{parallel::num_cores, statistics::quantile},
     library::{EnrolError, Library},
     pipeline::{self, Cancelled, Inspection, ProgressObserver, Recipe},
     simulate::{CellSetup, PartKind, Side, frame},

@@ -10,7 +10,6 @@ use crate::{
     simulate::{FrameTruth, SurfaceLabel},
     stages::{
         confirm::{ConfirmedMatch, Evidence},
-        pose::Uncertainty,
         segment::{PointLabel, Segmentation},
     },
 };
@@ -161,14 +160,12 @@ fn part_iou(truth: &FrameTruth, segmentation: &Segmentation) -> Option<f64> {
 
 fn bounds(frame: &SuiteFrame, truth: &FrameTruth, inspection: &Inspection) -> Option<PoseBounds> {
     let first = inspection.ranking.entries.first()?;
-    let pose = inspection.pose.as_ref()?.as_ref().ok()?;
-    let found = pose.uncertainty.filter(Uncertainty::is_held)?;
-    let seen = &inspection.segmentation.part.as_ref().ok()?.cloud.points;
+    let pose = inspection.found_pose()?;
+    let found = pose.bounds()?;
+    let middle = middle_of_seen(inspection)?;
     if frame.expected.as_ref() != Some(&first.part) {
         return None;
     }
-    let sum: Vector3<f64> = seen.iter().map(|p| p.coords.cast::<f64>()).sum();
-    let middle = Point3::from(sum / seen.len().max(1) as f64);
     let reference_from_camera = (truth.camera_from_part * enrolment_pose().inverse()).inverse();
     let off = pose_error(&pose.target_from_source, &reference_from_camera, &middle);
     Some(PoseBounds {
@@ -177,6 +174,13 @@ fn bounds(frame: &SuiteFrame, truth: &FrameTruth, inspection: &Inspection) -> Op
         turn_off: off.rotation.degrees(),
         shift_off: off.shift.mm(),
     })
+}
+
+/// Returns the centroid of the part's visible points.
+pub(in crate::bench) fn middle_of_seen(inspection: &Inspection) -> Option<Point3<f64>> {
+    let seen = &inspection.segmentation.part.as_ref().ok()?.cloud.points;
+    let sum: Vector3<f64> = seen.iter().map(|p| p.coords.cast::<f64>()).sum();
+    Some(Point3::from(sum / seen.len().max(1) as f64))
 }
 
 fn contender(

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::{Suite, SuiteCase, SuiteResult};
-use crate::bench::speed::quantile;
+use crate::geometry::statistics::quantile;
 
 /// Visible share of the part from which on it should be accepted.
 const ENOUGH_IN_SIGHT: f64 = 0.4;

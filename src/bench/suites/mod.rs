@@ -12,6 +12,9 @@ mod run;
 
 use serde::Serialize;
 
+pub(super) use self::{
+    case::middle_of_seen, cut::pushed_out_of_the_picture, libraries::enrol_part,
+};
 pub use self::{
     case::{PoseBounds, ReferenceCase, SuiteCase},
     closest::NearestMistake,
@@ -19,7 +22,6 @@ pub use self::{
     libraries::{SuiteLibraries, enrol_standard_parts, enrolment_pose},
     run::{ConfusionEntry, SuiteResult, run_suite},
 };
-pub(super) use self::{cut::pushed_out_of_the_picture, libraries::enrol_part};
 use crate::simulate::{
     CellSetup, Clutter, FIRST_OTHER_MAKE, ObjectKind, PartKind, PartPose, PoseRange, SensorNoise,
     Side, SimulatedObject, Stand,
@@ -100,15 +102,10 @@ impl Suite {
     /// Returns whether every frame shows (nearly) all of one of the eight enrolled parts, or of its counterpart from
     /// another model, so that a system that compares whole shapes and cannot refuse can be right.
     pub fn is_for_all_systems(self) -> bool {
-        match self {
-            Self::Standard | Self::Placed | Self::OtherModels | Self::Hard | Self::Floor => true,
-            Self::Unknown
-            | Self::Mirrored
-            | Self::BothSides
-            | Self::Booth
-            | Self::BoothUnknown
-            | Self::OtherMakes => false,
-        }
+        matches!(
+            self,
+            Self::Standard | Self::Placed | Self::OtherModels | Self::Hard | Self::Floor
+        )
     }
 
     /// Returns the frames, `num_poses` per subject.

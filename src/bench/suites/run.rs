@@ -4,10 +4,9 @@ use serde::Serialize;
 
 use super::{Suite, SuiteCase, SuiteFrame};
 use crate::{
-    bench::speed::quantile,
-    geometry::parallel::on_one_core,
+    geometry::{parallel::on_one_core, statistics::quantile},
     library::Library,
-    pipeline::{Cancelled, Inspection, ProgressObserver, Recipe, run},
+    pipeline::{Inspection, Recipe, Unwatched, run},
     simulate::frame_of_mesh,
     stages::scene::{SceneCloud, scene_from_frame},
 };
@@ -95,17 +94,17 @@ pub fn run_suite(
     frames: &[SuiteFrame],
     library: &Library,
     recipe: &Recipe,
-    watch: &dyn ProgressObserver,
     mut after_each: impl FnMut(&SuiteCase, &SceneCloud, &Inspection),
-) -> Result<SuiteResult, Cancelled> {
+) -> SuiteResult {
     let mut cases = Vec::with_capacity(frames.len());
     for frame in frames {
         let shot = frame_of_mesh(&frame.setup, &frame.setup.subject.mesh());
         let scene = scene_from_frame(&shot.frame);
-        let inspection = on_one_core(|| run(&scene, library, recipe, watch))?;
+        let inspection = on_one_core(|| run(&scene, library, recipe, &Unwatched));
+        let inspection = inspection.expect("not cancelled");
         let case = SuiteCase::of(frame, &shot.truth, &inspection);
         after_each(&case, &scene, &inspection);
         cases.push(case);
     }
-    Ok(SuiteResult { suite, cases })
+    SuiteResult { suite, cases }
 }

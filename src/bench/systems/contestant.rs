@@ -60,17 +60,14 @@ impl PreparedSystem {
                 let num_rows = views.iter().map(Vec::len).sum();
                 (Method::Views(params, views), Some(num_rows))
             }
-            (System::Paper, _) => {
-                prepare_again(references)?;
-                (Method::Outline(Matcher::Paper), None)
-            }
-            (System::Confirmed, _) => {
-                prepare_again(references)?;
-                (Method::Confirmed, None)
-            }
             _ => {
                 prepare_again(references)?;
-                (Method::Outline(Matcher::Default), None)
+                let method = match system {
+                    System::Paper => Method::Outline(Matcher::Paper),
+                    System::Confirmed => Method::Confirmed,
+                    _ => Method::Outline(Matcher::Default),
+                };
+                (method, None)
             }
         };
         Ok(Self {

@@ -217,7 +217,6 @@ mod tests {
     use crate::{
         bench::suites::{SuiteLibraries, TUNING_SEED, run_suite},
         library::EnrolParams,
-        pipeline::Unwatched,
     };
 
     #[test]
@@ -228,17 +227,9 @@ mod tests {
         let frames = suite.frames(1, TUNING_SEED);
         let mut cases = Vec::new();
         let library = libraries.of(suite);
-        run_suite(
-            suite,
-            &frames,
-            library,
-            &recipe,
-            &Unwatched,
-            |case, scene, _| {
-                cases.extend(systems.recognise(suite, case, scene, &recipe));
-            },
-        )
-        .expect("not cancelled");
+        run_suite(suite, &frames, library, &recipe, |case, scene, _| {
+            cases.extend(systems.recognise(suite, case, scene, &recipe));
+        });
         assert_eq!(cases.len(), 8);
         let preparations = systems.preparations();
         assert_eq!(preparations.len(), System::ALL.len());

@@ -24,6 +24,7 @@ pub(super) struct Slot {
     changed: Condvar,
 }
 
+#[derive(Default)]
 struct Inner {
     /// At most one capture, and notes about unreadable things.
     waiting: VecDeque<FeedItem>,
@@ -45,21 +46,7 @@ impl Slot {
         Self {
             delivery,
             on_news,
-            inner: Mutex::new(Inner {
-                waiting: VecDeque::new(),
-                is_stopping: false,
-                status: FeedStatus {
-                    state: FeedState::Opening,
-                    title: None,
-                    is_simulated: None,
-                    num_captured: 0,
-                    num_dropped: 0,
-                    num_skipped: 0,
-                    rate: None,
-                },
-                rate: FrameRate::default(),
-                taps: Vec::new(),
-            }),
+            inner: Mutex::default(),
             changed: Condvar::new(),
         }
     }
@@ -140,10 +127,6 @@ impl Slot {
         }
     }
 
-    pub(super) fn lost(&self, error: Arc<CaptureError>) {
-        self.set_state(FeedState::Lost { error });
-    }
-
     pub(super) fn set_state(&self, state: FeedState) {
         let mut inner = self.lock();
         for tap in inner.taps() {
@@ -163,7 +146,6 @@ impl Slot {
         }
         match &item {
             FeedItem::Captured(captured) => {
-                inner.status.num_captured += 1;
                 inner.rate.came(captured.arrived);
                 if self.delivery == BackpressurePolicy::Newest {
                     let before = inner.waiting.len();

@@ -20,14 +20,13 @@ use std::{
     mem,
     ptr::{self, NonNull},
     sync::{
-        Mutex,
+        Mutex, MutexGuard, TryLockError,
         atomic::{AtomicUsize, Ordering},
     },
     time::Duration,
 };
 
 use super::{
-    claim::DeviceLock,
     error::KinectError,
     header::{
         Attributes, DEVICE_CAMERA, FrameMode, INTERRUPTED, LOG_ERROR, OnDepth, OnLog, TimeVal,
@@ -146,19 +145,26 @@ impl Library {
     }
 }
 
+/// The lock on the process's only context.
+static CLAIM: Mutex<()> = Mutex::new(());
+
 /// A running library without an open device.
 pub(super) struct Context {
     library: &'static Library,
     functions: &'static Functions,
     handle: NonNull<c_void>,
-    _claim: DeviceLock,
+    _claim: MutexGuard<'static, ()>,
 }
 
 impl Context {
     /// Starts the library with cameras only.
     pub(super) fn new(library: &'static Library) -> Result<Self, KinectError> {
         let functions = &library.functions;
-        let claim = DeviceLock::take().ok_or(KinectError::InUse)?;
+        let claim = match CLAIM.try_lock() {
+            Ok(claim) => claim,
+            Err(TryLockError::Poisoned(claim)) => claim.into_inner(),
+            Err(TryLockError::WouldBlock) => return Err(KinectError::InUse),
+        };
         let mut context = ptr::null_mut();
         // SAFETY: `context` is a place to write a pointer to; null asks the library for a libusb context of its own.
         let code = unsafe { (functions.freenect_init)(&raw mut context, ptr::null_mut()) };

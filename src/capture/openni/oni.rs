@@ -68,12 +68,8 @@ pub(super) struct Context {
     functions: &'static Functions,
 }
 
-/// A call that failed, with the library's messages.
-#[derive(Debug)]
-pub(super) struct Failed {
-    /// One sentence each; may be empty.
-    pub(super) said: Vec<String>,
-}
+/// What the library says about a call that failed, one sentence each; may be empty.
+pub(super) type Messages = Vec<String>;
 
 /// A device that is plugged in.
 pub(super) struct FoundDevice {
@@ -98,12 +94,12 @@ impl Context {
         context
             // SAFETY: takes a number; nobody else starts or stops the library in the meantime.
             .checked(|| unsafe { (functions.oniInitialize)(API_VERSION) })
-            .map_err(|Failed { said }| OpenNiError::NoDrivers { said })?;
+            .map_err(|said| OpenNiError::NoDrivers { said })?;
         Ok(context)
     }
 
     /// Lists the devices that are plugged in, whether they can be opened or not.
-    pub(super) fn devices(&self) -> Result<Vec<FoundDevice>, Failed> {
+    pub(super) fn devices(&self) -> Result<Vec<FoundDevice>, Messages> {
         let (mut first, mut num) = (ptr::null_mut(), 0);
         // SAFETY: the library runs; both are places to write to.
         self.checked(|| unsafe {
@@ -125,7 +121,7 @@ impl Context {
     }
 
     /// Opens the device or the recorded file, and creates its depth stream.
-    pub(super) fn open(self, uri: &CStr) -> Result<Device, Failed> {
+    pub(super) fn open(self, uri: &CStr) -> Result<Device, Messages> {
         let functions = self.functions;
         *lock(&REPORTED) = Reported {
             uri: uri.to_string_lossy().into_owned(),
@@ -151,7 +147,6 @@ impl Context {
             callbacks: handle,
             handle: ptr::null_mut(),
             stream: ptr::null_mut(),
-            reported: &REPORTED,
             context: self,
         };
         let mut handle = ptr::null_mut();
@@ -161,18 +156,18 @@ impl Context {
             .checked(|| unsafe { (functions.oniDeviceOpen)(uri.as_ptr(), &raw mut handle) });
         // If opening fails, the library returns a handle without a device; do not keep it.
         opened?;
-        device.handle = NonNull::new(handle).ok_or_else(nothing_said)?.as_ptr();
+        device.handle = NonNull::new(handle).ok_or_else(Messages::new)?.as_ptr();
         let (of, mut stream) = (device.handle, ptr::null_mut());
         // SAFETY: the device is open, and `stream` is a place to write a pointer to.
         device.context.checked(|| unsafe {
             (functions.oniDeviceCreateStream)(of, SENSOR_DEPTH, &raw mut stream)
         })?;
-        device.stream = NonNull::new(stream).ok_or_else(nothing_said)?.as_ptr();
+        device.stream = NonNull::new(stream).ok_or_else(Messages::new)?.as_ptr();
         Ok(device)
     }
 
     /// Calls the library and collects its messages on failure, which it stores per thread.
-    fn checked(&self, call: impl FnOnce() -> c_int) -> Result<(), Failed> {
+    fn checked(&self, call: impl FnOnce() -> c_int) -> Result<(), Messages> {
         if call() == OK {
             return Ok(());
         }
@@ -183,9 +178,7 @@ impl Context {
         };
         let said = said.unwrap_or_default();
         let lines = said.lines().map(str::trim).filter(|line| !line.is_empty());
-        Err(Failed {
-            said: lines.map(str::to_owned).collect(),
-        })
+        Err(lines.map(str::to_owned).collect())
     }
 }
 
@@ -195,10 +188,6 @@ impl Drop for Context {
         unsafe { (self.functions.oniShutdown)() };
         IS_RUNNING.store(false, Ordering::Release);
     }
-}
-
-fn nothing_said() -> Failed {
-    Failed { said: Vec::new() }
 }
 
 /// Converts a string that ends with NUL or fills its array.
@@ -237,7 +226,6 @@ pub(super) struct Device {
     handle: *mut c_void,
     /// Null until it is created.
     stream: *mut c_void,
-    reported: &'static Mutex<Reported>,
     context: Context,
 }
 
@@ -258,7 +246,11 @@ impl Device {
     }
 
     /// Sets a property of the device; fails if the device lacks it or rejects the value.
-    pub(super) fn set_device<T: Property>(&self, property: c_int, value: T) -> Result<(), Failed> {
+    pub(super) fn set_device<T: Property>(
+        &self,
+        property: c_int,
+        value: T,
+    ) -> Result<(), Messages> {
         let set = self.context.functions.oniDeviceSetProperty;
         let (value, size) = (&raw const value, size_of::<T>() as c_int);
         self.context
@@ -267,7 +259,7 @@ impl Device {
     }
 
     /// Sets a property of the stream; fails if the stream lacks it or rejects the value.
-    pub(super) fn set<T: Property>(&self, property: c_int, value: T) -> Result<(), Failed> {
+    pub(super) fn set<T: Property>(&self, property: c_int, value: T) -> Result<(), Messages> {
         let set = self.context.functions.oniStreamSetProperty;
         let (value, size) = (&raw const value, size_of::<T>() as c_int);
         self.context
@@ -286,14 +278,14 @@ impl Device {
     }
 
     /// Starts the stream.
-    pub(super) fn start(&self) -> Result<(), Failed> {
+    pub(super) fn start(&self) -> Result<(), Messages> {
         self.context
             // SAFETY: there is a stream.
             .checked(|| unsafe { (self.context.functions.oniStreamStart)(self.stream) })
     }
 
     /// Waits for about `wait` at most, and returns the newest frame, if any.
-    pub(super) fn receive(&self, wait: Duration) -> Result<Option<Received>, Failed> {
+    pub(super) fn receive(&self, wait: Duration) -> Result<Option<Received>, Messages> {
         let functions = self.context.functions;
         let (mut stream, mut index) = (self.stream, 0);
         let wait_ms = c_int::try_from(wait.as_millis()).unwrap_or(c_int::MAX);
@@ -325,12 +317,12 @@ impl Device {
 
     /// True once the device was unplugged or reported an error.
     pub(super) fn is_lost(&self) -> bool {
-        lock(self.reported).is_lost
+        lock(&REPORTED).is_lost
     }
 
     /// True once a file has ended. Its last frame may still have to be received.
     pub(super) fn is_at_end(&self) -> bool {
-        lock(self.reported).is_at_end
+        lock(&REPORTED).is_at_end
     }
 }
 
@@ -354,7 +346,7 @@ impl Drop for Device {
 }
 
 /// Copies a frame of 16 bits per pixel; fails if its sizes are inconsistent.
-fn copied(frame: &Frame) -> Result<Received, Failed> {
+fn copied(frame: &Frame) -> Result<Received, Messages> {
     let size = |number: c_int| usize::try_from(number).unwrap_or(0);
     let (width, height) = (size(frame.width), size(frame.height));
     let (stride, num_bytes) = (size(frame.stride), size(frame.num_bytes));
@@ -366,7 +358,7 @@ fn copied(frame: &Frame) -> Result<Received, Failed> {
         let said = format!(
             "a frame of {width}×{height} pixels, {stride} bytes a row and {num_bytes} in all"
         );
-        return Err(Failed { said: vec![said] });
+        return Err(vec![said]);
     }
     let mut depth = vec![0_u16; width * height];
     for (row, pixels) in depth.chunks_exact_mut(width).enumerate() {

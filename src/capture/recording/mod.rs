@@ -9,7 +9,6 @@
 //! A frame's line is appended and synced only after its file is complete and synced: whatever happens, the recording has
 //! all frames up to the last complete one. Anything after that is ignored.
 
-mod frame_folder;
 mod manifest;
 mod recorder;
 mod replay;

@@ -1,6 +1,7 @@
 //! Replays a folder of frames as a source.
 
 use std::{
+    fs, io,
     path::{Path, PathBuf},
     sync::Arc,
     thread,
@@ -10,18 +11,20 @@ use std::{
 use jiff::Timestamp;
 
 use super::{
-    frame_folder,
     manifest::{self, FrameLine, MANIFEST},
     rgbd_sequence::{self, LIST},
 };
 use crate::{
     capture::{
         error::{CaptureError, CaptureWarning},
-        read::{image_of, read_image, written_at},
+        read::{image_of, may_be_capture, read_image, written_at},
         source::{Captured, DepthSource, Image, NextCapture, SkippedCapture},
         spec::{Pace, RecordingSpec},
     },
-    files::{DepthCamera, crc32, depth_png::read_depths, file_name, open_bytes, read_bytes},
+    files::{
+        DepthCamera, crc32, depth_png::read_depths, file_name, in_counting_order, open_bytes,
+        read_bytes,
+    },
     geometry::rigid::RigidTransform,
     simulate::FrameTruth,
 };
@@ -32,7 +35,7 @@ pub struct Replay {
     is_simulated: bool,
     frames: Vec<RecordedFrame>,
     /// Time of each frame, relative to the first.
-    due: Vec<Duration>,
+    pub(super) due: Vec<Duration>,
     next: usize,
     started: Option<Instant>,
     folder: PathBuf,
@@ -98,39 +101,28 @@ impl Replay {
             let frames = rgbd_sequence::frames(folder, spec.camera.as_deref())?;
             (list, frames)
         } else {
-            (folder.clone(), frame_folder::frames(folder)?)
+            (folder.clone(), of_folder(folder)?)
         };
-        let Frames {
-            title,
-            is_simulated,
-            in_order: frames,
-            warnings,
-        } = found;
-        if frames.is_empty() {
+        if found.in_order.is_empty() {
             let path = folder.clone();
             return Err(CaptureError::NoFrames { path });
         }
         Ok(Self {
-            title,
-            is_simulated,
-            due: due_times(&frames, spec.pace.unwrap_or(Pace::AsTaken)),
-            frames,
+            title: found.title,
+            is_simulated: found.is_simulated,
+            due: due_times(&found.in_order, spec.pace.unwrap_or(Pace::AsTaken)),
+            frames: found.in_order,
             next: 0,
             started: None,
             folder: folder.clone(),
             root,
-            warnings,
+            warnings: found.warnings,
         })
     }
 
     /// Number of frames.
     pub fn num_frames(&self) -> usize {
         self.frames.len()
-    }
-
-    /// Time of each frame, relative to the first.
-    pub fn due_times(&self) -> &[Duration] {
-        &self.due
     }
 }
 
@@ -167,6 +159,35 @@ fn of_recording(folder: &Path) -> Result<Frames, CaptureError> {
         is_simulated: list.header.simulated,
         in_order: frames.collect(),
         warnings: cut_off.into_iter().collect(),
+    })
+}
+
+/// The clouds and depth images of a folder, with numbers in their names in numeric order.
+fn of_folder(folder: &Path) -> Result<Frames, CaptureError> {
+    let listed = || -> io::Result<Vec<_>> {
+        let paths = fs::read_dir(folder)?.map(|entry| Ok(entry?.path()));
+        paths.collect()
+    };
+    let mut paths = listed().map_err(|source| CaptureError::FolderUnreadable {
+        path: folder.to_owned(),
+        source,
+    })?;
+    paths.retain(|path| may_be_capture(path) && path.is_file());
+    paths.sort_by_cached_key(|path| in_counting_order(&file_name(path)));
+    let frames = paths.into_iter().map(|path| RecordedFrame {
+        name: file_name(&path),
+        path,
+        taken_at: None,
+        is_simulated: false,
+        truth: None,
+        robot_from_flange: None,
+        content: Content::Any,
+    });
+    Ok(Frames {
+        title: format!("Folder {}", file_name(folder)),
+        is_simulated: false,
+        in_order: frames.collect(),
+        warnings: Vec::new(),
     })
 }
 

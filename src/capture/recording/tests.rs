@@ -336,7 +336,7 @@ fn replays_keep_the_pauses_and_cut_long_ones() {
         spec.pace = pace;
         let replay = Replay::open(&spec).unwrap();
         replay
-            .due_times()
+            .due
             .iter()
             .map(Duration::as_secs_f64)
             .collect::<Vec<_>>()

@@ -5,6 +5,7 @@ use std::{fmt, path::PathBuf};
 use super::{
     SpecError,
     options::{Options, escaped},
+    write_camera,
 };
 
 /// A GenICam camera: GigE Vision or USB3 Vision.
@@ -93,13 +94,9 @@ impl GenicamSpec {
         if let Some(format) = format {
             write!(f, ",format={}", format.name())?;
         }
-        for (name, path) in [("camera", camera), ("library", library)] {
-            if let Some(path) = path {
-                write!(f, ",{name}={}", escaped(&path.to_string_lossy()))?;
-            }
+        if let Some(camera) = camera {
+            write!(f, ",camera={}", escaped(&camera.to_string_lossy()))?;
         }
-        device
-            .as_ref()
-            .map_or(Ok(()), |device| write!(f, ":{device}"))
+        write_camera(f, library.as_deref(), device.as_deref())
     }
 }

@@ -4,11 +4,10 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::{BenchArgs, NUM_POSES, write_json};
+use super::{BenchArgs, NUM_POSES, write_results};
 use crate::{
     bench::{
         bounds::{BoundsCase, BoundsLibrary, PoseAgainstTruth, View, bounds_cases},
-        quantile,
         suites::MEASURING_SEED,
     },
     cli::{
@@ -16,17 +15,8 @@ use crate::{
         console::{Advised as _, Console, Table, advised_error},
     },
     files::{FileContent, open},
-    geometry::mesh::TriangleMesh,
-    pipeline::Unwatched,
+    geometry::{mesh::TriangleMesh, statistics::quantile},
 };
-
-/// The file that `--json` writes.
-#[derive(Debug, Serialize)]
-struct BoundsFile {
-    schema: u32,
-    simulated: bool,
-    cases: Vec<CaseLine>,
-}
 
 #[derive(Debug, Serialize)]
 struct CaseLine {
@@ -63,9 +53,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     console.start_progress(num_subjects * View::ALL.len() * num_poses as usize);
     let mut done = Vec::new();
     for library in &libraries {
-        let cases = bounds_cases(library, num_poses, first_seed, &Unwatched, |_| {
-            console.done();
-        })?;
+        let cases = bounds_cases(library, num_poses, first_seed, || console.done());
         done.push((library, cases));
     }
     console.end_progress();
@@ -76,15 +64,10 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
         show(library, cases, console);
     }
     if let Some(path) = &args.json {
-        let file = BoundsFile {
-            schema: 1,
-            simulated: true,
-            cases: done
-                .iter()
-                .flat_map(|(library, cases)| cases.iter().map(|case| line(library, case)))
-                .collect(),
-        };
-        write_json(path, &file)?;
+        let lines = done
+            .iter()
+            .flat_map(|(library, cases)| cases.iter().map(|case| line(library, case)));
+        write_results(path, "cases", &lines.collect::<Vec<_>>())?;
     }
     Ok(Outcome::Accepted)
 }

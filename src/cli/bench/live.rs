@@ -2,11 +2,9 @@
 
 use std::time::Duration;
 
-use serde::Serialize;
-
-use super::{BenchArgs, write_json};
+use super::{BenchArgs, write_results};
 use crate::{
-    app::headless::{LiveSample, live_stretches},
+    app::headless::live_stretches,
     cli::{
         Outcome,
         console::{Advised as _, Console, Table},
@@ -15,14 +13,6 @@ use crate::{
 
 /// Duration of one line of the table.
 const STRETCH: Duration = Duration::from_secs(30);
-
-/// The file that `--json` writes.
-#[derive(Debug, Serialize)]
-struct LiveFile {
-    schema: u32,
-    simulated: bool,
-    stretches: Vec<LiveSample>,
-}
 
 /// Follows the simulated line for the requested time.
 pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
@@ -67,12 +57,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     }
     table.show(console);
     if let Some(path) = &args.json {
-        let file = LiveFile {
-            schema: 1,
-            simulated: true,
-            stretches,
-        };
-        write_json(path, &file)?;
+        write_results(path, "stretches", &stretches)?;
     }
     Ok(Outcome::Accepted)
 }

@@ -21,7 +21,7 @@ use crate::{
         recipe::show_recipe,
     },
     library::EnrolParams,
-    pipeline::{Inspection, Recipe, RecipeBlock, Unwatched, parameters::changed_settings},
+    pipeline::{Inspection, Recipe, RecipeBlock, parameters::changed_settings},
     stages::scene::SceneCloud,
 };
 
@@ -119,7 +119,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
                 shown.extend(systems.recognise(suite, case, scene, &recipe));
             }
         },
-    )?;
+    );
     if let Some(pictures) = pictures {
         pictures.write()?;
         if let Some(folder) = &args.pictures {
@@ -209,7 +209,7 @@ impl Frames {
     /// Inspects the frames one after the other on this thread.
     pub(super) fn inspect(&self, console: &mut Console) -> anyhow::Result<Vec<SuiteResult>> {
         let libraries = SuiteLibraries::enrol(&EnrolParams::default()).advised()?;
-        self.inspect_with(&libraries, &Recipe::default(), console, |_, _, _, _| {})
+        Ok(self.inspect_with(&libraries, &Recipe::default(), console, |_, _, _, _| {}))
     }
 
     /// As [`inspect`](Self::inspect) with these libraries and this recipe; calls `after_each` with every result.
@@ -219,7 +219,7 @@ impl Frames {
         recipe: &Recipe,
         console: &mut Console,
         mut after_each: impl FnMut(Suite, &SuiteCase, &SceneCloud, &Inspection),
-    ) -> anyhow::Result<Vec<SuiteResult>> {
+    ) -> Vec<SuiteResult> {
         console.start_progress(self.suites.iter().map(|(_, frames)| frames.len()).sum());
         let mut results: Vec<SuiteResult> = Vec::new();
         for (suite, frames) in &self.suites {
@@ -228,11 +228,10 @@ impl Frames {
                 after_each(*suite, case, scene, inspection);
                 console.done();
             };
-            let result = run_suite(*suite, frames, library, recipe, &Unwatched, done)?;
-            results.push(result);
+            results.push(run_suite(*suite, frames, library, recipe, done));
         }
         console.end_progress();
-        Ok(results)
+        results
     }
 }
 

@@ -6,7 +6,6 @@ use serde::Serialize;
 use super::{BenchArgs, NUM_POSES, bounds::opened, write_json};
 use crate::{
     bench::{
-        quantile,
         registration::{
             Attempt, Condition, NUM_POINTS, Registration, RegistrationPart, RegistrationSetup,
             ablation, register_all,
@@ -17,6 +16,7 @@ use crate::{
         Outcome,
         console::{Console, Table},
     },
+    geometry::statistics::quantile,
     stages::pose::{AlignParams, PoseMethod},
 };
 
@@ -105,7 +105,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
         RegistrationPart::simulated()
     } else {
         let opened = args.mesh.iter().map(|path| opened(path));
-        let part = |(name, mesh)| RegistrationPart::of_mesh(name, &mesh);
+        let part = |(name, mesh)| RegistrationPart::of_mesh(name, mesh);
         opened
             .map(|opened| opened.map(part))
             .collect::<anyhow::Result<_>>()?
@@ -123,7 +123,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
             seed: args.seed.unwrap_or(MEASURING_SEED),
             methods: study.methods.clone(),
         };
-        let registration = register_all(&setup, |_| console.done(), &|| false)?;
+        let registration = register_all(&setup, || console.done());
         done.push((study, registration));
     }
     console.end_progress();
@@ -237,8 +237,8 @@ fn lines(study: &Experiment, registration: &Registration) -> Vec<AttemptLine> {
             right: attempt.is_right(),
             rotation_error_deg: found.map(|f| f.error.rotation.degrees()),
             shift_error_mm: found.map(|f| f.error.shift.mm()),
-            shift_bound_mm: found.and_then(|f| f.uncertainty).map(|u| u.shift.mm()),
-            turn_bound_deg: found.and_then(|f| f.uncertainty).map(|u| u.turn.degrees()),
+            shift_bound_mm: found.and_then(|f| f.bounds).map(|u| u.shift.mm()),
+            turn_bound_deg: found.and_then(|f| f.bounds).map(|u| u.turn.degrees()),
             reason: failure.or_else(|| found?.doubt.map(|doubt| doubt.to_string())),
         }
     };

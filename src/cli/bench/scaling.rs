@@ -1,9 +1,8 @@
 //! `partsight bench scaling`: serial and parallel ranking, the paper's Fig. 7(a) and (b).
 
 use anyhow::Context as _;
-use serde::Serialize;
 
-use super::{BenchArgs, name_of, write_json};
+use super::{BenchArgs, name_of, write_results};
 use crate::{
     bench::scaling::{Scaling, scaling, sizes},
     cli::{
@@ -14,14 +13,6 @@ use crate::{
     report::{SizeCurve, curves_picture, stacked, write_png},
     stages::rank::{Matcher, RankParams},
 };
-
-/// The file that `--json` writes.
-#[derive(Debug, Serialize)]
-struct ScalingFile {
-    schema: u32,
-    simulated: bool,
-    scalings: Vec<Scaling>,
-}
 
 pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     let most = args.most as usize;
@@ -46,12 +37,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
             .with_context(|| format!("{} was not written", path.display()))?;
     }
     if let Some(path) = &args.json {
-        let file = ScalingFile {
-            schema: 1,
-            simulated: true,
-            scalings,
-        };
-        write_json(path, &file)?;
+        write_results(path, "scalings", &scalings)?;
     }
     Ok(Outcome::Accepted)
 }

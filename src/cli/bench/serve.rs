@@ -22,14 +22,12 @@ use self::{
 };
 use super::{BenchArgs, write_json};
 use crate::{
-    bench::{
-        quantile,
-        suites::{MEASURING_SEED, Suite},
-    },
+    bench::suites::{MEASURING_SEED, Suite},
     cli::{
         Outcome,
         console::{Console, Table, advised_error},
     },
+    geometry::statistics::quantile,
     simulate::frame_of_mesh,
 };
 

@@ -12,7 +12,7 @@ use serde::Serialize;
 
 use super::{BenchArgs, write_json};
 use crate::{
-    bench::{ProcessUsage, quantile},
+    bench::ProcessUsage,
     capture::{
         BackpressurePolicy, CaptureError, Captured, DepthSource, Feed, FeedItem, Image, NextCapture,
     },
@@ -22,7 +22,10 @@ use crate::{
         inspect::hung::{FollowedFrame, FollowedParts},
         record::{HistoryChoice, HistoryRecorder, SceneOrigin},
     },
-    geometry::depth_frame::{DepthFrame, Intrinsics},
+    geometry::{
+        depth_frame::{DepthFrame, Intrinsics},
+        statistics::quantile,
+    },
     history::Traceability,
     library::LibraryLoad,
     pipeline::{self, Inspection, NamedRecipe, Unwatched},
@@ -223,7 +226,9 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
         .library
         .load_some(&recipe.reference_params(), console)?;
     let folder = tempfile::tempdir()?;
-    let place = HistoryChoice::in_folder(folder.path());
+    let place = HistoryChoice {
+        history: Some(folder.path().to_owned()),
+    };
     let Some(recording) =
         HistoryRecorder::start(&place, &load, &recipe, &Traceability::default(), console)
     else {
@@ -293,11 +298,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
         100.0 * grown,
         100.0 * MOST_GROWTH
     ));
-    Ok(if grown <= MOST_GROWTH {
-        Outcome::Accepted
-    } else {
-        Outcome::NotAccepted
-    })
+    Ok(Outcome::accepted_if(grown <= MOST_GROWTH))
 }
 
 /// Takes in all frames of the feed, and measures each twentieth of them.

@@ -4,7 +4,6 @@ use serde::Serialize;
 
 use crate::{
     bench::{
-        quantile,
         suites::Suite,
         systems::{
             PAPER_COLUMNS, PAPER_MEAN_OF_OTHERS, PAPER_MEAN_OF_OWN, PAPER_SECONDS, Preparation,
@@ -12,6 +11,7 @@ use crate::{
         },
     },
     cli::console::{Console, Table},
+    geometry::statistics::quantile,
     simulate::PartKind,
 };
 

@@ -5,17 +5,18 @@ use std::fmt::Write as _;
 use anyhow::Context as _;
 use serde::Serialize;
 
-use super::BenchArgs;
+use super::{BenchArgs, write_json};
 use crate::{
     bench::table1::{Attempt, Row, table1},
     cli::{
         Outcome,
         console::{Advised as _, Console, Table, advised_error},
     },
-    files::write_atomically,
+    files::write_text,
+    geometry::statistics::quantile,
     library::Library,
     stages::{
-        pose::{AlignParams, PoseMethod, displacements::DISPLACEMENTS},
+        pose::{PoseMethod, displacements::DISPLACEMENTS},
         reference::ReferenceParams,
     },
 };
@@ -53,8 +54,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
         .library;
     keep_asked_for(&mut library, &args.part)?;
     console.start_progress(library.references.len() * DISPLACEMENTS.len());
-    let mut after_row = |_: &Row| console.done();
-    let rows = table1(&library, &AlignParams::default(), &mut after_row, &|| false)?;
+    let rows = table1(&library, || console.done());
     console.end_progress();
     show(&rows, console);
     let lines = || rows.iter().flat_map(attempt_lines);
@@ -65,16 +65,11 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
             euler_order: "Rz·Ry·Rx",
             attempts: lines().collect(),
         };
-        write_atomically(path, |writer| {
-            serde_json::to_writer_pretty(&mut *writer, &file)?;
-            writeln!(writer)
-        })
-        .advised()
-        .with_context(|| format!("{} was not written", path.display()))?;
+        write_json(path, &file)?;
     }
     if let Some(path) = &args.csv {
         let text = csv(lines());
-        write_atomically(path, |writer| writer.write_all(text.as_bytes()))
+        write_text(path, &text)
             .advised()
             .with_context(|| format!("{} was not written", path.display()))?;
     }
@@ -154,7 +149,7 @@ fn show(rows: &[Row], console: &mut Console) {
             format!("{}/{}", attempts().filter(|a| is(a)).count(), rows.len())
         };
         let time = |share| {
-            let time = crate::bench::quantile(attempts().map(time_ms), share);
+            let time = quantile(attempts().map(time_ms), share);
             time.map_or_else(String::new, |ms| format!("{ms:.0} ms"))
         };
         table.row([
@@ -167,7 +162,7 @@ fn show(rows: &[Row], console: &mut Console) {
     }
     table.show(console);
     let preparations = rows.iter().map(|row| row.preparation.as_secs_f64() * 1e3);
-    if let Some(ms) = crate::bench::quantile(preparations, 0.5) {
+    if let Some(ms) = quantile(preparations, 0.5) {
         console.line(&format_args!(
             "Preparing a target, once per part: {ms:.0} ms (median), not in the times above."
         ));

@@ -1,26 +1,13 @@
 //! `partsight bench window`: processor time of a frame of the window.
 
-use serde::Serialize;
-
-use super::{BenchArgs, write_json};
+use super::{BenchArgs, write_results};
 use crate::{
-    app::{
-        WindowOptions,
-        headless::{WindowCost, window_cost},
-    },
+    app::{WindowOptions, headless::window_cost},
     cli::{
         Outcome,
         console::{Advised as _, Console, Table},
     },
 };
-
-/// The file that `--json` writes.
-#[derive(Debug, Serialize)]
-struct WindowFile {
-    schema: u32,
-    simulated: bool,
-    window: WindowCost,
-}
 
 /// Number of frames measured of each kind.
 const NUM_FRAMES: usize = 120;
@@ -60,12 +47,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     }
     table.show(console);
     if let Some(path) = &args.json {
-        let file = WindowFile {
-            schema: 1,
-            simulated: true,
-            window: cost,
-        };
-        write_json(path, &file)?;
+        write_results(path, "window", &cost)?;
     }
     Ok(Outcome::Accepted)
 }

@@ -9,7 +9,7 @@ use crate::{
     cli::{
         LibraryChoice,
         console::{Advised as _, Console, advised_error},
-        input::{FileAdvice, open_scene},
+        input::{open_scene, warn_of},
     },
     error::Advice as _,
     files::{file_name, in_counting_order},
@@ -58,12 +58,7 @@ pub(super) fn pairs_of_captures(
     for (pose, file) in poses.iter().zip(&files) {
         console.begin(&file.display());
         let (scene, warnings) = open_scene(file).advised()?;
-        for warning in &warnings {
-            console.warn(
-                &format_args!("{}: {warning}", file.display()),
-                &FileAdvice(warning),
-            );
-        }
+        warn_of(file, &warnings, console);
         let inspection = pipeline::run(&scene, &library, &Recipe::default(), &Unwatched)?;
         match seen_part(&inspection, &library) {
             Ok(part) => {
@@ -78,8 +73,10 @@ pub(super) fn pairs_of_captures(
                 seen.push((pair, part));
             }
             Err(error) => {
-                console.note(&format_args!("left out {}: {error}", file.display()));
-                console.note(&format_args!("  to do: {}", error.advice()));
+                console.advise(
+                    &format_args!("left out {}: {error}", file.display()),
+                    &error.advice(),
+                );
             }
         }
         console.done();

@@ -124,11 +124,7 @@ pub(super) fn run(args: &HandEyeArgs, console: &mut Console) -> anyhow::Result<O
         console.note(&"Nothing was written: the result must not be used. Take the pairs as advised above, or insist \
             with --even-if-doubtful.");
     }
-    Ok(if solved.is_usable() {
-        Outcome::Accepted
-    } else {
-        Outcome::NotAccepted
-    })
+    Ok(Outcome::accepted_if(solved.is_usable()))
 }
 
 /// Removes the pairs with these names or lines, and returns their names.

@@ -91,22 +91,20 @@ impl ArmPoseSource {
                 None => FramePoseResult::End,
             },
             Self::Typed(waiting) => {
-                if waiting.is_none() {
+                let (pose, since) = if let Some(typed) = waiting.take() {
+                    typed
+                } else {
                     console.note(&"Move the arm, then write its pose; an empty line ends");
                     let Some(pose) = next_line()? else {
                         return Ok(FramePoseResult::End);
                     };
-                    *waiting = Some((pose, Instant::now()));
-                }
-                match *waiting {
-                    Some((_, since)) if is_live && captured.arrived < since => {
-                        FramePoseResult::TooEarly
-                    }
-                    Some((pose, _)) => {
-                        *waiting = None;
-                        FramePoseResult::Record(Some(pose))
-                    }
-                    None => FramePoseResult::End,
+                    (pose, Instant::now())
+                };
+                if is_live && captured.arrived < since {
+                    *waiting = Some((pose, since));
+                    FramePoseResult::TooEarly
+                } else {
+                    FramePoseResult::Record(Some(pose))
                 }
             }
         })

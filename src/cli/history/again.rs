@@ -8,6 +8,7 @@ use crate::{
     history::{Differences, History, InspectionSummary, ParameterChange, Record},
     pipeline::{self, Unwatched, scan::run_scan},
     scan::{ScanParams, assemble},
+    stages::reference::Reference,
     units::{Metres, Radians},
 };
 
@@ -39,15 +40,12 @@ pub(super) fn run(
             run_scan(&scan, library, &recipe, &Unwatched)?.inspection
         }
     };
-    let best = inspection.ranking.entries.first();
-    let best = best.and_then(|entry| library.references.get(entry.reference));
-    let bounds = best.and_then(|reference| reference.cloud.bounds());
-    let middle = bounds.map(|(low, high)| nalgebra::center(&low, &high).cast::<f64>());
+    let best = inspection.best_reference(library);
     let now = InspectionSummary::of(&inspection, &recipe.parameters, &load.identity());
     Ok(Differences::between(
         InspectionSummary::from(record),
         now,
-        middle,
+        best.and_then(Reference::middle),
     ))
 }
 

@@ -54,7 +54,7 @@ struct RowLine<'a> {
 }
 
 impl<'a> RowLine<'a> {
-    fn of(row: &'a Summary) -> Self {
+    fn of(row: &'a Summary, cell: Option<&'a str>) -> Self {
         Self {
             schema: SCHEMA,
             number: row.number,
@@ -74,17 +74,14 @@ impl<'a> RowLine<'a> {
             reinspections: row.num_below,
             mirror_of: row.mirror_of(),
             trace: &row.trace,
-            cell: None,
+            cell,
         }
     }
 }
 
 /// Returns a row as one line of JSON, with the name of its cell if there are several.
 pub(super) fn line_of(row: &Summary, cell: Option<&str>) -> String {
-    json(&RowLine {
-        cell,
-        ..RowLine::of(row)
-    })
+    json(&RowLine::of(row, cell))
 }
 
 fn json(line: &impl Serialize) -> String {
@@ -210,7 +207,7 @@ pub(super) fn record_line(
     again: Option<&Differences>,
 ) -> String {
     let below = below.iter().map(|other| BelowLine {
-        row: RowLine::of(&other.summary),
+        row: RowLine::of(&other.summary, None),
         used: UsedLine::of(&other.detail),
         differs: again::AgainLine::of(&differences(record, other)),
     });
@@ -218,10 +215,7 @@ pub(super) fn record_line(
     let refusal = detail.refusal.as_ref();
     let frame = detail.frame.as_ref();
     json(&RecordLine {
-        row: RowLine {
-            cell: from.cell,
-            ..RowLine::of(&record.summary)
-        },
+        row: RowLine::of(&record.summary, from.cell),
         nearest: detail.nearest.as_deref(),
         reason: refusal.map(|refusal| refusal.reason.as_str()),
         reason_kind: refusal.and_then(StoredRefusal::kind),

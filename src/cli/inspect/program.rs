@@ -81,7 +81,7 @@ impl CapturedProgram {
         console: &mut Console,
     ) -> anyhow::Result<Outcome> {
         let inspection = seen.inspection;
-        let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+        let pose = inspection.found_pose();
         let first = inspection.ranking.entries.first();
         let part = inspection.segmentation.part.as_ref().ok();
         let (Some((pose, first)), Some(part)) = (pose.zip(first), part) else {

@@ -8,7 +8,7 @@ use crate::{
         console::Console,
         recipe::show_recipe,
         scan::open_scan,
-        verdict::{outcome_of, show_card, show_in_robot},
+        verdict::{show_card, show_in_robot},
     },
     geometry::rigid::row_major,
     history::HungId,
@@ -87,5 +87,5 @@ pub(super) fn inspect(args: &InspectArgs, console: &mut Console) -> anyhow::Resu
         recording.add(entry.of_scan(scan.given()), console);
         recording.finish(console);
     }
-    Ok(outcome_of(&inspection))
+    Ok(Outcome::accepted_if(is_accepted))
 }

@@ -14,11 +14,11 @@ use crate::{
     cli::{
         Outcome,
         console::{Advised as _, Console, marked_simulated},
-        input::{FileAdvice, OpenedScene, before},
+        input::{OpenedScene, before, warn_of},
         output::OutputFormat,
         recipe::show_recipe,
         record::{HistoryRecorder, SceneOrigin},
-        verdict::{outcome_of, show_in_robot},
+        verdict::show_in_robot,
     },
     error::{Advice, guarded},
     history::{HungId, NewEntry, Traceability},
@@ -67,12 +67,9 @@ impl InspectSession {
         opened: OpenedScene,
         console: &mut Console,
     ) -> anyhow::Result<Outcome> {
-        let name = path.display().to_string();
         match opened {
             Ok((scene, warnings)) => {
-                for warning in &warnings {
-                    console.warn(&format_args!("{name}: {warning}"), &FileAdvice(warning));
-                }
+                warn_of(path, &warnings, console);
                 self.frame(path, console, |one, console| {
                     one.inspect_scene(path, scene, None, console)
                 })
@@ -111,8 +108,7 @@ impl InspectSession {
         let name = path.display().to_string();
         let line = InspectionLine::unreadable(&name, shown).to_json();
         self.format.unreadable(&name, &line, console);
-        console.note(&format_args!("error: {shown}"));
-        console.note(&format_args!("  to do: {}", error.advice()));
+        console.advise(&format_args!("error: {shown}"), &error.advice());
         if let Some(report) = &mut self.report {
             report.write(path, &line, &[]).advised()?;
         }
@@ -153,8 +149,8 @@ impl InspectSession {
         let file_says_simulated = capture.is_none() && scene.cloud.is_simulated;
         let taken = SceneOrigin {
             scene: &name,
-            source: capture.as_ref().map_or("file", CaptureLine::source),
-            is_simulated: capture.map_or(file_says_simulated, |c| c.is_simulated()),
+            source: capture.map_or("file", |capture| capture.source),
+            is_simulated: capture.map_or(file_says_simulated, |capture| capture.simulated),
         };
         let robot = robot.as_ref();
         let line_of = |inspection: &Inspection| {
@@ -180,7 +176,7 @@ impl InspectSession {
         if let (OutputFormat::Card, Some(robot)) = (format, robot) {
             show_in_robot(robot, &inspection, library, console);
         }
-        let outcome = outcome_of(&inspection);
+        let outcome = Outcome::accepted_if(inspection.verdict.is_accepted());
         let pictures = report.as_ref().map(|_| stage_pictures(&scene, &inspection));
         // After the verdict is shown, which must not wait for it, and before the exports, any of which may fail.
         let is_kept = recording.is_some();
@@ -196,7 +192,7 @@ impl InspectSession {
         if let (true, Some(followed), Some(capture)) = (is_kept, followed, capture) {
             let frame = FollowedFrame {
                 scene: &scene,
-                taken_at: capture.taken_at(),
+                taken_at: capture.taken_at,
                 middle: inspection
                     .best_reference(library)
                     .and_then(Reference::middle),

@@ -124,7 +124,7 @@ impl SprayFile {
             library,
             params,
         } = seen;
-        let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+        let pose = inspection.found_pose();
         let first = inspection.ranking.entries.first();
         let found = pose.zip(first).filter(|_| inspection.verdict.is_accepted());
         let part = inspection.segmentation.part.as_ref().ok();

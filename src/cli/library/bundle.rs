@@ -140,10 +140,7 @@ pub(super) fn take(
 ) -> anyhow::Result<Outcome> {
     let store = open_store(&args.from)?;
     let trusted = TrustedKey::load(&args.trust).advised()?;
-    let library = match &choice.library {
-        Some(path) => LibraryFolder::open_or_create(path).advised()?,
-        None => choice.open_to_change()?,
-    };
+    let library = choice.open_or_create()?;
     let asked = Take {
         version: args.version,
         local: if args.replace {

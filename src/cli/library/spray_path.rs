@@ -6,13 +6,10 @@ use clap::Args;
 
 use super::{Console, LibraryChoice, Outcome};
 use crate::{
-    cli::console::Advised as _,
+    cli::{console::Advised as _, read_part},
     library::{PartName, SprayPath},
     robot::spray::{BandStatus, against_reference, off_the_part},
-    stages::{
-        reference::{Reference, ReferenceParams},
-        stand_off::StandOffParams,
-    },
+    stages::{reference::Reference, stand_off::StandOffParams},
     units::counted,
 };
 
@@ -61,8 +58,7 @@ pub(super) fn run(
         return Ok(Outcome::Accepted);
     }
     let place = choice.open(console)?;
-    let part = place.read(name.as_str(), &ReferenceParams::default());
-    let reference = part.advised()?.advised()?.reference;
+    let reference = read_part(&place, name)?.reference;
     let Some(file) = file else {
         match place.spray_path(name.as_str()).advised()? {
             Some(path) => {
@@ -79,11 +75,7 @@ pub(super) fn run(
         .advised()?;
     console.line(&format_args!("Stored {} with {name}", file.display()));
     let is_off = tell(name, &path, &reference, console);
-    Ok(if is_off {
-        Outcome::NotAccepted
-    } else {
-        Outcome::Accepted
-    })
+    Ok(Outcome::accepted_if(!is_off))
 }
 
 /// Shows how the path lies over the part as it was enrolled; returns true, and warns, if it does not aim at it.

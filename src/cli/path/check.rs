@@ -13,6 +13,7 @@ use crate::{
         console::{Advised as _, Console, advised_error, store_a_path},
         input::parse_nozzle_pose,
         program::{CellChoice, parse_approach, parse_speed},
+        read_part,
     },
     geometry::rigid::RigidTransform,
     library::PartName,
@@ -25,7 +26,7 @@ use crate::{
         program::{ProgramSettings, arm_points},
         spray::carry,
     },
-    stages::{reference::ReferenceParams, stand_off::StandOffParams},
+    stages::stand_off::StandOffParams,
     units::{Metres, counted},
 };
 
@@ -75,8 +76,7 @@ pub(super) fn run(
             store_a_path(name.as_str()),
         ));
     };
-    let part = place.read(name.as_str(), &ReferenceParams::default());
-    let reference = part.advised()?.advised()?.reference;
+    let reference = read_part(&place, name)?.reference;
     let standard = RigidTransform::identity();
     let carried = carry(
         &path,
@@ -146,11 +146,7 @@ pub(super) fn run(
             console.line(&line);
         }
     }
-    Ok(if num == all {
-        Outcome::Accepted
-    } else {
-        Outcome::NotAccepted
-    })
+    Ok(Outcome::accepted_if(num == all))
 }
 
 /// Shows the result in words.

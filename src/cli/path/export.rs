@@ -11,6 +11,7 @@ use crate::{
         calibrate::CalibrationChoice,
         console::{Advised as _, Console, advised_error},
         program::{ProgramOptions, ProgramSubject, parse_format},
+        read_part,
     },
     geometry::rigid::RigidTransform,
     library::PartName,
@@ -18,7 +19,7 @@ use crate::{
         program::{ProgramFormat, remove_previous_program},
         spray::carry,
     },
-    stages::{reference::ReferenceParams, stand_off::StandOffParams},
+    stages::stand_off::StandOffParams,
 };
 
 /// Write the stored path of a part, hung as it was enrolled, as a program for the robot's controller
@@ -60,8 +61,7 @@ pub(super) fn run(
             format!("Plan one: partsight path plan {name} --coat primer --store"),
         ));
     };
-    let part = place.read(name.as_str(), &ReferenceParams::default());
-    let part = part.advised()?.advised()?;
+    let part = read_part(&place, name)?;
     // In the standard position, part space is the camera frame.
     let standard = RigidTransform::identity();
     let params = StandOffParams::default();

@@ -10,14 +10,13 @@ use crate::{
     cli::{
         LibraryChoice, Outcome,
         console::{Advised as _, Console, advised_error},
+        read_part,
         recipe::parse_setting,
     },
-    error::Advice,
-    files::write_atomically,
+    files::write_text,
     library::{PartName, SprayPath, StoredPart},
     paint::{Coat, CoatFolder, Film, KeepOut, PaintSurface, plan, propose, simulate},
     pipeline::parameters::Setting,
-    stages::reference::ReferenceParams,
     units::counted,
 };
 
@@ -109,7 +108,8 @@ pub(super) fn run_plan(
 ) -> anyhow::Result<Outcome> {
     let name = &args.part;
     let coat = args.coat.open()?;
-    let surface = surface_of(&read(choice, name, console)?)?;
+    let part = read_part(&choice.open(console)?, name)?;
+    let surface = surface_of(&part)?;
     let (coat, path, film) = if args.propose {
         let found = propose(&surface, &coat, &args.keep_out).advised()?;
         (found.coat, found.path, found.film)
@@ -121,7 +121,7 @@ pub(super) fn run_plan(
     warn_of_idle(&args.keep_out, &surface, console);
     if let Some(file) = &args.output {
         let text = path.to_text();
-        write_atomically(file, |to| to.write_all(text.as_bytes())).advised()?;
+        write_text(file, &text).advised()?;
     }
     if args.store {
         let folder = choice.open_to_change()?;
@@ -159,21 +159,13 @@ fn warn_of_idle(keep_out: &[KeepOut], surface: &PaintSurface, console: &Console)
             let mm = |metres: f64| (1e6 * metres).round() / 1000.0;
             let [x, y, z, radius] = [centre.x, centre.y, centre.z, *radius].map(mm);
             let sphere = format!("{x} {y} {z} {radius}");
-            let idle = IdleKeepOut { sphere };
-            console.warn(&idle, &idle);
+            console.advise(
+                &format_args!(
+                    "warning: --keep-out {sphere:?} touches no point of the surface, so nothing is kept out"
+                ),
+                &"Give centre and radius in millimetres, in the part's frame",
+            );
         }
-    }
-}
-
-#[derive(Debug, thiserror::Error)]
-#[error("--keep-out {sphere:?} touches no point of the surface, so nothing is kept out")]
-struct IdleKeepOut {
-    sphere: String,
-}
-
-impl Advice for IdleKeepOut {
-    fn advice(&self) -> String {
-        "Give centre and radius in millimetres, in the part's frame".into()
     }
 }
 
@@ -184,7 +176,7 @@ pub(super) fn run_simulate(
 ) -> anyhow::Result<Outcome> {
     let name = &args.part;
     let coat = args.coat.open()?;
-    let part = read(choice, name, console)?;
+    let part = read_part(&choice.open(console)?, name)?;
     let path = match &args.path {
         Some(file) => Some(SprayPath::read(file).advised()?),
         None => choice.open(console)?.spray_path(name.as_str()).advised()?,
@@ -200,12 +192,6 @@ pub(super) fn run_simulate(
     Ok(show(
         name, &surface, &coat, &path, &film, args.json, console,
     ))
-}
-
-fn read(choice: &LibraryChoice, name: &PartName, console: &Console) -> anyhow::Result<StoredPart> {
-    let place = choice.open(console)?;
-    let part = place.read(name.as_str(), &ReferenceParams::default());
-    part.advised()?.advised()
 }
 
 fn surface_of(part: &StoredPart) -> anyhow::Result<PaintSurface> {
@@ -265,9 +251,5 @@ fn show(
             100.0 * figures.reachable
         ));
     }
-    if figures.within >= GOOD_ENOUGH {
-        Outcome::Accepted
-    } else {
-        Outcome::NotAccepted
-    }
+    Outcome::accepted_if(figures.within >= GOOD_ENOUGH)
 }

@@ -93,9 +93,8 @@ impl Inspector for ServeSession<'_> {
         let captured = match captured {
             Ok(captured) => captured,
             Err(why) => {
-                self.console.note(&format_args!("error: {why}"));
                 self.console
-                    .note(&format_args!("  to do: {}", why.advice()));
+                    .advise(&format_args!("error: {why}"), &why.advice());
                 return Found::error(Trouble::of(why.reason(), &why));
             }
         };
@@ -292,26 +291,21 @@ fn show_event(event: &ClientEvent, console: &Console) {
     match &event.news {
         ClientNews::Connected => console.note(&format_args!("{peer} connected: {protocol}")),
         ClientNews::Left => console.note(&format_args!("{peer} left")),
-        ClientNews::TurnedAway => {
-            console.note(&format_args!(
+        ClientNews::TurnedAway => console.advise(
+            &format_args!(
                 "warning: {peer} was refused: the maximum number of clients is connected"
-            ));
-            console.note(&"  to do: Close a connection that is not used, or raise --max-clients");
-        }
+            ),
+            &"Close a connection that is not used, or raise --max-clients",
+        ),
         ClientNews::BadRequest(why) => {
             console.warn(
                 &format_args!("{peer}: {why}; the connection was closed"),
                 why,
             );
         }
-        ClientNews::WrongToken => {
-            console.note(&format_args!(
-                "warning: {peer} sent no token or a wrong one: {protocol}"
-            ));
-            console.note(
-                &"  to do: Give the client a token of --http-token-file; if you do not know the client, find out who \
-                    it is",
-            );
-        }
+        ClientNews::WrongToken => console.advise(
+            &format_args!("warning: {peer} sent no token or a wrong one: {protocol}"),
+            &"Give the client a token of --http-token-file; if you do not know the client, find out who it is",
+        ),
     }
 }

@@ -24,7 +24,7 @@ pub(super) fn run(
     console: &mut Console,
 ) -> anyhow::Result<Outcome> {
     let folder = open_case_folder(folder)?;
-    let subjects = args.subjects()?;
+    let subjects = args.subjects();
     let num = args.num as usize;
     console.start_progress(num);
     for place in 0..num {

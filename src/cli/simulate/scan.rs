@@ -10,8 +10,9 @@ use crate::{
     cli::{
         Outcome,
         console::{Advised as _, Console, advised_error},
+        write_json,
     },
-    files::{disk, write_atomically, write_depth_png},
+    files::{disk, write_depth_png},
     geometry::rigid::row_major,
     robot::frame_poses::FRAME_POSES,
     simulate::{ScanSetup, SimulatedScan},
@@ -27,7 +28,7 @@ pub(super) fn run(
     args: &SimulateArgs,
     console: &mut Console,
 ) -> anyhow::Result<Outcome> {
-    let subjects = args.subjects()?;
+    let subjects = args.subjects();
     let [subject] = subjects.as_slice() else {
         return Err(advised_error(
             format!(
@@ -69,12 +70,7 @@ pub(super) fn run(
         "base_from_model": row_major(&scan.base_from_model),
         "frames": frames,
     });
-    let file = folder.join(FRAME_POSES);
-    write_atomically(&file, |writer| {
-        serde_json::to_writer_pretty(&mut *writer, &poses)?;
-        writer.write_all(b"\n")
-    })
-    .advised()?;
+    write_json(&folder.join(FRAME_POSES), &poses)?;
     console.line(&format_args!(
         "{}: {} simulated frames and their poses. Now: partsight scan {0} --out scan.ply",
         folder.display(),

@@ -22,7 +22,7 @@ use nalgebra::{Matrix4, Point3};
 
 use super::error::FileError;
 use super::source::Source;
-use super::surface::checked_mesh;
+use super::surface::{checked_mesh, push_fan};
 use crate::geometry::mesh::TriangleMesh;
 
 use self::buffers::Buffers;
@@ -324,12 +324,9 @@ fn triangles_of(mode: Mode, indices: &[u32]) -> Vec<[u32; 3]> {
             .map(|(i, [a, b, c])| if i % 2 == 0 { [a, b, c] } else { [b, a, c] })
             .collect(),
         Mode::TriangleFan => {
-            let (first, others) = indices.split_first().unwrap_or((&0, &[]));
-            others
-                .windows(2)
-                .filter_map(<[u32]>::first_chunk::<2>)
-                .map(|[b, c]| [*first, *b, *c])
-                .collect()
+            let mut triangles = Vec::new();
+            push_fan(indices, &mut triangles);
+            triangles
         }
         _ => indices.chunks_exact(3).filter_map(three).collect(),
     }

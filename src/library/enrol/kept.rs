@@ -4,9 +4,12 @@ use std::collections::BTreeMap;
 
 use nalgebra::Point3;
 
-use crate::stages::{
-    scene::SceneCloud,
-    segment::{PointLabel, SegmentParams, segment},
+use crate::{
+    geometry::voxel::connected_pieces,
+    stages::{
+        scene::SceneCloud,
+        segment::{PointLabel, SegmentParams, segment},
+    },
 };
 
 /// Returns the share of the points with these indices that segmentation labels as background.
@@ -24,27 +27,15 @@ pub(super) fn share_on_background(
 /// opening stay connected; a gap of two cubes separates them.
 const CUBE: f32 = 0.06;
 
-/// Returns the share of the points outside the largest piece. Points belong to one piece if their cubes are connected
-/// by faces, edges or corners.
+/// Returns the share of the points outside the largest piece. Points belong to one piece if their cubes are connected.
 pub(super) fn share_apart(points: &[Point3<f32>]) -> f64 {
     let cube_of = |p: &Point3<f32>| [p.x, p.y, p.z].map(|x| (x / CUBE).floor() as i32);
     let mut cubes: BTreeMap<[i32; 3], usize> = BTreeMap::new();
     for point in points {
         *cubes.entry(cube_of(point)).or_default() += 1;
     }
-    let mut largest = 0;
-    while let Some((first, num_points)) = cubes.pop_first() {
-        let mut piece = num_points;
-        let mut open = vec![first];
-        while let Some([x, y, z]) = open.pop() {
-            for neighbour in (0..27).map(|n| [x + n / 9 - 1, y + n / 3 % 3 - 1, z + n % 3 - 1]) {
-                if let Some(num_points) = cubes.remove(&neighbour) {
-                    piece += num_points;
-                    open.push(neighbour);
-                }
-            }
-        }
-        largest = largest.max(piece);
-    }
+    let pieces = connected_pieces(cubes).into_iter();
+    let largest = pieces.map(|piece| piece.into_iter().sum::<usize>()).max();
+    let largest = largest.unwrap_or(0);
     1.0 - largest as f64 / points.len().max(1) as f64
 }

@@ -1,14 +1,11 @@
 //! Coats by name: the built-in ones, and the user's, each in a file beside the recipes of inspections.
 
-use std::{
-    fs, io,
-    path::{Path, PathBuf},
-};
+use std::path::{Path, PathBuf};
 
 use super::Coat;
 use crate::{
     error::Advice,
-    files::{FileError, disk, nearest_name},
+    files::{FileError, nearest_name},
     library::PartName,
     pipeline::{RecipeError, RecipeFile, RecipeFolder, Replace},
 };
@@ -38,7 +35,7 @@ pub fn built_in_coat(name: &str) -> Option<RecipeFile<Coat>> {
 /// A folder of coats; it need not exist.
 #[derive(Clone, Debug)]
 pub struct CoatFolder {
-    path: PathBuf,
+    files: RecipeFolder,
 }
 
 /// Why a coat cannot be read or written.
@@ -86,7 +83,9 @@ impl Advice for CoatError {
 impl CoatFolder {
     /// The folder at this path.
     pub fn at(path: impl Into<PathBuf>) -> Self {
-        Self { path: path.into() }
+        Self {
+            files: RecipeFolder::at(path),
+        }
     }
 
     /// The user's own folder, beside the recipes.
@@ -96,29 +95,10 @@ impl CoatFolder {
         ))
     }
 
-    fn file(&self, name: &PartName) -> PathBuf {
-        self.path.join(format!("{name}.toml"))
-    }
-
     /// Names of all coats, the built-in ones first.
     pub fn names(&self) -> Result<Vec<String>, CoatError> {
-        let reading = |error| CoatError::File(FileError::reading(&self.path, error).into());
-        let mut own = Vec::new();
-        match fs::read_dir(&self.path) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => {}
-            Err(error) => return Err(reading(error)),
-            Ok(entries) => {
-                for entry in entries {
-                    let path = PathBuf::from(entry.map_err(reading)?.file_name());
-                    let stem = path.file_stem().and_then(|stem| stem.to_str());
-                    let name = stem.and_then(|stem| PartName::new(stem).ok());
-                    let is_coat = path.extension().is_some_and(|ending| ending == "toml");
-                    own.extend(name.filter(|_| is_coat).map(String::from));
-                }
-            }
-        }
-        own.retain(|name| !BUILT_IN_COATS.contains(&name.as_str()));
-        own.sort();
+        let own = self.files.file_names()?.into_iter().map(String::from);
+        let own = own.filter(|name| !BUILT_IN_COATS.contains(&name.as_str()));
         Ok(BUILT_IN_COATS
             .map(String::from)
             .into_iter()
@@ -134,7 +114,7 @@ impl CoatFolder {
         if let Some(own) = built_in_coat(given) {
             return Ok(own);
         }
-        match RecipeFile::read(&self.file(&name)) {
+        match RecipeFile::read(&self.files.file(&name)) {
             // The file's name counts: the file may have been copied.
             Ok(file) => Ok(RecipeFile { name, ..file }),
             Err(RecipeError::File(FileError::NotFound { .. })) => Err(CoatError::NotFound {
@@ -147,14 +127,13 @@ impl CoatFolder {
 
     /// Saves a coat under its name, which must not be that of a built-in one.
     pub fn save(&self, coat: &RecipeFile<Coat>, replace: Replace) -> Result<(), CoatError> {
-        let path = self.file(&coat.name);
+        let path = self.files.file(&coat.name);
         let is_there = || replace == Replace::No && path.symlink_metadata().is_ok();
         if built_in_coat(coat.name.as_str()).is_some() || is_there() {
             let name = coat.name.to_string();
             return Err(CoatError::Exists { name });
         }
-        disk::create_dir_all(&self.path)
-            .map_err(|error| RecipeError::from(FileError::writing(&self.path, error)))?;
+        self.files.make()?;
         coat.write(&path)?;
         Ok(())
     }

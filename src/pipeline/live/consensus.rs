@@ -11,7 +11,7 @@ use nalgebra::Point3;
 
 use super::mean_pose::{MeanPose, PoseTolerance, mean_pose};
 use crate::{
-    geometry::rigid::RigidTransform,
+    geometry::{rigid::RigidTransform, statistics::lower_median},
     pipeline::{AcceptParams, Inspection, Rejection, Verdict},
     units::{Metres, Radians},
 };
@@ -92,7 +92,7 @@ impl Consensus {
 
     /// Adds the result of the frame taken at `at`. `middle` is the middle of the named part, part space, metres.
     pub fn add(&mut self, at: Duration, inspection: &Inspection, middle: Option<Point3<f64>>) {
-        let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+        let pose = inspection.found_pose();
         self.said.push_back(FrameVerdict {
             at,
             verdict: inspection.verdict.clone(),
@@ -141,7 +141,7 @@ impl Consensus {
             return nothing_named(&said);
         }
         let of = |pick: fn(&Verdict) -> Option<f64>| {
-            median(naming.iter().filter_map(|said| pick(&said.verdict)))
+            lower_median(naming.iter().filter_map(|said| pick(&said.verdict))).unwrap_or(0.0)
         };
         let score = of(|verdict| named(verdict).map(|(_, score, _)| score));
         let margin = of(|verdict| named(verdict).map(|(_, _, margin)| margin));
@@ -259,7 +259,7 @@ fn almost_equal(said: &[&FrameVerdict], name: &str, needed: usize) -> Option<Rej
     let threshold = margins.clone().map(|(_, threshold)| threshold).next()?;
     Some(Rejection::SmallMargin {
         part: name.to_owned(),
-        margin: median(margins.map(|(margin, _)| margin)),
+        margin: lower_median(margins.map(|(margin, _)| margin))?,
         threshold,
         other,
     })
@@ -290,14 +290,6 @@ fn most_named<'a>(said: &[&'a FrameVerdict]) -> Option<&'a str> {
         }
     }
     most.map(|(_, name)| name)
-}
-
-/// The median, of an even number the lower middle value: it is always one of the values. 0 without any.
-fn median(values: impl Iterator<Item = f64>) -> f64 {
-    let mut values: Vec<f64> = values.collect();
-    values.sort_unstable_by(f64::total_cmp);
-    let middle = values.len().saturating_sub(1) / 2;
-    values.get(middle).copied().unwrap_or(0.0)
 }
 
 #[cfg(test)]

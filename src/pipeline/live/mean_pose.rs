@@ -28,10 +28,6 @@ pub struct MeanPose {
     pub camera_from_part: RigidTransform,
     /// Number of estimates averaged.
     pub num_agreeing: usize,
-    /// Root mean square distance of the part's middle from where the mean puts it.
-    pub shift_rms: Metres,
-    /// Root mean square angle between the estimates and the mean.
-    pub turn_rms: Radians,
 }
 
 /// Averages the largest group of estimates that agree. `middle` is the middle of the part, part space, metres. `None`
@@ -64,25 +60,16 @@ pub fn mean_pose(
         .iter()
         .filter(|pose| is_near(centre, pose))
         .collect();
-    let num = group.len() as f64;
     let rotation = mean_rotation(group.iter().map(|pose| pose.rotation))?;
     let at = group
         .iter()
         .map(|pose| (*pose * middle).coords)
         .sum::<Vector3<f64>>()
-        / num;
+        / group.len() as f64;
     let shift = at - rotation * middle.coords;
-    let camera_from_part = RigidTransform::from_parts(Translation3::from(shift), rotation);
-    let squares = group.iter().map(|pose| {
-        let off = pose_error(pose, &camera_from_part, middle);
-        (off.shift.0.powi(2), off.rotation.0.powi(2))
-    });
-    let (shifts, turns) = squares.fold((0.0, 0.0), |(s, t), (shift, turn)| (s + shift, t + turn));
     Some(MeanPose {
-        camera_from_part,
+        camera_from_part: RigidTransform::from_parts(Translation3::from(shift), rotation),
         num_agreeing: group.len(),
-        shift_rms: Metres((shifts / num).sqrt()),
-        turn_rms: Radians((turns / num).sqrt()),
     })
 }
 
@@ -137,7 +124,6 @@ mod tests {
             estimates.insert(0, truth * from_euler_zyx([0.0, 0.0, 0.0, 0.02, 0.0, 0.0]));
             let mean = mean_pose(&estimates, &middle, TOLERANCE).expect("a mean");
             assert_eq!(mean.num_agreeing, 9);
-            assert!(mean.shift_rms.0 > 0.0003 && mean.turn_rms.0 > 0.001);
             let off = |pose: &RigidTransform| {
                 let off = pose_error(pose, &truth, &middle);
                 off.shift.0 / 0.001 + off.rotation.0 / 0.004

@@ -96,7 +96,7 @@ const CERTAIN: f32 = 0.85;
 const USUAL_NOISE: Metres = Metres(0.0015);
 
 /// Follows the frames of one camera.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct MotionDetector {
     params: SteadyParams,
     grid: Option<Grid>,
@@ -130,15 +130,7 @@ impl MotionDetector {
     pub fn new(params: SteadyParams) -> Self {
         Self {
             params,
-            grid: None,
-            noise: 0.0,
-            pivots: Vec::new(),
-            first: None,
-            spells: VecDeque::new(),
-            filling: SampleWindow::default(),
-            last_at: Duration::ZERO,
-            stillness: MotionState::Watching,
-            run: 0,
+            ..Self::default()
         }
     }
 
@@ -175,7 +167,7 @@ impl MotionDetector {
         let samples = samples(scene, grid);
         let last = self.spells.back();
         let last = last.or((self.filling.num_frames >= FRAMES_TO_JUDGE).then_some(&self.filling));
-        if last.is_some_and(|spell| self.moved_in_one_frame(spell, &samples)) {
+        if last.is_some_and(|spell| self.off_share(spell, &samples) > MAX_OFF_AT_ONCE) {
             self.restart_consensus(MotionState::Moving, at);
         }
         self.gather(&samples, at);
@@ -306,11 +298,6 @@ impl MotionDetector {
             }
         }
         f64::from(num_restless) / f64::from(num_read.max(1))
-    }
-
-    /// True if so much of one frame differs from the last spell that something must have moved.
-    fn moved_in_one_frame(&self, spell: &SampleWindow, samples: &[f32]) -> bool {
-        self.off_share(spell, samples) > MAX_OFF_AT_ONCE
     }
 
     /// Share of the samples of one frame that differ from a spell.

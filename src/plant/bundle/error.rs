@@ -4,7 +4,10 @@ use std::{io, path::PathBuf};
 
 use thiserror::Error;
 
-use super::{keys::TrustedKey, local::LocalPart, store::StoreAddress, store_error::StoreError};
+use super::{
+    keys::TrustedKey, local::LocalPart, manifest::MAX_NOTE, store::StoreAddress,
+    store_error::StoreError,
+};
 use crate::{
     error::Advice,
     files::{FileError, advice_on, words_of},
@@ -143,12 +146,10 @@ pub enum BundleError {
         limit: u64,
     },
     /// The note is no note.
-    #[error("the note has {found} characters, but at most {limit} are allowed")]
+    #[error("the note has {found} characters, but at most {MAX_NOTE} are allowed")]
     LongNote {
         /// Characters given.
         found: usize,
-        /// Characters allowed.
-        limit: usize,
     },
     /// The library has a later version than the newest one in the store.
     #[error("version {found} is older than version {installed}, which is installed")]

@@ -56,12 +56,8 @@ pub fn make_keys(folder: &Path) -> Result<KeyFiles, BundleError> {
     }
     let no_random = |_| BundleError::NoRandom;
     let document = Ed25519KeyPair::generate_pkcs8(&SystemRandom::new()).map_err(no_random)?;
-    let pair =
-        Ed25519KeyPair::from_pkcs8(document.as_ref()).map_err(|error| BundleError::BadKey {
-            path: files.private.clone(),
-            what: "private key",
-            reason: error.to_string(),
-        })?;
+    let pair = Ed25519KeyPair::from_pkcs8(document.as_ref())
+        .map_err(|error| bad_key(&files.private, "private key", error))?;
     let public = [&PUBLIC_KEY_PREFIX[..], pair.public_key().as_ref()].concat();
     disk::create_dir_all(folder).map_err(|source| FileError::writing(folder, source))?;
     write_pair(
@@ -104,6 +100,14 @@ fn write_new(path: &Path, text: &str, mode: u32) -> Result<(), FileError> {
     })
 }
 
+fn bad_key(path: &Path, what: &'static str, reason: impl fmt::Display) -> BundleError {
+    BundleError::BadKey {
+        path: path.to_owned(),
+        what,
+        reason: reason.to_string(),
+    }
+}
+
 fn pem(label: &str, der: &[u8]) -> String {
     let text = STANDARD.encode(der);
     let mut lines = vec![format!("-----BEGIN {label}-----")];
@@ -119,17 +123,13 @@ fn pem(label: &str, der: &[u8]) -> String {
 impl SigningKey {
     /// Of a file with a private key: PKCS#8 as PEM.
     pub fn load(path: &Path) -> Result<Self, BundleError> {
-        let bad = |reason: String| BundleError::BadKey {
-            path: path.to_owned(),
-            what: "private key",
-            reason,
-        };
         let bytes = read_limited(path, MAX_KEY_BYTES)?;
         let der = PrivatePkcs8KeyDer::from_pem_slice(&bytes);
-        let der = der.map_err(|error| bad(error.to_string()))?;
+        let der = der.map_err(|error| bad_key(path, "private key", error))?;
         // Other programs leave the public key out, which is computed then.
         let pair = Ed25519KeyPair::from_pkcs8_maybe_unchecked(der.secret_pkcs8_der());
-        pair.map(Self).map_err(|error| bad(error.to_string()))
+        pair.map(Self)
+            .map_err(|error| bad_key(path, "private key", error))
     }
 
     /// The key by which its signatures are known.
@@ -146,17 +146,12 @@ impl SigningKey {
 impl TrustedKey {
     /// Of a file with a public key as PEM.
     pub fn load(path: &Path) -> Result<Self, BundleError> {
-        let bad = |reason: String| BundleError::BadKey {
-            path: path.to_owned(),
-            what: "public key",
-            reason,
-        };
         let bytes = read_limited(path, MAX_KEY_BYTES)?;
         let der = SubjectPublicKeyInfoDer::from_pem_slice(&bytes);
-        let der = der.map_err(|error| bad(error.to_string()))?;
+        let der = der.map_err(|error| bad_key(path, "public key", error))?;
         let key = der.as_ref().strip_prefix(&PUBLIC_KEY_PREFIX);
         key.and_then(Self::of_bytes)
-            .ok_or_else(|| bad("not an Ed25519 key".into()))
+            .ok_or_else(|| bad_key(path, "public key", "not an Ed25519 key"))
     }
 
     pub(super) fn of_bytes(bytes: &[u8]) -> Option<Self> {

@@ -8,9 +8,7 @@ use std::{collections::BTreeMap, fmt, iter};
 use super::{error::BundleError, sha256};
 use crate::{
     files::{file_name, read_bytes},
-    library::{
-        CloudCheck, LibraryFolder, PartMeta, PartName, SprayCheck, SprayPath, shipped_files,
-    },
+    library::{FileCheck, LibraryFolder, PartMeta, PartName, SprayPath, shipped_files},
 };
 
 /// A part of a library that differs from the version taken last.
@@ -107,7 +105,7 @@ impl LocalContent {
 fn path_to_keep(
     library: &LibraryFolder,
     part: &PartName,
-    cloud: &CloudCheck,
+    cloud: &FileCheck,
     coming: Option<&ArrivingPart>,
 ) -> Option<SprayPath> {
     let PartMeta {
@@ -162,8 +160,8 @@ impl LocalPart {
 
 /// A part as it lies in a library.
 pub(super) struct StoredPart {
-    cloud: CloudCheck,
-    spray: Option<SprayCheck>,
+    cloud: FileCheck,
+    spray: Option<FileCheck>,
     /// By what it is known: all that the program reads of it, with `part.toml` as the program writes it.
     pub(super) digest: String,
     /// The same with `part.toml` as it is. Libraries that an earlier version of this program took have noted this one.

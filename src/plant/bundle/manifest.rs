@@ -108,10 +108,7 @@ impl Manifest {
         if self.version == version {
             Ok(self)
         } else {
-            Err(BundleError::BadManifest {
-                name: name.to_owned(),
-                reason: format!("it is of version {}", self.version),
-            })
+            Err(damaged(name, &format!("it is of version {}", self.version)))
         }
     }
 }

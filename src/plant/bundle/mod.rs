@@ -40,14 +40,12 @@ pub const MAX_BUNDLE_BYTES: u64 = 512 << 20;
 
 /// SHA-256 in hexadecimal.
 fn sha256(bytes: &[u8]) -> String {
-    hex(ring::digest::digest(&ring::digest::SHA256, bytes).as_ref())
-}
-
-fn hex(bytes: &[u8]) -> String {
     use std::fmt::Write as _;
 
-    let mut text = String::with_capacity(2 * bytes.len());
-    for byte in bytes {
+    let digest = ring::digest::digest(&ring::digest::SHA256, bytes);
+    let digest: &[u8] = digest.as_ref();
+    let mut text = String::new();
+    for byte in digest {
         // Writing to memory does not fail.
         let _ = write!(text, "{byte:02x}");
     }

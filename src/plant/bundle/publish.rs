@@ -30,8 +30,7 @@ pub fn publish(
 ) -> Result<Manifest, BundleError> {
     let found = note.chars().count();
     if found > MAX_NOTE {
-        let limit = MAX_NOTE;
-        return Err(BundleError::LongNote { found, limit });
+        return Err(BundleError::LongNote { found });
     }
     let numbers = library.give_numbers()?;
     let load = library.verify(&ReferenceParams::default())?;

@@ -229,7 +229,10 @@ impl Advice for StoreError {
             Self::Answer { .. } => {
                 "Try again later; if the answer stays the same, ask whoever runs the store".into()
             }
-            Self::Folder { kind, .. } if is_full(*kind) => advice_on(&(*kind).into()).into(),
+            Self::Folder {
+                kind: kind @ (io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded),
+                ..
+            } => advice_on(&(*kind).into()).into(),
             Self::Folder { .. } => {
                 "Check that the folder exists, that its drive or share is connected, and that you may use it".into()
             }
@@ -238,13 +241,6 @@ impl Advice for StoreError {
             }
         }
     }
-}
-
-fn is_full(kind: io::ErrorKind) -> bool {
-    matches!(
-        kind,
-        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded
-    )
 }
 
 #[cfg(test)]

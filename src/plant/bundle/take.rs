@@ -114,11 +114,7 @@ pub fn take(
         return Ok(Installed::Already(manifest));
     }
     let bundle = verified_bundle(store, &manifest)?;
-    let bad = |reason| BundleError::BadBundle {
-        name: store.shown(&bundle_name(&manifest.bundle.sha256)),
-        reason,
-    };
-    let files = files_in(&bundle).map_err(bad)?;
+    let files = files_in(&bundle).map_err(|reason| bad_bundle(store, &manifest, reason))?;
     let mut kept_paths = Vec::new();
     let replaced = library.replace_all(|building| {
         unpack(&files, building)?;
@@ -191,10 +187,7 @@ fn verified_bundle(store: &BundleStore, manifest: &Manifest) -> Result<Vec<u8>, 
             limit: MAX_BUNDLE_BYTES,
         });
     }
-    let bad = |reason: String| BundleError::BadBundle {
-        name: store.shown(&bundle_name(&expected.sha256)),
-        reason,
-    };
+    let bad = |reason| bad_bundle(store, manifest, reason);
     let found = match store.bundle(&expected.sha256, expected.bytes) {
         Ok(Some(bytes)) => bytes,
         Ok(None) => return Err(bad("it is missing".into())),
@@ -215,6 +208,13 @@ fn verified_bundle(store: &BundleStore, manifest: &Manifest) -> Result<Vec<u8>, 
         return Err(bad(format!("its SHA-256 is {digest}")));
     }
     Ok(found)
+}
+
+fn bad_bundle(store: &BundleStore, manifest: &Manifest, reason: String) -> BundleError {
+    BundleError::BadBundle {
+        name: store.shown(&bundle_name(&manifest.bundle.sha256)),
+        reason,
+    }
 }
 
 /// The library's numbers of parts, with those of a version.
@@ -245,16 +245,14 @@ fn arriving_parts(
     }
     let found = load.parts.len();
     if found != manifest.num_parts {
-        return Err(BundleError::BadBundle {
-            name: store.shown(&bundle_name(&manifest.bundle.sha256)),
-            reason: format!("it has {found} parts, expected {}", manifest.num_parts),
-        });
+        let reason = format!("it has {found} parts, expected {}", manifest.num_parts);
+        return Err(bad_bundle(store, manifest, reason));
     }
     let mut parts = Vec::new();
     for meta in load.parts {
-        let found = StoredPart::of(coming, &meta.name).ok_or_else(|| BundleError::BadBundle {
-            name: store.shown(&bundle_name(&manifest.bundle.sha256)),
-            reason: format!("its part {} cannot be read", meta.name),
+        let found = StoredPart::of(coming, &meta.name).ok_or_else(|| {
+            let reason = format!("its part {} cannot be read", meta.name);
+            bad_bundle(store, manifest, reason)
         })?;
         let digest = found.digest;
         parts.push(ArrivingPart { meta, digest });

@@ -48,14 +48,10 @@ impl Link {
     ) -> Result<T, DatabaseError> {
         match self.runtime.block_on(async { timeout(limit, work).await }) {
             Ok(done) => done.map_err(|error| DatabaseError::of(&error, &self.address)),
-            Err(_elapsed) => Err(self.unreachable("it does not answer".into())),
-        }
-    }
-
-    fn unreachable(&self, cause: String) -> DatabaseError {
-        DatabaseError::Unreachable {
-            database: self.address.clone(),
-            cause,
+            Err(_elapsed) => Err(DatabaseError::Unreachable {
+                database: self.address.clone(),
+                cause: "it does not answer".into(),
+            }),
         }
     }
 }
@@ -77,15 +73,11 @@ impl Database {
 
     fn connect(access: &DatabaseAccess) -> Result<Self, DatabaseError> {
         let address = Box::new(access.address.clone());
-        let runtime = match Builder::new_current_thread().enable_all().build() {
-            Ok(runtime) => runtime,
-            Err(error) => {
-                return Err(DatabaseError::Unreachable {
-                    database: address,
-                    cause: words_of(&error),
-                });
-            }
-        };
+        let runtime = Builder::new_current_thread().enable_all().build();
+        let runtime = runtime.map_err(|error| DatabaseError::Unreachable {
+            database: address.clone(),
+            cause: words_of(&error),
+        })?;
         let link = Link { runtime, address };
         let client = link.wait_for(CONNECT_LIMIT, Box::pin(connected(access)))?;
         let database = Self { link, client };
@@ -99,9 +91,7 @@ impl Database {
                 encoding,
             });
         }
-        database
-            .link
-            .wait(database.client.batch_execute(SETTINGS))?;
+        database.run(SETTINGS)?;
         Ok(database)
     }
 

@@ -137,34 +137,19 @@ impl DatabaseError {
             return Self::of_connection(error, database);
         };
         let cause = told.message().to_owned();
-        let code = told.code();
-        if [
-            SqlState::INVALID_PASSWORD,
-            SqlState::INVALID_AUTHORIZATION_SPECIFICATION,
-        ]
-        .contains(code)
-        {
-            Self::Refused { database, cause }
-        } else if *code == SqlState::INVALID_CATALOG_NAME {
-            Self::NotFound { database }
-        } else if [
-            SqlState::INSUFFICIENT_PRIVILEGE,
-            SqlState::READ_ONLY_SQL_TRANSACTION,
-        ]
-        .contains(code)
-        {
-            Self::Forbidden { database, cause }
-        } else if [
-            SqlState::ADMIN_SHUTDOWN,
-            SqlState::CRASH_SHUTDOWN,
-            SqlState::CANNOT_CONNECT_NOW,
-            SqlState::TOO_MANY_CONNECTIONS,
-        ]
-        .contains(code)
-        {
-            Self::Unreachable { database, cause }
-        } else {
-            Self::Failed { database, cause }
+        match *told.code() {
+            SqlState::INVALID_PASSWORD | SqlState::INVALID_AUTHORIZATION_SPECIFICATION => {
+                Self::Refused { database, cause }
+            }
+            SqlState::INVALID_CATALOG_NAME => Self::NotFound { database },
+            SqlState::INSUFFICIENT_PRIVILEGE | SqlState::READ_ONLY_SQL_TRANSACTION => {
+                Self::Forbidden { database, cause }
+            }
+            SqlState::ADMIN_SHUTDOWN
+            | SqlState::CRASH_SHUTDOWN
+            | SqlState::CANNOT_CONNECT_NOW
+            | SqlState::TOO_MANY_CONNECTIONS => Self::Unreachable { database, cause },
+            _ => Self::Failed { database, cause },
         }
     }
 

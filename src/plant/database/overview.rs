@@ -131,11 +131,11 @@ impl Database {
             "SELECT count(*) FROM partsight.inspection AS there WHERE {}",
             all.sql
         );
-        let rows = self.query(&asked, &all.values)?;
-        let num_all: i64 = match rows.first() {
-            Some(row) => self.read(row, 0)?,
-            None => 0,
-        };
+        let values = borrowed(&all.values);
+        let row = self
+            .link
+            .wait(self.client.query_one(asked.as_str(), &values))?;
+        let num_all: i64 = self.read(&row, 0)?;
         let mut condition = Condition::of(filter, cell);
         let limit = condition.take(i64::try_from(most).unwrap_or(i64::MAX));
         let names = names_of(&INSPECTION_COLUMNS);

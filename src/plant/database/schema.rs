@@ -163,7 +163,7 @@ impl Database {
         self.run("COMMIT")
     }
 
-    fn run(&self, statements: &str) -> Result<(), DatabaseError> {
+    pub(super) fn run(&self, statements: &str) -> Result<(), DatabaseError> {
         self.link.wait(self.client.batch_execute(statements))
     }
 }

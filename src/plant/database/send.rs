@@ -51,11 +51,10 @@ impl Database {
             ("inspection", &INSPECTION_COLUMNS[..], &rows.inspections),
             ("detail", &DETAIL_COLUMNS[..], &rows.details),
         ] {
-            let mut values: Vec<Array> = vec![
-                Box::new(whose.cell.to_string()),
-                Box::new(whose.history.clone()),
-            ];
-            values.extend(arrays(columns, rows));
+            let mut values = identity_of(whose);
+            for (place, (_, kind)) in columns.iter().enumerate() {
+                values.push(array(*kind, rows, place));
+            }
             let statement = upsert(table, columns);
             link.wait(transaction.execute(statement.as_str(), &borrowed(&values)))?;
         }
@@ -79,15 +78,11 @@ fn refuse_copy(
     whose: &CellHistory,
     inspections: &[Vec<Value>],
 ) -> Result<(), DatabaseError> {
-    let is_asked = |column: &Column| ["number", "at", "hung"].contains(&column.0);
-    let mut values: Vec<Array> = vec![
-        Box::new(whose.cell.to_string()),
-        Box::new(whose.history.clone()),
-    ];
+    let mut values = identity_of(whose);
     // `number`, `at` and `hung` come in this order among the columns.
-    for (place, column) in INSPECTION_COLUMNS.iter().enumerate() {
-        if is_asked(column) {
-            values.push(array(column.1, inspections, place));
+    for (place, (name, kind)) in INSPECTION_COLUMNS.iter().enumerate() {
+        if ["number", "at", "hung"].contains(name) {
+            values.push(array(*kind, inspections, place));
         }
     }
     let row = link.wait(transaction.query_one(IS_COPIED, &borrowed(&values)))?;
@@ -98,6 +93,14 @@ fn refuse_copy(
         database: link.address.clone(),
         cell: whose.cell.clone(),
     })
+}
+
+/// The first two parameters of every statement about a history.
+fn identity_of(whose: &CellHistory) -> Vec<Array> {
+    vec![
+        Box::new(whose.cell.to_string()),
+        Box::new(whose.history.clone()),
+    ]
 }
 
 /// The statement that adds rows or updates those that have changed. Its parameters are the cell, the history, and an array
@@ -134,12 +137,7 @@ fn upsert(table: &str, columns: &[Column]) -> String {
     )
 }
 
-/// Transposes rows into an array for each column.
-fn arrays(columns: &[Column], rows: &[Vec<Value>]) -> impl Iterator<Item = Array> {
-    let columns = columns.iter().enumerate();
-    columns.map(move |(place, (_, kind))| array(*kind, rows, place))
-}
-
+/// The values of one column of the rows.
 fn array(kind: ColumnKind, rows: &[Vec<Value>], place: usize) -> Array {
     let values = rows.iter().map(|row| row.get(place));
     match kind {

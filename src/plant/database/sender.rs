@@ -6,7 +6,7 @@ use std::{
     path::PathBuf,
     sync::{Arc, Condvar, Mutex, PoisonError},
     thread::{self, JoinHandle},
-    time::{Duration, Instant},
+    time::Duration,
 };
 
 use rand::{RngExt as _, SeedableRng as _};
@@ -63,22 +63,16 @@ impl Advice for SendTrouble {
     }
 }
 
-/// Why a sender cannot be started.
+/// The system refuses a thread for a sender.
 #[derive(Debug, Error)]
-pub enum SenderError {
-    /// The system refuses a thread.
-    #[error("the thread that sends the history cannot be started: {source}")]
-    NoThread {
-        /// The underlying error.
-        source: io::Error,
-    },
+#[error("the thread that sends the history cannot be started: {source}")]
+pub struct SenderError {
+    source: io::Error,
 }
 
 impl Advice for SenderError {
     fn advice(&self) -> String {
-        match self {
-            Self::NoThread { .. } => "Close other programs and start again".into(),
-        }
+        "Close other programs and start again".into()
     }
 }
 
@@ -139,7 +133,7 @@ impl HistorySender {
         let thread = thread::Builder::new()
             .name("history sender".into())
             .spawn(move || theirs.run())
-            .map_err(|source| SenderError::NoThread { source })?;
+            .map_err(|source| SenderError { source })?;
         Ok(Self {
             shared,
             thread: Some(thread),
@@ -162,15 +156,12 @@ impl HistorySender {
             return Ok(());
         };
         let shared = &self.shared;
-        let until = Instant::now() + END_TIMEOUT;
         let mut state = lock(&shared.state);
         state.is_ending = true;
         shared.changed.notify_all();
-        while !state.has_ended && Instant::now() < until {
-            let left = until.saturating_duration_since(Instant::now());
-            let waited = shared.changed.wait_timeout(state, left);
-            state = waited.unwrap_or_else(PoisonError::into_inner).0;
-        }
+        let waited =
+            (shared.changed).wait_timeout_while(state, END_TIMEOUT, |state| !state.has_ended);
+        let state = waited.unwrap_or_else(PoisonError::into_inner).0;
         let (num, has_ended) = (state.num_waiting, state.has_ended);
         drop(state);
         if has_ended {
@@ -225,13 +216,8 @@ impl Shared {
 
     /// Waits before the next turn, until the program ends at the latest.
     fn wait(&self, at_most: Duration) {
-        let until = Instant::now() + at_most;
-        let mut state = lock(&self.state);
-        while !state.is_ending && Instant::now() < until {
-            let left = until.saturating_duration_since(Instant::now());
-            let waited = self.changed.wait_timeout(state, left);
-            state = waited.unwrap_or_else(PoisonError::into_inner).0;
-        }
+        let state = lock(&self.state);
+        drop((self.changed).wait_timeout_while(state, at_most, |state| !state.is_ending));
     }
 
     /// Sends everything that is unsent.

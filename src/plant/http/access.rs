@@ -13,9 +13,9 @@ use super::{error::HttpError, refusal::Refusal};
 use crate::files::{FileError, read_limited};
 
 /// Minimum length of a token, characters: too long to be guessed over the network.
-const MIN_LETTERS: usize = 16;
+pub(super) const MIN_LETTERS: usize = 16;
 /// Maximum length of a token, characters.
-const MAX_LETTERS: usize = 512;
+pub(super) const MAX_LETTERS: usize = 512;
 /// Maximum size of the token file, which has one line per client.
 const MAX_FILE_BYTES: u64 = 1 << 16;
 
@@ -42,8 +42,6 @@ impl Tokens {
                 return Err(HttpError::BadToken {
                     path: path.to_owned(),
                     line: i + 1,
-                    min_letters: MIN_LETTERS,
-                    max_letters: MAX_LETTERS,
                 });
             }
             tokens.push(token.to_owned());

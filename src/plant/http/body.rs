@@ -138,23 +138,10 @@ impl PathBody {
 #[derive(Debug, JsonSchema, Serialize)]
 pub(super) struct ReportBody {
     #[serde(flatten)]
-    answer: AnswerBody,
+    pub(super) answer: AnswerBody,
     /// The line of JSON that `partsight serve --json` writes of it; null if nothing was inspected. Unless there is a pose
     /// above, it has none either.
-    report: Option<Map<String, Value>>,
-}
-
-impl ReportBody {
-    pub(super) fn of(
-        answer: &Answer,
-        report: Option<Map<String, Value>>,
-        convention: Convention,
-    ) -> Self {
-        Self {
-            answer: AnswerBody::of(answer, convention),
-            report,
-        }
-    }
+    pub(super) report: Option<Map<String, Value>>,
 }
 
 /// The service answers.

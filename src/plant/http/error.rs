@@ -5,6 +5,7 @@ use std::{net::SocketAddr, path::PathBuf};
 use thiserror::Error;
 use tokio_rustls::rustls;
 
+use super::access::{MAX_LETTERS, MIN_LETTERS};
 use crate::{error::Advice, files::FileError, robot::Convention, serve::ServeError};
 
 /// Why HTTP cannot be served.
@@ -33,7 +34,7 @@ pub enum HttpError {
     },
     /// A line of the token file is not a valid token.
     #[error(
-        "line {line} of {} is not a token: expected {min_letters} to {max_letters} printable ASCII letters without \
+        "line {line} of {} is not a token: expected {MIN_LETTERS} to {MAX_LETTERS} printable ASCII letters without \
          blanks",
         path.display()
     )]
@@ -42,10 +43,6 @@ pub enum HttpError {
         path: PathBuf,
         /// Line number, from 1.
         line: usize,
-        /// Minimum length of a token, characters.
-        min_letters: usize,
-        /// Maximum length of a token, characters.
-        max_letters: usize,
     },
     /// The file lacks the expected PEM section.
     #[error("{} has no {what} in PEM form: {reason}", path.display())]

@@ -52,14 +52,11 @@ pub(super) fn text(
     text.value("trigger_seconds_bucket", Some(("le", "+Inf")), count);
     text.value("trigger_seconds_sum", None, tally.waited_s());
     text.value("trigger_seconds_count", None, count);
-    text.head(
+    text.gauge(
         "last_frame_age_seconds",
-        "gauge",
         "Age of the last inspected frame",
+        status.age_ms.map(|age| f64::from(age) / 1000.0),
     );
-    if let Some(age_ms) = status.age_ms {
-        text.value("last_frame_age_seconds", None, f64::from(age_ms) / 1000.0);
-    }
     text.head(
         "camera_state",
         "gauge",
@@ -69,34 +66,27 @@ pub(super) fn text(
         let is_now = f64::from(u8::from(state == status.camera));
         text.value("camera_state", Some(("state", state.name())), is_now);
     }
-    text.head(
+    text.gauge(
         "clients",
-        "gauge",
         "Connections of the line protocols, and triggers over HTTP that wait",
+        Some(num_clients as f64),
     );
-    text.value("clients", None, num_clients as f64);
-    text.head(
+    text.gauge(
         "boot_number",
-        "gauge",
         "The number of this start of the server",
+        Some(f64::from(status.boot)),
     );
-    text.value("boot_number", None, f64::from(status.boot));
     if let Some(library) = library {
-        text.head(
+        text.gauge(
             "library_version",
-            "gauge",
             "The version of the library in use",
+            library.version.map(f64::from),
         );
-        if let Some(version) = library.version {
-            text.value("library_version", None, f64::from(version));
-        }
-        text.head(
+        text.gauge(
             "library_take_failed",
-            "gauge",
             "1 if a newer version of the library could not be taken or used",
+            Some(f64::from(u8::from(library.trouble.is_some()))),
         );
-        let has_failed = f64::from(u8::from(library.trouble.is_some()));
-        text.value("library_take_failed", None, has_failed);
     }
     text.0
 }
@@ -108,6 +98,14 @@ impl Text {
     fn head(&mut self, name: &str, kind: &str, help: &str) {
         let lines = format!("# HELP partsight_{name} {help}\n# TYPE partsight_{name} {kind}\n");
         self.0.push_str(&lines);
+    }
+
+    /// Writes a gauge without labels; `None` leaves out its value.
+    fn gauge(&mut self, name: &str, help: &str, value: Option<f64>) {
+        self.head(name, "gauge", help);
+        if let Some(value) = value {
+            self.value(name, None, value);
+        }
     }
 
     fn value(&mut self, name: &str, label: Option<(&str, &str)>, value: f64) {

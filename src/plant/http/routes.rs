@@ -145,10 +145,8 @@ async fn path(State(api): State<Arc<Api>>) -> Response {
 async fn report(State(api): State<Arc<Api>>) -> Response {
     api.answered(|api| {
         let (answer, report) = api.server.report();
-        json(
-            StatusCode::OK,
-            &ReportBody::of(&answer, report, api.convention),
-        )
+        let answer = AnswerBody::of(&answer, api.convention);
+        json(StatusCode::OK, &ReportBody { answer, report })
     })
 }
 

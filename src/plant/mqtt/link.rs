@@ -3,7 +3,7 @@
 use std::{
     collections::VecDeque,
     ops::ControlFlow,
-    sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError},
+    sync::{Arc, Condvar, Mutex, PoisonError},
     thread::{self, JoinHandle},
     time::{Duration, Instant},
 };
@@ -168,7 +168,7 @@ impl MqttLink {
         let thread = thread::Builder::new()
             .name("mqtt".into())
             .spawn(move || theirs.run(&options))
-            .map_err(|source| LinkError::NoThread { source })?;
+            .map_err(|source| LinkError { source })?;
         Ok(Self {
             shared,
             thread: Some(thread),
@@ -224,17 +224,15 @@ impl MqttLink {
             return Ok(());
         };
         let shared = &self.shared;
-        let until = Instant::now() + END_TIMEOUT;
         let mut outbox = lock(&shared.outbox);
         outbox.phase = Phase::Ending;
         outbox.state = outbox.state.offline();
         outbox.is_state_due = true;
         shared.send_next(&mut outbox);
         shared.phase_changed.notify_all();
-        while outbox.phase != Phase::Ended && Instant::now() < until {
-            let left = until.saturating_duration_since(Instant::now());
-            outbox = shared.wait(outbox, left);
-        }
+        let waited = (shared.phase_changed)
+            .wait_timeout_while(outbox, END_TIMEOUT, |outbox| outbox.phase != Phase::Ended);
+        let outbox = waited.unwrap_or_else(PoisonError::into_inner).0;
         let is_in_flight = matches!(outbox.in_flight, Some(InFlight::Inspection(_)));
         let num = outbox.waiting.len() as u64 + u64::from(is_in_flight) + outbox.state.num_dropped;
         let has_ended = outbox.phase == Phase::Ended;
@@ -352,21 +350,12 @@ impl Shared {
             outbox.told = Some(Told::Lost);
             outbox.news.push_back(LinkNews::Lost(trouble));
         }
-        let until = Instant::now() + pause;
-        while outbox.phase == Phase::Running && Instant::now() < until {
-            let left = until.saturating_duration_since(Instant::now());
-            outbox = self.wait(outbox, left);
-        }
+        let is_running = |outbox: &mut Outbox| outbox.phase == Phase::Running;
+        drop(
+            self.phase_changed
+                .wait_timeout_while(outbox, pause, is_running),
+        );
         ControlFlow::Continue(())
-    }
-
-    fn wait<'a>(
-        &self,
-        outbox: MutexGuard<'a, Outbox>,
-        at_most: Duration,
-    ) -> MutexGuard<'a, Outbox> {
-        let waited = self.phase_changed.wait_timeout(outbox, at_most);
-        waited.unwrap_or_else(PoisonError::into_inner).0
     }
 
     /// Hands the next message to the client library, unless one is still unacknowledged.

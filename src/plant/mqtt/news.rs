@@ -129,22 +129,16 @@ impl Advice for LinkTrouble {
     }
 }
 
-/// Why a link cannot be started.
+/// The system refuses a thread for a link.
 #[derive(Debug, Error)]
-pub enum LinkError {
-    /// The system refuses a thread.
-    #[error("the thread for MQTT cannot be started: {source}")]
-    NoThread {
-        /// The underlying error.
-        source: io::Error,
-    },
+#[error("the thread for MQTT cannot be started: {source}")]
+pub struct LinkError {
+    pub(super) source: io::Error,
 }
 
 impl Advice for LinkError {
     fn advice(&self) -> String {
-        match self {
-            Self::NoThread { .. } => "Close other programs and start again".into(),
-        }
+        "Close other programs and start again".into()
     }
 }
 

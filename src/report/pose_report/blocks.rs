@@ -9,7 +9,7 @@ use crate::{
     geometry::rigid::RigidTransform,
     pipeline::Inspection,
     robot::{Convention, RobotPose},
-    stages::pose::{PoseEstimate, Uncertainty},
+    stages::pose::PoseEstimate,
 };
 
 /// The frames, spelt out.
@@ -247,7 +247,7 @@ impl PoseBlock {
                 // JSON has no infinity: if the best pose costs nothing, the ratio is meaningless.
                 runner_up_ratio: pose.runner_up.map(|next| next.ratio).filter(|ratio| ratio.is_finite()),
             },
-            bounds: pose.uncertainty.filter(Uncertainty::is_held).map(|bounds| BoundsBlock {
+            bounds: pose.bounds().map(|bounds| BoundsBlock {
                 meaning: "the pose is off by less than each of these in 95 of 100 cases, as far as the scatter of the \
                           distances tells; an error that all points share, such as the camera's scale, is not in it",
                 shift_m: bounds.shift.0,

@@ -49,17 +49,9 @@ impl Advice for CsvError {
     }
 }
 
-/// Result of appending a row.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum CsvAppended {
-    /// The row was appended.
-    Row,
-    /// The row was appended after moving an incomplete last row to this file.
-    SetAside(PathBuf),
-}
-
-/// Appends the report to the file. A missing or empty file is created with a line of column names.
-pub fn append_csv(path: &Path, report: &PoseReport) -> Result<CsvAppended, CsvError> {
+/// Appends the report to the file. A missing or empty file is created with a line of column names. If the last row was
+/// incomplete, moves it to another file first, and returns that file.
+pub fn append_csv(path: &Path, report: &PoseReport) -> Result<Option<PathBuf>, CsvError> {
     let failed = |source| CsvError::Io {
         path: path.to_owned(),
         source,
@@ -91,7 +83,7 @@ pub fn append_csv(path: &Path, report: &PoseReport) -> Result<CsvAppended, CsvEr
             convention: report.robot.convention,
         });
     }
-    let mut appended = CsvAppended::Row;
+    let mut aside = None;
     let text = if begin.len() < header.len() {
         // A program was killed before the first line was complete.
         disk::set_len(&file, 0).map_err(failed)?;
@@ -100,7 +92,7 @@ pub fn append_csv(path: &Path, report: &PoseReport) -> Result<CsvAppended, CsvEr
     } else {
         let end = end_of_last_row(&mut file, length).map_err(failed)?;
         if end < length {
-            appended = CsvAppended::SetAside(set_aside(path, &mut file, end).map_err(failed)?);
+            aside = Some(set_aside(path, &mut file, end).map_err(failed)?);
             length = end;
         }
         row
@@ -118,7 +110,7 @@ pub fn append_csv(path: &Path, report: &PoseReport) -> Result<CsvAppended, CsvEr
         // The file itself may be new.
         sync_folder(folder_of(path)).map_err(failed)?;
     }
-    Ok(appended)
+    Ok(aside)
 }
 
 /// Returns where the last complete row ends.

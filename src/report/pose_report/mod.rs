@@ -32,7 +32,7 @@ pub use self::{
         BoundsBlock, FitBlock, MiddleBlock, NumberBlock, PoseBlock, RobotBlock, StandOffBlock,
         TransformBlock,
     },
-    csv::{CsvAppended, CsvError, append_csv},
+    csv::{CsvError, append_csv},
     pdf::{PdfPictures, pose_pdf},
 };
 
@@ -187,7 +187,7 @@ impl PoseReport {
     pub fn of(subject: &ReportSubject<'_>) -> Self {
         let inspection = subject.inspection;
         let verdict = VerdictBlock::of(inspection, subject.recipe);
-        let found = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+        let found = inspection.found_pose();
         let block = found.map(|pose| PoseBlock::of(pose, inspection, subject));
         let camera_from_part = found
             .map(PoseEstimate::camera_from_part)

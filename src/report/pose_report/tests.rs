@@ -27,7 +27,7 @@ impl Inspected {
         let recipe = Recipe::default();
         let inspection = run(&scene, &library, &recipe, &Unwatched).expect("run");
         let best = inspection.best_reference(&library);
-        let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+        let pose = inspection.found_pose();
         let stand_off = best.zip(pose).map(|(reference, pose)| {
             stand_off(reference, &pose.camera_from_part(), &recipe.stand_off)
         });

@@ -236,10 +236,6 @@ fn best_chain(
             let Some((former, costs)) = before.filter(|(former, _)| !former.is_empty()) else {
                 return (candidate.cost, None);
             };
-            let (from, to) = (
-                &points[i - 1].robot_from_nozzle,
-                &points[i].robot_from_nozzle,
-            );
             let (start, end) = (&points[i - 1], &points[i]);
             // With the gun off, the arm may move more slowly.
             let speed = if start.is_gun_on {
@@ -247,7 +243,7 @@ fn best_chain(
             } else {
                 start.speed.min(SLOWEST)
             };
-            let allowed = move_time(from, to, speed);
+            let allowed = move_time(&start.robot_from_nozzle, &end.robot_from_nozzle, speed);
             let jump_cost = if may_move_by_joints(arm, start, end) {
                 JOINT_MOVE_COST
             } else {

@@ -93,10 +93,7 @@ pub struct PathCheck {
 impl PathCheck {
     /// Number of points without a problem.
     pub fn num_reached(&self) -> usize {
-        self.points
-            .iter()
-            .filter(|point| point.problem.is_none())
-            .count()
+        self.points.len() - num_bad(&self.points)
     }
 
     /// Number of points at which the nozzle is tilted, and the greatest tilt, radians; `None` if it is tilted at none.
@@ -321,13 +318,10 @@ fn check_chosen(
         let (solver, rail) = (&solvers[i], rails[i]);
         let Some(candidate) = candidate else {
             checked.push(PointCheck {
-                joints: None,
                 robot_from_nozzle: point.robot_from_nozzle,
-                turn: 0.0,
-                tilt: 0.0,
                 rail,
-                way: Way::Planned,
                 problem: Some(why_not(solver, point, params.num_turns)),
+                ..PointCheck::default()
             });
             continue;
         };

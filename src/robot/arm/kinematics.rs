@@ -154,7 +154,7 @@ impl<'a> Solver<'a> {
     /// How far the arm's foot would be below the floor of the cell, metres; `None` without a floor.
     pub(super) fn foot_below_floor(&self) -> Option<f64> {
         let (axis, _) = self.column();
-        Some(self.obstacles.floor()? - axis.from.z)
+        Some(self.obstacles.floor? - axis.from.z)
     }
 
     /// All pairs of these bodies and obstacles that are too near.

@@ -36,6 +36,8 @@ mod tests;
 mod validate;
 mod way;
 
+use std::f64::consts::TAU;
+
 use nalgebra::{Point3, Vector3};
 
 use crate::{geometry::rigid::RigidTransform, robot::Convention};
@@ -73,11 +75,14 @@ pub struct Arm {
     base_height: f64,
     /// Radii of upper arm, forearm and wrist around their axes, metres.
     radii: [f64; 3],
-    /// The maker whose controllers count the joints as here; none for an arm from a file.
-    maker: Option<Convention>,
+    /// The maker whose controllers count the joints as here, except joint 3 of FANUC arms; none for an arm from a file.
+    pub(super) maker: Option<Convention>,
     /// The rail on which it stands, if any.
     pub rail: Option<Rail>,
 }
+
+/// Default radius of a gun with its hoses, metres.
+pub const GUN_RADIUS: f64 = 0.05;
 
 /// An arm in its cell.
 #[derive(Clone, Debug)]
@@ -105,12 +110,7 @@ impl PlacedArm {
     fn most_gun_radius(&self) -> f64 {
         self.flange_from_nozzle.translation.vector.norm() / 2.0
     }
-}
 
-/// Default radius of a gun with its hoses, metres.
-pub const GUN_RADIUS: f64 = 0.05;
-
-impl PlacedArm {
     /// Adds a part as an obstacle; its points are in the part's frame.
     #[must_use]
     pub fn with_part(self, points: &[Point3<f32>], robot_from_part: &RigidTransform) -> Self {
@@ -127,11 +127,6 @@ impl Arm {
         self.rail.map_or_else(Vector3::zeros, |rail| {
             rail.direction.into_inner() * position
         })
-    }
-
-    /// The maker whose controllers count these joints as here, except joint 3 of FANUC arms; none if not known.
-    pub(super) fn maker(&self) -> Option<Convention> {
-        self.maker
     }
 
     /// The rail if it moves along the path, and its top speed, m/s.
@@ -168,32 +163,24 @@ impl Arm {
                     high: high.to_degrees(),
                 });
             }
-            if !(self.speeds[i] > 0.0 && self.speeds[i] < 100.0) {
-                return Err(ArmError::Value {
-                    what: format!("the speed of joint {}", i + 1),
-                    value: self.speeds[i].to_degrees(),
-                });
-            }
-            if let Some(limits) = self.accelerations
-                && !(limits[i] > 0.0 && limits[i] < 10_000.0)
-            {
-                return Err(ArmError::Value {
-                    what: format!("the acceleration of joint {}", i + 1),
-                    value: limits[i].to_degrees(),
-                });
-            }
-            if self.signs[i].abs() != 1 {
-                return Err(ArmError::Value {
-                    what: format!("the sign of joint {}", i + 1),
-                    value: f64::from(self.signs[i]),
-                });
-            }
-            // The solver panics beyond a whole turn.
-            if !(self.offsets[i].abs() <= std::f64::consts::TAU) {
-                return Err(ArmError::Value {
-                    what: format!("the offset of joint {}", i + 1),
-                    value: self.offsets[i].to_degrees(),
-                });
+            let (speed, sign, offset) = (self.speeds[i], self.signs[i], self.offsets[i]);
+            // Where none is known, any allowed one.
+            let acceleration = self.accelerations.map_or(1.0, |limits| limits[i]);
+            let is_fast = speed > 0.0 && speed < 100.0;
+            let accelerates = acceleration > 0.0 && acceleration < 10_000.0;
+            for (is_allowed, what, value) in [
+                (is_fast, "speed", speed.to_degrees()),
+                (accelerates, "acceleration", acceleration.to_degrees()),
+                (sign.abs() == 1, "sign", f64::from(sign)),
+                // The solver panics beyond a whole turn.
+                (offset.abs() <= TAU, "offset", offset.to_degrees()),
+            ] {
+                if !is_allowed {
+                    return Err(ArmError::Value {
+                        what: format!("the {what} of joint {}", i + 1),
+                        value,
+                    });
+                }
             }
         }
         let names = ["a1", "a2", "b", "c1", "c2", "c3", "c4", "base_height"];

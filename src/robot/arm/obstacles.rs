@@ -112,7 +112,7 @@ pub struct Obstacles {
     pub clearance: f64,
     boxes: Vec<CellBox>,
     /// Height of the floor, metres.
-    floor: Option<f64>,
+    pub(super) floor: Option<f64>,
     /// Name of the file of boxes and floor.
     file: Option<String>,
     part: Option<Arc<PartPoints>>,
@@ -197,11 +197,6 @@ impl Obstacles {
             file: Some(file_name(path)),
             ..Self::default()
         })
-    }
-
-    /// Height of the floor, metres.
-    pub(super) fn floor(&self) -> Option<f64> {
-        self.floor
     }
 
     /// Name of the file that its boxes and its floor were read from; `None` without one.

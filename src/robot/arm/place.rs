@@ -9,6 +9,7 @@ use super::{
     kinematics::Solver,
     validate::{PIT, validate},
 };
+use crate::geometry::statistics::sample_evenly;
 
 /// A better place for the base or the rail, and what the arm reaches there.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,13 +42,11 @@ pub fn suggest_base(
     for z in -2..=2 {
         for y in -5..=5 {
             for x in -5..=5 {
-                shifts.push([x, y, z].map(f64::from));
+                let [x, y, z] = [x, y, z].map(f64::from);
+                shifts.push([0.2 * x, 0.2 * y, 0.25 * z]);
             }
         }
     }
-    let shifts = shifts
-        .into_iter()
-        .map(|[x, y, z]| [0.2 * x, 0.2 * y, 0.25 * z]);
     let at = |[x, y, z]: [f64; 3]| {
         let placed = PlacedArm {
             robot_from_base: Translation3::new(x, y, z) * placed.robot_from_base,
@@ -62,7 +61,7 @@ pub fn suggest_base(
         progress,
         is_cancelled,
     };
-    search.best(shifts.collect(), at)
+    search.best(shifts, at)
 }
 
 /// As [`suggest_base`], for a position of the rail, every 100 mm; `None` without a rail, or with one that moves along
@@ -149,10 +148,9 @@ impl Search<'_> {
 
     /// Points to compare places with: some of the path, and the ends of its program.
     fn sample(&self) -> Vec<ArmPoint> {
-        let every = self.points.len().div_ceil(NUM_SAMPLES).max(1);
         let ends = self.params.approach;
         let ends = ends.and_then(|distance| ends_of(self.points, distance));
-        let path = self.points.iter().step_by(every).copied();
+        let path = sample_evenly(self.points, NUM_SAMPLES).copied();
         path.chain(ends.into_iter().flatten()).collect()
     }
 

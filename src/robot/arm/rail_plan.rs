@@ -20,11 +20,11 @@
 //! then reports.
 
 use super::{
-    Arm, ArmError, ArmPoint, CheckParams, PlacedArm,
+    ArmError, ArmPoint, CheckParams, PlacedArm,
     chain::{UPRIGHT, angle_of, move_time, nozzle_at, turns_of},
     kinematics::Solver,
 };
-use crate::geometry::parallel::{map_in_order, num_cores};
+use crate::geometry::parallel::{map_each, num_cores};
 
 /// Distance of two positions, metres, and their largest number.
 const STEP: f64 = 0.1;
@@ -63,19 +63,14 @@ pub(super) fn rail_positions(
         .iter()
         .map(|position| Solver::new(placed, *position))
         .collect();
-    let reached = map_in_order(
-        points.len(),
-        num_cores(),
-        || (),
-        |(), i| {
-            if is_cancelled() {
-                return None;
-            }
-            let at = solvers.iter();
-            let reached = at.map(|solver| configurations(&placed.arm, solver, &points[i]));
-            Some(reached.collect::<Vec<u8>>())
-        },
-    );
+    let reached = map_each(points.len(), num_cores(), |i| {
+        if is_cancelled() {
+            return None;
+        }
+        let at = solvers.iter();
+        let reached = at.map(|solver| configurations(solver, &points[i]));
+        Some(reached.collect::<Vec<u8>>())
+    });
     let reached: Option<Vec<Vec<u8>>> = reached.into_iter().collect();
     let mut now = 0.0;
     let times = points.iter().enumerate().map(|(i, point)| {
@@ -99,14 +94,14 @@ pub(super) fn rail_positions(
 }
 
 /// The configurations that reach a point at some turn of the nozzle, a bit for each.
-fn configurations(arm: &Arm, solver: &Solver<'_>, point: &ArmPoint) -> u8 {
+fn configurations(solver: &Solver<'_>, point: &ArmPoint) -> u8 {
     // A fan keeps its orientation between two points, so only configurations that reach the point in this one count.
     let num_turns = if point.is_turn_free { NUM_TURNS } else { 1 };
     let mut found = 0;
     for turn in turns_of(point, num_turns) {
         let pose = nozzle_at(point, UPRIGHT, angle_of(turn, num_turns));
         for joints in solver.solutions(&pose, None) {
-            let bit = arm.configuration_bit(&joints);
+            let bit = solver.arm.configuration_bit(&joints);
             let is_reached = found & bit == 0
                 && solver.beyond_limit(&joints).is_none()
                 && solver.singularity(&joints).is_none()

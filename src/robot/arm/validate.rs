@@ -20,20 +20,17 @@ pub(super) fn validate(
     if points.is_empty() {
         return Err(ArmError::NoPoints);
     }
-    if !is_finite(&placed.robot_from_base) {
-        return not_finite("the pose of the arm's base".into());
-    }
-    if !is_finite(&placed.flange_from_nozzle) {
-        return not_finite("the pose of the nozzle on the flange".into());
-    }
-    if !params.rail.is_finite() {
-        return not_finite("the position of the rail".into());
-    }
-    if params
-        .approach
-        .is_some_and(|distance| !distance.is_finite())
-    {
-        return not_finite("the distance of the approach point".into());
+    let (base, nozzle) = (&placed.robot_from_base, &placed.flange_from_nozzle);
+    let approach = params.approach.unwrap_or(0.0);
+    for (is_sound, what) in [
+        (is_finite(base), "the pose of the arm's base"),
+        (is_finite(nozzle), "the pose of the nozzle on the flange"),
+        (params.rail.is_finite(), "the position of the rail"),
+        (approach.is_finite(), "the distance of the approach point"),
+    ] {
+        if !is_sound {
+            return not_finite(what.into());
+        }
     }
     if !(1..=MAX_TURNS).contains(&params.num_turns) {
         return Err(ArmError::Value {

@@ -77,7 +77,7 @@ impl WayEnd {
 /// configuration there. The approach and the retreat are straight.
 pub(super) fn may_move_by_joints(arm: &Arm, start: &ArmPoint, end: &ArmPoint) -> bool {
     let is_end_of_program = start.is_stop && end.is_stop;
-    arm.maker().is_some() && !start.is_gun_on && !end.is_gun_on && !is_end_of_program
+    arm.maker.is_some() && !start.is_gun_on && !end.is_gun_on && !is_end_of_program
 }
 
 /// Finds how the arm moves from one chosen solution to the next, and the problem of that move, if any.

@@ -10,7 +10,10 @@ use serde::Deserialize;
 
 use super::{CalibrationError, CameraPlace, CellCalibration, Origin, numbers_text};
 use crate::{
-    files::{FileError, crc32, disk, read_text, user_data, write_atomically},
+    files::{
+        FileError, crc32, disk, folder_of, parse_versioned, read_text, toml_problem, user_data,
+        write_text,
+    },
     geometry::rigid::{from_row_major, row_major},
     robot::hand_eye::Mount,
 };
@@ -81,17 +84,9 @@ impl CellCalibration {
 
     /// Writes a calibration, whole or not at all. Creates the folder if it is missing.
     pub fn save(&self, path: &Path) -> Result<(), CalibrationError> {
-        if let Some(folder) = path
-            .parent()
-            .filter(|folder| !folder.as_os_str().is_empty())
-        {
-            disk::create_dir_all(folder).map_err(|source| FileError::Write {
-                path: path.to_owned(),
-                source,
-            })?;
-        }
+        disk::create_dir_all(folder_of(path)).map_err(|source| FileError::writing(path, source))?;
         let text = self.checked_text(path)?;
-        write_atomically(path, |writer| writer.write_all(text.as_bytes()))?;
+        write_text(path, &text)?;
         Ok(())
     }
 
@@ -124,7 +119,7 @@ impl CellCalibration {
         };
         let kept = former.map(|text| {
             let kept = path.with_extension("former.toml");
-            write_atomically(&kept, |writer| writer.write_all(text.as_bytes()))?;
+            write_text(&kept, &text)?;
             Ok::<_, FileError>(kept)
         });
         let kept = kept.transpose()?;
@@ -179,11 +174,6 @@ fn written(number: f64) -> String {
 }
 
 fn parse(text: &str, path: &Path) -> Result<Loaded, CalibrationError> {
-    /// The one field that every version has.
-    #[derive(Deserialize)]
-    struct Versioned {
-        schema_version: u32,
-    }
     let bad = |found: String| CalibrationError::Bad {
         path: path.to_owned(),
         found,
@@ -193,17 +183,14 @@ fn parse(text: &str, path: &Path) -> Result<Loaded, CalibrationError> {
             let before = text.get(..span.start).unwrap_or_default();
             format!("line {}: ", before.matches('\n').count() + 1)
         });
-        let what = error.message().lines().next().unwrap_or("no TOML");
+        let what = toml_problem(&error);
         bad(format!("{}{what}", line.unwrap_or_default()))
     };
-    let Versioned { schema_version } = toml::from_str(text).map_err(no_toml)?;
-    if schema_version > SCHEMA_VERSION {
-        return Err(CalibrationError::Newer {
-            path: path.to_owned(),
-            found: schema_version,
-        });
-    }
-    let read: Text = toml::from_str(text).map_err(no_toml)?;
+    let newer = |found| CalibrationError::Newer {
+        path: path.to_owned(),
+        found,
+    };
+    let read: Text = parse_versioned(text, SCHEMA_VERSION, newer, no_toml)?;
     let numbers_of = |rows: &Matrix| -> [f64; 16] { std::array::from_fn(|i| rows[i / 4][i % 4]) };
     let rigid = |key: &'static str, rows: &Matrix| {
         let numbers = numbers_of(rows);
@@ -222,10 +209,9 @@ fn parse(text: &str, path: &Path) -> Result<Loaded, CalibrationError> {
         },
         Mount::EyeInHand => CameraPlace::OnFlange {
             flange_from_camera: needed("flange_from_camera", &read.flange_from_camera)?,
-            capture_pose: match &read.robot_from_flange {
-                Some(rows) => Some(rigid("robot_from_flange", rows)?),
-                None => None,
-            },
+            capture_pose: (read.robot_from_flange.as_ref())
+                .map(|rows| rigid("robot_from_flange", rows))
+                .transpose()?,
         },
     };
     let mut calibration = CellCalibration {

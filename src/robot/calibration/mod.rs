@@ -270,7 +270,12 @@ impl CellCalibration {
 
     /// Its name and identity, for people.
     pub fn shown_with_identity(&self) -> String {
-        format!("{} ({})", self.shown_name(), self.identity())
+        let name = if self.name.is_empty() {
+            UNNAMED
+        } else {
+            self.name.as_str()
+        };
+        format!("{name} ({})", self.identity())
     }
 
     /// Eight hexadecimal digits that identify its transforms: equal for the same camera in the same place.
@@ -298,15 +303,6 @@ impl CellCalibration {
                 let camera = std::iter::once(("flange_from_camera", flange_from_camera));
                 camera.chain(arm).collect()
             }
-        }
-    }
-
-    /// Its name, or a placeholder if it has none.
-    pub fn shown_name(&self) -> &str {
-        if self.name.is_empty() {
-            UNNAMED
-        } else {
-            &self.name
         }
     }
 }

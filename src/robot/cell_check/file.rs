@@ -3,10 +3,7 @@
 //! `baseline.toml` names the file of the points, `part-CHECKSUM.pcd`, which is written before it: a power cut leaves
 //! the old baseline or the new one. `checks.jsonl` has a line per check, the newest last.
 
-use std::{
-    io,
-    path::{Path, PathBuf},
-};
+use std::path::{Path, PathBuf};
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -15,8 +12,8 @@ use super::{CellBaseline, CellCheck, CellLimits, CellView, view::PlanePatch};
 use crate::{
     error::Advice,
     files::{
-        FileContent, FileError, crc32, disk, lock_exclusively, open, read_text, user_data,
-        write_atomically, write_pcd,
+        FileContent, FileError, crc32, disk, lock_exclusively, open, parse_versioned, read_text,
+        toml_problem, user_data, write_atomically, write_pcd, write_text,
     },
     geometry::cloud::is_finite,
     units::{Metres, Radians},
@@ -155,9 +152,7 @@ impl CellCheckFolder {
         let text = toml::to_string(&text).expect("numbers and text have a TOML form");
         self.writing(|| {
             write_atomically(&self.path.join(&name), |writer| writer.write_all(&points))?;
-            write_atomically(&self.path.join(BASELINE), |writer| {
-                writer.write_all(text.as_bytes())
-            })?;
+            write_text(&self.path.join(BASELINE), &text)?;
             self.remove_points_but(&name);
             Ok(())
         })
@@ -181,11 +176,6 @@ impl CellCheckFolder {
 
     /// Reads the baseline.
     pub fn baseline(&self) -> Result<CellBaseline, CellCheckError> {
-        /// The one field that every version has.
-        #[derive(Deserialize)]
-        struct Versioned {
-            schema_version: u32,
-        }
         let path = self.path.join(BASELINE);
         let bad = |found: String| CellCheckError::Bad {
             path: path.clone(),
@@ -199,22 +189,13 @@ impl CellCheckFolder {
             }
             text => text?,
         };
-        let first_line = |error: toml::de::Error| {
-            bad(error
-                .message()
-                .lines()
-                .next()
-                .unwrap_or("no TOML")
-                .to_owned())
+        let newer = |found| CellCheckError::Newer {
+            path: path.clone(),
+            found,
         };
-        let Versioned { schema_version } = toml::from_str(&text).map_err(first_line)?;
-        if schema_version > SCHEMA_VERSION {
-            return Err(CellCheckError::Newer {
-                path,
-                found: schema_version,
-            });
-        }
-        let read: Text = toml::from_str(&text).map_err(first_line)?;
+        let read: Text = parse_versioned(&text, SCHEMA_VERSION, newer, |error| {
+            bad(toml_problem(&error))
+        })?;
         if Path::new(&read.part).file_name() != Some(read.part.as_ref()) {
             return Err(bad("the file of the points beside it is missing".into()));
         }
@@ -272,7 +253,7 @@ impl CellCheckFolder {
             }
             text += &line;
             text.push('\n');
-            write_atomically(&path, |writer| writer.write_all(text.as_bytes()))?;
+            write_text(&path, &text)?;
             Ok(())
         })
     }
@@ -303,10 +284,7 @@ impl CellCheckFolder {
         &self,
         change: impl FnOnce() -> Result<T, CellCheckError>,
     ) -> Result<T, CellCheckError> {
-        let failed = |source: io::Error| FileError::Write {
-            path: self.path.clone(),
-            source,
-        };
+        let failed = |source| FileError::writing(&self.path, source);
         disk::create_dir_all(&self.path).map_err(failed)?;
         let _lock = lock_exclusively(&self.path.join(LOCK)).map_err(failed)?;
         change()

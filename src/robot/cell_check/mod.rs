@@ -29,6 +29,7 @@ use crate::{
         cloud::PointCloud,
         plane::Plane,
         rigid::{PoseDelta, RigidTransform, pose_error},
+        statistics::lower_median,
         voxel::downsample,
     },
     stages::pose::{PoseError, PoseEstimate, PoseMethod, PreparedTarget, align_to},
@@ -174,11 +175,10 @@ impl CellBaseline {
         }
         let all = views.iter().flat_map(|view| view.part.points.iter());
         let all = PointCloud::from_points(all.copied());
-        let mut noise: Vec<f64> = views.iter().map(|view| view.noise_at_1m.0).collect();
         Ok(Self {
             view: CellView {
                 part: downsample(&all, SPACING),
-                noise_at_1m: Metres(median(&mut noise)),
+                noise_at_1m: Metres(median_noise(views)),
                 ..alone.view
             },
             ..alone
@@ -269,8 +269,7 @@ impl CellBaseline {
         let off = pose_error(&moved, &RigidTransform::identity(), &middle);
         let shift: Vector3<f64> = moved * middle - middle;
         let background = self.background_shift(views);
-        let mut noise: Vec<f64> = views.iter().map(|view| view.noise_at_1m.0).collect();
-        let noise_ratio = median(&mut noise) / self.view.noise_at_1m.0;
+        let noise_ratio = median_noise(views) / self.view.noise_at_1m.0;
         let stays = background.map(|shift| shift <= self.limits.shift);
         let together = self.moved_together(views, &moved);
         let finding = match (self.limits.allow(&off), stays, together) {
@@ -323,8 +322,7 @@ impl CellBaseline {
             let shifts = pairs.map(|(expected, now)| expected.distance_to(&now).0);
             shifts.max_by(f64::total_cmp)
         });
-        let mut shifts: Vec<f64> = shifts.collect();
-        (!shifts.is_empty()).then(|| Metres(median(&mut shifts)))
+        lower_median(shifts).map(Metres)
     }
 
     /// Returns true if wall and floor of most views can have moved with the part. The part's motion is known to within
@@ -348,8 +346,7 @@ impl CellBaseline {
     }
 }
 
-/// Returns the median; the lower of the two middle values if their number is even.
-fn median(values: &mut [f64]) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values[(values.len() - 1) / 2]
+/// Median noise of the views' depth at 1 m; zero without views.
+fn median_noise(views: &[CellView]) -> f64 {
+    lower_median(views.iter().map(|view| view.noise_at_1m.0)).unwrap_or(0.0)
 }

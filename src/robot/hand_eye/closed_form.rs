@@ -5,7 +5,7 @@
 
 use nalgebra::{DMatrix, DVector, Isometry3, Matrix3, SMatrix, Translation3, Vector3};
 
-use super::{Equation, HandEyeSolution, LEAST_PAIRS};
+use super::{Equation, HandEyeSolution};
 use crate::geometry::rigid::rotation_nearest_to;
 
 /// Singular values below this share of the largest are rounding errors: the shift along them is left at 0.
@@ -21,9 +21,6 @@ pub(super) struct ClosedForm {
 /// Solves at least three equations for X and Z; `None` if they do not determine any answer. The accuracy is not
 /// assessed.
 pub(super) fn solve(equations: &[Equation]) -> Option<ClosedForm> {
-    if equations.len() < LEAST_PAIRS {
-        return None;
-    }
     let mut mean = SMatrix::<f64, 9, 9>::zeros();
     for equation in equations {
         let g = rotation(&equation.anchor_from_mount);

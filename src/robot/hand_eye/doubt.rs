@@ -227,25 +227,19 @@ pub(super) fn doubts(
     }
     let suspects = suspects(equations);
     // At most one pair in three can be a slip; more suspects mean a mistake in all pairs.
-    let is_few = |pairs: &Vec<usize>| 3 * pairs.len() <= equations.len();
-    let suspects = suspects.filter(|found| is_few(&found.pairs));
+    let suspects = suspects.filter(|found| 3 * found.pairs.len() <= equations.len());
     let rms_of_most = suspects.as_ref().map_or(residuals.rms, |found| found.rms);
     doubts.extend(disagreement(equations, rms_of_most));
     if !doubts.iter().any(HandEyeDoubt::is_grave) {
         doubts.extend(far);
     }
     if let Some(found) = suspects {
-        doubts.extend(
-            found
-                .pairs
-                .iter()
-                .zip(&found.off)
-                .map(|(&i, off)| HandEyeDoubt::Suspect {
-                    pair: pairs[i].name.clone(),
-                    off: *off,
-                    others: found.rms,
-                }),
-        );
+        let suspect = |(i, off): (usize, PoseDelta)| HandEyeDoubt::Suspect {
+            pair: pairs[i].name.clone(),
+            off,
+            others: found.rms,
+        };
+        doubts.extend(found.pairs.into_iter().map(suspect));
     }
     let is_tight = bounds.shift <= LOOSE.shift && bounds.turn <= LOOSE.turn;
     let is_grave = doubts.iter().any(HandEyeDoubt::is_grave);

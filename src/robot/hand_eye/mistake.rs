@@ -1,10 +1,13 @@
 //! Why pairs do not agree: each common mistake is undone in turn, and the one that makes them agree is reported.
 
-use nalgebra::{Isometry3, Point3, Translation3};
+use nalgebra::{Isometry3, Translation3, Vector3};
 
 use super::{Equation, closed_form, doubt::HandEyeDoubt, refine};
 use crate::{
-    geometry::rigid::{PoseDelta, RigidTransform},
+    geometry::{
+        rigid::{PoseDelta, RigidTransform},
+        statistics::median,
+    },
     units::{Metres, Radians},
 };
 
@@ -77,24 +80,19 @@ fn turns_apart(equations: &[Equation]) -> Radians {
             apart.push((robot - camera).abs());
         }
     }
-    apart.sort_by(f64::total_cmp);
-    Radians(apart.get(apart.len() / 2).copied().unwrap_or(0.0))
+    Radians(median(apart.into_iter()).unwrap_or(0.0))
 }
 
 /// Disagreement of the equations, independent of their unit of length: shifts are relative to the spread of the
 /// targets.
 fn quality(equations: &[Equation], rms: PoseDelta) -> f64 {
-    let positions = || {
-        equations
-            .iter()
-            .map(|e| Point3::from(e.camera_from_target.translation.vector))
-    };
-    let middle = positions().fold(nalgebra::Vector3::zeros(), |sum, p| sum + p.coords)
-        / equations.len().max(1) as f64;
-    let spread_sq = positions()
-        .map(|p| (p.coords - middle).norm_squared())
-        .sum::<f64>();
-    let spread = (spread_sq / equations.len().max(1) as f64).sqrt();
+    let positions = equations
+        .iter()
+        .map(|e| e.camera_from_target.translation.vector);
+    let num = equations.len() as f64;
+    let middle = positions.clone().sum::<Vector3<f64>>() / num;
+    let spread_sq: f64 = positions.map(|p| (p - middle).norm_squared()).sum();
+    let spread = (spread_sq / num).sqrt();
     rms.shift.0 / spread.max(f64::MIN_POSITIVE) + rms.rotation.0
 }
 

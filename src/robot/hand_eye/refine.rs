@@ -121,11 +121,8 @@ fn residual(
         .inv_mul(&(equation.anchor_from_mount * seen));
     let turn = error.rotation.scaled_axis();
     let shift = error.translation.vector / lever;
-    (error, stacked(&turn, &shift))
-}
-
-fn stacked(turn: &Vector3<f64>, shift: &Vector3<f64>) -> SVector<f64, 6> {
-    SVector::from_iterator(turn.iter().chain(shift.iter()).copied())
+    let residual = SVector::from_iterator(turn.iter().chain(shift.iter()).copied());
+    (error, residual)
 }
 
 fn sum_of_squares(equations: &[Equation], unknowns: &HandEyeSolution, lever: f64) -> f64 {

@@ -33,10 +33,8 @@ const LEVER: f64 = 0.57;
 /// The suspect pairs, and how well the others agree without them.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Suspects {
-    /// Indices in ascending order.
-    pub(super) pairs: Vec<usize>,
-    /// Deviation of each suspect from the fit of the others.
-    pub(super) off: Vec<PoseDelta>,
+    /// Indices in ascending order, each with its deviation from the fit of the others.
+    pub(super) pairs: Vec<(usize, PoseDelta)>,
     /// Root mean square of the others.
     pub(super) rms: PoseDelta,
 }
@@ -95,13 +93,13 @@ pub(super) fn suspects(equations: &[Equation]) -> Option<Suspects> {
         // The fit of two poses takes up two pairs' worth of residuals.
         scale = (sum_sq / (rest.len() as f64 - 2.0)).sqrt();
     }
-    let pairs: Vec<usize> = (0..num).filter(|i| !kept.contains(i)).collect();
-    let off = |i: &usize| equations[*i].off(&fit);
-    let kept: Vec<PoseDelta> = kept.iter().map(off).collect();
+    let (others, pairs): (Vec<_>, Vec<_>) = (0..num)
+        .map(|i| (i, equations[i].off(&fit)))
+        .partition(|(i, _)| kept.contains(i));
+    let others: Vec<PoseDelta> = others.into_iter().map(|(_, off)| off).collect();
     (!pairs.is_empty()).then(|| Suspects {
-        off: pairs.iter().map(off).collect(),
         pairs,
-        rms: rms(&kept),
+        rms: rms(&others),
     })
 }
 

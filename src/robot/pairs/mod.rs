@@ -5,7 +5,6 @@
 //! names the convention of the robot's poses, `# camera: matrix` that of the camera's; the default for the camera is
 //! `matrix`. Cells are separated by commas, semicolons (then commas may be decimal), tabs or spaces; a heading and
 //! comments (`#`) are skipped.
-//! heading and comments (`#`) are read over.
 //!
 //! ```text
 //! # robot: kuka          X Y Z mm, A B C degrees
@@ -21,11 +20,12 @@
 //! without the camera's numbers; the name is then that of the capture.
 
 mod error;
-mod json;
 #[cfg(test)]
 mod tests;
 
 use std::path::Path;
+
+use serde::Deserialize;
 
 use super::{Convention, hand_eye::PosePair};
 use crate::{
@@ -42,6 +42,22 @@ pub struct PairConventions {
     pub robot: Option<Convention>,
     /// Of the camera's poses.
     pub camera: Option<Convention>,
+}
+
+impl PairConventions {
+    /// The conventions of the robot's and the camera's poses, given those that the file names.
+    fn or(
+        self,
+        [robot, camera]: [Option<Convention>; 2],
+        path: &Path,
+    ) -> Result<(Convention, Convention), PairsError> {
+        let robot = self.robot.or(robot);
+        let robot = robot.ok_or_else(|| PairsError::NoConvention {
+            path: path.to_owned(),
+        })?;
+        let camera = self.camera.or(camera).unwrap_or(Convention::Matrix);
+        Ok((robot, camera))
+    }
 }
 
 /// A file of pairs.
@@ -72,8 +88,8 @@ const MAX_BYTES: u64 = 4 << 20;
 /// Reads a file of pairs.
 pub fn read_pairs(path: &Path, given: PairConventions) -> Result<Pairs, PairsError> {
     let text = read_text(path, MAX_BYTES)?;
-    if json::is_json(&text) {
-        return json::pairs(&text, path, given);
+    if text.trim_start().starts_with('{') {
+        return json_pairs(&text, path, given);
     }
     let (robot, camera) = conventions(&text, path, given)?;
     let rows = rows(
@@ -101,6 +117,56 @@ pub fn read_pairs(path: &Path, given: PairConventions) -> Result<Pairs, PairsErr
             name: row.name(),
             robot_from_flange: pose(robot, arm)?,
             camera_from_target: pose(camera, seen)?,
+        })
+    });
+    Ok(Pairs {
+        pairs: pairs.collect::<Result<_, PairsError>>()?,
+        robot,
+        camera,
+    })
+}
+
+#[derive(Deserialize)]
+struct JsonFile {
+    robot: Option<Convention>,
+    camera: Option<Convention>,
+    pairs: Vec<JsonPair>,
+}
+
+#[derive(Deserialize)]
+struct JsonPair {
+    name: Option<String>,
+    robot: Vec<f64>,
+    camera: Vec<f64>,
+}
+
+fn json_pairs(text: &str, path: &Path, given: PairConventions) -> Result<Pairs, PairsError> {
+    let file: JsonFile = serde_json::from_str(text).map_err(|error| PairsError::BadJson {
+        path: path.to_owned(),
+        found: error.to_string(),
+    })?;
+    let (robot, camera) = given.or([file.robot, file.camera], path)?;
+    if file.pairs.is_empty() {
+        return Err(PairsError::NoPoses {
+            path: path.to_owned(),
+        });
+    }
+    let pairs = file.pairs.into_iter().enumerate().map(|(i, pair)| {
+        let place = format!("pair {}", i + 1);
+        let pose = |convention: Convention, numbers: &[f64]| {
+            convention.read(numbers).map_err(|error| PairsError::Line {
+                path: path.to_owned(),
+                place: place.clone(),
+                problem: LineProblem::Pose(error),
+            })
+        };
+        Ok(PosePair {
+            robot_from_flange: pose(robot, &pair.robot)?,
+            camera_from_target: pose(camera, &pair.camera)?,
+            name: match pair.name {
+                Some(name) => format!("{name} ({place})"),
+                None => place,
+            },
         })
     });
     Ok(Pairs {
@@ -166,14 +232,7 @@ fn conventions(
             },
         })?);
     }
-    let robot = given
-        .robot
-        .or(robot)
-        .ok_or_else(|| PairsError::NoConvention {
-            path: path.to_owned(),
-        })?;
-    let camera = given.camera.or(camera).unwrap_or(Convention::Matrix);
-    Ok((robot, camera))
+    given.or([robot, camera], path)
 }
 
 /// One line of a table.

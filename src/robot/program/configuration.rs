@@ -30,7 +30,7 @@ const MOST_JBI: f64 = 360.0;
 
 /// Returns the arm's configuration with these joints; `None` if it is not certain.
 pub(super) fn configuration(format: ProgramFormat, arm: &Arm, joints: &Joints) -> Option<String> {
-    if arm.maker() != Some(format.convention()) {
+    if arm.maker != Some(format.convention()) {
         return None;
     }
     let [is_ahead, is_elbow_up, _] = arm.configuration(joints);

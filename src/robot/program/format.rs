@@ -22,7 +22,7 @@ pub enum ProgramFormat {
     Drl,
 }
 
-/// File endings of all formats, without the dot.
+/// File endings of all formats, in their order, without the dot.
 pub const PROGRAM_ENDINGS: [&str; 6] = ["src", "ls", "mod", "script", "jbi", "drl"];
 
 impl ProgramFormat {
@@ -62,14 +62,7 @@ impl ProgramFormat {
 
     /// The ending of its files, without the dot.
     pub fn ending(self) -> &'static str {
-        match self {
-            Self::Krl => PROGRAM_ENDINGS[0],
-            Self::Ls => PROGRAM_ENDINGS[1],
-            Self::Rapid => PROGRAM_ENDINGS[2],
-            Self::UrScript => PROGRAM_ENDINGS[3],
-            Self::Jbi => PROGRAM_ENDINGS[4],
-            Self::Drl => PROGRAM_ENDINGS[5],
-        }
+        PROGRAM_ENDINGS[self as usize]
     }
 
     /// Finds the format by the file's ending.

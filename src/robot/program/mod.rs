@@ -309,14 +309,12 @@ impl Program<'_> {
                 ));
             }
             let is_named = steps.first().is_some_and(|s| s.configuration.is_some());
-            lines.push(if is_named {
-                format!(
-                    "arm: {}, in the configuration that was checked",
-                    arm.arm.name
-                )
+            let configuration = if is_named {
+                "in the configuration that was checked"
             } else {
-                format!("arm: {}, its configuration is not named here", arm.arm.name)
-            });
+                "its configuration is not named here"
+            };
+            lines.push(format!("arm: {}, {configuration}", arm.arm.name));
             let obstacles = &arm.obstacles;
             let boxes = match obstacles.file() {
                 Some(file) => format!("part, arm and {file}"),

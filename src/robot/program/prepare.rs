@@ -113,7 +113,6 @@ mod tests {
             let camera_from_nozzle = Isometry3::from_parts(at, turn);
             CarriedPoint {
                 camera_from_nozzle,
-                part_from_nozzle: camera_from_nozzle,
                 meets: None,
                 band: BandStatus::NotSeen,
                 is_gun_on: true,

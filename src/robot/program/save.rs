@@ -12,7 +12,7 @@ use super::{
     text::Lines,
     urscript_drl,
 };
-use crate::files::{FileError, crc32, disk, folder_of, open_regular, write_atomically};
+use crate::files::{FileError, crc32, disk, folder_of, open_regular, write_text};
 
 /// The text of a program, and of the programs that it calls if one would be too long.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -92,13 +92,10 @@ impl Program<'_> {
             // While the parts are written, there must be no main program that calls them.
             remove_previous_program(path)?;
         }
-        let write = |path: &Path, text: &str| {
-            write_atomically(path, |writer| writer.write_all(text.as_bytes()))
-        };
         let mut all = parts.iter();
         let saved = all
-            .try_for_each(|(name, text)| write(&beside(path, name), text))
-            .and_then(|()| write(path, &main));
+            .try_for_each(|(name, text)| write_text(&beside(path, name), text))
+            .and_then(|()| write_text(path, &main));
         if saved.is_err() && !parts.is_empty() {
             // If this fails too, they are removed before the next program is written.
             drop(remove_previous_program(path));

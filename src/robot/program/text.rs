@@ -1,7 +1,9 @@
 //! Lines of a program, and their numbers.
 
 use super::ProgramFormat;
-use crate::{geometry::rigid::RigidTransform, robot::RobotPose};
+use crate::{geometry::rigid::RigidTransform, robot::RobotValue};
+
+pub(super) use crate::robot::robot_pose::fixed;
 
 /// The growing text of a program, and its number of instructions.
 #[derive(Debug, Default)]
@@ -85,18 +87,6 @@ fn ascii_of(c: char) -> char {
     }
 }
 
-/// Formats a number with fixed decimals; zero has no minus sign.
-pub(super) fn fixed(value: f64, decimals: usize) -> String {
-    let text = format!("{value:.decimals$}");
-    let is_zero = text.bytes().all(|c| matches!(c, b'-' | b'.' | b'0'));
-    let text = if is_zero {
-        text.trim_start_matches('-')
-    } else {
-        &text
-    };
-    text.to_owned()
-}
-
 /// Formats a rail's position in millimetres.
 pub(super) fn rail_mm(metres: f64) -> String {
     fixed(1000.0 * metres, 3)
@@ -104,9 +94,6 @@ pub(super) fn rail_mm(metres: f64) -> String {
 
 /// Formats a pose in the language's convention: to a micrometre, and 1e-4° or 1e-6 rad.
 pub(super) fn numbers(format: ProgramFormat, pose: &RigidTransform) -> Vec<String> {
-    let RobotPose { values, .. } = format.convention().write(pose);
-    values
-        .iter()
-        .map(crate::robot::RobotValue::rounded)
-        .collect()
+    let values = format.convention().write(pose).values;
+    values.iter().map(RobotValue::rounded).collect()
 }

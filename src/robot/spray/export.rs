@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::{BandStatus, CarriedPath, MOST_TILT};
 use crate::{
-    files::{FileError, csv_comment, disk, open_regular, write_atomically},
+    files::{FileError, csv_comment, disk, open_regular, write_text},
     robot::{Convention, RobotFrame, RobotPose, RobotValue},
     stages::stand_off::StandOffParams,
 };
@@ -38,25 +38,6 @@ pub struct SprayExport<'a> {
     pub at: Timestamp,
 }
 
-/// Kind of file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SprayFormat {
-    /// CSV below a header of comments.
-    Csv,
-    /// JSON.
-    Json,
-}
-
-impl SprayFormat {
-    /// Finds the format by the file's ending: JSON for `.json`, else CSV.
-    pub fn of(path: &Path) -> Self {
-        let is_json = path
-            .extension()
-            .is_some_and(|e| e.eq_ignore_ascii_case("json"));
-        if is_json { Self::Json } else { Self::Csv }
-    }
-}
-
 /// Beginnings by which each kind of file is recognised.
 const BEGINNINGS: [&str; 2] = ["# Partsight spray path", "{\n  \"schema\": 1,\n  \"part\""];
 
@@ -73,10 +54,7 @@ pub fn remove_previous_export(path: &Path) -> Result<bool, FileError> {
     if !BEGINNINGS.iter().any(|ours| beginning.starts_with(ours)) {
         return Ok(false);
     }
-    disk::remove_file(path).map_err(|source| FileError::Write {
-        path: path.to_owned(),
-        source,
-    })?;
+    disk::remove_file(path).map_err(|source| FileError::writing(path, source))?;
     Ok(true)
 }
 
@@ -116,13 +94,13 @@ const FRAME: &str = "the robot's base frame";
 const TOOL: &str = "origin at the nozzle's mouth, z in the direction in which it points (towards the part), x along the fan's long side or, for a round jet, nearest to the part's x axis, y = z × x";
 
 impl SprayExport<'_> {
-    /// Writes the file, whole or not at all.
+    /// Writes the file, whole or not at all: JSON if its name ends in `.json`, else CSV.
     pub fn save(&self, path: &Path) -> Result<(), FileError> {
-        let text = match SprayFormat::of(path) {
-            SprayFormat::Csv => self.csv(),
-            SprayFormat::Json => self.json(),
-        };
-        write_atomically(path, |writer| writer.write_all(text.as_bytes()))
+        let is_json = path
+            .extension()
+            .is_some_and(|e| e.eq_ignore_ascii_case("json"));
+        let text = if is_json { self.json() } else { self.csv() };
+        write_text(path, &text)
     }
 
     fn poses(&self) -> impl Iterator<Item = RobotPose> {

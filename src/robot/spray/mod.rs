@@ -30,7 +30,7 @@ use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, Translation3, UnitQuaterni
 
 use crate::{
     error::Advice,
-    geometry::{cloud::PointCloud, rigid::RigidTransform},
+    geometry::{cloud::PointCloud, rigid::RigidTransform, statistics::median},
     library::{PathPoint, SprayPath},
     stages::{
         reference::Reference,
@@ -42,7 +42,7 @@ use crate::{
     units::{Metres, Radians, counted},
 };
 
-pub use self::export::{SprayExport, SprayFormat, remove_previous_export};
+pub use self::export::{SprayExport, remove_previous_export};
 
 /// Largest angle between ray and surface normal; beyond it a coat is uneven.
 pub const MOST_TILT: Radians = Radians(std::f64::consts::FRAC_PI_6);
@@ -59,8 +59,6 @@ pub struct CarriedPath {
 pub struct CarriedPoint {
     /// Pose of the tool in camera space: origin at the mouth, z towards the part.
     pub camera_from_nozzle: RigidTransform,
-    /// The same in part space, before the pose carried it.
-    pub part_from_nozzle: RigidTransform,
     /// Where the ray meets the surface that the camera saw, if it does.
     pub meets: Option<SurfaceHit>,
     /// The point's status against the band.
@@ -133,9 +131,7 @@ impl CarriedPath {
     /// Median distance from the nozzle to the surface where the camera sees it; that of the band's middle if nowhere.
     pub fn stand_off(&self) -> f64 {
         let hits = self.points.iter().filter_map(|point| point.meets);
-        let mut distances: Vec<f64> = hits.map(|hit| hit.distance.0).collect();
-        distances.sort_by(f64::total_cmp);
-        let middle = distances.get(distances.len() / 2).copied();
+        let middle = median(hits.map(|hit| hit.distance.0));
         middle.unwrap_or(StandOffParams::default().taught.0)
     }
 
@@ -178,7 +174,6 @@ pub fn carry(
         let meets = meeting(&camera_from_nozzle, &surface, expected);
         CarriedPoint {
             camera_from_nozzle,
-            part_from_nozzle,
             meets,
             band: band_of(meets, params),
             is_gun_on: point.is_gun_on,

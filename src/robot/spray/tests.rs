@@ -221,7 +221,7 @@ fn the_nozzle_does_not_turn_around_where_a_fan_changes_its_sign() {
     for (pair, taught) in carried.points.windows(2).zip(path.points()) {
         let [a, b] = [&pair[0], &pair[1]].map(|point| point.camera_from_nozzle.rotation);
         assert!(a.angle_to(&b) < 0.4, "{}", a.angle_to(&b));
-        let fan = pair[0].part_from_nozzle * Vector3::x();
+        let fan = pose.inverse() * pair[0].camera_from_nozzle * Vector3::x();
         assert!(fan.cross(&taught.fan.expect("a fan")).norm() < 1e-9);
     }
 }
@@ -271,7 +271,7 @@ fn every_line_of_an_export_reads_back_to_the_nozzle_in_the_robots_frame() {
             assert_eq!(cells[num + 3..], ["inside", "1", ""]);
             let text = format!("{} {}", convention.name(), cells[1..=num].join(" "));
             let read = parse_written_pose(&text).expect("a pose").pose;
-            let expected = frame.robot_from_camera * pose * point.part_from_nozzle;
+            let expected = frame.robot_from_camera * point.camera_from_nozzle;
             assert!(
                 (read.translation.vector - expected.translation.vector).norm() < 2e-6,
                 "{line}"

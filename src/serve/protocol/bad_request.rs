@@ -2,7 +2,11 @@
 
 use thiserror::Error;
 
-use super::{ByteOrder, binary::VERSION, plain};
+use super::{
+    ByteOrder,
+    binary::{REQUEST_BYTES, VERSION},
+    plain,
+};
 use crate::error::Advice;
 
 /// Why bytes are not a request. The client gets this as an answer and is disconnected, because the start of the next
@@ -37,7 +41,7 @@ pub enum BadRequest {
     #[error("the frame does not begin with PSRQ")]
     Magic,
     /// The frame has another version, or the other byte order.
-    #[error("the frame has version {found}, expected {}", VERSION)]
+    #[error("the frame has version {found}, expected {VERSION}")]
     Version {
         /// The version found.
         found: u16,
@@ -45,12 +49,10 @@ pub enum BadRequest {
         order: ByteOrder,
     },
     /// The frame's length field is not the length of a request.
-    #[error("the frame gives its length as {found} bytes, expected {expected}")]
+    #[error("the frame gives its length as {found} bytes, expected {REQUEST_BYTES}")]
     Length {
         /// The length found.
         found: u16,
-        /// The length of a request.
-        expected: u16,
     },
     /// The frame was corrupted, or its sender computes the checksum differently.
     #[error("the frame's checksum is {found:08x}, expected {expected:08x}")]

@@ -37,7 +37,7 @@
 //! | 200 | 52 | message, cut off |
 //! | 252 | 4 | checksum |
 
-use super::{ByteOrder, bad_request::BadRequest, parsed::Parsed};
+use super::{ByteOrder, Parsed, bad_request::BadRequest};
 use crate::{
     files::crc32,
     robot::Convention,
@@ -64,33 +64,24 @@ pub(super) fn parse(bytes: &[u8], order: ByteOrder) -> Parsed {
     }
     match bytes.first_chunk() {
         Some(frame) => Parsed::read(REQUEST_BYTES, request_in(frame, order)),
-        None => Parsed::PARTIAL,
+        None => Parsed::skipped(0),
     }
 }
 
 fn request_in(frame: &[u8; REQUEST_BYTES], order: ByteOrder) -> Result<Request, BadRequest> {
     let short = |at| u16_of(frame, at, order);
-    let version = short(4);
-    if version != VERSION {
-        return Err(BadRequest::Version {
-            found: version,
-            order,
-        });
+    let found = short(4);
+    if found != VERSION {
+        return Err(BadRequest::Version { found, order });
     }
-    let length = short(6);
-    if usize::from(length) != REQUEST_BYTES {
-        return Err(BadRequest::Length {
-            found: length,
-            expected: REQUEST_BYTES as u16,
-        });
+    let found = short(6);
+    if usize::from(found) != REQUEST_BYTES {
+        return Err(BadRequest::Length { found });
     }
     let expected = crc32(&frame[..REQUEST_BYTES - CHECKSUM_BYTES]);
-    let checksum = u32_of(frame, REQUEST_BYTES - CHECKSUM_BYTES, order);
-    if checksum != expected {
-        return Err(BadRequest::Checksum {
-            found: checksum,
-            expected,
-        });
+    let found = u32_of(frame, REQUEST_BYTES - CHECKSUM_BYTES, order);
+    if found != expected {
+        return Err(BadRequest::Checksum { found, expected });
     }
     match short(8) {
         1 => Ok(Request::Trigger),
@@ -101,20 +92,21 @@ fn request_in(frame: &[u8; REQUEST_BYTES], order: ByteOrder) -> Result<Request, 
     }
 }
 
-fn u16_of(bytes: &[u8], at: usize, order: ByteOrder) -> u16 {
-    let bytes = [bytes[at], bytes[at + 1]];
-    match order {
-        ByteOrder::Little => u16::from_le_bytes(bytes),
-        ByteOrder::Big => u16::from_be_bytes(bytes),
+/// Converts a number's bytes from little-endian to this order, or back.
+fn ordered<const N: usize>(mut bytes: [u8; N], order: ByteOrder) -> [u8; N] {
+    if order == ByteOrder::Big {
+        bytes.reverse();
     }
+    bytes
+}
+
+fn u16_of(bytes: &[u8], at: usize, order: ByteOrder) -> u16 {
+    u16::from_le_bytes(ordered([bytes[at], bytes[at + 1]], order))
 }
 
 fn u32_of(bytes: &[u8], at: usize, order: ByteOrder) -> u32 {
     let bytes = [bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]];
-    match order {
-        ByteOrder::Little => u32::from_le_bytes(bytes),
-        ByteOrder::Big => u32::from_be_bytes(bytes),
-    }
+    u32::from_le_bytes(ordered(bytes, order))
 }
 
 pub(super) fn write(answer: &Answer, convention: Convention, order: ByteOrder) -> Vec<u8> {
@@ -163,24 +155,15 @@ struct FrameWriter {
 
 impl FrameWriter {
     fn short(&mut self, value: u16) {
-        self.bytes.extend(match self.order {
-            ByteOrder::Little => value.to_le_bytes(),
-            ByteOrder::Big => value.to_be_bytes(),
-        });
+        self.bytes.extend(ordered(value.to_le_bytes(), self.order));
     }
 
     fn long(&mut self, value: u32) {
-        self.bytes.extend(match self.order {
-            ByteOrder::Little => value.to_le_bytes(),
-            ByteOrder::Big => value.to_be_bytes(),
-        });
+        self.bytes.extend(ordered(value.to_le_bytes(), self.order));
     }
 
     fn real(&mut self, value: f64) {
-        self.bytes.extend(match self.order {
-            ByteOrder::Little => value.to_le_bytes(),
-            ByteOrder::Big => value.to_be_bytes(),
-        });
+        self.bytes.extend(ordered(value.to_le_bytes(), self.order));
     }
 
     fn zeros(&mut self, num_bytes: usize) {
@@ -293,7 +276,7 @@ mod tests {
         }
         assert_eq!(reason(b"GET / HTTP/1.1", ByteOrder::Little), "magic");
         assert_eq!(reason(b"P\0", ByteOrder::Little), "magic");
-        assert_eq!(parse(b"PSR", ByteOrder::Little), Parsed::PARTIAL);
+        assert_eq!(parse(b"PSR", ByteOrder::Little), Parsed::skipped(0));
         let advice = |why: BadRequest| crate::error::Advice::advice(&why);
         let swapped = BadRequest::Version {
             found: 0x0100,

@@ -18,13 +18,11 @@ pub(super) mod bad_request;
 pub(super) mod binary;
 mod eki;
 mod line;
-pub(super) mod parsed;
 mod urscript;
 
-use super::answer::Answer;
+use self::bad_request::BadRequest;
+use super::answer::{Answer, Request};
 use crate::robot::Convention;
-
-use self::parsed::Parsed;
 
 /// A protocol between client and server.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -98,6 +96,43 @@ impl Protocol {
     }
 }
 
+/// The result of parsing the start of a client's bytes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Parsed {
+    /// Number of bytes at the start that were used up.
+    pub used: usize,
+    /// The request, or why the bytes are none; `None` if it is incomplete.
+    pub request: Option<Result<Request, BadRequest>>,
+}
+
+impl Parsed {
+    /// More bytes are needed after this much filler, which is skipped.
+    fn skipped(used: usize) -> Self {
+        Self {
+            used,
+            request: None,
+        }
+    }
+
+    /// A request in the first `used` bytes, or why they are none.
+    fn read(used: usize, request: Result<Request, BadRequest>) -> Self {
+        Self {
+            used,
+            request: Some(request),
+        }
+    }
+
+    /// The bytes cannot become a request.
+    fn bad(why: BadRequest) -> Self {
+        Self::read(0, Err(why))
+    }
+}
+
+/// True for bytes allowed between requests: line ends, blanks, and the zeros with which PLCs pad texts.
+fn is_filler(byte: u8) -> bool {
+    byte == 0 || byte.is_ascii_whitespace()
+}
+
 /// Maximum length of a message in an answer, characters.
 const MAX_MESSAGE: usize = 200;
 
@@ -129,7 +164,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::serve::answer::{CameraState, Request, Trouble, VerdictCode};
+    use crate::serve::answer::{CameraState, Trouble, VerdictCode};
 
     /// An answer without a pose whose other fields are as awkward as possible.
     pub(super) fn refused() -> Answer {

@@ -11,7 +11,10 @@ use crate::{
     geometry::{
         depth_frame::Intrinsics, distortion::Distortion, mesh::TriangleMesh, rigid::RigidTransform,
     },
-    simulate::rasteriser::{Rendering, SurfaceLabel},
+    simulate::{
+        assembly::middle_of_box,
+        rasteriser::{Rendering, SurfaceLabel},
+    },
 };
 
 /// Depth of the part's middle, in metres.
@@ -133,16 +136,6 @@ fn drawn_roll(random: &mut impl Rng) -> f64 {
 
 fn is_in_picture(camera: &Intrinsics, u: f64, v: f64) -> bool {
     u >= 0.0 && v >= 0.0 && u < camera.width as f64 && v < camera.height as f64
-}
-
-fn middle_of_box(points: &[Point3<f64>]) -> Point3<f64> {
-    let Some(&first) = points.first() else {
-        return Point3::origin();
-    };
-    let (low, high) = points
-        .iter()
-        .fold((first, first), |(low, high), p| (low.inf(p), high.sup(p)));
-    nalgebra::center(&low, &high)
 }
 
 /// Returns points of the surface that a camera sees of a rotated part, even over the picture, about the part's origin.

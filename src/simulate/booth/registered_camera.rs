@@ -15,8 +15,8 @@ use crate::{
     simulate::{
         rasteriser::{Rendering, SurfaceLabel},
         sensor::{
-            BASELINE, SensorNoise, SmoothNoise, disparity_sigma, edge_nearness, lit_by_projector,
-            sample,
+            BASELINE, SensorNoise, SmoothNoise, disparity_sigma, edge_nearness, in_units,
+            lit_by_projector, sample,
         },
     },
 };
@@ -77,7 +77,8 @@ impl RegisteredCamera {
         if noise.multiplier > 0.0 {
             self.apply_noise(rendering, noise, &mut depth);
         } else {
-            let perfect = rendering.depth.iter().map(|&z| in_units(f64::from(z)));
+            let perfect = rendering.depth.iter();
+            let perfect = perfect.map(|&z| in_units(f64::from(z), METRES_PER_UNIT));
             depth.iter_mut().zip(perfect).for_each(|(to, z)| *to = z);
         }
         let Intrinsics { width, height, .. } = rendering.intrinsics;
@@ -146,19 +147,10 @@ impl RegisteredCamera {
                 let sigma = disparity_sigma(seen, facing, focal_baseline, axial_at_1m);
                 let z = focal_baseline / (seen + f64::from(axial[u]) * sigma);
                 if RANGE.contains(&z) {
-                    depth[pixel] = in_units(z);
+                    depth[pixel] = in_units(z, METRES_PER_UNIT);
                 }
             }
         }
-    }
-}
-
-fn in_units(metres: f64) -> u16 {
-    let units = metres / METRES_PER_UNIT + 0.5;
-    if units < f64::from(u16::MAX) {
-        units as u16
-    } else {
-        0
     }
 }
 

@@ -59,7 +59,6 @@ pub(super) fn build(vary: &mut Variation) -> Assembly {
         let bow = (y - 0.05).powi(2) / (2.0 * 1.8) + (x - 0.1).powi(2) / 8.0;
         Point3::new(x, y, bow + over_top + nose - ridge - lip)
     };
-    let mut fender = Assembly::default();
     Sheet {
         region: &outline.minus(arch).minus(blinker),
         u_range: (-vary.reach(0.50), vary.reach(0.50)),
@@ -71,6 +70,5 @@ pub(super) fn build(vary: &mut Variation) -> Assembly {
             if y < crown && x < 0.35 { 0.020 } else { 0.024 }
         },
     }
-    .press_into(&mut fender);
-    fender
+    .pressed()
 }

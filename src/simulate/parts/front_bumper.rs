@@ -62,7 +62,6 @@ pub(super) fn build(vary: &mut Variation) -> Assembly {
         let (x, z) = curve.at(u, outwards);
         Point3::new(x, v, z)
     };
-    let mut bumper = Assembly::default();
     Sheet {
         region: &outline.minus(intake.minus(intake_bar)).minus(fog),
         u_range: (-end - 0.01, end + 0.01),
@@ -71,6 +70,5 @@ pub(super) fn build(vary: &mut Variation) -> Assembly {
         lift: &lift,
         fold: &|u, _| if u.abs() > end - 0.015 { 0.0 } else { 0.026 },
     }
-    .press_into(&mut bumper);
-    bumper
+    .pressed()
 }

@@ -71,7 +71,6 @@ pub(super) fn build(vary: &mut Variation) -> Assembly {
         let z = x * x / (2.0 * bow) + lean + bracket + 0.012 * pressed;
         Point3::new(x, y, z)
     };
-    let mut support = Assembly::default();
     Sheet {
         region: &outline.minus(opening).minus(lamp).minus(latch).minus(slots),
         u_range: (-vary.reach(0.62), vary.reach(0.62)),
@@ -81,6 +80,5 @@ pub(super) fn build(vary: &mut Variation) -> Assembly {
         // Deep flanges: the beams are open channels.
         fold: &|_, _| 0.032,
     }
-    .press_into(&mut support);
-    support
+    .pressed()
 }

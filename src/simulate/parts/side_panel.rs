@@ -79,7 +79,6 @@ impl Door<'_> {
             }
             Point3::new(x, y, z)
         };
-        let mut door = Assembly::default();
         Sheet {
             region: self.region,
             u_range: (-0.62, 0.62),
@@ -88,7 +87,6 @@ impl Door<'_> {
             lift: &lift,
             fold: &|_, _| 0.024,
         }
-        .press_into(&mut door);
-        door
+        .pressed()
     }
 }

@@ -79,7 +79,6 @@ pub(super) fn build(vary: &mut Variation) -> Assembly {
             z + normal_z * outwards + x_sq / bow,
         )
     };
-    let mut lid = Assembly::default();
     Sheet {
         region: &outline,
         u_range: (-vary.reach(0.58), vary.reach(0.58)),
@@ -88,6 +87,5 @@ pub(super) fn build(vary: &mut Variation) -> Assembly {
         lift: &lift,
         fold: &|_, _| 0.022,
     }
-    .press_into(&mut lid);
-    lid
+    .pressed()
 }

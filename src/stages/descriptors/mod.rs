@@ -49,3 +49,14 @@ impl Descriptors {
         self.keypoints.is_empty()
     }
 }
+
+/// Scales a row to length one; returns false if it is all zero.
+fn normalise(row: &mut [f32]) -> bool {
+    let length = row.iter().map(|x| x * x).sum::<f32>().sqrt();
+    if length > 0.0 {
+        for x in row {
+            *x /= length;
+        }
+    }
+    length > 0.0
+}

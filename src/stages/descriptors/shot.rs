@@ -16,7 +16,7 @@ use std::f32::consts::PI;
 
 use nalgebra::{Matrix3, Point3, SymmetricEigen, Vector3};
 
-use super::{Descriptors, surface::DescribedSurface};
+use super::{Descriptors, normalise, surface::DescribedSurface};
 use crate::units::Metres;
 
 /// Sectors around the z axis.
@@ -149,20 +149,20 @@ fn count(around: &[NeighbourInFrame], frame: &[Vector3<f32>; 3], radius: f32, ro
     for a in around {
         let [x, y, z] = [x_axis, y_axis, z_axis].map(|axis| axis.dot(&a.offset));
         let turns = y.atan2(x) / (2.0 * PI) + 1.0;
-        let azimuth = BinInterpolation::around(turns * NUM_AZIMUTHS as f32, NUM_AZIMUTHS);
+        let azimuths = bins_around(turns * NUM_AZIMUTHS as f32, NUM_AZIMUTHS);
         let inclination = (z / a.distance).clamp(-1.0, 1.0).acos() / PI;
-        let elevation = BinInterpolation::of(inclination * NUM_ELEVATIONS as f32, NUM_ELEVATIONS);
-        let shell = BinInterpolation::of(a.distance / radius * NUM_SHELLS as f32, NUM_SHELLS);
-        let cosine = BinInterpolation::of(
+        let elevations = bins_beside(inclination * NUM_ELEVATIONS as f32, NUM_ELEVATIONS);
+        let shells = bins_beside(a.distance / radius * NUM_SHELLS as f32, NUM_SHELLS);
+        let cosines = bins_beside(
             (z_axis.dot(&a.normal) + 1.0) * 0.5 * NUM_COSINES as f32,
             NUM_COSINES,
         );
-        for (azimuth, share) in azimuth.bins {
-            for (elevation, by_elevation) in elevation.bins {
+        for (azimuth, share) in azimuths {
+            for (elevation, by_elevation) in elevations {
                 let (at, share) = (azimuth * NUM_ELEVATIONS + elevation, share * by_elevation);
-                for (shell, by_shell) in shell.bins {
+                for (shell, by_shell) in shells {
                     let (at, share) = ((at * NUM_SHELLS + shell) * NUM_COSINES, share * by_shell);
-                    for (cosine, by_cosine) in cosine.bins {
+                    for (cosine, by_cosine) in cosines {
                         row[at + cosine] += share * by_cosine;
                     }
                 }
@@ -171,40 +171,21 @@ fn count(around: &[NeighbourInFrame], frame: &[Vector3<f32>; 3], radius: f32, ro
     }
 }
 
-/// A position among bins: the two bins whose centres it lies between, each with its share; the shares sum to one.
-struct BinInterpolation {
-    bins: [(usize, f32); 2],
+/// Returns the two bins whose centres a position lies between, each with its share; the shares sum to one. Bin i covers
+/// i to i + 1; positions before the first centre or after the last count fully for that bin.
+fn bins_beside(position: f32, num: usize) -> [(usize, f32); 2] {
+    let x = (position - 0.5).clamp(0.0, (num - 1) as f32);
+    let low = x as usize;
+    let share = x - low as f32;
+    [(low, 1.0 - share), ((low + 1).min(num - 1), share)]
 }
 
-impl BinInterpolation {
-    /// Bin i covers i to i + 1; positions before the first centre or after the last count fully for that bin.
-    fn of(position: f32, num: usize) -> Self {
-        let x = (position - 0.5).clamp(0.0, (num - 1) as f32);
-        let low = x as usize;
-        let share = x - low as f32;
-        Self {
-            bins: [(low, 1.0 - share), ((low + 1).min(num - 1), share)],
-        }
-    }
-
-    /// Like [`Self::of`], but cyclic; `position` must be at least 0.5.
-    fn around(position: f32, num: usize) -> Self {
-        let x = position - 0.5;
-        let low = x as usize;
-        let share = x - low as f32;
-        Self {
-            bins: [(low % num, 1.0 - share), ((low + 1) % num, share)],
-        }
-    }
-}
-
-fn normalise(row: &mut [f32]) {
-    let length = row.iter().map(|x| x * x).sum::<f32>().sqrt();
-    if length > 0.0 {
-        for x in row {
-            *x /= length;
-        }
-    }
+/// Like [`bins_beside`], but cyclic; `position` must be at least 0.5.
+fn bins_around(position: f32, num: usize) -> [(usize, f32); 2] {
+    let x = position - 0.5;
+    let low = x as usize;
+    let share = x - low as f32;
+    [(low % num, 1.0 - share), ((low + 1) % num, share)]
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@
 //! normalised to mean zero and length one, so that |a - b|² = 2 - 2R with R the correlation over all pixels: the
 //! nearest row in descriptor space has the highest correlation. There is no term for the share of filled pixels.
 
-use super::{Descriptors, surface::DescribedSurface};
+use super::{Descriptors, normalise, surface::DescribedSurface};
 use crate::units::{Metres, Radians};
 
 /// Number of pixels along α and along β.
@@ -121,13 +121,7 @@ fn standardise(image: &mut [f32]) -> bool {
     for x in image.iter_mut() {
         *x -= mean;
     }
-    let length = image.iter().map(|x| x * x).sum::<f32>().sqrt();
-    if length > 0.0 {
-        for x in image {
-            *x /= length;
-        }
-    }
-    length > 0.0
+    normalise(image)
 }
 
 #[cfg(test)]

@@ -9,9 +9,8 @@ use super::{
     icp::{IcpParams, icp},
     icp_ga::{IcpGaParams, icp_ga},
     prepared::{Measured, PreparedTarget},
-    refine::Refined,
 };
-use crate::geometry::{cloud::PointCloud, rigid::RigidTransform};
+use crate::geometry::{cloud::PointCloud, rigid::RigidTransform, statistics::sample_evenly};
 
 /// Parameters of [`align_with`].
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -101,50 +100,31 @@ fn align_centred(
     };
     let mut estimate = match params.method {
         PoseMethod::Icp => {
-            let thinned = thinned(&source.points, params.icp.max_source_points);
+            let some = sample_evenly(&source.points, params.icp.max_source_points);
+            let some: Vec<Point3<f32>> = some.copied().collect();
             let target = prepared.target();
             let start = start.unwrap_or(no_turn);
-            let run = icp(
-                &thinned,
+            let refined = icp(
+                &some,
                 &target.cloud.points,
                 target.tree(),
                 &start,
                 &params.icp,
                 is_cancelled,
             )?;
-            let refined = Refined {
-                target_from_source: run.target_from_source,
-                iterations: run.iterations,
-                stopped: run.stopped,
-            };
             prepared.estimate(by_points(), refined, PoseMethod::Icp, None)
         }
         PoseMethod::IcpGa => {
-            let run = icp_ga(
-                &source.points,
-                prepared,
-                &start.unwrap_or(no_turn),
-                &params.icp_ga,
-                is_cancelled,
-            )?;
-            let refined = Refined {
-                target_from_source: run.target_from_source,
-                iterations: run.iterations,
-                stopped: run.stopped,
-            };
-            prepared.estimate(by_points(), refined, PoseMethod::IcpGa, run.runner_up)
+            let start = start.unwrap_or(no_turn);
+            let (refined, runner_up) =
+                icp_ga(source, prepared, &start, &params.icp_ga, is_cancelled)?;
+            prepared.estimate(by_points(), refined, PoseMethod::IcpGa, runner_up)
         }
         PoseMethod::Global => search(source, prepared, no_turn, start, is_cancelled)?,
     };
     let (back, there) = (target.centring().inverse(), source.centring());
     estimate.in_other_spaces(|pose| back * pose * there);
     Ok(estimate)
-}
-
-/// Returns at most `most` of the points, evenly spread over their order.
-fn thinned(points: &[Point3<f32>], most: usize) -> Vec<Point3<f32>> {
-    let step = points.len().div_ceil(most.max(1)).max(1);
-    points.iter().step_by(step).copied().collect()
 }
 
 /// A cloud whose size is another one's times this is of another thing, or in other units.

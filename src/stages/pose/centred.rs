@@ -2,9 +2,13 @@
 
 use nalgebra::Point3;
 
-use super::{CloudRole, MIN_POINTS, PoseError, spanned::spanned_axes};
+use super::{CloudRole, MIN_POINTS, PoseError};
 use crate::{
-    geometry::{cloud::PointCloud, principal::PrincipalAxes, rigid::RigidTransform},
+    geometry::{
+        cloud::PointCloud,
+        principal::{PrincipalAxes, principal_axes},
+        rigid::RigidTransform,
+    },
     units::Metres,
 };
 
@@ -34,7 +38,15 @@ impl Centred {
             .finite()
             .map(|(_, p)| (p.cast::<f64>() - middle.coords).cast())
             .collect();
-        let axes = spanned_axes(which, &points)?;
+        let axes = principal_axes(points.iter().map(|p| (p.cast(), 1.0)));
+        let axes = match axes {
+            Some(axes) if axes.variances[1] > 1e-6 * axes.variances[0] => axes,
+            // They lie on a line or a spot.
+            other => {
+                let width = other.map_or(0.0, |axes| axes.variances[1].sqrt());
+                return Err(PoseError::Degenerate { which, width });
+            }
+        };
         let extent = axes.variances[0].sqrt();
         // Coordinates come with 24 binary digits: further out than this they are rounded to steps of half a per cent
         // of the cloud's own size.

@@ -2,7 +2,9 @@
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
-use crate::geometry::{nearest_field::NearestField, surface_grid::SurfaceEnd};
+use crate::geometry::{
+    nearest_field::NearestField, statistics::sample_evenly, surface_grid::SurfaceEnd,
+};
 
 /// Points looked at side by side.
 const LANES: usize = 8;
@@ -31,11 +33,10 @@ impl EdgePoints {
     /// The ends of a cloud's surface, each a straight piece that reaches as far as `half` either way; at most `limit`.
     /// The closest is looked for within `band` of them only, and is off by less than `half` along them.
     pub fn of_ends(ends: &[SurfaceEnd], half: f64, limit: usize, band: f64) -> Self {
-        let step = ends.len().div_ceil(limit.max(1)).max(1);
-        let kept = || ends.iter().step_by(step);
-        let points: Vec<Point3<f32>> = kept().map(|end| end.at).collect();
+        let kept = sample_evenly(ends, limit);
+        let points: Vec<Point3<f32>> = kept.clone().map(|end| end.at).collect();
         Self {
-            pieces: kept()
+            pieces: kept
                 .map(|end| along_neighbours(end, ends, NEIGHBOURS * half) * half as f32)
                 .collect(),
             field: Some(NearestField::new(&points, half as f32, band as f32)),
@@ -45,8 +46,7 @@ impl EdgePoints {
 
     /// Keeps at most `limit` of the points, evenly spread over their order.
     pub fn new(points: &[Point3<f32>], limit: usize) -> Self {
-        let step = points.len().div_ceil(limit.max(1)).max(1);
-        let kept: Vec<Point3<f32>> = points.iter().step_by(step).copied().collect();
+        let kept: Vec<Point3<f32>> = sample_evenly(points, limit).copied().collect();
         let group = |points: &[Point3<f32>]| {
             let mut columns = [[f32::INFINITY; LANES]; 3];
             for (lane, p) in points.iter().enumerate() {

@@ -32,6 +32,7 @@ use crate::{
         cloud::PointCloud,
         principal::{PrincipalAxes, principal_axes},
         rigid::{RigidTransform, pose_error},
+        statistics::sample_evenly,
         surface_grid::SurfaceGrid,
         voxel::downsample,
     },
@@ -169,11 +170,10 @@ impl<'a> GlobalSearch<'a> {
         prepared: &'a PreparedTarget,
         is_cancelled: &'a dyn Fn() -> bool,
     ) -> Self {
-        let num_wanted = prepared.finest().num_surface;
-        let step = source.points.len().div_ceil(num_wanted).max(1);
-        let some = source.points.iter().step_by(step).copied().collect();
-        let step = source.points.len().div_ceil(MOST_FOR_EDGES).max(1);
-        let all = PointCloud::from_points(source.points.iter().step_by(step).copied());
+        let some = sample_evenly(&source.points, prepared.finest().num_surface);
+        let some = some.copied().collect();
+        let all = sample_evenly(&source.points, MOST_FOR_EDGES);
+        let all = PointCloud::from_points(all.copied());
         let even = downsample(&all, Metres(prepared.coarse_target().spacing)).points;
         let axes = principal_axes(even.iter().map(|p| (p.cast(), 1.0))).unwrap_or(source.axes);
         let ends = SurfaceGrid::new(&all.points).ends();

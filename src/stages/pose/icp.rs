@@ -6,7 +6,7 @@
 
 use nalgebra::Point3;
 
-use super::{Iteration, Phase, PoseError, Stopped};
+use super::{Iteration, Phase, PoseError, Stopped, refine::Refined};
 use crate::{
     geometry::{
         nearest::KdTree,
@@ -44,17 +44,6 @@ impl Default for IcpParams {
     }
 }
 
-/// A run of iterations and where it ended.
-#[derive(Clone, Debug, PartialEq)]
-pub struct IcpRun {
-    /// The pose reached.
-    pub target_from_source: RigidTransform,
-    /// Every iteration.
-    pub iterations: Vec<Iteration>,
-    /// Why it ended.
-    pub stopped: Stopped,
-}
-
 /// Aligns the source to the target's points from a start.
 pub fn icp(
     source: &[Point3<f32>],
@@ -63,7 +52,7 @@ pub fn icp(
     start: &RigidTransform,
     params: &IcpParams,
     is_cancelled: &dyn Fn() -> bool,
-) -> Result<IcpRun, PoseError> {
+) -> Result<Refined, PoseError> {
     let mut pose = *start;
     let mut iterations = Vec::new();
     let mut stopped = Stopped::IterationLimit;
@@ -107,7 +96,7 @@ pub fn icp(
             break;
         }
     }
-    Ok(IcpRun {
+    Ok(Refined {
         target_from_source: pose,
         iterations,
         stopped,

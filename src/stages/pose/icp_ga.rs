@@ -25,12 +25,12 @@ use rand::{SeedableRng as _, seq::SliceRandom as _};
 use rand_pcg::Pcg64;
 
 use super::{
-    CloudRole, Iteration, MIN_POINTS, Phase, PoseError, RunnerUp, Stopped,
+    Iteration, MIN_POINTS, Phase, PoseError, RunnerUp, Stopped,
+    centred::Centred,
     genetic::{Genes, minimise},
     icp::icp,
     prepared::PreparedTarget,
-    refine::AlignmentTarget,
-    spanned::spanned_axes,
+    refine::{AlignmentTarget, Refined},
 };
 use crate::geometry::rigid::{RigidTransform, from_euler_zyx, pose_error};
 
@@ -50,28 +50,16 @@ const FAR_OFF: f64 = 0.5;
 const SAME_TURN_DEGREES: f64 = 5.0;
 const SAME_SHIFT: f64 = 0.1;
 
-/// A run of Algorithm 3 and where it ended.
-#[derive(Clone, Debug, PartialEq)]
-pub struct IcpGaRun {
-    /// The best pose.
-    pub target_from_source: RigidTransform,
-    /// Every iteration of ICP and every generation of the genetic algorithm, in order.
-    pub iterations: Vec<Iteration>,
-    /// Why it ended.
-    pub stopped: Stopped,
-    /// The best other pose that ICP ended at, if there is one.
-    pub runner_up: Option<RunnerUp>,
-}
-
-/// Aligns the source to the target, both about their own middle, from a start.
+/// Aligns the source to the target from a start. The iterations are those of ICP and the generations of the genetic
+/// algorithm, in order. Also returns the best other pose that ICP ended at, if there is one.
 pub(super) fn icp_ga(
-    source: &[Point3<f32>],
+    source: &Centred,
     target: &PreparedTarget,
     start: &RigidTransform,
     params: &IcpGaParams,
     is_cancelled: &dyn Fn() -> bool,
-) -> Result<IcpGaRun, PoseError> {
-    let mut search = Search::new(source, target, params)?;
+) -> Result<(Refined, Option<RunnerUp>), PoseError> {
+    let mut search = Search::new(source, target, params);
     let mut pose = *start;
     let mut best = LocalMinimum {
         target_from_source: pose,
@@ -104,12 +92,13 @@ pub(super) fn icp_ga(
         let search_region = search.search_region(&best, num_idle);
         pose = search.evolve(&best, search_region, is_cancelled)?;
     }
-    Ok(IcpGaRun {
+    let runner_up = search.runner_up(&best);
+    let refined = Refined {
         target_from_source: best.target_from_source,
-        runner_up: search.runner_up(&best),
         iterations: search.iterations,
         stopped,
-    })
+    };
+    Ok((refined, runner_up))
 }
 
 /// Where ICP ended.
@@ -150,28 +139,23 @@ struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    fn new(
-        source: &'a [Point3<f32>],
-        prepared: &'a PreparedTarget,
-        params: &'a IcpGaParams,
-    ) -> Result<Self, PoseError> {
-        let source_axes = spanned_axes(CloudRole::Source, source)?;
+    fn new(source: &'a Centred, prepared: &'a PreparedTarget, params: &'a IcpGaParams) -> Self {
         let mut rng = Pcg64::seed_from_u64(params.seed);
-        let mut shuffled = source.to_vec();
+        let mut shuffled = source.points.clone();
         shuffled.shuffle(&mut rng);
-        Ok(Self {
+        Self {
             params,
-            source,
+            source: &source.points,
             target: prepared.wide_target(),
             coarse: prepared.coarse_target(),
             shuffled,
-            source_from_axes: source_axes.frame(),
+            source_from_axes: source.axes.frame(),
             extent: prepared.extent(),
             target_mean: prepared.axes.mean,
             rng,
             valleys: Vec::new(),
             iterations: Vec::new(),
-        })
+        }
     }
 
     fn first_points(&self, num: usize) -> &[Point3<f32>] {

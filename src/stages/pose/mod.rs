@@ -17,7 +17,6 @@ pub mod icp_ga;
 mod prepared;
 pub mod quality;
 pub mod refine;
-mod spanned;
 mod starts;
 pub mod uncertainty;
 
@@ -149,6 +148,11 @@ impl PoseEstimate {
     /// Takes part space into camera space: where a point of the reference is in the scene.
     pub fn camera_from_part(&self) -> RigidTransform {
         self.target_from_source.inverse()
+    }
+
+    /// Returns how far off it may be, if it was refined to the end and nothing may slide or turn.
+    pub fn bounds(&self) -> Option<Uncertainty> {
+        self.uncertainty.filter(Uncertainty::is_held)
     }
 
     /// Carries the poses into other spaces; distances stay as they are.

@@ -19,6 +19,7 @@ use crate::{
         nearest::{KdTree, median_spacing},
         nearest_field::NearestField,
         principal::{PrincipalAxes, principal_axes},
+        statistics::sample_evenly,
         surface_grid::SurfaceGrid,
         voxel::downsample,
     },
@@ -179,9 +180,8 @@ impl PreparedTarget {
             level,
             outline_error,
         } = measured;
-        let step = surface.len().div_ceil(NUM_MEASURED).max(1);
         let source = AlignmentSource {
-            surface: surface.iter().step_by(step).copied().collect(),
+            surface: sample_evenly(surface, NUM_MEASURED).copied().collect(),
             edges,
         };
         let tolerance = Tolerance {

@@ -53,6 +53,35 @@ pub struct VisibilityShares {
     pub outside: f64,
 }
 
+/// Numbers of points, by what is seen in their places; see [`VisibilityShares`].
+#[derive(Clone, Copy, Debug, Default)]
+pub struct VisibilityCounts {
+    /// The surface.
+    pub confirmed: f64,
+    /// Something behind it.
+    pub missing: f64,
+    /// Something before it.
+    pub hidden: f64,
+    /// No reading.
+    pub unknown: f64,
+    /// Nothing: it is outside the field of view.
+    pub outside: f64,
+}
+
+impl VisibilityCounts {
+    /// Returns the shares; `None` if no point is inside the field of view.
+    pub fn shares(&self) -> Option<VisibilityShares> {
+        let total = self.confirmed + self.missing + self.hidden + self.unknown;
+        (total >= 1.0).then(|| VisibilityShares {
+            confirmed: self.confirmed / total,
+            missing: self.missing / total,
+            hidden: self.hidden / total,
+            unknown: self.unknown / total,
+            outside: self.outside / (total + self.outside),
+        })
+    }
+}
+
 /// How far a source point may lie off the target and still be on it: base plus the noise at its depth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
@@ -110,7 +139,7 @@ const FAR_OFF_SQ: f64 = 0.0064;
 /// Points of the target that are looked for at a pose that is the last word.
 pub const NUM_LOOKED_FOR: usize = 2000;
 /// A surface seen at a flatter angle than this (cosine) is often lost by the camera, so its absence is no evidence.
-const LEAST_FACING: f64 = 0.3;
+pub const LEAST_FACING: f64 = 0.3;
 /// Pixels around the expected one that may show the surface: the pose is not perfect and edges are ragged.
 const PIXEL_REACH: i64 = 2;
 
@@ -127,13 +156,7 @@ pub fn look_for(
     let points = &scene.cloud.points;
     let view = scene.field_of_view();
     let step = (target.cloud.points.len() / num_looked_for).max(1);
-    let [
-        mut confirmed,
-        mut missing,
-        mut hidden,
-        mut unknown,
-        mut outside,
-    ] = [0.0_f64; 5];
+    let mut counts = VisibilityCounts::default();
     for (p, normal) in target.cloud.points.iter().zip(normals).step_by(step) {
         let at = camera_from_target * p.cast::<f64>();
         let facing = -(camera_from_target * normal.cast::<f64>()).dot(&at.coords.normalize());
@@ -149,7 +172,7 @@ pub fn look_for(
             u >= 0 && v >= 0 && u < camera.width as i64 && v < camera.height as i64
         };
         if !inside(u, v) || view.is_some_and(|view| !view.contains(u, v)) {
-            outside += 1.0;
+            counts.outside += 1.0;
             continue;
         }
         let reach = tolerance.at_depth(at.z) / facing;
@@ -170,21 +193,11 @@ pub fn look_for(
             }
         }
         match nearest {
-            None => unknown += 1.0,
-            Some(off) if off.abs() <= reach => confirmed += 1.0,
-            Some(off) if off > 0.0 => missing += 1.0,
-            Some(_) => hidden += 1.0,
+            None => counts.unknown += 1.0,
+            Some(off) if off.abs() <= reach => counts.confirmed += 1.0,
+            Some(off) if off > 0.0 => counts.missing += 1.0,
+            Some(_) => counts.hidden += 1.0,
         }
     }
-    let total = confirmed + missing + hidden + unknown;
-    if total < 1.0 {
-        return None;
-    }
-    Some(VisibilityShares {
-        confirmed: confirmed / total,
-        missing: missing / total,
-        hidden: hidden / total,
-        unknown: unknown / total,
-        outside: outside / (total + outside),
-    })
+    counts.shares()
 }

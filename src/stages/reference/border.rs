@@ -8,7 +8,7 @@
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
-use crate::geometry::nearest_field::NearestField;
+use crate::geometry::{nearest_field::NearestField, statistics::sample_evenly};
 
 /// A point where the surface ends, or turns away from the viewer.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,8 +71,7 @@ impl ReferenceBorder {
     /// Creates the border from the oriented points of one view's outline, part space. `outlines` are the points at
     /// which the surface ends or turns away in any view from the same side.
     pub fn new(all: &[BorderPoint], outlines: &[Point3<f32>]) -> Self {
-        let step = all.len().div_ceil(NUM_POINTS).max(1);
-        let points: Vec<BorderPoint> = all.iter().step_by(step).copied().collect();
+        let points: Vec<BorderPoint> = sample_evenly(all, NUM_POINTS).copied().collect();
         let mut pairs = Vec::with_capacity(points.len() * points.len());
         for (i, a) in points.iter().enumerate() {
             for (j, b) in points.iter().enumerate().filter(|(j, _)| *j != i) {

@@ -28,10 +28,9 @@ pub use self::{
     clusters::Cluster,
     noise::noise_of_picture,
     part::{BackgroundSign, SegmentedPart, other_segments, pieces, without_bars},
-    planes::BackgroundPlane,
     stand::Bars,
 };
-use crate::{error::Advice, stages::scene::SceneCloud, units::Metres};
+use crate::{error::Advice, geometry::plane::Plane, stages::scene::SceneCloud, units::Metres};
 
 /// Parameters of [`segment`]. The defaults suit a Kinect-like camera.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -92,8 +91,8 @@ pub enum PointLabel {
 pub struct Segmentation {
     /// One label per point of the scene.
     pub labels: Vec<PointLabel>,
-    /// The removed planes, in the order found.
-    pub planes: Vec<BackgroundPlane>,
+    /// The removed planes in camera space, in the order found; their normals point to the camera.
+    pub planes: Vec<Plane>,
     /// The remaining connected surfaces, largest first, including a stand that touches them.
     pub clusters: Vec<Cluster>,
     /// Indices of the points of each of them in the scene, ascending.
@@ -190,7 +189,7 @@ pub fn segment(scene: &SceneCloud, params: &SegmentParams) -> Segmentation {
     } = planes::find_background(scene, params);
     let empty_cell = scene.empty_cell.as_ref().filter(|cell| cell.fits(scene));
     if let Some(cell) = empty_cell {
-        planes.retain(|found| cell.knows(&found.plane, scene, noise_at_1m, params));
+        planes.retain(|plane| cell.knows(plane, scene, noise_at_1m, params));
     }
     let points = &scene.cloud.points;
     let mut labels = planes::label_background(points, &planes, noise_at_1m, params);

@@ -3,14 +3,15 @@
 use nalgebra::Point3;
 
 use super::{
-    BackgroundPlane, Cluster, MIN_POINTS, NoPart, PointLabel, SegmentParams, Segmentation,
-    clusters, label_readings, noise_of_picture,
+    Cluster, MIN_POINTS, NoPart, PointLabel, SegmentParams, Segmentation, clusters, label_readings,
+    noise_of_picture,
     stand::{Bars, remove_stand},
     strip,
 };
 use crate::{
     geometry::{
         cloud::{Grid, PointCloud, is_finite},
+        plane::Plane,
         principal::principal_axes,
     },
     stages::scene::SceneCloud,
@@ -276,7 +277,7 @@ pub(super) fn select_part(
     scene: &SceneCloud,
     clusters: &[clusters::Members],
     labels: &mut [PointLabel],
-    planes: &[BackgroundPlane],
+    planes: &[Plane],
     noise_at_1m: Metres,
     params: &SegmentParams,
 ) -> Result<SegmentedPart, NoPart> {

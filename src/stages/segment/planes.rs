@@ -10,22 +10,13 @@ use super::{
     subset::{Neighbourhood, Subset},
 };
 use crate::{
-    geometry::plane::Plane,
+    geometry::{plane::Plane, statistics::median},
     stages::scene::{PictureEdge, SceneCloud},
     units::Metres,
 };
 
-/// A background plane.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BackgroundPlane {
-    /// The plane in camera space, its normal towards the camera.
-    pub plane: Plane,
-    /// Share of the scene's points that lie on it, 0..1.
-    pub inlier_share: f64,
-}
-
 pub(super) struct Background {
-    pub(super) planes: Vec<BackgroundPlane>,
+    pub(super) planes: Vec<Plane>,
     pub(super) noise_at_1m: Metres,
 }
 
@@ -52,7 +43,7 @@ pub(super) fn find_background(scene: &SceneCloud, params: &SegmentParams) -> Bac
     let mut noise_at_1m = Metres(params.noise_at_1m.0.max(noise_seen.0));
     let subset = Subset::new(scene, params, noise_at_1m);
     let mut rng = Pcg64::seed_from_u64(params.seed);
-    let mut planes: Vec<BackgroundPlane> = Vec::new();
+    let mut planes: Vec<Plane> = Vec::new();
     // Points not yet assigned to a plane, background or not.
     let mut unclaimed: Vec<u32> = (0..subset.len() as u32).collect();
     // Points on no background plane; further background planes must lie behind them.
@@ -78,10 +69,7 @@ pub(super) fn find_background(scene: &SceneCloud, params: &SegmentParams) -> Bac
             for &i in &inliers {
                 foreground[i as usize] = false;
             }
-            planes.push(BackgroundPlane {
-                plane,
-                inlier_share: inliers.len() as f64 / subset.len() as f64,
-            });
+            planes.push(plane);
         }
         unclaimed.retain(|i| inliers.binary_search(i).is_err());
     }
@@ -94,16 +82,16 @@ pub(super) fn find_background(scene: &SceneCloud, params: &SegmentParams) -> Bac
 /// Labels the points on or behind a background plane.
 pub(super) fn label_background(
     points: &[Point3<f32>],
-    planes: &[BackgroundPlane],
+    planes: &[Plane],
     noise_at_1m: Metres,
     params: &SegmentParams,
 ) -> Vec<PointLabel> {
     let tolerance = PlaneTolerance::new(noise_at_1m, params);
     let planes: Vec<([f32; 3], f32)> = planes
         .iter()
-        .map(|b| {
-            let n = b.plane.normal.cast::<f32>();
-            ([n.x, n.y, n.z], b.plane.offset as f32)
+        .map(|plane| {
+            let n = plane.normal.cast::<f32>();
+            ([n.x, n.y, n.z], plane.offset as f32)
         })
         .collect();
     let label = |p: &Point3<f32>| {
@@ -300,7 +288,7 @@ fn spreads_wider_than_the_rest(subset: &Subset, plane: &Plane, inliers: &[u32]) 
 /// Estimates the standard deviation of depth at 1 m from the points' median distance to a plane; `None` if too few
 /// points see the plane at a steep enough angle.
 fn measured_noise(subset: &Subset, plane: &Plane, inliers: &[u32]) -> Option<Metres> {
-    let mut deviations: Vec<f64> = inliers
+    let deviations: Vec<f64> = inliers
         .iter()
         .map(|&i| subset.point(i))
         .filter_map(|p| {
@@ -312,10 +300,7 @@ fn measured_noise(subset: &Subset, plane: &Plane, inliers: &[u32]) -> Option<Met
     if deviations.len() < 100 {
         return None;
     }
-    let middle = deviations.len() / 2;
-    let (_, median, _) = deviations.select_nth_unstable_by(middle, f64::total_cmp);
     // 1.4826 converts the median absolute deviation of a normal distribution into its standard deviation.
-    Some(Metres(
-        (1.4826 * *median).clamp(NOISE_RANGE[0], NOISE_RANGE[1]),
-    ))
+    let noise = 1.4826 * median(deviations.into_iter())?;
+    Some(Metres(noise.clamp(NOISE_RANGE[0], NOISE_RANGE[1])))
 }

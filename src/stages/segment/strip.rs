@@ -12,13 +12,13 @@
 use nalgebra::Point3;
 
 use super::{
-    BackgroundPlane, PointLabel, SegmentParams,
+    PointLabel, SegmentParams,
     clusters::{BRIDGED_PIXELS, MARGIN, Members},
     part::is_flat,
     planes::PlaneTolerance,
 };
 use crate::{
-    geometry::{cloud::Grid, principal::principal_axes},
+    geometry::{cloud::Grid, plane::Plane, principal::principal_axes},
     stages::scene::SceneCloud,
     units::Metres,
 };
@@ -50,7 +50,7 @@ pub(super) fn is_strip(
     scene: &SceneCloud,
     surface: &Members,
     labels: &[PointLabel],
-    planes: &[BackgroundPlane],
+    planes: &[Plane],
     noise_at_1m: Metres,
     params: &SegmentParams,
 ) -> bool {
@@ -65,7 +65,7 @@ pub(super) fn is_strip(
     let tolerance = PlaneTolerance::new(noise_at_1m, params);
     let continued_at = |pixel: usize| match labels[pixel] {
         PointLabel::Background(number) => {
-            let plane = planes.get(usize::from(number))?.plane;
+            let plane = *planes.get(usize::from(number))?;
             let p = points[pixel].cast::<f64>();
             let along_normal = plane.normal.dot(&p.coords) as f32;
             let tolerance = f64::from(tolerance.at(p.z as f32, along_normal));

@@ -75,11 +75,11 @@ impl FollowedParts {
         part
     }
 
-    /// The part that hangs in front of this source as far as is known now, without waiting for Live; a new one if Live
-    /// follows another source.
-    pub(in crate::app) fn part_now(&self, source: &str) -> HungId {
+    /// The part that a frame of this source shows as far as is known now, without waiting for Live; a new one if Live follows
+    /// another source.
+    pub(in crate::app) fn part_now(&self, source: &str, shows_part: bool) -> HungId {
         if self.source == source {
-            self.rows.id_of_frame(false)
+            self.rows.id_of_frame(shows_part)
         } else {
             HungId::new()
         }
@@ -109,11 +109,7 @@ impl FollowedParts {
         shows_part: bool,
         current: &CurrentTrace,
     ) -> (HungId, Traceability) {
-        let part = if self.source == source {
-            self.rows.id_of_frame(shows_part)
-        } else {
-            HungId::new()
-        };
+        let part = self.part_now(source, shows_part);
         let trace = match &self.counted {
             Some((counted, trace))
                 if *counted == part && (!trace.serial.is_empty() || current.is_late_of(&part)) =>
@@ -222,7 +218,7 @@ mod tests {
         let part = parts.part_of_frame(one.to_string(), Instant::now());
         assert!(parts.begin(&one).is_none() && parts.end().is_none());
         part.try_recv().expect("told at the end");
-        let now = [&one, &other, &one].map(|source| parts.part_now(&source.to_string()));
+        let now = [&one, &other, &one].map(|source| parts.part_now(&source.to_string(), false));
         assert_ne!(now[0], now[1]);
         assert_ne!(now[0], now[2], "nothing hangs there");
     }

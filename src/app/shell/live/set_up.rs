@@ -46,7 +46,7 @@ pub(in crate::app) fn set_up(ctx: &Context, state: &State, actions: &mut Vec<Act
         ui.add_space(space::MEDIUM);
         let mut closing = None;
         ui.horizontal(|ui| {
-            if widgets::default_button(ui, &text!("live-use-it"), true) {
+            if widgets::default_button(ui, &text!("robot-use-it"), true) {
                 closing = Some(true);
             }
             if text_button(ui, &text!("shell-close")).clicked() {

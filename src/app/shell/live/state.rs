@@ -26,7 +26,7 @@ use crate::{
             session::{Session, Shown, Source, UserRole, WorkspaceKind},
             state::State,
         },
-        task::{Task, TaskEvent, TaskRunner},
+        task::{Task, TaskRunner},
         user_error::UserError,
     },
     capture::SourceSpec,
@@ -270,10 +270,7 @@ pub(in crate::app) fn restart_consensus(state: &mut State) {
 
 /// The inspection of the newest capture, unless that has no result or may no longer hang there.
 fn newest(session: &Session) -> Option<Arc<Inspected>> {
-    let shown = session.shown.as_ref();
-    let shown = shown.filter(|shown| !shown.is_past && !shown.is_outdated);
-    let unseen = session.live.unseen.as_ref();
-    let newest = unseen.or(shown.map(|shown| &shown.inspected));
+    let newest = session.latest(|shown| !shown.is_past && !shown.is_outdated);
     newest.filter(|_| session.failed.is_none()).cloned()
 }
 
@@ -352,8 +349,8 @@ pub(in crate::app) fn update(state: &mut State) -> Vec<Event> {
     let events = events.collect();
     for answer in answers {
         match answer {
-            TaskEvent::Partial(answer) | TaskEvent::Done(answer) => receive(state, answer),
-            TaskEvent::Failed(error) => {
+            Ok(answer) => receive(state, answer),
+            Err(error) => {
                 notify(state, error.into());
                 ended(state);
             }
@@ -594,17 +591,8 @@ mod tests {
     #[test]
     fn a_verdict_that_the_window_has_not_read_is_recorded_when_live_stops_or_starts_over() {
         for action in [LiveAction::Average(4), LiveAction::Toggle] {
-            let camera = Camera::opened_by(|_| {
-                Ok(Box::new(Hanging {
-                    fender: HangingPart::new(PartKind::Fender, 3),
-                    number: 0,
-                }))
-            });
-            let library_cache = LibraryCache::new(Some("reference_parts".into()), camera);
-            let mut state = State::new(&TaskRunner::without_threads(), &library_cache);
             // Its frames wait for each other, so that none is dropped.
-            let spec = "recording,pace=step:short".parse().expect("a source");
-            state.session.source = Source::Camera(Box::new(spec));
+            let mut state = in_front_of("recording,pace=step:short");
             toggle(&mut state);
             assert!(state.follower.task.run_waiting());
             apply_any(&mut state, Action::Live(action.clone()));
@@ -619,7 +607,8 @@ mod tests {
         }
     }
 
-    fn watching() -> State {
+    /// A fender hangs before the camera of this source.
+    fn in_front_of(spec: &str) -> State {
         let camera = Camera::opened_by(|_| {
             Ok(Box::new(Hanging {
                 fender: HangingPart::new(PartKind::Fender, 3),
@@ -628,9 +617,13 @@ mod tests {
         });
         let library_cache = LibraryCache::new(Some("reference_parts".into()), camera);
         let mut state = State::new(&TaskRunner::without_threads(), &library_cache);
-        let spec: SourceSpec = "watch:captures".parse().expect("a source");
+        let spec: SourceSpec = spec.parse().expect("a source");
         state.session.source = Source::Camera(Box::new(spec));
         state
+    }
+
+    fn watching() -> State {
+        in_front_of("watch:captures")
     }
 
     #[test]

@@ -27,7 +27,7 @@ use crate::{
         self, NamedRecipe, ProgressObserver, Verdict,
         live::{FrameRole, HungFrame, LiveParams, LiveTracker, LiveVerdict, MotionState},
     },
-    stages::scene::EmptyCell,
+    stages::{reference::Reference, scene::EmptyCell},
 };
 
 /// Which source to follow, and how.
@@ -212,13 +212,10 @@ struct LiveSession<'a> {
     library_cache: &'a LibraryCache,
     context: &'a TaskContext<LiveAnswer>,
     request: &'a LiveStart,
-    spec: &'a SourceSpec,
     /// The folder to record into; `None` after a failure.
     record: Option<&'a Path>,
     recorded: Option<Recorded>,
-    recipe: &'a Arc<NamedRecipe>,
     recipe_identity: String,
-    empty_cell: Option<&'a Arc<EmptyCell>>,
     /// `None` for a source whose captures are independent.
     watch: Option<LiveTracker>,
     rate: FrameRate,
@@ -253,12 +250,9 @@ impl<'a> LiveSession<'a> {
             library_cache,
             context,
             request,
-            spec: &request.spec,
             record: request.record.as_deref(),
             recorded: None,
-            recipe: &request.recipe,
             recipe_identity: request.recipe.identity(),
-            empty_cell: request.empty_cell.as_ref(),
             stillness: watch.as_ref().map(LiveTracker::stillness),
             watch,
             rate: FrameRate::default(),
@@ -308,7 +302,7 @@ impl<'a> LiveSession<'a> {
     /// Records the frame, if recording, before anything else is done with it.
     fn write(&mut self, captured: &Captured, feed: &Feed) {
         let recording = self.library_cache.recording();
-        match recording.write(self.record, captured, self.spec, &feed.status()) {
+        match recording.write(self.record, captured, &self.request.spec, &feed.status()) {
             Ok(recorded) => self.recorded = recorded,
             Err(error) => {
                 self.record = None;
@@ -342,17 +336,18 @@ impl<'a> LiveSession<'a> {
     /// Inspects a capture again, as another inspection of its part.
     fn inspect_again(&mut self, before: &Inspected) -> Result<(), TaskError> {
         let mut scene = Arc::clone(&before.scene);
-        if scene.empty_cell.as_ref().map(Arc::as_ptr) != self.empty_cell.map(Arc::as_ptr) {
-            Arc::make_mut(&mut scene).empty_cell = self.empty_cell.cloned();
+        let cell = &self.request.empty_cell;
+        if scene.empty_cell.as_ref().map(Arc::as_ptr) != cell.as_ref().map(Arc::as_ptr) {
+            Arc::make_mut(&mut scene).empty_cell.clone_from(cell);
         }
         let request = InspectRequest {
             source: SceneSource::AtHand(scene, before.origin.clone()),
-            recipe: Arc::clone(self.recipe),
+            recipe: Arc::clone(&self.request.recipe),
         };
         let watching = SilentContext(self.context);
         let mut inspected = inspect(&request, self.library_cache, &watching)?;
         let summary = &mut inspected.entry.record.summary;
-        summary.source = self.spec.to_string();
+        summary.source = self.request.spec.to_string();
         summary.hung = before.hung().clone();
         summary.trace = before.trace().clone();
         self.num_inspected += 1;
@@ -364,7 +359,8 @@ impl<'a> LiveSession<'a> {
     fn take(&mut self, captured: Captured) -> Result<(), TaskError> {
         let loaded = self.library_cache.get();
         let watching = SilentContext(self.context);
-        let fitted = loaded.fitting(self.recipe, &watching);
+        let recipe = &self.request.recipe;
+        let fitted = loaded.fitting(recipe, &watching);
         let fitted = fitted.ok_or(TaskError::Cancelled)?;
         let (arrived, at) = (captured.arrived, seconds(&captured));
         let SceneOrigin {
@@ -372,20 +368,21 @@ impl<'a> LiveSession<'a> {
             origin,
             warnings,
         } = captured.into();
-        if let Some(cell) = self.empty_cell {
+        if let Some(cell) = &self.request.empty_cell {
             Arc::make_mut(&mut scene).empty_cell = Some(Arc::clone(cell));
         }
         if let Some(watch) = &mut self.watch {
             scene = watch.look(scene, at);
         }
-        let mut inspection = pipeline::run(&scene, &fitted, self.recipe, &watching)?;
-        let middle = FinishedInspection::middle(&inspection, &fitted);
+        let mut inspection = pipeline::run(&scene, &fitted, recipe, &watching)?;
+        let best = inspection.best_reference(&fitted);
+        let middle = best.and_then(Reference::middle);
         let inputs = format!("{} {}", self.recipe_identity, loaded.shown.identity);
         let mut followed = None;
         // If captures are independent, each is a hung part of its own.
         let mut role = FrameRole::First;
         if let Some(watch) = &mut self.watch {
-            self.standing = watch.judge(&mut inspection, middle, &self.recipe.accept);
+            self.standing = watch.judge(&mut inspection, middle, &recipe.accept);
             self.stillness = Some(watch.stillness());
             followed = Some(LiveFrameContext {
                 stillness: watch.stillness(),
@@ -418,10 +415,10 @@ impl<'a> LiveSession<'a> {
             scene,
             origin,
             warnings,
-            recipe: Arc::clone(self.recipe),
+            recipe: Arc::clone(recipe),
             inspection,
             followed,
-            source: self.spec.to_string(),
+            source: self.request.spec.to_string(),
         };
         let inspected = found.prepared(&fitted, &loaded.shown);
         if self.watch.is_some() && role != FrameRole::Nothing {

@@ -56,7 +56,7 @@ pub(super) fn ui(
     let typed = typed(session, dialog);
     match &typed {
         Ok(listener) => {
-            let poses = convention_title(listener.convention());
+            let poses = convention_title(listener.convention);
             row(ui, &text!("robot-poses-as"), &poses);
             if listener.doubt().is_some() {
                 let open = UserError {
@@ -204,14 +204,8 @@ fn client(ui: &mut Ui, event: &ClientEvent) {
     let peer = event.peer.to_string();
     let name = text!("robot-last-client");
     match &event.news {
-        ClientNews::Connected => {
-            let connected = text!("robot-client-connected", peer = peer);
-            row(ui, &name, &connected);
-        }
-        ClientNews::Left => {
-            let left = text!("robot-client-left", peer = peer);
-            row(ui, &name, &left);
-        }
+        ClientNews::Connected => row(ui, &name, &text!("robot-client-connected", peer = peer)),
+        ClientNews::Left => row(ui, &name, &text!("robot-client-left", peer = peer)),
         ClientNews::TurnedAway => {
             let full = UserError {
                 what: text!("robot-client-turned-away", peer = peer),

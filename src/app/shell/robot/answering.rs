@@ -25,7 +25,7 @@ use crate::{
             notice::{Notice, NoticeTopic},
             session::Session,
         },
-        task::{Task, TaskEvent, TaskRunner},
+        task::{Task, TaskRunner},
         ui::widgets::Mark,
         user_error::UserError,
     },
@@ -145,14 +145,14 @@ impl Answering {
 
     /// Starts, stops or updates the server as the session requires, and reads its reports.
     pub(super) fn update(&mut self, cx: &mut ShellContext<'_>) {
-        while let Some(event) = self.task.poll() {
-            match event {
-                TaskEvent::Partial(status) => {
+        while let Some(result) = self.task.poll() {
+            match result {
+                Ok(status) if self.task.running().is_some() => {
                     self.forget_failure(cx);
                     self.status = Some(status);
                 }
-                TaskEvent::Done(_) => self.ended(),
-                TaskEvent::Failed(trouble) => self.note_failure(trouble, cx),
+                Ok(_) => self.ended(),
+                Err(trouble) => self.note_failure(trouble, cx),
             }
         }
         let Some((listener, robot)) = wanted(cx.session) else {

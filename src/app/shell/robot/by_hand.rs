@@ -57,10 +57,7 @@ pub(super) fn ui(ui: &mut Ui, dialog: &mut RobotDialog, caused: &mut Vec<RobotAc
             }
         }
         Err(_) if dialog.numbers.trim().is_empty() => {}
-        Err(error) => {
-            let [what, advice] = written_pose_error(error);
-            told(ui, Mark::Bad, &UserError { what, advice });
-        }
+        Err(error) => told(ui, Mark::Bad, &written_pose_error(error).into()),
     }
     ui.add_space(space::SMALL);
     name(ui, dialog);

@@ -28,7 +28,7 @@ use crate::{
             notice::Notice,
             session::{Session, Source, UserRole},
         },
-        task::{Running, Task, TaskContext, TaskError, TaskEvent, TaskRunner},
+        task::{Running, Task, TaskContext, TaskError, TaskRunner},
         user_error::UserError,
     },
     capture::SourceSpec,
@@ -188,8 +188,8 @@ impl CellChecks {
     pub(super) fn update(&mut self, cx: &mut ShellContext<'_>) -> Option<UserError> {
         self.watch_shift(cx.session);
         match self.task.poll()? {
-            TaskEvent::Partial(answer) | TaskEvent::Done(answer) => self.receive(answer, cx),
-            TaskEvent::Failed(error) => Some(error),
+            Ok(answer) => self.receive(answer, cx),
+            Err(error) => Some(error),
         }
     }
 

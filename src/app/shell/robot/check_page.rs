@@ -81,7 +81,7 @@ pub(super) fn ui(
         ui.add_space(space::SMALL);
         let is_idle = checks.running().is_none();
         ui.add_enabled_ui(is_idle, |ui| {
-            if text_button(ui, &text!("robot-export-checks")).clicked() {
+            if text_button(ui, &text!("shell-export-csv")).clicked() {
                 caused.push(RobotAction::Ask(RobotFile::Checks));
             }
         });

@@ -20,7 +20,7 @@ use crate::{
             notice::Notice,
             session::{RememberedCell, Session},
         },
-        task::{Task, TaskEvent, TaskRunner},
+        task::{Task, TaskRunner},
         user_error::UserError,
     },
     robot::{
@@ -47,10 +47,9 @@ pub struct RobotCell {
 }
 
 /// A page of the dialog.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RobotPage {
     /// The calibration in use.
-    #[default]
     InUse,
     /// A calibration typed as numbers.
     ByHand,
@@ -243,7 +242,7 @@ impl RobotFile {
             },
             Self::Checks => FileRequest {
                 title: text!("robot-export-checks-title"),
-                filters: vec![(text!("robot-csv-files"), &["csv"])],
+                filters: vec![(text!("shell-csv-files"), &["csv"])],
                 choice: FileChoice::NewFile("cell-checks.csv".into()),
             },
         }
@@ -391,7 +390,7 @@ impl RobotCell {
     }
 
     fn load(&mut self, path: PathBuf) {
-        let job = |_: &_| Ok(work::load(path)?);
+        let job = |_: &_| Ok(work::load(path, None)?);
         self.task.start(text!("robot-opening"), job);
     }
 
@@ -470,23 +469,20 @@ impl RobotCell {
     /// Polls the tasks and the file dialog; returns the action for a chosen file.
     pub fn update(&mut self, cx: &mut ShellContext<'_>) -> Option<RobotAction> {
         match self.task.poll() {
-            Some(TaskEvent::Partial(result) | TaskEvent::Done(result)) => self.receive(result, cx),
-            Some(TaskEvent::Failed(error)) => self.report(error, cx),
+            Some(Ok(result)) => self.receive(result, cx),
+            Some(Err(error)) => self.report(error, cx),
             None => {}
         }
         if let Some(error) = self.checks.update(cx) {
             self.report(error, cx);
         }
         self.answering.update(cx);
-        match self.files.poll()? {
-            (RobotFile::Calibration, Ok(path)) => Some(RobotAction::Load(path)),
-            (RobotFile::Pairs, Ok(path)) => Some(RobotAction::Pairs(path)),
-            (RobotFile::Checks, Ok(path)) => Some(RobotAction::Check(CheckAction::Export(path))),
-            (_, Err(notice)) => {
-                cx.notify(notice);
-                None
-            }
-        }
+        let (file, path) = cx.chosen(&mut self.files)?;
+        Some(match file {
+            RobotFile::Calibration => RobotAction::Load(path),
+            RobotFile::Pairs => RobotAction::Pairs(path),
+            RobotFile::Checks => RobotAction::Check(CheckAction::Export(path)),
+        })
     }
 
     /// Shows an error in the dialog if it is open, else as a notice.

@@ -54,16 +54,11 @@ pub struct SolvedPairs {
     pub solved: HandEye,
 }
 
-/// Reads a calibration to be used.
-pub(super) fn load(path: PathBuf) -> Result<RobotResult, UserError> {
-    in_use(path, None)
-}
-
 /// Saves a calibration to be used, keeping the former file.
 pub(super) fn save(path: PathBuf, calibration: &CellCalibration) -> Result<RobotResult, UserError> {
     let former = calibration.save_keeping_former(&path);
     let former = former.map_err(|error| UserError::of(&error))?;
-    in_use(path, former)
+    load(path, former)
 }
 
 /// Calculates the camera's pose from a file of pairs, leaving out the pairs of the given names.
@@ -87,7 +82,8 @@ pub(super) fn solve_pairs(
     })))
 }
 
-fn in_use(path: PathBuf, former: Option<PathBuf>) -> Result<RobotResult, UserError> {
+/// Reads a calibration to be used; `former` is where the former one was kept, if there was one.
+pub(super) fn load(path: PathBuf, former: Option<PathBuf>) -> Result<RobotResult, UserError> {
     let Loaded {
         calibration,
         is_edited,

@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use super::{
-    scene::{Line, LineSet},
+    scene::{Line, LineSet, vec3},
     style::Role,
 };
 use crate::{geometry::depth_frame::Intrinsics, units::Metres};
@@ -22,10 +22,7 @@ pub fn axes(length: Metres) -> LineSet {
 
 /// Makes the frustum of the depth camera at the origin, with its picture's edges at `depth`.
 pub fn frustum(intrinsics: &Intrinsics, depth: Metres) -> LineSet {
-    let corner = |u: f64, v: f64| {
-        let p = intrinsics.point_at(u, v, depth.0);
-        Vec3::new(p.x as f32, p.y as f32, p.z as f32)
-    };
+    let corner = |u, v| vec3(&intrinsics.point_at(u, v, depth.0));
     // Pixel centres are at whole numbers: the picture begins half a pixel before the first.
     let (right, bottom) = (
         intrinsics.width as f64 - 0.5,

@@ -17,12 +17,12 @@ const CONTROLS: f32 = 48.0;
 /// Draws the scale that colours the view's points, if a scale does.
 pub(super) fn ui(painter: &Painter, rect: Rect, scene: &ViewScene, style: &ViewStyle) {
     let fits = rect.width() > BAR.x + 4.0 * MARGIN && rect.height() > 100.0;
-    if style.legend == Legend::Hidden || !fits {
+    if !fits {
         return;
     }
     let rect = match style.legend {
         Legend::BelowControls => rect.with_min_y(rect.top() + CONTROLS),
-        Legend::Shown | Legend::Hidden => rect,
+        Legend::Shown => rect,
     };
     let colours = &style.colours;
     let (factor, unit, decimals) = style.length_axis;

@@ -11,7 +11,7 @@ use glam::Mat4;
 
 use super::{
     pass::{self, PassSpec},
-    scene::{LineSet, Stroke},
+    scene::LineSet,
     targets::COLOUR_FORMAT,
 };
 
@@ -51,11 +51,7 @@ impl GpuLines {
             .lines()
             .iter()
             .flat_map(|line| {
-                let dashed = if line.stroke == Stroke::Dashed {
-                    DASHED
-                } else {
-                    0
-                };
+                let dashed = if line.is_dashed { DASHED } else { 0 };
                 let ends = line
                     .points
                     .windows(2)

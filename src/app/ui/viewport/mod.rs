@@ -57,9 +57,9 @@ pub use self::{
     gpu::{ViewError, ViewportGpu},
     measure::Measurement,
     picking::PickedPoint,
-    scene::{Line, LineSet, PointSet, TextLabel, ViewScene},
-    screenshot::{ViewShot, screenshot},
-    style::{Colouring, Legend, PointSize, Role, RoleColour, ScaleWords, ViewColours, ViewStyle},
+    scene::{Line, LineSet, PointSet, TextLabel, ViewScene, vec3},
+    screenshot::ViewShot,
+    style::{Colouring, Legend, Role, RoleColour, ScaleWords, ViewColours, ViewStyle},
     widget::{ViewTool, Viewport, ViewportResponse},
 };
 

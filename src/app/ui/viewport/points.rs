@@ -9,6 +9,8 @@
 //! first few samples draws an even share of the cloud without choosing or sorting anything in a frame, which keeps a slow
 //! device fluid while the camera moves. Within a sample neighbours stay neighbours, which suits the caches.
 
+use std::sync::Arc;
+
 use bytemuck::{Pod, Zeroable};
 use eframe::wgpu;
 use glam::{Mat4, Vec4};
@@ -50,41 +52,31 @@ pub(super) struct PointsUniform {
     pub(super) clip_from_set: Mat4,
     pub(super) height_from_set: Vec4,
     pub(super) diameter: f32,
-    pub(super) diameter_in_metres: f32,
-    pub(super) padding: [f32; 2],
+    pub(super) padding: [f32; 3],
 }
 
-/// The points of a set in the layout of the GPU tables, ready to copy.
-#[derive(Clone, Debug)]
-pub(super) struct PackedPoints {
-    tables: Vec<PackedTable>,
-}
-
-#[derive(Clone, Debug)]
-struct PackedTable {
+/// Points of a set in the layout of a GPU table, ready to copy.
+#[derive(Debug)]
+pub(super) struct PackedTable {
     /// Whole rows; the last one is padded.
     texels: Vec<GpuPoint>,
     sample_ends: [u32; NUM_SAMPLES],
 }
 
-impl PackedPoints {
-    /// Packs all finite points of the set.
-    pub(super) fn of(set: &PointSet) -> Self {
-        let num_points = set.positions().len();
-        let starts = (0..num_points).step_by(POINTS_PER_TABLE);
-        let tables = starts.map(|start| {
-            let end = num_points.min(start + POINTS_PER_TABLE);
-            let (mut texels, sample_ends) = in_samples(set, start..end);
-            texels.resize(texels.len().div_ceil(ROW).max(1) * ROW, GpuPoint::default());
-            PackedTable {
-                texels,
-                sample_ends,
-            }
-        });
-        Self {
-            tables: tables.collect(),
+/// Packs all finite points of the set.
+pub(super) fn pack(set: &PointSet) -> Arc<[PackedTable]> {
+    let num_points = set.positions().len();
+    let starts = (0..num_points).step_by(POINTS_PER_TABLE);
+    let tables = starts.map(|start| {
+        let end = num_points.min(start + POINTS_PER_TABLE);
+        let (mut texels, sample_ends) = in_samples(set, start..end);
+        texels.resize(texels.len().div_ceil(ROW).max(1) * ROW, GpuPoint::default());
+        PackedTable {
+            texels,
+            sample_ends,
         }
-    }
+    });
+    tables.collect()
 }
 
 /// The uploaded points of one set.
@@ -104,9 +96,9 @@ impl GpuPoints {
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         layout: &wgpu::BindGroupLayout,
-        packed: &PackedPoints,
+        packed: &[PackedTable],
     ) -> Self {
-        let tables = packed.tables.iter().map(|table| {
+        let tables = packed.iter().map(|table| {
             let texels = upload_table(device, queue, &table.texels);
             let resources = [wgpu::BindingResource::TextureView(&texels)];
             Table {

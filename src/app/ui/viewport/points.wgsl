@@ -5,10 +5,8 @@ struct Points {
     clip_from_set: mat4x4<f32>,
     // Height above the camera = dot(height_from_set, vec4(position, 1)).
     height_from_set: vec4<f32>,
-    // Diameter in physical pixels and in metres, added together; one of them is 0.
+    // Metres.
     diameter: f32,
-    diameter_in_metres: f32,
-    padding: vec2<f32>,
 }
 
 // `Colouring` in style.rs, one pipeline each. With a branch on a uniform, software Vulkan (Mesa 22) would recompile the shader
@@ -71,7 +69,7 @@ fn vertex_main(@builtin(vertex_index) index: u32) -> Corner {
     let point = point_at(index / 3u);
     let clip = points.clip_from_set * vec4(point.position, 1.0);
     let diameter = view.roles[point.role].w
-        * (points.diameter + points.diameter_in_metres * view.focal / clip.w);
+        * (points.diameter * view.focal / clip.w);
     var corners = CORNERS;
     let offset = corners[index % 3u];
     var corner: Corner;

@@ -18,7 +18,7 @@ use super::{
     pass::Uniform,
     points::{GpuPoints, NUM_SAMPLES, PointsUniform},
     scene::ViewScene,
-    style::{Colouring, PointSize, ViewStyle},
+    style::{Colouring, ViewStyle},
     targets::Targets,
     uniform::ViewUniform,
 };
@@ -65,16 +65,16 @@ struct GpuBuffers {
 }
 
 impl ViewRenderer {
-    /// Records the drawing of the frame and returns true, unless the picture already shows it.
+    /// Records the drawing of the frame, unless the picture already shows it.
     pub(super) fn draw(
         &mut self,
         gpu: &ViewportGpu,
         frame: &Frame,
         encoder: &mut wgpu::CommandEncoder,
-    ) -> bool {
+    ) {
         let key = PictureKey::of(frame);
         if self.drawn.as_ref() == Some(&key) {
-            return false;
+            return;
         }
         self.hold(gpu, frame.target);
         self.hold_sets(gpu, frame, &key);
@@ -84,7 +84,6 @@ impl ViewRenderer {
             self.num_pictures += 1;
         }
         self.drawn = Some(key);
-        true
     }
 
     /// Sets where in the window the picture goes, and how many window pixels one of its pixels is wide.
@@ -131,18 +130,8 @@ impl ViewRenderer {
     }
 
     fn hold_sets(&mut self, gpu: &ViewportGpu, frame: &Frame, key: &PictureKey) {
-        let same = |now: &PictureKey, then: &PictureKey| {
-            now.points
-                .iter()
-                .map(|p| p.0)
-                .eq(then.points.iter().map(|p| p.0))
-                && now
-                    .lines
-                    .iter()
-                    .map(|l| l.0)
-                    .eq(then.lines.iter().map(|l| l.0))
-        };
-        if self.drawn.as_ref().is_some_and(|drawn| same(key, drawn)) {
+        let has_same = |drawn: &PictureKey| drawn.generations().eq(key.generations());
+        if self.drawn.as_ref().is_some_and(has_same) {
             return;
         }
         // Get the new ones before dropping the old, so that sets in both are not freed in between.
@@ -255,6 +244,12 @@ fn begin<'a>(
 }
 
 impl PictureKey {
+    /// Numbers of the point sets, then of the line sets; no two sets have the same.
+    fn generations(&self) -> impl Iterator<Item = u64> {
+        let points = self.points.iter().map(|(generation, _)| *generation);
+        points.chain(self.lines.iter().map(|(generation, _)| *generation))
+    }
+
     fn of(frame: &Frame) -> Self {
         let Frame {
             camera,
@@ -265,20 +260,15 @@ impl PictureKey {
             num_samples,
         } = frame;
         let clip_from_world = camera.clip_from_world(*size);
-        let pixels_per_point = target[1] as f32 / size.y.max(1.0);
         // Draw fewer points larger, but not large enough to cover the same area: filling costs time too.
         let growth = (NUM_SAMPLES as f32 / *num_samples as f32).powf(0.25);
-        let (diameter, diameter_in_metres) = match style.point_size {
-            PointSize::Pixels(pixels) => (pixels * pixels_per_point * growth, 0.0),
-            PointSize::Metres(metres) => (0.0, metres.0 as f32 * growth),
-        };
+        let diameter = style.point_size.0 as f32 * growth;
         let points = scene.points.iter().map(|set| {
             let uniform = PointsUniform {
                 clip_from_set: clip_from_world * set.world_from_set,
                 height_from_set: height_from(&set.world_from_set),
                 diameter,
-                diameter_in_metres,
-                padding: [0.0; 2],
+                padding: [0.0; 3],
             };
             (set.generation(), uniform)
         });

@@ -10,13 +10,19 @@ use std::sync::{
 };
 
 use glam::{Mat4, Vec3};
+use nalgebra::Point3;
 
 use super::{
     bounds::PointBounds,
-    points::PackedPoints,
+    points::{PackedTable, pack},
     style::{Colouring, Role},
 };
 use crate::{geometry::rigid::RigidTransform, stages::segment::PointLabel};
+
+/// A point as the view takes it.
+pub fn vec3(p: &Point3<f64>) -> Vec3 {
+    Vec3::new(p.x as f32, p.y as f32, p.z as f32)
+}
 
 /// Returns a number that no other set of this process has.
 fn next_generation() -> u64 {
@@ -34,7 +40,7 @@ pub struct PointSet {
     positions: Arc<[[f32; 3]]>,
     labels: Labels,
     deviations: Option<Arc<[f32]>>,
-    packed: Option<Arc<PackedPoints>>,
+    packed: Option<Arc<[PackedTable]>>,
     generation: u64,
     bounds: Option<PointBounds>,
     focus: Option<PointBounds>,
@@ -95,16 +101,13 @@ impl PointSet {
     /// Packs the points for the GPU, as the last step of making the set off the UI thread: showing it is then only a copy.
     #[must_use]
     pub fn packed(mut self) -> Self {
-        self.packed = Some(Arc::new(PackedPoints::of(&self)));
+        self.packed = Some(pack(&self));
         self
     }
 
     /// Returns the points packed for the GPU, packing them now if [`Self::packed`] was not called.
-    pub(super) fn to_upload(&self) -> Arc<PackedPoints> {
-        match &self.packed {
-            Some(packed) => Arc::clone(packed),
-            None => Arc::new(PackedPoints::of(self)),
-        }
+    pub(super) fn to_upload(&self) -> Arc<[PackedTable]> {
+        self.packed.clone().unwrap_or_else(|| pack(self))
     }
 
     /// Sets a colouring of its own, whatever the view's.
@@ -147,15 +150,6 @@ pub fn mat4(transform: &RigidTransform) -> Mat4 {
     Mat4::from_cols_slice(matrix.as_slice())
 }
 
-/// How a line is drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stroke {
-    /// Without gaps.
-    Solid,
-    /// In dashes of about eight logical pixels.
-    Dashed,
-}
-
 /// A polyline.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
@@ -165,8 +159,8 @@ pub struct Line {
     pub role: Role,
     /// Width, logical pixels.
     pub width: f32,
-    /// Solid or dashed.
-    pub stroke: Stroke,
+    /// True if it is drawn in dashes of about eight logical pixels.
+    pub is_dashed: bool,
 }
 
 impl Line {
@@ -176,14 +170,14 @@ impl Line {
             points: points.into(),
             role,
             width: 2.0,
-            stroke: Stroke::Solid,
+            is_dashed: false,
         }
     }
 
     /// Makes the line dashed.
     #[must_use]
     pub fn dashed(mut self) -> Self {
-        self.stroke = Stroke::Dashed;
+        self.is_dashed = true;
         self
     }
 

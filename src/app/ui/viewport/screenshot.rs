@@ -27,22 +27,49 @@ pub struct ViewShot {
     pub style: ViewStyle,
     /// Width and height, physical pixels.
     pub size: [u32; 2],
-    /// Factor on line widths and point sizes.
+    /// Factor on line widths, 1 for a plain screen.
     pub pixels_per_point: f32,
 }
 
 impl ViewShot {
-    /// Draws it with [`screenshot`].
+    /// Draws its points and lines, without labels and colour scale, which belong to the window.
+    ///
+    /// A pending fit of the camera is done first. Blocks until the picture is ready.
     pub fn take(&self) -> Result<RgbaImage, ViewError> {
-        let Self {
-            gpu,
-            camera,
-            scene,
-            style,
-            size,
-            pixels_per_point,
-        } = self;
-        screenshot(gpu, camera, scene, style, *size, *pixels_per_point)
+        let gpu = &self.gpu;
+        let [width, height] = self.size;
+        let most = gpu.device().limits().max_texture_dimension_2d;
+        if !(1..=most).contains(&width) || !(1..=most).contains(&height) {
+            return Err(ViewError::PictureSize {
+                width,
+                height,
+                most,
+            });
+        }
+        let mut frame = Frame {
+            camera: self.camera,
+            scene: self.scene.clone(),
+            style: self.style.clone(),
+            size: glam::Vec2::new(width as f32, height as f32) / self.pixels_per_point.max(0.1),
+            target: self.size,
+            num_samples: NUM_SAMPLES,
+        };
+        super::navigation::fit_if_pending(&mut frame.camera, &self.scene, frame.size);
+        let mut renderer = ViewRenderer::default();
+        let mut encoder = gpu
+            .device()
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        renderer.draw(gpu, &frame, &mut encoder);
+        let read = renderer
+            .picture()
+            .map(|picture| read_back(gpu, picture, encoder));
+        match (gpu.trouble(), read) {
+            (None, Some(Some(image))) => Ok(image),
+            (Some(trouble), _) => Err(trouble),
+            (None, _) => Err(ViewError::DeviceError {
+                reason: "the picture could not be read back".into(),
+            }),
+        }
     }
 }
 
@@ -52,53 +79,6 @@ impl fmt::Debug for ViewShot {
             .field("camera", &self.camera)
             .field("size", &self.size)
             .finish_non_exhaustive()
-    }
-}
-
-/// Draws the points and lines of a scene, without labels and colour scale, which belong to the window.
-///
-/// `size` is in physical pixels; `pixels_per_point` scales line widths and point sizes, 1 for a plain screen. A pending fit of
-/// `camera` is done first. Blocks until the picture is ready.
-pub fn screenshot(
-    gpu: &ViewportGpu,
-    camera: &ViewCamera,
-    scene: &ViewScene,
-    style: &ViewStyle,
-    size: [u32; 2],
-    pixels_per_point: f32,
-) -> Result<RgbaImage, ViewError> {
-    let [width, height] = size;
-    let most = gpu.device().limits().max_texture_dimension_2d;
-    if !(1..=most).contains(&width) || !(1..=most).contains(&height) {
-        return Err(ViewError::PictureSize {
-            width,
-            height,
-            most,
-        });
-    }
-    let mut frame = Frame {
-        camera: *camera,
-        scene: scene.clone(),
-        style: style.clone(),
-        size: glam::Vec2::new(width as f32, height as f32) / pixels_per_point.max(0.1),
-        target: size,
-        num_samples: NUM_SAMPLES,
-    };
-    super::navigation::fit_if_pending(&mut frame.camera, scene, frame.size);
-    let mut renderer = ViewRenderer::default();
-    let mut encoder = gpu
-        .device()
-        .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    renderer.draw(gpu, &frame, &mut encoder);
-    let read = renderer
-        .picture()
-        .map(|picture| read_back(gpu, picture, encoder));
-    match (gpu.trouble(), read) {
-        (None, Some(Some(image))) => Ok(image),
-        (Some(trouble), _) => Err(trouble),
-        (None, _) => Err(ViewError::DeviceError {
-            reason: "the picture could not be read back".into(),
-        }),
     }
 }
 

@@ -2,7 +2,10 @@
 
 use egui::Color32;
 
-use crate::app::{language::text, ui::theme::ThemeChoice};
+use crate::app::{
+    language::text,
+    ui::theme::{ThemeChoice, rgb},
+};
 use crate::{stages::segment::PointLabel, units::Metres};
 
 /// Number of colours of a scale, evenly spaced from its low end to its high end.
@@ -113,16 +116,7 @@ impl Colouring {
     }
 }
 
-/// The diameter of a point.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum PointSize {
-    /// Constant on the screen at any distance, logical pixels, 1..20.
-    Pixels(f32),
-    /// Constant in the world, so near points look larger; at least 1.5 pixels on the screen.
-    Metres(Metres),
-}
-
-/// Whether and where the colour scale is drawn.
+/// Where the colour scale is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Legend {
     /// In the corner, while points are coloured by a scale.
@@ -130,8 +124,6 @@ pub enum Legend {
     Shown,
     /// Like `Shown`, but lower: a row of controls is at the top.
     BelowControls,
-    /// Never, for views too small for it.
-    Hidden,
 }
 
 /// What the deviations of a point set measure; selects the scale's colours and labels.
@@ -156,8 +148,8 @@ pub struct ViewStyle {
     pub colours: ViewColours,
     /// Colouring of the point sets that do not set their own.
     pub colouring: Colouring,
-    /// Base diameter of a point, multiplied by its role's weight.
-    pub point_size: PointSize,
+    /// Base diameter of a point, multiplied by its role's weight; at least 1.5 pixels on the screen.
+    pub point_size: Metres,
     /// Strength of the eye-dome lighting, 0 (off) to 2. Raising it deepens edges and noise alike.
     pub eye_dome: f32,
     /// Deviation at the ends of the scale, above 0. Larger ones get the end colour.
@@ -166,7 +158,7 @@ pub struct ViewStyle {
     pub length_axis: (f64, &'static str, usize),
     /// What the deviations measure.
     pub scale_words: ScaleWords,
-    /// Whether and where the colour scale is drawn.
+    /// Where the colour scale is drawn.
     pub legend: Legend,
 }
 
@@ -177,7 +169,7 @@ impl ViewStyle {
             colours,
             colouring: Colouring::default(),
             // About the point spacing of a depth camera on a part: surfaces look closed at any zoom.
-            point_size: PointSize::Metres(Metres::from_mm(4.0)),
+            point_size: Metres::from_mm(4.0),
             eye_dome: 1.0,
             deviation_range: Metres::from_mm(5.0),
             length_axis: (1000.0, "mm", 0),
@@ -216,99 +208,77 @@ pub struct ViewColours {
 }
 
 impl ViewColours {
-    /// Returns the colours for a window with this theme.
-    pub fn of(theme: ThemeChoice) -> Self {
-        match theme {
-            ThemeChoice::Dark => Self::dark(),
-            ThemeChoice::Light => Self::light(),
-        }
-    }
-
     /// Returns the colours for a dark window.
     pub fn dark() -> Self {
-        let role = |rgb: u32, weight: f32| RoleColour {
-            colour: hex(rgb),
-            weight,
-        };
-        Self {
-            background: hex(0x0c_0d10),
-            text: hex(0xe8_eaed),
-            weak_text: hex(0x9a_a0a8),
-            roles: [
-                role(0xa3_abb8, 1.0),
-                role(0x4f_c4b2, 1.0),
-                role(0x2f_3b5c, 1.2),
-                role(0x5c_4728, 1.2),
-                role(0x4b_3558, 1.2),
-                role(0x3a_4c31, 1.2),
-                role(0x8d_97a8, 1.0),
-                role(0xe3_a73f, 1.0),
-                role(0xe8_6a5c, 1.0),
-                role(0x5b_c46c, 1.0),
-                role(0x5a_97e8, 1.0),
-                role(0x8b_94a3, 0.55),
-                role(0xe8_eaed, 0.9),
-                role(0xf0_f2f5, 1.0),
-                role(0xff_d866, 1.0),
-                role(0xff_9d3c, 1.3),
-                role(0xb7_a6f2, 1.1),
-            ],
-            height_scale: [
-                0x3b_3f8c, 0x3b_6fb0, 0x3a_9db0, 0x4f_c4a0, 0x93_d67c, 0xd9_e06a, 0xfb_f3a0,
-            ]
-            .map(hex),
-            deviation_scale: [
-                0x3a_62d8, 0x3f_8fdc, 0x4f_bcc9, 0xb9_c9bd, 0xdd_c565, 0xe5_9440, 0xdf_5a35,
-            ]
-            .map(hex),
-            film_scale: [
-                0x3f_5fe0, 0x3f_8fdc, 0x45_b5a8, 0x5b_c46c, 0xb5_cf5a, 0xe5_a040, 0xdf_5a35,
-            ]
-            .map(hex),
-        }
+        Self::of(ThemeChoice::Dark)
     }
 
     /// Returns the colours for a light window.
     pub fn light() -> Self {
-        let role = |rgb: u32, weight: f32| RoleColour {
-            colour: hex(rgb),
+        Self::of(ThemeChoice::Light)
+    }
+
+    /// Returns the colours for a window with this theme. Each is given for dark windows, then for light ones.
+    pub fn of(theme: ThemeChoice) -> Self {
+        let colour = |dark: u32, light: u32| match theme {
+            ThemeChoice::Dark => rgb(dark),
+            ThemeChoice::Light => rgb(light),
+        };
+        let role = |dark, light, weight| RoleColour {
+            colour: colour(dark, light),
             weight,
         };
+        let scale = |dark: [u32; SCALE_STOPS], light: [u32; SCALE_STOPS]| match theme {
+            ThemeChoice::Dark => dark.map(rgb),
+            ThemeChoice::Light => light.map(rgb),
+        };
         Self {
-            background: hex(0xf6_f7f9),
-            text: hex(0x1b_1e23),
-            weak_text: hex(0x5a_616b),
+            background: colour(0x0c_0d10, 0xf6_f7f9),
+            text: colour(0xe8_eaed, 0x1b_1e23),
+            weak_text: colour(0x9a_a0a8, 0x5a_616b),
             roles: [
-                role(0x8d_95a3, 1.0),
-                role(0x1d_a08c, 1.0),
-                role(0xcc_d6ec, 1.2),
-                role(0xe6_d3b4, 1.2),
-                role(0xd9_c8e4, 1.2),
-                role(0xc9_d9bf, 1.2),
-                role(0x7c_8696, 1.0),
-                role(0xd0_8a1c, 1.0),
-                role(0xc9_3c2e, 1.0),
-                role(0x2a_9440, 1.0),
-                role(0x2b_6cc9, 1.0),
-                role(0x5a_616b, 0.55),
-                role(0x1b_1e23, 0.9),
-                role(0x1b_1e23, 1.0),
-                role(0xb3_0f6a, 1.0),
-                role(0xd0_5a00, 1.3),
-                role(0x6b_4fd0, 1.1),
+                role(0xa3_abb8, 0x8d_95a3, 1.0),
+                role(0x4f_c4b2, 0x1d_a08c, 1.0),
+                role(0x2f_3b5c, 0xcc_d6ec, 1.2),
+                role(0x5c_4728, 0xe6_d3b4, 1.2),
+                role(0x4b_3558, 0xd9_c8e4, 1.2),
+                role(0x3a_4c31, 0xc9_d9bf, 1.2),
+                role(0x8d_97a8, 0x7c_8696, 1.0),
+                role(0xe3_a73f, 0xd0_8a1c, 1.0),
+                role(0xe8_6a5c, 0xc9_3c2e, 1.0),
+                role(0x5b_c46c, 0x2a_9440, 1.0),
+                role(0x5a_97e8, 0x2b_6cc9, 1.0),
+                role(0x8b_94a3, 0x5a_616b, 0.55),
+                role(0xe8_eaed, 0x1b_1e23, 0.9),
+                role(0xf0_f2f5, 0x1b_1e23, 1.0),
+                role(0xff_d866, 0xb3_0f6a, 1.0),
+                role(0xff_9d3c, 0xd0_5a00, 1.3),
+                role(0xb7_a6f2, 0x6b_4fd0, 1.1),
             ],
-            height_scale: [
-                0x31_357d, 0x2f_62a6, 0x2a_8ca6, 0x35_ad86, 0x74_bb57, 0xb9_b93a, 0xdc_a92a,
-            ]
-            .map(hex),
-            deviation_scale: [
-                0x22_46b8, 0x2f_7cc7, 0x4f_a9b5, 0xa3_ada3, 0xcf_aa3a, 0xd6_7a22, 0xc2_3f1c,
-            ]
-            .map(hex),
-            film_scale: [
-                0x22_46b8, 0x2f_7cc7, 0x2a_9c8f, 0x2a_9440, 0x8a_a52e, 0xd6_8a22, 0xc2_3f1c,
-            ]
-            .map(hex),
+            height_scale: scale(
+                [
+                    0x3b_3f8c, 0x3b_6fb0, 0x3a_9db0, 0x4f_c4a0, 0x93_d67c, 0xd9_e06a, 0xfb_f3a0,
+                ],
+                [
+                    0x31_357d, 0x2f_62a6, 0x2a_8ca6, 0x35_ad86, 0x74_bb57, 0xb9_b93a, 0xdc_a92a,
+                ],
+            ),
+            deviation_scale: scale(
+                [
+                    0x3a_62d8, 0x3f_8fdc, 0x4f_bcc9, 0xb9_c9bd, 0xdd_c565, 0xe5_9440, 0xdf_5a35,
+                ],
+                [
+                    0x22_46b8, 0x2f_7cc7, 0x4f_a9b5, 0xa3_ada3, 0xcf_aa3a, 0xd6_7a22, 0xc2_3f1c,
+                ],
+            ),
+            film_scale: scale(
+                [
+                    0x3f_5fe0, 0x3f_8fdc, 0x45_b5a8, 0x5b_c46c, 0xb5_cf5a, 0xe5_a040, 0xdf_5a35,
+                ],
+                [
+                    0x22_46b8, 0x2f_7cc7, 0x2a_9c8f, 0x2a_9440, 0x8a_a52e, 0xd6_8a22, 0xc2_3f1c,
+                ],
+            ),
         }
     }
 
@@ -324,12 +294,6 @@ impl ViewColours {
     pub fn role(&self, role: Role) -> RoleColour {
         self.roles[role as usize]
     }
-}
-
-/// Makes a colour from `0xRRGGBB`.
-fn hex(rgb: u32) -> Color32 {
-    let [_, red, green, blue] = rgb.to_be_bytes();
-    Color32::from_rgb(red, green, blue)
 }
 
 #[cfg(test)]

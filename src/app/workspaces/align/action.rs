@@ -72,7 +72,7 @@ impl AlignFile {
             },
             Self::TableFile => FileRequest {
                 title: text!("align-export-title"),
-                filters: vec![(text!("align-csv-files"), &["csv"])],
+                filters: vec![(text!("shell-csv-files"), &["csv"])],
                 choice: FileChoice::NewFile("table1.csv".into()),
             },
         }

@@ -1,13 +1,12 @@
 //! Above the views: what is aligned to what, the start, and Run.
 
 use egui::{
-    Align, Align2, Button, DragValue, Label, Layout, Response, RichText, Role, ScrollArea,
-    TextEdit, TextStyle, Ui, Vec2, WidgetInfo, vec2,
+    Align, Align2, Button, DragValue, Label, Layout, Response, RichText, Role, TextEdit, TextStyle,
+    Ui, Vec2, WidgetInfo, vec2,
 };
 
 use super::{
     action::{AlignAction, AlignFile},
-    custom::Form,
     start::Start,
     state::{AlignState, Pairing},
 };
@@ -18,7 +17,7 @@ use crate::app::{
     ui::{
         theme::{Theme, font, space},
         viewport::ViewDirection,
-        widgets::{button_width, fitted_middle, labelled, shortened, show_scroll_bar, text_button},
+        widgets::{button_width, fitted_middle, labelled, menu_list, shortened, text_button},
     },
 };
 
@@ -31,7 +30,7 @@ const REMARK: f32 = 18.0;
 /// Height of this panel's contents, logical pixels.
 pub(super) fn height(align: &AlignState) -> f32 {
     let rows = 2.0 * space::TARGET + space::SMALL;
-    if align.pairing != Pairing::MovedCopy || align.custom.form == Form::Closed {
+    if align.pairing != Pairing::MovedCopy || !align.custom.is_open {
         return rows;
     }
     let num_remarks = align.custom.remarks.len().max(1) as f32;
@@ -75,8 +74,7 @@ pub(super) fn ui(
             });
         });
     });
-    let is_writing = align.custom.form == Form::Open;
-    if align.pairing == Pairing::MovedCopy && is_writing {
+    if align.pairing == Pairing::MovedCopy && align.custom.is_open {
         custom(ui, align, actions);
     }
     look
@@ -133,10 +131,9 @@ fn part_menu(ui: &mut Ui, align: &AlignState, session: &Session, actions: &mut V
         return;
     }
     let chosen = align.chosen_part(session);
-    let place = chosen.and_then(|name| library.place_of(name));
-    let title = place.map_or_else(
+    let title = chosen.map_or_else(
         || text!("align-no-part"),
-        |place| library.title(place).to_owned(),
+        |name| library.title_of(name).to_owned(),
     );
     let named = |title: &str| format!("{} · {title} ▼", text!("align-part"));
     // The menu uses the width left by Run.
@@ -145,8 +142,7 @@ fn part_menu(ui: &mut Ui, align: &AlignState, session: &Session, actions: &mut V
     let shown = fitted_middle(ui.painter(), &shortened(&title, 24), &font, room);
     let menu = ui.menu_button(named(&shown), |ui| {
         ui.set_min_width(200.0);
-        show_scroll_bar(ui);
-        ScrollArea::vertical().max_height(420.0).show(ui, |ui| {
+        menu_list(ui, |ui| {
             for part in &library.parts {
                 let name = part.name.as_str();
                 if ui
@@ -244,7 +240,7 @@ fn custom(ui: &mut Ui, align: &AlignState, actions: &mut Vec<AlignAction>) {
             actions.push(AlignAction::WriteCustom(text));
         }
         let use_it = ui
-            .add_enabled_ui(custom.is_start(), |ui| {
+            .add_enabled_ui(custom.transform.is_some(), |ui| {
                 text_button(ui, &text!("align-use-start"))
             })
             .inner;

@@ -1,7 +1,7 @@
 //! Align, for the engineer: every method on the same two clouds, side by side, and Table I.
 //!
 //! ```text
-//! choosing  what is aligned to what, from where       start, custom, pair
+//! choosing  what is aligned to what, from where       start, pair
 //! views     one 3-D view a method, one camera         track: the poses of a method and E at each
 //! scrubber  E per iteration, and the iteration shown   plot, playback
 //! side      Table I, the true error                   table
@@ -9,7 +9,6 @@
 
 mod action;
 mod choosing;
-mod custom;
 mod pair;
 mod playback;
 mod plot;
@@ -27,10 +26,9 @@ use egui::{Frame, Key, Margin, Modifiers, Panel, Ui};
 
 pub use self::{
     action::{AlignAction, AlignFile},
-    custom::{CustomStart, Form},
     pair::{Pair, PairSource},
     playback::MethodComparison,
-    start::Start,
+    start::{CustomStart, Start},
     state::{AlignResult, AlignState, Pairing},
     table::{TableCell, TableFigures, TableRow, TableShown},
     track::{MethodRun, Track},
@@ -91,7 +89,8 @@ const SHORTCUTS: [Shortcut<AlignAction>; 4] = [
 
 /// The workspace.
 pub struct AlignWorkspace {
-    state: AlignState,
+    /// The state of the workspace.
+    pub state: AlignState,
     views: LinkedViews,
     side: SidePanel,
 }
@@ -104,16 +103,6 @@ impl AlignWorkspace {
             views: LinkedViews::new(gpu),
             side: SidePanel::default(),
         }
-    }
-
-    /// The state of the workspace.
-    pub fn state(&self) -> &AlignState {
-        &self.state
-    }
-
-    /// The state, to be changed by a program.
-    pub fn state_mut(&mut self) -> &mut AlignState {
-        &mut self.state
     }
 }
 

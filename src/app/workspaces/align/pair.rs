@@ -75,8 +75,6 @@ pub struct Pair {
     names: PairNames,
     /// The cloud that is moved onto the target.
     pub source: PointCloud,
-    /// The cloud that the source is moved onto.
-    pub target: PointCloud,
     /// The points of the source over which E is measured, thinned as for the estimate's own figures.
     pub sample: Vec<Point3<f32>>,
     /// The target prepared for the methods, or why it cannot be.
@@ -116,15 +114,9 @@ impl Pair {
                     scene: inspected.origin.clone(),
                     part: title.to_owned(),
                 };
-                let target = PointCloud::from_points(reference.cloud.points.iter().copied());
                 let prepared = reference.whole().cloned();
-                Ok(Self::new(
-                    names,
-                    found.cloud.clone(),
-                    target,
-                    prepared,
-                    None,
-                ))
+                let (source, target) = (found.cloud.clone(), &reference.cloud);
+                Ok(Self::new(names, source, target, prepared, None))
             }
             PairSource::Files { source, target } => {
                 let names = PairNames::Files {
@@ -144,7 +136,7 @@ impl Pair {
                 let prepared = PreparedTarget::new(&target);
                 Ok(Self {
                     warnings,
-                    ..Self::new(names, source, target, prepared, None)
+                    ..Self::new(names, source, &target, prepared, None)
                 })
             }
         }
@@ -153,16 +145,15 @@ impl Pair {
     /// Makes a pair by the protocol of Table I: the same points, moved.
     pub fn moved_copy(reference: &Reference, title: &str, start: Start) -> Self {
         let moved = start.transform();
-        let points = &reference.cloud.points;
-        let source = points.iter().map(|p| (moved * p.cast::<f64>()).cast());
-        let source = PointCloud::from_points(source);
-        let target = PointCloud::from_points(points.iter().copied());
+        let points = reference.cloud.points.iter();
+        let source = PointCloud::from_points(points.map(|p| (moved * p.cast::<f64>()).cast()));
         let names = PairNames::MovedCopy {
             part: title.to_owned(),
             start,
         };
         let prepared = reference.whole().cloned();
-        Self::new(names, source, target, prepared, Some(moved.inverse()))
+        let truth = Some(moved.inverse());
+        Self::new(names, source, &reference.cloud, prepared, truth)
     }
 
     /// Title shown to a person.
@@ -183,7 +174,7 @@ impl Pair {
     fn new(
         names: PairNames,
         source: PointCloud,
-        target: PointCloud,
+        target: &PointCloud,
         prepared: Result<PreparedTarget, PoseError>,
         truth: Option<RigidTransform>,
     ) -> Self {
@@ -201,12 +192,11 @@ impl Pair {
             prepared,
             target_tree: KdTree::new(&of_target),
             source_points: drawn(&source, Role::Moving),
-            target_points: drawn(&target, Role::Reference),
+            target_points: drawn(target, Role::Reference),
             truth,
             middle,
             warnings: Vec::new(),
             source,
-            target,
         }
     }
 
@@ -247,13 +237,14 @@ fn drawn(cloud: &PointCloud, role: Role) -> PointSet {
 /// Finds the enrolled part of this name, and its title.
 fn find<'a>(loaded: &'a LoadedLibrary, part: &str) -> Result<(&'a Reference, &'a str), UserError> {
     let place = loaded.shown.place_of(part);
-    let reference = place.and_then(|place| loaded.library.references.get(place));
-    let reference = reference.ok_or_else(|| UserError {
+    let found = place.and_then(|place| {
+        let reference = loaded.library.references.get(place)?;
+        Some((reference, loaded.shown.title(place)))
+    });
+    found.ok_or_else(|| UserError {
         what: text!("align-part-gone", name = part),
         advice: text!("align-part-gone-advice"),
-    })?;
-    let title = place.map_or("", |place| loaded.shown.title(place));
-    Ok((reference, title))
+    })
 }
 
 fn open(path: &Path, warnings: &mut Vec<UserError>) -> Result<PointCloud, UserError> {

@@ -27,10 +27,8 @@ impl MethodComparison {
 
     /// The tracks of the methods that found a pose.
     pub fn tracks(&self) -> impl Iterator<Item = (&MethodRun, &Track)> {
-        let found = |run: &'_ MethodRun| run.track.is_ok();
-        let runs = self.runs.iter().map(Arc::as_ref);
-        runs.filter(move |run| found(run))
-            .filter_map(|run| Some((run, run.track.as_ref().ok()?)))
+        let runs = self.runs.iter();
+        runs.filter_map(|run| Some((&**run, run.track.as_ref().ok()?)))
     }
 }
 

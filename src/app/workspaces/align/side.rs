@@ -57,9 +57,8 @@ impl SidePanel {
                 }
             });
         if table.rows.is_empty() {
-            let text = text!("align-table-says");
             ui.add_space(space::MEDIUM);
-            ui.weak(text);
+            ui.weak(text!("align-table-says"));
             self.num_seen = 0;
             return;
         }
@@ -97,7 +96,7 @@ fn progress(ui: &mut Ui, align: &AlignState, session: &Session, actions: &mut Ve
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if is_at_work {
                 let label = text!("align-cancel-table");
-                if labelled(ui, Button::new(text!("align-cancel")), &label).clicked() {
+                if labelled(ui, Button::new(text!("shell-cancel")), &label).clicked() {
                     actions.push(AlignAction::Cancel);
                 }
                 return;
@@ -356,7 +355,7 @@ fn export(ui: &mut Ui, actions: &mut Vec<AlignAction>) {
     let theme = Theme::of(ui);
     ui.horizontal(|ui| {
         let width = ui.available_width() - 90.0;
-        let text = RichText::new(text!("align-export-csv")).font(font::body_strong());
+        let text = RichText::new(text!("shell-export-csv")).font(font::body_strong());
         let button = Button::new(text.color(theme.on_accent)).fill(theme.accent);
         if ui
             .add(button.min_size(vec2(width, space::TARGET)))

@@ -1,4 +1,4 @@
-//! Starts of a moved copy: the paper's five transforms, a custom one, or a random one.
+//! Starts of a moved copy: the paper's five transforms, one that a person enters, or a random one.
 
 use std::f64::consts::PI;
 
@@ -7,7 +7,10 @@ use rand_pcg::Pcg64;
 
 use crate::{
     app::language::text,
-    geometry::rigid::{RigidTransform, from_euler_zyx},
+    geometry::{
+        rigid::{RigidTransform, from_euler_zyx},
+        written_pose::parse_pose,
+    },
     stages::pose::displacements::DISPLACEMENTS,
 };
 
@@ -67,6 +70,31 @@ impl Start {
                 ])
             }
         }
+    }
+}
+
+/// A start as entered by a person: six numbers, with or without units.
+#[derive(Debug, Default)]
+pub struct CustomStart {
+    /// True while its form is open.
+    pub is_open: bool,
+    /// The text entered.
+    pub text: String,
+    /// The start, if the text can be read as one.
+    pub transform: Option<RigidTransform>,
+    /// Errors and doubts found in the text.
+    pub remarks: Vec<String>,
+}
+
+impl CustomStart {
+    pub(super) fn write(&mut self, text: String) {
+        let given = parse_pose(&text);
+        self.transform = given.as_ref().ok().map(|given| given.pose);
+        self.remarks = match given {
+            Ok(given) => given.doubts.iter().map(ToString::to_string).collect(),
+            Err(problem) => vec![problem],
+        };
+        self.text = text;
     }
 }
 

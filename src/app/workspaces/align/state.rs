@@ -4,10 +4,9 @@ use std::{path::PathBuf, sync::Arc, time::Duration};
 
 use super::{
     action::{AlignAction, AlignFile},
-    custom::{CustomStart, Form},
     pair::{Pair, PairSource},
     playback::MethodComparison,
-    start::Start,
+    start::{CustomStart, Start},
     table::{self, TableRow, TableShown},
     track::MethodRun,
     work,
@@ -20,10 +19,9 @@ use crate::{
             context::ShellContext, file_dialog::FileDialog, message::Message, notice::Notice,
             session::Session,
         },
-        task::{Running, Task, TaskEvent, TaskRunner},
+        task::{Running, Task, TaskRunner},
         ui::scrubber::Playback,
     },
-    geometry::written_pose::parse_pose,
     pipeline::Verdict,
 };
 
@@ -55,7 +53,8 @@ pub struct AlignState {
     task: Task<AlignResult>,
     /// The current job of the task, or its last.
     job: AlignJob,
-    writing: Task<PathBuf>,
+    /// Its result describes what was written.
+    writing: Task<String>,
     dialog: FileDialog<AlignFile>,
 }
 
@@ -165,13 +164,11 @@ impl AlignState {
     /// Returns what Run would align, or what is missing, in words.
     pub fn choice(&self, session: &Session) -> Result<PairSource, String> {
         let part = || {
-            match &session.library {
-                None => return Err(text!("align-library-loading")),
-                Some(library) => {
-                    if let Some(trouble) = &library.unloaded {
-                        return Err(trouble.what.clone());
-                    }
-                }
+            let Some(library) = &session.library else {
+                return Err(text!("align-library-loading"));
+            };
+            if let Some(trouble) = &library.unloaded {
+                return Err(trouble.what.clone());
             }
             let part = self.chosen_part(session).map(str::to_owned);
             part.ok_or_else(|| text!("align-library-has-no-part"))
@@ -227,17 +224,12 @@ impl AlignState {
                 };
                 self.start = Start::Random(seed);
             }
-            AlignAction::ToggleCustom => {
-                self.custom.form = match self.custom.form {
-                    Form::Closed => Form::Open,
-                    Form::Open => Form::Closed,
-                }
-            }
+            AlignAction::ToggleCustom => self.custom.is_open ^= true,
             AlignAction::WriteCustom(text) => self.custom.write(text),
             AlignAction::UseCustom => {
-                if let Ok(given) = parse_pose(&self.custom.text) {
-                    self.start = Start::Custom(given.pose);
-                    self.custom.form = Form::Closed;
+                if let Some(transform) = self.custom.transform {
+                    self.start = Start::Custom(transform);
+                    self.custom.is_open = false;
                 }
             }
             AlignAction::Ask(file) => {
@@ -317,35 +309,26 @@ impl AlignState {
     }
 
     fn write_table(&mut self, path: PathBuf) {
-        let title = text!("align-writing", file = file_name(&path));
+        let title = text!("shell-writing", file = file_name(&path));
         let text = table::text(&self.table.rows, ',');
         self.writing
-            .start(title, move |_| Ok(work::write(path, &text)?));
+            .start(title, move |_| Ok(work::write(&path, &text)?));
     }
 
     /// Takes in the results of the tasks and of the file dialog.
     pub fn update(&mut self, cx: &mut ShellContext<'_>) {
         while let Some(event) = self.task.poll() {
             match event {
-                TaskEvent::Partial(result) | TaskEvent::Done(result) => self.receive(result, cx),
-                TaskEvent::Failed(error) => {
+                Ok(result) => self.receive(result, cx),
+                Err(error) => {
                     self.coming = None;
                     cx.notify(error);
                 }
             }
         }
-        match self.writing.poll() {
-            Some(TaskEvent::Done(path)) => {
-                let path = path.display().to_string();
-                cx.notify(Notice::done(text!("align-wrote", path = path)));
-            }
-            Some(TaskEvent::Failed(error)) => cx.notify(error),
-            Some(TaskEvent::Partial(_)) | None => {}
-        }
-        match self.dialog.poll() {
-            Some((file, Ok(path))) => self.apply(AlignAction::Chosen(file, path), cx),
-            Some((_, Err(notice))) => cx.notify(notice),
-            None => {}
+        cx.notify_written(&mut self.writing);
+        if let Some((file, path)) = cx.chosen(&mut self.dialog) {
+            self.apply(AlignAction::Chosen(file, path), cx);
         }
     }
 

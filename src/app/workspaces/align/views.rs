@@ -18,8 +18,8 @@ use crate::{
         ui::{
             theme::{ROUNDING, Theme, font, space},
             viewport::{
-                PointSize, Role, RoleColour, ViewCamera, ViewColours, ViewDirection, ViewError,
-                ViewScene, ViewStyle, Viewport, ViewportGpu, scene::mat4,
+                Role, RoleColour, ViewCamera, ViewColours, ViewDirection, ViewError, ViewScene,
+                ViewStyle, Viewport, ViewportGpu, scene::mat4,
             },
         },
     },
@@ -42,7 +42,6 @@ const SOURCE_WEIGHT: f32 = 0.6;
 pub(super) struct LinkedViews {
     views: Vec<View>,
     camera: ViewCamera,
-    styled: Option<ThemeChoice>,
     has_focus: bool,
     /// The pair shown.
     shows: Option<Arc<Pair>>,
@@ -51,7 +50,6 @@ pub(super) struct LinkedViews {
 struct View {
     method: PoseMethod,
     viewport: Viewport,
-    style: ViewStyle,
     scene: ViewScene,
 }
 
@@ -60,13 +58,11 @@ impl LinkedViews {
         let view = |method| View {
             method,
             viewport: Viewport::new(gpu.clone()),
-            style: ViewStyle::new(ViewColours::dark()),
             scene: ViewScene::default(),
         };
         Self {
             views: PoseMethod::ALL.into_iter().map(view).collect(),
             camera: ViewCamera::default(),
-            styled: None,
             has_focus: false,
             shows: None,
         }
@@ -84,12 +80,6 @@ impl LinkedViews {
             empty(ui, align, session);
             return;
         };
-        if self.styled != Some(session.theme) {
-            for view in &mut self.views {
-                view.style = style(view.method, session.theme);
-            }
-            self.styled = Some(session.theme);
-        }
         let all = ui.available_rect_before_wrap();
         ui.allocate_rect(all, egui::Sense::hover());
         let width = all.width() / self.views.len() as f32;
@@ -198,7 +188,7 @@ impl View {
                 if let Some(source) = self.scene.points.first_mut() {
                     source.world_from_set = mat4(&track.pose_at(place));
                 }
-                let has_focus = self.view(ui, body, camera);
+                let has_focus = self.view(ui, body, camera, session.theme);
                 below(ui, body, track, place);
                 has_focus
             }
@@ -206,23 +196,23 @@ impl View {
                 if let Some(source) = self.scene.points.first_mut() {
                     source.world_from_set = glam::Mat4::IDENTITY;
                 }
-                self.view(ui, body, camera)
+                self.view(ui, body, camera, session.theme)
             }
         }
     }
 
-    fn view(&mut self, ui: &mut Ui, rect: Rect, camera: &mut ViewCamera) -> bool {
-        let Self {
-            method,
-            viewport,
-            style,
-            scene,
-            ..
-        } = self;
-        let label = text!("align-view-of", method = series::title(*method));
+    fn view(
+        &mut self,
+        ui: &mut Ui,
+        rect: Rect,
+        camera: &mut ViewCamera,
+        theme: ThemeChoice,
+    ) -> bool {
+        let label = text!("align-view-of", method = series::title(self.method));
+        let style = style(self.method, theme);
         let builder = UiBuilder::new().max_rect(rect);
         ui.scope_builder(builder, |ui| {
-            let seen = viewport.ui(ui, &label, camera, scene, style);
+            let seen = self.viewport.ui(ui, &label, camera, &self.scene, &style);
             seen.response.has_focus()
         })
         .inner
@@ -242,7 +232,7 @@ fn style(method: PoseMethod, choice: ThemeChoice) -> ViewStyle {
         weight: SOURCE_WEIGHT,
     };
     ViewStyle {
-        point_size: PointSize::Metres(POINT),
+        point_size: POINT,
         ..ViewStyle::new(colours)
     }
 }

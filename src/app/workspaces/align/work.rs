@@ -1,6 +1,6 @@
 //! Jobs of the workspace: prepare a pair, run the methods one after the other, compute and write Table I.
 
-use std::{path::PathBuf, sync::Arc, time::Instant};
+use std::{path::Path, sync::Arc, time::Instant};
 
 use super::{
     pair::{Pair, PairSource},
@@ -12,10 +12,11 @@ use super::{
 use crate::{
     app::{
         inspection::library_cache::LibraryCache,
+        language::text,
         task::{TaskContext, TaskError},
         user_error::UserError,
     },
-    files::write_atomically,
+    files::write_text,
     pipeline::ProgressObserver as _,
     stages::pose::PoseMethod,
 };
@@ -79,11 +80,10 @@ pub(super) fn table(
     Ok(AlignResult::Finished)
 }
 
-/// Writes a text file atomically.
-pub(super) fn write(path: PathBuf, text: &str) -> Result<PathBuf, UserError> {
-    write_atomically(&path, |writer| writer.write_all(text.as_bytes()))
-        .map_err(|error| UserError::of(&error))?;
-    Ok(path)
+/// Writes a text file atomically; describes what was written.
+pub(super) fn write(path: &Path, text: &str) -> Result<String, UserError> {
+    write_text(path, text).map_err(|error| UserError::of(&error))?;
+    Ok(text!("shell-wrote", path = path.display().to_string()))
 }
 
 #[cfg(test)]
@@ -95,10 +95,11 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("table.csv");
         let text = "part,e_m2\nfender,1e-7\n";
-        assert_eq!(write(path.clone(), text), Ok(path.clone()));
+        let wrote = format!("Wrote {}", path.display());
+        assert_eq!(write(&path, text), Ok(wrote));
         assert_eq!(std::fs::read_to_string(&path).expect("read"), text);
         let path = folder.path().join("missing").join("table.csv");
-        let error = write(path, text).expect_err("refused");
+        let error = write(&path, text).expect_err("refused");
         assert!(!error.what.is_empty() && !error.advice.is_empty());
     }
 }

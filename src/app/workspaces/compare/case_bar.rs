@@ -1,6 +1,6 @@
 //! The bar of the case in front: its verdict, its truth, and the part that it is compared with.
 
-use egui::{Button, RichText, ScrollArea, TextEdit, Ui, Vec2, WidgetInfo};
+use egui::{Button, RichText, Ui, WidgetInfo};
 
 use super::{CompareAction, CompareState, Front};
 use crate::{
@@ -12,10 +12,10 @@ use crate::{
         },
         ui::{
             theme::{Theme, font, space},
-            widgets::{Mark, labelled, line_mark, shortened, show_scroll_bar, text_button},
+            widgets::{Mark, labelled, line_edit, line_mark, menu_list, shortened, text_button},
         },
     },
-    cases::{CaseAnswer, CaseOutcome, Truth},
+    cases::{CaseOutcome, FoundVerdict, Truth},
 };
 
 /// A bar wider than this has room for a long remark.
@@ -48,8 +48,7 @@ pub(super) fn ui(
 fn menu(ui: &mut Ui, title: &str, hover: String, content: &mut dyn FnMut(&mut Ui)) {
     ui.menu_button(title, |ui| {
         ui.set_min_width(220.0);
-        show_scroll_bar(ui);
-        ScrollArea::vertical().max_height(420.0).show(ui, content);
+        menu_list(ui, content);
     })
     .response
     .on_hover_text(hover);
@@ -112,16 +111,7 @@ fn verdict(ui: &mut Ui, compare: &CompareState, session: &Session) {
     ui.label(weak(&verb));
     ui.label(strong(&part));
     let judgement = judged(compare);
-    // A refusal never gets the mark of an accepted part, even if it is right.
-    let sign = if found.accepted && judgement != Some(CaseOutcome::WrongAccepted) {
-        Mark::Good
-    } else if found.part.is_none() && judgement != Some(CaseOutcome::Refused) {
-        // An empty cell is not a bad part.
-        Mark::Open
-    } else {
-        Mark::Bad
-    };
-    line_mark(ui, 18.0, 8.0, sign);
+    line_mark(ui, 18.0, 8.0, sign(found, judgement));
     let is_wrong = |outcome| matches!(outcome, CaseOutcome::WrongAccepted | CaseOutcome::Refused);
     let asked = match (found.accepted, judgement.map(is_wrong)) {
         (true, None) => text!("compare-accepted-asked"),
@@ -141,8 +131,19 @@ fn verdict(ui: &mut Ui, compare: &CompareState, session: &Session) {
 pub(super) fn judged(compare: &CompareState) -> Option<CaseOutcome> {
     let truth = compare.truth.as_ref()?;
     let found = &compare.study.as_ref()?.found;
-    let answered: CaseAnswer = found.answered();
-    Some(CaseOutcome::of(truth, &answered))
+    Some(CaseOutcome::of(truth, &found.answered()))
+}
+
+/// The sign of a verdict. A refusal never gets the mark of an accepted part, even if it is right.
+pub(super) fn sign(found: &FoundVerdict, judgement: Option<CaseOutcome>) -> Mark {
+    if found.accepted && judgement != Some(CaseOutcome::WrongAccepted) {
+        Mark::Good
+    } else if found.part.is_none() && judgement != Some(CaseOutcome::Refused) {
+        // An empty cell is not a bad part.
+        Mark::Open
+    } else {
+        Mark::Bad
+    }
 }
 
 fn truth_menu(
@@ -220,13 +221,8 @@ fn case_buttons(
     match &compare.front {
         Front::Scene => {
             let mut remark = compare.remark.clone();
-            let label = text!("compare-remark");
-            let edit = TextEdit::singleline(&mut remark)
-                .hint_text(&label)
-                .desired_width(remark_width)
-                .align(egui::Align2::LEFT_CENTER)
-                .min_size(Vec2::new(0.0, space::TARGET));
-            let response = ui.add(edit);
+            let label = text!("history-remark");
+            let response = ui.add(line_edit(&mut remark, label.clone(), remark_width));
             response.widget_info(|| {
                 let mut info = WidgetInfo::text_edit(true, &compare.remark, &remark, &label);
                 info.label = Some(label.clone());

@@ -40,8 +40,7 @@ pub(super) fn ui(
             rest.push(text!("compare-num-gone", count = changes.gone.len()));
         }
         rest.push(text!("compare-against-file", file = file));
-        let text = format!("· {}", rest.join(" · "));
-        ui.label(text);
+        ui.label(format!("· {}", rest.join(" · ")));
     });
     let rows: Vec<(String, &CaseChange)> = [
         (text!("compare-worse"), &changes.regressions),
@@ -52,8 +51,7 @@ pub(super) fn ui(
     .flat_map(|(word, list)| list.iter().map(move |change| (word.clone(), change)))
     .collect();
     if rows.is_empty() {
-        let text = text!("compare-no-changes");
-        ui.weak(text);
+        ui.weak(text!("compare-no-changes"));
     }
     ScrollArea::vertical()
         .id_salt("changes")

@@ -51,8 +51,7 @@ pub(super) fn ui(
             (Some(_), None) => text!("compare-no-cases"),
         };
         ui.label(RichText::new(text).font(font::verdict()).weak());
-        let what = text!("compare-no-cases-advice");
-        ui.weak(what);
+        ui.weak(text!("compare-no-cases-advice"));
         return;
     };
     let cell = compare.cell.as_ref();
@@ -163,7 +162,7 @@ fn header(ui: &mut Ui, compare: &CompareState, session: &Session, acts: &mut Vec
         if !run.troubles.is_empty() {
             rest.push(text!("compare-num-damaged", count = run.troubles.len()));
         }
-        let (done, total) = (run.results.len() + run.troubles.len(), run.total);
+        let (done, total) = (run.results.len() + run.troubles.len(), run.cases.len());
         if run.ended.is_none() {
             rest.push(if compare.is_running_cases() {
                 text!("compare-run-running", done = done, total = total)
@@ -171,8 +170,7 @@ fn header(ui: &mut Ui, compare: &CompareState, session: &Session, acts: &mut Vec
                 text!("compare-run-stopped", done = done, total = total)
             });
         }
-        let rest = format!("· {}", rest.join(" · "));
-        ui.label(rest);
+        ui.label(format!("· {}", rest.join(" · ")));
         if *run.recipe != **compare.tried_recipe(session) {
             let text = format!("· {}", text!("compare-other-recipe"));
             ui.label(RichText::new(text).color(theme.warning));
@@ -231,10 +229,7 @@ fn of_cell(
     let Some(shown) = &session.library else {
         return;
     };
-    let (truth, answer) = &cell.cell;
-    let (truth, title) = (row_title(truth, shown), column_title(answer, shown));
-    let text = cell_text(answer, truth, title, cell.results.len());
-    ui.weak(text);
+    ui.weak(cell_text(cell, shown));
     for result in cell
         .results
         .iter()
@@ -255,12 +250,14 @@ fn of_cell(
 }
 
 /// Describes what a cell counts.
-fn cell_text(answer: &CaseAnswer, truth: String, title: String, num: usize) -> String {
+fn cell_text(cell: &MatrixCell, shown: &LibraryView) -> String {
+    let (truth, answer) = &cell.cell;
+    let (truth, num) = (row_title(truth, shown), cell.results.len());
     match answer {
         CaseAnswer::Part(_) => text!(
             "compare-cell-taken-for",
             truth = truth,
-            part = title,
+            part = column_title(answer, shown),
             count = num,
         ),
         CaseAnswer::NotAccepted => text!("compare-cell-not-accepted", truth = truth, count = num),
@@ -345,27 +342,20 @@ fn matrix(ui: &mut Ui, matrix: &Matrix, shown: &LibraryView, acts: &mut Vec<Comp
         let rect = rect_of(origin, cell.place, vec2(width, height));
         let id = ui.scope_id().with(("cell", cell.place));
         let response = ui.interact(rect, id, Sense::click());
-        let [row, column] = cell.place;
-        let name = |names: &[String], place: usize| names.get(place).cloned().unwrap_or_default();
-        let (truth, answer) = (name(&rows, row), name(&columns, column));
-        let num = cell.results.len();
-        let (colour, word) = match cell.judgement {
-            CaseOutcome::Right => (theme.accepted, text!("compare-cell-right")),
-            CaseOutcome::WrongAccepted => (theme.rejected, text!("compare-cell-false-accept")),
-            CaseOutcome::Refused => (theme.warning, text!("compare-cell-refused")),
+        let (colour, sign, word) = match cell.judgement {
+            CaseOutcome::Right => (theme.accepted, "", text!("compare-outcome-right")),
+            CaseOutcome::WrongAccepted => {
+                let word = text!("compare-outcome-false-accept");
+                (theme.rejected, " ×", word)
+            }
+            CaseOutcome::Refused => (theme.warning, " !", text!("compare-cell-refused")),
         };
-        let label = cell_text(&cell.cell.1, truth, answer, num);
-        let label = format!("{label}, {word}");
+        let label = format!("{}, {word}", cell_text(cell, shown));
         response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &label));
         painter.rect_filled(rect, ROUNDING, colour.gamma_multiply(0.28));
         let stroke = Stroke::new(if response.hovered() { 2.0 } else { 1.0 }, colour);
         painter.rect_stroke(rect, ROUNDING, stroke, StrokeKind::Inside);
-        let sign = match cell.judgement {
-            CaseOutcome::Right => "",
-            CaseOutcome::WrongAccepted => " ×",
-            CaseOutcome::Refused => " !",
-        };
-        let text = format!("{num}{sign}");
+        let text = format!("{}{sign}", cell.results.len());
         let at = rect.center();
         painter.text(
             at,
@@ -379,9 +369,8 @@ fn matrix(ui: &mut Ui, matrix: &Matrix, shown: &LibraryView, acts: &mut Vec<Comp
             acts.push(CompareAction::ShowCell(Some(cell.cell.clone())));
         }
     }
-    let text = text!("compare-matrix-hint");
     ui.add_space(space::SMALL);
-    ui.label(RichText::new(text).small().weak());
+    ui.label(RichText::new(text!("compare-matrix-hint")).small().weak());
 }
 
 fn rect_of(origin: egui::Pos2, [row, column]: [usize; 2], size: Vec2) -> Rect {

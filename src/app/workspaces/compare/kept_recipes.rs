@@ -123,7 +123,7 @@ impl KeptRecipes {
 
     /// True if there is a recipe of this name.
     pub(super) fn has(&self, name: &str) -> bool {
-        name == BUILT_IN || self.of_name(name).is_some()
+        is_taken(&self.list, name)
     }
 
     /// Names parameters, and marks them as changed if the recipe of this name has others.
@@ -141,11 +141,6 @@ impl KeptRecipes {
             },
             parameters,
         }
-    }
-
-    /// The first free name of `name_2`, `name_3` and so on.
-    pub(super) fn free_name(&self, name: &str) -> Result<PartName, RecipeError> {
-        Ok(free_name(name, |name| self.has(name))?)
     }
 
     pub(super) fn start(&mut self, change: RecipeChange, cx: &mut ShellContext<'_>) {
@@ -181,12 +176,14 @@ impl KeptRecipes {
     }
 }
 
-fn free_name(
-    name: &str,
-    is_taken: impl Fn(&str) -> bool,
-) -> Result<PartName, crate::library::BadName> {
-    let number = (2..10_000).find(|number| !is_taken(&format!("{name}_{number}")));
-    PartName::new(&format!("{name}_{}", number.unwrap_or(2)))
+fn is_taken(list: &RecipeList, name: &str) -> bool {
+    name == BUILT_IN || list.recipes.iter().any(|file| file.name.as_str() == name)
+}
+
+/// The first free name of `name_2`, `name_3` and so on.
+pub(super) fn free_name(list: &RecipeList, name: &str) -> Result<PartName, RecipeError> {
+    let number = (2..10_000).find(|number| !is_taken(list, &format!("{name}_{number}")));
+    Ok(PartName::new(&format!("{name}_{}", number.unwrap_or(2)))?)
 }
 
 fn carry_out(folder: &RecipeFolder, change: RecipeChange) -> Result<Changed, RecipeError> {
@@ -217,13 +214,9 @@ fn carry_out(folder: &RecipeFolder, change: RecipeChange) -> Result<Changed, Rec
         RecipeChange::Import(path) => {
             let mut file = RecipeFile::read(&path)?;
             let list = folder.list()?;
-            let same = list.recipes.iter().find(|kept| kept.name == file.name);
-            let is_there = same.is_some_and(|kept| *kept == file);
-            let is_taken = |name: &str| {
-                name == BUILT_IN || list.recipes.iter().any(|kept| kept.name.as_str() == name)
-            };
-            if is_taken(file.name.as_str()) && !is_there {
-                file.name = free_name(file.name.as_str(), is_taken)?;
+            let name = file.name.as_str();
+            if is_taken(&list, name) && !list.recipes.contains(&file) {
+                file.name = free_name(&list, name)?;
             }
             RecipeDone::Imported(folder.save(&file, Replace::Yes)?.name)
         }

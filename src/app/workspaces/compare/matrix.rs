@@ -67,7 +67,7 @@ impl Matrix {
 /// Name of a row: shorter than in a menu.
 pub fn row_title(truth: &Truth, shown: &LibraryView) -> String {
     match truth {
-        Truth::Nothing => text!("compare-empty-cell"),
+        Truth::Nothing => text!("shell-empty-cell"),
         Truth::Part(_) | Truth::NotEnrolled => truth_menu::truth_title(Some(truth), shown),
     }
 }
@@ -76,6 +76,6 @@ pub fn row_title(truth: &Truth, shown: &LibraryView) -> String {
 pub fn column_title(answer: &CaseAnswer, shown: &LibraryView) -> String {
     match answer {
         CaseAnswer::Part(name) => shown.title_of(name).to_owned(),
-        CaseAnswer::NotAccepted => text!("compare-not-accepted"),
+        CaseAnswer::NotAccepted => text!("results-not-accepted"),
     }
 }

@@ -76,7 +76,8 @@ const RECIPE: [f32; 2] = [310.0, 284.0];
 
 /// The workspace.
 pub struct CompareWorkspace {
-    state: CompareState,
+    /// The state of the workspace.
+    pub state: CompareState,
 }
 
 impl CompareWorkspace {
@@ -85,16 +86,6 @@ impl CompareWorkspace {
         Self {
             state: CompareState::new(folder, recipes, runner),
         }
-    }
-
-    /// The state of the workspace.
-    pub fn state(&self) -> &CompareState {
-        &self.state
-    }
-
-    /// The state, to be changed by a program.
-    pub fn state_mut(&mut self) -> &mut CompareState {
-        &mut self.state
     }
 }
 

@@ -44,7 +44,7 @@ pub(super) fn ui(ui: &mut Ui, rects: [Rect; 3], compare: &CompareState, session:
         let outlines = outline_captions(comparison, units);
         let picture = Picture::new(ui, rects[0], &text!("compare-contours"), &outlines);
         picture.overlay(comparison, theme);
-        let name = text!("compare-signatures");
+        let name = text!("inspect-signatures");
         let caption = match comparison.matcher {
             Matcher::Default => text!("compare-signatures-default"),
             Matcher::Paper => text!("compare-signatures-paper"),

@@ -1,6 +1,6 @@
 //! The name of the recipe on trial with the menu of kept recipes, and the parameters that differ from their defaults.
 
-use egui::{Button, Key, RichText, ScrollArea, TextEdit, Ui, WidgetInfo, vec2};
+use egui::{Button, Key, RichText, ScrollArea, Ui, WidgetInfo, vec2};
 
 use super::{
     CompareAction, CompareFile, CompareState,
@@ -9,11 +9,11 @@ use super::{
 };
 use crate::{
     app::{
-        language::{parameters, text},
+        language::{parameters, results::recipe_label, text},
         shell::session::Session,
         ui::{
             theme::{Theme, space},
-            widgets::{button_width, labelled, shortened, show_scroll_bar, text_button},
+            widgets::{button_width, labelled, line_edit, shortened, show_scroll_bar, text_button},
         },
     },
     error::Advice as _,
@@ -56,10 +56,10 @@ fn menu(ui: &mut Ui, compare: &CompareState, session: &Session, acts: &mut Vec<C
     let name = shortened(&label.name, MAX_LETTERS);
     let mut text = RichText::new(format!("{name} ▼"));
     if label.is_changed {
-        let name = text!("compare-recipe-modified", name = name);
+        let name = text!("results-recipe-modified", name = name);
         text = RichText::new(format!("{name} ▼")).color(theme.accent);
     }
-    let full = text!("compare-recipe-named", recipe = title_of(label));
+    let full = text!("compare-recipe-named", recipe = recipe_label(label));
     let list = &compare.recipes.list;
     let response = ui
         .menu_button(text, |ui| {
@@ -79,12 +79,12 @@ fn menu(ui: &mut Ui, compare: &CompareState, session: &Session, acts: &mut Vec<C
             let fixed = built_in.clone().or_else(|| not_kept.clone());
             for (text, why_not, action) in [
                 (
-                    text!("compare-save"),
+                    text!("shell-save"),
                     built_in.or(unchanged),
                     RecipeAction::Save,
                 ),
                 (
-                    text!("compare-save-as"),
+                    text!("shell-save-as"),
                     None,
                     RecipeAction::Name(NamingPurpose::SaveAs),
                 ),
@@ -111,7 +111,7 @@ fn menu(ui: &mut Ui, compare: &CompareState, session: &Session, acts: &mut Vec<C
             ui.separator();
             for (text, file) in [
                 (text!("compare-import"), CompareFile::ImportRecipe),
-                (text!("compare-export"), CompareFile::ExportRecipe),
+                (text!("shell-export"), CompareFile::ExportRecipe),
             ] {
                 if ui.button(text).clicked() {
                     acts.push(CompareAction::Ask(file));
@@ -155,15 +155,6 @@ fn entries(
     }
 }
 
-/// The name of a recipe, marked if its parameters differ from its file.
-pub(super) fn title_of(label: &RecipeLabel) -> String {
-    if label.is_changed {
-        text!("compare-recipe-modified", name = &label.name)
-    } else {
-        label.name.clone()
-    }
-}
-
 /// Draws the field for a name, with its buttons.
 fn name_ui(
     ui: &mut Ui,
@@ -183,10 +174,10 @@ fn name_ui(
     let can_take = checked.is_ok() && !is_taken;
     ui.horizontal_wrapped(|ui| {
         let (take, take_label) = match naming.purpose {
-            NamingPurpose::SaveAs => (text!("compare-save"), text!("compare-save-name")),
+            NamingPurpose::SaveAs => (text!("shell-save"), text!("compare-save-name")),
             NamingPurpose::Rename => (text!("compare-take-rename"), text!("compare-rename-name")),
         };
-        let cancel = text!("compare-cancel");
+        let cancel = text!("shell-cancel");
         let widths = [&take, &cancel].map(|text| button_width(ui, text).max(64.0));
         let whole = ui.available_width() - space::MEDIUM;
         let beside = whole - widths[0] - widths[1] - 2.0 * space::SMALL;
@@ -196,12 +187,7 @@ fn name_ui(
         } else {
             beside
         };
-        let edit = TextEdit::singleline(&mut text)
-            .hint_text(text!("compare-name-hint"))
-            .align(egui::Align2::LEFT_CENTER)
-            .desired_width(width)
-            .min_size(vec2(0.0, space::TARGET));
-        let response = ui.add(edit);
+        let response = ui.add(line_edit(&mut text, text!("compare-name-hint"), width));
         response.widget_info(|| {
             let mut info =
                 WidgetInfo::text_edit(true, &naming.text, &text, text!("compare-name-hint"));

@@ -2,7 +2,7 @@
 
 use egui::{Button, Color32, Frame, Margin, Panel, RichText, ScrollArea, Ui, WidgetInfo, vec2};
 
-use super::{CompareAction, CompareState, case_bar::judged, recipe_menu, scaling_plot};
+use super::{CompareAction, CompareState, case_bar, recipe_menu, scaling_plot};
 use crate::{
     app::{
         language::{parameters, text, within_sentence},
@@ -93,7 +93,7 @@ fn group_ui(
         .count();
     let name = within_sentence(&parameters::group(group));
     let title = match num_changed {
-        0 => text!("compare-more", group = name, count = num),
+        0 => text!("shell-more", group = name, count = num),
         _ => text!(
             "compare-more-changed",
             group = name,
@@ -156,15 +156,12 @@ fn outcome(ui: &mut Ui, compare: &CompareState, session: &Session, acts: &mut Ve
                 }
                 _ => text!("compare-verdict-nothing"),
             };
-            let judgement = judged(compare);
-            let (sign, colour) = match (judgement, found.accepted) {
-                (Some(CaseOutcome::WrongAccepted | CaseOutcome::Refused), _) => {
-                    (Mark::Bad, theme.rejected)
-                }
-                // An empty cell is not a bad part.
-                _ if found.part.is_none() => (Mark::Open, theme.weak_text),
-                (_, false) => (Mark::Bad, theme.rejected),
-                (_, true) => (Mark::Good, theme.accepted),
+            let judgement = case_bar::judged(compare);
+            let sign = case_bar::sign(found, judgement);
+            let colour = match sign {
+                Mark::Good => theme.accepted,
+                Mark::Open => theme.weak_text,
+                _ => theme.rejected,
             };
             ui.horizontal_top(|ui| {
                 line_mark(ui, 20.0, 9.0, sign);
@@ -184,7 +181,7 @@ fn outcome(ui: &mut Ui, compare: &CompareState, session: &Session, acts: &mut Ve
                 (Some(CaseOutcome::Refused), _) => {
                     (text!("compare-wrongly-refused"), theme.warning)
                 }
-                (None, true) => (text!("compare-accepted"), theme.text),
+                (None, true) => (text!("results-accepted"), theme.text),
                 (None, false) => (text!("compare-truth-not-set"), theme.text),
             };
             let word = format!("{word} · {:.0} ms", study.time_ms);

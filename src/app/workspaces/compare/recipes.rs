@@ -5,7 +5,7 @@ use std::{path::PathBuf, sync::Arc};
 
 use super::{
     action::RecipeAction,
-    kept_recipes::{Changed, Naming, NamingPurpose, RecipeChange, RecipeDone},
+    kept_recipes::{Changed, Naming, NamingPurpose, RecipeChange, RecipeDone, free_name},
     schedule::StudyNeed,
     state::{CompareState, Undo},
 };
@@ -13,7 +13,6 @@ use crate::{
     app::{
         language::text,
         shell::{context::ShellContext, message::Message, notice::Notice, session::UserRole},
-        task::TaskEvent,
         user_error::UserError,
     },
     library::PartName,
@@ -31,9 +30,7 @@ impl CompareState {
                 Ok(())
             }
             RecipeAction::Save => self.save_recipe(name, Replace::Yes, cx),
-            RecipeAction::Duplicate => self
-                .recipes
-                .free_name(name)
+            RecipeAction::Duplicate => free_name(&self.recipes.list, name)
                 .and_then(|copy| self.save_recipe(copy.as_str(), Replace::No, cx)),
             RecipeAction::Name(purpose) => {
                 let text = match purpose {
@@ -86,22 +83,25 @@ impl CompareState {
         Ok(())
     }
 
-    /// Saves the recipe on trial under this name, with its notes.
+    /// The file of a recipe under this name, with the notes that it has so far.
+    fn file_of(&self, recipe: &NamedRecipe, name: PartName) -> Box<RecipeFile> {
+        let kept = self.recipes.of_name(&recipe.label.name);
+        Box::new(RecipeFile {
+            name,
+            notes: kept.map(|file| file.notes.clone()).unwrap_or_default(),
+            recipe: Recipe::clone(recipe),
+        })
+    }
+
+    /// Saves the recipe on trial under this name.
     fn save_recipe(
         &mut self,
         name: &str,
         replace: Replace,
         cx: &mut ShellContext<'_>,
     ) -> Result<(), RecipeError> {
-        let tried = self.tried_recipe(cx.session);
-        let from = self.recipes.of_name(&tried.label.name);
-        let file = RecipeFile {
-            name: PartName::new(name)?,
-            notes: from.map(|file| file.notes.clone()).unwrap_or_default(),
-            recipe: Recipe::clone(tried),
-        };
-        self.recipes
-            .start(RecipeChange::Save(Box::new(file), replace), cx);
+        let file = self.file_of(self.tried_recipe(cx.session), PartName::new(name)?);
+        self.recipes.start(RecipeChange::Save(file, replace), cx);
         Ok(())
     }
 
@@ -131,21 +131,13 @@ impl CompareState {
         let name = &tried.label.name;
         let stem = path.file_stem().map(|stem| stem.to_string_lossy());
         let of_file = stem.and_then(|stem| PartName::proposed(&stem));
-        let file = RecipeFile {
-            // The name of the built-in recipe stays with its parameters.
-            name: match of_file {
-                Some(of_file) if name == BUILT_IN => of_file,
-                _ => PartName::new(name)?,
-            },
-            notes: self
-                .recipes
-                .of_name(name)
-                .map(|file| file.notes.clone())
-                .unwrap_or_default(),
-            recipe: Recipe::clone(tried),
+        // The name of the built-in recipe stays with its parameters.
+        let name = match of_file {
+            Some(of_file) if name == BUILT_IN => of_file,
+            _ => PartName::new(name)?,
         };
-        self.recipes
-            .start(RecipeChange::Export(Box::new(file), path), cx);
+        let file = self.file_of(tried, name);
+        self.recipes.start(RecipeChange::Export(file, path), cx);
         Ok(())
     }
 
@@ -176,21 +168,12 @@ impl CompareState {
         self.tried = (recipe != *cx.session.recipe).then(|| Arc::new(recipe));
     }
 
-    /// Puts these parameters on trial under the same name as before.
-    pub(super) fn try_parameters(&mut self, parameters: Recipe, cx: &ShellContext<'_>) {
-        let name = &self.tried_recipe(cx.session).label.name;
-        let recipe = self.recipes.named(name, Arc::new(parameters));
-        self.put_on_trial(recipe, cx);
-    }
-
     /// Takes in the results of the task.
     pub(super) fn update_recipes(&mut self, cx: &mut ShellContext<'_>) {
         while let Some(event) = self.recipes.task.poll() {
             match event {
-                TaskEvent::Partial(changed) | TaskEvent::Done(changed) => {
-                    self.on_changed(changed, cx);
-                }
-                TaskEvent::Failed(error) => cx.notify(error),
+                Ok(changed) => self.on_changed(changed, cx),
+                Err(error) => cx.notify(error),
             }
             // An imported recipe is tried.
             self.start_next(cx);
@@ -242,50 +225,29 @@ impl CompareState {
             }
             cx.send(Message::UseRecipe(Arc::new(now)));
         }
-        match done {
-            RecipeDone::Listed => {}
-            RecipeDone::Saved(name) => {
-                self.say(text!("compare-saved-recipe", name = name.as_str()), cx);
-            }
-            RecipeDone::Restored(name) => {
-                self.say(text!("compare-restored-recipe", name = name.as_str()), cx);
-            }
+        let said = match done {
+            RecipeDone::Listed => return,
+            RecipeDone::Saved(name) => text!("compare-saved-recipe", name = name.as_str()),
+            RecipeDone::Restored(name) => text!("compare-restored-recipe", name = name.as_str()),
             RecipeDone::Renamed(from, to) => {
                 let [before, now] = [&from, &to].map(PartName::as_str);
-                self.say(
-                    text!("compare-renamed-recipe", before = before, now = now),
-                    cx,
-                );
+                text!("compare-renamed-recipe", before = before, now = now)
             }
             RecipeDone::Removed { file, was_default } => {
-                self.say(
-                    text!("compare-removed-recipe", name = file.name.as_str()),
-                    cx,
-                );
+                let said = text!("compare-removed-recipe", name = file.name.as_str());
                 self.undo = Some(Undo::Recipe { file, was_default });
+                said
             }
-            RecipeDone::Default(name) => {
-                self.say(text!("compare-default-recipe", name = name.as_str()), cx);
-            }
+            RecipeDone::Default(name) => text!("compare-default-recipe", name = name.as_str()),
             RecipeDone::Imported(name) => {
-                self.say(text!("compare-imported-recipe", name = name.as_str()), cx);
                 self.open_recipe(name.as_str(), cx);
+                text!("compare-imported-recipe", name = name.as_str())
             }
             RecipeDone::Exported(path) => {
                 let path = path.display().to_string();
-                self.say(text!("compare-exported-recipe", path = path), cx);
+                text!("shell-wrote", path = path)
             }
-        }
-    }
-
-    /// Saves a removed recipe again.
-    pub(super) fn put_recipe_back(
-        &mut self,
-        file: Box<RecipeFile>,
-        was_default: bool,
-        cx: &mut ShellContext<'_>,
-    ) {
-        let change = RecipeChange::Restore { file, was_default };
-        self.recipes.start(change, cx);
+        };
+        self.say(said, cx);
     }
 }

@@ -23,7 +23,7 @@ use crate::{
             notice::{Notice, NoticeTopic},
             session::Shown,
         },
-        task::{Running, Task, TaskEvent, TaskRunner},
+        task::{Running, Task, TaskRunner},
         user_error::UserError,
     },
     bench::scaling::Scaling,
@@ -214,28 +214,21 @@ impl CompareState {
                 self.change_cases(text!("compare-removing-case"), CaseEdit::Remove(name));
             }
             CompareAction::Set(key, value) => {
-                let set = |recipe: &mut Recipe| match Parameter::of_key(key) {
-                    Some(parameter) => parameter.set(recipe, value).map_err(|e| UserError::of(&e)),
-                    None => Ok(()),
-                };
-                self.change_recipe(set, cx);
+                let mut recipe = Recipe::clone(self.tried_recipe(cx.session));
+                let set = Parameter::of_key(key).map(|parameter| parameter.set(&mut recipe, value));
+                match set {
+                    Some(Err(error)) => cx.notify(UserError::of(&error)),
+                    Some(Ok(())) | None => self.change_recipe(recipe, cx),
+                }
             }
             CompareAction::Reset(key) => {
-                let reset = |recipe: &mut Recipe| {
-                    if let Some(parameter) = Parameter::of_key(key) {
-                        parameter.copy(&Recipe::default(), recipe);
-                    }
-                    Ok(())
-                };
-                self.change_recipe(reset, cx);
+                let mut recipe = Recipe::clone(self.tried_recipe(cx.session));
+                if let Some(parameter) = Parameter::of_key(key) {
+                    parameter.copy(&Recipe::default(), &mut recipe);
+                }
+                self.change_recipe(recipe, cx);
             }
-            CompareAction::ResetAll => {
-                let reset = |recipe: &mut Recipe| {
-                    *recipe = Recipe::default();
-                    Ok(())
-                };
-                self.change_recipe(reset, cx);
-            }
+            CompareAction::ResetAll => self.change_recipe(Recipe::default(), cx),
             CompareAction::Recipe(action) => self.apply_to_recipes(action, cx),
             // The next job waits until the session has the other recipe.
             CompareAction::Use => return self.use_recipe(cx),
@@ -248,27 +241,22 @@ impl CompareState {
     pub fn update(&mut self, cx: &mut ShellContext<'_>) {
         while let Some(event) = self.task.poll() {
             match event {
-                TaskEvent::Partial(result) | TaskEvent::Done(result) => self.receive(result, cx),
-                TaskEvent::Failed(error) => {
+                Ok(result) => self.receive(result, cx),
+                Err(error) => {
                     cx.notify(error);
                     self.compare_run_with_cases();
                 }
             }
             self.start_next(cx);
         }
-        match self.dialog.poll() {
-            Some((CompareFile::Cases, Ok(path))) => self.apply(CompareAction::Folder(path), cx),
-            Some((CompareFile::EarlierRun, Ok(path))) => {
-                self.apply(CompareAction::Earlier(path), cx);
-            }
-            Some((CompareFile::ImportRecipe, Ok(path))) => {
-                self.apply(CompareAction::Recipe(RecipeAction::Import(path)), cx);
-            }
-            Some((CompareFile::ExportRecipe, Ok(path))) => {
-                self.apply(CompareAction::Recipe(RecipeAction::Export(path)), cx);
-            }
-            Some((_, Err(notice))) => cx.notify(notice),
-            None => {}
+        if let Some((file, path)) = cx.chosen(&mut self.dialog) {
+            let action = match file {
+                CompareFile::Cases => CompareAction::Folder(path),
+                CompareFile::EarlierRun => CompareAction::Earlier(path),
+                CompareFile::ImportRecipe => CompareAction::Recipe(RecipeAction::Import(path)),
+                CompareFile::ExportRecipe => CompareAction::Recipe(RecipeAction::Export(path)),
+            };
+            self.apply(action, cx);
         }
         self.update_recipes(cx);
     }
@@ -297,7 +285,6 @@ impl CompareState {
                 self.changes = Some(changes);
             }
             CompareResult::Cases {
-                folder,
                 cases,
                 troubles,
                 done,
@@ -306,10 +293,7 @@ impl CompareState {
                     cx.notify(trouble);
                 }
                 self.take_done(done, cx);
-                self.cases = Some(Cases {
-                    folder,
-                    list: cases,
-                });
+                self.cases = Some(cases);
                 self.compare_run_with_cases();
             }
         }

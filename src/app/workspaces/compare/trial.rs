@@ -3,36 +3,28 @@
 use std::sync::Arc;
 
 use super::{
-    recipe_menu::title_of,
+    kept_recipes::RecipeChange,
     schedule::StudyNeed,
     state::{CompareState, Undo},
     work::CaseEdit,
 };
 use crate::{
     app::{
-        language::text,
+        language::{results::recipe_label, text},
         shell::{context::ShellContext, message::Message},
-        user_error::UserError,
     },
     pipeline::{NamedRecipe, Recipe, parameters::num_changed},
 };
 
 impl CompareState {
-    /// Changes the recipe on trial and studies the case in front with it at once.
-    pub(super) fn change_recipe(
-        &mut self,
-        change: impl FnOnce(&mut Recipe) -> Result<(), UserError>,
-        cx: &mut ShellContext<'_>,
-    ) {
+    /// Puts other parameters on trial under the same name, and studies the case in front with them at once.
+    pub(super) fn change_recipe(&mut self, parameters: Recipe, cx: &ShellContext<'_>) {
         let before = self.tried_recipe(cx.session);
-        let mut recipe = Recipe::clone(before);
-        match change(&mut recipe) {
-            Ok(()) if recipe == ***before => {}
-            Ok(()) => {
-                self.try_parameters(recipe, cx);
-                self.due = StudyNeed::Now;
-            }
-            Err(error) => cx.notify(error),
+        if parameters != ***before {
+            let name = &before.label.name;
+            let recipe = self.recipes.named(name, Arc::new(parameters));
+            self.put_on_trial(recipe, cx);
+            self.due = StudyNeed::Now;
         }
     }
 
@@ -42,7 +34,7 @@ impl CompareState {
             return;
         };
         let num = num_changed::<Recipe>(&tried);
-        let recipe = title_of(&tried.label);
+        let recipe = recipe_label(&tried.label);
         let text = text!("compare-recipe-used", recipe = recipe, count = num);
         self.say(text, cx);
         self.undo = Some(Undo::Use(Arc::clone(&cx.session.recipe)));
@@ -58,7 +50,8 @@ impl CompareState {
                 self.start_next(cx);
             }
             Some(Undo::Recipe { file, was_default }) => {
-                self.put_recipe_back(file, was_default, cx);
+                let change = RecipeChange::Restore { file, was_default };
+                self.recipes.start(change, cx);
             }
             Some(Undo::Trial(before)) => {
                 self.put_on_trial(NamedRecipe::clone(&before), cx);

@@ -7,7 +7,7 @@ use std::{
 
 use jiff::Timestamp;
 
-use super::{keeping::keep_case, matrix::Matrix, schedule::Job, study::CaseStudy};
+use super::{keeping::keep_case, matrix::Matrix, schedule::Job, state::Cases, study::CaseStudy};
 use crate::{
     app::{
         inspection::{inspected::Inspected, library_cache::LibraryCache},
@@ -73,10 +73,8 @@ pub enum CompareResult {
     Studied(Arc<CaseStudy>),
     /// The kept cases.
     Cases {
-        /// Their folder.
-        folder: CaseFolder,
-        /// The cases.
-        cases: Arc<[KeptCase]>,
+        /// The cases and their folder.
+        cases: Cases,
         /// Damaged cases, and a history that does not take the label.
         troubles: Vec<UserError>,
         /// The change before they were listed.
@@ -108,9 +106,7 @@ pub struct CaseRun {
     pub results: Vec<CaseResult>,
     /// The cases that could not be read.
     pub troubles: Vec<UserError>,
-    /// Number of cases in the folder.
-    pub total: usize,
-    /// These cases.
+    /// The cases in the folder.
     pub cases: Arc<[KeptCase]>,
     /// Truth against answer.
     pub matrix: Matrix,
@@ -193,9 +189,9 @@ fn cases(
     };
     let list = folder.list()?;
     troubles.extend(list.problems.iter().map(UserError::of));
+    let list = list.cases.into();
     Ok(CompareResult::Cases {
-        folder,
-        cases: list.cases.into(),
+        cases: Cases { folder, list },
         troubles,
         done,
     })
@@ -213,7 +209,6 @@ fn run_cases(
     let library = library.ok_or(TaskError::Cancelled)?;
     let order = library.references.iter().map(|r| r.name.clone());
     let order: Vec<String> = order.collect();
-    let total = list.cases.len();
     let cases: Arc<[KeptCase]> = list.cases.into();
     let judge = CaseJudge::new(&library, recipe);
     let (mut results, mut troubles) = (Vec::new(), Vec::new());
@@ -226,14 +221,13 @@ fn run_cases(
             trade_off: TradeOff::of(results),
             results: results.to_vec(),
             troubles: troubles.to_vec(),
-            total,
             cases: Arc::clone(&cases),
             ended,
         })
     };
     for (done, case) in cases.iter().enumerate() {
         context.check()?;
-        context.progress(done, total);
+        context.progress(done, cases.len());
         match folder.read_scene(case) {
             Ok(scene) => results.push(judge.judge(case, &scene, context)?),
             Err(error) => troubles.push(UserError::of(&error)),

@@ -1,12 +1,12 @@
 //! The card of an enrolled part: its name, its origin, and what can be done with it.
 
-use egui::{Button, Rect, RichText, ScrollArea, Ui, pos2, vec2};
+use egui::{Button, RichText, ScrollArea, Ui, vec2};
 
 use super::{
     EnrolAction, EnrolFile, EnrolState,
     draft::OpenedPart,
     fields::{self, complaint},
-    thumbnails::Thumbnails,
+    thumbnails::{Thumbnails, paint_fitted},
 };
 use crate::{
     app::{
@@ -14,7 +14,7 @@ use crate::{
         shell::session::Session,
         ui::{
             theme::{ROUNDING, Theme, space},
-            widgets::{fitted, grouped},
+            widgets::grouped,
         },
     },
     library::{EnrolMethod, PartMeta},
@@ -51,10 +51,7 @@ pub(super) fn ui(
             let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
             ui.painter().rect_filled(rect, ROUNDING, theme.canvas);
             if let Some(texture) = place.and_then(|place| thumbnails.of_part(place)) {
-                let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-                let at = fitted(rect.shrink(2.0), texture.aspect_ratio());
-                let painter = ui.painter();
-                painter.image(texture.id(), at, whole, egui::Color32::WHITE);
+                paint_fitted(ui.painter(), texture, rect.shrink(2.0));
             }
             let number = library.and_then(|library| library.numbers.of(&part.name));
             origin(ui, part, number);
@@ -76,12 +73,10 @@ pub(super) fn ui(
                     actions.push(EnrolAction::Ask(EnrolFile::SprayPath));
                 }
                 if part.spray.is_some() && button(ui, text!("enrol-remove-path")) {
-                    let name = open.name.clone();
-                    actions.push(EnrolAction::RemovePath(name));
+                    actions.push(EnrolAction::RemovePath(open.name.clone()));
                 }
                 if button(ui, text!("enrol-anew")) {
-                    let name = open.name.clone();
-                    actions.push(EnrolAction::Replace(name));
+                    actions.push(EnrolAction::Replace(open.name.clone()));
                 }
             });
         } else {
@@ -92,11 +87,10 @@ pub(super) fn ui(
         }
         ui.add_enabled_ui(can_change, |ui| {
             if button(ui, text!("enrol-remove")) {
-                let name = open.name.clone();
-                actions.push(EnrolAction::Remove(name));
+                actions.push(EnrolAction::Remove(open.name.clone()));
             }
         });
-        if button(ui, text!("enrol-close")) {
+        if button(ui, text!("shell-close")) {
             actions.push(EnrolAction::Close);
         }
         super::form::fixed(ui, session);

@@ -7,14 +7,17 @@ use egui::{
     StrokeKind, Ui, pos2, vec2,
 };
 
-use super::{EnrolAction, EnrolState, thumbnails::Thumbnails};
+use super::{
+    EnrolAction, EnrolState,
+    thumbnails::{Thumbnails, paint_fitted},
+};
 use crate::{
     app::{
         inspection::library_cache::LibraryView,
         language::text,
         ui::{
             theme::{ROUNDING, Theme, font, space},
-            widgets::{Mark, fitted, focus_ring, mark, shortened},
+            widgets::{Mark, focus_ring, mark, shortened},
         },
     },
     library::{PartMeta, PartName},
@@ -183,9 +186,7 @@ fn card(
     painter.rect(rect, ROUNDING, fill, edge, StrokeKind::Inside);
     let picture = Rect::from_min_size(rect.min + vec2(6.0, 6.0), vec2(92.0, rect.height() - 12.0));
     if let Some(texture) = shown.texture {
-        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-        let at = fitted(picture, texture.aspect_ratio());
-        painter.image(texture.id(), at, whole, egui::Color32::WHITE);
+        paint_fitted(&painter, texture, picture);
     } else if shown.is_damaged {
         mark(&painter, picture.center(), 14.0, Mark::Look, theme);
     }

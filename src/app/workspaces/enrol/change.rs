@@ -64,17 +64,13 @@ impl From<String> for ChangeText {
 
 /// Changes the library in use and reloads it.
 pub(super) fn change(
-    change: &LibraryChange,
+    change: LibraryChange,
     library_cache: &LibraryCache,
 ) -> Result<Changed, UserError> {
     let loaded = library_cache.get();
     let folder = loaded.folder_to_change()?;
-    let title_of = |name: &PartName| {
-        let place = loaded.shown.place_of(name.as_str());
-        let title = place.map(|place| loaded.shown.title(place));
-        title.map_or_else(|| name.to_string(), str::to_owned)
-    };
-    if let LibraryChange::Save(_, words, _) = change
+    let title_of = |name: &PartName| loaded.shown.title_of(name.as_str()).to_owned();
+    if let LibraryChange::Save(_, words, _) = &change
         && loaded.shown.place_of(words.name.as_str()).is_none()
         && folder.path().join(words.name.as_str()).exists()
     {
@@ -85,15 +81,14 @@ pub(super) fn change(
             advice: text!("enrol-other-program-advice"),
         });
     }
-    let read = match change {
+    let change = match change {
         LibraryChange::ReadPath(name, file) => {
-            let path = SprayPath::read(file).map_err(|error| UserError::of(&error))?;
-            Some(LibraryChange::SetPath(name.clone(), Some(path)))
+            let path = SprayPath::read(&file).map_err(|error| UserError::of(&error))?;
+            LibraryChange::SetPath(name, Some(path))
         }
-        _ => None,
+        other => other,
     };
-    let change = read.as_ref().unwrap_or(change);
-    let done = make(change, folder, &title_of).map_err(|error| UserError::of(&error))?;
+    let done = make(&change, folder, &title_of).map_err(|error| UserError::of(&error))?;
     let (what, back, name) = done;
     let library = library_cache
         .reload()

@@ -8,7 +8,7 @@ use super::{
     EnrolAction, EnrolState,
     draft::{Draft, Field, Form},
     fields::{self, complaint, said},
-    thumbnails::Thumbnails,
+    thumbnails::{Thumbnails, paint_fitted},
     title_of,
 };
 use crate::{
@@ -21,7 +21,7 @@ use crate::{
         shots::summary,
         ui::{
             theme::{ROUNDING, Theme, font, space},
-            widgets::{Mark, fitted, grouped, shortened, show_scroll_bar, text_button},
+            widgets::{Mark, grouped, menu_list, shortened, text_button},
         },
     },
     library::PartName,
@@ -64,8 +64,7 @@ pub(super) fn ui(
     // The scroll bar is beside the fields, not over them.
     ui.spacing_mut().scroll.floating_allocated_width = space::SMALL;
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-        let title = what_save_does(enrol, session);
-        ui.heading(title);
+        ui.heading(what_save_does(enrol, session));
         if enrol.is_taking_another() {
             let text = RichText::new(text!("enrol-previous-draft"));
             ui.label(text.font(font::body_strong()).color(theme.warning));
@@ -135,10 +134,7 @@ fn stored(
     if draft.ready().is_some()
         && let Some(texture) = thumbnails.of_draft()
     {
-        let place = fitted(picture.shrink(2.0), texture.aspect_ratio());
-        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-        let painter = ui.painter();
-        painter.image(texture.id(), place, whole, egui::Color32::WHITE);
+        paint_fitted(ui.painter(), texture, picture.shrink(2.0));
     } else if is_working {
         let spinner = egui::Spinner::new().size(24.0).color(theme.accent);
         ui.put(picture, spinner);
@@ -208,8 +204,7 @@ fn reference_menu(ui: &mut Ui, draft: &Draft, session: &Session, actions: &mut V
             .iter()
             .filter(|part| part.reference_of().is_none() && part.name.as_str() != draft.form.name);
         let choices = std::iter::once(None).chain(own.map(|part| Some(&part.name)));
-        show_scroll_bar(ui);
-        ScrollArea::vertical().max_height(420.0).show(ui, |ui| {
+        menu_list(ui, |ui| {
             for of in choices {
                 let title = title(of);
                 let response = ui.selectable_label(of == chosen, &title);
@@ -331,7 +326,7 @@ fn buttons(
         let text = match (enrol.is_changing_library(), is_replacing) {
             (true, _) => text!("enrol-saving"),
             (false, true) => text!("enrol-save-and-replace"),
-            (false, false) => text!("enrol-save"),
+            (false, false) => text!("shell-save"),
         };
         ui.add_enabled_ui(unready.is_none() && !enrol.is_changing_library(), |ui| {
             let key = RichText::new(keys("Ctrl S")).small();

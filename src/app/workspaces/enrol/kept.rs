@@ -22,11 +22,11 @@ use crate::{
         inspection::source::Origin,
         language::text,
         shell::settings::set_aside,
-        task::{Task, TaskEvent, TaskRunner},
+        task::{Task, TaskRunner},
         user_error::UserError,
     },
     error::{Advice as _, lock},
-    files::{self, FileError, advice_on, disk, folder_of, write_atomically},
+    files::{self, FileError, advice_on, disk, folder_of, write_text},
     library::MAX_TITLE,
 };
 
@@ -143,10 +143,7 @@ impl DraftFile {
             }
             None => {}
         }
-        match self.writing.poll()? {
-            TaskEvent::Failed(error) => Some(error),
-            TaskEvent::Partial(()) | TaskEvent::Done(()) => None,
-        }
+        self.writing.poll()?.err()
     }
 
     /// Updates `seen`; returns true if the draft has changed. While a kept draft is being brought back, the file has
@@ -281,8 +278,7 @@ fn save(
     }
     let folder = folder_of(path);
     disk::create_dir_all(folder).map_err(|error| failed(folder, &error))?;
-    write_atomically(path, |writer| writer.write_all(text.as_bytes()))
-        .map_err(|error| not_kept(error.to_string(), &error.advice()))
+    write_text(path, &text).map_err(|error| not_kept(error.to_string(), &error.advice()))
 }
 
 #[cfg(test)]

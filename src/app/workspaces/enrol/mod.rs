@@ -110,7 +110,8 @@ const STRIP: f32 = 150.0;
 
 /// The workspace.
 pub struct EnrolWorkspace {
-    state: EnrolState,
+    /// The state of the workspace.
+    pub state: EnrolState,
     file: DraftFile,
     panes: Panes,
 }
@@ -143,16 +144,6 @@ impl EnrolWorkspace {
                 shots: ShotList::default(),
             },
         }
-    }
-
-    /// The state of the workspace.
-    pub fn state(&self) -> &EnrolState {
-        &self.state
-    }
-
-    /// The state, to be changed by a program.
-    pub fn state_mut(&mut self) -> &mut EnrolState {
-        &mut self.state
     }
 }
 
@@ -395,7 +386,7 @@ fn empty(ui: &mut Ui, enrol: &EnrolState, session: &Session, actions: &mut Vec<E
                 actions.push(action);
             }
         }
-        let open = text_button(ui, &text!("enrol-open-scan"));
+        let open = text_button(ui, &text!("shell-open-scan"));
         if open.on_hover_text(text!("enrol-open-scan-hint")).clicked() {
             actions.push(EnrolAction::OpenScan);
         }
@@ -408,6 +399,5 @@ fn empty(ui: &mut Ui, enrol: &EnrolState, session: &Session, actions: &mut Vec<E
 /// Title of an enrolled part, or its name if it is not in the library.
 fn title_of<'a>(session: &'a Session, name: &'a str) -> &'a str {
     let library = session.library.as_deref();
-    let title = library.and_then(|library| Some(library.title(library.place_of(name)?)));
-    title.unwrap_or(name)
+    library.map_or(name, |library| library.title_of(name))
 }

@@ -2,10 +2,7 @@
 
 use std::sync::Arc;
 
-use egui::{
-    ColorImage, CursorIcon, EventFilter, Key, Rect, Response, Sense, TextureHandle, TextureOptions,
-    Ui, pos2, vec2,
-};
+use egui::{CursorIcon, EventFilter, Key, Rect, Response, Sense, TextureHandle, Ui, pos2, vec2};
 use glam::Vec2;
 
 use super::{
@@ -20,7 +17,7 @@ use crate::app::{
     ui::{
         theme::{Theme, font},
         viewport::{Drawing, DrawnShape, ViewColours, drawing},
-        widgets::{fitted, focus_ring},
+        widgets::{fitted, focus_ring, texture},
     },
 };
 
@@ -118,15 +115,8 @@ impl PicturePane {
         {
             return;
         }
-        let picture = &selection.picture;
-        let size = [picture.width() as usize, picture.height() as usize];
-        let image = ColorImage::from_rgb(size, picture.as_raw());
-        let options = TextureOptions {
-            mipmap_mode: Some(egui::TextureFilter::Linear),
-            ..TextureOptions::LINEAR
-        };
-        let texture = ctx.load_texture("what is kept", image, options);
-        self.made = Some((Arc::clone(selection), texture));
+        let made = texture(ctx, "what is kept", Some(&selection.picture));
+        self.made = made.map(|texture| (Arc::clone(selection), texture));
     }
 
     /// Arrow keys move a box, or with Shift its lower right corner; Enter applies it.

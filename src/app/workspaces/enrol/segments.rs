@@ -101,14 +101,14 @@ impl Segments {
     pub(super) fn before_background(scene: &SceneCloud, params: &SegmentParams) -> Self {
         let found = segment(scene, params);
         let mut all = Self::of_num(found.labels.len());
-        let part = found.part.as_ref().map(|part| part.indices.clone());
-        let part = part.unwrap_or_default();
+        let (part, stand) = match &found.part {
+            Ok(part) => (&part.indices[..], &part.stand[..]),
+            Err(_) => (&[][..], &[][..]),
+        };
         let title = SegmentTitle::Part;
-        all.add(SegmentKind::Surface, title, PointAction::Kept, &part);
-        let stand = found.part.as_ref().map(|part| part.stand.clone());
-        let stand = stand.unwrap_or_default();
+        all.add(SegmentKind::Surface, title, PointAction::Kept, part);
         let title = SegmentTitle::Stand;
-        all.add(SegmentKind::Surface, title, PointAction::Dropped, &stand);
+        all.add(SegmentKind::Surface, title, PointAction::Dropped, stand);
         let is_other = |indices: &&Vec<u32>| {
             let first = indices.first();
             first.is_some() && first != part.first().into_iter().chain(stand.first()).min()

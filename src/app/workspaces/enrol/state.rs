@@ -8,9 +8,7 @@ use super::{
     draft::{Draft, Form, OpenedPart},
     kept::KeptDraft,
     selection::{Corrections, Edit, OutlineMode},
-    undo::{
-        DraftEffect, LastChangedPart, LibraryStep, SavedMatter, UndoDirection, UndoStack, UndoStep,
-    },
+    undo::{DraftEffect, LastChangedPart, LibraryStep, SavedMatter, UndoStep},
     work::{self, DraftEvent},
 };
 use crate::{
@@ -23,13 +21,14 @@ use crate::{
             message::{Event, Message},
             notice::Notice,
             session::{Session, UserRole, WorkspaceKind},
+            undo_stack::{UndoDirection, UndoStack},
         },
         shots::{Asked, ShotsAction, ShotsFile, ShotsState},
-        task::{Running, Task, TaskContext, TaskError, TaskEvent, TaskRunner},
+        task::{Running, Task, TaskContext, TaskError, TaskRunner},
         ui::viewport::DrawnShape,
         user_error::UserError,
     },
-    library::{BadName, PartName},
+    library::PartName,
 };
 
 /// State of the workspace.
@@ -64,7 +63,7 @@ pub struct EnrolState {
     /// State of the list of shots, for a draft that is a scan.
     pub shots: ShotsState,
     /// Steps that can be undone and redone.
-    pub steps: UndoStack,
+    pub steps: UndoStack<UndoStep>,
     /// Prepares the draft; a newer correction replaces an older one.
     pub(super) draft_task: Task<DraftEvent>,
     /// The current job of the draft's task, or its last.
@@ -72,7 +71,7 @@ pub struct EnrolState {
     /// Changes the library; never cancelled.
     pub(super) change_task: Task<Box<Changed>>,
     /// The library change in progress.
-    pub(super) pending: Option<(UndoDirection, LibraryStep)>,
+    pub(super) pending: Option<(Option<UndoDirection>, LibraryStep)>,
     /// An outline was drawn and its effect is not known yet.
     is_outline_new: bool,
     /// The action to carry out once the engineer is in.
@@ -286,8 +285,8 @@ impl EnrolState {
     pub fn update(&mut self, cx: &mut ShellContext<'_>) {
         while let Some(event) = self.draft_task.poll() {
             match event {
-                TaskEvent::Partial(event) | TaskEvent::Done(event) => self.receive(event, cx),
-                TaskEvent::Failed(error) => {
+                Ok(event) => self.receive(event, cx),
+                Err(error) => {
                     cx.notify(error);
                     if self.job == DraftJob::TakeAgain {
                         self.words_alone(cx);
@@ -296,19 +295,15 @@ impl EnrolState {
             }
         }
         match self.change_task.poll() {
-            Some(TaskEvent::Partial(changed) | TaskEvent::Done(changed)) => {
-                self.changed(*changed, cx);
-            }
-            Some(TaskEvent::Failed(error)) => {
+            Some(Ok(changed)) => self.changed(*changed, cx),
+            Some(Err(error)) => {
                 cx.notify(error);
                 self.not_changed();
             }
             None => {}
         }
-        match self.files.poll() {
-            Some((file, Ok(path))) => self.apply(EnrolAction::Chosen(file, path), cx),
-            Some((_, Err(notice))) => cx.notify(notice),
-            None => {}
+        if let Some((file, path)) = cx.chosen(&mut self.files) {
+            self.apply(EnrolAction::Chosen(file, path), cx);
         }
     }
 
@@ -424,7 +419,7 @@ impl EnrolState {
             return;
         };
         match (draft.form.words(), draft.ready()) {
-            (Err(error), _) => cx.notify(wrong_name(&error)),
+            (Err(error), _) => cx.notify(UserError::from(bad_name(&error))),
             (Ok(_), None) => cx.notify(Notice::look(
                 text!("enrol-nothing-to-save"),
                 text!("enrol-nothing-to-save-advice"),
@@ -446,7 +441,7 @@ impl EnrolState {
                 let rename = LibraryChange::Rename(open.name.clone(), words);
                 self.change(rename, DraftEffect::Stays, cx);
             }
-            Err(error) => cx.notify(wrong_name(&error)),
+            Err(error) => cx.notify(UserError::from(bad_name(&error))),
         }
     }
 
@@ -455,11 +450,6 @@ impl EnrolState {
         let form = form_of(&name, library).unwrap_or_default();
         self.open = Some(OpenedPart { name, form });
     }
-}
-
-fn wrong_name(error: &BadName) -> UserError {
-    let [what, advice] = bad_name(error);
-    UserError { what, advice }
 }
 
 pub(super) fn form_of(name: &PartName, library: Option<&LibraryView>) -> Option<Form> {

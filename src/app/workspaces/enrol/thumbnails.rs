@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use egui::{ColorImage, Context, TextureHandle, TextureOptions};
+use egui::{Color32, ColorImage, Context, Painter, Rect, TextureHandle, TextureOptions, pos2};
 use image::RgbaImage;
 
 use super::work::Checked;
-use crate::app::inspection::library_cache::LibraryView;
+use crate::app::{inspection::library_cache::LibraryView, ui::widgets::fitted};
 
 /// The textures, and their sources.
 #[derive(Default)]
@@ -55,6 +55,13 @@ impl Thumbnails {
     pub(super) fn of_draft(&self) -> Option<&TextureHandle> {
         Some(&self.draft.as_ref()?.1)
     }
+}
+
+/// Draws a picture as large as the rectangle allows.
+pub(super) fn paint_fitted(painter: &Painter, texture: &TextureHandle, rect: Rect) {
+    let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+    let at = fitted(rect, texture.aspect_ratio());
+    painter.image(texture.id(), at, whole, Color32::WHITE);
 }
 
 fn texture(ctx: &Context, name: &str, image: &RgbaImage) -> TextureHandle {

@@ -30,8 +30,7 @@ pub(super) fn ui(ui: &mut Ui, draft: &Draft, enrol: &EnrolState, actions: &mut V
     ];
     tool_row(ui, sets, actions);
     if !can_correct {
-        let text = text!("enrol-mesh-is-whole");
-        ui.label(RichText::new(text).small().weak());
+        ui.label(RichText::new(text!("enrol-mesh-is-whole")).small().weak());
     }
 }
 
@@ -53,14 +52,14 @@ fn initial(draft: &Draft) -> Vec<Tool<EnrolAction>> {
 /// Choices of what a drag does.
 fn drawing(enrol: &EnrolState, can_correct: bool) -> Vec<Tool<EnrolAction>> {
     [
-        (text!("enrol-rotate"), text!("enrol-rotate-hint"), None),
+        (text!("view-rotate"), text!("view-rotate-hint"), None),
         (
             text!("enrol-box"),
             text!("enrol-box-hint"),
             Some(DrawnShape::Box),
         ),
         (
-            text!("enrol-lasso"),
+            text!("view-lasso"),
             text!("enrol-lasso-hint"),
             Some(DrawnShape::Lasso),
         ),
@@ -95,13 +94,13 @@ fn modes(enrol: &EnrolState, can_correct: bool) -> Vec<Tool<EnrolAction>> {
 fn steps(draft: &Draft, enrol: &EnrolState) -> Vec<Tool<EnrolAction>> {
     [
         (
-            text!("enrol-undo"),
+            text!("shell-undo"),
             text!("enrol-undo-step"),
             enrol.next_undo().is_some(),
             EnrolAction::Undo,
         ),
         (
-            text!("enrol-redo"),
+            text!("shell-redo"),
             text!("enrol-redo-step"),
             !enrol.steps.undone.is_empty(),
             EnrolAction::Redo,

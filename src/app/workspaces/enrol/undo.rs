@@ -20,20 +20,14 @@ use crate::{
             source::SceneSource,
         },
         language::text,
-        shell::{context::ShellContext, message::Message, notice::Notice, session::Session},
+        shell::{
+            context::ShellContext, message::Message, notice::Notice, session::Session,
+            undo_stack::UndoDirection,
+        },
     },
     library::PartName,
     stages::scene::SceneCloud,
 };
-
-/// The steps that can be undone and redone; the latest last.
-#[derive(Debug, Default)]
-pub struct UndoStack {
-    /// Steps to undo.
-    pub done: Vec<UndoStep>,
-    /// Steps to redo.
-    pub undone: Vec<UndoStep>,
-}
 
 /// How to return to an earlier state, or forward again.
 #[derive(Clone, Debug)]
@@ -146,53 +140,8 @@ impl PartChange {
     }
 }
 
-/// Direction in which a step is made.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum UndoDirection {
-    /// Made for the first time.
-    First,
-    /// Undone.
-    Back,
-    /// Redone.
-    Again,
-}
-
-/// Limit of steps; the oldest are dropped.
-const MAX_STEPS: usize = 100;
 /// Limit of drafts that are scans: each holds about 100 MB.
 const MAX_SCANS: usize = 4;
-
-impl UndoStack {
-    /// Adds the step that undoes a new one; steps undone before can no longer be redone.
-    pub fn push(&mut self, back: UndoStep) {
-        self.undone.clear();
-        self.done.push(back);
-        if self.done.len() > MAX_STEPS {
-            self.done.remove(0);
-        }
-        let scans = self.done.iter().enumerate().rev();
-        let mut scans = scans.filter(|(_, step)| step.is_scan());
-        if let Some((oldest, _)) = scans.nth(MAX_SCANS) {
-            self.done.drain(..=oldest);
-        }
-    }
-
-    /// The list from which the next step in this direction is taken.
-    pub fn from(&mut self, way: UndoDirection) -> &mut Vec<UndoStep> {
-        match way {
-            UndoDirection::First | UndoDirection::Back => &mut self.done,
-            UndoDirection::Again => &mut self.undone,
-        }
-    }
-
-    /// The list that receives the inverse step.
-    pub fn to(&mut self, way: UndoDirection) -> &mut Vec<UndoStep> {
-        match way {
-            UndoDirection::Back => &mut self.undone,
-            UndoDirection::First | UndoDirection::Again => &mut self.done,
-        }
-    }
-}
 
 impl EnrolState {
     /// Starts a new change of the library, unless one is in progress.
@@ -207,10 +156,16 @@ impl EnrolState {
             what: ChangeText::default(),
             draft,
         };
-        self.start_change(UndoDirection::First, step, cx);
+        self.start_change(None, step, cx);
     }
 
-    fn start_change(&mut self, way: UndoDirection, step: LibraryStep, cx: &ShellContext<'_>) {
+    /// Starts a change; `way` is `None` for a new one.
+    fn start_change(
+        &mut self,
+        way: Option<UndoDirection>,
+        step: LibraryStep,
+        cx: &ShellContext<'_>,
+    ) {
         if self.is_changing_library() {
             return;
         }
@@ -218,7 +173,7 @@ impl EnrolState {
         self.pending = Some((way, step));
         self.change_task
             .start(text!("enrol-changing-library"), move |_| {
-                Ok(Box::new(change::change(&change, &library_cache)?))
+                Ok(Box::new(change::change(change, &library_cache)?))
             });
     }
 
@@ -241,21 +196,22 @@ impl EnrolState {
         });
         step.change = back;
         let notice = match way {
-            UndoDirection::First => {
+            None => {
                 step.what.clone_from(&what);
-                self.steps.undone.clear();
                 Notice::undoable(what.whole)
             }
-            UndoDirection::Back => Notice::done(text!("enrol-undone", what = &step.what.brief)),
-            UndoDirection::Again => Notice::undoable(step.what.whole.clone()),
+            Some(UndoDirection::Back) => {
+                Notice::done(text!("enrol-undone", what = &step.what.brief))
+            }
+            Some(UndoDirection::Again) => Notice::undoable(step.what.whole.clone()),
         };
         let mut saved = None;
         if let DraftEffect::MakesWay(other) = &mut step.draft {
             let coming = other.take();
             let going = self.draft.take().map(Box::new);
-            let kept = going.as_ref().filter(|_| way != UndoDirection::Back);
+            let kept = going.as_ref().filter(|_| way != Some(UndoDirection::Back));
             self.saved_from = kept.and_then(|draft| SavedMatter::of(draft));
-            if way == UndoDirection::First {
+            if way.is_none() {
                 let newest = going.as_deref();
                 let newest = newest.filter(|draft| self.is_newest(draft, cx.session));
                 saved = newest.and_then(inspectable);
@@ -264,7 +220,7 @@ impl EnrolState {
             *other = going;
             self.replacing = None;
         }
-        self.steps.to(way).push(UndoStep::Library(step));
+        self.steps.add_inverse(way, UndoStep::Library(step));
         match (&self.open, name) {
             (Some(_), Some(name)) => self.look_at(name, Some(&library)),
             (Some(_), None) => self.open = None,
@@ -285,9 +241,7 @@ impl EnrolState {
 
     /// Puts the step of a failed change back, so that it can be undone or redone later.
     pub(super) fn not_changed(&mut self) {
-        if let Some((way, step)) = self.pending.take()
-            && way != UndoDirection::First
-        {
+        if let Some((Some(way), step)) = self.pending.take() {
             self.steps.from(way).push(UndoStep::Library(step));
         }
     }
@@ -353,11 +307,12 @@ impl EnrolState {
         while let Some(step) = self.steps.from(way).pop() {
             cx.send(Message::WithdrawUndo);
             match step {
-                UndoStep::Library(step) => return self.start_change(way, step, cx),
+                UndoStep::Library(step) => return self.start_change(Some(way), step, cx),
                 UndoStep::Draft(other) => {
                     let current = self.draft.take().map(Box::new);
                     self.draft = other.map(|draft| *draft);
-                    self.steps.to(way).push(UndoStep::Draft(current));
+                    let back = UndoStep::Draft(current);
+                    self.steps.add_inverse(Some(way), back);
                     return self.look(cx);
                 }
                 UndoStep::Corrections(number, before) => {
@@ -366,7 +321,7 @@ impl EnrolState {
                     if let Some(draft) = draft.filter(|draft| draft.number == number) {
                         let now = mem::replace(&mut draft.corrections, before);
                         let back = UndoStep::Corrections(number, now);
-                        self.steps.to(way).push(back);
+                        self.steps.add_inverse(Some(way), back);
                         return self.look(cx);
                     }
                 }
@@ -377,6 +332,12 @@ impl EnrolState {
     /// Records a new step, and withdraws the offers to undo in earlier notices.
     pub(super) fn did(&mut self, back: UndoStep, cx: &mut ShellContext<'_>) {
         self.steps.push(back);
+        let done = &mut self.steps.done;
+        let scans = done.iter().enumerate().rev();
+        let mut scans = scans.filter(|(_, step)| step.is_scan());
+        if let Some((oldest, _)) = scans.nth(MAX_SCANS) {
+            done.drain(..=oldest);
+        }
         cx.send(Message::WithdrawUndo);
     }
 }

@@ -18,8 +18,8 @@ use crate::{
         ui::{
             theme::{Theme, ThemeChoice, space},
             viewport::{
-                DrawnShape, FitRequest, PointSize, ViewCamera, ViewColours, ViewDirection,
-                ViewError, ViewScene, ViewStyle, ViewTool, Viewport, ViewportGpu, drawing,
+                DrawnShape, FitRequest, ViewCamera, ViewColours, ViewDirection, ViewError,
+                ViewScene, ViewStyle, ViewTool, Viewport, ViewportGpu, drawing,
             },
         },
     },
@@ -41,10 +41,6 @@ pub(super) struct DraftView {
     viewport: Viewport,
     camera: ViewCamera,
     scene: ViewScene,
-    style: ViewStyle,
-    styled: ThemeChoice,
-    /// Point size, except for scans.
-    usual_size: PointSize,
     shown: Option<Shown>,
     has_focus: bool,
 }
@@ -55,9 +51,6 @@ impl DraftView {
             viewport: Viewport::new(gpu),
             camera: ViewCamera::default(),
             scene: ViewScene::default(),
-            style: ViewStyle::new(ViewColours::dark()),
-            styled: ThemeChoice::Dark,
-            usual_size: ViewStyle::new(ViewColours::dark()).point_size,
             shown: None,
             has_focus: false,
         }
@@ -83,14 +76,10 @@ impl DraftView {
     ) {
         let looked_at = enrol.shots.looked_at;
         self.show(draft, looked_at);
-        if self.styled != theme {
-            self.style = ViewStyle::new(ViewColours::of(theme));
-            self.styled = theme;
+        let mut style = ViewStyle::new(ViewColours::of(theme));
+        if draft.subject.scan().is_some() {
+            style.point_size = POINT_SIZE;
         }
-        self.style.point_size = match draft.subject.scan() {
-            Some(_) => POINT_SIZE,
-            None => self.usual_size,
-        };
         let can_correct = draft.subject.can_be_corrected();
         let shape = enrol.shape.filter(|_| can_correct);
         self.viewport.tool = match (shape, self.viewport.tool) {
@@ -102,7 +91,7 @@ impl DraftView {
         let label = text!("enrol-view");
         let seen = self
             .viewport
-            .ui(ui, &label, &mut self.camera, &self.scene, &self.style);
+            .ui(ui, &label, &mut self.camera, &self.scene, &style);
         self.has_focus = seen.response.has_focus();
         if let Some(corners) = seen.drawn {
             let size = seen.response.rect.size();
@@ -127,7 +116,7 @@ impl DraftView {
         if let Some(overlay) = overlay(draft, looked_at) {
             let painter = ui.painter_at(rect);
             let corner = rect.left_bottom() + vec2(space::MEDIUM, -space::MEDIUM);
-            overlay.legend(&painter, corner, &self.style.colours, Theme::of(ui));
+            overlay.legend(&painter, corner, &style.colours, Theme::of(ui));
         }
         let bar = vec2(rect.width() - 2.0 * space::SMALL, space::TARGET);
         let bar = Rect::from_min_size(rect.min + Vec2::splat(space::SMALL), bar);
@@ -137,7 +126,7 @@ impl DraftView {
         if let Some(shape) = shape {
             let painter = ui.painter_at(rect);
             let corners = self.viewport.drawing.corners(shape);
-            let (mode, colours) = (enrol.outline_mode, &self.style.colours);
+            let (mode, colours) = (enrol.outline_mode, &style.colours);
             drawing::outline(&painter, &corners, &mode.title(), colours);
             // The hint would cover the part while a person draws.
             if corners.is_empty() {

@@ -60,10 +60,7 @@ pub(super) fn take_scene(
     let params = params_of(recipe);
     let is_cancelled = || context.is_cancelled();
     let read = EnrolInput::read(source, &params, library_cache.camera(), &is_cancelled)?;
-    let subject = read.map_err(|error| {
-        let [what, advice] = enrol_error(&error);
-        UserError { what, advice }
-    })?;
+    let subject = read.map_err(|error| UserError::from(enrol_error(&error)))?;
     take(subject, &params, library_cache, context)
 }
 
@@ -78,8 +75,7 @@ pub(super) fn take_again(
     let source = match (source, usual) {
         // Read the file as Inspect does; Enrol would take one without rows and columns as a part.
         (file @ SceneSource::File(_), InitialSelection::Segmented) => {
-            let captured = file.take(library_cache.camera(), &|| context.is_cancelled());
-            let captured = captured.map_err(|error| UserError::of(&error))?;
+            let captured = file.take(library_cache.camera(), &|| context.is_cancelled())?;
             SceneSource::AtHand(captured.scene, captured.origin)
         }
         (source, _) => source,

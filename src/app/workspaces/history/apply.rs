@@ -5,10 +5,7 @@ use std::{ops::Range, path::PathBuf, sync::Arc};
 use jiff::Zoned;
 
 use super::{
-    export::{self, PastExport},
-    filter::ListFilter,
-    state::HistoryState,
-    statistics::StatisticsView,
+    export, filter::ListFilter, state::HistoryState, statistics::StatisticsView,
     work::HistoryResult,
 };
 use crate::{
@@ -22,7 +19,6 @@ use crate::{
             notice::Notice,
             session::{UserRole, WorkspaceKind},
         },
-        task::TaskEvent,
         user_error::UserError,
     },
     history::{HistoryEvent, HungId, NewEntry, PruneResult, Retention, SetAside, TraceChange},
@@ -69,7 +65,7 @@ pub enum HistoryAction {
 pub enum HistoryFile {
     /// A table of the listed inspections.
     Csv,
-    /// A folder for cases made of the listed inspections.
+    /// A folder of cases, made of the listed inspections with a kept frame and a true label.
     Cases,
 }
 
@@ -78,7 +74,7 @@ impl HistoryFile {
         match self {
             Self::Csv => FileRequest {
                 title: text!("history-export-csv-title"),
-                filters: vec![(text!("history-csv-files"), &["csv"])],
+                filters: vec![(text!("shell-csv-files"), &["csv"])],
                 choice: FileChoice::NewFile("inspections.csv".into()),
             },
             Self::Cases => FileRequest {
@@ -163,11 +159,10 @@ impl HistoryState {
                     self.inspect_again(number, cx);
                 }
             }
-            HistoryAction::Remark(number, remark) => self.remark(number, remark),
+            HistoryAction::Remark(number, remark) => self.queue(HistoryJob::Remark(number, remark)),
             HistoryAction::Label(number, label) => {
                 self.asks_actual_part = false;
-                self.asked();
-                self.jobs.push(HistoryJob::Label(number, label));
+                self.queue(HistoryJob::Label(number, label));
             }
             HistoryAction::Statistics(is_shown) => {
                 self.statistics = if is_shown {
@@ -180,8 +175,7 @@ impl HistoryState {
             HistoryAction::Rule(rule) => self.rule = rule,
             HistoryAction::Keep(rule) => {
                 self.rule = None;
-                self.asked();
-                self.jobs.push(HistoryJob::Keep(rule.clamped()));
+                self.queue(HistoryJob::Keep(rule.clamped()));
             }
             HistoryAction::Ask(file) => {
                 let lock = &cx.services.dialogs;
@@ -189,12 +183,6 @@ impl HistoryState {
             }
             HistoryAction::Export(file, path) => self.export(file, path, cx),
         }
-    }
-
-    /// Sets the remark on an inspection.
-    pub(super) fn remark(&mut self, number: i64, remark: String) {
-        self.asked();
-        self.jobs.push(HistoryJob::Remark(number, remark));
     }
 
     /// Selects this inspection, as the user's choice.
@@ -260,30 +248,20 @@ impl HistoryState {
         }
         while let Some(event) = self.looking.poll() {
             match event {
-                TaskEvent::Partial(looked) | TaskEvent::Done(looked) => self.receive(*looked, cx),
-                TaskEvent::Failed(error) => cx.notify(error),
+                Ok(looked) => self.receive(*looked, cx),
+                Err(error) => cx.notify(error),
             }
         }
         match self.counting.poll() {
-            Some(TaskEvent::Done(found) | TaskEvent::Partial(found))
-                if self.statistics.is_open() =>
-            {
+            Some(Ok(found)) if self.statistics.is_open() => {
                 self.statistics = StatisticsView::Counted(found);
             }
-            Some(TaskEvent::Failed(error)) => cx.notify(error),
+            Some(Err(error)) => cx.notify(error),
             Some(_) | None => {}
         }
-        match self.exporting.poll() {
-            Some(TaskEvent::Done(what) | TaskEvent::Partial(what)) => {
-                cx.notify(Notice::done(what));
-            }
-            Some(TaskEvent::Failed(error)) => cx.notify(error),
-            None => {}
-        }
-        match self.dialog.poll() {
-            Some((file, Ok(path))) => self.apply(HistoryAction::Export(file, path), cx),
-            Some((_, Err(notice))) => cx.notify(notice),
-            None => {}
+        cx.notify_written(&mut self.exporting);
+        if let Some((file, path)) = cx.chosen(&mut self.dialog) {
+            self.apply(HistoryAction::Export(file, path), cx);
         }
     }
 
@@ -339,9 +317,9 @@ impl HistoryState {
                 let megabytes = format!("{:.1}", num_bytes as f64 / 1e6);
                 let what = text!("history-swept", count = num_frames, megabytes = megabytes,);
                 cx.notify(Notice::done(what));
-                self.stale();
+                self.is_stale = true;
             }
-            HistoryEvent::FilesChanged => self.stale(),
+            HistoryEvent::FilesChanged => self.is_stale = true,
             HistoryEvent::Changed { .. } | HistoryEvent::RuleChanged => self.answered(),
         }
         self.refresh_if_stale(cx);
@@ -362,14 +340,11 @@ impl HistoryState {
 
     /// Writes the listed inspections to the chosen path.
     fn export(&mut self, file: HistoryFile, path: PathBuf, cx: &ShellContext<'_>) {
-        let title = text!("history-writing", file = file_name(&path));
+        let title = text!("shell-writing", file = file_name(&path));
         let filter = self.filter.at(&Zoned::now());
-        let to = match file {
-            HistoryFile::Csv => PastExport::Csv(path),
-            HistoryFile::Cases => PastExport::Cases(path),
-        };
         let keeper = Arc::clone(cx.services.library_cache.history());
-        self.exporting
-            .start(title, move |_| Ok(export::write(&filter, &to, &keeper)?));
+        self.exporting.start(title, move |_| {
+            Ok(export::write(&filter, file, &path, &keeper)?)
+        });
     }
 }

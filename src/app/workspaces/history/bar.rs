@@ -1,6 +1,6 @@
 //! Above the list: its filter, and what can be done with the listed inspections.
 
-use egui::{Align, Button, Layout, RichText, ScrollArea, TextEdit, Ui, WidgetInfo, vec2};
+use egui::{Align, Button, Layout, Ui, WidgetInfo, vec2};
 
 use super::{
     HistoryAction, HistoryFile, HistoryState,
@@ -11,7 +11,7 @@ use crate::app::{
     shell::session::Session,
     ui::{
         theme::{Theme, space},
-        widgets::{labelled, shortened, show_scroll_bar, text_button},
+        widgets::{labelled, line_edit, menu_list, shortened, text_button},
     },
 };
 
@@ -25,7 +25,8 @@ pub(super) fn ui(
     let known = &history.filter;
     let mut filter = known.clone();
     ui.horizontal_wrapped(|ui| {
-        find(ui, &mut filter);
+        let (label, hint) = (text!("history-find"), text!("history-find-hint"));
+        text_field(ui, &mut filter.text, &label, hint, 170.0);
         days(ui, &mut filter);
         verdicts(ui, &mut filter);
         parts(ui, history, session, &mut filter);
@@ -38,7 +39,7 @@ pub(super) fn ui(
         ui.horizontal(|ui| typed(ui, &mut filter));
     }
     ui.horizontal(|ui| {
-        let (matching, count) = (history.num_matching(), history.num_rows());
+        let (matching, count) = (history.page.num_matching, history.num_rows());
         let counted = text!("history-counted", matching = matching, count = count);
         ui.weak(&counted)
             .widget_info(|| WidgetInfo::labeled(egui::Role::Label, true, &counted));
@@ -54,7 +55,7 @@ pub(super) fn ui(
 fn action_buttons(ui: &mut Ui, history: &HistoryState, actions: &mut Vec<HistoryAction>) {
     let ways = [
         (
-            text!("history-export-csv"),
+            text!("shell-export-csv"),
             text!("history-export-csv-hint"),
             HistoryFile::Csv,
         ),
@@ -86,15 +87,10 @@ fn action_buttons(ui: &mut Ui, history: &HistoryState, actions: &mut Vec<History
     }
 }
 
-fn find(ui: &mut Ui, filter: &mut ListFilter) {
-    let field = TextEdit::singleline(&mut filter.text)
-        .hint_text(text!("history-find-hint"))
-        .desired_width(170.0)
-        .min_size(vec2(170.0, space::TARGET))
-        .align(egui::Align2::LEFT_CENTER);
-    let label = text!("history-find");
+fn text_field(ui: &mut Ui, text: &mut String, label: &str, hint: String, width: f32) {
+    let field = line_edit(text, hint, width).min_size(vec2(width, space::TARGET));
     ui.add(field)
-        .widget_info(|| WidgetInfo::labeled(egui::Role::TextInput, true, &label));
+        .widget_info(|| WidgetInfo::labeled(egui::Role::TextInput, true, label));
 }
 
 /// Draws a menu for one choice; `label` tells it from other menus with the same choices.
@@ -110,8 +106,7 @@ fn menu<T: PartialEq + Clone>(
     let title = format!("{label} · {} ▼", shortened(now, 20));
     ui.menu_button(&title, |ui| {
         ui.set_min_width(160.0);
-        show_scroll_bar(ui);
-        ScrollArea::vertical().max_height(420.0).show(ui, |ui| {
+        menu_list(ui, |ui| {
             for (choice, title) in choices {
                 let response = ui.selectable_label(*chosen == choice, &title);
                 response.widget_info(|| {
@@ -169,16 +164,9 @@ fn typed(ui: &mut Ui, filter: &mut ListFilter) {
     ];
     for (text, (word, label)) in filter.typed.iter_mut().zip(fields) {
         ui.weak(word);
-        let field = TextEdit::singleline(text)
-            .hint_text("2026-11-20")
-            .desired_width(110.0)
-            .min_size(vec2(110.0, space::TARGET))
-            .align(egui::Align2::LEFT_CENTER);
-        ui.add(field)
-            .widget_info(|| WidgetInfo::labeled(egui::Role::TextInput, true, &label));
+        text_field(ui, text, &label, "2026-11-20".to_owned(), 110.0);
     }
     if filter.typed.iter().any(|text| day_of(text).is_err()) {
-        let text = text!("history-day-format");
-        ui.label(RichText::new(text).color(theme.warning));
+        ui.colored_label(theme.warning, text!("history-day-format"));
     }
 }

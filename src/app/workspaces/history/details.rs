@@ -6,7 +6,7 @@ use egui::{Button, RichText, ScrollArea, Sense, TextureHandle, Ui, vec2};
 
 use super::{
     HistoryAction, HistoryState, OpenedInspection, differences, label,
-    list::{time_of_day, when},
+    list::{DAY_AND_TIME, local_time},
 };
 use crate::{
     app::{
@@ -14,7 +14,7 @@ use crate::{
         language::{
             history::{stored_refusal, stored_scene, stored_title},
             keys,
-            results::{accepted_or_not, stored_verdict},
+            results::{accepted_or_not, recipe_label, stored_verdict},
             text,
         },
         shell::session::Session,
@@ -26,23 +26,17 @@ use crate::{
             },
         },
     },
-    history::{Differences, InspectionDetail, Record, StoredVerdict, Summary, Traceability},
+    history::{Differences, InspectionDetail, Record, StoredVerdict, Summary},
 };
 
 /// State of the details kept between frames.
 #[derive(Default)]
 pub(super) struct Details {
-    picture: Option<(i64, PictureOrigin, TextureHandle)>,
+    /// Picture of an inspection; true if it is the large one of an inspection kept whole in memory.
+    picture: Option<(i64, bool, TextureHandle)>,
     pub(super) remark: label::Remark,
     /// Number of the part's inspection that was drawn last.
     drawn: Option<i64>,
-}
-
-/// Source of the picture.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum PictureOrigin {
-    Whole,
-    Thumbnail,
 }
 
 impl Details {
@@ -54,8 +48,7 @@ impl Details {
         actions: &mut Vec<HistoryAction>,
     ) {
         let Some(past) = &history.record else {
-            let text = text!("history-choose");
-            ui.weak(text);
+            ui.weak(text!("history-choose"));
             return;
         };
         self.make(ui, history, past);
@@ -108,14 +101,14 @@ impl Details {
         let number = past.record.summary.number;
         let whole = history.whole(number);
         let large = whole.and_then(|whole| whole.figures.segmentation.as_ref());
-        let source = large.map_or(PictureOrigin::Thumbnail, |_| PictureOrigin::Whole);
+        let key = (number, large.is_some());
         let made = self.picture.as_ref();
-        if made.is_some_and(|(of, from, _)| (*of, *from) == (number, source)) {
+        if made.is_some_and(|(of, is_large, _)| (*of, *is_large) == key) {
             return;
         }
         let image = large.or(past.picture.as_ref());
         let made = texture(ui.ctx(), "past inspection", image);
-        self.picture = made.map(|made| (number, source, made));
+        self.picture = made.map(|made| (number, large.is_some(), made));
     }
 
     fn picture(&self, ui: &mut Ui, record: &Record) {
@@ -167,8 +160,7 @@ fn verdict(ui: &mut Ui, record: &Record, of_part: &Record, session: &Session) {
         });
     }
     if summary.is_simulated {
-        let text = text!("history-simulated");
-        ui.label(RichText::new(text).color(Theme::of(ui).warning));
+        ui.colored_label(Theme::of(ui).warning, text!("history-simulated"));
     }
     let title_of = |name: &str| match &session.library {
         Some(library) => library.title_of(name).to_owned(),
@@ -201,7 +193,7 @@ fn part(ui: &mut Ui, past: &OpenedInspection, units: UnitSystem, actions: &mut V
         let text = format!(
             "{} · {word} · {}{counts}",
             row.number.abs(),
-            time_of_day(row.at)
+            local_time(row.at, "%H:%M:%S")
         );
         let button = Button::selectable(row.number == number, text)
             .frame_when_inactive(true)
@@ -231,49 +223,33 @@ fn part(ui: &mut Ui, past: &OpenedInspection, units: UnitSystem, actions: &mut V
 
 fn figures(ui: &mut Ui, record: &Record) {
     let Record { summary, detail } = record;
-    let Summary {
-        scene,
-        source,
-        at,
-        score,
-        frame_bytes,
-        is_simulated,
-        ..
-    } = summary;
-    let shown = |title: &str| stored_scene(title, *is_simulated);
-    path_row(ui, &text!("history-figure-scene"), &shown(scene));
+    let shown = |title: &str| stored_scene(title, summary.is_simulated);
+    let (scene, source) = (&summary.scene, &summary.source);
+    path_row(ui, &text!("inspect-scene"), &shown(scene));
     if source != scene {
         path_row(ui, &text!("history-figure-source"), &shown(source));
     }
     let mut row = |name: String, value: &str| row(ui, &name, &shortened(value, 32));
-    row(text!("history-figure-time"), &when(*at));
-    let Traceability {
-        serial,
-        order,
-        operator,
-    } = &summary.trace;
+    let time = local_time(summary.at, DAY_AND_TIME);
+    row(text!("history-figure-time"), &time);
+    let trace = &summary.trace;
     for (name, text) in [
-        (text!("history-figure-serial"), serial),
-        (text!("history-figure-order"), order),
-        (text!("history-figure-operator"), operator),
+        (text!("history-figure-serial"), &trace.serial),
+        (text!("inspect-order"), &trace.order),
+        (text!("inspect-operator"), &trace.operator),
     ] {
         if !text.is_empty() {
             row(name, text);
         }
     }
-    if let Some([score, margin]) = score {
+    if let Some([score, margin]) = summary.score {
         row(text!("history-figure-score"), &format!("{score:.2}"));
         row(text!("history-figure-margin"), &format!("{margin:.2}"));
     }
-    let InspectionDetail {
-        library_identity,
-        program,
-        ..
-    } = detail;
-    row(text!("history-figure-recipe"), &recipe_text(detail));
-    row(text!("history-figure-library"), library_identity);
-    row(text!("history-figure-program"), program);
-    let frame = frame_bytes.map_or_else(
+    row(text!("inspect-recipe"), &recipe_text(detail));
+    row(text!("history-figure-library"), &detail.library_identity);
+    row(text!("history-figure-program"), &detail.program);
+    let frame = summary.frame_bytes.map_or_else(
         || text!("history-frame-not-kept"),
         |bytes| {
             let megabytes = format!("{:.1}", bytes as f64 / 1e6);
@@ -328,8 +304,7 @@ fn stage_title(stage: String) -> String {
 fn recipe_text(detail: &InspectionDetail) -> String {
     match &detail.recipe_label {
         Some(label) if label.is_changed => {
-            let name = text!("history-recipe-modified", name = &label.name);
-            format!("{name}, {}", detail.recipe_identity)
+            format!("{}, {}", recipe_label(label), detail.recipe_identity)
         }
         _ => detail.recipe_text(),
     }

@@ -62,7 +62,7 @@ pub(super) fn table(
             of.score
                 .map_or_else(none, |[score, _]| format!("{score:.3}"))
         }),
-        (text!("history-figure-recipe"), &|of| of.recipe.clone()),
+        (text!("inspect-recipe"), &|of| of.recipe.clone()),
         (text!("history-figure-library"), &|of| of.library.clone()),
     ];
     // The names of parts and recipes must not widen the panel.

@@ -10,6 +10,7 @@ use crate::{
         language::text,
         ui::{plot::over_time, theme::Theme, widgets::heading},
     },
+    geometry::statistics::lower_median,
     history::PoseRecord,
 };
 
@@ -59,17 +60,17 @@ impl Drift {
         let middle = |pose: &PoseRecord| Some(pose.camera_from_part * middle_of(&pose.reference)?);
         let middles: Vec<Option<Point3<f64>>> = poses.iter().map(middle).collect();
         let usual: [Option<f64>; 3] =
-            std::array::from_fn(|axis| median(middles.iter().flatten().map(|at| at[axis])));
+            std::array::from_fn(|axis| lower_median(middles.iter().flatten().map(|at| at[axis])));
         let size = poses.len().div_ceil(MOST_DRAWN);
         for (group, middles) in poses.chunks(size).zip(middles.chunks(size)) {
             let of = |value: fn(&PoseRecord) -> f64| {
-                median(group.iter().map(value)).unwrap_or_default() as f32
+                lower_median(group.iter().map(value)).unwrap_or_default() as f32
             };
             drift.at.push(group[0].at.to_zoned(zone.clone()));
             drift.score.push(of(|pose| pose.score));
             drift.rms_m.push(of(|pose| pose.rms_m));
             for (axis, offsets) in drift.offset_m.iter_mut().enumerate() {
-                let here = median(middles.iter().flatten().map(|at| at[axis]));
+                let here = lower_median(middles.iter().flatten().map(|at| at[axis]));
                 let offset = here.zip(usual[axis]).map(|(here, usual)| here - usual);
                 offsets.push(offset.map_or(f32::NAN, |offset| offset as f32));
             }
@@ -85,17 +86,10 @@ impl Drift {
             .map(|x| f64::from(*x))
             .collect();
         let num = known.len().div_ceil(END);
-        let first = median(known.iter().take(num).copied())?;
-        let last = median(known.iter().rev().take(num).copied())?;
+        let first = lower_median(known.iter().take(num).copied())?;
+        let last = lower_median(known.iter().rev().take(num).copied())?;
         Some([first, last])
     }
-}
-
-/// The median, or the lower of two middle values; `None` without values.
-fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
-    let mut values: Vec<f64> = values.collect();
-    values.sort_by(f64::total_cmp);
-    values.get(values.len().checked_sub(1)? / 2).copied()
 }
 
 /// Draws score, fit and position one below the other.
@@ -104,36 +98,19 @@ pub(super) fn ui(ui: &mut Ui, drift: &Drift, units: UnitSystem) {
     heading(ui, &text!("history-drift", part = drift.title.as_str()));
     let score = |value: f64| format!("{value:.2}");
     let length = |value: f64| units.length(value);
-    let [x, y, z] = &drift.offset_m;
-    let colours = [
-        theme.first_series,
-        theme.second_series,
-        theme.reference_series,
-    ];
-    let ends = |values: &[f32], written: &dyn Fn(f64) -> String| {
-        let [first, last] = Drift::ends(values).unwrap_or_default().map(written);
-        text!("history-drift-ends", first = first, last = last)
-    };
+    let one_curve =
+        |ui: &mut Ui, name: String, values: &[f32], shown: (&dyn Fn(f64) -> String, f64, f64)| {
+            let [first, last] = Drift::ends(values).unwrap_or_default().map(shown.0);
+            let ends = text!("history-drift-ends", first = first, last = last);
+            let curves = [("", values, theme.first_series)];
+            let title = format!("{name}: {ends}");
+            over_time(ui, &drift.at, &title, &curves, shown, theme);
+        };
     let name = text!("history-drift-score");
-    let title = format!("{name}: {}", ends(&drift.score, &score));
-    over_time(
-        ui,
-        &drift.at,
-        &title,
-        &[("", &drift.score, colours[0])],
-        (&score, 0.1, 1.0),
-        theme,
-    );
+    one_curve(ui, name, &drift.score, (&score, 0.1, 1.0));
     let name = text!("history-drift-fit");
-    let title = format!("{name}: {}", ends(&drift.rms_m, &length));
-    over_time(
-        ui,
-        &drift.at,
-        &title,
-        &[("", &drift.rms_m, colours[0])],
-        (&length, 0.002, f64::INFINITY),
-        theme,
-    );
+    one_curve(ui, name, &drift.rms_m, (&length, 0.002, f64::INFINITY));
+    let [x, y, z] = &drift.offset_m;
     if x.iter().any(|x| x.is_finite()) {
         let offset = |value: f64| units.signed_length(value);
         let moved = [x, y, z].map(|values| {
@@ -143,9 +120,9 @@ pub(super) fn ui(ui: &mut Ui, drift: &Drift, units: UnitSystem) {
         let [dx, dy, dz] = moved;
         let title = text!("history-drift-place", x = dx, y = dy, z = dz);
         let curves = [
-            ("x", x, colours[0]),
-            ("y", y, colours[1]),
-            ("z", z, colours[2]),
+            ("x", x, theme.first_series),
+            ("y", y, theme.second_series),
+            ("z", z, theme.reference_series),
         ];
         let curves = curves.map(|(name, values, colour)| (name, values.as_slice(), colour));
         over_time(

@@ -1,36 +1,29 @@
 //! Writes inspections of the history to where a person chose.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
+use super::HistoryFile;
 use crate::{
     app::{language::text, user_error::UserError},
     cases::{CaseFolder, PastCases, TruthFrom},
     history::{Filter, HistoryBuffer, write_table},
 };
 
-/// Destination of the inspections.
-#[derive(Clone, Debug)]
-pub(super) enum PastExport {
-    /// A table.
-    Csv(PathBuf),
-    /// A folder of cases, made of the inspections with a kept frame and a true label.
-    Cases(PathBuf),
-}
-
 /// Writes the inspections that match the filter; describes what was written.
 pub(super) fn write(
     filter: &Filter,
-    to: &PastExport,
+    file: HistoryFile,
+    path: &Path,
     history: &HistoryBuffer,
 ) -> Result<String, UserError> {
-    match to {
-        PastExport::Csv(path) => {
+    match file {
+        HistoryFile::Csv => {
             let num = write_table(path, |row| history.each(filter, row))
                 .map_err(|error| UserError::of(&error))?;
             let path = path.display().to_string();
             Ok(text!("history-wrote", count = num, path = path))
         }
-        PastExport::Cases(folder) => write_cases(filter, folder, history),
+        HistoryFile::Cases => write_cases(filter, path, history),
     }
 }
 

@@ -24,8 +24,7 @@ pub(super) fn ui(ctx: &Context, history: &HistoryState, actions: &mut Vec<Histor
         ui.set_max_width(520.0);
         ui.heading(text!("history-keep-title"));
         ui.add_space(space::SMALL);
-        let why = text!("history-keep-why", num = ACCEPTED_KEPT);
-        ui.weak(why);
+        ui.weak(text!("history-keep-why", num = ACCEPTED_KEPT));
         ui.add_space(space::SMALL);
         Grid::new("frames")
             .num_columns(2)
@@ -39,7 +38,7 @@ pub(super) fn ui(ctx: &Context, history: &HistoryState, actions: &mut Vec<Histor
             if widgets::default_button(ui, &text!("history-apply"), true) {
                 closing = Some(true);
             }
-            if text_button(ui, &text!("history-close")).clicked() {
+            if text_button(ui, &text!("shell-close")).clicked() {
                 closing = Some(false);
             }
         });
@@ -90,15 +89,13 @@ fn number(ui: &mut Ui, value: DragValue<'_>, label: &str) {
 
 fn used(ui: &mut Ui, usage: Usage) {
     let gigabytes = |bytes: u64| format!("{:.2} GB", bytes as f64 / 1e9);
-    let text = text!(
+    ui.label(text!(
         "history-keep-used",
         count = usage.num_frames,
         size = gigabytes(usage.num_bytes),
-    );
-    ui.label(text);
-    let text = text!(
+    ));
+    ui.weak(text!(
         "history-keep-marked",
         size = gigabytes(usage.num_bytes_marked)
-    );
-    ui.weak(text);
+    ));
 }

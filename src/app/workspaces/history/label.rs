@@ -1,6 +1,6 @@
 //! Remark on and true label of an inspection.
 
-use egui::{TextEdit, Ui, WidgetInfo, vec2};
+use egui::{Ui, WidgetInfo};
 
 use super::HistoryAction;
 use crate::{
@@ -11,10 +11,7 @@ use crate::{
             session::Session,
             truth_menu::{truth_entries, truth_title},
         },
-        ui::{
-            theme::space,
-            widgets::{heading, shortened},
-        },
+        ui::widgets::{heading, line_edit, shortened},
     },
     history::Summary,
     library::Truth,
@@ -47,17 +44,15 @@ impl Remark {
             .as_ref()
             .is_some_and(|(number, known, _)| *number == row.number && *known == row.remark);
         if !is_of_it {
-            self.keep(actions, Some(row.number));
+            if let Some((number, remark)) = self.take_edited(Some(row.number)) {
+                actions.push(HistoryAction::Remark(number, remark));
+            }
             self.draft = Some((row.number, row.remark.clone(), row.remark.clone()));
         }
         let Some((_, known, text)) = &mut self.draft else {
             return is_labelled;
         };
-        let field = TextEdit::singleline(text)
-            .hint_text(text!("history-remark-hint"))
-            .desired_width(f32::INFINITY)
-            .min_size(vec2(0.0, space::TARGET))
-            .align(egui::Align2::LEFT_CENTER);
+        let field = line_edit(text, text!("history-remark-hint"), f32::INFINITY);
         let response = ui.add(field);
         let label = text!("history-your-remark");
         response.widget_info(|| WidgetInfo::labeled(egui::Role::TextInput, true, &label));
@@ -70,15 +65,11 @@ impl Remark {
         is_labelled || response.has_focus()
     }
 
-    /// Saves a remark that was edited before another inspection came to the front or the window closes.
-    pub(super) fn keep(&mut self, actions: &mut Vec<HistoryAction>, front: Option<i64>) {
-        if let Some((number, known, text)) = self.draft.take()
-            && Some(number) != front
-            && text.trim() != known.trim()
-        {
-            let remark = text.trim().to_owned();
-            actions.push(HistoryAction::Remark(number, remark));
-        }
+    /// Takes a remark that was edited before another inspection came to the front or the window closes.
+    pub(super) fn take_edited(&mut self, front: Option<i64>) -> Option<(i64, String)> {
+        let (number, known, text) = self.draft.take()?;
+        let is_edited = Some(number) != front && text.trim() != known.trim();
+        is_edited.then(|| (number, text.trim().to_owned()))
     }
 }
 

@@ -53,7 +53,7 @@ impl List {
         bar::ui(ui, history, session, actions);
         if let Some(trouble) = &history.trouble {
             let text = text!("history-in-memory", reason = &trouble.what);
-            ui.label(RichText::new(text).color(theme.warning));
+            ui.colored_label(theme.warning, text);
             ui.label(
                 RichText::new(&trouble.advice)
                     .font(font::body_strong())
@@ -63,11 +63,10 @@ impl List {
         ui.add_space(space::SMALL);
         let layout = Layout::across(ui.available_width());
         head(ui, &layout);
-        let num_rows = history.num_matching();
+        let num_rows = history.page.num_matching;
         if num_rows == 0 {
             ui.add_space(space::LARGE);
-            let text = text!("history-none-listed");
-            ui.weak(text);
+            ui.weak(text!("history-none-listed"));
             // Fetches the next inspection together with its neighbours.
             see(history, 0..1, actions);
             return;
@@ -116,7 +115,7 @@ impl List {
 
 /// Reports the visible rows if they have changed.
 fn see(history: &HistoryState, rows: std::ops::Range<usize>, actions: &mut Vec<HistoryAction>) {
-    if history.is_news(&rows) {
+    if history.visible != rows {
         actions.push(HistoryAction::Visible(rows));
     }
 }
@@ -197,8 +196,8 @@ const COLUMNS: [Column; 5] = [
         width: Width::Pixels([170.0, 96.0]),
         is_path: false,
         text: |past, room| match room {
-            Room::Wide => when(past.at),
-            Room::Narrow => shortly(past.at),
+            Room::Wide => local_time(past.at, DAY_AND_TIME),
+            Room::Narrow => local_time(past.at, "%m-%d %H:%M"),
         },
         look: |theme| (font::body(), theme.weak_text),
     },
@@ -369,22 +368,13 @@ fn paint(painter: &Painter, rect: Rect, past: &Summary, layout: &Layout, theme: 
     }
 }
 
-/// Formats a time without year and seconds.
-fn shortly(at: Timestamp) -> String {
-    let here = at.to_zoned(TimeZone::system());
-    here.strftime("%m-%d %H:%M").to_string()
-}
+/// Format of day and time of day.
+pub(super) const DAY_AND_TIME: &str = "%Y-%m-%d %H:%M:%S";
 
-/// Formats the time of day.
-pub(super) fn time_of_day(at: Timestamp) -> String {
+/// Formats a time in the local time zone.
+pub(super) fn local_time(at: Timestamp, format: &str) -> String {
     let here = at.to_zoned(TimeZone::system());
-    here.strftime("%H:%M:%S").to_string()
-}
-
-/// Formats day and time of day, in the local time zone.
-pub(super) fn when(at: Timestamp) -> String {
-    let here = at.to_zoned(TimeZone::system());
-    here.strftime("%Y-%m-%d %H:%M:%S").to_string()
+    here.strftime(format).to_string()
 }
 
 #[cfg(test)]

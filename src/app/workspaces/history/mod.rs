@@ -82,7 +82,8 @@ const SHORTCUTS: [Shortcut<HistoryAction>; 4] = [
 
 /// The workspace.
 pub struct HistoryWorkspace {
-    state: HistoryState,
+    /// The state of the workspace.
+    pub state: HistoryState,
     details: Details,
     list: List,
     writer: Writer,
@@ -105,11 +106,6 @@ impl HistoryWorkspace {
             watch: FolderWatch::new("history-watch", runner),
             has_looked: false,
         }
-    }
-
-    /// The state of the workspace.
-    pub fn state(&self) -> &HistoryState {
-        &self.state
     }
 
     /// Carries out an action and hands its jobs to the writer.
@@ -145,7 +141,7 @@ impl Workspace for HistoryWorkspace {
             ..
         } = self;
         let (session, theme) = (cx.session, Theme::of(ui));
-        if state.is_empty() && state.trouble.is_none() {
+        if state.num_rows() == 0 && state.trouble.is_none() {
             empty(ui);
             return;
         }
@@ -208,12 +204,8 @@ impl Workspace for HistoryWorkspace {
     }
 
     fn close(&mut self) {
-        let mut actions = Vec::new();
-        self.details.remark.keep(&mut actions, None);
-        for action in actions {
-            if let HistoryAction::Remark(number, remark) = action {
-                self.state.remark(number, remark);
-            }
+        if let Some((number, remark)) = self.details.remark.take_edited(None) {
+            self.state.queue(HistoryJob::Remark(number, remark));
         }
         self.write();
     }
@@ -243,7 +235,6 @@ fn empty(ui: &mut Ui) {
         ui.add_space(ui.available_height() * 0.4);
         ui.heading(text!("history-empty"));
         ui.add_space(space::SMALL);
-        let advice = text!("history-empty-advice");
-        ui.weak(advice);
+        ui.weak(text!("history-empty-advice"));
     });
 }

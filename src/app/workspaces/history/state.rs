@@ -51,7 +51,7 @@ pub struct HistoryState {
     /// The statistics shown in place of the list, if any.
     pub statistics: StatisticsView,
     /// The visible rows.
-    visible: Range<usize>,
+    pub(super) visible: Range<usize>,
     /// Number of the selected inspection.
     pub selected: Option<i64>,
     /// Whether the selection follows the newest inspection.
@@ -84,7 +84,7 @@ pub struct HistoryState {
     /// The newest inspections, whole.
     whole: VecDeque<(i64, Arc<Inspected>)>,
     /// True if the fetched rows may be out of date.
-    is_stale: bool,
+    pub(super) is_stale: bool,
     /// The inspection to repeat as soon as it is fetched.
     pub(super) then: Option<(i64, RemakeFor)>,
     /// The inspection being repeated.
@@ -173,19 +173,9 @@ impl HistoryState {
         }
     }
 
-    /// True if there is no inspection.
-    pub fn is_empty(&self) -> bool {
-        self.num_rows() == 0
-    }
-
     /// Number of all rows, as far as known.
     pub fn num_rows(&self) -> usize {
         self.page.num_all
-    }
-
-    /// Number of rows that match the filter.
-    pub fn num_matching(&self) -> usize {
-        self.page.num_matching
     }
 
     /// Returns the row at this index of the list, if fetched.
@@ -275,24 +265,16 @@ impl HistoryState {
         self.is_stale = true;
     }
 
-    /// Counts a change queued for writing.
-    pub(super) fn asked(&mut self) {
+    /// Queues a change, until it is written or fails.
+    pub(super) fn queue(&mut self, change: HistoryJob) {
         self.num_asked += 1;
+        self.jobs.push(change);
     }
 
     /// Counts a change as written or failed.
     pub(super) fn answered(&mut self) {
         self.num_asked = self.num_asked.saturating_sub(1);
         self.is_stale = true;
-    }
-
-    pub(super) fn stale(&mut self) {
-        self.is_stale = true;
-    }
-
-    /// True if these rows are not known to be visible.
-    pub(super) fn is_news(&self, visible: &Range<usize>) -> bool {
-        self.visible != *visible
     }
 
     /// Records the visible rows; returns true if some are not fetched.
@@ -410,7 +392,8 @@ impl HistoryState {
         let request = self.wanted();
         let keeper = Arc::clone(cx.services.library_cache.history());
         self.looking.start(text!("history-looking"), move |_| {
-            Ok(Box::new(work::look(&request, &keeper)?))
+            let found = work::look(&request, &keeper);
+            Ok(Box::new(found.map_err(|error| UserError::of(&error))?))
         });
         self.count(cx);
     }
@@ -425,7 +408,7 @@ impl HistoryState {
         let (starts, library) = (cx.session.shift_starts.clone(), cx.session.library.clone());
         let libraries = cx.services.library_cache.clone();
         self.counting
-            .start(text!("history-counting-parts"), move |_| {
+            .start(text!("shell-counting-parts"), move |_| {
                 let now = Zoned::now();
                 let mut counted = filter.at(&now);
                 let outcomes = work::outcomes(&mut counted, &keeper);

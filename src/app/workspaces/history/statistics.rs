@@ -40,11 +40,11 @@ pub struct Tally {
 
 impl Tally {
     fn add(&mut self, is_ok: bool) {
-        *if is_ok {
-            &mut self.num_ok
+        if is_ok {
+            self.num_ok += 1;
         } else {
-            &mut self.num_not_ok
-        } += 1;
+            self.num_not_ok += 1;
+        }
     }
 
     fn num(self) -> usize {
@@ -219,12 +219,11 @@ fn without_figures(reason: &str, names: &[&str]) -> String {
 /// Draws the statistics.
 pub(super) fn ui(ui: &mut Ui, view: &StatisticsView, units: UnitSystem) {
     let StatisticsView::Counted(found) = view else {
-        ui.weak(text!("history-counting"));
+        ui.weak(text!("operator-counting"));
         return;
     };
     if found.shifts.is_empty() {
-        let text = text!("history-none-counted");
-        ui.weak(text);
+        ui.weak(text!("history-none-counted"));
         return;
     }
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
@@ -246,8 +245,8 @@ pub(super) fn ui(ui: &mut Ui, view: &StatisticsView, units: UnitSystem) {
             .show(ui, |ui| {
                 for name in [
                     text!("history-column-part"),
-                    text!("history-ok"),
-                    text!("history-not-ok"),
+                    text!("operator-ok"),
+                    text!("operator-not-ok"),
                     text!("history-ok-share"),
                 ] {
                     ui.label(RichText::new(name).small().weak());
@@ -340,7 +339,7 @@ fn shifts(ui: &mut Ui, all: &[(Zoned, Tally)]) {
         }
     });
     // The order, refused on top, tells them apart without colour.
-    let names = [text!("history-not-ok-on-top"), text!("history-ok")];
+    let names = [text!("history-not-ok-on-top"), text!("operator-ok")];
     let names = names.iter().map(String::as_str);
     let curves = names.zip([theme.rejected, theme.accepted]);
     legend(

@@ -6,12 +6,8 @@ use image::{DynamicImage, RgbImage};
 use jiff::Zoned;
 
 use super::filter::ListFilter;
-use crate::{
-    app::user_error::UserError,
-    history::{
-        Filter, HistoryBuffer, HistoryError, Page, PartOutcome, Record, Retention, StoredVerdict,
-        Usage,
-    },
+use crate::history::{
+    Filter, HistoryBuffer, HistoryError, Page, PartOutcome, Record, Retention, StoredVerdict, Usage,
 };
 
 /// A query.
@@ -62,11 +58,7 @@ pub struct OpenedInspection {
 pub(super) fn look(
     request: &HistoryQuery,
     history: &HistoryBuffer,
-) -> Result<HistoryResult, UserError> {
-    looked(request, history).map_err(|error| UserError::of(&error))
-}
-
-fn looked(request: &HistoryQuery, history: &HistoryBuffer) -> Result<HistoryResult, HistoryError> {
+) -> Result<HistoryResult, HistoryError> {
     let filter = request.filter.at(&Zoned::now());
     let rows = &request.rows;
     let page = history.page(&filter, rows.start, rows.len())?;

@@ -25,10 +25,8 @@ pub enum InspectAction {
     Toggle(ViewPart),
     /// Choose what colours the points.
     Colour(Colouring),
-    /// Enlarge a stage to fill the middle.
-    Enlarge(StagePanel),
-    /// Close the enlarged stage and show the view again.
-    CloseEnlarged,
+    /// Enlarge a stage to fill the middle; `None` shows the view again.
+    Enlarge(Option<StagePanel>),
     /// Compare contour and signature with the part at this index of the ranking.
     Candidate(usize),
     /// Show robot poses in this convention.
@@ -84,7 +82,7 @@ impl InspectFile {
             Self::SprayPath => FileRequest {
                 title: text!("inspect-export-path-title"),
                 filters: vec![
-                    (text!("inspect-csv"), &["csv"]),
+                    (text!("shell-csv-files"), &["csv"]),
                     ("JSON".into(), &["json"]),
                     program_files(),
                 ],

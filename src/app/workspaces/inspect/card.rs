@@ -27,7 +27,6 @@ use crate::{
             widgets::{focus_ring, heading, row, shortened},
         },
     },
-    geometry::rigid::RigidTransform,
     pipeline::Verdict,
     stages::pose::PoseEstimate,
 };
@@ -81,8 +80,7 @@ pub(super) fn ui(
     headline::ui(ui, &headline);
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         if inspection.touches_edge() && inspected.scan.is_none() {
-            let text = text!("inspect-touches-edge");
-            ui.label(RichText::new(text).color(theme.warning));
+            ui.colored_label(theme.warning, text!("inspect-touches-edge"));
         }
         as_part(ui, inspected, &headline);
         score(ui, inspected, &headline);
@@ -90,12 +88,10 @@ pub(super) fn ui(
             offset(ui, inspected, pose, session.units);
             fit(ui, pose, session.units);
             if pose.is_ambiguous() && !inspection.verdict.is_unknown() {
-                let text = text!("inspect-ambiguous");
-                ui.label(RichText::new(text).color(theme.warning));
+                ui.colored_label(theme.warning, text!("inspect-ambiguous"));
             }
             if inspection.verdict.is_approximate() && !inspection.verdict.is_unknown() {
-                let text = text!("inspect-approximate");
-                ui.label(RichText::new(text).color(theme.warning));
+                ui.colored_label(theme.warning, text!("inspect-approximate"));
             }
             // The figures of a path that was never stored would look like a defect beside an accepted part.
             if shows_nozzle || inspected.spray.is_some() {
@@ -249,44 +245,36 @@ fn score(ui: &mut Ui, inspected: &Inspected, headline: &Headline) {
 fn offset(ui: &mut Ui, inspected: &Inspected, pose: &PoseEstimate, units: UnitSystem) {
     let camera_from_part = pose.camera_from_part();
     heading(ui, &text!("inspect-offset"));
-    let middle = inspected.middle;
-    let shift = middle.map(|middle| camera_from_part * middle - middle);
-    let shifts = shift.map_or_else(Vec::new, |shift| {
-        [("x", shift.x), ("y", shift.y), ("z", shift.z)]
-            .map(|(axis, metres)| (axis, units.signed_length(metres)))
-            .into()
-    });
-    let turns = turns(&camera_from_part).map(|(axis, angle)| (axis, units.signed_angle(angle)));
-    let rows = |ui: &mut Ui, rows: &[(&str, String)]| {
+    let rows = |ui: &mut Ui, rows: [(&str, String); 3]| {
         for (axis, value) in rows {
-            row(ui, axis, value);
+            row(ui, axis, &value);
         }
     };
-    if shifts.is_empty() {
-        rows(ui, &turns);
-    } else {
+    // nalgebra's Euler angles are those of Rz·Ry·Rx.
+    let (rx, ry, rz) = camera_from_part.rotation.euler_angles();
+    let turns = [("rx", rx), ("ry", ry), ("rz", rz)];
+    let turns = turns.map(|(axis, radians)| (axis, units.signed_angle(radians)));
+    if let Some(middle) = inspected.middle {
+        let shift = camera_from_part * middle - middle;
+        let shifts = [("x", shift.x), ("y", shift.y), ("z", shift.z)];
+        let shifts = shifts.map(|(axis, metres)| (axis, units.signed_length(metres)));
         ui.spacing_mut().item_spacing.x = space::LARGE;
         ui.columns(2, |columns| {
             if let [left, right] = columns {
-                rows(left, &shifts);
-                rows(right, &turns);
+                rows(left, shifts);
+                rows(right, turns);
             }
         });
         ui.spacing_mut().item_spacing.x = space::SMALL;
+    } else {
+        rows(ui, turns);
     }
     if let Some(other) = inspected.inspection.other_reference() {
         let other = inspected.library.title_of(other);
-        let text = text!("inspect-measured-from", part = other);
-        ui.weak(text);
+        ui.weak(text!("inspect-measured-from", part = other));
     }
     let note = text!("inspect-offset-note");
     ui.label(RichText::new(note).small().weak());
-}
-
-/// Rotation angles, radians; nalgebra's Euler angles are those of Rz·Ry·Rx.
-fn turns(pose: &RigidTransform) -> [(&'static str, f64); 3] {
-    let (rx, ry, rz) = pose.rotation.euler_angles();
-    [("rx", rx), ("ry", ry), ("rz", rz)]
 }
 
 fn fit(ui: &mut Ui, pose: &PoseEstimate, units: UnitSystem) {
@@ -301,7 +289,7 @@ fn fit(ui: &mut Ui, pose: &PoseEstimate, units: UnitSystem) {
     if let Some(bounds) = pose.uncertainty {
         if let Some(freedom) = bounds.freedom {
             let text = text!("inspect-unconstrained", freedom = free_motion(freedom));
-            ui.label(RichText::new(text).color(theme.warning));
+            ui.colored_label(theme.warning, text);
         } else {
             let (shift, turn) = (units.length(bounds.shift.0), units.angle(bounds.turn.0));
             let value = format!("{shift} · {turn}");

@@ -22,6 +22,7 @@ use crate::{
 };
 
 /// Texts of the headline.
+#[derive(Default)]
 pub(super) struct Headline {
     pub(super) title: String,
     /// The nearest part, where none is accepted.
@@ -56,84 +57,60 @@ impl Headline {
             let is_live = session.is_live() && shown.is_none_or(|shown| !shown.is_outdated);
             return Self::not_yet(inspected, followed, is_live);
         }
-        match &inspected.inspection.verdict {
+        let verdict = &inspected.inspection.verdict;
+        let (part, certainty, rejected) = match verdict {
             Verdict::Part {
                 part,
                 score,
                 margin,
                 rejected,
                 ..
-            } => {
-                let best = inspected.figures.candidates.first();
-                let nearest = best.map_or_else(|| part.clone(), |best| best.title.clone());
-                let title_of = |name: &str| inspected.library.title_of(name).to_owned();
-                let rejected = rejected.clone().map(|reason| reason.renamed(title_of));
-                match &rejected {
-                    None => Self {
-                        title: nearest,
-                        nearest: None,
-                        is_accepted: true,
-                        is_open: false,
-                        is_no_part: false,
-                        actual: None,
-                        complaint: None,
-                    },
-                    // The type is certain; model or make differs.
-                    Some(
-                        reason @ (Rejection::AnotherModel { .. } | Rejection::AnotherMake { .. }),
-                    ) => Self {
-                        title: match reason {
-                            Rejection::AnotherMake { .. } => {
-                                text!("inspect-another-make", part = nearest)
-                            }
-                            _ => text!("inspect-another-model", part = nearest),
-                        },
-                        nearest: None,
-                        is_accepted: false,
-                        is_open: false,
-                        is_no_part: false,
-                        actual: None,
-                        complaint: Some((rejection(reason), rejection_advice(reason))),
-                    },
-                    Some(reason) if is_recognised([*score, *margin], &inspected.recipe.accept) => {
-                        Self {
-                            title: nearest,
-                            nearest: None,
-                            is_accepted: false,
-                            is_open: false,
-                            is_no_part: false,
-                            actual: None,
-                            complaint: Some((rejection(reason), rejection_advice(reason))),
-                        }
-                    }
-                    // Do not show an uncertain name in large letters.
-                    Some(reason) => Self {
-                        title: if inspected.inspection.verdict.is_unknown() {
-                            text!("inspect-unknown-part")
-                        } else {
-                            text!("inspect-not-recognised")
-                        },
-                        // The reason names the part that it is the mirror image of.
-                        nearest: (!inspected.inspection.verdict.is_mirrored()
-                            && best.is_none_or(|best| is_like(f64::from(best.score))))
-                        .then_some(nearest),
-                        is_accepted: false,
-                        is_open: false,
-                        is_no_part: false,
-                        actual: None,
-                        complaint: Some((rejection(reason), rejection_advice(reason))),
-                    },
-                }
+            } => (part, [*score, *margin], rejected),
+            Verdict::NoPart(reason) => {
+                return Self {
+                    title: text!("results-no-part"),
+                    is_no_part: true,
+                    complaint: Some((unrecognisable(reason), unrecognisable_advice(reason))),
+                    ..Self::default()
+                };
             }
-            Verdict::NoPart(reason) => Self {
-                title: text!("inspect-no-part"),
-                nearest: None,
-                is_accepted: false,
-                is_open: false,
-                is_no_part: true,
-                actual: None,
-                complaint: Some((unrecognisable(reason), unrecognisable_advice(reason))),
-            },
+        };
+        let best = inspected.figures.candidates.first();
+        let nearest = best.map_or_else(|| part.clone(), |best| best.title.clone());
+        let Some(reason) = rejected else {
+            return Self {
+                title: nearest,
+                is_accepted: true,
+                ..Self::default()
+            };
+        };
+        let title_of = |name: &str| inspected.library.title_of(name).to_owned();
+        let reason = &reason.clone().renamed(title_of);
+        let (title, nearest) = match reason {
+            // The type is certain; model or make differs.
+            Rejection::AnotherMake { .. } => (text!("inspect-another-make", part = nearest), None),
+            Rejection::AnotherModel { .. } => {
+                (text!("inspect-another-model", part = nearest), None)
+            }
+            _ if is_recognised(certainty, &inspected.recipe.accept) => (nearest, None),
+            // Do not show an uncertain name in large letters.
+            _ => {
+                let title = if verdict.is_unknown() {
+                    text!("inspect-unknown-part")
+                } else {
+                    text!("inspect-not-recognised")
+                };
+                // The reason names the part that it is the mirror image of.
+                let is_nearest_named = !verdict.is_mirrored()
+                    && best.is_none_or(|best| is_like(f64::from(best.score)));
+                (title, is_nearest_named.then_some(nearest))
+            }
+        };
+        Self {
+            title,
+            nearest,
+            complaint: Some((rejection(reason), rejection_advice(reason))),
+            ..Self::default()
         }
     }
 
@@ -141,45 +118,39 @@ impl Headline {
     fn not_yet(inspected: &Inspected, followed: &LiveFrameContext, is_live: bool) -> Self {
         let is_part = matches!(inspected.inspection.verdict, Verdict::Part { .. });
         let nearest = inspected.figures.candidates.first();
-        let (title, complaint) = match followed.stillness {
+        let (title, why, advice) = match followed.stillness {
             MotionState::Moving if !is_live => (
                 text!("inspect-no-verdict"),
-                (
-                    text!("inspect-stopped-moving"),
-                    text!("inspect-press-capture"),
-                ),
+                text!("inspect-stopped-moving"),
+                text!("inspect-press-capture"),
             ),
             _ if !is_live => (
                 text!("inspect-no-verdict"),
-                (
-                    text!("inspect-live-stopped"),
-                    text!("inspect-press-capture"),
-                ),
+                text!("inspect-live-stopped"),
+                text!("inspect-press-capture"),
             ),
             MotionState::Moving => (
                 text!("inspect-moving"),
-                (
-                    text!("inspect-something-moves"),
-                    text!("inspect-let-it-hang"),
-                ),
+                text!("inspect-something-moves"),
+                text!("inspect-let-it-hang"),
             ),
             MotionState::Watching => (
                 text!("inspect-looking"),
-                (text!("inspect-not-long-enough"), text!("inspect-wait")),
+                text!("inspect-not-long-enough"),
+                text!("inspect-wait"),
             ),
             MotionState::Steady { .. } => (
                 text!("inspect-looking"),
-                (text!("inspect-it-is-steady"), text!("inspect-wait")),
+                text!("inspect-it-is-steady"),
+                text!("inspect-wait"),
             ),
         };
         Self {
             title,
             nearest: nearest.filter(|_| is_part).map(|best| best.title.clone()),
-            is_accepted: false,
             is_open: true,
-            is_no_part: false,
-            actual: None,
-            complaint: Some(complaint),
+            complaint: Some((why, advice)),
+            ..Self::default()
         }
     }
 }

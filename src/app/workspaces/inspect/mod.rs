@@ -1,6 +1,7 @@
 //! Inspect, the operator's workspace: the view, the verdict and the stages.
 
 mod action;
+mod banner;
 mod card;
 mod controls;
 mod headline;
@@ -103,7 +104,8 @@ const SHORTCUTS: [Shortcut<InspectAction>; 7] = [
 
 /// The workspace. Between frames it keeps its state and what it prepared of the last result.
 pub struct InspectWorkspace {
-    state: InspectState,
+    /// The state of the workspace.
+    pub state: InspectState,
     view: SceneView,
     shots: ShotList,
     made: Option<TextureSet>,
@@ -129,16 +131,6 @@ impl InspectWorkspace {
             made: None,
             num_made: 0,
         }
-    }
-
-    /// The state of the workspace.
-    pub fn state(&self) -> &InspectState {
-        &self.state
-    }
-
-    /// Carries out an action.
-    pub fn apply(&mut self, action: InspectAction, cx: &mut ShellContext<'_>) {
-        self.state.apply(action, cx);
     }
 
     /// Work done by its frames so far.
@@ -338,7 +330,7 @@ impl Workspace for InspectWorkspace {
 
     /// The space bar captures even while the view has the key focus.
     fn has_key_focus(&self) -> bool {
-        self.view.has_focus()
+        self.view.has_focus
     }
 
     fn writing(&self) -> Option<&Running> {

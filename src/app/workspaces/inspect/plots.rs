@@ -70,8 +70,8 @@ impl Pictures<'_> {
             5.0
         });
         let is_there = match panel {
-            StagePanel::Segmentation => self.texture(self.segmentation, painter, rect),
-            StagePanel::BinaryImage => self.texture(self.binary, painter, rect),
+            StagePanel::Segmentation => self.segmentation.map(|made| paint(made, painter, rect)),
+            StagePanel::BinaryImage => self.binary.map(|made| paint(made, painter, rect)),
             StagePanel::Contour => figures
                 .contour
                 .as_ref()
@@ -120,22 +120,6 @@ impl Pictures<'_> {
             Alignment::Done { .. } => None,
             Alignment::None(why) => Some(why.title()),
         }
-    }
-
-    fn texture(
-        &self,
-        texture: Option<&TextureHandle>,
-        painter: &Painter,
-        rect: Rect,
-    ) -> Option<()> {
-        let texture = texture?;
-        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-        let place = fitted(rect, texture.aspect_ratio());
-        // Dim textures of an old result as the painter dims the rest.
-        let tint = Color32::WHITE.gamma_multiply(painter.opacity());
-        let _ = self;
-        painter.image(texture.id(), place, whole, tint);
-        Some(())
     }
 
     fn contour(&self, figure: &ContourFigure, painter: &Painter, rect: Rect, detail: PlotDetail) {
@@ -238,6 +222,15 @@ impl Pictures<'_> {
             }
         });
     }
+}
+
+/// Draws a texture in the middle of a rectangle.
+fn paint(texture: &TextureHandle, painter: &Painter, rect: Rect) {
+    let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+    let place = fitted(rect, texture.aspect_ratio());
+    // Dim textures of an old result as the painter dims the rest.
+    let tint = Color32::WHITE.gamma_multiply(painter.opacity());
+    painter.image(texture.id(), place, whole, tint);
 }
 
 #[cfg(test)]

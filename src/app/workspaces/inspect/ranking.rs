@@ -41,21 +41,12 @@ impl Pictures<'_> {
             .take(num_rows)
             .enumerate()
             .map(|(place, candidate)| {
-                let colour = if place == self.state.candidate {
-                    theme.text
+                let (name, font) = if is_large {
+                    (&candidate.title, font::body())
                 } else {
-                    theme.weak_text
+                    (&candidate.short_title, font::scale())
                 };
-                let name = if is_large {
-                    &candidate.title
-                } else {
-                    &candidate.short_title
-                };
-                let font = if is_large {
-                    font::body()
-                } else {
-                    font::scale()
-                };
+                let colour = self.text_colour(place);
                 // Leave the bars their share beside a long name.
                 elided(painter, name, font, colour, rect.width() * 0.56)
             })
@@ -78,12 +69,7 @@ impl Pictures<'_> {
         let bars = Scale::new([0.0, 1.0], [rect.left() + names, rect.right() - values]);
         for ((place, candidate), title) in candidates.iter().enumerate().zip(titles) {
             let middle = rect.top() + row * (place as f32 + 0.5);
-            let is_chosen = place == self.state.candidate;
-            let colour = if is_chosen {
-                theme.text
-            } else {
-                theme.weak_text
-            };
+            let colour = self.text_colour(place);
             let top = pos2(rect.left(), middle - title.size().y / 2.0);
             painter.galley(top, title, colour);
             let y = [middle - row * 0.3, middle + row * 0.3];
@@ -115,11 +101,7 @@ impl Pictures<'_> {
         let row = rect.height() / num_rows as f32;
         let across = Scale::new([0.0, 1.0], [rect.left(), rect.right()]);
         for (place, candidate) in candidates.iter().take(num_rows).enumerate() {
-            let colour = if place == self.state.candidate {
-                theme.text
-            } else {
-                theme.weak_text
-            };
+            let colour = self.text_colour(place);
             let at = pos2(rect.left(), rect.top() + row * place as f32);
             let name = &candidate.short_title;
             let title = elided(painter, name, font::scale(), colour, rect.width());
@@ -132,6 +114,15 @@ impl Pictures<'_> {
             painter.rect_filled(bar(score), 2.0, self.bar_fill(place));
             let threshold = across.at(self.inspected.recipe.accept.min_score as f32);
             painter.vline(threshold, y..=y + BAR, Stroke::new(1.0, theme.text));
+        }
+    }
+
+    /// Colour of the texts at this index of the ranking.
+    fn text_colour(&self, place: usize) -> Color32 {
+        if place == self.state.candidate {
+            self.theme.text
+        } else {
+            self.theme.weak_text
         }
     }
 

@@ -128,7 +128,7 @@ pub(super) fn ui(
     }
     ui.label(small(&convention_meaning(pose.convention)));
     if let Some(note) = &pose.gimbal_note {
-        ui.label(RichText::new(note).color(theme.warning));
+        ui.colored_label(theme.warning, note);
     }
 }
 

@@ -28,8 +28,7 @@ pub(super) fn ui(ui: &mut Ui, inspected: &Inspected, units: UnitSystem) {
     match found {
         Ok(found) => figures(ui, found, &inspected.recipe.stand_off, units),
         Err(error) => {
-            let text = sentence(&stand_off_error(error));
-            ui.weak(text);
+            ui.weak(sentence(&stand_off_error(error)));
         }
     }
 }
@@ -46,7 +45,6 @@ fn stored(ui: &mut Ui, path: &CarriedPath, params: &StandOffParams, units: UnitS
     };
     let mean = |of: fn(&SurfaceHit) -> f64| met.iter().map(of).sum::<f64>() / met.len() as f64;
     distance_rows(ui, [mean(|hit| hit.distance.0), worst], params, units);
-    let num_unseen = path.count(BandStatus::NotSeen);
     let inside = text!(
         "inspect-points-in-band",
         inside = path.num_inside(),
@@ -61,6 +59,7 @@ fn stored(ui: &mut Ui, path: &CarriedPath, params: &StandOffParams, units: UnitS
         limit = units.angle(MOST_TILT.0)
     );
     ui.label(RichText::new(angle_counts).small().weak());
+    let num_unseen = path.count(BandStatus::NotSeen);
     if num_unseen > 0 {
         let text = text!("inspect-points-not-seen", count = num_unseen);
         ui.label(RichText::new(text).small().weak());
@@ -135,9 +134,9 @@ fn bar(ui: &mut Ui, [mean, worst]: [f64; 2], params: &StandOffParams, units: Uni
     };
     tick(worst, 2.0, -4.0, theme.weak_text);
     tick(mean, 3.0, 5.0, theme.text);
-    for (at, align) in [(near, Align2::CENTER_TOP), (far, Align2::CENTER_TOP)] {
-        let text = units.length(f64::from(at));
-        let at = pos2(across.at(at), bar.bottom() + 4.0);
-        painter.text(at, align, text, font::small(), theme.weak_text);
+    for end in [near, far] {
+        let text = units.length(f64::from(end));
+        let at = pos2(across.at(end), bar.bottom() + 4.0);
+        painter.text(at, Align2::CENTER_TOP, text, font::small(), theme.weak_text);
     }
 }

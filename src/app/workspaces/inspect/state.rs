@@ -24,7 +24,7 @@ use crate::{
             session::{Session, Source, WorkspaceKind},
         },
         shots::{Asked, ShotsAction, ShotsFile, ShotsState, source_of},
-        task::{Running, Task, TaskEvent, TaskRunner},
+        task::{Running, Task, TaskRunner},
         ui::viewport::{Colouring, ViewShot},
         user_error::UserError,
     },
@@ -170,8 +170,7 @@ impl InspectState {
                 }
             }
             InspectAction::Colour(colouring) => self.colouring = Some(colouring),
-            InspectAction::Enlarge(panel) => self.enlarged = Some(panel),
-            InspectAction::CloseEnlarged => self.enlarged = None,
+            InspectAction::Enlarge(panel) => self.enlarged = panel,
             InspectAction::Candidate(place) => self.candidate = place,
             InspectAction::UseConvention(convention) => {
                 cx.send(Message::UseConvention(convention));
@@ -293,17 +292,9 @@ impl InspectState {
 
     /// Takes in the results of the task and of the file dialog, and follows the result shown.
     pub fn update(&mut self, cx: &mut ShellContext<'_>) {
-        match self.writing.poll() {
-            Some(TaskEvent::Done(what) | TaskEvent::Partial(what)) => {
-                cx.notify(Notice::done(what));
-            }
-            Some(TaskEvent::Failed(error)) => cx.notify(error),
-            None => {}
-        }
-        match self.dialog.poll() {
-            Some((file, Ok(path))) => self.chosen(file, path, cx),
-            Some((_, Err(notice))) => cx.notify(notice),
-            None => {}
+        cx.notify_written(&mut self.writing);
+        if let Some((file, path)) = cx.chosen(&mut self.dialog) {
+            self.chosen(file, path, cx);
         }
         let shown = cx.session.shown.as_ref();
         let number = shown.map(|shown| shown.generation);
@@ -468,7 +459,7 @@ mod tests {
         let mut shell = TestShell::default();
         let mut state = InspectState::new(&TaskRunner::without_threads());
         state.apply(
-            InspectAction::Enlarge(StagePanel::Contour),
+            InspectAction::Enlarge(Some(StagePanel::Contour)),
             &mut shell.context(),
         );
         state.on_event(&Event::Escape, &mut shell.context());

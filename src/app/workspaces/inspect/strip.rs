@@ -82,11 +82,8 @@ pub(super) fn ui(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Vec<Inspect
         pictures.paint(panel, ui, picture, PlotDetail::Small);
         focus_ring(ui, cell, &response);
         if response.clicked() {
-            actions.push(if is_enlarged {
-                InspectAction::CloseEnlarged
-            } else {
-                InspectAction::Enlarge(panel)
-            });
+            let enlarged = (!is_enlarged).then_some(panel);
+            actions.push(InspectAction::Enlarge(enlarged));
         }
     }
 }
@@ -109,7 +106,7 @@ pub(super) fn enlarged_ui(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Ve
                 let close = ui.add(close.min_size(Vec2::splat(space::TARGET)));
                 close.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
                 if close.clicked() {
-                    actions.push(InspectAction::CloseEnlarged);
+                    actions.push(InspectAction::Enlarge(None));
                 }
                 ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
                     let text = RichText::new(explanation(panel)).weak();
@@ -117,14 +114,7 @@ pub(super) fn enlarged_ui(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Ve
                 });
             });
         });
-        let compares = matches!(
-            panel,
-            StagePanel::Contour
-                | StagePanel::Signature
-                | StagePanel::Ranking
-                | StagePanel::Alignment
-        );
-        if compares {
+        if !matches!(panel, StagePanel::Segmentation | StagePanel::BinaryImage) {
             candidates(ui, pictures, actions);
         }
         ui.add_space(space::SMALL);
@@ -175,9 +165,7 @@ fn explanation(panel: StagePanel) -> String {
     match panel {
         StagePanel::Segmentation => text!("inspect-says-segmentation"),
         StagePanel::BinaryImage => text!("inspect-says-binary-image"),
-        StagePanel::Contour => {
-            text!("inspect-says-contour")
-        }
+        StagePanel::Contour => text!("inspect-says-contour"),
         StagePanel::Signature => text!("inspect-says-signatures"),
         StagePanel::Ranking => text!("inspect-says-ranking"),
         StagePanel::Alignment => text!("inspect-says-alignment"),

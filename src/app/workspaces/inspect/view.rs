@@ -13,13 +13,13 @@ use crate::{
     app::{
         inspection::{inspected::Inspected, unit_system::UnitSystem},
         language::text,
-        shell::session::{Session, Shown, ThemeChoice},
+        shell::session::{Session, Shown},
         shots::{Overlay, POINT_SIZE},
         ui::{
             theme::{ROUNDING, Theme, font, space},
             viewport::{
-                Colouring, FitRequest, Legend, PointSize, TextLabel, ViewCamera, ViewColours,
-                ViewError, ViewScene, ViewShot, ViewStyle, Viewport, ViewportGpu, furniture,
+                Colouring, FitRequest, Legend, TextLabel, ViewCamera, ViewColours, ViewError,
+                ViewScene, ViewShot, ViewStyle, Viewport, ViewportGpu, furniture,
             },
             widgets::grouped,
         },
@@ -64,14 +64,11 @@ pub(super) struct SceneView {
     pub(super) camera: ViewCamera,
     scene: ViewScene,
     pub(super) style: ViewStyle,
-    styled: ThemeChoice,
-    /// Point size, except for scans.
-    usual_size: PointSize,
     /// What the present lines and texts were made for.
     placed: Option<SceneAnnotation>,
     num_placed: u64,
-    has_deviations: bool,
-    has_focus: bool,
+    /// True while it has the key focus; the space bar still captures.
+    pub(super) has_focus: bool,
     caption: String,
     origin: Option<String>,
     /// The followed source whose frame is shown.
@@ -96,12 +93,9 @@ impl SceneView {
             viewport: Viewport::new(gpu),
             camera,
             scene: ViewScene::default(),
-            style: style(ThemeChoice::Dark),
-            styled: ThemeChoice::Dark,
-            usual_size: style(ThemeChoice::Dark).point_size,
+            style: ViewStyle::new(ViewColours::dark()),
             placed: None,
             num_placed: 0,
-            has_deviations: false,
             has_focus: false,
             caption: String::new(),
             origin: None,
@@ -118,7 +112,6 @@ impl SceneView {
     pub(super) fn show(&mut self, shown: &Shown) {
         let inspected = &shown.inspected;
         let figures = &inspected.figures;
-        self.has_deviations = inspected.view.has_deviations;
         self.scene.points = vec![inspected.view.points.clone()];
         self.placed = None;
         // While a source is followed, keep the view that a person has chosen.
@@ -160,7 +153,7 @@ impl SceneView {
     ) {
         let overlay = overlay(state, inspected);
         self.place(&state.parts, overlay.as_ref(), session, inspected);
-        self.restyle(session, inspected, self.colouring(state));
+        self.restyle(session, inspected, colouring(state, inspected));
         let theme = Theme::of(ui);
         let rect = ui.available_rect_before_wrap();
         self.size = rect.size();
@@ -243,16 +236,15 @@ impl SceneView {
     }
 
     fn restyle(&mut self, session: &Session, inspected: &Inspected, colouring: Colouring) {
-        if self.styled != session.theme {
-            self.style = style(session.theme);
-            self.styled = session.theme;
-        }
-        self.style.colouring = colouring;
-        self.style.length_axis = session.units.length_axis();
-        self.style.point_size = match &inspected.scan {
-            Some(_) => POINT_SIZE,
-            None => self.usual_size,
+        self.style = ViewStyle {
+            colouring,
+            deviation_range: DEVIATION_RANGE,
+            length_axis: session.units.length_axis(),
+            ..ViewStyle::new(ViewColours::of(session.theme))
         };
+        if inspected.scan.is_some() {
+            self.style.point_size = POINT_SIZE;
+        }
     }
 
     fn paint(&mut self, ui: &mut Ui) {
@@ -261,11 +253,6 @@ impl SceneView {
             .viewport
             .ui(ui, label, &mut self.camera, &self.scene, &self.style);
         self.has_focus = seen.response.has_focus();
-    }
-
-    /// True while the view has the key focus; the space bar still captures.
-    pub(super) fn has_focus(&self) -> bool {
-        self.has_focus
     }
 
     /// Work done by its frames so far.
@@ -369,14 +356,6 @@ impl SceneView {
         self.num_placed += 1;
     }
 
-    fn colouring(&self, state: &InspectState) -> Colouring {
-        match (state.colouring, self.has_deviations) {
-            (Some(Colouring::Deviation) | None, false) => Colouring::Segment,
-            (Some(chosen), _) => chosen,
-            (None, true) => Colouring::Deviation,
-        }
-    }
-
     /// Draws at the bottom what is shown, and whether it is simulated, one above the other where both do not fit;
     /// returns the upper end of the captions.
     fn captions(&self, painter: &Painter, rect: Rect, theme: &Theme) -> f32 {
@@ -419,10 +398,11 @@ fn overlay<'a>(state: &'a InspectState, inspected: &'a Inspected) -> Option<Over
     })
 }
 
-fn style(theme: ThemeChoice) -> ViewStyle {
-    ViewStyle {
-        deviation_range: DEVIATION_RANGE,
-        ..ViewStyle::new(ViewColours::of(theme))
+fn colouring(state: &InspectState, inspected: &Inspected) -> Colouring {
+    match (state.colouring, inspected.view.has_deviations) {
+        (Some(Colouring::Deviation) | None, false) => Colouring::Segment,
+        (Some(chosen), _) => chosen,
+        (None, true) => Colouring::Deviation,
     }
 }
 

@@ -119,7 +119,7 @@ impl PaintFile {
             },
             Self::Table => FileRequest {
                 title: text!("paint-export-title"),
-                filters: vec![(text!("paint-csv-files"), &["csv"])],
+                filters: vec![(text!("shell-csv-files"), &["csv"])],
                 choice: FileChoice::NewFile(format!("{part}-path.csv")),
             },
         }

@@ -6,6 +6,7 @@ use super::{action::ShownPath, state::PaintState};
 use crate::{
     app::shell::{
         context::ShellContext, message::Message, notice::NoticeTopic, program_setup::ProgramSetup,
+        undo_stack::UndoDirection,
     },
     library::{PartName, SprayPath},
     paint::{Coat, KeepOut, PathEdit},
@@ -36,54 +37,6 @@ pub(super) enum Step {
     Stored(PartName, Option<SprayPath>),
     /// Set the pose of the arm's base.
     Base([f64; 6]),
-}
-
-/// Limit of steps; the oldest are dropped.
-const MAX_STEPS: usize = 100;
-
-/// Direction in which a step is made.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum UndoDirection {
-    /// Made for the first time.
-    First,
-    /// Undone.
-    Back,
-    /// Redone.
-    Again,
-}
-
-/// The steps that can be undone and redone; the latest last.
-#[derive(Debug, Default)]
-pub(super) struct UndoStack {
-    pub(super) done: Vec<Step>,
-    pub(super) undone: Vec<Step>,
-}
-
-impl UndoStack {
-    /// Adds the step that undoes a new one.
-    pub(super) fn push(&mut self, step: Step) {
-        self.undone.clear();
-        self.done.push(step);
-        if self.done.len() > MAX_STEPS {
-            self.done.remove(0);
-        }
-    }
-
-    /// The list from which the next step in this direction is taken.
-    pub(super) fn from(&mut self, way: UndoDirection) -> &mut Vec<Step> {
-        match way {
-            UndoDirection::First | UndoDirection::Back => &mut self.done,
-            UndoDirection::Again => &mut self.undone,
-        }
-    }
-
-    /// The list that receives the inverse step.
-    pub(super) fn to(&mut self, way: UndoDirection) -> &mut Vec<Step> {
-        match way {
-            UndoDirection::Back => &mut self.undone,
-            UndoDirection::First | UndoDirection::Again => &mut self.done,
-        }
-    }
 }
 
 impl Design {
@@ -159,13 +112,15 @@ impl PaintState {
             None => {}
             Some(Step::Design(other)) => {
                 let now = mem::replace(&mut self.design, *other);
-                self.steps.to(way).push(Step::Design(Box::new(now)));
+                let back = Step::Design(Box::new(now));
+                self.steps.add_inverse(Some(way), back);
                 self.shown_path = ShownPath::Planned;
             }
-            Some(Step::Stored(part, path)) => self.store(way, part, path, cx),
+            Some(Step::Stored(part, path)) => self.store(Some(way), part, path, cx),
             Some(Step::Base(base)) => {
                 let former = cx.session.program.clone();
-                self.steps.to(way).push(Step::Base(former.base));
+                let back = Step::Base(former.base);
+                self.steps.add_inverse(Some(way), back);
                 use_setup(ProgramSetup { base, ..former }, cx);
             }
         }

@@ -67,14 +67,14 @@ const SHORTCUTS: [Shortcut<PaintAction>; 8] = [
         modifiers: Modifiers::COMMAND.plus(Modifiers::SHIFT),
         key: Key::Z,
         keys: || keys("Ctrl Shift Z"),
-        does: || text!("paint-redo"),
+        does: || text!("shell-redo"),
         action: || PaintAction::Redo,
     },
     Shortcut {
         modifiers: Modifiers::COMMAND,
         key: Key::Z,
         keys: || keys("Ctrl Z"),
-        does: || text!("paint-undo"),
+        does: || text!("shell-undo"),
         action: || PaintAction::Undo,
     },
     Shortcut {
@@ -119,14 +119,15 @@ const SHORTCUTS: [Shortcut<PaintAction>; 8] = [
         modifiers: Modifiers::NONE,
         key: Key::R,
         keys: || keys("R"),
-        does: || text!("paint-rotate"),
+        does: || text!("view-rotate"),
         action: || PaintAction::Use(PaintTool::Look),
     },
 ];
 
 /// The workspace.
 pub struct PaintWorkspace {
-    state: PaintState,
+    /// The state of the workspace.
+    pub state: PaintState,
     view: PaintView,
     is_front: bool,
 }
@@ -143,16 +144,6 @@ impl PaintWorkspace {
             view: PaintView::new(gpu),
             is_front: false,
         }
-    }
-
-    /// The state of the workspace.
-    pub fn state(&self) -> &PaintState {
-        &self.state
-    }
-
-    /// The state, to be changed by a program.
-    pub fn state_mut(&mut self) -> &mut PaintState {
-        &mut self.state
     }
 }
 
@@ -229,7 +220,7 @@ impl Workspace for PaintWorkspace {
     }
 
     fn has_key_focus(&self) -> bool {
-        self.view.has_focus()
+        self.view.has_focus
     }
 
     fn is_idle(&self, session: &Session) -> bool {

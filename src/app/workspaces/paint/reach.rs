@@ -25,7 +25,7 @@ use crate::{
             program_setup::ProgramSetup,
             session::{Session, WorkspaceKind},
         },
-        task::{TaskContext, TaskError, TaskEvent},
+        task::{TaskContext, TaskError},
         ui::viewport::{Line, LineSet, Role},
         user_error::UserError,
     },
@@ -146,11 +146,8 @@ impl PaintState {
 
     /// Takes in the result, and starts a check if one is needed.
     pub(super) fn update_reach(&mut self, cx: &ShellContext<'_>) {
-        while let Some(event) = self.reach_task.poll() {
-            self.reach = Some(match event {
-                TaskEvent::Partial(reach) | TaskEvent::Done(reach) => Ok(reach),
-                TaskEvent::Failed(error) => Err(error),
-            });
+        while let Some(reach) = self.reach_task.poll() {
+            self.reach = Some(reach);
         }
         let wanted = self.reach_request(cx.session);
         if cx.session.workspace != WorkspaceKind::Paint || wanted == self.reach_asked {
@@ -200,7 +197,7 @@ impl PaintState {
         let library_cache = cx.services.library_cache.clone();
         let name = file_name(&file);
         self.writing
-            .start(text!("paint-writing", file = name), move |_| {
+            .start(text!("shell-writing", file = name), move |_| {
                 Ok(write_program(
                     &file,
                     &planned,

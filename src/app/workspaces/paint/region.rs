@@ -1,10 +1,10 @@
 //! Converts what is drawn over the view into regions and corrections of the path.
 
-use glam::{DVec2, DVec4, Mat4, Vec2, Vec3};
+use glam::{DVec2, DVec4, Mat4, Vec2};
 use nalgebra::Point3;
 
 use crate::{
-    app::ui::viewport::{DrawnShape, seen_at},
+    app::ui::viewport::{DrawnShape, seen_at, vec3},
     paint::{KeepOut, PaintSurface},
 };
 
@@ -34,10 +34,9 @@ pub enum EditKind {
 }
 
 /// Use of a region that is drawn.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RegionUse {
     /// It gets no paint.
-    #[default]
     KeepOut,
     /// Only such regions get paint.
     PaintOnly,
@@ -55,8 +54,7 @@ struct Seen<'a> {
 impl<'a> Seen<'a> {
     fn new(surface: &'a PaintSurface, clip_from_part: &Mat4) -> Self {
         let points = surface.points.iter();
-        let points = points.map(|p| Vec3::new(p.x as f32, p.y as f32, p.z as f32));
-        let at = points.map(|point| seen_at(clip_from_part, point));
+        let at = points.map(|point| seen_at(clip_from_part, vec3(point)));
         Self {
             surface,
             at: at.collect(),
@@ -136,6 +134,7 @@ pub(super) fn brushed(
 
 #[cfg(test)]
 mod tests {
+    use glam::Vec3;
     use nalgebra::Vector3;
 
     use super::*;

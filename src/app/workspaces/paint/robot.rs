@@ -1,12 +1,12 @@
 //! The section on the robot: arm, nozzle and gun of its programs, what they stay clear of, and which points of the path the
 //! arm reaches.
 
-use egui::{Button, DragValue, Key, Label, RichText, Role, TextEdit, Ui, WidgetInfo, vec2};
+use egui::{Button, DragValue, Key, Label, RichText, Role, Ui, WidgetInfo};
 
 use super::{
     action::{PaintAction, PaintFile},
     reach::Reach,
-    side::{TITLE, close_unseen_menu},
+    side::{TITLE, menu},
     state::PaintState,
 };
 use crate::{
@@ -15,8 +15,8 @@ use crate::{
         shell::{program_setup::ProgramSetup, session::Session},
         ui::{
             parameter_control::fold,
-            theme::{Theme, space},
-            widgets::{grouped, heading, labelled, row, shortened, text_button},
+            theme::Theme,
+            widgets::{grouped, heading, labelled, line_edit, row, shortened, text_button},
         },
     },
     robot::{
@@ -125,7 +125,9 @@ fn note(ui: &mut Ui, words: &str, colour: egui::Color32) {
 
 fn arm_ui(ui: &mut Ui, setup: &mut ProgramSetup, actions: &mut Vec<PaintAction>) {
     let title = setup.arm_title().unwrap_or_else(|| text!("paint-no-arm"));
-    let menu = ui.menu_button(format!("{} ▼", shortened(&title, TITLE)), |ui| {
+    let text = format!("{} ▼", shortened(&title, TITLE));
+    let label = text!("paint-arm", arm = title);
+    menu(ui, text, &label, text!("paint-arm-hint"), |ui| {
         if ui
             .selectable_label(setup.arm.is_none(), text!("paint-no-arm"))
             .clicked()
@@ -147,18 +149,14 @@ fn arm_ui(ui: &mut Ui, setup: &mut ProgramSetup, actions: &mut Vec<PaintAction>)
             ui.close();
         }
     });
-    let label = text!("paint-arm", arm = title);
-    let response = menu.response;
-    close_unseen_menu(ui, &response);
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));
-    response.on_hover_text(text!("paint-arm-hint"));
 }
 
 fn obstacles_ui(ui: &mut Ui, setup: &mut ProgramSetup, actions: &mut Vec<PaintAction>) {
     let file = setup.obstacles_title();
     let title = file.unwrap_or_else(|| text!("paint-no-obstacles"));
     let label = text!("paint-obstacles", file = shortened(&title, TITLE));
-    let menu = ui.menu_button(format!("{label} ▼"), |ui| {
+    let text = format!("{label} ▼");
+    menu(ui, text, &label, text!("paint-obstacles-hint"), |ui| {
         let is_none = setup.obstacles.is_none();
         if ui
             .selectable_label(is_none, text!("paint-no-obstacles"))
@@ -173,10 +171,6 @@ fn obstacles_ui(ui: &mut Ui, setup: &mut ProgramSetup, actions: &mut Vec<PaintAc
             ui.close();
         }
     });
-    let response = menu.response;
-    close_unseen_menu(ui, &response);
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));
-    response.on_hover_text(text!("paint-obstacles-hint"));
 }
 
 /// Draws the pose of the arm's base, as KUKA writes it: its position on the left, its turns on the right.
@@ -205,12 +199,9 @@ fn base_ui(ui: &mut Ui, setup: &mut ProgramSetup) {
 /// Draws a text field below its label; an empty one shows an example.
 fn field(ui: &mut Ui, label: &str, text: &mut String, example: &str) -> egui::Response {
     let name = ui.label(label);
-    let edit = TextEdit::singleline(text)
-        .hint_text(text!("paint-example", example = example))
-        .align(egui::Align2::LEFT_CENTER)
-        .desired_width(f32::INFINITY)
-        .min_size(vec2(0.0, space::TARGET));
-    ui.add(edit).labelled_by(name.id)
+    let example = text!("paint-example", example = example);
+    ui.add(line_edit(text, example, f32::INFINITY))
+        .labelled_by(name.id)
 }
 
 /// Draws in one line how much of the path the arm reaches; nothing if unknown.

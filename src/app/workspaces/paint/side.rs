@@ -1,14 +1,15 @@
 //! On the right: the part, its coat with every parameter, the figures of the film, and what can be done with the path.
 
 use egui::{
-    Button, CentralPanel, Frame, Id, Label, Margin, Panel, Popup, Rect, Response, RichText,
-    ScrollArea, Sense, TextEdit, Ui, WidgetInfo, pos2, vec2,
+    Button, CentralPanel, Frame, Id, IntoAtoms, Label, Margin, Panel, Popup, Rect, Response,
+    RichText, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2,
 };
 
 use super::{
     action::{PaintAction, PaintFile, ShownPath},
     robot,
     state::PaintState,
+    timeline::minutes,
     work::Planned,
 };
 use crate::{
@@ -19,7 +20,7 @@ use crate::{
             parameter_control::{self, fold},
             theme::{Theme, font, space},
             tool_row::choice,
-            widgets::{grouped, heading, row, shortened, show_scroll_bar, text_button},
+            widgets::{grouped, heading, line_edit, menu_list, row, shortened, text_button},
         },
     },
     paint::{Coat, CoatGroup, FilmFigures},
@@ -90,9 +91,9 @@ fn head(ui: &mut Ui, paint: &PaintState, session: &Session, actions: &mut Vec<Pa
     let title = library.title_of(part.as_str());
     let chosen = part.clone();
     let text = RichText::new(format!("{} ▼", shortened(title, TITLE))).font(font::verdict());
-    let menu = ui.menu_button(text, |ui| {
-        show_scroll_bar(ui);
-        ScrollArea::vertical().max_height(420.0).show(ui, |ui| {
+    let label = text!("paint-part", part = title);
+    menu(ui, text, &label, text!("paint-part-hint"), |ui| {
+        menu_list(ui, |ui| {
             for meta in &library.parts {
                 let is_chosen = meta.name == chosen;
                 if ui
@@ -105,10 +106,6 @@ fn head(ui: &mut Ui, paint: &PaintState, session: &Session, actions: &mut Vec<Pa
             }
         });
     });
-    let label = text!("paint-part", part = title);
-    let response = menu.response;
-    response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &label));
-    response.on_hover_text(text!("paint-part-hint"));
     ui.spacing_mut().interact_size.y = 0.0;
     if let Some(failed) = &paint.failed {
         let text = RichText::new(&failed.what).color(theme.rejected);
@@ -173,7 +170,10 @@ fn coat(ui: &mut Ui, paint: &PaintState, actions: &mut Vec<PaintAction>) {
         } else {
             kept.to_owned()
         };
-        let menu = ui.menu_button(format!("{} ▼", shortened(&name, TITLE)), |ui| {
+        let text = format!("{} ▼", shortened(&name, TITLE));
+        let label = text!("paint-coat-named", coat = name);
+        let notes = parameters::coat_notes(&design.kept.notes);
+        menu(ui, text, &label, notes, |ui| {
             for coat in &paint.coats {
                 if ui.selectable_label(coat == kept, coat).clicked() {
                     actions.push(PaintAction::ChooseCoat(coat.clone()));
@@ -181,16 +181,11 @@ fn coat(ui: &mut Ui, paint: &PaintState, actions: &mut Vec<PaintAction>) {
                 }
             }
             ui.separator();
-            if ui.button(text!("paint-save-coat-as")).clicked() {
+            if ui.button(text!("shell-save-as")).clicked() {
                 actions.push(PaintAction::Name(Some(String::new())));
                 ui.close();
             }
         });
-        let label = text!("paint-coat-named", coat = name);
-        let response = menu.response;
-        close_unseen_menu(ui, &response);
-        response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &label));
-        response.on_hover_text(parameters::coat_notes(&design.kept.notes));
         if design.is_coat_changed() && text_button(ui, &text!("paint-reset-coat")).clicked() {
             actions.push(PaintAction::ResetCoat);
         }
@@ -204,11 +199,20 @@ fn coat(ui: &mut Ui, paint: &PaintState, actions: &mut Vec<PaintAction>) {
     }
 }
 
-/// Closes the menu of a button that was scrolled out of view: the menu would stay elsewhere in the window.
-pub(super) fn close_unseen_menu(ui: &Ui, button: &Response) {
+/// Draws a button with a menu, which closes once the button is scrolled out of view: it would stay elsewhere in the window.
+pub(super) fn menu(
+    ui: &mut Ui,
+    text: impl IntoAtoms<'static>,
+    label: &str,
+    hint: String,
+    entries: impl FnOnce(&mut Ui),
+) {
+    let button = ui.menu_button(text, entries).response;
     if !ui.is_rect_visible(button.rect) {
-        Popup::close_id(ui.ctx(), Popup::default_response_id(button));
+        Popup::close_id(ui.ctx(), Popup::default_response_id(&button));
     }
+    button.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, label));
+    button.on_hover_text(hint);
 }
 
 /// Draws the field for the coat's name.
@@ -217,13 +221,8 @@ fn name_ui(ui: &mut Ui, naming: &str, actions: &mut Vec<PaintAction>) {
     let id = Id::unique("name of the coat");
     let is_new = ui.ctx().read_response(id).is_none();
     ui.horizontal_wrapped(|ui| {
-        let edit = TextEdit::singleline(&mut written)
-            .id(id)
-            .hint_text(text!("paint-coat-name"))
-            .align(egui::Align2::LEFT_CENTER)
-            .desired_width(150.0)
-            .min_size(vec2(0.0, space::TARGET));
-        let response = ui.add(edit);
+        let edit = line_edit(&mut written, text!("paint-coat-name"), 150.0);
+        let response = ui.add(edit.id(id));
         // Without the focus, typed keys would act as shortcuts.
         if is_new {
             response.request_focus();
@@ -238,10 +237,10 @@ fn name_ui(ui: &mut Ui, naming: &str, actions: &mut Vec<PaintAction>) {
         if written != naming {
             actions.push(PaintAction::Name(Some(written.clone())));
         }
-        if text_button(ui, &text!("paint-save")).clicked() || is_entered {
+        if text_button(ui, &text!("shell-save")).clicked() || is_entered {
             actions.push(PaintAction::SaveCoat);
         }
-        if text_button(ui, &text!("paint-cancel")).clicked() {
+        if text_button(ui, &text!("shell-cancel")).clicked() {
             actions.push(PaintAction::Name(None));
         }
     });
@@ -277,7 +276,7 @@ fn parameters_of(
     if num == 0 {
         return;
     }
-    let more = text!("paint-more", group = within_sentence(&title), count = num);
+    let more = text!("shell-more", group = within_sentence(&title), count = num);
     fold(ui, more, theme.weak_text)
         .id_salt(group.title())
         .show_unindented(ui, |ui| {
@@ -292,7 +291,6 @@ fn check(ui: &mut Ui, planned: &Planned) {
     heading(ui, &text!("paint-check"));
     let (film, takes) = (&planned.film.figures, &planned.film.path);
     let micrometres = |metres: f64| format!("{:.1}", 1e6 * metres);
-    let seconds = takes.time.round() as u64;
     for (name, value) in [
         (
             text!("paint-thinnest-thickest"),
@@ -312,10 +310,7 @@ fn check(ui: &mut Ui, planned: &Planned) {
             text!("paint-landed"),
             format!("{} %", percent(takes.landed)),
         ),
-        (
-            text!("paint-time"),
-            format!("{}:{:02}", seconds / 60, seconds % 60),
-        ),
+        (text!("paint-time"), minutes(takes.time)),
         (text!("paint-points"), grouped(planned.path.points().len())),
     ] {
         row(ui, &name, &value);
@@ -352,13 +347,12 @@ fn histogram(ui: &mut Ui, film: &FilmFigures, tolerance: f64) {
         painter.rect_filled(bar, 0.0, colour);
     }
     painter.hline(plot.x_range(), plot.bottom(), theme.edge_stroke());
-    for (share, text) in [(0.0, "0"), (1.0, "100 %"), (2.0, "200 %")] {
+    for (share, text, anchor) in [
+        (0.0, "0", egui::Align2::LEFT_TOP),
+        (1.0, "100 %", egui::Align2::CENTER_TOP),
+        (2.0, "200 %", egui::Align2::RIGHT_TOP),
+    ] {
         let x = plot.left() + plot.width() * share / (num as f32 / 10.0);
-        let anchor = match text {
-            "0" => egui::Align2::LEFT_TOP,
-            "100 %" => egui::Align2::CENTER_TOP,
-            _ => egui::Align2::RIGHT_TOP,
-        };
         let at = pos2(x, plot.bottom() + 1.0);
         painter.text(at, anchor, text, font::scale(), theme.weak_text);
     }
@@ -371,8 +365,7 @@ fn percent(share: f64) -> String {
 /// Draws the buttons for the path.
 fn buttons(ui: &mut Ui, paint: &PaintState, session: &Session, actions: &mut Vec<PaintAction>) {
     let theme = Theme::of(ui);
-    let stored = paint.stored(session);
-    if let Some(stored) = stored {
+    if let Some(stored) = paint.stored(session) {
         ui.horizontal(|ui| {
             let count = stored.points().len();
             for (text, path) in [
@@ -394,7 +387,7 @@ fn buttons(ui: &mut Ui, paint: &PaintState, session: &Session, actions: &mut Vec
     });
     let half = (ui.available_width() - space::SMALL) / 2.0;
     ui.horizontal(|ui| {
-        let export = button(ui, &text!("paint-export"), is_ready, half, None);
+        let export = button(ui, &text!("shell-export"), is_ready, half, None);
         let export = export
             .on_hover_text(text!("paint-export-hint"))
             .on_disabled_hover_text(unready.clone().unwrap_or_default());
@@ -412,14 +405,9 @@ fn buttons(ui: &mut Ui, paint: &PaintState, session: &Session, actions: &mut Vec
         }
     });
     let store = text!("paint-store-short");
-    let fixed = session
-        .library
-        .as_ref()
-        .and_then(|library| library.is_fixed.as_ref());
-    let is_stored = paint
-        .planned
-        .as_ref()
-        .is_some_and(|planned| planned.is_stored);
+    let library = session.library.as_ref();
+    let fixed = library.and_then(|library| library.is_fixed.as_ref());
+    let is_stored = paint.is_stored();
     let can = is_ready && fixed.is_none() && !paint.is_storing() && !is_stored;
     let can_propose = paint.planned.is_some() || paint.failed.is_some() || !paint.is_planning();
     let response = ui.horizontal(|ui| {

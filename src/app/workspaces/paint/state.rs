@@ -4,7 +4,7 @@ use std::{path::PathBuf, sync::Arc};
 
 use super::{
     action::{PaintAction, PaintFile, ShownPath},
-    design::{Design, Step, UndoDirection, UndoStack},
+    design::{Design, Step},
     reach::{Reach, ReachRequest},
     region::PaintTool,
     work::{self, PaintResult, Planned, Request},
@@ -20,8 +20,9 @@ use crate::{
             notice::{Notice, NoticeTopic},
             program_setup::ProgramSetup,
             session::{Session, WorkspaceKind},
+            undo_stack::{UndoDirection, UndoStack},
         },
-        task::{Running, Task, TaskEvent, TaskRunner},
+        task::{Running, Task, TaskRunner},
         ui::scrubber::Playback,
         user_error::UserError,
     },
@@ -54,14 +55,14 @@ pub struct PaintState {
     /// Names of all coats.
     pub coats: Vec<String>,
     pub(super) coat_folder: Option<CoatFolder>,
-    pub(super) steps: UndoStack,
+    pub(super) steps: UndoStack<Step>,
     asked: Option<Request>,
     /// The request that the last path answers.
     answered: Option<Request>,
     task: Task<PaintResult>,
     storing: Task<PaintResult>,
-    /// The step being stored, and its direction.
-    pending: Option<(UndoDirection, Step)>,
+    /// The step being stored, and its direction if it is undone or redone.
+    pending: Option<(Option<UndoDirection>, Step)>,
     pub(super) reach: Option<Result<Arc<Reach>, UserError>>,
     pub(super) reach_asked: Option<ReachRequest>,
     pub(super) reach_task: Task<Arc<Reach>>,
@@ -128,14 +129,16 @@ impl PaintState {
         [!steps.done.is_empty(), !steps.undone.is_empty()]
     }
 
+    /// True if the path shown was stored with the part when it was planned.
+    pub(super) fn is_stored(&self) -> bool {
+        let planned = self.planned.as_ref();
+        planned.is_some_and(|planned| planned.is_stored)
+    }
+
     /// Describes regions drawn by a person whose path is not stored.
     pub(super) fn unsaved(&self) -> Option<String> {
-        let is_stored = self
-            .planned
-            .as_ref()
-            .is_some_and(|planned| planned.is_stored);
         let is_drawn = !self.design.regions.is_empty() || !self.design.edits.is_empty();
-        (is_drawn && !is_stored).then(|| text!("paint-unsaved"))
+        (is_drawn && !self.is_stored()).then(|| text!("paint-unsaved"))
     }
 
     /// Cancels planning and the reach check; the shown path stays.
@@ -312,13 +315,13 @@ impl PaintState {
             return;
         };
         let (part, path) = (planned.part.clone(), planned.path.clone());
-        self.store(UndoDirection::First, part, Some(path), cx);
+        self.store(None, part, Some(path), cx);
     }
 
     /// Stores a path with a part, or removes the one it has.
     pub(super) fn store(
         &mut self,
-        way: UndoDirection,
+        way: Option<UndoDirection>,
         part: PartName,
         path: Option<SprayPath>,
         cx: &ShellContext<'_>,
@@ -337,7 +340,7 @@ impl PaintState {
         let Some(planned) = self.planned.clone() else {
             return;
         };
-        let title = text!("paint-writing", file = file_name(&file));
+        let title = text!("shell-writing", file = file_name(&file));
         self.writing
             .start(title, move |_| Ok(work::write(&file, &planned.path)?));
     }
@@ -378,34 +381,24 @@ impl PaintState {
     pub fn update(&mut self, cx: &mut ShellContext<'_>) {
         while let Some(event) = self.task.poll() {
             match event {
-                TaskEvent::Partial(result) | TaskEvent::Done(result) => self.receive(result, cx),
-                TaskEvent::Failed(error) => self.failed = Some(error),
+                Ok(result) => self.receive(result, cx),
+                Err(error) => self.failed = Some(error),
             }
         }
         match self.storing.poll() {
-            Some(TaskEvent::Done(result) | TaskEvent::Partial(result)) => self.receive(result, cx),
-            Some(TaskEvent::Failed(error)) => {
+            Some(Ok(result)) => self.receive(result, cx),
+            Some(Err(error)) => {
                 // Keep a step that failed, so that it can be tried again.
-                if let Some((way @ (UndoDirection::Back | UndoDirection::Again), step)) =
-                    self.pending.take()
-                {
+                if let Some((Some(way), step)) = self.pending.take() {
                     self.steps.from(way).push(step);
                 }
                 cx.notify(error);
             }
             None => {}
         }
-        match self.writing.poll() {
-            Some(TaskEvent::Done(what) | TaskEvent::Partial(what)) => {
-                cx.notify(Notice::done(what));
-            }
-            Some(TaskEvent::Failed(error)) => cx.notify(error),
-            None => {}
-        }
-        match self.dialog.poll() {
-            Some((file, Ok(path))) => self.apply(PaintAction::Chosen(file, path), cx),
-            Some((_, Err(notice))) => cx.notify(notice),
-            None => {}
+        cx.notify_written(&mut self.writing);
+        if let Some((file, path)) = cx.chosen(&mut self.dialog) {
+            self.apply(PaintAction::Chosen(file, path), cx);
         }
         if self.shown_path == ShownPath::Stored && self.stored(cx.session).is_none() {
             self.shown_path = ShownPath::Planned;
@@ -454,16 +447,12 @@ impl PaintState {
             } => {
                 let title = library.title_of(part.as_str()).to_owned();
                 let what = match num_points {
-                    Some(count) => text!("paint-stored", count = count, part = title),
-                    None => text!("paint-path-removed", part = title),
+                    Some(count) => text!("enrol-stored-path", count = count, part = title),
+                    None => text!("enrol-removed-path", part = title),
                 };
                 let step = Step::Stored(part, former);
-                match self.pending.take() {
-                    Some((way @ (UndoDirection::Back | UndoDirection::Again), _)) => {
-                        self.steps.to(way).push(step);
-                    }
-                    Some((UndoDirection::First, _)) | None => self.steps.push(step),
-                }
+                let way = self.pending.take().and_then(|(way, _)| way);
+                self.steps.add_inverse(way, step);
                 cx.notify(Notice::done(what));
                 let saved = None;
                 cx.send(Message::LibraryChanged { library, saved });

@@ -135,7 +135,7 @@ fn place_text(paint: &PaintState, planned: &Planned) -> String {
 }
 
 /// Formats a duration as "1:05".
-fn minutes(seconds: f64) -> String {
+pub(super) fn minutes(seconds: f64) -> String {
     let whole = seconds.round() as u64;
     format!("{}:{:02}", whole / 60, whole % 60)
 }

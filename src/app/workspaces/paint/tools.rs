@@ -54,12 +54,12 @@ fn patterns(paint: &PaintState) -> Vec<Tool<PaintAction>> {
 fn regions(paint: &PaintState) -> Vec<Tool<PaintAction>> {
     let keep_out = text!("paint-keep-out-hint");
     let only = text!("paint-only-hint");
-    let lasso = text!("paint-lasso");
+    let lasso = text!("view-lasso");
     let tools = [
         (
-            text!("paint-rotate"),
-            text!("paint-rotate"),
-            text!("paint-rotate-hint"),
+            text!("view-rotate"),
+            text!("view-rotate"),
+            text!("view-rotate-hint"),
             PaintTool::Look,
         ),
         (
@@ -150,8 +150,8 @@ fn drag_tool(
 fn steps(paint: &PaintState) -> Vec<Tool<PaintAction>> {
     let [can_undo, can_redo] = paint.can_undo();
     [
-        (text!("paint-undo"), can_undo, PaintAction::Undo),
-        (text!("paint-redo"), can_redo, PaintAction::Redo),
+        (text!("shell-undo"), can_undo, PaintAction::Undo),
+        (text!("shell-redo"), can_redo, PaintAction::Redo),
     ]
     .into_iter()
     .map(|(text, is_enabled, action)| Tool {

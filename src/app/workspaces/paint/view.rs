@@ -20,9 +20,9 @@ use crate::{
         ui::{
             theme::space,
             viewport::{
-                Colouring, DrawnShape, FitRequest, Legend, Line, LineSet, PointSize, Role,
-                ScaleWords, StandardView, TextLabel, ViewCamera, ViewColours, ViewDirection,
-                ViewError, ViewScene, ViewStyle, ViewTool, Viewport, ViewportGpu, drawing,
+                Colouring, DrawnShape, FitRequest, Legend, Line, LineSet, Role, ScaleWords,
+                StandardView, TextLabel, ViewCamera, ViewColours, ViewDirection, ViewError,
+                ViewScene, ViewStyle, ViewTool, Viewport, ViewportGpu, drawing, vec3,
             },
         },
     },
@@ -41,7 +41,8 @@ pub(super) struct PaintView {
     fitted: Option<PartName>,
     /// The drawn gun, with its path and time.
     gun: Option<(Arc<Planned>, f64, Gun)>,
-    has_focus: bool,
+    /// True while it has the key focus.
+    pub(super) has_focus: bool,
 }
 
 /// The lines that show the gun.
@@ -74,11 +75,6 @@ impl PaintView {
             gun: None,
             has_focus: false,
         }
-    }
-
-    /// True while the view has the key focus.
-    pub(super) fn has_focus(&self) -> bool {
-        self.has_focus
     }
 
     pub(super) fn ui(
@@ -288,7 +284,7 @@ impl PaintView {
         };
         let coat = &planned.coat;
         // Enrolled parts are thinned; points of this size look closed from afar.
-        self.style.point_size = PointSize::Metres(Metres(1.9 * planned.surface.spacing));
+        self.style.point_size = Metres(1.9 * planned.surface.spacing);
         let range = SCALE * coat.tolerance * coat.target;
         self.style.deviation_range = Metres(range * MAGNIFIED);
         self.style.scale_words = ScaleWords::Film {
@@ -306,10 +302,7 @@ impl PaintView {
         let Some(planned) = &paint.planned else {
             return ViewScene::default();
         };
-        let [on, off] = planned
-            .marks
-            .clone()
-            .map(|marks| marks.coloured(Colouring::Segment));
+        let [on, off] = planned.marks.clone();
         let gun = self.gun(planned, paint.time, session);
         let mut lines = vec![planned.lines.clone(), gun.lines];
         if let Some(Ok(reach)) = paint.reach(session) {
@@ -370,7 +363,6 @@ fn drawn_gun(planned: &Planned, gun: &GunState, session: &Session) -> Gun {
     if !gun.is_on {
         words.push(text!("paint-gun-off"));
     }
-    let vec3 = |p: nalgebra::Point3<f64>| Vec3::new(p.x as f32, p.y as f32, p.z as f32);
     let across = if jet.x.abs() < 0.9 {
         Vector3::x()
     } else {
@@ -381,7 +373,7 @@ fn drawn_gun(planned: &Planned, gun: &GunState, session: &Session) -> Gun {
     let radius = coat.gun.depth * coat.stand_off / coat.gun.distance / 2.0;
     let ring = |centre: nalgebra::Point3<f64>, radius: f64| -> Vec<Vec3> {
         let angles = (0..=32).map(|i| TAU * f64::from(i) / 32.0);
-        let each = angles.map(|a| vec3(centre + (u * a.cos() + v * a.sin()) * radius));
+        let each = angles.map(|a| vec3(&(centre + (u * a.cos() + v * a.sin()) * radius)));
         each.collect()
     };
     let role = if gun.is_on {
@@ -390,14 +382,14 @@ fn drawn_gun(planned: &Planned, gun: &GunState, session: &Session) -> Gun {
         Role::Nozzle
     };
     let lines = vec![
-        Line::new(vec![vec3(gun.nozzle), vec3(aim)], role),
+        Line::new(vec![vec3(&gun.nozzle), vec3(&aim)], role),
         Line::new(ring(gun.nozzle, 0.012), role),
         Line::new(ring(aim - jet * 0.01, radius), role).with_width(1.5),
     ];
     Gun {
         lines: LineSet::new(lines),
         label: TextLabel {
-            at: vec3(aim),
+            at: vec3(&aim),
             text: words.join(" · "),
         },
     }

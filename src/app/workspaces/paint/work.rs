@@ -10,11 +10,11 @@ use crate::{
         inspection::library_cache::{LibraryCache, LibraryView, LoadedLibrary, StoredPath},
         language::text,
         task::{TaskContext, TaskError},
-        ui::viewport::{Line, LineSet, PointSet, Role},
+        ui::viewport::{Colouring, Line, LineSet, PointSet, Role, vec3},
         user_error::UserError,
     },
-    files::write_atomically,
-    library::{PartName, SprayCheck, SprayPath},
+    files::write_text,
+    library::{FileCheck, PartName, SprayPath},
     paint::{Coat, Film, KeepOut, PaintSurface, PathEdit, edited, plan, propose, simulate},
     stages::reference::Reference,
 };
@@ -26,7 +26,7 @@ pub(super) struct Request {
     /// The library of the part.
     pub(super) library: String,
     /// The path stored with the part.
-    pub(super) stored: Option<SprayCheck>,
+    pub(super) stored: Option<FileCheck>,
     pub(super) coat: Coat,
     pub(super) regions: Vec<KeepOut>,
     pub(super) edits: Vec<PathEdit>,
@@ -146,11 +146,7 @@ pub(super) const MAGNIFIED: f64 = 1000.0;
 
 /// Returns the surface with the film's deviation from its target; keep-outs and what is not reachable have none.
 fn coloured(surface: &PaintSurface, film: &Film, coat: &Coat) -> PointSet {
-    let positions: Vec<[f32; 3]> = surface
-        .points
-        .iter()
-        .map(|p| [p.x as f32, p.y as f32, p.z as f32])
-        .collect();
+    let positions: Vec<[f32; 3]> = surface.points.iter().map(|p| vec3(p).to_array()).collect();
     let each = film.thickness.iter().zip(&film.is_reachable);
     let off: Vec<f32> = each
         .map(|(thickness, is_reachable)| {
@@ -173,21 +169,23 @@ const BEFORE: f64 = 0.008;
 pub(super) fn aim(path: &SprayPath, point: usize, coat: &Coat) -> Vec3 {
     let point = &path.points()[point];
     let stand_off = point.stand_off.map_or(coat.stand_off, |d| d.0);
-    let at = point.nozzle + point.direction.into_inner() * (stand_off - BEFORE);
-    Vec3::new(at.x as f32, at.y as f32, at.z as f32)
+    vec3(&(point.nozzle + point.direction.into_inner() * (stand_off - BEFORE)))
 }
 
 fn lines(path: &SprayPath, course: &GunCourse, coat: &Coat) -> LineSet {
     let stretch = |first: usize, last: usize| -> Vec<Vec3> {
         (first..=last).map(|i| aim(path, i, coat)).collect()
     };
+    let move_along = |first: usize, last: usize| {
+        let line = Line::new(stretch(first, last), Role::Contour);
+        line.dashed().with_width(1.0)
+    };
     let mut lines = Vec::new();
     let mut from = 0;
     for stroke in &course.strokes {
         let [first, last] = *stroke;
         if first > from {
-            let between = Line::new(stretch(from, first), Role::Contour);
-            lines.push(between.dashed().with_width(1.0));
+            lines.push(move_along(from, first));
         }
         let spraying = Line::new(stretch(first, last), Role::Contour);
         lines.push(spraying.with_width(1.6));
@@ -195,8 +193,7 @@ fn lines(path: &SprayPath, course: &GunCourse, coat: &Coat) -> LineSet {
     }
     let last = path.points().len() - 1;
     if last > from {
-        let out = Line::new(stretch(from, last), Role::Contour);
-        lines.push(out.dashed().with_width(1.0));
+        lines.push(move_along(from, last));
     }
     LineSet::new(lines)
 }
@@ -206,8 +203,8 @@ fn marks(path: &SprayPath, course: &GunCourse, coat: &Coat) -> [PointSet; 2] {
     let on: Vec<[f32; 3]> = course.strokes.iter().map(|[first, _]| at(*first)).collect();
     let off: Vec<[f32; 3]> = course.strokes.iter().map(|[_, last]| at(*last)).collect();
     [
-        PointSet::new(on, Role::AxisY),
-        PointSet::new(off, Role::AxisX),
+        PointSet::new(on, Role::AxisY).coloured(Colouring::Segment),
+        PointSet::new(off, Role::AxisX).coloured(Colouring::Segment),
     ]
 }
 
@@ -237,8 +234,6 @@ pub(super) fn store(
 
 /// Writes a path as a table, atomically; describes what was written.
 pub(super) fn write(file: &Path, path: &SprayPath) -> Result<String, UserError> {
-    let text = path.to_text();
-    write_atomically(file, |to| to.write_all(text.as_bytes()))
-        .map_err(|error| UserError::of(&error))?;
-    Ok(text!("paint-wrote", path = file.display().to_string()))
+    write_text(file, &path.to_text()).map_err(|error| UserError::of(&error))?;
+    Ok(text!("shell-wrote", path = file.display().to_string()))
 }

@@ -87,7 +87,7 @@ fn a_cut_foreign_or_missing_cloud_is_named_and_the_others_load() {
     ));
     let meta = fs::read_to_string(damaged.join(META)).expect("text");
     let mut meta: PartMeta = toml::from_str(&meta).expect("TOML");
-    meta.cloud = crate::library::CloudCheck::of(&fs::read(&cloud).expect("bytes"), 300);
+    meta.cloud = crate::library::FileCheck::of(&fs::read(&cloud).expect("bytes"), 300);
     fs::write(damaged.join(META), meta_text(&meta).expect("TOML")).expect("written");
     assert!(matches!(problem(&load(&library)), EntryError::Reference(_)));
 }

@@ -12,7 +12,6 @@ use crate::{
     simulate::{
         CellSetup, ObjectKind, PartKind, PartPose, PoseRange, SensorNoise, Side, SimulatedObject,
     },
-    units::{Metres, Radians},
 };
 
 /// A frame with its own inspection.
@@ -58,8 +57,7 @@ impl Line {
 
     /// A frame whose own verdict counts at once.
     fn counted(&mut self, seen: &Seen, inputs: &str) -> (Left, FrameRole) {
-        let pose = seen.inspection.pose.as_ref();
-        let pose = pose.and_then(|pose| pose.as_ref().ok());
+        let pose = seen.inspection.found_pose();
         let agreed = ConsensusVerdict {
             verdict: seen.inspection.verdict.clone(),
             num_frames: 5,
@@ -67,8 +65,6 @@ impl Line {
             pose: pose.map(|pose| MeanPose {
                 camera_from_part: pose.camera_from_part(),
                 num_agreeing: 5,
-                shift_rms: Metres(0.001),
-                turn_rms: Radians(0.001),
             }),
         };
         self.see(seen, &LiveVerdict::Counted(Box::new(agreed)), inputs)

@@ -26,11 +26,11 @@ fn an_arm_of_a_file_is_the_same() {
     let listed = Arm::named("gp25").expect("listed");
     let found = read(TEXT).expect("an arm");
     // Nobody says whose controller counts its joints.
-    assert_eq!(found.maker(), None);
+    assert_eq!(found.maker, None);
     assert_eq!(
         Arm {
             name: listed.name.clone(),
-            maker: listed.maker(),
+            maker: listed.maker,
             ..found
         },
         listed

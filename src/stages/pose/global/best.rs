@@ -2,6 +2,7 @@
 
 use super::{GlobalSearch, NEARLY_SETTLED, PoseTrial};
 use crate::{
+    geometry::statistics::median,
     stages::pose::{
         MIN_POINTS, PoseError, PoseEstimate, PoseMethod, RunnerUp,
         closest::Correspondence,
@@ -115,12 +116,7 @@ impl GlobalSearch<'_> {
         let on_surface = closest
             .iter()
             .filter_map(|c| c.on_surface(&target, reach_sq));
-        let mut offs: Vec<f64> = on_surface.map(|on| on.off.abs()).collect();
-        if offs.is_empty() {
-            return 0.0;
-        }
-        let middle = offs.len() / 2;
-        1.48 * *offs.select_nth_unstable_by(middle, f64::total_cmp).1
+        1.48 * median(on_surface.map(|on| on.off.abs())).unwrap_or(0.0)
     }
 
     fn no_overlap(&self, found: usize) -> PoseError {

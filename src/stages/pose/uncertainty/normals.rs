@@ -3,7 +3,10 @@
 use nalgebra::Vector3;
 
 use super::{Pair, tangents};
-use crate::stages::pose::refine::{AlignmentTarget, Search};
+use crate::{
+    geometry::statistics::median,
+    stages::pose::refine::{AlignmentTarget, Search},
+};
 
 /// Neighbours that a normal is the mean of, about, and the radius they lie within, in spacings.
 const NORMAL_NEIGHBOURS: f64 = 28.0;
@@ -40,19 +43,11 @@ pub(super) fn tilt_sq(pairs: &[Pair], target: &AlignmentTarget<'_>) -> f64 {
         }
     }
     // A neighbour is off by the noise of both.
-    let noise_sq = median(offs_sq) / (2.0 * MEDIAN_SQ);
+    let noise_sq = median(offs_sq.into_iter()).unwrap_or(0.0) / (2.0 * MEDIAN_SQ);
     let radius = NORMAL_RADIUS * target.spacing;
     let weight_sum: f64 = pairs.iter().map(|p| p.weight).sum();
     let beside_sq = pairs.iter().map(|p| p.weight * p.beside_sq).sum::<f64>() / weight_sum;
     4.0 * noise_sq / (NORMAL_NEIGHBOURS * radius * radius)
-        + median(bends_sq) * beside_sq
+        + median(bends_sq.into_iter()).unwrap_or(0.0) * beside_sq
         + LEAST_TILT * LEAST_TILT
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    if values.is_empty() {
-        return 0.0;
-    }
-    let middle = values.len() / 2;
-    *values.select_nth_unstable_by(middle, f64::total_cmp).1
 }

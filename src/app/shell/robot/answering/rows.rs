@@ -65,7 +65,7 @@ impl TriggerRows {
                     continue;
                 }
                 Err(TryRecvError::Empty) => {
-                    summary.hung = lock(&self.parts).part_now(&summary.source);
+                    summary.hung = lock(&self.parts).part_now(&summary.source, false);
                 }
                 // Live follows another source by now: it keeps its own.
                 Err(TryRecvError::Disconnected) => {}

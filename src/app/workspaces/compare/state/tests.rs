@@ -50,9 +50,12 @@ fn listed(done: CaseDone) -> CompareResult {
 }
 
 fn listed_as(names: &[&str], done: CaseDone) -> CompareResult {
-    CompareResult::Cases {
+    let cases = Cases {
         folder: CaseFolder::at("cases"),
-        cases: names.iter().map(|name| kept(name)).collect(),
+        list: names.iter().map(|name| kept(name)).collect(),
+    };
+    CompareResult::Cases {
+        cases,
         troubles: Vec::new(),
         done,
     }
@@ -154,7 +157,6 @@ fn a_run_is_outdated_until_it_covers_the_cases_that_are_kept_now() {
             recipe: Arc::clone(&bench.shell.session.recipe),
             results: Vec::new(),
             troubles: Vec::new(),
-            total: names.len(),
             cases: names.iter().map(|name| kept(name)).collect(),
             matrix: Matrix::of(Confusion::of(&[], &[])),
             calibration: Calibration::of(&[]),
@@ -182,10 +184,9 @@ fn a_run_is_outdated_until_it_covers_the_cases_that_are_kept_now() {
     else {
         unreachable!()
     };
-    let other = Arc::get_mut(&mut cases).expect("the only one");
+    let other = Arc::get_mut(&mut cases.list).expect("the only one");
     other[1].meta.about.truth = Truth::NotEnrolled;
     bench.done(CompareResult::Cases {
-        folder: CaseFolder::at("cases"),
         cases,
         troubles: Vec::new(),
         done: CaseDone::Listed,

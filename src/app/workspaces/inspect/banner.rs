@@ -1,0 +1,460 @@
+//! What the operator's banner says: which part, OK or not, and what to do next.
+
+use egui::Color32;
+
+use super::{
+    headline::Headline,
+    operator_words::{in_short, next_step, next_without_part, no_part_in_short},
+};
+use crate::{
+    app::{
+        inspection::{inspected::Inspected, source::Origin},
+        language::text,
+        shell::{
+            live::SourceState,
+            session::{Session, Source},
+        },
+        ui::{
+            theme::Theme,
+            widgets::{Mark, sentence},
+        },
+    },
+    capture::SourceSpec,
+    history::StoredVerdict,
+    pipeline::{Unrecognisable, Verdict},
+    stages::pose::PoseEstimate,
+};
+
+/// State that the banner shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Tone {
+    /// An accepted part.
+    Ok,
+    /// A part that is not accepted.
+    NotOk,
+    /// There is no verdict, or not yet.
+    Open,
+    /// There is no result, and somebody has to fix it.
+    Trouble,
+}
+
+impl Tone {
+    pub(super) fn word(self) -> String {
+        match self {
+            Self::Ok => text!("operator-ok"),
+            Self::NotOk => text!("operator-not-ok"),
+            Self::Open | Self::Trouble => String::new(),
+        }
+    }
+
+    pub(super) fn mark(self) -> Mark {
+        match self {
+            Self::Ok => Mark::Good,
+            Self::NotOk => Mark::Bad,
+            Self::Open => Mark::Open,
+            Self::Trouble => Mark::Look,
+        }
+    }
+
+    /// Colours of the word and of its background.
+    pub(super) fn colours(self, theme: &Theme) -> [Color32; 2] {
+        match self {
+            Self::Ok => [theme.accepted, theme.accepted_back],
+            Self::NotOk => [theme.rejected, theme.rejected_back],
+            Self::Open => [theme.weak_text, theme.panel],
+            Self::Trouble => [theme.warning, theme.panel],
+        }
+    }
+}
+
+/// The verdict, its reason and the next step, in the operator's words.
+#[derive(Debug)]
+pub(super) struct Banner {
+    pub(super) tone: Tone,
+    pub(super) title: String,
+    pub(super) reason: String,
+    pub(super) next: String,
+    /// What else the operator should know about the part; may be empty.
+    pub(super) caution: String,
+    /// True if the picture shows what hangs there now.
+    pub(super) is_current: bool,
+}
+
+impl Banner {
+    pub(super) fn new(
+        tone: Tone,
+        title: impl Into<String>,
+        reason: impl Into<String>,
+        next: impl Into<String>,
+    ) -> Self {
+        Self {
+            tone,
+            title: title.into(),
+            reason: reason.into(),
+            next: next.into(),
+            caution: String::new(),
+            is_current: false,
+        }
+    }
+
+    pub(super) fn of(session: &Session) -> Self {
+        let wait = text!("inspect-wait");
+        if session.is_live() {
+            match session.live.status.as_ref().map(|status| &status.source) {
+                None | Some(SourceState::Opening) => {
+                    return Self::new(Tone::Open, text!("operator-opening-camera"), "", wait);
+                }
+                Some(SourceState::Lost(_)) => return Self::of_lost(&session.source),
+                Some(SourceState::Running) => {}
+            }
+        } else if let Some(run) = &session.inspecting {
+            return Self::new(Tone::Open, text!("operator-inspecting"), &run.title, wait);
+        }
+        if let Some(trouble) = &session.failed {
+            // A watched folder has no Capture: the next file comes by itself.
+            let next = if session.is_watching() {
+                trouble.advice.clone()
+            } else {
+                text!("operator-no-result-next")
+            };
+            return Self::new(
+                Tone::Trouble,
+                text!("operator-no-result"),
+                sentence(&trouble.what),
+                next,
+            );
+        }
+        if let Some(library) = &session.library {
+            let ask = text!("operator-ask-to-enrol");
+            if let Some(trouble) = &library.unloaded {
+                return Self::new(
+                    Tone::Trouble,
+                    text!("shell-no-library"),
+                    sentence(&trouble.what),
+                    ask,
+                );
+            }
+            if library.parts.is_empty() {
+                let why = text!("operator-no-parts-why");
+                return Self::new(Tone::Trouble, text!("operator-no-parts"), why, ask);
+            }
+        }
+        // What is shown may be of another source, or from before this one was followed.
+        let shown = session.shown.as_ref().filter(|shown| !shown.is_outdated);
+        let Some(shown) = shown else {
+            return if session.is_watching() {
+                Self::new(
+                    Tone::Open,
+                    text!("shell-waiting-for-file"),
+                    text!("operator-no-new-file"),
+                    text!("operator-save-capture"),
+                )
+            } else if session.is_live() {
+                Self::new(
+                    Tone::Open,
+                    text!("inspect-looking"),
+                    text!("operator-nothing-captured"),
+                    wait,
+                )
+            } else {
+                let next = text!("operator-hang-and-capture");
+                Self::new(
+                    Tone::Open,
+                    text!("operator-ready"),
+                    text!("operator-nothing-inspected"),
+                    next,
+                )
+            };
+        };
+        let inspected = &shown.inspected;
+        let result = Self::of_result(inspected, session);
+        let mut verdict = Self {
+            caution: caution(inspected, result.tone),
+            is_current: true,
+            ..result
+        };
+        let serial = session.trace.of_part(inspected).serial;
+        // While the next part swings in, a frame may still belong to the one before.
+        let is_part = inspected.entry.record.summary.verdict != StoredVerdict::NoPart;
+        if is_part && !inspected.is_open() && !serial.is_empty() {
+            verdict.reason = format!("{} · {serial}", verdict.reason);
+        }
+        if shown.is_past {
+            let next = match session.source.followed() {
+                Some(_) => text!("operator-follow-current"),
+                None => text!("operator-capture-current"),
+            };
+            return Self {
+                tone: Tone::Open,
+                reason: text!("inspect-from-history"),
+                next,
+                caution: String::new(),
+                ..verdict
+            };
+        }
+        verdict
+    }
+
+    /// The exact error is for the engineer.
+    fn of_lost(source: &Source) -> Self {
+        let (title, next) = if is_folder(source) {
+            (
+                text!("operator-no-folder"),
+                text!("operator-no-folder-next"),
+            )
+        } else {
+            (
+                text!("operator-no-camera"),
+                text!("operator-no-camera-next"),
+            )
+        };
+        Self::new(Tone::Trouble, title, text!("operator-lost"), next)
+    }
+
+    fn of_result(inspected: &Inspected, session: &Session) -> Self {
+        let Headline {
+            title,
+            is_accepted,
+            is_open,
+            actual,
+            complaint,
+            ..
+        } = Headline::of(inspected, session);
+        let inspection = &inspected.inspection;
+        if actual.is_some() {
+            let next = text!("operator-reported-wrong-next");
+            return Self::new(Tone::NotOk, title, text!("operator-reported-wrong"), next);
+        }
+        if is_accepted {
+            let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+            let next = if inspected.origin.is_simulated() {
+                text!("operator-simulated-next")
+            } else if pose.is_some_and(PoseEstimate::is_ambiguous) {
+                text!("operator-ambiguous-next")
+            } else if matches!(inspected.origin, Origin::File { .. }) {
+                text!("operator-file-next")
+            } else if caution(inspected, Tone::Ok).is_empty() {
+                text!("operator-start-robot")
+            } else {
+                text!("operator-check-part-next")
+            };
+            return Self::new(Tone::Ok, title, text!("operator-recognised"), next);
+        }
+        let (reason, advice) = complaint.unwrap_or_default();
+        if is_open {
+            return Self::new(Tone::Open, title, sentence(&reason), advice);
+        }
+        let nearest = inspection.verdict.guess().map_or_else(
+            || text!("operator-an-enrolled-part"),
+            |part| inspected.library.title_of(part).to_owned(),
+        );
+        match &inspection.verdict {
+            Verdict::NoPart(why @ Unrecognisable::EmptyLibrary) => Self::new(
+                Tone::Trouble,
+                text!("operator-no-parts"),
+                no_part_in_short(why),
+                text!("operator-ask-to-enrol"),
+            ),
+            // An empty cell is not a bad part.
+            Verdict::NoPart(why) => {
+                let next = next_without_part(why, session);
+                Self::new(Tone::Open, title, no_part_in_short(why), next)
+            }
+            Verdict::Part {
+                rejected: Some(why),
+                ..
+            } => {
+                let next = next_step(why, &nearest, session);
+                Self::new(Tone::NotOk, title, in_short(why, &nearest), next)
+            }
+            Verdict::Part { rejected: None, .. } => {
+                Self::new(Tone::NotOk, title, sentence(&reason), advice)
+            }
+        }
+    }
+}
+
+/// Says that some of a part is outside the picture, or that an accepted one may be another model.
+fn caution(inspected: &Inspected, tone: Tone) -> String {
+    let is_cut = inspected.inspection.touches_edge() && inspected.scan.is_none();
+    match tone {
+        Tone::NotOk if is_cut => text!("operator-reaches-edge"),
+        Tone::Ok => {
+            let is_approximate = inspected.inspection.verdict.is_approximate();
+            let cautions = [
+                is_cut.then(|| text!("operator-reaches-edge-ok")),
+                is_approximate.then(|| text!("operator-approximate-ok")),
+            ];
+            let cautions: Vec<String> = cautions.into_iter().flatten().collect();
+            cautions.join("\n")
+        }
+        Tone::NotOk | Tone::Open | Tone::Trouble => String::new(),
+    }
+}
+
+/// True for a watched folder or a recording.
+fn is_folder(source: &Source) -> bool {
+    matches!(source, Source::Camera(spec)
+        if matches!(**spec, SourceSpec::Watched(_) | SourceSpec::Recording(_)))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::{
+        app::{
+            inspection::{
+                inspected::{LiveFrameContext, inspected_cell},
+                source::CellChoice,
+            },
+            language::Language,
+            shell::{live::LiveStatus, session::Shown},
+            user_error::UserError,
+        },
+        pipeline::{
+            Rejection,
+            live::{LiveVerdict, MotionState},
+        },
+    };
+
+    fn showing(inspected: Inspected, is_past: bool) -> Session {
+        Session {
+            shown: Some(Shown {
+                generation: 1,
+                inspected: Arc::new(inspected),
+                is_past,
+                session: None,
+                is_outdated: false,
+            }),
+            ..Session::default()
+        }
+    }
+
+    #[test]
+    fn a_part_at_the_edge_another_model_and_a_file_are_said_and_only_what_is_certain() {
+        let banner = |change: fn(&mut Inspected), is_past| {
+            let mut inspected = inspected_cell(CellChoice::InTurn, 1);
+            change(&mut inspected);
+            Banner::of(&showing(inspected, is_past))
+        };
+        let beside_shadow: fn(&mut Inspected) = |inspected| {
+            if let Ok(part) = &mut inspected.inspection.segmentation.part {
+                part.touches_edge = true;
+            }
+        };
+        let cut: fn(&mut Inspected) = |inspected| {
+            if let Some(Ok(pose)) = &mut inspected.inspection.pose
+                && let Some(sight) = &mut pose.fit.sight
+            {
+                sight.outside = 0.1;
+            }
+            inspected.origin = camera();
+        };
+        let approximate: fn(&mut Inspected) = |inspected| {
+            if let Verdict::Part { is_approximate, .. } = &mut inspected.inspection.verdict {
+                *is_approximate = true;
+            }
+            inspected.origin = camera();
+        };
+        let refused: fn(&mut Inspected) = |inspected| {
+            if let Ok(part) = &mut inspected.inspection.segmentation.part {
+                part.touches_edge = true;
+            }
+            if let Verdict::Part { rejected, part, .. } = &mut inspected.inspection.verdict {
+                *rejected = Some(Rejection::NotSteady { part: part.clone() });
+            }
+        };
+        assert_eq!(banner(|_| (), false).caution, "");
+        let inside = banner(beside_shadow, false);
+        assert_eq!((inside.tone, &*inside.caution), (Tone::Ok, ""));
+        let plain = banner(|inspected| inspected.origin = camera(), false);
+        assert_eq!((&*plain.next, &*plain.caution), ("Start the robot", ""));
+        for (change, caution) in [(cut, "Not all of it"), (approximate, "another model")] {
+            let good = banner(change, false);
+            assert_eq!(good.tone, Tone::Ok);
+            assert!(good.caution.contains(caution), "{}", good.caution);
+            assert_eq!(good.next, "Check the part, then start the robot");
+        }
+        let bad = banner(refused, false);
+        assert_eq!(bad.tone, Tone::NotOk);
+        assert!(bad.caution.contains("all of it"), "{}", bad.caution);
+        assert_eq!(banner(cut, true).caution, "");
+        let file: fn(&mut Inspected) = |inspected| {
+            inspected.origin = Origin::File {
+                path: "/data/door.png".into(),
+                is_simulated: false,
+            };
+        };
+        // It may show what hung there days ago.
+        let next = banner(file, false).next;
+        assert!(next.starts_with("From a file"), "{next}");
+    }
+
+    #[test]
+    fn only_a_steady_part_is_shown_with_its_serial_number() {
+        let reason = |choice, moves: bool| {
+            let mut inspected = inspected_cell(choice, 1);
+            inspected.entry.record.summary.trace.serial = "4711".into();
+            inspected.followed = moves.then_some(LiveFrameContext {
+                stillness: MotionState::Moving,
+                standing: LiveVerdict::Open,
+            });
+            Banner::of(&showing(inspected, false)).reason
+        };
+        assert!(reason(CellChoice::InTurn, false).contains("4711"));
+        for (choice, moves) in [(CellChoice::InTurn, true), (CellChoice::Empty, false)] {
+            let reason = reason(choice, moves);
+            assert!(!reason.contains("4711"), "{reason}");
+        }
+    }
+
+    #[test]
+    fn a_lost_source_is_named_by_its_kind_in_the_language_of_the_window() {
+        let lost = |source| {
+            let mut session = Session {
+                source,
+                ..Session::default()
+            };
+            session.live.is_on = true;
+            session.live.status = Some(LiveStatus {
+                source: SourceState::Lost(UserError {
+                    what: "the folder does not exist".into(),
+                    advice: "Connect the drive".into(),
+                }),
+                stillness: None,
+                standing: LiveVerdict::Open,
+                rates: [None; 2],
+                latency: None,
+                num_inspected: 0,
+                num_dropped: 0,
+                num_averaged: 1,
+                recorded: None,
+            });
+            Banner::of(&session)
+        };
+        let folder = Source::Camera(Box::new("watch:captures".parse().expect("a source")));
+        Language::German.make_current();
+        let banners = [lost(folder), lost(Source::default())];
+        Language::English.make_current();
+        let expected = [
+            ("Ordner nicht erreichbar", "Netzlaufwerk"),
+            ("Keine Kamera", "Stecker"),
+        ];
+        for (banner, (title, next)) in banners.iter().zip(expected) {
+            assert_eq!(banner.title, title);
+            assert!(banner.next.starts_with(next), "{banner:?}");
+            assert!(banner.next.contains("Instandhaltung"), "{banner:?}");
+            assert!(!banner.reason.contains("folder"), "{banner:?}");
+        }
+    }
+
+    /// A frame of a camera that is not simulated.
+    fn camera() -> Origin {
+        Origin::Frame {
+            name: "kinect frame 1".into(),
+            is_simulated: false,
+        }
+    }
+}
