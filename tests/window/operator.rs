@@ -323,8 +323,33 @@ fn a_source_that_has_delivered_nothing_has_no_verdict() {
     // Nor has it one when nobody waits any longer.
     toggle(&mut harness);
     settle(&mut harness);
-    harness.get_by_label("Hang a part and press Capture");
+    harness.get_by_label("Press Live or Capture for the current part");
     assert!(harness.query_by_label("OK").is_none());
+}
+
+#[test]
+fn an_ok_of_live_is_gone_once_live_is_off_until_the_next_capture() {
+    let (options, wire) = wired_options();
+    let mut harness = open_operators(options);
+    toggle(&mut harness);
+    sees(&mut harness, &wire, [0.0; 22]);
+    harness.get_by_label("OK");
+    toggle(&mut harness);
+    settle(&mut harness);
+    assert!(harness.query_by_label("OK").is_none());
+    harness.get_by_label("No verdict");
+    harness.get_by_label("The last verdict no longer counts");
+    harness.get_by_label("Press Live or Capture for the current part");
+    // The engineer still looks at it.
+    act(&mut harness, Action::Role(RoleAction::Switch));
+    press(&mut harness, "Switch");
+    harness.get_by_label("Accepted");
+    assert!(!shows(&harness, "Previous result"));
+    act(&mut harness, Action::Role(RoleAction::Switch));
+    let door = CellChoice::Part(PartKind::FrontDoor, Side::Left);
+    act(&mut harness, Action::UseCell(door));
+    harness.get_by_label("OK");
+    assert!(!shows(&harness, "no longer counts"));
 }
 
 #[test]

@@ -20,6 +20,7 @@ operator-save-capture = Eine Aufnahme im Ordner speichern: Sie wird automatisch 
 operator-nothing-captured = Noch nichts aufgenommen
 operator-ready = Bereit
 operator-nothing-inspected = Noch nichts geprüft
+operator-counts-no-longer = Das letzte Ergebnis gilt nicht mehr
 operator-hang-and-capture = Ein Teil aufhängen und „Aufnehmen“ drücken
 operator-capture-current = Für das aktuelle Teil „Aufnehmen“ drücken
 operator-follow-current = Für das aktuelle Teil „Live“ oder „Aufnehmen“ drücken

@@ -20,6 +20,7 @@ operator-save-capture = Save a capture to the folder: it is inspected automatica
 operator-nothing-captured = Nothing was captured yet
 operator-ready = Ready
 operator-nothing-inspected = Nothing was inspected yet
+operator-counts-no-longer = The last verdict no longer counts
 operator-hang-and-capture = Hang a part and press Capture
 operator-capture-current = Press Capture for the current part
 operator-follow-current = Press Live or Capture for the current part

@@ -20,6 +20,7 @@ operator-save-capture = Guardar una captura en la carpeta: se inspecciona autom�
 operator-nothing-captured = Aún no se ha capturado nada
 operator-ready = Listo
 operator-nothing-inspected = Aún no se ha inspeccionado nada
+operator-counts-no-longer = El último resultado ya no cuenta
 operator-hang-and-capture = Colgar una pieza y pulsar Capturar
 operator-capture-current = Pulsar Capturar para la pieza actual
 operator-follow-current = Pulsar En vivo o Capturar para la pieza actual

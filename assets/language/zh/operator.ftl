@@ -20,6 +20,7 @@ operator-save-capture = 将采集保存到文件夹：会自动检测
 operator-nothing-captured = 尚未采集
 operator-ready = 就绪
 operator-nothing-inspected = 尚未检测
+operator-counts-no-longer = 上次判定已失效
 operator-hang-and-capture = 挂上零件，然后按“采集”
 operator-capture-current = 按“采集”检测当前零件
 operator-follow-current = 按“实时”或“采集”检测当前零件

@@ -550,11 +550,15 @@ fn show(state: &mut State, inspected: Arc<Inspected>) -> Event {
         }
         ReinspectionPurpose::New => (false, false),
     };
+    // Inspected again, a frame of Live is no newer than it was.
+    let same_scene =
+        former.filter(|former| !is_past && Arc::ptr_eq(&former.inspected.scene, &inspected.scene));
+    let session = same_scene.and_then(|former| former.session);
     state.session.shown = Some(Shown {
         generation: state.generation,
         inspected: Arc::clone(&inspected),
         is_past,
-        session: None,
+        session,
         is_outdated,
     });
     Event::Inspected { inspected, purpose }

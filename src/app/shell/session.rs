@@ -131,14 +131,26 @@ impl Session {
         unseen.or_else(|| shown.map(|shown| &shown.inspected))
     }
 
+    /// True if Live inspected the latest result and was switched off or has ended since: the line may have gone on, so another
+    /// part may hang there now. Whoever looks at the result still may, so it is not outdated.
+    pub(in crate::app) fn is_after_live(&self) -> bool {
+        let shown = self.shown.as_ref();
+        let is_of_live = shown.is_some_and(|shown| shown.session.is_some());
+        !self.is_live() && (is_of_live || self.live.unseen.is_some())
+    }
+
     /// The latest result while its verdict counts: not while the part moves or is only looked at, nor for a past inspection,
-    /// nor once it is outdated, nor while another inspection runs or after one has failed. In the history it is the newest one.
+    /// nor once it is outdated, nor that of Live once Live is off, nor while another inspection runs or after one has failed. In
+    /// the history it is the newest one.
     pub(in crate::app) fn current_result(&self) -> Option<&Inspected> {
         let inspected = &**self.latest(|shown| !shown.is_past && !shown.is_outdated)?;
-        let has_come = !self.is_live()
-            || self.live.status.as_ref().is_some_and(|status| {
+        let has_come = if self.is_live() {
+            self.live.status.as_ref().is_some_and(|status| {
                 status.source == SourceState::Running && status.num_inspected > 0
-            });
+            })
+        } else {
+            !self.is_after_live()
+        };
         // An empty cell that is followed is not recorded.
         let is_recorded = inspected.followed.is_none()
             || inspected.entry.record.summary.verdict != StoredVerdict::NoPart;
@@ -216,7 +228,7 @@ pub struct Shown {
     pub inspected: Arc<Inspected>,
     /// True if it comes from the history.
     pub is_past: bool,
-    /// The session of following that it belongs to, if it is a frame of a followed source.
+    /// The session of following that it belongs to, if it is a frame of a followed source, also when that was inspected again.
     pub session: Option<u64>,
     /// True once the source was changed, lost, followed anew or captured from: another part may hang there now.
     pub is_outdated: bool,

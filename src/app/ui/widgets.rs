@@ -331,6 +331,36 @@ pub(in crate::app) fn fitted_middle(
     texts.find(fits).unwrap_or_else(|| text.to_owned())
 }
 
+/// Lays out a title in the first of these fonts in which it takes one row, or two for which there is room, without a broken word.
+/// Cuts the middle out of what does not fit even in the last font: titles differ at their end.
+pub(in crate::app) fn title_rows(
+    painter: &Painter,
+    title: &str,
+    fonts: &[FontId],
+    colour: Color32,
+    room: Vec2,
+) -> Arc<Galley> {
+    let laid_out = |text: &str, font: &FontId| wrapped_rows(painter, text, font, colour, room.x);
+    let fits = |rows: &Arc<Galley>| match rows.rows.len() {
+        0 | 1 => true,
+        2 => rows.size().y <= room.y,
+        _ => false,
+    };
+    let keeps_words = |font: &FontId| {
+        let mut words = title.split_whitespace();
+        words.all(|word| text_width(painter, word, font) <= room.x)
+    };
+    let whole = fonts.iter().filter(|font| keeps_words(font));
+    let mut whole = whole.map(|font| laid_out(title, font));
+    if let Some(rows) = whole.find(fits) {
+        return rows;
+    }
+    let smallest = fonts.last().cloned().unwrap_or_else(font::title);
+    let lengths = (2..=title.chars().count()).rev();
+    let mut cut = lengths.map(|most| laid_out(&shortened(title, most), &smallest));
+    cut.find(fits).unwrap_or_else(|| laid_out(title, &smallest))
+}
+
 /// Style of a scroll bar that stays in sight, beside the entries of a menu.
 fn bar_of_menu() -> ScrollStyle {
     ScrollStyle {

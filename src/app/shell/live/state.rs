@@ -879,7 +879,7 @@ mod tests {
             toggle(&mut state);
             assert!(state.follower.task.run_waiting());
             update(&mut state);
-            assert!(state.session.current_result().is_some());
+            assert!(state.session.shown.is_some() && !state.session.is_old());
             apply_any(&mut state, choose);
             // Neither while the source has given nothing, nor when the user gives up waiting for it.
             state.session.live.status = Some(told());
@@ -899,6 +899,44 @@ mod tests {
         apply_any(&mut state, Action::Live(LiveAction::Use(other())));
         apply_any(&mut state, Action::GoTo(WorkspaceKind::Inspect));
         assert!(state.session.shown.is_none());
+    }
+
+    #[test]
+    fn what_live_saw_last_does_not_count_once_live_has_ended_until_the_next_capture() {
+        let mut state = watching();
+        toggle(&mut state);
+        assert!(state.follower.task.run_waiting());
+        update(&mut state);
+        let check = |state: &State| {
+            let session = &state.session;
+            assert!(!session.is_live() && session.shown.is_some());
+            assert!(session.current_result().is_none());
+            // Nothing newer is awaited: the engineer may look at it.
+            assert!(!session.is_old());
+        };
+        check(&state);
+        // With another library, the same frame has no newer verdict.
+        state.inspect_again();
+        assert!(state.inspector.run_waiting());
+        inspector::update(&mut state);
+        check(&state);
+        apply_any(&mut state, Action::UseCell(CellChoice::InTurn));
+        assert!(state.inspector.run_waiting());
+        inspector::update(&mut state);
+        assert!(!state.session.is_live() && state.session.current_result().is_some());
+    }
+
+    #[test]
+    fn a_part_inspected_behind_another_workspace_does_not_count_once_live_has_ended() {
+        let mut state = watching();
+        toggle(&mut state);
+        apply_any(&mut state, Action::GoTo(WorkspaceKind::History));
+        assert!(state.follower.task.run_waiting());
+        update(&mut state);
+        assert!(!state.session.is_live() && state.session.live.unseen.is_some());
+        assert!(state.session.current_result().is_none());
+        apply_any(&mut state, Action::GoTo(WorkspaceKind::Inspect));
+        assert!(state.session.shown.is_some() && state.session.current_result().is_none());
     }
 
     #[test]

@@ -139,32 +139,15 @@ impl Banner {
                 return Self::new(Tone::Trouble, text!("operator-no-parts"), why, ask);
             }
         }
-        // What is shown may be of another source, or from before this one was followed.
-        let shown = session.shown.as_ref().filter(|shown| !shown.is_outdated);
+        // What is shown may be of another source, or from before this one was followed. After Live, the line may have gone on;
+        // a frame without a verdict already says that Live was stopped.
+        let is_after_live = session.is_after_live();
+        let shown = session.shown.as_ref().filter(|shown| {
+            let is_left = is_after_live && !shown.is_past && !shown.inspected.is_open();
+            !shown.is_outdated && !is_left
+        });
         let Some(shown) = shown else {
-            return if session.is_watching() {
-                Self::new(
-                    Tone::Open,
-                    text!("shell-waiting-for-file"),
-                    text!("operator-no-new-file"),
-                    text!("operator-save-capture"),
-                )
-            } else if session.is_live() {
-                Self::new(
-                    Tone::Open,
-                    text!("inspect-looking"),
-                    text!("operator-nothing-captured"),
-                    wait,
-                )
-            } else {
-                let next = text!("operator-hang-and-capture");
-                Self::new(
-                    Tone::Open,
-                    text!("operator-ready"),
-                    text!("operator-nothing-inspected"),
-                    next,
-                )
-            };
+            return Self::without_current(session);
         };
         let inspected = &shown.inspected;
         let result = Self::of_result(inspected, session);
@@ -180,19 +163,45 @@ impl Banner {
             verdict.reason = format!("{} · {serial}", verdict.reason);
         }
         if shown.is_past {
-            let next = match session.source.followed() {
-                Some(_) => text!("operator-follow-current"),
-                None => text!("operator-capture-current"),
-            };
             return Self {
                 tone: Tone::Open,
                 reason: text!("inspect-from-history"),
-                next,
+                next: inspect_current(&session.source),
                 caution: String::new(),
                 ..verdict
             };
         }
         verdict
+    }
+
+    /// The banner while no result counts for the part that hangs there now.
+    fn without_current(session: &Session) -> Self {
+        let [title, reason, next] = if session.is_watching() {
+            [
+                text!("shell-waiting-for-file"),
+                text!("operator-no-new-file"),
+                text!("operator-save-capture"),
+            ]
+        } else if session.is_live() {
+            [
+                text!("inspect-looking"),
+                text!("operator-nothing-captured"),
+                text!("inspect-wait"),
+            ]
+        } else if session.shown.is_some() {
+            [
+                text!("inspect-no-verdict"),
+                text!("operator-counts-no-longer"),
+                inspect_current(&session.source),
+            ]
+        } else {
+            [
+                text!("operator-ready"),
+                text!("operator-nothing-inspected"),
+                text!("operator-hang-and-capture"),
+            ]
+        };
+        Self::new(Tone::Open, title, reason, next)
     }
 
     /// The exact error is for the engineer.
@@ -271,6 +280,14 @@ impl Banner {
                 Self::new(Tone::NotOk, title, sentence(&reason), advice)
             }
         }
+    }
+}
+
+/// Says how the part that hangs there now is inspected.
+fn inspect_current(source: &Source) -> String {
+    match source.followed() {
+        Some(_) => text!("operator-follow-current"),
+        None => text!("operator-capture-current"),
     }
 }
 
@@ -393,6 +410,25 @@ mod tests {
     }
 
     #[test]
+    fn an_acceptance_by_live_does_not_stand_once_live_is_off() {
+        let banner = |is_live: bool, is_past: bool| {
+            let mut session = showing(inspected_cell(CellChoice::InTurn, 1), is_past);
+            session.live.is_on = is_live;
+            session.live.status = is_live.then(|| status(SourceState::Running));
+            if let Some(shown) = &mut session.shown {
+                shown.session = Some(1);
+            }
+            Banner::of(&session)
+        };
+        assert_eq!(banner(true, false).tone, Tone::Ok);
+        let off = banner(false, false);
+        assert_eq!((off.tone, off.is_current), (Tone::Open, false));
+        assert_eq!(off.reason, "The last verdict no longer counts");
+        let past = banner(false, true);
+        assert!(past.reason.starts_with("From the history"), "{past:?}");
+    }
+
+    #[test]
     fn only_a_steady_part_is_shown_with_its_serial_number() {
         let reason = |choice, moves: bool| {
             let mut inspected = inspected_cell(choice, 1);
@@ -418,20 +454,10 @@ mod tests {
                 ..Session::default()
             };
             session.live.is_on = true;
-            session.live.status = Some(LiveStatus {
-                source: SourceState::Lost(UserError {
-                    what: "the folder does not exist".into(),
-                    advice: "Connect the drive".into(),
-                }),
-                stillness: None,
-                standing: LiveVerdict::Open,
-                rates: [None; 2],
-                latency: None,
-                num_inspected: 0,
-                num_dropped: 0,
-                num_averaged: 1,
-                recorded: None,
-            });
+            session.live.status = Some(status(SourceState::Lost(UserError {
+                what: "the folder does not exist".into(),
+                advice: "Connect the drive".into(),
+            })));
             Banner::of(&session)
         };
         let folder = Source::Camera(Box::new("watch:captures".parse().expect("a source")));
@@ -447,6 +473,20 @@ mod tests {
             assert!(banner.next.starts_with(next), "{banner:?}");
             assert!(banner.next.contains("Instandhaltung"), "{banner:?}");
             assert!(!banner.reason.contains("folder"), "{banner:?}");
+        }
+    }
+
+    fn status(source: SourceState) -> LiveStatus {
+        LiveStatus {
+            source,
+            stillness: None,
+            standing: LiveVerdict::Open,
+            rates: [None; 2],
+            latency: None,
+            num_inspected: 0,
+            num_dropped: 0,
+            num_averaged: 1,
+            recorded: None,
         }
     }
 

@@ -197,7 +197,7 @@ pub(super) fn ui(ui: &mut Ui, headline: &Headline) {
 }
 
 /// Returns the first font in which the name fits into `max_lines` without breaking a word, or the last font.
-pub(super) fn fitting_font(ui: &Ui, name: &str, fonts: &[FontId], max_lines: usize) -> FontId {
+fn fitting_font(ui: &Ui, name: &str, fonts: &[FontId], max_lines: usize) -> FontId {
     let (width, colour) = (ui.available_width(), ui.visuals().text_color());
     let fits = |font: &FontId| {
         let size = |text: &str, width: f32| {

@@ -1,21 +1,20 @@
 //! The operator's view: which part, OK or not, and what to do next, legible across the shop.
 
+use std::sync::Arc;
+
 use egui::{
-    Align, CentralPanel, FontId, Frame, Id, Label, Layout, Margin, Panel, RichText, ScrollArea,
-    Sense, Ui, Vec2, style::ScrollStyle, vec2,
+    Align, CentralPanel, FontId, Frame, Galley, Id, Label, Layout, Margin, Panel, RichText, Role,
+    ScrollArea, Sense, Ui, Vec2, WidgetInfo, style::ScrollStyle, vec2,
 };
 
-use super::{
-    banner::{Banner, Tone},
-    headline::fitting_font,
-};
+use super::banner::{Banner, Tone};
 use crate::{
     app::{
         language::{history::recognised_part, results::stored_verdict, text},
         shell::{current_trace, operator_bars::column_width, session::Session},
         ui::{
             theme::{Theme, font, space},
-            widgets::{Mark, fitted_middle, line_mark, mark, wrapped, wrapped_rows},
+            widgets::{Mark, fitted_middle, line_mark, mark, title_rows, wrapped, wrapped_rows},
         },
     },
     history::StoredVerdict,
@@ -23,6 +22,8 @@ use crate::{
 
 /// Height of the banner in a high and in a low window, logical pixels.
 const BANNER: [f32; 2] = [190.0, 156.0];
+/// Space between the name in the banner and the line below it, logical pixels.
+const BELOW_NAME: f32 = 4.0;
 /// Space above and below the column on the right in a high and in a low window, logical pixels.
 const COLUMN_MARGIN: [i8; 2] = [20, 12];
 /// Height of a line of the list of parts, logical pixels.
@@ -95,28 +96,39 @@ fn banner_ui(ui: &mut Ui, banner: &Banner) {
             ui.vertical(|ui| {
                 ui.spacing_mut().item_spacing.y = 0.0;
                 ui.spacing_mut().interact_size.y = 0.0;
-                let row_height = |font: &FontId| ui.ctx().fonts_mut(|fonts| fonts.row_height(font));
+                let word = banner.tone.word();
                 // A long reason takes two lines, so the name gets a smaller font.
-                let is_long = banner.tone.word().is_empty() && banner.reason.chars().count() > LONG;
+                let is_long = word.is_empty() && banner.reason.chars().count() > LONG;
                 let (names, reason_font) = if is_long {
                     (&font::banner_names()[2..], font::far_list())
                 } else {
                     (&font::banner_names()[..], font::banner_reason())
                 };
-                let name = fitting_font(ui, &banner.title, names, 1);
-                let (line, word_line) = (row_height(&name), row_height(&font::banner_word()));
-                ui.add_space(((height - line - word_line - 4.0) / 2.0).max(0.0));
-                let title = RichText::new(&banner.title).font(name);
-                ui.add(Label::new(title).truncate());
-                ui.add_space(4.0);
+                let (painter, width) = (ui.painter(), ui.available_width());
+                let drawn = painter.layout_no_wrap(word.clone(), font::banner_word(), colour);
+                let beside = if word.is_empty() {
+                    0.0
+                } else {
+                    drawn.size().x + ui.spacing().item_spacing.x + space::MEDIUM
+                };
+                let reason = &banner.reason;
+                let rows = wrapped_rows(painter, reason, &reason_font, theme.text, width - beside);
+                // The title gets what the word and the reason leave.
+                let word_font = font::banner_word();
+                let word_line = ui.ctx().fonts_mut(|fonts| fonts.row_height(&word_font));
+                let room = height - word_line.max(rows.size().y) - BELOW_NAME;
+                let text = ui.visuals().text_color();
+                let name = title_rows(painter, &banner.title, names, text, vec2(width, room));
+                ui.add_space(((room - name.size().y) / 2.0).max(0.0));
+                title_label(ui, &banner.title, name);
+                ui.add_space(BELOW_NAME);
                 ui.horizontal(|ui| {
                     ui.set_min_height(word_line);
-                    let word = banner.tone.word();
                     if !word.is_empty() {
                         ui.label(RichText::new(word).font(font::banner_word()).color(colour));
                         ui.add_space(space::MEDIUM);
                     }
-                    wrapped(ui, &banner.reason, &reason_font, theme.text);
+                    wrapped(ui, reason, &reason_font, theme.text);
                 });
             });
         });
@@ -130,6 +142,16 @@ fn banner_ui(ui: &mut Ui, banner: &Banner) {
             Tone::Open | Tone::Trouble => theme.edge,
         },
     );
+}
+
+/// Draws the rows of a title, of which the middle may be cut out; hovering shows all of it.
+fn title_label(ui: &mut Ui, title: &str, rows: Arc<Galley>) {
+    let is_cut = rows.text().replace('\n', "") != title;
+    let label = ui.add(Label::new(rows));
+    label.widget_info(|| WidgetInfo::labeled(Role::Label, ui.is_enabled(), title));
+    if is_cut {
+        label.on_hover_text(title);
+    }
 }
 
 /// Warns that robots are to be answered, but get no pose or no frames.
@@ -310,7 +332,7 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session) {
 
 #[cfg(test)]
 mod tests {
-    use egui::{Color32, Galley, Pos2, RawInput, Rect, Shape};
+    use egui::{Color32, Pos2, RawInput, Rect, Shape};
 
     use super::*;
     use crate::app::{
@@ -359,6 +381,65 @@ mod tests {
         for text in [next, "S-1", "S-2"] {
             assert!(visible.iter().any(|drawn| drawn == text), "{visible:?}");
         }
+    }
+
+    /// The texts of a banner of this size and their numbers of rows. None may be cut off or overlap another.
+    fn in_banner(banner: &Banner, size: Vec2) -> Vec<(String, usize)> {
+        let ctx = egui::Context::default();
+        Theme::install_fonts(&ctx);
+        Theme::install(ThemeChoice::default(), &ctx);
+        let input = RawInput {
+            screen_rect: Some(Rect::from_min_size(Pos2::ZERO, size)),
+            ..RawInput::default()
+        };
+        let output = ctx.run_ui(input, |ui| banner_ui(ui, banner));
+        let mut drawn: Vec<Rect> = Vec::new();
+        let mut texts = Vec::new();
+        for shape in &output.shapes {
+            let Shape::Text(text) = &shape.shape else {
+                continue;
+            };
+            let (rect, words) = (text.visual_bounding_rect(), text.galley.text());
+            assert!(shape.clip_rect.contains_rect(rect), "{words}: {rect:?}");
+            let is_free = drawn.iter().all(|other| !other.intersects(rect));
+            assert!(is_free, "{words}: {rect:?} over {drawn:?}");
+            drawn.push(rect);
+            texts.push((words.to_owned(), text.galley.rows.len()));
+        }
+        output.drop_without_applying_deltas();
+        texts
+    }
+
+    /// The sizes of the banner inside its margins, in windows of 1024 × 768 and 1440 × 900.
+    const BANNERS: [Vec2; 2] = [
+        vec2(1024.0 - 72.0, BANNER[1]),
+        vec2(1440.0 - 72.0, BANNER[0]),
+    ];
+
+    #[test]
+    fn a_long_title_takes_two_rows_of_the_banner_and_keeps_its_end() {
+        let [with, without] = ["with", "without"].map(|word| {
+            format!("Front door, left, {word} mirror hole and side impact sensor, model 2024")
+        });
+        for size in BANNERS {
+            for title in [&with, &without] {
+                let reason = format!("It does not match {title} well enough");
+                let banner = Banner::new(Tone::NotOk, title, reason, "");
+                let texts = in_banner(&banner, size);
+                assert!(texts.contains(&(title.clone(), 2)), "{texts:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn of_a_title_that_is_too_wide_for_two_rows_the_middle_is_cut_out() {
+        let title = format!("A{}Z", "W".repeat(78));
+        let banner = Banner::new(Tone::Ok, title, "Recognised", "");
+        let texts = in_banner(&banner, BANNERS[0]);
+        let is_cut = texts.iter().any(|(text, num_rows)| {
+            *num_rows == 2 && text.starts_with('A') && text.contains('…') && text.ends_with('Z')
+        });
+        assert!(is_cut, "{texts:?}");
     }
 
     const CHINESE: [&str; 2] = [
