@@ -163,7 +163,7 @@ impl PreparedScene<'_> {
         } else {
             FEW_REFINED
         });
-        starts.retain(|start| start.1.cost < least + WORSE_START);
+        starts.retain(|start| start.1.cost < f64::min(least + WORSE_START, most_cost));
         let of_pieces = self.in_parallel(starts.len(), |i| {
             let (number, start) = &starts[i];
             let reference = &references[entries[*number].reference];
