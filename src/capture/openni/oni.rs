@@ -147,6 +147,7 @@ impl Context {
             callbacks: handle,
             handle: ptr::null_mut(),
             stream: ptr::null_mut(),
+            reported: &REPORTED,
             context: self,
         };
         let mut handle = ptr::null_mut();
@@ -226,6 +227,7 @@ pub(super) struct Device {
     handle: *mut c_void,
     /// Null until it is created.
     stream: *mut c_void,
+    reported: &'static Mutex<Reported>,
     context: Context,
 }
 
@@ -317,12 +319,12 @@ impl Device {
 
     /// True once the device was unplugged or reported an error.
     pub(super) fn is_lost(&self) -> bool {
-        lock(&REPORTED).is_lost
+        lock(self.reported).is_lost
     }
 
     /// True once a file has ended. Its last frame may still have to be received.
     pub(super) fn is_at_end(&self) -> bool {
-        lock(&REPORTED).is_at_end
+        lock(self.reported).is_at_end
     }
 }
 
