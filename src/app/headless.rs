@@ -208,7 +208,7 @@ impl HeadlessWindow {
             window.show(ui);
         });
         #[cfg(test)]
-        tests::take_in(self, &output);
+        tests::read_output(self, &output);
         self.submit(output);
     }
 

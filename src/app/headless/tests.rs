@@ -74,7 +74,7 @@ fn another_choice_of_lines_uploads_lines_alone_and_once() {
 }
 
 /// Collects the texts for a screen reader, and notes whether the window asks to be closed.
-pub(super) fn take_in(window: &mut HeadlessWindow, output: &FullOutput) {
+pub(super) fn read_output(window: &mut HeadlessWindow, output: &FullOutput) {
     let commands = output.viewport_output.values().flat_map(|v| &v.commands);
     window.closes |= commands
         .into_iter()

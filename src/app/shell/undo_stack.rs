@@ -3,10 +3,10 @@
 /// Whether a step is undone or redone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UndoDirection {
-    /// Undone.
-    Back,
-    /// Redone.
-    Again,
+    /// It is undone.
+    Undo,
+    /// It is redone.
+    Redo,
 }
 
 /// The steps that can be undone and redone; the latest last. Of more than `LIMIT` steps the oldest are dropped.
@@ -40,8 +40,8 @@ impl<S, const LIMIT: usize> UndoStack<S, LIMIT> {
     /// The list from which the next step in this direction is taken.
     pub fn from(&mut self, way: UndoDirection) -> &mut Vec<S> {
         match way {
-            UndoDirection::Back => &mut self.done,
-            UndoDirection::Again => &mut self.undone,
+            UndoDirection::Undo => &mut self.done,
+            UndoDirection::Redo => &mut self.undone,
         }
     }
 
@@ -49,8 +49,8 @@ impl<S, const LIMIT: usize> UndoStack<S, LIMIT> {
     pub fn add_inverse(&mut self, way: Option<UndoDirection>, inverse: S) {
         match way {
             None => self.push(inverse),
-            Some(UndoDirection::Back) => self.undone.push(inverse),
-            Some(UndoDirection::Again) => self.done.push(inverse),
+            Some(UndoDirection::Undo) => self.undone.push(inverse),
+            Some(UndoDirection::Redo) => self.done.push(inverse),
         }
     }
 }

@@ -168,11 +168,11 @@ impl ShotsState {
             }
             ShotsAction::Undo => {
                 let former = self.steps.done.last().cloned();
-                former.map(|choice| choose(choice, Some(UndoDirection::Back)))
+                former.map(|choice| choose(choice, Some(UndoDirection::Undo)))
             }
             ShotsAction::Redo => {
                 let later = self.steps.undone.last().cloned();
-                later.map(|choice| choose(choice, Some(UndoDirection::Again)))
+                later.map(|choice| choose(choice, Some(UndoDirection::Redo)))
             }
             // The owner of the dialog opens it.
             ShotsAction::Ask(_) => None,

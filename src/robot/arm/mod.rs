@@ -164,13 +164,13 @@ impl Arm {
                 });
             }
             let (speed, sign, offset) = (self.speeds[i], self.signs[i], self.offsets[i]);
-            // Where none is known, any allowed one.
-            let acceleration = self.accelerations.map_or(1.0, |limits| limits[i]);
-            let is_fast = speed > 0.0 && speed < 100.0;
-            let accelerates = acceleration > 0.0 && acceleration < 10_000.0;
+            let acceleration = self.accelerations.map(|limits| limits[i]);
+            let is_speed = speed > 0.0 && speed < 100.0;
+            let is_acceleration = acceleration.is_none_or(|a| a > 0.0 && a < 10_000.0);
+            let acceleration = acceleration.unwrap_or_default();
             for (is_allowed, what, value) in [
-                (is_fast, "speed", speed.to_degrees()),
-                (accelerates, "acceleration", acceleration.to_degrees()),
+                (is_speed, "speed", speed.to_degrees()),
+                (is_acceleration, "acceleration", acceleration.to_degrees()),
                 (sign.abs() == 1, "sign", f64::from(sign)),
                 // The solver panics beyond a whole turn.
                 (offset.abs() <= TAU, "offset", offset.to_degrees()),

@@ -264,14 +264,14 @@ fn every_line_of_an_export_reads_back_to_the_nozzle_in_the_robots_frame() {
         );
         let num = convention.names().len();
         let json: serde_json::Value = serde_json::from_str(&export.json()).expect("JSON");
-        for (i, (line, point)) in lines.zip(&carried.points).enumerate() {
+        for (i, (line, taught)) in lines.zip(path().points()).enumerate() {
             let cells: Vec<&str> = line.split(',').collect();
             assert_eq!(cells.len(), num + 6, "{line}");
             assert_eq!(cells[0], (i + 1).to_string());
             assert_eq!(cells[num + 3..], ["inside", "1", ""]);
             let text = format!("{} {}", convention.name(), cells[1..=num].join(" "));
             let read = parse_written_pose(&text).expect("a pose").pose;
-            let expected = frame.robot_from_camera * point.camera_from_nozzle;
+            let expected = frame.robot_from_camera * pose * tool_frame(taught);
             assert!(
                 (read.translation.vector - expected.translation.vector).norm() < 2e-6,
                 "{line}"

@@ -234,8 +234,8 @@ impl EnrolState {
                 }
             }
             EnrolAction::Undo => self.undo(cx),
-            EnrolAction::UndoChange => self.apply_step(UndoDirection::Back, cx),
-            EnrolAction::Redo => self.apply_step(UndoDirection::Again, cx),
+            EnrolAction::UndoChange => self.apply_step(UndoDirection::Undo, cx),
+            EnrolAction::Redo => self.apply_step(UndoDirection::Redo, cx),
             EnrolAction::Open(name) => self.look_at(name, library),
             EnrolAction::Close => self.open = None,
             EnrolAction::WriteOpen(field) => {

@@ -200,16 +200,16 @@ impl EnrolState {
                 step.what.clone_from(&what);
                 Notice::undoable(what.whole)
             }
-            Some(UndoDirection::Back) => {
+            Some(UndoDirection::Undo) => {
                 Notice::done(text!("enrol-undone", what = &step.what.brief))
             }
-            Some(UndoDirection::Again) => Notice::undoable(step.what.whole.clone()),
+            Some(UndoDirection::Redo) => Notice::undoable(step.what.whole.clone()),
         };
         let mut saved = None;
         if let DraftEffect::MakesWay(other) = &mut step.draft {
             let coming = other.take();
             let going = self.draft.take().map(Box::new);
-            let kept = going.as_ref().filter(|_| way != Some(UndoDirection::Back));
+            let kept = going.as_ref().filter(|_| way != Some(UndoDirection::Undo));
             self.saved_from = kept.and_then(|draft| SavedMatter::of(draft));
             if way.is_none() {
                 let newest = going.as_deref();
@@ -295,7 +295,7 @@ impl EnrolState {
         if let Some(place) = self.next_undo() {
             let step = self.steps.done.remove(place);
             self.steps.done.push(step);
-            self.apply_step(UndoDirection::Back, cx);
+            self.apply_step(UndoDirection::Undo, cx);
         }
     }
 

@@ -143,8 +143,8 @@ impl Banner {
         // a frame without a verdict already says that Live was stopped.
         let is_after_live = session.is_after_live();
         let shown = session.shown.as_ref().filter(|shown| {
-            let is_left = is_after_live && !shown.is_past && !shown.inspected.is_open();
-            !shown.is_outdated && !is_left
+            let is_of_live = is_after_live && !shown.is_past && !shown.inspected.is_open();
+            !shown.is_outdated && !is_of_live
         });
         let Some(shown) = shown else {
             return Self::without_current(session);

@@ -260,8 +260,8 @@ impl PaintState {
                 design.regions.clear();
                 design.edits.clear();
             }),
-            PaintAction::Undo => self.step(UndoDirection::Back, cx),
-            PaintAction::Redo => self.step(UndoDirection::Again, cx),
+            PaintAction::Undo => self.step(UndoDirection::Undo, cx),
+            PaintAction::Redo => self.step(UndoDirection::Redo, cx),
             PaintAction::Propose => {
                 self.shown_path = ShownPath::Planned;
                 self.plan(true, cx);
