@@ -354,7 +354,7 @@ fn in_enrol(harness: &mut WindowHarness, action: EnrolAction) {
 }
 
 /// Whatever the arm; leaves the stored path as it was.
-fn no_program_is_written_for_a_path_off_the_part(
+fn an_export_of_a_path_off_the_part_warns_and_no_program_is_written(
     harness: &mut WindowHarness,
     folder: &Path,
     program: &Path,
@@ -372,6 +372,10 @@ fn no_program_is_written_for_a_path_off_the_part(
     choose_in_inspect(harness, InspectFile::SprayPath, program.to_owned());
     assert!(!program.exists());
     harness.get_by_label_contains("No program was written: the spray path does not aim");
+    let export = folder.join("far_in_base.csv");
+    choose_in_inspect(harness, InspectFile::SprayPath, export.clone());
+    assert!(export.exists());
+    harness.get_by_label_contains("but the spray path does not aim at the part");
     in_enrol(harness, EnrolAction::Undo);
 }
 
@@ -475,7 +479,11 @@ fn a_spray_path_is_stored_carried_shown_and_exported() {
     assert!(!program.exists());
     harness.get_by_label_contains("No program was written: KUKA KR 6 R900-2 misses");
 
-    no_program_is_written_for_a_path_off_the_part(&mut harness, folder.path(), &program);
+    an_export_of_a_path_off_the_part_warns_and_no_program_is_written(
+        &mut harness,
+        folder.path(),
+        &program,
+    );
 
     // Undo works as for any change of the library.
     in_enrol(&mut harness, EnrolAction::Undo);

@@ -199,6 +199,7 @@ inspect-picture-saved = Bild gespeichert: { $path }
 inspect-no-spray-path = Für das Angezeigte gibt es keine Lackierbahn
 inspect-no-spray-path-advice = Eine beim Teil speichern und ein Teil aufnehmen, das akzeptiert wird
 inspect-path-written = { $path } geschrieben: { $inside } von { $num } geprüften Punkten im Band, als { $convention }
+inspect-path-written-off-part = { $path } geschrieben, aber die Lackierbahn zielt nicht auf das Teil (nur bei { $aiming } von { $all } Punkten mit eingeschalteter Pistole)
 inspect-report-written = { $files }, die Bilder der Stufen und eine Zeile von { $table } in { $folder } geschrieben
 inspect-report-set-aside = { $files }, die Bilder der Stufen und eine Zeile von { $table } in { $folder } geschrieben; die letzte Zeile war unvollständig und liegt jetzt in { $aside }
 inspect-watching-folder = Ordner wird überwacht

@@ -199,6 +199,7 @@ inspect-picture-saved = Saved the picture { $path }
 inspect-no-spray-path = There is no spray path for the inspection in front
 inspect-no-spray-path-advice = Store one with the part, and capture a part that is accepted
 inspect-path-written = Wrote { $path }: { $inside } of { $num } checked points within the band, as { $convention }
+inspect-path-written-off-part = Wrote { $path }, but the spray path does not aim at the part (only { $aiming } of { $all } points with the gun on)
 inspect-report-written = Wrote { $files }, the pictures of its stages and a row of { $table } to { $folder }
 inspect-report-set-aside = Wrote { $files }, the pictures of its stages and a row of { $table } to { $folder }; its last row was incomplete and was set aside in { $aside }
 inspect-watching-folder = Watching a folder

@@ -199,6 +199,7 @@ inspect-picture-saved = Imagen guardada: { $path }
 inspect-no-spray-path = No hay trayectoria de pintura para lo que se muestra
 inspect-no-spray-path-advice = Guardar una con la pieza y capturar una pieza que se acepte
 inspect-path-written = { $path } escrito: { $inside } de { $num } puntos comprobados en la banda, como { $convention }
+inspect-path-written-off-part = { $path } escrito, pero la trayectoria no apunta a la pieza (solo { $aiming } de { $all } puntos con la pistola abierta)
 inspect-report-written = Escritos { $files }, las imágenes de sus etapas y una fila de { $table } en { $folder }
 inspect-report-set-aside = Escritos { $files }, las imágenes de sus etapas y una fila de { $table } en { $folder }; su última fila estaba incompleta y se apartó en { $aside }
 inspect-watching-folder = Vigilando una carpeta

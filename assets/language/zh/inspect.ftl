@@ -192,6 +192,7 @@ inspect-picture-saved = 已保存图片 { $path }
 inspect-no-spray-path = 当前显示的零件没有喷涂轨迹
 inspect-no-spray-path-advice = 为零件存储轨迹，并采集可被接受的零件
 inspect-path-written = 已写入 { $path }：{ $num } 点中 { $inside } 点在合格范围内，格式 { $convention }
+inspect-path-written-off-part = 已写入 { $path }，但喷涂轨迹未对准零件（喷枪打开的 { $all } 个点中只有 { $aiming } 个对准）
 inspect-report-written = 已将 { $files }、各步骤图片和 { $table } 中的一行写入 { $folder }
 inspect-report-set-aside = 已将 { $files }、各步骤图片和 { $table } 中的一行写入 { $folder }；其最后一行不完整，已移至 { $aside }
 inspect-watching-folder = 正在监视文件夹

@@ -119,6 +119,14 @@ pub(in crate::app) fn spray_path(
         at: inspected.at,
     };
     export.save(path).map_err(|error| UserError::of(&error))?;
+    if let Some(off) = inspected.off_the_part {
+        return Ok(text!(
+            "inspect-path-written-off-part",
+            path = path.display().to_string(),
+            aiming = off.num_aiming,
+            all = off.num_spraying
+        ));
+    }
     Ok(text!(
         "inspect-path-written",
         path = path.display().to_string(),

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use egui::{
-    Align, CentralPanel, FontId, Frame, Galley, Id, Label, Layout, Margin, Panel, RichText, Role,
-    ScrollArea, Sense, Ui, Vec2, WidgetInfo, style::ScrollStyle, vec2,
+    Align, CentralPanel, Color32, FontId, Frame, Galley, Id, Label, Layout, Margin, Panel,
+    RichText, Role, ScrollArea, Sense, Ui, Vec2, WidgetInfo, style::ScrollStyle, vec2,
 };
 
 use super::banner::{Banner, Tone};
@@ -301,8 +301,7 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session) {
                     let at = RichText::new(at).font(font::far_list());
                     ui.label(at.weak());
                     ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                        let name = RichText::new(name).font(font::far_list()).color(colour);
-                        ui.add(Label::new(name).truncate());
+                        fitted_label(ui, &name, font::far_list(), colour);
                     });
                 });
                 from
@@ -315,12 +314,7 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session) {
                 let drawn = ui.horizontal(|ui| {
                     ui.set_min_height(line_below);
                     ui.add_space(line.inner - ui.cursor().left());
-                    let fitted = fitted_middle(ui.painter(), &text, &font, ui.available_width());
-                    let is_cut = fitted != text;
-                    let label = ui.label(RichText::new(fitted).font(font));
-                    if is_cut {
-                        label.on_hover_text(text);
-                    }
+                    fitted_label(ui, &text, font, theme.text);
                 });
                 rect = rect.union(drawn.response.rect);
             }
@@ -330,9 +324,19 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session) {
     });
 }
 
+/// A text whose middle is cut out if there is no room for it; hovering then shows all of it.
+fn fitted_label(ui: &mut Ui, text: &str, font: FontId, colour: Color32) {
+    let fitted = fitted_middle(ui.painter(), text, &font, ui.available_width());
+    let is_cut = fitted != text;
+    let label = ui.label(RichText::new(fitted).font(font).color(colour));
+    if is_cut {
+        label.on_hover_text(text);
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use egui::{Color32, Pos2, RawInput, Rect, Shape};
+    use egui::{Pos2, RawInput, Rect, Shape};
 
     use super::*;
     use crate::app::{
@@ -342,12 +346,13 @@ mod tests {
     };
 
     #[test]
-    fn two_of_the_last_parts_stay_visible_below_a_long_advice() {
+    fn two_of_the_last_parts_stay_visible_with_the_ends_of_their_titles_below_a_long_advice() {
         let mut session = Session::default();
         session.shift.since = Some(jiff::Zoned::now());
         for serial in ["S-1", "S-2"] {
             let mut row = inspected_cell(CellChoice::InTurn, 1).entry.record.summary;
             row.trace.serial = serial.into();
+            row.title = format!("Vordertür links mit Aussparung für die Zierleiste {serial}");
             session.shift.last.push(row);
         }
         let next = "Die Sichtseite zur Kamera drehen\nDie nächste Datei wird automatisch geprüft\n\
@@ -380,6 +385,13 @@ mod tests {
         }
         for text in [next, "S-1", "S-2"] {
             assert!(visible.iter().any(|drawn| drawn == text), "{visible:?}");
+        }
+        // Titles that are alike up to their end are told apart.
+        for end in ["leiste S-1", "leiste S-2"] {
+            assert!(
+                visible.iter().any(|drawn| drawn.ends_with(end)),
+                "{visible:?}"
+            );
         }
     }
 
@@ -442,7 +454,8 @@ mod tests {
         assert!(is_cut, "{texts:?}");
     }
 
-    const CHINESE: [&str; 2] = [
+    const CHINESE: [&str; 3] = [
+        include_str!("../../../../assets/language/zh/inspect.ftl"),
         include_str!("../../../../assets/language/zh/operator.ftl"),
         include_str!("../../../../assets/language/zh/results.ftl"),
     ];

@@ -132,7 +132,9 @@ impl Pictures<'_> {
             self.theme.weak_text.gamma_multiply(0.6)
         } else if self.inspected.is_open() {
             self.theme.warning
-        } else if self.inspected.inspection.verdict.is_accepted() {
+        } else if self.inspected.inspection.verdict.is_accepted()
+            && self.session.shift.reported_as(self.inspected).is_none()
+        {
             self.theme.accepted
         } else {
             self.theme.rejected
@@ -161,6 +163,7 @@ mod tests {
             ui::theme::Theme,
             workspaces::inspect::InspectState,
         },
+        library::Truth,
         pipeline::{
             Rejection, Verdict,
             live::{LiveVerdict, MotionState},
@@ -171,12 +174,12 @@ mod tests {
     fn the_bar_of_the_best_part_is_red_only_once_a_verdict_counts() {
         let theme = Theme::of(&egui::Context::default());
         let state = InspectState::new(&TaskRunner::without_threads());
-        let session = Session::default();
-        let fill = |inspected: &Inspected| {
+        let mut session = Session::default();
+        let fill = |inspected: &Inspected, session: &Session| {
             let pictures = Pictures {
                 inspected,
                 state: &state,
-                session: &session,
+                session,
                 theme,
                 segmentation: None,
                 binary: None,
@@ -184,15 +187,18 @@ mod tests {
             pictures.bar_fill(0)
         };
         let mut inspected = inspected_cell(CellChoice::InTurn, 1);
-        assert_eq!(fill(&inspected), theme.accepted);
+        assert_eq!(fill(&inspected, &session), theme.accepted);
+        session.shift.labelled = Some((inspected.hung().clone(), Truth::NotEnrolled));
+        assert_eq!(fill(&inspected, &session), theme.rejected);
+        session.shift.labelled = None;
         if let Verdict::Part { rejected, part, .. } = &mut inspected.inspection.verdict {
             *rejected = Some(Rejection::NotSteady { part: part.clone() });
         }
-        assert_eq!(fill(&inspected), theme.rejected);
+        assert_eq!(fill(&inspected, &session), theme.rejected);
         inspected.followed = Some(LiveFrameContext {
             stillness: MotionState::Moving,
             standing: LiveVerdict::Open,
         });
-        assert_eq!(fill(&inspected), theme.warning);
+        assert_eq!(fill(&inspected, &session), theme.warning);
     }
 }
