@@ -72,25 +72,34 @@ impl ReferenceBorder {
     /// which the surface ends or turns away in any view from the same side.
     pub fn new(all: &[BorderPoint], outlines: &[Point3<f32>]) -> Self {
         let points: Vec<BorderPoint> = sample_evenly(all, NUM_POINTS).copied().collect();
-        let mut pairs = Vec::with_capacity(points.len() * points.len());
+        let num = points.len();
+        let mut framed = vec![None; num * num];
         for (i, a) in points.iter().enumerate() {
-            for (j, b) in points.iter().enumerate().filter(|(j, _)| *j != i) {
-                pairs.extend(ReferencePair::of([a, b], [i as u16, j as u16]));
+            for (j, b) in points.iter().enumerate().skip(i + 1) {
+                let pair = ReferencePair::of([a, b], [i as u16, j as u16]);
+                framed[i * num + j] = pair;
+                framed[j * num + i] = pair.map(ReferencePair::reversed);
             }
         }
-        let bin = |ReferencePair { pair, .. }: &ReferencePair| {
-            let first =
-                distance_bin(pair.distance) * NUM_ANGLES + angle_bin(pair.angles[0], NUM_ANGLES);
-            first * NUM_ANGLES + angle_bin(pair.angles[1], NUM_ANGLES)
-        };
-        pairs.sort_by_cached_key(bin);
         let num_bins = (distance_bin(FARTHEST) + 1) * NUM_ANGLES * NUM_ANGLES;
         let mut bins = vec![0; num_bins + 1];
-        for pair in &pairs {
-            bins[bin(pair) + 1] += 1;
-        }
+        let framed: Vec<(usize, ReferencePair)> = framed
+            .into_iter()
+            .flatten()
+            .map(|pair| {
+                let bin = pair.pair.bin();
+                bins[bin + 1] += 1;
+                (bin, pair)
+            })
+            .collect();
         for number in 0..num_bins {
             bins[number + 1] += bins[number];
+        }
+        let mut pairs: Vec<ReferencePair> = framed.iter().map(|(_, pair)| *pair).collect();
+        let mut next = bins.clone();
+        for (bin, pair) in framed {
+            pairs[next[bin] as usize] = pair;
+            next[bin] += 1;
         }
         Self {
             points,
@@ -175,6 +184,12 @@ impl BorderPair {
         })
     }
 
+    /// Number of the bin of its distance and angles.
+    fn bin(&self) -> usize {
+        let [here, there] = self.angles.map(|angle| angle_bin(angle, NUM_ANGLES));
+        (distance_bin(self.distance) * NUM_ANGLES + here) * NUM_ANGLES + there
+    }
+
     /// Returns the unit vector from the first point to the second.
     fn along(&self, [a, b]: [&BorderPoint; 2]) -> Vector3<f32> {
         (b.at - a.at) / self.distance
@@ -195,6 +210,13 @@ impl ReferencePair {
         let pair = BorderPair::of(ends, of)?;
         let across = across(ends, &pair.along(ends))?;
         Some(Self { pair, across })
+    }
+
+    /// Returns the pair with its ends swapped, bit-identical to one created that way.
+    fn reversed(mut self) -> Self {
+        self.pair.angles.reverse();
+        self.pair.of.reverse();
+        self
     }
 
     /// Returns the middle and axes, bit-identical to [`frame_of`]; `ends` are the points of the pair.
