@@ -16,6 +16,23 @@ impl Grid {
     pub fn num_cells(self) -> usize {
         self.width * self.height
     }
+
+    /// Splits ascending indices of cells by row; gives each row's number, its first index and its share of the indices. A
+    /// division for every index would take most of the time.
+    pub(crate) fn by_row(
+        self,
+        mut indices: &[u32],
+    ) -> impl Iterator<Item = (usize, usize, &[u32])> {
+        std::iter::from_fn(move || {
+            let row = *indices.first()? as usize / self.width;
+            let start = row * self.width;
+            let most = self.width.min(indices.len());
+            let is_in_row = |i: &u32| (*i as usize) < start + self.width;
+            let (of_row, others) = indices.split_at(indices[..most].partition_point(is_in_row));
+            indices = others;
+            Some((row, start, of_row))
+        })
+    }
 }
 
 /// Points in metres. The owner of the cloud states their space (camera or part).
@@ -83,4 +100,26 @@ impl PointCloud {
 /// True when all three coordinates are finite.
 pub fn is_finite(point: &Point3<f32>) -> bool {
     point.x.is_finite() && point.y.is_finite() && point.z.is_finite()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ascending_indices_are_split_at_the_ends_of_rows() {
+        let grid = Grid {
+            width: 7,
+            height: 9,
+        };
+        let indices: Vec<u32> = (3..60).filter(|i| i % 7 != 2 && i / 14 != 1).collect();
+        let mut joined: Vec<u32> = Vec::new();
+        for (row, start, of_row) in grid.by_row(&indices) {
+            assert!(!of_row.is_empty());
+            assert!(of_row.iter().all(|i| *i as usize / 7 == row) && start == 7 * row);
+            joined.extend(of_row);
+        }
+        assert_eq!(joined, indices);
+        assert_eq!(grid.by_row(&[]).count(), 0);
+    }
 }

@@ -85,6 +85,29 @@ impl FieldOfView {
         }
     }
 
+    /// Returns the field of view of the picture with its rows reversed.
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        let width = self.grid.width as u32;
+        let turned = |rows: &[[u32; 2]]| -> Vec<[u32; 2]> {
+            let turned = |&[first, last]: &[u32; 2]| {
+                if first > last {
+                    OUTSIDE
+                } else {
+                    [width - 1 - last, width - 1 - first]
+                }
+            };
+            rows.iter().map(turned).collect()
+        };
+        let [across, down] = &self.ends;
+        Self {
+            grid: self.grid,
+            rows: turned(&self.rows),
+            ends: [turned(across), down.iter().rev().copied().collect()],
+            is_inner: self.is_inner,
+        }
+    }
+
     /// Returns true if it is smaller than the picture.
     pub fn is_inner(&self) -> bool {
         self.is_inner
@@ -348,6 +371,20 @@ mod tests {
         let known = FieldOfView::of(GRID, dark, Some(&empty));
         assert!(known.is_inner() && known.contains(30, 60) && !known.contains(10, 60));
         assert!(!alone.is_inner());
+    }
+
+    #[test]
+    fn a_mirrored_view_is_that_of_the_mirrored_picture_and_keeps_what_is_known() {
+        let turned = |i: usize| i / GRID.width * GRID.width + GRID.width - 1 - i % GRID.width;
+        let view = FieldOfView::of(GRID, is_inside, None);
+        let of_mirrored = FieldOfView::of(GRID, |i| is_inside(turned(i)), None);
+        assert!(view != of_mirrored && view.is_inner());
+        assert_eq!(view.mirrored(), of_mirrored);
+        let mut dark = scene(|i| is_inside(i) && i % GRID.width > 60);
+        dark.set_known_view(Some(Arc::new(view)));
+        let mirrored = dark.mirrored();
+        let seen = mirrored.field_of_view().expect("a picture");
+        assert!(seen.is_inner() && seen.contains(129, 60) && !seen.contains(149, 60));
     }
 
     fn scene(is_reading: impl Fn(usize) -> bool) -> SceneCloud {

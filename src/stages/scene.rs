@@ -110,9 +110,11 @@ impl SceneCloud {
             ..PointCloud::default()
         };
         let intrinsics = self.intrinsics.map(Intrinsics::mirrored);
+        let view = self.field_of_view();
         // The empty cell is only used before the part is found.
         Self {
             edge: self.edge,
+            field_of_view: view.map_or_else(OnceLock::new, |view| view.mirrored().into()),
             ..Self::new(cloud, intrinsics)
         }
     }

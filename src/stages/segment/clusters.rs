@@ -383,9 +383,14 @@ pub(super) fn touches_edge(scene: &SceneCloud, indices: &[u32]) -> bool {
     // A few stray pixels at the edge do not count.
     const LEAST: usize = 10;
     let view = scene.cloud.grid.zip(scene.field_of_view());
-    view.is_some_and(|(Grid { width, .. }, view)| {
-        let is_at_edge =
-            |i: &&u32| view.ends_at(**i as usize % width, **i as usize / width, MARGIN);
-        indices.iter().filter(is_at_edge).nth(LEAST - 1).is_some()
+    view.is_some_and(|(grid, view)| {
+        let mut num = 0;
+        grid.by_row(indices).any(|(row, start, of_row)| {
+            let columns = of_row.iter().map(|i| *i as usize - start);
+            num += columns
+                .filter(|column| view.ends_at(*column, row, MARGIN))
+                .count();
+            num >= LEAST
+        })
     })
 }

@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     geometry::{
-        cloud::{Grid, PointCloud, is_finite},
+        cloud::{PointCloud, is_finite},
         plane::Plane,
         principal::principal_axes,
     },
@@ -114,14 +114,17 @@ impl SegmentedPart {
     /// Returns the same part in the mirrored scene.
     #[must_use]
     pub fn mirrored(&self, mirrored_scene: &SceneCloud) -> Self {
-        let mut indices = self.indices.clone();
-        if let Some(Grid { width, .. }) = mirrored_scene.cloud.grid {
-            for i in &mut indices {
-                let (row, column) = (*i as usize / width, *i as usize % width);
-                *i = (row * width + width - 1 - column) as u32;
+        let indices = match mirrored_scene.cloud.grid {
+            Some(grid) => {
+                let mut indices = Vec::with_capacity(self.indices.len());
+                for (_, start, of_row) in grid.by_row(&self.indices) {
+                    let ends = (2 * start + grid.width - 1) as u32;
+                    indices.extend(of_row.iter().rev().map(|i| ends - i));
+                }
+                indices
             }
-            indices.sort_unstable();
-        }
+            None => self.indices.clone(),
+        };
         Self::of(
             &mirrored_scene.cloud,
             indices,
@@ -248,7 +251,8 @@ const LEAST_ON_BARS: f64 = 0.05;
 pub fn without_bars(scene: &SceneCloud, part: &SegmentedPart, bars: Bars) -> Option<SegmentedPart> {
     let mut members = part.indices.clone();
     members.extend(&part.stand);
-    members.sort_unstable();
+    // Two ascending runs, which the stable sort merges.
+    members.sort();
     let least = part.indices.len() as f64 * LEAST_ON_BARS;
     let bare = SegmentedPart::of_surface(scene, members, part.surface?, part.noise_at_1m, bars);
     let num_taken = part.indices.len() as f64 - bare.indices.len() as f64;

@@ -60,9 +60,14 @@ pub(super) fn remove_stand(
         return (surface, Vec::new());
     };
     let mask = mask.expect("what has a stand has a mask");
-    surface
-        .into_iter()
-        .partition(|i| !stand[mask.cell_of(*i as usize)])
+    let (mut part, mut off) = (Vec::with_capacity(surface.len()), Vec::new());
+    for (row, start, pixels) in mask.grid.by_row(&surface) {
+        for &i in pixels {
+            let is_off = stand[mask.cell_at(i as usize - start, row)];
+            if is_off { &mut off } else { &mut part }.push(i);
+        }
+    }
+    (part, off)
 }
 
 /// A surface in cells of a few pixels, with a margin around it.
@@ -86,20 +91,19 @@ const MARGIN: usize = 4;
 
 impl Mask {
     fn of(scene: &SceneCloud, grid: Grid, camera: Intrinsics, surface: &[u32]) -> Option<Self> {
-        let cell = |i: u32| {
-            [
-                i as usize % grid.width / CELL,
-                i as usize / grid.width / CELL,
-            ]
-        };
         let (mut low, mut high) = ([usize::MAX; 2], [0; 2]);
         let mut sum = 0.0_f64;
-        for &i in surface {
-            for (axis, at) in cell(i).into_iter().enumerate() {
-                low[axis] = low[axis].min(at);
-                high[axis] = high[axis].max(at);
+        for (row, start, pixels) in grid.by_row(surface) {
+            let ends = [pixels[0], pixels[pixels.len() - 1]];
+            for column in ends.map(|i| i as usize - start) {
+                for (axis, at) in [column / CELL, row / CELL].into_iter().enumerate() {
+                    low[axis] = low[axis].min(at);
+                    high[axis] = high[axis].max(at);
+                }
             }
-            sum += f64::from(scene.cloud.points[i as usize].z);
+            for &i in pixels {
+                sum += f64::from(scene.cloud.points[i as usize].z);
+            }
         }
         let mean = (sum / surface.len() as f64) as f32;
         // Give up if half a tube's width is less than a cell.
@@ -120,10 +124,12 @@ impl Mask {
             is_beyond: vec![false; num],
             depth: vec![mean; num],
         };
-        for &i in surface {
-            let at = mask.cell_of(i as usize);
-            mask.is_set[at] = true;
-            mask.depth[at] = scene.cloud.points[i as usize].z;
+        for (row, start, pixels) in grid.by_row(surface) {
+            for &i in pixels {
+                let at = mask.cell_at(i as usize - start, row);
+                mask.is_set[at] = true;
+                mask.depth[at] = scene.cloud.points[i as usize].z;
+            }
         }
         if let Some(view) = scene.field_of_view() {
             mask.mark_beyond(view);
@@ -139,8 +145,7 @@ impl Mask {
         }
     }
 
-    fn cell_of(&self, pixel: usize) -> usize {
-        let (u, v) = (pixel % self.grid.width, pixel / self.grid.width);
+    fn cell_at(&self, u: usize, v: usize) -> usize {
         (v / CELL - self.first[1]) * self.width + u / CELL - self.first[0]
     }
 
@@ -288,8 +293,9 @@ impl Mask {
             .collect()
     }
 
-    fn neighbours(&self, cell: usize) -> impl Iterator<Item = usize> + use<> {
-        let (width, num) = (self.width as i64, self.is_set.len() as i64);
+    /// The way to each neighbour of a cell.
+    fn steps(&self) -> [isize; 8] {
+        let width = self.width as isize;
         [
             -width - 1,
             -width,
@@ -300,14 +306,18 @@ impl Mask {
             width,
             width + 1,
         ]
-        .into_iter()
-        .map(move |step| cell as i64 + step)
-        .filter(move |beside| (0..num).contains(beside))
-        .map(|beside| beside as usize)
+    }
+
+    fn neighbours(&self, cell: usize) -> impl Iterator<Item = usize> + use<> {
+        let num = self.is_set.len();
+        let beside = self.steps().into_iter();
+        let beside = beside.filter_map(move |step| cell.checked_add_signed(step));
+        beside.filter(move |beside| *beside < num)
     }
 
     /// Returns the connected components of a set of cells.
     fn components(&self, cells: &[bool]) -> Vec<Vec<usize>> {
+        let steps = self.steps();
         let mut left = cells.to_vec();
         let mut pieces = Vec::new();
         for start in 0..left.len() {
@@ -316,8 +326,13 @@ impl Mask {
                 let mut at = 0;
                 while let Some(&cell) = piece.get(at) {
                     at += 1;
-                    let beside = self.neighbours(cell);
-                    piece.extend(beside.filter(|beside| std::mem::take(&mut left[*beside])));
+                    for step in steps {
+                        // What wraps around lies beyond the last cell, too.
+                        let beside = cell.wrapping_add_signed(step);
+                        if left.get_mut(beside).is_some_and(std::mem::take) {
+                            piece.push(beside);
+                        }
+                    }
                 }
                 pieces.push(piece);
             }
