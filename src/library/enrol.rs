@@ -150,7 +150,7 @@ fn enrol_chosen(
     Ok(enrolled)
 }
 
-/// Enrols the points of a captured scene that a person selected, by their ascending indices.
+/// Enrols the points of a captured scene that a person selected, by their indices.
 pub fn enrol_selected(
     scene: &SceneCloud,
     indices: &[u32],

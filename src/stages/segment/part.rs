@@ -96,13 +96,15 @@ impl SegmentedPart {
         Self::of(cloud, indices, SegmentParams::default().noise_at_1m, false)
     }
 
-    /// Selects the readings of a scene at the given indices, which must be ascending.
+    /// Selects the readings of a scene at the given indices, in any order.
     pub fn selected(scene: &SceneCloud, indices: &[u32], params: &SegmentParams) -> Self {
         let is_reading = |i: &u32| {
             let point = scene.cloud.points.get(*i as usize);
             point.is_some_and(is_finite)
         };
-        let indices: Vec<u32> = indices.iter().copied().filter(is_reading).collect();
+        let mut indices: Vec<u32> = indices.iter().copied().filter(is_reading).collect();
+        indices.sort_unstable();
+        indices.dedup();
         let noise = noise_of_picture(scene).unwrap_or(params.noise_at_1m);
         let surface = clusters::figures_of(scene, &indices, noise, params);
         Self {
@@ -251,7 +253,10 @@ const LEAST_ON_BARS: f64 = 0.05;
 pub fn without_bars(scene: &SceneCloud, part: &SegmentedPart, bars: Bars) -> Option<SegmentedPart> {
     let mut members = part.indices.clone();
     members.extend(&part.stand);
-    // Two ascending runs, which the stable sort merges.
+    #[expect(
+        clippy::stable_sort_primitive,
+        reason = "the stable sort merges two ascending runs"
+    )]
     members.sort();
     let least = part.indices.len() as f64 * LEAST_ON_BARS;
     let bare = SegmentedPart::of_surface(scene, members, part.surface?, part.noise_at_1m, bars);

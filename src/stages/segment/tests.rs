@@ -148,6 +148,19 @@ fn turning_the_camera_upright_changes_nothing_that_matters() {
 }
 
 #[test]
+fn points_are_selected_in_any_order_and_each_once() {
+    let frame = frame(&CellSetup::with_part(PartKind::Grille, Side::Left, 0, 3));
+    let scene = scene_from_frame(&frame.frame);
+    let params = SegmentParams::default();
+    let part = segment(&scene, &params).part.expect("a part");
+    let kept = SegmentedPart::selected(&scene, &part.indices, &params);
+    let mut anyhow: Vec<u32> = part.indices.iter().rev().copied().collect();
+    anyhow.extend(&part.indices[..100]);
+    assert_eq!(SegmentedPart::selected(&scene, &anyhow, &params), kept);
+    assert_eq!(kept.indices, part.indices);
+}
+
+#[test]
 fn the_same_scene_gives_the_same_segmentation() {
     let frame = frame(&CellSetup::with_part(PartKind::Fender, Side::Left, 0, 5));
     assert_eq!(segmented(&frame), segmented(&frame));
