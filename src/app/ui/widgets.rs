@@ -325,10 +325,16 @@ pub(in crate::app) fn fitted_middle(
     font: &FontId,
     room: f32,
 ) -> String {
-    let fits = |text: &String| text_width(painter, text, font) <= room;
-    let lengths = (2..=text.chars().count()).rev();
-    let mut texts = lengths.map(|most| shortened(text, most));
-    texts.find(fits).unwrap_or_else(|| text.to_owned())
+    let fits = |most: &usize| text_width(painter, &shortened(text, *most), font) <= room;
+    let lengths: Vec<usize> = (2..=text.chars().count()).collect();
+    if lengths.last().is_none_or(fits) {
+        return text.to_owned();
+    }
+    // Halved every time: lists do this for every row of every frame.
+    match lengths.partition_point(fits).checked_sub(1) {
+        Some(longest) => shortened(text, lengths[longest]),
+        None => text.to_owned(),
+    }
 }
 
 /// Lays out a title in the first of these fonts in which it takes one row, or two for which there is room, without a broken word.
@@ -522,7 +528,9 @@ pub fn grouped(number: usize) -> String {
 mod tests {
     use egui::{Color32, Context, FontId, RawInput, ScrollArea, Shape};
 
-    use super::{fitted_path, grouped, row, sentence, show_scroll_bar};
+    use super::{
+        fitted_middle, fitted_path, grouped, row, sentence, shortened, show_scroll_bar, text_width,
+    };
     use crate::app::ui::theme::Theme;
 
     #[test]
@@ -610,6 +618,32 @@ mod tests {
         assert_eq!(num_bars(3), 0);
         // The handle, and what it moves along.
         assert_eq!(num_bars(30), 2);
+    }
+
+    #[test]
+    fn of_a_long_title_as_much_as_fits_is_kept_at_both_ends() {
+        let ctx = Context::default();
+        Theme::install_fonts(&ctx);
+        let font = FontId::proportional(20.0);
+        let output = ctx.run_ui(RawInput::default(), |ui| {
+            let painter = ui.painter();
+            let title = "Vordertür links mit Zierleiste, Ausf. B";
+            let num = title.chars().count();
+            for step in 0..60_u8 {
+                let room = 10.0 * f32::from(step);
+                let fits = |text: &String| text_width(painter, text, &font) <= room;
+                let longest = (2..=num)
+                    .rev()
+                    .map(|most| shortened(title, most))
+                    .find(fits);
+                let expected = longest.unwrap_or_else(|| title.to_owned());
+                assert_eq!(fitted_middle(painter, title, &font, room), expected);
+            }
+            for short in ["", "B"] {
+                assert_eq!(fitted_middle(painter, short, &font, 0.0), short);
+            }
+        });
+        output.drop_without_applying_deltas();
     }
 
     #[test]

@@ -83,23 +83,19 @@ impl ReferenceBorder {
         }
         let num_bins = (distance_bin(FARTHEST) + 1) * NUM_ANGLES * NUM_ANGLES;
         let mut bins = vec![0; num_bins + 1];
-        let framed: Vec<(usize, ReferencePair)> = framed
-            .into_iter()
-            .flatten()
-            .map(|pair| {
-                let bin = pair.pair.bin();
-                bins[bin + 1] += 1;
-                (bin, pair)
-            })
-            .collect();
+        let framed: Vec<ReferencePair> = framed.into_iter().flatten().collect();
+        for pair in &framed {
+            bins[pair.pair.bin() + 1] += 1;
+        }
         for number in 0..num_bins {
             bins[number + 1] += bins[number];
         }
-        let mut pairs: Vec<ReferencePair> = framed.iter().map(|(_, pair)| *pair).collect();
-        let mut next = bins.clone();
-        for (bin, pair) in framed {
-            pairs[next[bin] as usize] = pair;
-            next[bin] += 1;
+        // A counting sort.
+        let (mut pairs, mut next) = (framed.clone(), bins.clone());
+        for pair in framed {
+            let place = &mut next[pair.pair.bin()];
+            pairs[*place as usize] = pair;
+            *place += 1;
         }
         Self {
             points,
