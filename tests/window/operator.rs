@@ -659,6 +659,26 @@ fn the_part_opened_as_wrong_stays_open_when_the_next_one_is_inspected() {
     assert_eq!(history_of(&harness).listed(), opened);
 }
 
+#[test]
+fn a_file_that_is_opened_again_is_the_wrong_part_and_not_what_was_inspected_since() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("again.pcd");
+    write_unknown(&path);
+    let mut harness = open_with(SMALL, plain_options());
+    act(&mut harness, Action::Open(path.clone()));
+    settle(&mut harness);
+    act(&mut harness, Action::UseCell(CellChoice::InTurn));
+    settle(&mut harness);
+    act(&mut harness, Action::Open(path));
+    settle(&mut harness);
+    act(&mut harness, Action::Role(RoleAction::Switch));
+    press(&mut harness, "Wrong part?");
+    settle(&mut harness);
+    harness.get_by_label("Choose the actual part");
+    let opened = history_of(&harness).record.as_ref().expect("opened");
+    assert_eq!(opened.record.summary.scene, "again.pcd");
+}
+
 /// Opens a window in the operator's view that follows its camera to answer robots, calibrated by this file, if any.
 fn open_answering(cell: Option<PathBuf>) -> (WindowHarness, Sender<Step>) {
     let (options, wire) = wired_options();

@@ -44,7 +44,7 @@ pub enum Action {
     CancelInspection,
     /// Bring a workspace to the front.
     GoTo(WorkspaceKind),
-    /// Show the newest inspection in History, so that the user can set its actual part.
+    /// Show the part on the screen in History, so that the user can set its actual part.
     WrongPart,
     /// Ask where to save the report of the inspection in front.
     Export,
@@ -167,8 +167,9 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
             }
         }
         Action::WrongPart => {
+            let part = state.session.current_result()?.hung().clone();
             state.session.workspace = WorkspaceKind::History;
-            return Some(Effect::Tell(Event::WrongPart));
+            return Some(Effect::Tell(Event::WrongPart(part)));
         }
         Action::Export => return Some(Effect::Tell(Event::Export)),
         Action::CloseTop => {

@@ -117,8 +117,8 @@ pub enum Event {
     Escape,
     /// The engineer's view, requested by this workspace, was granted.
     EngineerIn,
-    /// The user says that the newest inspection recognised the wrong part.
-    WrongPart,
+    /// The user says that this part, the one on the screen, was recognised wrongly.
+    WrongPart(HungId),
     /// The user wants to undo what the last notice offers to undo.
     Undo,
 }

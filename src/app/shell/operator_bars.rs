@@ -198,7 +198,7 @@ fn lower(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
     }
     let name = text!("operator-wrong-part");
     let wrong = Button::new(text(&name)).min_size(vec2(150.0, BUTTON));
-    // It opens the newest inspection, which while the part moves is that of another one.
+    // While the part moves, it may be another one.
     let is_current = state.session.current_result().is_some();
     let wrong = ui.add_enabled(is_current, wrong);
     wrong.widget_info(|| WidgetInfo::labeled(egui::Role::Button, is_current, &name));

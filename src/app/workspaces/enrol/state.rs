@@ -321,7 +321,7 @@ impl EnrolState {
             | Event::Left(_)
             | Event::TracedLate(..)
             | Event::PosesWanted(_)
-            | Event::WrongPart
+            | Event::WrongPart(_)
             | Event::Export => {}
         }
     }

@@ -220,8 +220,8 @@ impl HistoryState {
                     self.apply(action, cx);
                 }
             }
-            Event::WrongPart => {
-                self.choose_newest();
+            Event::WrongPart(part) => {
+                self.choose_part(part);
                 self.asks_actual_part = true;
                 self.look(cx);
             }

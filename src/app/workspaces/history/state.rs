@@ -100,12 +100,12 @@ pub struct HistoryState {
 }
 
 /// Whether the selection follows the newest inspection.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 enum Selection {
     /// The newest inspection is selected, and the next one replaces it.
     Newest,
-    /// The user asked for the newest inspection, whose ticket this is: it is chosen once it is written.
-    Opening(u64),
+    /// The user asked for this part: it is chosen once it is written, and nothing is selected until then.
+    Opening(HungId),
     /// The user chose the selected inspection: it stays selected.
     Chosen,
 }
@@ -235,12 +235,9 @@ impl HistoryState {
             self.whole.truncate(MAX_WHOLE);
         }
         // Unless the user chose a row, select the new one, or its part if this is a re-inspection.
-        if !self.is_chosen() {
+        if self.selection == Selection::Newest {
             self.selected = Some(number);
             self.wants_part = true;
-        }
-        if self.selection == Selection::Opening(ticket) {
-            self.selection = Selection::Chosen;
         }
         self.is_stale = true;
     }
@@ -292,6 +289,10 @@ impl HistoryState {
             filter: self.filter.clone(),
             rows: start.saturating_sub(MARGIN)..end + MARGIN,
             selected: self.selected,
+            part: match &self.selection {
+                Selection::Opening(part) => Some(part.clone()),
+                Selection::Newest | Selection::Chosen => None,
+            },
             with_parts: self.parts.is_none(),
         }
     }
@@ -329,14 +330,16 @@ impl HistoryState {
         if is_hidden {
             self.selection = Selection::Newest;
         }
-        if self.selected.is_none() || is_hidden {
+        if let Selection::Opening(part) = &self.selection {
+            let found = self
+                .record
+                .as_ref()
+                .filter(|_| asked.part.as_ref() == Some(part));
+            if let Some(number) = found.map(|found| found.record.summary.number) {
+                self.selects(number);
+            }
+        } else if self.selected.is_none() || is_hidden {
             self.selected = self.page.rows.first().map(|row| row.number);
-        }
-        if let Selection::Opening(ticket) = self.selection
-            && self.selected.is_some()
-            && self.unwritten.keys().all(|waiting| *waiting > ticket)
-        {
-            self.selection = Selection::Chosen;
         }
     }
 
@@ -359,10 +362,11 @@ impl HistoryState {
         self.visible = 0..self.visible.len();
     }
 
-    /// Selects the newest inspection, as the user's choice.
-    pub(super) fn choose_newest(&mut self) {
+    /// Selects this part, as the user's choice, whatever the list was filtered by.
+    pub(super) fn choose_part(&mut self, part: &HungId) {
         self.select_newest();
-        self.selection = Selection::Opening(self.num_tickets);
+        self.filter = ListFilter::default();
+        self.selection = Selection::Opening(part.clone());
     }
 
     /// Moves the selection to the inspection that stands for the part, where that is wanted.

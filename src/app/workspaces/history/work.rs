@@ -7,7 +7,8 @@ use jiff::Zoned;
 
 use super::filter::ListFilter;
 use crate::history::{
-    Filter, HistoryBuffer, HistoryError, Page, PartOutcome, Record, Retention, StoredVerdict, Usage,
+    Filter, HistoryBuffer, HistoryError, HungId, Page, PartOutcome, Record, Retention,
+    StoredVerdict, Usage,
 };
 
 /// A query.
@@ -19,6 +20,8 @@ pub struct HistoryQuery {
     pub rows: Range<usize>,
     /// Number of the selected inspection.
     pub selected: Option<i64>,
+    /// The part whose row is wanted instead.
+    pub part: Option<HungId>,
     /// True if the parts of the whole history are wanted, for which every row is read.
     pub with_parts: bool,
 }
@@ -62,7 +65,11 @@ pub(super) fn look(
     let filter = request.filter.at(&Zoned::now());
     let rows = &request.rows;
     let page = history.page(&filter, rows.start, rows.len())?;
-    let record = match request.selected {
+    let selected = match &request.part {
+        Some(part) => history.part(part)?.map(|row| row.number),
+        None => request.selected,
+    };
+    let record = match selected {
         Some(number) => history.row(number)?,
         None => None,
     };

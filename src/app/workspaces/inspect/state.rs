@@ -260,7 +260,7 @@ impl InspectState {
             Event::Left(_)
             | Event::TracedLate(..)
             | Event::EngineerIn
-            | Event::WrongPart
+            | Event::WrongPart(_)
             | Event::Undo => {}
         }
     }

@@ -135,18 +135,51 @@ fn a_row_that_was_chosen_stays_selected_though_it_was_the_newest() {
 }
 
 #[test]
-fn the_newest_part_is_opened_as_the_wrong_one_and_stays_also_if_it_was_not_written_yet() {
+fn the_part_on_the_screen_is_opened_as_the_wrong_one_once_it_is_written_and_stays() {
     let found = inspected(1);
     let mut bench = Bench::listing(&found, &[3, 2, 1]);
-    let opened = bench.history.ticket(&HungId::new(), Some(&found));
-    bench
-        .history
-        .on_event(&Event::WrongPart, &mut bench.shell.context());
-    let next = bench.history.ticket(&HungId::new(), Some(&found));
-    for (ticket, number) in [(opened, 4), (next, 5)] {
+    bench.history.filter.text = "door".into();
+    bench.history.on_event(
+        &Event::WrongPart(found.hung().clone()),
+        &mut bench.shell.context(),
+    );
+    let asked = bench.history.wanted();
+    assert_eq!(asked.part.as_ref(), Some(found.hung()));
+    assert_eq!(asked.filter, ListFilter::default());
+    // Not the newest row, nor another part that is written meanwhile.
+    let record = |number| {
+        let mut record = found.entry.record.clone();
+        record.summary.number = number;
+        Arc::new(OpenedInspection {
+            record,
+            picture: None,
+            part: Vec::new(),
+        })
+    };
+    let looked = |record| HistoryResult {
+        asked: asked.clone(),
+        page: Page {
+            num_matching: 3,
+            num_all: 3,
+            rows: [3, 2, 1].map(|number| row(&found, number)).into(),
+        },
+        record,
+        is_listed: true,
+        kept: Default::default(),
+        frames: None,
+        parts: None,
+    };
+    let mut receive = |record, number| {
+        bench
+            .history
+            .receive(looked(record), &mut bench.shell.context());
+        let ticket = bench.history.ticket(&HungId::new(), Some(&found));
         bench.take_news(HistoryEvent::Added { ticket, number });
-    }
-    assert_eq!(bench.history.selected, Some(4));
+        bench.history.selected
+    };
+    assert_eq!(receive(None, 4), None);
+    assert_eq!(receive(Some(record(2)), 5), Some(2));
+    assert_eq!(bench.history.wanted().part, None);
 }
 
 #[test]
