@@ -676,7 +676,7 @@ fn a_file_that_is_opened_again_is_the_wrong_part_and_not_what_was_inspected_sinc
     settle(&mut harness);
     harness.get_by_label("Choose the actual part");
     let opened = history_of(&harness).record.as_ref().expect("opened");
-    assert_eq!(opened.record.summary.scene, "again.pcd");
+    assert_eq!(opened.record.summary.scene, "again.pcd, simulated");
 }
 
 /// Opens a window in the operator's view that follows its camera to answer robots, calibrated by this file, if any.
