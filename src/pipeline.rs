@@ -25,7 +25,7 @@ use crate::{
         contour::{Contour, ContourParams},
         pose::{PoseError, PoseEstimate, PoseMethod, icp::IcpParams, icp_ga::IcpGaParams},
         project::{PlaneImage, ProjectParams},
-        rank::{Matcher, RankParams},
+        rank::{Matcher, Query, RankParams},
         reference::{Reference, ReferenceParams},
         scene::SceneCloud,
         segment::{
@@ -332,6 +332,15 @@ impl Inspection {
         }
         let part = self.segmentation.part.as_ref();
         part.is_ok_and(|part| part.touches_edge)
+    }
+
+    /// The shape to rank by, of a scene whose outline was found.
+    pub fn query(&self) -> Option<Query<'_>> {
+        Some(Query {
+            plane: self.plane.as_ref()?,
+            contour: self.contour.as_ref()?,
+            signature: self.signature.as_ref()?,
+        })
     }
 
     /// Name of the reference ranked first; the pose is in its coordinates.

@@ -14,7 +14,7 @@ use super::{
     verdict::{Verdict, model_deviation, verdict},
     watch::Cancelled,
 };
-use crate::error::Advice;
+use crate::{error::Advice, stages::confirm::ConfirmedMatch};
 
 /// Least lead of a mirror image's score over that of the part itself.
 const MIRROR_LEAD: f64 = 0.3;
@@ -59,7 +59,7 @@ pub(super) fn check_mirror_image(
         mirror_only_match(&found, least)
     };
     if let (Some(seen), Some(named)) = (seen, found.ranking.entries.first()) {
-        put_first(inspection, &named.part, recipe);
+        put_first(inspection, named, recipe);
         if let Verdict::Part { rejected, .. } = &mut inspection.verdict {
             *rejected = Some(seen);
         }
@@ -68,11 +68,23 @@ pub(super) fn check_mirror_image(
 }
 
 /// Moves a part to the front of the ranking, so that name, score, pose and pictures are of the same part. There is no pose
-/// if it ranked too low to be aligned.
-fn put_first(inspection: &mut Inspection, part: &str, recipe: &Recipe) {
+/// if it ranked too low to be aligned, or was not compared at all.
+fn put_first(inspection: &mut Inspection, named: &ConfirmedMatch, recipe: &Recipe) {
     let entries = &mut inspection.ranking.entries;
-    let place = entries.iter().position(|entry| entry.part == part);
-    if let Some(place) = place.filter(|place| *place > 0) {
+    let mut places = entries.iter();
+    let place = places.position(|entry| entry.part == named.part);
+    if place.is_none() {
+        entries.push(ConfirmedMatch {
+            score: 0.0,
+            is_examined: false,
+            placements: Vec::new(),
+            pose: None,
+            evidence: None,
+            ..named.clone()
+        });
+    }
+    let place = place.unwrap_or(entries.len() - 1);
+    if place > 0 {
         entries[..=place].rotate_right(1);
         inspection.pose = entries[0].pose.clone().map(Ok);
         inspection.verdict = verdict(&inspection.ranking, inspection.pose.as_ref(), recipe);
@@ -220,8 +232,8 @@ mod tests {
         let scene = scene_of(&setup);
         let seen = run(&scene, &library, &recipe, &Unwatched).expect("not cancelled");
         assert!(seen.verdict.is_mirrored(), "{:?}", seen.verdict);
-        for is_aligned in [true, false] {
-            // Another part is the nearest, and the door is the last, aligned or not.
+        for (is_aligned, is_compared) in [(true, true), (false, true), (false, false)] {
+            // Another part is the nearest, and the door is the last, aligned or not, or was not compared.
             let mut inspection = seen.clone();
             let entries = &mut inspection.ranking.entries;
             let door = &mut entries[0];
@@ -232,6 +244,9 @@ mod tests {
             }
             let door = door.clone();
             entries.rotate_left(1);
+            if !is_compared {
+                entries.pop();
+            }
             inspection.pose = entries[0].pose.clone().map(Ok);
             inspection.verdict = verdict(&inspection.ranking, inspection.pose.as_ref(), &recipe);
             assert_ne!(inspection.verdict.guess(), Some("front_door"));

@@ -12,11 +12,11 @@ use crate::stages::signature::LiteralSignature;
 ///
 /// Stored contiguously, because the ranking reads all of them, and in single precision, which resolves about a
 /// micrometre in rays of metres.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct RaySpectra {
     num_rays: usize,
     /// Discrete Fourier transforms, one outline after the other.
-    values: Vec<Complex<f32>>,
+    pub(super) values: Vec<Complex<f32>>,
     /// Sum of the squared ray lengths of each outline, square metres.
     pub powers: Vec<f64>,
 }
@@ -25,11 +25,7 @@ impl RaySpectra {
     /// Transforms outlines with the same number of rays, metres.
     pub fn of<'a>(outlines: impl IntoIterator<Item = &'a [Vector2<f64>]>) -> Self {
         let complex = |r: &Vector2<f64>| Complex::new(r.x as f32, r.y as f32);
-        let mut all = Self {
-            num_rays: 0,
-            values: Vec::new(),
-            powers: Vec::new(),
-        };
+        let mut all = Self::default();
         for rays in outlines {
             all.num_rays = rays.len();
             all.values.extend(rays.iter().map(complex));

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! `reference` prepares an enrolled part for `rank` and `pose`, `correlation` holds the signal processing of `rank`,
-//! and `locate` runs `pose` on a scene's part as the paper does. `stand_off` computes the distance of the nozzle from
+//! `shape_summary` rules out most references of a large library, and `locate` runs `pose` on a scene's part as the paper does. `stand_off` computes the distance of the nozzle from
 //! the part; it runs where it is shown.
 
 pub mod confirm;
@@ -22,5 +22,6 @@ mod reduce;
 pub mod reference;
 pub mod scene;
 pub mod segment;
+pub mod shape_summary;
 pub mod signature;
 pub mod stand_off;

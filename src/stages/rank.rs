@@ -3,13 +3,14 @@
 //! Default matcher: for every view of a reference, the circular correlation of the complex rays L·e^{iΘ} over all lags
 //! (by FFT) yields the lag, the rotation in the plane and the remaining distance between the outlines at once. The best
 //! few views are then laid over the scene's image, openings included, and scored by their overlap. Lengths are metric
-//! throughout, so size is evidence.
+//! throughout, so size is evidence. Of a library of more than 256 references, those whose summaries rule out a score among
+//! the first 16 are not compared.
 //!
 //! Paper matcher: Algorithm 2 with eq. 7 and 11 and Note 1, as written.
 
 mod placement;
 
-use placement::{PlacementSearch, refine_first};
+use placement::{PlacementSearch, most_score, refine_first};
 
 pub use self::placement::ImagePlacement;
 use crate::{
@@ -18,6 +19,7 @@ use crate::{
         contour::Contour,
         project::PlaneImage,
         reference::Reference,
+        shape_summary::ShapeSummary,
         signature::{FanSignature, LiteralSignature},
     },
     units::Metres,
@@ -45,6 +47,9 @@ pub struct RankParams {
     pub num_overlaid: usize,
     /// Distance between outlines at which the score has dropped to 1/e, 10..200 mm.
     pub outline_tolerance: Metres,
+    /// Maximum number of references that the default matcher compares in full, 256..100 000; those that their summaries
+    /// allow the highest scores come first. Raising it costs time where nothing scores high.
+    pub num_compared: usize,
     /// Minimum number of references to rank on all cores instead of one, 1..100 000. Lowering it costs time where
     /// starting the threads takes longer than ranking. `partsight bench scaling` finds the crossover; on two cores, two
     /// workers paid off from 16 references and four from 32; below that, only a tenth of a millisecond is at stake.
@@ -57,6 +62,7 @@ impl Default for RankParams {
             matcher: Matcher::Default,
             num_overlaid: 6,
             outline_tolerance: Metres::from_mm(60.0),
+            num_compared: 2048,
             parallel_from: 32,
         }
     }
@@ -90,14 +96,14 @@ pub struct MatchEntry {
     pub placements: Vec<ImagePlacement>,
 }
 
-/// All references, best first.
+/// The compared references, best first.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MatchRanking {
-    /// One entry per reference, in descending order of score.
+    /// One entry per compared reference, in descending order of score.
     pub entries: Vec<MatchEntry>,
 }
 
-/// Ranks all references.
+/// Ranks the references.
 pub fn rank(query: &Query<'_>, references: &[Reference], params: &RankParams) -> MatchRanking {
     let num_workers = if references.len() < params.parallel_from {
         1
@@ -179,8 +185,38 @@ fn rank_by_overlap(
         }
     };
     let prepare = || PlacementSearch::new(query, params);
-    map_in_order(references.len(), num_workers, prepare, entry)
+    if references.len() <= NUM_AT_A_TIME {
+        return map_in_order(references.len(), num_workers, prepare, entry);
+    }
+    let summary = ShapeSummary::of(query.plane, query.signature);
+    let most = map_each(references.len(), num_workers, |reference| {
+        most_score(&summary, &references[reference], params)
+    });
+    let mut order: Vec<usize> = (0..references.len()).collect();
+    // The order is total, so it does not depend on the number of workers.
+    order.sort_unstable_by(|a, b| most[*b].total_cmp(&most[*a]).then(a.cmp(b)));
+    order.truncate(params.num_compared);
+    let mut entries: Vec<MatchEntry> = Vec::new();
+    for block in order.chunks(NUM_AT_A_TIME) {
+        let num_better = entries.iter().filter(|entry| entry.score > most[block[0]]);
+        if num_better.count() >= NUM_CERTAIN {
+            break;
+        }
+        entries.extend(map_in_order(
+            block.len(),
+            num_workers,
+            prepare,
+            |placer, i| entry(placer, block[i]),
+        ));
+    }
+    entries.sort_unstable_by_key(|entry| entry.reference);
+    entries
 }
+
+/// Number of first entries that are those of an exhaustive ranking, unless [`RankParams::num_compared`] ends it before.
+pub const NUM_CERTAIN: usize = 16;
+/// Number of references compared at a time; a library of no more is ranked exhaustively.
+pub const NUM_AT_A_TIME: usize = 256;
 
 /// Finds the placements of one reference over the scene, best first; for a matcher that finds none itself.
 pub fn place(query: &Query<'_>, reference: &Reference, params: &RankParams) -> Vec<ImagePlacement> {

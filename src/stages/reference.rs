@@ -26,6 +26,7 @@ use crate::{
         correlation::{LiteralReference, RaySpectra},
         pose::{PoseError, PreparedTarget, edge_points::EdgePoints, refine::AlignmentTarget},
         project::{PlaneImage, ProjectParams},
+        shape_summary::ShapeSummary,
         signature::{FanSignature, LiteralSignature, SignatureParams},
     },
     units::Metres,
@@ -105,6 +106,8 @@ pub struct Reference {
     pub views: Vec<ReferenceView>,
     /// The views' signatures, transformed for the circular correlation.
     pub spectra: RaySpectra,
+    /// The views' summaries, to rank large libraries.
+    pub summaries: Vec<ShapeSummary>,
     /// Used only by the paper's matcher, so built on first use.
     literal: OnceLock<LiteralReference>,
     /// The cut-off by the field of view of the capture.
@@ -169,12 +172,28 @@ impl Reference {
             tree: OnceLock::new(),
             field: NearestField::new(&cloud.points, FIELD_CELL, FIELD_BAND),
             cloud,
-            spectra: spectra_of(&views),
-            views,
+            spectra: RaySpectra::default(),
+            summaries: Vec::new(),
+            views: Vec::new(),
             literal: OnceLock::new(),
             cut: ViewCut::default(),
             borders: OnceLock::new(),
             whole: OnceLock::new(),
+        }
+        .with_views(views)
+    }
+
+    /// Replaces the views and what ranking needs of them.
+    #[must_use]
+    pub fn with_views(self, views: Vec<ReferenceView>) -> Self {
+        let summaries = views
+            .iter()
+            .map(|view| ShapeSummary::of(&view.plane, &view.signature));
+        Self {
+            spectra: RaySpectra::of(views.iter().map(|view| &view.signature.rays[..])),
+            summaries: summaries.collect(),
+            views,
+            ..self
         }
     }
 
@@ -322,11 +341,6 @@ impl Reference {
         )];
         Self::of_views(name, cloud, views)
     }
-}
-
-/// Transforms the views' signatures for the circular correlation.
-pub fn spectra_of(views: &[ReferenceView]) -> RaySpectra {
-    RaySpectra::of(views.iter().map(|view| &view.signature.rays[..]))
 }
 
 /// Minimum cosine at which the surface is seen at a true edge; below it a rounded surface turns away, and its outline

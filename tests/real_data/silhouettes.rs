@@ -1,5 +1,5 @@
 //! Ranking of real silhouettes: the first shape of each MPEG-7 class is enrolled, and queried again rotated, with
-//! both principal axes flipped, or drawn at another resolution.
+//! both principal axes flipped, or drawn at another resolution; and hundreds of them are.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use partsight::{
     stages::{
         contour::{Contour, ContourParams, find_contour},
         project::PlaneImage,
-        rank::{Matcher, Query, RankParams, rank},
+        rank::{Matcher, NUM_AT_A_TIME, Query, RankParams, rank, rank_by},
         reference::Reference,
         signature::{FanSignature, SignatureParams, describe},
     },
@@ -160,6 +160,55 @@ fn a_shape_is_found_again_turned_flipped_and_at_another_resolution() {
         eprintln!("{what}: default {by_default}/35, paper {by_paper}/35");
         assert!(by_default >= 34, "{what}: only {by_default} of 35");
     }
+}
+
+/// All shapes are enrolled: too many to compare each in full.
+#[test]
+fn a_library_of_hundreds_ranks_the_same_first_as_all_compared_in_full() {
+    let Some(data) = data_folder() else { return };
+    let folder = data.join("silhouettes");
+    let shapes: Vec<Silhouette> = shape_names(&folder)
+        .iter()
+        .map(|name| silhouette(&folder, name))
+        .collect();
+    let references: Vec<Reference> = shapes
+        .iter()
+        .map(|shape| {
+            let plane = drawn(shape, 0.0, 200);
+            let (contour, signature) = described(&plane);
+            Reference::from_plane(&shape.class, plane, contour, signature)
+        })
+        .collect();
+    assert!(references.len() > NUM_AT_A_TIME, "{}", references.len());
+    let params = RankParams::default();
+    let (mut num, mut num_first, mut num_16, mut num_compared) = (0, 0, 0, 0);
+    for shape in shapes.iter().step_by(5) {
+        let plane = drawn(shape, 37.0, 160);
+        let (contour, signature) = described(&plane);
+        let query = Query {
+            plane: &plane,
+            contour: &contour,
+            signature: &signature,
+        };
+        let ranking = rank_by(1, &query, &references, &params);
+        assert_eq!(ranking, rank_by(3, &query, &references, &params));
+        let some = references.chunks(NUM_AT_A_TIME);
+        let parts = some.flat_map(|some| rank(&query, some, &params).entries);
+        let mut scores: Vec<f64> = parts.map(|entry| entry.score).collect();
+        scores.sort_by(|a, b| b.total_cmp(a));
+        let found = ranking.entries.iter().map(|entry| entry.score);
+        let num_same = found.zip(&scores).take_while(|(a, b)| a == *b).count();
+        num += 1;
+        num_first += usize::from(num_same > 0);
+        num_16 += usize::from(num_same >= 16);
+        num_compared += ranking.entries.len();
+    }
+    eprintln!(
+        "{num} shapes: the same first {num_first}, the same 16 {num_16}, compared on average {} of {}",
+        num_compared / num,
+        references.len()
+    );
+    assert_eq!(num_first, num);
 }
 
 /// The other shapes of a class are other objects of its kind: another bat, another camel. One of each class is

@@ -91,7 +91,7 @@ results-poses-apart-advice = Das Teil so aufhängen, dass nichts schwingt, und e
 results-too-few-readings = die Szene hat { $found } Messwerte, mindestens { $needed } sind erforderlich
 results-too-few-readings-advice = Prüfen, ob die Kamera angeschlossen, nicht verdeckt und 0.6 bis 3 m vom Teil entfernt ist, dann erneut aufnehmen
 results-too-wide = die Szene ist { $extent } m groß und enthält nichts von der Größe eines Teils
-results-too-wide-advice = „Als Millimeter lesen“ drücken, falls unten angeboten, oder in Metern exportieren
+results-too-wide-advice = „Als Millimeter lesen“ drücken, falls unten angeboten, oder in Metern exportieren; bei einem Tiefenbild metres_per_unit in der JSON-Datei daneben berichtigen
 results-only-background = vor dem Hintergrund ist nichts von der Größe eines Teils ({ $planes ->
         [one] 1 Ebene entfernt
        *[other] { $planes } Ebenen entfernt
@@ -218,6 +218,8 @@ results-rank-num-overlaid = Überlagerte Lagen
 results-rank-num-overlaid-help = Lagen jedes eingelernten Teils, die über das Bild der Szene gelegt werden. Höhere Werte kosten Zeit und helfen bei fast symmetrischen Teilen.
 results-rank-outline-tolerance = Umrisstoleranz
 results-rank-outline-tolerance-help = Abstand der Umrisse, bei dem der Score auf 1/e gefallen ist. Höhere Werte verzeihen abweichende Umrisse.
+results-rank-num-compared = Ganz verglichen
+results-rank-num-compared-help = Höchstzahl der eingelernten Referenzen, die ganz verglichen werden, die in Größe und grober Form ähnlichsten zuerst. Höhere Werte kosten bei Tausenden von Teilen Zeit und finden Teile, von denen wenig zu sehen ist.
 results-rank-parallel-from = Alle Kerne ab
 results-rank-parallel-from-help = Ab so vielen eingelernten Referenzen rechnen alle Kerne; die Rangliste bleibt gleich. Niedrigere Werte kosten Zeit, wo der Start länger dauert als die Rangliste.
 results-pose = Pose durch

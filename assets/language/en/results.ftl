@@ -91,7 +91,7 @@ results-poses-apart-advice = Hang the part so that nothing can swing, and wait a
 results-too-few-readings = the scene has { $found } readings, at least { $needed } are needed
 results-too-few-readings-advice = Check that the camera is connected, uncovered and 0.6 to 3 m from the part, then capture again
 results-too-wide = the scene spans { $extent } m and holds nothing the size of a part
-results-too-wide-advice = Press Read as millimetres if it is offered below, or export it in metres
+results-too-wide-advice = Press Read as millimetres if it is offered below, or export it in metres; for a depth image, correct metres_per_unit in the JSON beside it
 results-only-background = nothing the size of a part stands in front of the background ({ $planes ->
         [one] 1 plane removed
        *[other] { $planes } planes removed
@@ -218,6 +218,8 @@ results-rank-num-overlaid = Placements laid over
 results-rank-num-overlaid-help = Placements of each enrolled part that are laid over the scene's image. Raising it costs time and helps near-symmetric parts.
 results-rank-outline-tolerance = Outline tolerance
 results-rank-outline-tolerance-help = Distance of the outlines at which the score has dropped to 1/e. Raising it forgives outlines that differ.
+results-rank-num-compared = Compared in full
+results-rank-num-compared-help = Maximum number of enrolled references that are compared in full, the most similar in size and rough shape first. Raising it costs time in libraries of thousands and finds parts of which little is seen.
 results-rank-parallel-from = All cores from
 results-rank-parallel-from-help = Enrolled references from which all cores rank; the ranking stays the same. Lowering it costs time if starting them takes longer than ranking.
 results-pose = Pose by

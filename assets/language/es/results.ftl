@@ -91,7 +91,7 @@ results-poses-apart-advice = Colgar la pieza de modo que nada oscile y esperar u
 results-too-few-readings = la escena tiene { $found } lecturas; se necesitan al menos { $needed }
 results-too-few-readings-advice = Comprobar que la cámara está conectada, descubierta y a entre 0.6 y 3 m de la pieza, y volver a capturar
 results-too-wide = la escena abarca { $extent } m y no contiene nada del tamaño de una pieza
-results-too-wide-advice = Pulsar «Leer como milímetros» si se ofrece abajo, o exportarla en metros
+results-too-wide-advice = Pulsar «Leer como milímetros» si se ofrece abajo, o exportarla en metros; en una imagen de profundidad, corregir metres_per_unit en el JSON que la acompaña
 results-only-background = no hay nada del tamaño de una pieza delante del fondo ({ $planes ->
         [one] 1 plano eliminado
        *[other] { $planes } planos eliminados
@@ -218,6 +218,8 @@ results-rank-num-overlaid = Colocaciones superpuestas
 results-rank-num-overlaid-help = Colocaciones de cada pieza registrada que se superponen a la imagen de la escena. Aumentarlas cuesta tiempo y ayuda con piezas casi simétricas.
 results-rank-outline-tolerance = Tolerancia del contorno
 results-rank-outline-tolerance-help = Distancia entre contornos a la que la puntuación ha caído a 1/e. Aumentarla perdona contornos distintos.
+results-rank-num-compared = Comparadas por completo
+results-rank-num-compared-help = Número máximo de referencias registradas que se comparan por completo, primero las más parecidas en tamaño y forma general. Aumentarlo cuesta tiempo en bibliotecas de miles y encuentra piezas de las que se ve poco.
 results-rank-parallel-from = Todos los núcleos desde
 results-rank-parallel-from-help = Referencias registradas a partir de las que clasifican todos los núcleos; la clasificación no cambia. Reducirlo cuesta tiempo cuando arrancarlos tarda más que clasificar.
 results-pose = Pose mediante

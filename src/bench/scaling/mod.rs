@@ -4,6 +4,9 @@
 //! over many samples faster. This measures from how many references on several workers pay off, which sets the default
 //! of [`RankParams::parallel_from`](crate::stages::rank::RankParams::parallel_from).
 //!
+//! Of a large library, not all references are compared in full. Over some frames it is counted how often the first is
+//! nevertheless that of an exhaustive ranking.
+//!
 //! # The times
 //! The worker counts take turns, so that a disturbance affects all of them. The fastest ranking of each decides, since
 //! other load on the machine makes rankings slower, never faster. The medians are reported too.
@@ -14,15 +17,16 @@ use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
-use self::references::{nth_reference, originals};
+use self::references::{NUM_MODELS, nth_reference, originals};
 use crate::{
+    bench::suites::TUNING_SEED,
     error::Advice,
     geometry::{parallel::num_cores, statistics::quantile},
     library::{EnrolError, Library},
     pipeline::{self, Cancelled, Inspection, ProgressObserver, Recipe},
-    simulate::{CellSetup, PartKind, Side, frame},
+    simulate::{CellSetup, Clutter, PartKind, Side, frame},
     stages::{
-        rank::{Matcher, Query, RankParams, rank_by},
+        rank::{Matcher, NUM_AT_A_TIME, Query, RankParams, rank, rank_by},
         reference::Reference,
         scene::scene_from_frame,
     },
@@ -61,6 +65,9 @@ pub struct Scaling {
     pub crossovers: [Option<usize>; 4],
     /// True if every ranking was bit for bit the serial one.
     pub is_identical: bool,
+    /// Number of frames in which the first of the most references is that of an exhaustive ranking, and number of frames;
+    /// `None` where all rankings are exhaustive.
+    pub same_first: Option<[usize; 2]>,
 }
 
 impl Scaling {
@@ -102,12 +109,9 @@ pub fn scaling(
     watch: &dyn ProgressObserver,
     after_row: &mut dyn FnMut(&ScalingRow),
 ) -> Result<Scaling, ScalingError> {
-    let inspection = query(watch)?;
-    let query = Query {
-        plane: inspection.plane.as_ref().ok_or(ScalingError::NoQuery)?,
-        contour: inspection.contour.as_ref().ok_or(ScalingError::NoQuery)?,
-        signature: inspection.signature.as_ref().ok_or(ScalingError::NoQuery)?,
-    };
+    let setup = CellSetup::with_part(PartKind::FrontDoor, Side::Left, 0, TUNING_SEED);
+    let inspection = inspected(&setup, watch)?;
+    let query = inspection.query().ok_or(ScalingError::NoQuery)?;
     let params = RankParams {
         matcher,
         ..RankParams::default()
@@ -121,6 +125,7 @@ pub fn scaling(
         rows: Vec::new(),
         crossovers: [None; 4],
         is_identical: true,
+        same_first: None,
     };
     for size in sizes(most) {
         while references.len() < size {
@@ -137,6 +142,9 @@ pub fn scaling(
         scaling.rows.push(row);
     }
     scaling.crossovers = [0, 1, 2, 3].map(|place| crossover(&scaling.rows, place));
+    if matcher == Matcher::Default && most > NUM_AT_A_TIME {
+        scaling.same_first = Some(same_first(&references, &params, watch)?);
+    }
     Ok(scaling)
 }
 
@@ -198,10 +206,41 @@ fn measure(
     })
 }
 
-/// Returns the query: a captured front door of the standard car, inspected up to its signature.
-fn query(watch: &dyn ProgressObserver) -> Result<Inspection, Cancelled> {
-    let setup = CellSetup::with_part(PartKind::FrontDoor, Side::Left, 0, 3_000_000);
-    let scene = scene_from_frame(&frame(&setup).frame);
+/// Number of frames whose first reference is compared with that of an exhaustive ranking.
+const NUM_FRAMES: u64 = 64;
+
+/// Ranks simulated parts of the enrolled models, every second partly hidden, with and without leaving references out.
+fn same_first(
+    references: &[Reference],
+    params: &RankParams,
+    watch: &dyn ProgressObserver,
+) -> Result<[usize; 2], Cancelled> {
+    let (mut num_same, mut num_frames) = (0, 0);
+    for number in 0..NUM_FRAMES {
+        let kind = PartKind::ALL[number as usize % PartKind::ALL.len()];
+        let model = number / PartKind::ALL.len() as u64 % NUM_MODELS;
+        let mut setup = CellSetup::with_part(kind, Side::Left, model, TUNING_SEED + number);
+        if (number + model) % 2 == 1 {
+            setup.clutter = Clutter::InFront;
+        }
+        let inspection = inspected(&setup, watch)?;
+        if let Some(query) = inspection.query() {
+            let ranking = rank(&query, references, params);
+            let exhaustive = references.chunks(NUM_AT_A_TIME).flat_map(|some| {
+                let ranking = rank(&query, some, params);
+                ranking.entries.into_iter().map(|entry| entry.score)
+            });
+            let best = exhaustive.fold(0.0, f64::max);
+            num_frames += 1;
+            num_same += usize::from(ranking.entries[0].score >= best);
+        }
+    }
+    Ok([num_same, num_frames])
+}
+
+/// Inspects a simulated frame up to its signature.
+fn inspected(setup: &CellSetup, watch: &dyn ProgressObserver) -> Result<Inspection, Cancelled> {
+    let scene = scene_from_frame(&frame(setup).frame);
     pipeline::run(&scene, &Library::default(), &Recipe::default(), watch)
 }
 

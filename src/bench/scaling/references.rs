@@ -1,10 +1,9 @@
 //! Generates any number of simulated references.
 //!
 //! The first 64 are the eight parts of eight models of the car, each enrolled from a frontal capture. All further ones
-//! are *perturbed signatures* of these: the ray lengths vary by a few per cent around the outline, the images are those
-//! of the original at 25 mm a pixel, and there is no cloud. They are not real parts and their scores mean nothing, but
-//! ranking does the same work for them, since its transforms run over all rays and its overlap over the points of the
-//! scene. That keeps a reference at a quarter of a megabyte, and ten thousand below 3 GB.
+//! are *perturbed signatures* of these: the ray lengths vary by a few per cent around the outline, the packed pixels are
+//! those of the original, and there is no cloud. They are not real parts, but ranking does the same work for them. Ten
+//! thousand take about 1 GB.
 
 use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64;
@@ -18,15 +17,13 @@ use crate::{
     simulate::{PartKind, Side},
     stages::{
         correlation::LiteralReference,
-        project::PlaneImage,
         rank::Matcher,
-        reference::{Reference, ReferenceView, spectra_of},
+        reference::{Reference, ReferenceView},
     },
-    units::Metres,
 };
 
 /// Number of car models whose parts are really enrolled.
-const NUM_MODELS: u64 = 8;
+pub(super) const NUM_MODELS: u64 = 8;
 
 /// Enrols the unperturbed parts.
 pub(super) fn originals(
@@ -48,9 +45,6 @@ pub(super) fn originals(
     Ok(originals)
 }
 
-/// Pixel side of a perturbed reference: that of the grid on which ranking compares images.
-const COARSE: Metres = Metres(0.025);
-
 /// Returns an original, or a perturbed copy of one with only the data that this matcher uses.
 pub(super) fn nth_reference(originals: &[Reference], place: usize, matcher: Matcher) -> Reference {
     let original = &originals[place % originals.len()];
@@ -61,15 +55,11 @@ pub(super) fn nth_reference(originals: &[Reference], place: usize, matcher: Matc
     let swing = ScaleCurve::new(&mut random);
     let mut copy = original.clone();
     copy.name = format!("{}_{place}", original.name);
-    copy.views.clear();
     match matcher {
         Matcher::Default => {
-            copy.views = original
-                .views
-                .iter()
-                .map(|view| perturb(view, &swing))
-                .collect();
-            copy.spectra = spectra_of(&copy.views);
+            let views = original.views.iter().map(|view| perturb(view, &swing));
+            copy = copy.with_views(views.collect());
+            copy.views.iter_mut().for_each(without_pictures);
         }
         Matcher::Paper => {
             let mut signature = original.literal().signature.clone();
@@ -78,6 +68,7 @@ pub(super) fn nth_reference(originals: &[Reference], place: usize, matcher: Matc
                 *length *= swing.at(k, num);
             }
             copy = copy.with_literal(LiteralReference::new(signature));
+            copy.views.clear();
         }
     }
     copy
@@ -117,36 +108,16 @@ fn perturb(view: &ReferenceView, swing: &ScaleCurve) -> ReferenceView {
     for (k, ray) in rays.iter_mut().enumerate() {
         *ray *= swing.at(k, num);
     }
-    view.plane = coarse(&view.plane);
-    // Ranking uses none of these.
-    view.contour.outline = Vec::new();
-    view.contour.openings = Vec::new();
-    view.contour.outline_pixels = Vec::new();
     view
 }
 
-/// Downsamples an image.
-fn coarse(plane: &PlaneImage) -> PlaneImage {
-    let step = ((COARSE.0 / plane.pixel.0).round() as usize).max(1);
-    let (width, height) = (
-        plane.image.width.div_ceil(step),
-        plane.image.height.div_ceil(step),
-    );
-    let mut image = BinaryImage::new(width, height);
-    let mut heights = Vec::with_capacity(width * height);
-    for row in 0..height {
-        for column in 0..width {
-            let from = row * step * plane.image.width + column * step;
-            image.pixels[row * width + column] = plane.image.pixels[from];
-            heights.push(plane.heights[from]);
-        }
-    }
-    PlaneImage {
-        image,
-        heights,
-        pixel: Metres(plane.pixel.0 * step as f64),
-        ..plane.clone()
-    }
+/// Drops what ranking does not use: it lays the packed pixels over a scene, not the image.
+fn without_pictures(view: &mut ReferenceView) {
+    view.plane.image = BinaryImage::new(0, 0);
+    view.plane.heights = Vec::new();
+    view.contour.outline = Vec::new();
+    view.contour.openings = Vec::new();
+    view.contour.outline_pixels = Vec::new();
 }
 
 /// Keeps only what ranking uses: a cloud with its search trees takes megabytes.

@@ -85,6 +85,11 @@ fn show(scaling: &Scaling, console: &mut Console) {
         "RANKINGS DIFFERED from the serial one."
     };
     console.line(&same);
+    if let Some([num_same, num_frames]) = scaling.same_first {
+        console.line(&format_args!(
+            "The first is that of an exhaustive ranking in {num_same} of {num_frames} frames."
+        ));
+    }
     console.line(&"");
 }
 

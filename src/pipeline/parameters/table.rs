@@ -108,6 +108,10 @@ pub const PARAMETERS: &[Parameter] = &[
     number!("rank.outline_tolerance", "Outline tolerance", Match, Fold, Millimetres, [10.0, 200.0], 0,
         |r| r.rank.outline_tolerance.0, |r, v| r.rank.outline_tolerance = Metres(v),
         "Distance of the outlines at which the score has dropped to 1/e. Raising it forgives outlines that differ."),
+    number!("rank.num_compared", "Compared in full", Match, Fold, None, [256.0, 100_000.0], 0,
+        |r| r.rank.num_compared as f64, |r, v| r.rank.num_compared = v.round() as usize,
+        "Maximum number of enrolled references that are compared in full, the most similar in size and rough shape first. \
+         Raising it costs time in libraries of thousands and finds parts of which little is seen."),
     number!("rank.parallel_from", "All cores from", Match, Fold, None, [1.0, 100_000.0], 0,
         |r| r.rank.parallel_from as f64, |r, v| r.rank.parallel_from = v.round() as usize,
         "Enrolled references from which all cores rank; the ranking stays the same. Lowering it costs time if \

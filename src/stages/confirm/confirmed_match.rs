@@ -56,10 +56,10 @@ impl ConfirmedMatch {
     }
 }
 
-/// All references, best first.
+/// The compared references, best first.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ConfirmedRanking {
-    /// One entry per reference, in descending order of score; those that were not examined come last.
+    /// One entry per compared reference, in descending order of score; those that were not examined come last.
     pub entries: Vec<ConfirmedMatch>,
 }
 

@@ -23,7 +23,7 @@ use crate::{
             refine::{AlignmentSource, Search, refine},
             uncertainty::uncertainty,
         },
-        rank::MatchEntry,
+        rank::{MatchEntry, NUM_CERTAIN},
         reference::{Reference, border::BorderPoint},
     },
 };
@@ -123,11 +123,8 @@ impl<'a> PreparedScene<'a> {
         params: &ConfirmParams,
     ) -> usize {
         if self.is_piece {
-            // What a piece looks like from afar says little: all are looked at.
-            return params
-                .num_references
-                .max(NUM_FOR_A_PIECE)
-                .min(entries.len());
+            // The outline of a piece says little, so all that are sure to have ranked high are looked at.
+            return params.num_references.max(NUM_CERTAIN).min(entries.len());
         }
         let mut num = params.num_references.min(entries.len());
         let most = num + MOST_CUT_REFERENCES;
@@ -210,8 +207,6 @@ fn thinned_source(scene: &Scene<'_>, outline: &Outline, seed: u64) -> AlignmentS
 
 /// An outline of which more than this share is not the part's own is that of a piece.
 pub const CUT_SHARE: f64 = 0.04;
-/// References that a piece is laid onto.
-const NUM_FOR_A_PIECE: usize = 16;
 /// Points of the border that get a normal.
 const NUM_ORIENTED: usize = 80;
 

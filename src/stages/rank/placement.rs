@@ -11,6 +11,7 @@ use crate::{
         correlation::{CircularCorrelator, RaySpectra},
         project::PlaneImage,
         reference::{Reference, ReferenceView},
+        shape_summary::ShapeSummary,
     },
     units::{Metres, Radians},
 };
@@ -54,11 +55,25 @@ impl ImagePlacement {
         Self::at(view, lag, value, power, seen.len())
     }
 
-    /// Returns the score, 0..1. Ragged edges mislead outlines alone, slim parts mislead areas alone.
+    /// Returns the score, 0..1.
     pub(super) fn score(&self, params: &RankParams) -> f64 {
-        let outline = (-self.outline_distance.0 / params.outline_tolerance.0).exp();
-        (outline * self.overlap.unwrap_or(0.0)).sqrt()
+        score(self.outline_distance, self.overlap.unwrap_or(0.0), params)
     }
+}
+
+/// Ragged edges mislead outlines alone, slim parts mislead areas alone.
+fn score(outline_distance: Metres, overlap: f64, params: &RankParams) -> f64 {
+    let outline = (-outline_distance.0 / params.outline_tolerance.0).exp();
+    (outline * overlap).sqrt()
+}
+
+/// Returns an upper bound of the score of any placement of a reference, but for the sampling of the areas.
+pub(super) fn most_score(scene: &ShapeSummary, enrolled: &Reference, params: &RankParams) -> f64 {
+    let scores = enrolled.summaries.iter().map(|view| {
+        let distance = scene.least_outline_distance(view);
+        score(distance, scene.most_overlap(view), params)
+    });
+    scores.fold(0.0, f64::max)
 }
 
 /// Recomputes the first placement in double precision: in single precision, a part compared with itself is a few

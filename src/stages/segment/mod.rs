@@ -148,7 +148,11 @@ impl Advice for NoPart {
             Self::TooFewPoints { .. } => {
                 "Check that the camera is connected, uncovered and 0.6 to 3 m from the part, then capture again".into()
             }
-            Self::TooWide { .. } => "Read it as millimetres (--units mm), or export it in metres".into(),
+            Self::TooWide { .. } => {
+                "Read it as millimetres (--units mm), or export it in metres; for a depth image, correct metres_per_unit \
+                 in the JSON beside it"
+                    .into()
+            }
             Self::OnlyBackground {
                 knows_cell: true, ..
             } => {

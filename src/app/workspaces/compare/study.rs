@@ -168,7 +168,7 @@ pub fn study(
         found,
         against,
     };
-    let Some(query) = query_of(&inspection) else {
+    let Some(query) = inspection.query() else {
         return Ok(study);
     };
     let by_outline = RankParams {
@@ -296,14 +296,6 @@ fn refused(why: &Refusal) -> String {
         },
         Refusal::Unrecognisable(why) => results::unrecognisable(why),
     }
-}
-
-fn query_of(inspection: &Inspection) -> Option<Query<'_>> {
-    Some(Query {
-        plane: inspection.plane.as_ref()?,
-        contour: inspection.contour.as_ref()?,
-        signature: inspection.signature.as_ref()?,
-    })
 }
 
 fn distances(
