@@ -17,7 +17,10 @@ use crate::{
     robot::{
         RobotFrame, WrittenPose,
         arm::{Arm, ArmError, Obstacles, PathCheck, PlacedArm, Rail},
-        program::{Program, ProgramFormat, ProgramSettings, check_reach, program_points},
+        program::{
+            Program, ProgramFormat, ProgramSettings, check_reach, clock_ahead_of_file,
+            program_points,
+        },
         spray::{BandStatus, CarriedPath, MOST_TILT, off_the_part},
     },
     stages::reference::Reference,
@@ -226,6 +229,12 @@ impl ProgramFile {
         let reach = reach.advised()?;
         let doubt = |(arm, reach): &(PlacedArm, PathCheck)| reach.doubt(&arm.arm.name);
         doubts.extend(reach.as_ref().and_then(doubt));
+        let ahead = subject
+            .scene
+            .and_then(|scene| clock_ahead_of_file(Path::new(scene)));
+        if let Some(ahead) = &ahead {
+            doubts.insert(0, ahead.to_string());
+        }
         // Neither another capture nor another place of the arm helps against this one.
         let off = off_the_part(subject.path, subject.reference);
         if let Some(off) = &off {
@@ -240,6 +249,8 @@ impl ProgramFile {
                     off.advice(),
                     subject.part
                 )
+            } else if let Some(ahead) = ahead {
+                ahead.advice()
             } else if subject.scene.is_some() {
                 "Capture all of the part again, or move part or arm".to_owned()
             } else {

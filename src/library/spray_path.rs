@@ -14,7 +14,8 @@
 //! Lengths are in `_mm` or `_m`; without the last column the stand-off is 150 mm. Two more columns may follow, both for
 //! the segment from this point to the next: `gun_on` (1 or 0; 1 without such a column) and `speed_mm_s` or `speed_m_s`.
 //! `fan_x`, `fan_y` and `fan_z` point along the long side of a flat jet. Other columns are ignored. Part space is that
-//! of the reference cloud: the camera frame at enrolment (x right, y down, z forward).
+//! of the reference cloud: the camera frame at enrolment (x right, y down, z forward). A line `# part: NAME` says which
+//! part the path is for.
 
 mod error;
 #[cfg(test)]
@@ -26,6 +27,7 @@ use nalgebra::{Point3, Unit, Vector3};
 
 use crate::{
     files::{Row, read_text, table_rows},
+    library::PartName,
     units::Metres,
 };
 
@@ -64,6 +66,9 @@ const TAUGHT: f64 = 0.15;
 const FARTHEST: f64 = 20.0;
 /// Maximum speed, m/s. Faster than any robot moves a gun: such numbers are in another unit.
 pub const MAX_SPEED: f64 = 5.0;
+
+/// Begins the line that names the part of a path.
+const PART_LINE: &str = "# part: ";
 
 /// Content of a column.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -121,6 +126,24 @@ impl SprayPath {
         Self::parse(&read_text(path, MAX_BYTES)?, path)
     }
 
+    /// Reads a path of this part from a table; refuses one whose table names another part.
+    pub fn read_for(path: &Path, part: &PartName) -> Result<Self, SprayPathError> {
+        let text = read_text(path, MAX_BYTES)?;
+        let named = text.lines().find_map(|line| {
+            // A spreadsheet adds quotes and separators.
+            let line = line.trim_matches(|c: char| c.is_whitespace() || "\",;".contains(c));
+            line.strip_prefix(PART_LINE)
+        });
+        if let Some(named) = named.filter(|named| *named != part.as_str()) {
+            return Err(SprayPathError::OtherPart {
+                path: path.to_owned(),
+                named: named.to_owned(),
+                part: part.clone(),
+            });
+        }
+        Self::parse(&text, path)
+    }
+
     /// Parses a path; errors name `path` as the file.
     pub(super) fn parse(text: &str, path: &Path) -> Result<Self, SprayPathError> {
         let mut lines = table_rows(text, path)?.into_iter();
@@ -151,6 +174,11 @@ impl SprayPath {
         Self::new(points).ok_or_else(|| SprayPathError::NoPoints {
             path: path.to_owned(),
         })
+    }
+
+    /// Like [`Self::to_text`], for a file of its own: names the part.
+    pub fn to_text_of(&self, part: &PartName) -> String {
+        format!("{PART_LINE}{part}\n{}", self.to_text())
     }
 
     /// Writes the table that is stored; reading it gives the same path, to a micrometre.

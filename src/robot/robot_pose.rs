@@ -1,5 +1,7 @@
 //! Conversion of poses to and from the numbers of a convention.
 
+use std::f64::consts::TAU;
+
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -165,6 +167,12 @@ pub enum ConventionError {
         /// Its length.
         length: f64,
     },
+    /// The rotation vector is longer than a full turn: the unit is wrong.
+    #[error("the rotation vector has length {length:.2}, expected at most 2π")]
+    LongRotation {
+        /// Its length.
+        length: f64,
+    },
     /// The matrix also stretches or mirrors.
     #[error(
         "the 16 numbers are not a rigid transform: they stretch, mirror or do not end in 0 0 0 1"
@@ -180,6 +188,9 @@ impl Advice for ConventionError {
             Self::NotUnit { .. } => {
                 "Copy all four numbers with at least 4 decimals, and check which of them is the scalar".into()
             }
+            Self::LongRotation { .. } => {
+                "Give the rotation vector in radians; these look like degrees".into()
+            }
             Self::NotRigid => {
                 "Give a rotation and a shift, row after row with at least 4 decimals; check rows against columns".into()
             }
@@ -187,7 +198,7 @@ impl Advice for ConventionError {
     }
 }
 
-/// Tolerance for a unit quaternion and a rigid matrix: people copy at least four decimals.
+/// Tolerance for a unit quaternion, a full turn and a rigid matrix: people copy at least four decimals.
 const COPIED: f64 = 1e-3;
 
 impl Convention {
@@ -278,7 +289,12 @@ impl Convention {
                 UnitQuaternion::from_quaternion(quaternion)
             }
             (Layout::RotationVector, &[_, _, _, x, y, z]) => {
-                UnitQuaternion::from_scaled_axis(Vector3::new(x, y, z))
+                let turn = Vector3::new(x, y, z);
+                let length = turn.norm();
+                if length > TAU + COPIED {
+                    return Err(ConventionError::LongRotation { length });
+                }
+                UnitQuaternion::from_scaled_axis(turn)
             }
             (Layout::Angles { order, reversed }, &[_, _, _, a, b, c]) => {
                 order.rotation(if reversed { [c, b, a] } else { [a, b, c] })

@@ -218,6 +218,23 @@ mod tests {
     }
 
     #[test]
+    fn a_rotation_vector_in_degrees_is_refused() {
+        for text in [
+            "universal-robots 1.2 0 0 86 5 120",
+            "rotation-vector 0 0 0.2 0 -6.3 0",
+        ] {
+            for error in
+                [parse_written_pose(text), parse_nozzle(text)].map(|read| read.expect_err(text))
+            {
+                assert!(error.to_string().contains("at most 2π"), "{error}");
+                assert!(error.advice().contains("in radians"), "{}", error.advice());
+            }
+        }
+        // A full turn with four decimals.
+        parse_written_pose("universal-robots 1.2 0 0 0 6.2832 0").expect("a pose");
+    }
+
+    #[test]
     fn anything_else_is_refused_in_words() {
         for (text, expected) in [
             ("", "0 numbers without"),

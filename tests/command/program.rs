@@ -124,6 +124,17 @@ fn of_a_refused_part_an_old_capture_or_an_unreached_path_no_program_is_left_unle
     assert!(!shop.path("paint.src").exists());
     shop.coded(0, &[&inspect[..], &["--force"]].concat());
     assert!(shop.read("paint.src").contains("FORCED: the capture"));
+    // A capture dated later than now may be just as old.
+    let later = SystemTime::now() + Duration::from_hours(1);
+    let file = File::options().write(true).open(shop.path("door.pcd"));
+    file.and_then(|file| file.set_modified(later))
+        .expect("a file of another clock");
+    let ran = shop.coded(1, &inspect);
+    assert!(ran.err.contains("later than now"), "{}", ran.err);
+    assert!(ran.err.contains("Set the clocks"), "{}", ran.err);
+    assert!(!ran.err.contains("10 minutes"), "{}", ran.err);
+    assert!(!shop.path("paint.src").exists());
+    shop.coded(0, &[&inspect[..], &["--force"]].concat());
     // A file that is not a program is not removed.
     shop.write("notes.src", "mine");
     shop.coded(1, &["inspect", "door.pcd", "--program", "notes.src"]);
@@ -424,6 +435,17 @@ fn no_program_is_written_of_a_path_that_does_not_aim_at_the_part_unless_forced()
         "x_mm,y_mm,z_mm,normal_x,normal_y,normal_z,stand_off_mm\n\
          5000,5000,9000,0,0,-1,150\n5100,5000,9000,0,0,-1,150\n",
     );
+    let ran = shop.coded(2, &["library", "path", "front_door", "grille.csv"]);
+    assert!(
+        ran.err.contains("a path of grille, not of front_door"),
+        "{}",
+        ran.err
+    );
+    let named = shop.read("grille.csv");
+    let (_, unnamed) = named
+        .split_once('\n')
+        .expect("the line that names the part");
+    shop.write("grille.csv", unnamed);
     for path in ["grille.csv", "far.csv"] {
         let ran = shop.coded(1, &["library", "path", "front_door", path]);
         let doubt = "the spray path does not aim at the part: ";

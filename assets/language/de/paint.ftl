@@ -54,6 +54,9 @@ paint-turn-gun = Pistole neigen
 paint-turn-gun-hint = Von einem Punkt einer Bahn ziehen, um die Pistole dorthin zu neigen. Esc: wieder drehen
 paint-edits-dropped = Von Hand Verschobenes gehörte zur vorigen Bahn und wurde verworfen
 paint-edits-dropped-advice = Rückgängig holt es zurück; die Bahn zuletzt von Hand korrigieren
+paint-drawn-dropped = In Lackieren auf { $part } Gezeichnetes wurde verworfen
+paint-drawn-dropped-undo = Rückgängig holt es zurück
+paint-drawn-dropped-again = Das Teil wurde entfernt oder neu eingelernt; neu zeichnen, was noch gebraucht wird
 paint-film-colours = Schichtfarben
 paint-film-colours-hint = Teil nach der Schichtdicke einfärben
 

@@ -201,5 +201,7 @@ robot-not-finite = { $name } ist { $value }, erwartet wird eine endliche Zahl
 robot-not-finite-advice = Die Zahlen erneut von der Steuerung ablesen
 robot-not-unit = die Länge des Quaternions ist { $length }, erwartet wird 1
 robot-not-unit-advice = Alle vier Zahlen mit mindestens 4 Nachkommastellen übernehmen und prüfen, welche davon der Skalar ist
+robot-long-rotation = die Länge des Rotationsvektors ist { $length }, erwartet wird höchstens 2π
+robot-long-rotation-advice = Den Rotationsvektor in Radiant angeben; diese Zahlen sehen nach Grad aus
 robot-not-rigid = die 16 Zahlen sind keine starre Transformation: Sie strecken, spiegeln oder enden nicht mit 0 0 0 1
 robot-not-rigid-advice = Eine Drehung und eine Verschiebung angeben, Zeile für Zeile mit mindestens 4 Nachkommastellen; Zeilen und Spalten nicht vertauschen

@@ -54,6 +54,9 @@ paint-turn-gun = Turn gun
 paint-turn-gun-hint = Drag from a point of a stroke to lean the gun that way. Esc to rotate
 paint-edits-dropped = What was moved by hand belonged to the previous path and was dropped
 paint-edits-dropped-advice = Undo brings it back; correct the path by hand last
+paint-drawn-dropped = What was drawn on { $part } in Paint was dropped
+paint-drawn-dropped-undo = Undo brings it back
+paint-drawn-dropped-again = The part was removed or enrolled anew; draw again what is still needed
 paint-film-colours = Film colours
 paint-film-colours-hint = Colour the part by the thickness of its film
 

@@ -201,5 +201,7 @@ robot-not-finite = { $name } is { $value }, expected a finite number
 robot-not-finite-advice = Read the numbers off the controller again
 robot-not-unit = the quaternion's length is { $length }, expected 1
 robot-not-unit-advice = Copy all four numbers with at least 4 decimals, and check which of them is the scalar
+robot-long-rotation = the rotation vector has length { $length }, expected at most 2π
+robot-long-rotation-advice = Give the rotation vector in radians; these look like degrees
 robot-not-rigid = the 16 numbers are not a rigid transform: they stretch, mirror or do not end in 0 0 0 1
 robot-not-rigid-advice = Give a rotation and a shift, row after row with at least 4 decimals; check rows against columns

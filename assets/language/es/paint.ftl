@@ -54,6 +54,9 @@ paint-turn-gun = Inclinar pistola
 paint-turn-gun-hint = Arrastrar desde un punto de una pasada para inclinar la pistola hacia ahí. Esc para girar
 paint-edits-dropped = Lo movido a mano era de la trayectoria anterior y se descartó
 paint-edits-dropped-advice = Deshacer lo recupera; corregir la trayectoria a mano al final
+paint-drawn-dropped = Lo dibujado sobre { $part } en Pintar se descartó
+paint-drawn-dropped-undo = Deshacer lo recupera
+paint-drawn-dropped-again = La pieza se eliminó o se registró de nuevo; volver a dibujar lo que haga falta
 paint-film-colours = Colores de película
 paint-film-colours-hint = Colorear la pieza según el espesor de la película
 

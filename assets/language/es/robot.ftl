@@ -201,5 +201,7 @@ robot-not-finite = { $name } es { $value }; se espera un número finito
 robot-not-finite-advice = Leer de nuevo los números del controlador
 robot-not-unit = la longitud del cuaternión es { $length }; se espera 1
 robot-not-unit-advice = Copiar los cuatro números con al menos 4 decimales y comprobar cuál es el escalar
+robot-long-rotation = la longitud del vector de rotación es { $length }; se espera 2π como máximo
+robot-long-rotation-advice = Indicar el vector de rotación en radianes; estos números parecen grados
 robot-not-rigid = los 16 números no son una transformación rígida: estiran, reflejan o no terminan en 0 0 0 1
 robot-not-rigid-advice = Indicar una rotación y un desplazamiento, fila a fila con al menos 4 decimales; no confundir filas y columnas

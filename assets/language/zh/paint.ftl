@@ -54,6 +54,9 @@ paint-turn-gun = 转动喷枪
 paint-turn-gun-hint = 从行程上的一点拖动，使喷枪向该方向倾斜。按 Esc 恢复旋转
 paint-edits-dropped = 手动移动的内容属于先前的轨迹，已丢弃
 paint-edits-dropped-advice = 可用“撤销”恢复；请最后再手动修正轨迹
+paint-drawn-dropped = 在喷涂中于 { $part } 上绘制的内容已丢弃
+paint-drawn-dropped-undo = 可用“撤销”恢复
+paint-drawn-dropped-again = 该零件已移除或重新注册；请重新绘制仍需要的内容
 paint-film-colours = 膜厚着色
 paint-film-colours-hint = 按膜厚为零件着色
 

@@ -190,5 +190,7 @@ robot-not-finite = { $name } 为 { $value }，应为有限的数值
 robot-not-finite-advice = 重新从控制器读取数值
 robot-not-unit = 四元数的长度为 { $length }，应为 1
 robot-not-unit-advice = 四个数值均保留至少 4 位小数，并检查哪一个是标量
+robot-long-rotation = 旋转向量的长度为 { $length }，应不大于 2π
+robot-long-rotation-advice = 请以弧度给出旋转向量；这些数值看起来是角度
 robot-not-rigid = 这 16 个数值不是刚体变换：有拉伸、镜像，或不以 0 0 0 1 结尾
 robot-not-rigid-advice = 输入旋转和平移，逐行排列，保留至少 4 位小数；检查行与列是否颠倒

@@ -28,8 +28,8 @@ use crate::{
         Convention, RobotFrame,
         arm::{PathCheck, PlacedArm},
         program::{
-            Program, ProgramFormat, ProgramSettings, check_reach, is_stale, is_stale_file,
-            program_points, remove_previous_program,
+            ClockAhead, Program, ProgramFormat, ProgramSettings, check_reach, clock_ahead,
+            clock_ahead_of_file, is_stale, is_stale_file, program_points, remove_previous_program,
         },
         spray::{CarriedPath, OffThePart, SprayExport},
     },
@@ -84,15 +84,19 @@ pub(in crate::app) fn spray_path(
             is_simulated,
         };
         // The program of an earlier part must not remain either.
-        let is_stale = match &inspected.origin {
-            Origin::File { path, .. } => is_stale_file(path),
+        let (ahead, is_stale) = match &inspected.origin {
+            Origin::File { path, .. } => (clock_ahead_of_file(path), is_stale_file(path)),
             Origin::Simulated { .. } | Origin::Scan { .. } | Origin::Frame { .. } => {
-                is_stale(inspected.at.into())
+                let at = inspected.at.into();
+                (clock_ahead(at), is_stale(at))
             }
         };
         // Another capture does not help a path that does not aim at the part: that is said first.
         let refused = if subject.off.is_some() {
             None
+        } else if let Some(ClockAhead { ahead }) = ahead {
+            let what = text!("program-clock-ahead", seconds = ahead.as_secs());
+            Some((what, text!("program-clock-ahead-advice")))
         } else if is_stale {
             Some((text!("program-stale"), text!("program-stale-advice")))
         } else if pose.is_ambiguous() {

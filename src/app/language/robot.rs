@@ -131,6 +131,10 @@ fn convention_error(error: &ConventionError) -> [String; 2] {
             text!("robot-not-unit", length = format!("{length:.4}")),
             text!("robot-not-unit-advice"),
         ],
+        ConventionError::LongRotation { length } => [
+            text!("robot-long-rotation", length = format!("{length:.2}")),
+            text!("robot-long-rotation-advice"),
+        ],
         ConventionError::NotRigid => [text!("robot-not-rigid"), text!("robot-not-rigid-advice")],
     }
 }
@@ -153,6 +157,7 @@ mod tests {
             "kuka 1 2 3 4 5 six",
             "kuka 1 2 3 4 5",
             "quaternion-xyzw 0 0 0.2 1 1 0 0",
+            "universal-robots 0 0 0.2 86 5 120",
             "2 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1",
             "kuka 0 0 0.25 0 45 0",
         ]

@@ -14,7 +14,7 @@ use crate::{
     library::{LibraryLoad, LibraryPlace, PartName},
     robot::{
         RobotFrame,
-        program::{ProgramFormat, is_stale_file, remove_previous_program},
+        program::{ProgramFormat, clock_ahead_of_file, is_stale_file, remove_previous_program},
         spray::carry,
     },
 };
@@ -24,8 +24,8 @@ use crate::{
 pub(super) struct ProgramChoice {
     /// Write the part's stored spray path as a program for the robot's controller, named like the file: .src, .ls,
     /// .mod, .script, .jbi or .drl. Needs a calibration and one file. Nothing is written if the part is not accepted, if
-    /// another pose fits nearly as well, if the capture is older than 10 minutes, if the path does not aim at the part, or
-    /// if --arm does not reach every point
+    /// another pose fits nearly as well, if the capture is older than 10 minutes or dated later than now, if the path does
+    /// not aim at the part, or if --arm does not reach every point
     #[arg(long, value_name = "FILE", conflicts_with = "spray")]
     program: Option<PathBuf>,
     /// Language of the program, if the file's ending does not give it: krl, ls, rapid, urscript, jbi or drl
@@ -109,7 +109,9 @@ impl CapturedProgram {
         if pose.is_ambiguous() {
             doubts.push("another pose of the part fits nearly as well".to_owned());
         }
-        if is_stale_file(Path::new(seen.scene)) {
+        // The program's file reports a capture dated later than now.
+        let scene = Path::new(seen.scene);
+        if clock_ahead_of_file(scene).is_none() && is_stale_file(scene) {
             doubts.push("the capture is more than 10 minutes old".to_owned());
         }
         let subject = ProgramSubject {

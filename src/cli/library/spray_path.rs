@@ -68,7 +68,7 @@ pub(super) fn run(
         }
         return Ok(Outcome::Accepted);
     };
-    let path = SprayPath::read(file).advised()?;
+    let path = SprayPath::read_for(file, name).advised()?;
     choice
         .open_to_change()?
         .set_spray_path(name, Some(&path))

@@ -120,7 +120,7 @@ pub(super) fn run_plan(
     };
     warn_of_idle(&args.keep_out, &surface, console);
     if let Some(file) = &args.output {
-        let text = path.to_text();
+        let text = path.to_text_of(name);
         write_text(file, &text).advised()?;
     }
     if args.store {
@@ -178,7 +178,7 @@ pub(super) fn run_simulate(
     let coat = args.coat.open()?;
     let part = read_part(&choice.open(console)?, name)?;
     let path = match &args.path {
-        Some(file) => Some(SprayPath::read(file).advised()?),
+        Some(file) => Some(SprayPath::read_for(file, name).advised()?),
         None => choice.open(console)?.spray_path(name.as_str()).advised()?,
     };
     let Some(path) = path else {

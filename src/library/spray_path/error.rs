@@ -6,7 +6,7 @@ use super::{MAX_PATH_POINTS, MAX_SPEED};
 use crate::{
     error::Advice,
     files::{FileError, shortened},
-    library::LibraryError,
+    library::{LibraryError, PartName},
     units::Metres,
 };
 
@@ -51,6 +51,16 @@ pub enum SprayPathError {
     TooMany {
         /// The file.
         path: PathBuf,
+    },
+    /// The path is for another part.
+    #[error("{}: a path of {}, not of {part}", path.display(), shortened(named))]
+    OtherPart {
+        /// The file.
+        path: PathBuf,
+        /// The part that the file names.
+        named: String,
+        /// The part that a path was wanted of.
+        part: PartName,
     },
     /// The part cannot be read.
     #[error(transparent)]
@@ -139,6 +149,9 @@ impl Advice for SprayPathError {
             },
             Self::NoPoints { .. } => "Write one line for each point of the path".into(),
             Self::TooMany { .. } => "Thin the path out: a point every 10 mm is plenty".into(),
+            Self::OtherPart { part, .. } => format!(
+                "Give a path of {part}; if this is one, because the part was renamed, correct the line \"# part\" in the file"
+            ),
             Self::Changed { .. } => {
                 "Store the path again: partsight library path NAME path.csv".into()
             }

@@ -136,3 +136,37 @@ fn what_is_no_path_is_named() {
         assert!(!error.advice().is_empty());
     }
 }
+
+#[test]
+fn a_path_that_names_another_part_is_refused() {
+    let [fender, hood] = ["fender", "hood"].map(|name| PartName::new(name).expect("a name"));
+    let text = "x_m,y_m,z_m,normal_x,normal_y,normal_z\n0.1,0.2,1.3,0,0,-1\n";
+    let path = parse(text).expect("a path");
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("path.csv");
+    let read = |text: &str, part: &PartName| {
+        std::fs::write(&file, text).expect("written");
+        SprayPath::read_for(&file, part)
+    };
+    let written = path.to_text_of(&fender);
+    assert!(
+        read(&written, &fender)
+            .expect("its own")
+            .is_as_written(&path)
+    );
+    let by_a_spreadsheet = written.replace("# part: fender", "\"# part: fender\",,,,,");
+    for text in [&written, &by_a_spreadsheet] {
+        let error = read(text, &hood).expect_err("a path of the fender");
+        assert!(
+            error.to_string().ends_with("a path of fender, not of hood"),
+            "{error}"
+        );
+        assert!(
+            error.advice().contains("a path of hood"),
+            "{}",
+            error.advice()
+        );
+    }
+    // Most tables name no part.
+    assert_eq!(read(text, &hood).expect("a path"), path);
+}

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::SCHEMA_VERSION;
-use crate::{error::Advice, files::FileError};
+use crate::{error::Advice, files::FileError, robot::FARTHEST, units::Metres};
 
 /// Why a calibration file cannot be read or written.
 #[derive(Debug, thiserror::Error)]
@@ -35,6 +35,16 @@ pub enum CalibrationError {
         /// Name of the matrix.
         key: &'static str,
     },
+    /// No cell is this large: the unit is wrong.
+    #[error("{}: {key} shifts by {:.0} m, expected at most {} m", path.display(), distance.0, FARTHEST)]
+    TooFar {
+        /// The file.
+        path: PathBuf,
+        /// Name of the matrix.
+        key: &'static str,
+        /// Length of its shift.
+        distance: Metres,
+    },
     /// The numbers would change in the file, so it was not written.
     #[error("{}: not written: the file would not give back the same numbers", path.display())]
     NotKept {
@@ -60,6 +70,9 @@ impl Advice for CalibrationError {
             Self::NotRigid { .. } => {
                 "Enter the matrix again with at least four digits after the decimal point: rows of a rotation, then \
                  the shift in metres, then 0 0 0 1".into()
+            }
+            Self::TooFar { .. } => {
+                "Give the shift in metres: the first three numbers of the matrix's last column".into()
             }
             Self::NotKept { .. } => {
                 "Check the numbers and their convention: a camera sits within metres of the robot".into()

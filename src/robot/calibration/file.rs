@@ -15,7 +15,8 @@ use crate::{
         write_text,
     },
     geometry::rigid::{from_row_major, row_major},
-    robot::hand_eye::Mount,
+    robot::{FARTHEST, hand_eye::Mount},
+    units::Metres,
 };
 
 /// Version of the file that this program writes. It reads this one and older ones.
@@ -194,10 +195,20 @@ fn parse(text: &str, path: &Path) -> Result<Loaded, CalibrationError> {
     let numbers_of = |rows: &Matrix| -> [f64; 16] { std::array::from_fn(|i| rows[i / 4][i % 4]) };
     let rigid = |key: &'static str, rows: &Matrix| {
         let numbers = numbers_of(rows);
-        from_row_major(&numbers, ROUNDING).ok_or_else(|| CalibrationError::NotRigid {
-            path: path.to_owned(),
-            key,
-        })
+        let transform =
+            from_row_major(&numbers, ROUNDING).ok_or_else(|| CalibrationError::NotRigid {
+                path: path.to_owned(),
+                key,
+            })?;
+        let distance = Metres(transform.translation.vector.norm());
+        if distance.0 > FARTHEST {
+            return Err(CalibrationError::TooFar {
+                path: path.to_owned(),
+                key,
+                distance,
+            });
+        }
+        Ok(transform)
     };
     let needed = |key: &'static str, rows: &Option<Matrix>| match rows {
         Some(rows) => rigid(key, rows),

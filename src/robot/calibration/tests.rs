@@ -184,6 +184,43 @@ fn numbers_with_four_digits_are_taken_and_others_refused() {
 }
 
 #[test]
+fn a_shift_in_millimetres_is_refused_in_every_matrix() {
+    let at = |x: &str| format!("[[1, 0, 0, {x}], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]");
+    let load = |mount: &str, matrices: &[(&str, &str)]| {
+        let matrices = matrices
+            .iter()
+            .map(|(key, x)| format!("{key} = {}\n", at(x)));
+        load_text(&format!(
+            "schema_version = 1\nmount = \"{mount}\"\nmade_at = \"2026-03-04T05:06:07Z\"\n{}[origin]\nkind = \"by_hand\"\n",
+            matrices.collect::<String>()
+        ))
+    };
+    load("eye_to_hand", &[("robot_from_camera", "100")]).expect("a large cell");
+    for (mount, matrices, key) in [
+        (
+            "eye_to_hand",
+            &[("robot_from_camera", "1200")][..],
+            "robot_from_camera",
+        ),
+        (
+            "eye_in_hand",
+            &[("flange_from_camera", "-1200")],
+            "flange_from_camera",
+        ),
+        (
+            "eye_in_hand",
+            &[("flange_from_camera", "0.1"), ("robot_from_flange", "1200")],
+            "robot_from_flange",
+        ),
+    ] {
+        let error = load(mount, matrices).expect_err(key);
+        let wanted = format!("cell.toml: {key} shifts by 1200 m, expected at most 100 m");
+        assert!(error.to_string().ends_with(&wanted), "{error}");
+        assert!(error.advice().contains("in metres"), "{}", error.advice());
+    }
+}
+
+#[test]
 fn what_is_no_calibration_is_refused_in_words() {
     let sound = fixed().to_text();
     for (text, expected) in [

@@ -27,6 +27,14 @@ pub enum ProgramError {
         /// Most letters of the file's name, from which the names of called programs are made.
         most: usize,
     },
+    /// The name is a word of the language.
+    #[error("{name} is a reserved word of {}, so no program can have this name", format.title())]
+    Reserved {
+        /// The language.
+        format: ProgramFormat,
+        /// The name.
+        name: String,
+    },
     /// The path has no points.
     #[error("the path has no points")]
     NoPoints,
@@ -116,6 +124,9 @@ impl Advice for ProgramError {
             Self::Name { most, .. } => format!(
                 "Name the file with letters A to Z, digits and _, a letter first, at most {most} of them"
             ),
+            Self::Reserved { name, .. } => {
+                format!("Give the file another name, for example paint_{name}")
+            }
             Self::NoPoints => "Give a path with at least one point".into(),
             Self::NotFinite { .. } => "Check the path, the tool and the calibration".into(),
             Self::Speed { .. } => "Change the speed in the path, or give another with --speed".into(),

@@ -58,7 +58,10 @@ use crate::{
 pub use self::{
     error::ProgramError,
     format::{PROGRAM_ENDINGS, ProgramFormat},
-    prepare::{arm_points, check_reach, is_stale, is_stale_file, program_points},
+    prepare::{
+        ClockAhead, arm_points, check_reach, clock_ahead, clock_ahead_of_file, is_stale,
+        is_stale_file, program_points,
+    },
     save::{ProgramTexts, remove_previous_program},
 };
 
@@ -148,6 +151,12 @@ impl Program<'_> {
                 format,
                 name: name.to_owned(),
                 most,
+            });
+        }
+        if text::is_reserved(format, name) {
+            return Err(ProgramError::Reserved {
+                format,
+                name: name.to_owned(),
             });
         }
         let settings = self.settings;

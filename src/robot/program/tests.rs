@@ -318,6 +318,35 @@ fn what_a_controller_would_not_take_is_refused_with_advice() {
 }
 
 #[test]
+fn a_reserved_word_of_the_language_is_no_name_of_a_program() {
+    let points = row();
+    let settings = ProgramSettings::default();
+    for (format, name, is_reserved) in [
+        (ProgramFormat::Krl, "if", true),
+        (ProgramFormat::Krl, "EndWhile", true),
+        (ProgramFormat::Krl, "if_1", false),
+        (ProgramFormat::Rapid, "Test", true),
+        (ProgramFormat::Rapid, "tests", false),
+        (ProgramFormat::UrScript, "if", true),
+        (ProgramFormat::UrScript, "movel", true),
+        (ProgramFormat::UrScript, "IF", false),
+        (ProgramFormat::Ls, "if", false),
+        (ProgramFormat::Jbi, "if", false),
+        (ProgramFormat::Drl, "if", false),
+    ] {
+        match program(&points, &settings).texts(format, name) {
+            Ok(_) => assert!(!is_reserved, "{format:?} {name}"),
+            Err(error) => {
+                assert!(is_reserved, "{format:?} {name}: {error}");
+                let wanted = format!("{name} is a reserved word of {}", format.title());
+                assert!(error.to_string().contains(&wanted), "{error}");
+                assert!(error.advice().contains(&format!("paint_{name}")));
+            }
+        }
+    }
+}
+
+#[test]
 fn a_program_is_saved_by_its_ending_and_only_a_program_is_taken_away() {
     let folder = tempfile::tempdir().expect("a folder");
     let points = row();

@@ -50,6 +50,32 @@ pub(super) fn is_identifier(name: &str) -> bool {
         && name.bytes().all(|c| c.is_ascii_alphanumeric() || c == b'_')
 }
 
+const KRL_WORDS: &str = "AND ANIN ANOUT BOOL BRAKE B_AND B_EXOR B_NOT B_OR CASE CHANNEL CHAR CIRC CIRC_REL CONFIRM \
+    CONST CONTINUE DECL DEF DEFAULT DEFDAT DEFFCT DELAY DIGIN DISTANCE DO ELSE END ENDDAT ENDFCT ENDFOR ENDIF ENDLOOP \
+    ENDSPLINE ENDSWITCH ENDWHILE ENUM EXIT EXOR EXT EXTFCT FALSE FOR GLOBAL GOTO HALT IF IMPORT INT INTERRUPT IS LIN \
+    LIN_REL LOOP MAXIMUM MINIMUM NOT OR PRIO PTP PTP_REL PUBLIC PULSE REAL REPEAT RESUME RETURN SCIRC SIGNAL SLIN \
+    SPLINE SPTP STEP STRUC SWITCH THEN TO TRIGGER TRUE UNTIL WAIT WHEN WHILE";
+const RAPID_WORDS: &str = "ALIAS AND BACKWARD CASE CONNECT CONST DEFAULT DIV DO ELSE ELSEIF ENDFOR ENDFUNC ENDIF \
+    ENDMODULE ENDPROC ENDRECORD ENDTEST ENDTRAP ENDWHILE ERROR EXIT FALSE FOR FROM FUNC GOTO IF INOUT LOCAL MOD MODULE \
+    NOSTEPIN NOT NOVIEW OR PERS PROC RAISE READONLY RECORD RETRY RETURN STEP SYSMODULE TASK TEST THEN TO TRAP TRUE \
+    TRYNEXT UNDO VAR VIEWONLY WHILE WITH XOR";
+/// Also the functions that a program calls: it would call itself instead.
+const URSCRIPT_WORDS: &str = "False True and break continue def elif else end global halt if join kill local not or \
+    return run sec thread while xor movej movel set_standard_digital_out set_tcp";
+
+/// True for a reserved word of the language. The formats of LS and JBI have a field for the name, and DRL programs
+/// contain none.
+pub(super) fn is_reserved(format: ProgramFormat, name: &str) -> bool {
+    let is_in = |words: &str| words.split(' ').any(|word| word.eq_ignore_ascii_case(name));
+    match format {
+        ProgramFormat::Krl => is_in(KRL_WORDS),
+        ProgramFormat::Rapid => is_in(RAPID_WORDS),
+        // Case matters here.
+        ProgramFormat::UrScript => URSCRIPT_WORDS.split(' ').any(|word| word == name),
+        ProgramFormat::Ls | ProgramFormat::Jbi | ProgramFormat::Drl => false,
+    }
+}
+
 /// Breaks the header into comments of at most `width` letters. ASCII only: controllers refuse or garble the rest.
 pub(super) fn comments(header: &[String], width: usize) -> Vec<String> {
     let mut lines = Vec::new();

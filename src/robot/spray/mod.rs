@@ -14,8 +14,9 @@
 //! Source of the band: the paper's section V-B, eq. 14 (10 to 20 cm, normal at the nozzle). It gives no limit for the
 //! angle; ours is [`MOST_TILT`].
 //!
-//! A path that does not belong to the part is found without the camera, because a part may be half hidden: its nozzle
-//! does not meet the enrolled surface, or not near its own stand-off ([`off_the_part`]).
+//! A path that does not aim at the part is found without the camera, because a part may be half hidden: its nozzle does
+//! not meet the enrolled surface, or not near its own stand-off ([`off_the_part`]). Most paths of another part do, since
+//! all parts hang at about the same place.
 //!
 //! Known limits: where the camera does not see the part, because something is in front of it or it faces away, nothing
 //! can be compared; such points are [`BandStatus::NotSeen`]. Reach and collisions of the arm are not checked here.

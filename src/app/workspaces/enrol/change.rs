@@ -83,7 +83,7 @@ pub(super) fn change(
     }
     let change = match change {
         LibraryChange::ReadPath(name, file) => {
-            let path = SprayPath::read(&file).map_err(|error| UserError::of(&error))?;
+            let path = SprayPath::read_for(&file, &name).map_err(|error| UserError::of(&error))?;
             LibraryChange::SetPath(name, Some(path))
         }
         other => other,

@@ -4,11 +4,19 @@ use std::mem;
 
 use super::{action::ShownPath, state::PaintState};
 use crate::{
-    app::shell::{
-        context::ShellContext, message::Message, notice::NoticeTopic, program_setup::ProgramSetup,
-        undo_stack::UndoDirection,
+    app::{
+        inspection::library_cache::LibraryView,
+        language::text,
+        shell::{
+            context::ShellContext,
+            message::Message,
+            notice::{Notice, NoticeTopic},
+            program_setup::ProgramSetup,
+            session::Session,
+            undo_stack::UndoDirection,
+        },
     },
-    library::{PartName, SprayPath},
+    library::{FileCheck, PartName, SprayPath},
     paint::{Coat, KeepOut, PathEdit},
     pipeline::{RecipeFile, parameters::Parameter},
 };
@@ -16,8 +24,10 @@ use crate::{
 /// Everything that Undo restores.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Design {
-    /// The part; `None` until chosen.
+    /// The part; `None` until chosen or drawn on.
     pub part: Option<PartName>,
+    /// Its cloud then: what is drawn is in the coordinates of this cloud.
+    pub cloud: Option<FileCheck>,
     /// The saved coat that was chosen.
     pub kept: RecipeFile<Coat>,
     /// Its parameters, with the changes made since.
@@ -40,9 +50,41 @@ pub(super) enum Step {
 }
 
 impl Design {
-    /// True if both give the same path, before corrections by hand.
+    /// True if both give the same path over the same part, before corrections by hand.
     pub(super) fn is_same_path(&self, other: &Self) -> bool {
-        (&self.part, &self.coat, &self.regions) == (&other.part, &other.coat, &other.regions)
+        (&self.coat, &self.regions) == (&other.coat, &other.regions)
+    }
+
+    /// True if there are regions or corrections by hand.
+    pub fn is_drawn_on(&self) -> bool {
+        !self.regions.is_empty() || !self.edits.is_empty()
+    }
+
+    /// Removes regions and corrections by hand.
+    pub(super) fn clear(&mut self) {
+        self.regions.clear();
+        self.edits.clear();
+    }
+
+    /// Takes over the part's new name if it was renamed in the library. If it was removed or enrolled anew, removes what is drawn
+    /// on it; returns true if there was anything.
+    fn follow(&mut self, library: &LibraryView) -> bool {
+        let (Some(part), Some(cloud)) = (&self.part, &self.cloud) else {
+            return false;
+        };
+        let mut parts = library.parts.iter();
+        let named = parts.find(|known| known.name == *part);
+        let renamed = || library.parts.iter().find(|known| known.cloud == *cloud);
+        if let Some(known) = named.or_else(renamed) {
+            if known.cloud == *cloud {
+                self.part = Some(known.name.clone());
+                return false;
+            }
+            self.cloud = Some(known.cloud.clone());
+        }
+        let was_drawn_on = self.is_drawn_on();
+        self.clear();
+        was_drawn_on
     }
 
     /// True if the coat differs from the saved one of its name.
@@ -75,9 +117,58 @@ impl PaintState {
         same == self.design && **before != self.design
     }
 
-    /// Adds regions. Areas to be painted are merged into one region; keep-outs stay separate.
-    pub(super) fn add(&mut self, regions: Vec<KeepOut>) {
+    /// Chooses the part to paint as an undoable step; what is drawn on another one is dropped.
+    pub(super) fn choose_part(&mut self, part: PartName, cx: &mut ShellContext<'_>) {
+        let session = cx.session;
+        let former = self.part(session);
+        let is_other = former != Some(&part);
+        if let Some(former) = former.filter(|_| is_other && self.design.is_drawn_on()) {
+            cx.notify(drawn_dropped(
+                former,
+                session,
+                text!("paint-drawn-dropped-undo"),
+            ));
+        }
+        if !is_other && !self.is_planning() && self.is_old(session) {
+            // Choosing it again repeats what was cancelled or has failed.
+            self.asked = None;
+        }
+        let mut parts = session.library.iter().flat_map(|library| &library.parts);
+        let enrolled = parts.find(|known| known.name == part);
         self.change(|design| {
+            design.part = Some(part);
+            design.cloud = enrolled.map(|part| part.cloud.clone());
+            if is_other {
+                design.clear();
+            }
+        });
+    }
+
+    /// Changes what is drawn on the part as an undoable step. The part stays the one to paint, whichever is recognised next.
+    pub(super) fn draw(&mut self, session: &Session, draw: impl FnOnce(&mut Design)) {
+        let enrolled = self.enrolled(session);
+        self.change(|design| {
+            if let Some(part) = enrolled {
+                design.part = Some(part.name.clone());
+                design.cloud = Some(part.cloud.clone());
+            }
+            draw(design);
+        });
+    }
+
+    /// Follows the part through a change of the library. Dropping what is drawn on it is an undoable step.
+    pub(super) fn follow_part(&mut self, cx: &mut ShellContext<'_>) {
+        let mut design = self.design.clone();
+        if follow(&mut design, cx) {
+            self.change(|now| *now = design);
+        } else {
+            self.design = design;
+        }
+    }
+
+    /// Adds regions. Areas to be painted are merged into one region; keep-outs stay separate.
+    pub(super) fn add(&mut self, regions: Vec<KeepOut>, session: &Session) {
+        self.draw(session, |design| {
             for region in regions {
                 let former = design.regions.iter_mut().find_map(|former| match former {
                     KeepOut::Outside { areas } => Some(areas),
@@ -115,6 +206,8 @@ impl PaintState {
                 let back = Step::Design(Box::new(now));
                 self.steps.add_inverse(Some(way), back);
                 self.shown_path = ShownPath::Planned;
+                // The part may have changed in the library since.
+                follow(&mut self.design, cx);
             }
             Some(Step::Stored(part, path)) => self.store(Some(way), part, path, cx),
             Some(Step::Base(base)) => {
@@ -125,6 +218,27 @@ impl PaintState {
             }
         }
     }
+}
+
+/// Has a design follow its part in the library; returns true, and tells the user, if what is drawn on it was dropped.
+fn follow(design: &mut Design, cx: &mut ShellContext<'_>) -> bool {
+    let session = cx.session;
+    let Some((library, part)) = session.library.as_ref().zip(design.part.clone()) else {
+        return false;
+    };
+    let was_dropped = design.follow(library);
+    if was_dropped {
+        let advice = text!("paint-drawn-dropped-again");
+        cx.notify(drawn_dropped(&part, session, advice));
+    }
+    was_dropped
+}
+
+/// The notice that what is drawn on this part was dropped.
+fn drawn_dropped(part: &PartName, session: &Session, advice: String) -> Notice {
+    let library = session.library.as_ref();
+    let title = library.map_or(part.as_str(), |library| library.title_of(part.as_str()));
+    Notice::look(text!("paint-drawn-dropped", part = title), advice)
 }
 
 /// Sends other settings for robot programs, and removes the notices of why the former ones gave none.

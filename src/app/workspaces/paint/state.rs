@@ -26,7 +26,7 @@ use crate::{
         ui::scrubber::Playback,
         user_error::UserError,
     },
-    library::{PartName, SprayPath},
+    library::{PartMeta, PartName, SprayPath},
     paint::{BUILT_IN_COATS, CoatFolder, built_in_coat},
     pipeline::Verdict,
 };
@@ -56,7 +56,7 @@ pub struct PaintState {
     pub coats: Vec<String>,
     pub(super) coat_folder: Option<CoatFolder>,
     pub(super) steps: UndoStack<Step>,
-    asked: Option<Request>,
+    pub(super) asked: Option<Request>,
     /// The request that the last path answers.
     answered: Option<Request>,
     task: Task<PaintResult>,
@@ -78,6 +78,7 @@ impl PaintState {
         Self {
             design: Design {
                 part: None,
+                cloud: None,
                 coat: kept.recipe,
                 kept,
                 regions: Vec::new(),
@@ -137,8 +138,7 @@ impl PaintState {
 
     /// Describes regions drawn by a person whose path is not stored.
     pub(super) fn unsaved(&self) -> Option<String> {
-        let is_drawn = !self.design.regions.is_empty() || !self.design.edits.is_empty();
-        (is_drawn && !self.is_stored()).then(|| text!("paint-unsaved"))
+        (self.design.is_drawn_on() && !self.is_stored()).then(|| text!("paint-unsaved"))
     }
 
     /// Cancels planning and the reach check; the shown path stays.
@@ -158,17 +158,20 @@ impl PaintState {
         !is_answered || self.is_planning() || self.failed.is_some()
     }
 
-    /// Forgets path and failure of another part: nothing of it is shown under the name of the part to paint now.
+    /// Forgets path and failure of another part, or of the part before it was enrolled anew: nothing of it is shown under the name
+    /// of the part to paint now.
     fn forget_other_part(&mut self, session: &Session) {
         if session.library.is_none() {
             return;
         }
-        let part = self.part(session);
-        let is_other = |known: &PartName| Some(known) != part;
+        let part = self.enrolled(session);
+        let is_other = |known: &PartName| part.is_none_or(|part| part.name != *known);
         let planned = self.planned.as_ref();
         let is_planned = planned.is_some_and(|planned| is_other(&planned.part));
         let asked = self.asked.as_ref();
-        let is_asked = asked.is_some_and(|asked| is_other(&asked.part));
+        let is_asked = asked.is_some_and(|asked| {
+            is_other(&asked.part) || part.is_none_or(|part| part.cloud != asked.cloud)
+        });
         if is_planned || is_asked {
             self.task.cancel();
             self.planned = None;
@@ -190,19 +193,24 @@ impl PaintState {
     }
 
     /// The part to paint: the one chosen, else the one recognised last, else the first.
-    pub fn part<'a>(&'a self, session: &'a Session) -> Option<&'a PartName> {
+    pub fn part<'a>(&self, session: &'a Session) -> Option<&'a PartName> {
+        Some(&self.enrolled(session)?.name)
+    }
+
+    /// The part to paint as it is enrolled.
+    pub(super) fn enrolled<'a>(&self, session: &'a Session) -> Option<&'a PartMeta> {
         let parts = &session.library.as_ref()?.parts;
-        let names = || parts.iter().map(|part| &part.name);
+        let named = |name: &str| parts.iter().find(|part| part.name.as_str() == name);
         let chosen = self.design.part.as_ref();
-        let chosen = chosen.and_then(|chosen| names().find(|name| *name == chosen));
+        let chosen = chosen.and_then(|chosen| named(chosen.as_str()));
         let recognised = || {
             let verdict = &session.shown.as_ref()?.inspected.inspection.verdict;
             let Verdict::Part { part, .. } = verdict else {
                 return None;
             };
-            names().find(|name| name.as_str() == part)
+            named(part)
         };
-        chosen.or_else(recognised).or_else(|| names().next())
+        chosen.or_else(recognised).or_else(|| parts.first())
     }
 
     /// The path stored with the part, if any.
@@ -215,11 +223,13 @@ impl PaintState {
     /// Carries out an action.
     pub fn apply(&mut self, action: PaintAction, cx: &mut ShellContext<'_>) {
         let before = self.design.clone();
+        let part = self.part(cx.session);
         let is_step = matches!(action, PaintAction::Undo | PaintAction::Redo);
         self.carry_out(action, cx);
         // Corrections refer to points and strokes of the former path.
         let is_corrected = !is_step && !self.design.edits.is_empty();
-        if is_corrected && !self.design.is_same_path(&before) {
+        let is_same_path = self.part(cx.session) == part && self.design.is_same_path(&before);
+        if is_corrected && !is_same_path {
             self.design.edits.clear();
             cx.notify(Notice::look(
                 text!("paint-edits-dropped"),
@@ -231,19 +241,7 @@ impl PaintState {
 
     fn carry_out(&mut self, action: PaintAction, cx: &mut ShellContext<'_>) {
         match action {
-            PaintAction::ChoosePart(part) => {
-                let is_other = self.part(cx.session) != Some(&part);
-                if !is_other && !self.is_planning() && self.is_old(cx.session) {
-                    // Choosing it again repeats what was cancelled or has failed.
-                    self.asked = None;
-                }
-                self.change(|design| {
-                    design.part = Some(part);
-                    if is_other {
-                        design.regions.clear();
-                    }
-                });
-            }
+            PaintAction::ChoosePart(part) => self.choose_part(part, cx),
             PaintAction::ChooseCoat(name) => self.choose_coat(&name, cx),
             PaintAction::Change(key, change) => self.change_parameter(key, change, cx),
             PaintAction::ResetCoat => self.change(|design| design.coat = design.kept.recipe),
@@ -254,12 +252,9 @@ impl PaintState {
             PaintAction::SaveCoat => self.save_coat(cx),
             PaintAction::Show(path) => self.shown_path = path,
             PaintAction::Use(tool) => self.tool = tool,
-            PaintAction::Add(regions) => self.add(regions),
-            PaintAction::Edit(edit) => self.change(|design| design.edits.push(edit)),
-            PaintAction::Clear => self.change(|design| {
-                design.regions.clear();
-                design.edits.clear();
-            }),
+            PaintAction::Add(regions) => self.add(regions, cx.session),
+            PaintAction::Edit(edit) => self.draw(cx.session, |design| design.edits.push(edit)),
+            PaintAction::Clear => self.change(Design::clear),
             PaintAction::Undo => self.step(UndoDirection::Undo, cx),
             PaintAction::Redo => self.step(UndoDirection::Redo, cx),
             PaintAction::Propose => {
@@ -341,19 +336,20 @@ impl PaintState {
             return;
         };
         let title = text!("shell-writing", file = file_name(&file));
-        self.writing
-            .start(title, move |_| Ok(work::write(&file, &planned.path)?));
+        self.writing.start(title, move |_| {
+            Ok(work::write(&file, &planned.part, &planned.path)?)
+        });
     }
 
     /// The present request, if there is a part.
     fn request(&self, session: &Session) -> Option<Request> {
         let library = session.library.as_ref()?;
-        let part = self.part(session)?.clone();
-        let place = library.place_of(part.as_str())?;
+        let part = self.enrolled(session)?;
         Some(Request {
-            part,
+            part: part.name.clone(),
+            cloud: part.cloud.clone(),
             library: library.identity.clone(),
-            stored: library.parts.get(place)?.spray.clone(),
+            stored: part.spray.clone(),
             coat: self.design.coat,
             regions: self.design.regions.clone(),
             edits: self.design.edits.clone(),
@@ -379,6 +375,7 @@ impl PaintState {
 
     /// Takes in the results of the tasks and of the file dialog, and plans if needed.
     pub fn update(&mut self, cx: &mut ShellContext<'_>) {
+        self.follow_part(cx);
         while let Some(event) = self.task.poll() {
             match event {
                 Ok(result) => self.receive(result, cx),

@@ -125,7 +125,7 @@ fn edits(paint: &PaintState) -> Vec<Tool<PaintAction>> {
         text: clear,
         hint: Some(text!("paint-clear-hint")),
         is_chosen: false,
-        is_enabled: !paint.design.regions.is_empty() || !paint.design.edits.is_empty(),
+        is_enabled: paint.design.is_drawn_on(),
         action: PaintAction::Clear,
     });
     each

@@ -23,6 +23,8 @@ use crate::{
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Request {
     pub(super) part: PartName,
+    /// Its cloud.
+    pub(super) cloud: FileCheck,
     /// The library of the part.
     pub(super) library: String,
     /// The path stored with the part.
@@ -233,7 +235,7 @@ pub(super) fn store(
 }
 
 /// Writes a path as a table, atomically; describes what was written.
-pub(super) fn write(file: &Path, path: &SprayPath) -> Result<String, UserError> {
-    write_text(file, &path.to_text()).map_err(|error| UserError::of(&error))?;
+pub(super) fn write(file: &Path, part: &PartName, path: &SprayPath) -> Result<String, UserError> {
+    write_text(file, &path.to_text_of(part)).map_err(|error| UserError::of(&error))?;
     Ok(text!("shell-wrote", path = file.display().to_string()))
 }

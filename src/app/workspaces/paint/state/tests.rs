@@ -3,16 +3,20 @@ use std::f64::consts::FRAC_PI_2;
 use super::*;
 use crate::{
     app::{
-        inspection::{camera::Camera, library_cache::LibraryCache},
-        shell::context::TestShell,
+        inspection::{
+            camera::Camera, inspected::inspected_cell, library_cache::LibraryCache,
+            source::CellChoice,
+        },
+        shell::{context::TestShell, session::Shown},
         ui::{parameter_control::ParameterChange, viewport::Role},
         workspaces::paint::RegionUse,
     },
     geometry::rigid::from_euler_zyx,
     kit::copy_library,
-    library::LibraryFolder,
+    library::{LibraryFolder, PartNaming},
     paint::{KeepOut, PathEdit},
     robot::RobotFrame,
+    simulate::{PartKind, Side},
 };
 
 /// The workspace in front, without a window; its tasks run when the test asks.
@@ -104,9 +108,40 @@ impl Bench {
         Arc::clone(reach.as_ref().expect("an arm"))
     }
 
+    /// Shows an inspection of this part in Inspect.
+    fn recognise(&mut self, kind: PartKind) {
+        self.shell.session.shown = Some(Shown {
+            generation: 1,
+            inspected: Arc::new(inspected_cell(CellChoice::Part(kind, Side::Left), 1)),
+            is_past: false,
+            session: None,
+            is_outdated: false,
+        });
+        self.settle();
+    }
+
+    fn folder(&self) -> LibraryFolder {
+        LibraryFolder::open(&self.data.path().join("parts")).expect("opened")
+    }
+
+    /// Loads the library again after it was changed.
+    fn reload(&mut self) {
+        let loaded = self.shell.services.library_cache.reload();
+        let loaded = loaded.expect("loaded");
+        self.shell.session.library = Some(Arc::clone(&loaded.shown));
+        self.settle();
+    }
+
+    /// A keep-out in the middle of the part.
+    fn hole(&self) -> KeepOut {
+        KeepOut::Sphere {
+            centre: self.planned().surface.middle,
+            radius: 0.1,
+        }
+    }
+
     fn stored(&self) -> Option<SprayPath> {
-        let folder = LibraryFolder::open(&self.data.path().join("parts")).expect("opened");
-        folder.spray_path("fender").expect("read")
+        self.folder().spray_path("fender").expect("read")
     }
 }
 
@@ -356,6 +391,92 @@ fn a_stroke_moved_by_hand_stays_until_another_path_is_planned_and_undo_brings_it
     assert_eq!(bench.planned().path, moved);
     bench.run(PaintAction::Undo);
     assert_eq!(bench.planned().path, planned);
+}
+
+#[test]
+fn what_is_drawn_stays_with_its_part_whichever_is_recognised_next() {
+    let mut bench = Bench::new();
+    // No part is chosen yet.
+    bench.run(PaintAction::Undo);
+    bench.recognise(PartKind::Fender);
+    assert_eq!(bench.planned().part.as_str(), "fender");
+    let hole = bench.hole();
+    bench.run(PaintAction::Add(vec![hole]));
+    bench.recognise(PartKind::FrontDoor);
+    assert_eq!(bench.planned().part.as_str(), "fender");
+    assert_eq!(bench.paint.design.regions.len(), 1);
+    bench.run(PaintAction::Undo);
+    assert_eq!(bench.planned().part.as_str(), "front_door");
+    assert!(bench.paint.design.regions.is_empty());
+    let by = nalgebra::Vector3::new(0.0, 0.03, 0.0);
+    bench.run(PaintAction::Edit(PathEdit::Stroke { stroke: 2, by }));
+    bench.recognise(PartKind::Fender);
+    assert_eq!(bench.planned().part.as_str(), "front_door");
+    assert_eq!(bench.paint.design.edits.len(), 1);
+    assert!(bench.shell.notices().is_empty());
+    // Choosing another part drops it.
+    let fender = PartName::new("fender").expect("a name");
+    bench.run(PaintAction::ChoosePart(fender));
+    assert!(!bench.paint.design.is_drawn_on());
+    assert_eq!(
+        bench.shell.notices(),
+        ["What was drawn on Front door, left in Paint was dropped"]
+    );
+    bench.run(PaintAction::Undo);
+    assert_eq!(bench.planned().part.as_str(), "front_door");
+    assert_eq!(bench.paint.design.edits.len(), 1);
+}
+
+#[test]
+fn what_is_drawn_follows_a_renamed_part_and_is_dropped_if_that_is_enrolled_anew_or_removed() {
+    let mut bench = Bench::new();
+    let name = |name: &str| PartName::new(name).expect("a name");
+    let hole = bench.hole();
+    bench.run(PaintAction::Add(vec![hole]));
+    let wing = PartNaming {
+        name: name("wing"),
+        title: "Wing".into(),
+        notes: String::new(),
+    };
+    let renamed = bench.folder().rename(&name("fender"), &wing);
+    renamed.expect("renamed");
+    bench.reload();
+    assert_eq!(bench.planned().part, wing.name);
+    assert_eq!(bench.paint.design.regions.len(), 1);
+    assert!(bench.shell.notices().is_empty());
+
+    // Another cloud under the same name.
+    let former = bench.folder().remove(&wing.name).expect("removed");
+    let renamed = bench.folder().rename(&name("front_door"), &wing);
+    renamed.expect("renamed");
+    bench.reload();
+    assert_eq!(bench.planned().part, wing.name);
+    assert!(!bench.paint.design.is_drawn_on());
+    let dropped = "What was drawn on Wing in Paint was dropped";
+    assert_eq!(bench.shell.notices(), [dropped]);
+    // It comes back with the former cloud only.
+    bench.run(PaintAction::Undo);
+    assert!(!bench.paint.design.is_drawn_on());
+    assert_eq!(bench.shell.notices(), [dropped; 2]);
+    bench.run(PaintAction::Redo);
+    let hole = bench.hole();
+    bench.run(PaintAction::Add(vec![hole]));
+    bench.folder().restore(&former).expect("restored");
+    bench.reload();
+    assert!(!bench.paint.design.is_drawn_on());
+    assert_eq!(bench.shell.notices(), [dropped; 3]);
+
+    let hole = bench.hole();
+    bench.run(PaintAction::Add(vec![hole]));
+    let former = bench.folder().remove(&wing.name).expect("removed");
+    bench.reload();
+    assert_ne!(bench.planned().part, wing.name);
+    assert!(!bench.paint.design.is_drawn_on());
+    bench.folder().restore(&former).expect("restored");
+    bench.reload();
+    bench.run(PaintAction::Undo);
+    assert_eq!(bench.planned().part, wing.name);
+    assert_eq!(bench.paint.design.regions.len(), 1);
 }
 
 #[test]
