@@ -150,6 +150,15 @@ impl Trouble {
         Self::new(reason, &error.to_string(), &error.advice())
     }
 
+    /// A person has reported that the part is another one.
+    pub fn reported_wrong() -> Self {
+        Self::new(
+            "reported_wrong",
+            "the part was reported as wrong by the operator",
+            "Hang the next part, or correct the report in the history",
+        )
+    }
+
     /// The maximum number of clients is connected.
     pub(super) fn full(max_clients: usize) -> Self {
         Self::new(
@@ -211,6 +220,15 @@ impl Found {
             trouble,
             ..Self::default()
         }
+    }
+
+    /// Refuses a part that was accepted, and withholds its pose and its path.
+    pub fn refuse(&mut self, trouble: Trouble) {
+        self.verdict = VerdictCode::Refused;
+        self.marks &= !Answer::APPROXIMATE;
+        self.pose = None;
+        self.path.clear();
+        self.trouble = trouble;
     }
 }
 

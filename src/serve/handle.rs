@@ -62,6 +62,11 @@ impl ServerHandle {
         answer_to(request, &self.shared, &self.jobs)
     }
 
+    /// Refuses the last inspection from now on, if it was accepted: its pose and its path do not go out any more.
+    pub fn refuse_last(&self, trouble: Trouble) {
+        self.shared.refuse_last(trouble);
+    }
+
     /// The last inspection and its whole path, which is empty unless the pose may be used.
     pub fn path(&self) -> (Answer, Vec<PathStep>) {
         let last = self.shared.last();

@@ -226,6 +226,19 @@ impl Shared {
         Arc::clone(&lock(&self.last))
     }
 
+    /// Refuses the last inspection from now on, if it was accepted.
+    pub(super) fn refuse_last(&self, trouble: Trouble) {
+        let mut last = lock(&self.last);
+        if last.found.verdict == VerdictCode::Accepted {
+            let mut found = last.found.clone();
+            found.refuse(trouble);
+            *last = Arc::new(Inspected {
+                sequence: last.sequence,
+                found,
+            });
+        }
+    }
+
     pub(super) fn situation(&self) -> Situation {
         Situation {
             boot: self.boot,
@@ -519,7 +532,47 @@ mod tests {
     use std::collections::BTreeSet;
 
     use super::*;
-    use crate::serve::protocol::Protocol;
+    use crate::{
+        geometry::rigid::RigidTransform,
+        serve::{answer::PathStep, protocol::Protocol},
+    };
+
+    #[test]
+    fn once_the_last_inspection_is_refused_its_numbers_do_not_go_out_any_more() {
+        let settings = ServerSettings::default();
+        let server = Server::start(&[], settings, CameraStatus::default, |_| ());
+        let server = server.expect("nothing to bind");
+        let step = PathStep {
+            robot_from_nozzle: RigidTransform::identity(),
+            marks: Answer::GUN_ON,
+            speed: None,
+        };
+        *lock(&server.shared.last) = Arc::new(Inspected {
+            sequence: 5,
+            found: Found {
+                verdict: VerdictCode::Accepted,
+                captured: Some(Instant::now()),
+                part: "fender".into(),
+                marks: Answer::APPROXIMATE | Answer::SIMULATED,
+                pose: Some(RigidTransform::identity()),
+                path: vec![step],
+                ..Found::default()
+            },
+        });
+        let handle = server.handle();
+        for request in [Request::Last, Request::Path(1)] {
+            assert!(handle.answer(request).pose.is_some(), "{request:?}");
+        }
+        handle.refuse_last(Trouble::reported_wrong());
+        for request in [Request::Last, Request::Path(1), Request::Status] {
+            let answer = handle.answer(request);
+            assert_eq!(answer.verdict, VerdictCode::Refused, "{request:?}");
+            assert_eq!((answer.pose, answer.points), (None, 0));
+            assert_eq!(answer.flags(), Answer::SIMULATED);
+            assert_eq!((answer.sequence, &*answer.part), (5, "fender"));
+            assert_eq!(answer.trouble.reason, "reported_wrong");
+        }
+    }
 
     #[test]
     fn starts_at_the_same_moment_have_different_numbers_that_are_never_zero() {

@@ -22,12 +22,12 @@ use partsight::{
             robot::{AnswerSetup, RobotAction, RobotDialog, RobotPage},
             roles::RoleAction,
         },
-        workspaces::history::HistoryWorkspace,
+        workspaces::history::{HistoryAction, HistoryWorkspace},
     },
     capture::{CaptureError, Captured, DepthSource, Image, NextCapture},
     geometry::{depth_frame::DepthFrame, rigid::RigidTransform},
     history::{Filter, HistoryBuffer, StoredVerdict},
-    library::{LibraryFolder, PartName},
+    library::{LibraryFolder, PartName, Truth},
     robot::Convention,
     serve::VerdictCode,
     simulate::{PartKind, SensorNoise},
@@ -457,12 +457,22 @@ fn wired(folder: &Path) -> (WindowHarness, Sender<Step>) {
 }
 
 /// A robot triggers; until it is answered the camera sees the part at these places, again and again.
-fn ask_while(harness: &mut WindowHarness, wire: &Sender<Step>, at: SocketAddr, places: [f64; 2]) {
+fn told_while(
+    harness: &mut WindowHarness,
+    wire: &Sender<Step>,
+    at: SocketAddr,
+    places: [f64; 2],
+) -> Vec<String> {
     let asking = thread::spawn(move || Robot::connect(at).ask("TRIGGER"));
     while !asking.is_finished() {
         sees(harness, wire, places);
     }
-    let told = asking.join().expect("no panic");
+    asking.join().expect("no panic")
+}
+
+/// The same; the part is accepted.
+fn ask_while(harness: &mut WindowHarness, wire: &Sender<Step>, at: SocketAddr, places: [f64; 2]) {
+    let told = told_while(harness, wire, at, places);
     assert_eq!([&*told[1], &*told[6]], ["accepted", "fender"], "{told:?}");
 }
 
@@ -557,4 +567,61 @@ fn what_robots_were_answered_is_kept_when_the_server_ends_or_the_window_before_l
     let newest = &page.rows[0];
     assert_eq!(newest.verdict, StoredVerdict::Accepted);
     assert_eq!(newest.part.as_deref(), Some("fender"));
+}
+
+/// Says what the newest part really is, and waits until the window knows it.
+fn report(harness: &mut WindowHarness, truth: &Truth) {
+    let number = history_of(harness).row(0).expect("kept").number;
+    let action = HistoryAction::Label(number, Some(truth.clone()));
+    let context = harness.ctx.clone();
+    let applied = harness
+        .state_mut()
+        .with(&context, |history: &mut HistoryWorkspace, cx| {
+            history.apply(action, cx);
+        });
+    applied.expect("the window has this workspace");
+    wait_until(harness, |state| {
+        let labelled = state.session.shift.labelled.as_ref();
+        labelled.is_some_and(|(_, label)| label == truth)
+    });
+}
+
+/// True if this answer refuses the fender because it was reported as wrong; the flags mean "simulated", without a pose.
+fn is_reported(told: &[String]) -> bool {
+    let has_reason = told.iter().any(|field| field == "reported_wrong");
+    has_reason && [&*told[1], &*told[6], &*told[8]] == ["refused", "fender", "4"]
+}
+
+#[test]
+fn a_part_that_was_reported_as_wrong_has_no_pose_until_it_has_left_or_the_report_is_corrected() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mut harness, wire) = wired(folder.path());
+    let at = turn_on(&mut harness);
+    sees(&mut harness, &wire, [0.0; 22]);
+    harness.get_by_label("Accepted");
+    trigger(&mut harness, &wire, at, [0.0; 2]);
+    // With the first frame of the window.
+    wait_for_rows(&mut harness, 2, 1);
+    report(&mut harness, &Truth::NotEnrolled);
+    // What was answered before is withheld too, as soon as the server looks.
+    let mut robot = Robot::connect(at);
+    let until = Instant::now() + PATIENCE;
+    let mut last = robot.ask("LAST");
+    while last[1] != "refused" && Instant::now() < until {
+        thread::sleep(Duration::from_millis(20));
+        last = robot.ask("LAST");
+    }
+    assert!(is_reported(&last), "{last:?}");
+    let told = told_while(&mut harness, &wire, at, [0.0; 2]);
+    assert!(is_reported(&told), "{told:?}");
+
+    report(&mut harness, &Truth::Part("fender".into()));
+    trigger(&mut harness, &wire, at, [0.0; 2]);
+    report(&mut harness, &Truth::Part("grille".into()));
+    let told = told_while(&mut harness, &wire, at, [0.0; 2]);
+    assert!(is_reported(&told), "{told:?}");
+
+    sees(&mut harness, &wire, GOING);
+    sees(&mut harness, &wire, COMING);
+    trigger(&mut harness, &wire, at, [0.0; 2]);
 }

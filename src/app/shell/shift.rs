@@ -19,6 +19,7 @@ use crate::{
         task::{Task, TaskRunner},
         user_error::UserError,
     },
+    error::lock,
     history::{Filter, HistoryBuffer, HistoryError, HungId, StoredVerdict, Summary},
     library::Truth,
 };
@@ -157,7 +158,15 @@ impl ShiftWatch {
 pub(in crate::app) fn update(state: &mut State, history: &Arc<HistoryBuffer>, ctx: &egui::Context) {
     let time = ctx.input(|input| input.time);
     match state.shift_watch.counting.poll() {
-        Some(Ok(parts)) => state.session.shift = parts,
+        Some(Ok(parts)) => {
+            let counted = state.shift_watch.counted.as_ref();
+            if let Some(part) = counted.and_then(|counted| counted.latest.as_ref()) {
+                let label = parts.labelled.as_ref().map(|(_, label)| label);
+                // Whoever answers robots does not wait for the history.
+                lock(&state.session.live.parts).label(part, label);
+            }
+            state.session.shift = parts;
+        }
         // The History workspace reports why the history cannot be read.
         Some(Err(_)) => state.shift_watch.retry_at = Some(time + RETRY),
         None => {}
@@ -295,6 +304,19 @@ mod tests {
             assert_eq!(shift.reported_as(&inspected), Some(&Truth::NotEnrolled));
             let num = usize::from(role == UserRole::Operator);
             assert_eq!((shift.num_ok, shift.num_not_ok), (0, num), "{role:?}");
+
+            // So does whoever answers robots.
+            let name = inspected.entry.record.summary.part.as_deref();
+            let is_reported = |state: &State| {
+                let parts = lock(&state.session.live.parts);
+                parts.is_reported(inspected.hung(), name.expect("a part"))
+            };
+            assert!(is_reported(&state));
+            history.set_label(-1, None);
+            update(&mut state, &history, &ctx);
+            assert!(state.shift_watch.counting.run_waiting());
+            update(&mut state, &history, &ctx);
+            assert!(!is_reported(&state));
         }
     }
 

@@ -11,6 +11,7 @@ use crate::{
     app::shell::current_trace::CurrentTrace,
     capture::SourceSpec,
     history::{HungId, HungRows, NewEntry, TraceChange, Traceability},
+    library::Truth,
 };
 
 /// The parts before a source, one after the other.
@@ -20,6 +21,8 @@ pub(in crate::app) struct FollowedParts {
     pub(super) rows: HungRows,
     /// The part whose verdict counted last, and its traceability.
     pub(super) counted: Option<(HungId, Traceability)>,
+    /// The last part with a true label.
+    labelled: Option<(HungId, Truth)>,
     /// Frames whose part is asked for, until Live has seen one as new.
     asked: Vec<AskedFrame>,
 }
@@ -99,6 +102,22 @@ impl FollowedParts {
         {
             *known = mem::take(known).changed(change);
         }
+    }
+
+    /// Takes over the true label of a part, or that it has none.
+    pub(in crate::app) fn label(&mut self, part: &HungId, label: Option<&Truth>) {
+        match label {
+            Some(label) => self.labelled = Some((part.clone(), label.clone())),
+            None => {
+                self.labelled.take_if(|(known, _)| known == part);
+            }
+        }
+    }
+
+    /// True if a person has reported that this is no part of this name.
+    pub(in crate::app) fn is_reported(&self, part: &HungId, name: &str) -> bool {
+        let labelled = self.labelled.as_ref();
+        labelled.is_some_and(|(known, label)| known == part && label.part() != Some(name))
     }
 
     /// The part that a capture of this source shows, which is taken in place of Live, and the traceability of that
@@ -221,6 +240,26 @@ mod tests {
         let now = [&one, &other, &one].map(|source| parts.part_now(&source.to_string(), false));
         assert_ne!(now[0], now[1]);
         assert_ne!(now[0], now[2], "nothing hangs there");
+    }
+
+    #[test]
+    fn a_part_is_reported_as_wrong_while_its_label_names_another_part_or_none() {
+        let mut parts = FollowedParts::default();
+        let [part, next] = [HungId::new(), HungId::new()];
+        for (label, is_reported) in [
+            (Some(Truth::NotEnrolled), true),
+            (Some(Truth::Part("fender".into())), false),
+            (Some(Truth::Part("grille".into())), true),
+            (None, false),
+            (Some(Truth::Nothing), true),
+        ] {
+            parts.label(&part, label.as_ref());
+            assert_eq!(parts.is_reported(&part, "fender"), is_reported, "{label:?}");
+            assert!(!parts.is_reported(&next, "fender"));
+        }
+        // The next part has no label.
+        parts.label(&next, None);
+        assert!(parts.is_reported(&part, "fender"));
     }
 
     #[test]

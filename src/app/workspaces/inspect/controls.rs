@@ -63,7 +63,9 @@ pub(super) fn ui(
         }
         ui.separator();
         let export = Button::new(text!("inspect-export-path"));
-        let can_export = figure.spray.is_some() && session.robot_of(inspected).is_some();
+        let can_export = figure.spray.is_some()
+            && session.robot_of(inspected).is_some()
+            && session.shift.reported_as(inspected).is_none();
         let export = ui.add_enabled(can_export, export);
         let export = export.on_disabled_hover_text(text!("inspect-export-path-says"));
         if export.clicked() {

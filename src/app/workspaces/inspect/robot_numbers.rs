@@ -31,8 +31,12 @@ pub(super) struct NumberedPose {
     pub(super) pose: RobotPose,
 }
 
-/// Returns the pose in the robot's frame if the cell is calibrated, else in the camera's; `None` unless accepted.
+/// Returns the pose in the robot's frame if the cell is calibrated, else in the camera's; `None` unless accepted, or if a
+/// person has reported that it is another part.
 pub(super) fn numbered(session: &Session, inspected: &Inspected) -> Option<NumberedPose> {
+    if session.shift.reported_as(inspected).is_some() {
+        return None;
+    }
     let camera_from_part = accepted_pose(inspected)?;
     let (name, frame, transform) = match session.robot_of(inspected) {
         Some(robot) => (
@@ -78,7 +82,7 @@ pub(super) fn clipboard_text(numbered: &NumberedPose) -> String {
     format!("{name} · {title} · {frame} · {meaning}\n{numbers}")
 }
 
-/// Draws the section; nothing unless the part is accepted.
+/// Draws the section; nothing unless there is a pose for a robot.
 pub(super) fn ui(
     ui: &mut Ui,
     inspected: &Inspected,
@@ -195,7 +199,12 @@ mod tests {
                 "{text}"
             );
         }
-        // A part that is not accepted has no pose for a robot.
+        // A part that a person has reported as wrong has no pose for a robot.
+        let part = inspected.hung().clone();
+        session.shift.labelled = Some((part, crate::library::Truth::NotEnrolled));
+        assert!(numbered(&session, &inspected).is_none());
+        session.shift.labelled = None;
+        // Nor has one that is not accepted.
         if let Verdict::Part { rejected, part, .. } = &mut inspected.inspection.verdict {
             *rejected = Some(crate::pipeline::Rejection::NotSteady { part: part.clone() });
         }

@@ -367,7 +367,9 @@ impl InspectState {
         let Some(robot) = cx.session.robot_of(&inspected).cloned() else {
             return;
         };
-        if inspected.spray.is_none() {
+        // It may have been reported while the file was being chosen.
+        let is_reported = cx.session.shift.reported_as(&inspected).is_some();
+        if inspected.spray.is_none() || is_reported {
             return;
         }
         let (convention, setup) = (cx.session.convention, cx.session.program.clone());

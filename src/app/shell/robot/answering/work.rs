@@ -35,7 +35,7 @@ use crate::{
     serve::{
         Answer, Asked, Camera, CameraState, ClientEvent, Found, FrameOrigin, InspectionRecord,
         Inspector, ListenAddress, Listener, NewFrame, NumberedPart, PartFinder, PoseKind,
-        ServeError, Server, ServerHandle, ServerSettings, Trouble,
+        ServeError, Server, ServerHandle, ServerSettings, Trouble, VerdictCode,
     },
     stages::scene::{EmptyCell, SceneCloud},
 };
@@ -167,6 +167,7 @@ pub(super) fn answer(
         handle: server.handle(),
         rows: TriggerRows::new(writer, Arc::clone(&parts)),
         last: None,
+        part: None,
         status: AnsweringStatus {
             at: server.addresses().first().copied().unwrap_or(listener.at),
             num_clients: 0,
@@ -230,6 +231,8 @@ struct AnsweringSession<'a> {
     rows: TriggerRows,
     /// The inspection whose answer is on its way.
     last: Option<AnsweredFrame>,
+    /// The part of the last answer.
+    part: Option<AnsweredPart>,
     status: AnsweringStatus,
     told: Option<AnsweringStatus>,
 }
@@ -247,6 +250,25 @@ struct AnsweredFrame {
     line: String,
     /// Tells which part it is.
     part: Receiver<HungId>,
+}
+
+/// A part that a robot was told about.
+struct AnsweredPart {
+    name: String,
+    /// Which part it is as far as was known when its frame came, then also as Live saw it.
+    hung: Vec<HungId>,
+    /// Tells what Live saw.
+    told: Receiver<HungId>,
+}
+
+impl AnsweredPart {
+    /// True if a person has reported it as wrong.
+    fn is_reported(&mut self, parts: &Mutex<FollowedParts>) -> bool {
+        self.hung.extend(self.told.try_recv().ok());
+        let parts = lock(parts);
+        let mut hung = self.hung.iter();
+        hung.any(|hung| parts.is_reported(hung, &self.name))
+    }
 }
 
 impl Inspector for AnsweringSession<'_> {
@@ -268,7 +290,10 @@ impl Inspector for AnsweringSession<'_> {
         let source = inputs.followed.as_ref();
         let source = source.map_or_else(String::new, ToString::to_string);
         // At once: by the end of the inspection another part may hang there.
-        let part = lock(self.parts).part_of_frame(source.clone(), captured.arrived);
+        let mut parts = lock(self.parts);
+        let hung = vec![parts.part_now(&source, true)];
+        let [part, told] = [(); 2].map(|()| parts.part_of_frame(source.clone(), captured.arrived));
+        drop(parts);
         let num_dropped = self.camera.feed_status().num_dropped;
         let capture = CaptureLine::of(&source, &captured, num_dropped);
         let Captured {
@@ -289,6 +314,15 @@ impl Inspector for AnsweringSession<'_> {
         let fitted = fitted.expect("not cancelled");
         let inspection = pipeline::run(&scene, &fitted, recipe, &Unwatched).expect("not cancelled");
         let mut found = self.finder.found(&inspection, recipe, origin);
+        let mut answered = AnsweredPart {
+            name: found.part.clone(),
+            hung,
+            told,
+        };
+        if found.verdict == VerdictCode::Accepted && answered.is_reported(self.parts) {
+            found.refuse(Trouble::reported_wrong());
+        }
+        self.part = Some(answered);
         let trace = inputs.trace.remembered();
         let line = InspectionLine::of(&seen.title(), &inspection)
             .by(recipe)
@@ -331,6 +365,11 @@ impl Inspector for AnsweringSession<'_> {
         self.status.client = self.events.try_iter().last().or(self.status.client.take());
         let inputs = self.follow();
         self.rows.update(inputs.followed.is_some());
+        let parts = self.parts;
+        if self.part.take_if(|part| part.is_reported(parts)).is_some() {
+            // Or LAST and PATH would still give its pose.
+            self.handle.refuse_last(Trouble::reported_wrong());
+        }
         let loaded = self.library_cache.get();
         if loaded.shown.unloaded.is_none() {
             // Before the first trigger, so that the numbers can be looked up for the robots' programs.
