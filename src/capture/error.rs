@@ -193,7 +193,7 @@ impl Advice for CaptureError {
                 path.display()
             ),
             Self::FolderGone { .. } => {
-                "Check the name and that the drive or stick is connected".into()
+                "Check the name and that the drive is connected".into()
             }
             Self::FolderUnreadable { .. } => {
                 "Ask for access to this folder; it is looked for again by itself".into()

@@ -9,17 +9,26 @@ use std::{
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 
 pub(super) use crate::report::TextTable as Table;
-use crate::{error::Advice, files::visible};
+use crate::{
+    error::Advice,
+    files::{advice_on, visible, words_of},
+};
 
 /// Both outputs of a call. Control characters in files and their names are shown as text, so that the terminal does not
 /// interpret them.
 ///
-/// A reader that goes away (`| head`) does not stop the work: the rest is not shown, and the exit code stays the same.
+/// A reader that goes away (`| head`) does not stop the work on files: the rest is not shown, and the exit code stays the
+/// same. After any other error, such as a full disk, the next line is tried again.
 pub(super) struct Console {
     out: io::Stdout,
-    /// The first failure to write an answer, other than a closed pipe.
-    failed: Option<io::Error>,
+    /// The rest of a line that was written only in part.
+    rest: Vec<u8>,
+    /// False once the reader has closed the pipe.
     is_read: bool,
+    /// True if the last line could not be written, other than to a closed pipe.
+    is_failing: bool,
+    /// True if any line could not be written, other than to a closed pipe.
+    has_failed: bool,
     progress: ProgressBar,
 }
 
@@ -37,8 +46,10 @@ impl Console {
     pub(super) fn new() -> Self {
         Self {
             out: io::stdout(),
-            failed: None,
+            rest: Vec::new(),
             is_read: true,
+            is_failing: false,
+            has_failed: false,
             progress: ProgressBar::hidden(),
         }
     }
@@ -55,17 +66,29 @@ impl Console {
         }
         let text = text.to_string();
         let shown: Vec<_> = text.split('\n').map(visible).collect();
-        let out = &mut self.out;
-        let write = || writeln!(out, "{}", shown.join("\n")).and_then(|()| out.flush());
-        match self.progress.suspend(write) {
-            Ok(()) => {}
+        let line = shown.join("\n") + "\n";
+        let (out, rest) = (&mut self.out, &mut self.rest);
+        let written = self.progress.suspend(|| write_line(out, rest, &line));
+        match written {
+            Ok(()) => self.is_failing = false,
+            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => self.is_read = false,
             Err(error) => {
-                self.is_read = false;
-                if error.kind() != io::ErrorKind::BrokenPipe {
-                    self.failed = Some(error);
+                // Once, and not for every line until it works again.
+                if !self.is_failing {
+                    self.error(&advised_error(
+                        format!("the output could not be written: {}", words_of(&error)),
+                        advice_on(&error),
+                    ));
                 }
+                self.is_failing = true;
+                self.has_failed = true;
             }
         }
+    }
+
+    /// Returns false if the pipe is closed or the last line could not be written.
+    pub(super) fn is_writable(&self) -> bool {
+        self.is_read && !self.is_failing
     }
 
     /// Writes a message next to the answer, on one line.
@@ -149,11 +172,31 @@ impl Console {
         self.progress.finish_and_clear();
     }
 
-    /// Removes the progress bar. Returns the first failure to write an answer, if any.
-    pub(super) fn finish(&mut self) -> io::Result<()> {
+    /// Removes the progress bar. Returns false if an answer could not be written, other than to a closed pipe.
+    pub(super) fn finish(&self) -> bool {
         self.progress.finish_and_clear();
-        self.failed.take().map_or(Ok(()), Err)
+        !self.has_failed
     }
+}
+
+/// Writes the rest of the line before, then this line. Keeps in `rest` what could not be written, so that a full disk
+/// leaves no line cut off in the middle of a file.
+fn write_line(out: &mut impl Write, rest: &mut Vec<u8>, line: &str) -> io::Result<()> {
+    write_rest(out, rest)?;
+    rest.extend(line.as_bytes());
+    write_rest(out, rest)
+}
+
+fn write_rest(out: &mut impl Write, rest: &mut Vec<u8>) -> io::Result<()> {
+    while !rest.is_empty() {
+        match out.write(rest) {
+            Ok(0) => return Err(io::ErrorKind::WriteZero.into()),
+            Ok(num) => drop(rest.drain(..num)),
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+            Err(error) => return Err(error),
+        }
+    }
+    out.flush()
 }
 
 /// Returns the message for a call that has been working this long; `None` for a short one.
@@ -245,6 +288,45 @@ impl Table {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A disk with room for this many more bytes.
+    struct SmallDisk {
+        content: Vec<u8>,
+        room: usize,
+    }
+
+    impl Write for SmallDisk {
+        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+            let num = bytes.len().min(self.room);
+            if num == 0 {
+                return Err(io::ErrorKind::StorageFull.into());
+            }
+            self.content.extend(&bytes[..num]);
+            self.room -= num;
+            Ok(num)
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn a_line_that_a_full_disk_cuts_off_is_completed_before_the_next_one() {
+        let mut disk = SmallDisk {
+            content: Vec::new(),
+            room: 10,
+        };
+        let mut rest = Vec::new();
+        let mut line = |disk: &mut SmallDisk, line: &str| write_line(disk, &mut rest, line);
+        line(&mut disk, "first\n").expect("there is room");
+        line(&mut disk, "second\n").expect_err("full");
+        line(&mut disk, "third\n").expect_err("still full");
+        assert_eq!(disk.content, b"first\nseco");
+        disk.room = 100;
+        line(&mut disk, "fourth\n").expect("there is room again");
+        assert_eq!(disk.content, b"first\nsecond\nfourth\n");
+    }
 
     #[test]
     fn a_call_that_takes_more_than_two_seconds_says_that_it_works() {

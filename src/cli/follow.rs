@@ -1,4 +1,4 @@
-//! Following a source from a command until it ends, enough frames came, or Ctrl-C.
+//! Following a source from a command until it ends, enough frames came, the output cannot be written, or Ctrl-C.
 
 use std::{ops::ControlFlow, time::Duration};
 
@@ -23,8 +23,9 @@ pub(super) fn parse_source(text: &str) -> Result<SourceSpec, String> {
         .map_err(|error| with_advice(&error))
 }
 
-/// Passes what a source gives to `each` until that breaks, the source ends, or Ctrl-C. While nothing comes, `each` gets
-/// `None` about ten times a second. It always gets the status of the feed too, whose last value is returned.
+/// Passes what a source gives to `each` until that breaks, the source ends, the output cannot be written, or Ctrl-C.
+/// While nothing comes, `each` gets `None` about ten times a second. It always gets the status of the feed too, whose last
+/// value is returned.
 pub(super) fn follow(
     spec: &SourceSpec,
     console: &mut Console,
@@ -33,7 +34,7 @@ pub(super) fn follow(
     let interrupt = Interrupt::listen()?;
     let feed = Feed::start(spec.clone(), BackpressurePolicy::for_source(spec), || ()).advised()?;
     let mut lost: Option<String> = None;
-    while !interrupt.came() {
+    while console.is_writable() && !interrupt.came() {
         // Read before waiting, so that items queued before the end are still taken.
         let status = feed.status();
         if let Some(item) = feed.wait(TURN) {

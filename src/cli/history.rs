@@ -23,7 +23,7 @@ use super::{
 };
 use crate::{
     history::{
-        ACCEPTED_KEPT, Filter, History, HistoryError, KeepFrames, Retention, StoredVerdict,
+        ACCEPTED_KEPT, FILE, Filter, History, HistoryError, KeepFrames, Retention, StoredVerdict,
         Summary, Traceability,
     },
     library::Truth,
@@ -297,26 +297,34 @@ fn note_if_unknown(part: &str, library: &LibraryChoice, console: &mut Console) {
 }
 
 fn open_to_read(folder: &Path, console: &Console) -> anyhow::Result<History> {
-    opened(History::open_to_read(folder), console)
+    opened(folder, History::open_to_read(folder), console)
 }
 
 fn open(folder: &Path, console: &Console) -> anyhow::Result<History> {
     // A wrong path must not create a history.
-    if !folder.join(crate::history::FILE).is_file() {
+    if !folder.join(FILE).is_file() {
         return open_to_read(folder, console);
     }
-    opened(History::open(folder), console)
+    opened(folder, History::open(folder), console)
 }
 
 fn opened(
+    folder: &Path,
     opened: Result<crate::history::OpenedHistory, HistoryError>,
     console: &Console,
 ) -> anyhow::Result<History> {
     let opened = opened.advised()?;
     if let Some(aside) = opened.set_aside {
-        console.note(&format_args!("warning: {}", aside.what));
+        let file = folder.join(FILE);
+        let file = file.display();
+        console.note(&format_args!("warning: {file}: {}", aside.what));
         let place = aside.aside.display();
-        console.note(&format_args!("  it was set aside as {place}"));
+        console.advise(
+            &format_args!("  it was set aside as {place}"),
+            &format_args!(
+                "If you have a copy with more inspections, restore {file} and the folder history-frames from it"
+            ),
+        );
     }
     if let Some(only_read) = opened.only_read {
         let lacks = if only_read.lacks_newest {

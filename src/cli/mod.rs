@@ -191,12 +191,10 @@ fn run_here(cli: Cli) -> Outcome {
         console.error(&error);
         Outcome::CouldNotRun
     });
-    match console.finish() {
-        Ok(()) => outcome,
-        Err(error) => {
-            console.error(&anyhow::Error::new(error).context("the output could not be written"));
-            Outcome::CouldNotRun
-        }
+    if console.finish() {
+        outcome
+    } else {
+        Outcome::CouldNotRun
     }
 }
 

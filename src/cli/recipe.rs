@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
 
-use super::console::{Advised as _, Console, with_advice};
+use super::console::{Advised as _, Console, advised_error, with_advice};
 use crate::{
     pipeline::{
         BUILT_IN, NamedRecipe, PoseChoice, Recipe, RecipeFile, RecipeFolder, RecipeLabel,
@@ -131,7 +131,18 @@ impl RecipeSource {
 
 /// Opens a recipe by its name or as a file; without either, the user's default.
 pub(super) fn open_named(given: Option<&str>) -> anyhow::Result<RecipeFile> {
-    open_recipe(RecipeFolder::of_user(), given).advised()
+    let file = open_recipe(RecipeFolder::of_user(), given).advised()?;
+    // Its results would pass for those of the program's own recipe.
+    if file.name.as_str() == BUILT_IN && file.recipe != Recipe::default() {
+        return Err(advised_error(
+            format!(
+                "{}: {BUILT_IN} is the name of the program's own recipe, which has other parameters",
+                given.unwrap_or_default()
+            ),
+            "Give the recipe another name in the file, for example name = \"glossy\"",
+        ));
+    }
+    Ok(file)
 }
 
 /// Shows the name of the recipe, unless it is the built-in one.

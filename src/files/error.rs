@@ -33,6 +33,12 @@ pub enum FileError {
         /// What the path is instead.
         found: NoFile,
     },
+    /// There is a folder instead of a capture, cloud or mesh.
+    #[error("{}: {}", path.display(), NoFile::Folder)]
+    FolderOfCaptures {
+        /// The path as it was given.
+        path: PathBuf,
+    },
     /// The file has no bytes.
     #[error("{}: the file is empty", path.display())]
     Empty {
@@ -304,21 +310,20 @@ impl FileError {
 impl Advice for FileError {
     fn advice(&self) -> String {
         match self {
-            Self::NotFound { .. } => {
-                "Check the name and that the drive or stick is connected".into()
-            }
+            Self::NotFound { .. } => "Check the name and that the drive is connected".into(),
             Self::PermissionDenied { .. } => {
                 "Ask for access to this folder, or copy the file to a folder of your own".into()
             }
             Self::NotAFile {
-                path,
                 found: NoFile::Folder,
-            } => format!(
+                ..
+            } => "Give the path of a file, not of a folder".into(),
+            Self::NotAFile { .. } => "Copy its content into a file and give that".into(),
+            Self::IsIntrinsics { image, .. } => format!("Give the PNG: {}", image.display()),
+            Self::FolderOfCaptures { path } => format!(
                 "Give the captures in it, for example {}",
                 path.join("*.png").display()
             ),
-            Self::NotAFile { .. } => "Copy its content into a file and give that".into(),
-            Self::IsIntrinsics { image, .. } => format!("Give the PNG: {}", image.display()),
             Self::Empty { .. } => {
                 "Record or export the file again; its last copy was not completed".into()
             }

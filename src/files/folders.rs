@@ -4,15 +4,15 @@ use std::{
     env,
     fs::File,
     io,
-    path::{Path, PathBuf},
+    path::{self, Path, PathBuf},
 };
 
 use directories::ProjectDirs;
 
 use super::disk;
 
-/// The environment variable that names another folder for the user's data and settings. As with those of the system, a
-/// relative path is ignored: its meaning would depend on the working folder.
+/// The environment variable that names another folder for the user's data and settings. A relative path starts at the
+/// working folder, as in an argument.
 const OWN_FOLDER: &str = "PARTSIGHT_DATA";
 
 /// Returns the folder for this program's data of the user; `None` if the system has none.
@@ -28,8 +28,9 @@ pub(crate) fn user_settings() -> Option<PathBuf> {
 }
 
 fn own_folder() -> Option<PathBuf> {
-    let folder = PathBuf::from(env::var_os(OWN_FOLDER)?);
-    folder.is_absolute().then_some(folder)
+    let folder = env::var_os(OWN_FOLDER).filter(|folder| !folder.is_empty())?;
+    // Without a working folder it stays relative, so that its use fails: another library must not take its place.
+    Some(path::absolute(&folder).unwrap_or_else(|_| folder.into()))
 }
 
 fn system_folders() -> Option<ProjectDirs> {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use super::error::FileError;
+use super::error::{FileError, NoFile};
 use super::import::ImportOptions;
 use super::source::{Source, read_bytes};
 use super::{depth_png, gltf, obj, pcd, ply, stl, xyz};
@@ -154,7 +154,13 @@ pub fn open(path: &Path) -> Result<FileContent, FileError> {
             mesh_name = Some(mesh_name.map_or_else(|| word.to_owned(), |name| name + "#" + word));
         }
     }
-    let bytes = read_bytes(&file)?;
+    let bytes = read_bytes(&file).map_err(|error| match error {
+        FileError::NotAFile {
+            path,
+            found: NoFile::Folder,
+        } => FileError::FolderOfCaptures { path },
+        error => error,
+    })?;
     let content = read(&file, &bytes, mesh_name.as_deref())?;
     Ok(options.applied(content))
 }

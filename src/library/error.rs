@@ -98,7 +98,7 @@ impl Advice for LibraryError {
     fn advice(&self) -> String {
         match self {
             Self::NotFound { .. } => {
-                "Check the path and that the drive or stick is connected, or create the folder"
+                "Check the path and that the drive is connected, or create the folder"
                     .into()
             }
             Self::Gone { made, .. } => format!(

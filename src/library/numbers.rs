@@ -1,7 +1,8 @@
 //! The numbers by which robots know the parts: `numbers.toml`, beside the parts.
 //!
-//! A part gets its number when one is first needed, and keeps it. No number is ever given to another part, or a robot would
-//! run the wrong program: removed parts keep their lines, and a number that lost its line is `retired`.
+//! A part gets its number when one is first needed, and keeps it. It is one more than the greatest given, or the lowest free
+//! one if there is no greater one. No number is ever given to another part, or a robot would run the wrong program: removed
+//! parts keep their lines, and a number that lost its line is `retired`.
 //!
 //! The numbers are not in the parts' own folders because a folder copied from another library could bring a number that is
 //! taken here, and because a part that was taken from a published version has to stay as it was published.
@@ -126,12 +127,15 @@ impl PartNumbers {
 
     /// Gives the next numbers to those of these parts that have none.
     fn number_rest(&mut self, parts: impl Iterator<Item = PartName>) {
-        let given = self.parts.values().chain(&self.retired);
-        let mut last = given.max().copied().unwrap_or(0);
+        let given: BTreeSet<u32> = self.parts.values().chain(&self.retired).copied().collect();
+        let last = given.last().copied().unwrap_or(0);
+        let lower = (1..last).filter(|number| !given.contains(number));
+        let mut free = (last + 1..=MAX_NUMBER).chain(lower);
         for part in parts {
-            if last < MAX_NUMBER && !self.parts.contains_key(&part) {
-                last += 1;
-                self.parts.insert(part, last);
+            if !self.parts.contains_key(&part)
+                && let Some(number) = free.next()
+            {
+                self.parts.insert(part, number);
             }
         }
     }
@@ -199,18 +203,23 @@ impl LibraryFolder {
         })?
     }
 
-    /// Lets a part keep its number under its new name. Only under the lock.
-    pub(super) fn carry_number(&self, from: &PartName, to: &PartName) -> io::Result<()> {
-        // A damaged file is no reason against a rename; whoever needs the numbers reports it.
-        let Ok(before) = self.numbers() else {
-            return Ok(());
+    /// Lets a part keep its number under its new name. Only under the lock. If the numbers cannot be read, the part must
+    /// not be renamed, or it would lose its number.
+    pub(super) fn carry_number(
+        &self,
+        from: &PartName,
+        to: &PartName,
+    ) -> io::Result<Result<(), LibraryError>> {
+        let before = match self.numbers() {
+            Ok(before) => before,
+            Err(error) => return Ok(Err(error)),
         };
         let mut numbers = before.clone();
         numbers.rename(from, to);
-        if numbers == before {
-            return Ok(());
+        if numbers != before {
+            numbers.write(self.path())?;
         }
-        numbers.write(self.path())
+        Ok(Ok(()))
     }
 }
 
@@ -337,9 +346,20 @@ mod tests {
                 "{text}: {error}"
             );
             assert!(error.advice().contains("copy"), "{}", error.advice());
-            // Everything else about the library works.
-            rename(&library, "fender", "hood");
-            rename(&library, "hood", "fender");
+            let before = library.words(&name("fender")).expect("read");
+            let words = PartNaming {
+                name: name("door"),
+                ..before.clone()
+            };
+            let refused = library.rename(&name("fender"), &words).expect_err(text);
+            assert!(
+                matches!(refused, LibraryError::BadNumbers { .. }),
+                "{text}: {refused}"
+            );
+            assert_eq!(library.words(&name("fender")).expect("there"), before);
+            assert!(!library.path().join("door").exists());
+            // Everything else about the library works, such as another title.
+            rename(&library, "fender", "fender");
             assert_eq!(fs::read_to_string(&path).expect("read"), text);
         }
         fs::write(&path, "[parts]\nhood = 10\nfender = 30\n").expect("written");
@@ -351,6 +371,15 @@ mod tests {
             text.starts_with("# The numbers") && text.contains("hood = 10\n"),
             "{text}"
         );
+    }
+
+    #[test]
+    fn once_the_greatest_number_is_given_the_lowest_free_ones_are() {
+        let text = "retired = [2]\n[parts]\ndoor = 1\nfender = 16777214\ngone = 3\n";
+        let mut numbers = PartNumbers::parse(text).expect("sound");
+        numbers.number_rest(["door", "grille", "hood", "wheel"].map(name).into_iter());
+        let given = ["door", "grille", "hood", "wheel"].map(|part| numbers.of(&name(part)));
+        assert_eq!(given, [Some(1), Some(MAX_NUMBER), Some(4), Some(5)]);
     }
 
     #[test]

@@ -268,7 +268,9 @@ impl LibraryFolder {
                 write_file(&building.path().join(META), meta_text(&meta)?.as_bytes())?;
                 sync_folder(building.path())?;
                 // First: if this is interrupted, the part gets a new number, and none the number of another part.
-                self.carry_number(name, &words.name)?;
+                if let Err(error) = self.carry_number(name, &words.name)? {
+                    return Ok(Err(error));
+                }
                 let aside =
                     self.install_entry(building.path(), words.name.as_str(), name.as_str())?;
                 // Renamed away, so there is nothing to clean up.

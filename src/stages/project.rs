@@ -125,7 +125,8 @@ impl Advice for ProjectError {
         match self {
             Self::NoPlane { .. } => "Turn the part to face the camera and capture again".into(),
             Self::TooLarge { .. } => {
-                "Check that the file is in metres, or clear everything but the part from the scene"
+                "Check that the file is in metres, or clear everything but the part from the scene; for a depth image, \
+                 correct metres_per_unit in the JSON beside it"
                     .into()
             }
         }

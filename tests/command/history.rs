@@ -393,6 +393,25 @@ fn a_history_that_cannot_be_written_is_a_warning_and_the_exit_code_stays() {
     assert_eq!(unknown.code, 2);
 }
 
+#[test]
+fn a_damaged_history_is_named_and_to_be_restored_from_a_copy() {
+    let place = Workplace::new();
+    let folder = place.path("kept");
+    drop(History::open(&folder).expect("opened"));
+    let file = fs::File::options()
+        .write(true)
+        .open(folder.join("history.sqlite"))
+        .expect("there");
+    let length = file.metadata().expect("read").len();
+    file.set_len(length / 2).expect("cut");
+    drop(file);
+    let listed = ["history", "list", "--history", "kept"];
+    let err = place.accepted(&listed).err;
+    assert!(err.contains("history.sqlite: it ends after"), "{err}");
+    assert!(err.contains("it was set aside as"), "{err}");
+    assert!(err.contains("to do: If you have a copy"), "{err}");
+}
+
 /// A separate file system, if this user may mount one.
 struct Disk {
     folder: tempfile::TempDir,

@@ -389,6 +389,18 @@ fn only_the_command_line_names_the_option_for_millimetres() {
 }
 
 #[test]
+fn a_depth_image_in_the_wrong_unit_is_advised_on_its_json() {
+    let place = Workplace::new();
+    place.accepted(&["simulate", "--part", "fender", "--out", "fender.png"]);
+    let mut camera = place.json("fender.json");
+    camera["metres_per_unit"] = 1.into();
+    place.write("fender.json", &camera.to_string());
+    let ran = place.coded(1, &["inspect", "fender.png"]);
+    let shown = ran.out + &ran.err;
+    assert!(shown.contains("correct metres_per_unit"), "{shown}");
+}
+
+#[test]
 fn a_capture_in_metres_that_is_read_as_millimetres_gets_a_hint_on_its_unit() {
     let place = Workplace::new();
     place.accepted(&["simulate", "--part", "fender", "--out", "fender.pcd"]);

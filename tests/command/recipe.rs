@@ -177,6 +177,18 @@ fn a_recipe_that_cannot_be_used_stops_the_command_with_advice() {
     assert!(with("bad.toml").contains("from 0 to 1"));
     place.write("new.toml", "schema = 9\nname = \"x\"\n");
     assert!(with("new.toml").contains("schema 9"));
+    place.write(
+        "own.toml",
+        "schema = 1\nname = \"built-in\"\n[parameters]\naccept.min_score = 0.5\n",
+    );
+    let own = with("own.toml");
+    assert!(own.contains("own.toml: built-in is the name of"), "{own}");
+    assert!(own.contains("another name in the file"), "{own}");
+    // Its parameters may be kept under another name, and the program's own recipe may be a file.
+    place.accepted(&["recipe", "import", "own.toml", "--name", "loose"]);
+    place.accepted(&["recipe", "export", "built-in", "exported.toml"]);
+    let exported = place.accepted(&["recipe", "show", "exported.toml"]);
+    assert!(exported.out.contains("same as"), "{}", exported.out);
     fs::create_dir(place.path("folder.toml")).expect("made");
     with("folder.toml");
     place.write("large.toml", &"# \n".repeat(1 << 16));

@@ -41,11 +41,16 @@ struct Service {
 
 impl Service {
     fn start(place: &Workplace, args: &[&str]) -> Self {
+        Self::start_into(place, args, Stdio::piped())
+    }
+
+    /// As [`Self::start`], with this standard output.
+    fn start_into(place: &Workplace, args: &[&str], out: Stdio) -> Self {
         place.accepted(&CALIBRATE);
         let calibrated = ["serve", "--calibration", "cell.toml", "--json"];
         let mut child = place
             .command(&[&calibrated[..], args].concat())
-            .stdout(Stdio::piped())
+            .stdout(out)
             .stderr(Stdio::piped())
             .spawn()
             .expect("starts");
@@ -96,8 +101,9 @@ impl Service {
             .status();
         assert!(sent.expect("kill is there").success());
         let mut out = String::new();
-        let stdout = self.child.stdout.as_mut().expect("a pipe");
-        stdout.read_to_string(&mut out).expect("text");
+        if let Some(stdout) = &mut self.child.stdout {
+            stdout.read_to_string(&mut out).expect("text");
+        }
         let code = self.child.wait().expect("ends").code();
         if let Some(reader) = self.reader.take() {
             reader.join().expect("read");
@@ -270,6 +276,30 @@ fn a_trigger_without_a_frame_is_a_line_of_json_as_well() {
             .is_some_and(|why| why.contains("to do")),
         "{line}"
     );
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_service_whose_disk_is_full_warns_once_and_goes_on() {
+    let place = Workplace::new();
+    let source = ["--source", "simulated,fps=5:fender", "--as", "kuka"];
+    let args = [&source[..], &["--listen", "ascii=0", "--no-history"]].concat();
+    let full = fs::File::options().write(true).open("/dev/full");
+    let mut service = Service::start_into(&place, &args, full.expect("there").into());
+    let mut robot = service.connect("ascii");
+    let message = "the output could not be written: the disk is full";
+    for _ in 0..2 {
+        let answer = asked(&mut robot, "TRIGGER\n");
+        assert!(answer.starts_with("TRIGGER;accepted;"), "{answer}");
+        let until = Instant::now() + PATIENCE;
+        while !service.messages().contains(message) {
+            assert!(Instant::now() < until, "{}", service.messages());
+            thread::sleep(Duration::from_millis(20));
+        }
+    }
+    let (code, _, messages) = service.interrupt();
+    assert_eq!(code, Some(2), "{messages}");
+    assert_eq!(messages.matches(message).count(), 1, "{messages}");
 }
 
 #[test]

@@ -107,6 +107,41 @@ fn a_recording_gives_the_same_verdicts_as_the_cell_itself_bit_for_bit() {
     assert_eq!(file["simulated"], true);
 }
 
+/// The arguments bound a run that does not end by itself.
+const FOLLOW: [&str; 6] = [
+    "inspect",
+    "--source",
+    "simulated,fps=4:fender",
+    "--frames",
+    "20",
+    "--json",
+];
+
+#[test]
+fn following_ends_quietly_when_the_reader_goes_away() {
+    let place = Workplace::new();
+    let mut following = start(&place, &FOLLOW);
+    drop(following.stdout.take());
+    let Ran { code, err, .. } = ended(following);
+    assert_eq!(code, 0, "{err}");
+    assert!(err.contains("\n1 inspected"), "{err}");
+    assert!(!err.contains("error"), "{err}");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn following_ends_with_an_error_when_the_disk_is_full() {
+    let place = Workplace::new();
+    let full = fs::File::options().write(true).open("/dev/full");
+    let mut follow = place.command(&FOLLOW);
+    let ran = follow.stdout(full.expect("there")).output();
+    let Ran { code, err, .. } = ran.expect("starts").into();
+    assert_eq!(code, 2, "{err}");
+    assert!(err.contains("\n1 inspected"), "{err}");
+    let message = "error: the output could not be written: the disk is full\n  to do: Make room";
+    assert_eq!(err.matches(message).count(), 1, "{err}");
+}
+
 #[cfg(unix)]
 #[test]
 fn ctrl_c_ends_a_recording_that_is_whole() {

@@ -6,7 +6,7 @@ use nalgebra::Point3;
 use tempfile::TempDir;
 
 use super::*;
-use crate::files::{Expected, NoFile};
+use crate::files::{Expected, read_text};
 use crate::kit::small_frame;
 
 /// A folder that holds one file with these bytes.
@@ -115,13 +115,12 @@ fn a_hash_sign_may_belong_to_the_file_or_begin_a_mesh_name() {
 fn what_is_no_readable_file_is_named() {
     let (folder, empty) = file("empty.pcd", b"");
     assert!(matches!(open(&empty), Err(FileError::Empty { .. })));
-    assert!(matches!(
-        open(folder.path()),
-        Err(FileError::NotAFile {
-            found: NoFile::Folder,
-            ..
-        })
-    ));
+    let error = open(folder.path()).unwrap_err();
+    assert!(matches!(error, FileError::FolderOfCaptures { .. }));
+    assert!(error.advice().contains("*.png"), "{}", error.advice());
+    let error = read_text(folder.path(), 100).unwrap_err();
+    assert!(error.to_string().contains("a folder, expected a file"));
+    assert!(!error.advice().contains("captures"), "{}", error.advice());
     assert!(matches!(
         open(&folder.path().join("none.pcd")),
         Err(FileError::NotFound { .. })
