@@ -178,6 +178,27 @@ fn a_case_is_kept_run_and_opened_again_from_its_cell() {
     assert_eq!(found(&harness).as_deref(), Some("front_door"));
 }
 
+#[test]
+fn keeping_a_case_is_undone_and_what_it_set_in_the_history_stays() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open(folder.path());
+    press(&mut harness, "Compare");
+    keep(&mut harness, DOOR, "Back door, left");
+    let num = || {
+        let list = CaseFolder::at(folder.path()).list().expect("listed");
+        list.cases.len()
+    };
+    assert_eq!(num(), 1);
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    settle(&mut harness);
+    assert_eq!(num(), 0);
+    harness.get_by_label_contains("its entry in History stays as it is");
+    let row = history_of(&harness).row(0).expect("listed");
+    assert_eq!(row.label, Some(Truth::Part("back_door".into())));
+    press(&mut harness, "Put case back");
+    assert_eq!(num(), 1);
+}
+
 fn act_in_history(harness: &mut WindowHarness, action: HistoryAction) {
     act_in(harness, |workspace: &mut HistoryWorkspace, cx| {
         workspace.apply(action, cx);

@@ -366,8 +366,10 @@ fn a_part_is_renamed_and_gets_its_old_name_back() {
     let mut harness = open(library.path());
     enrol(&mut harness, PartKind::Grille, "Grille");
     press(&mut harness, "Enrolled: Grille");
-    write(&mut harness, "Title", "Radiator grille");
     write(&mut harness, "Name", "radiator_grille");
+    // Until it is renamed, the library has this title under the former name.
+    assert!(harness.query_by_label_contains("has the title").is_none());
+    write(&mut harness, "Title", "Radiator grille");
     press(&mut harness, "Rename");
     assert_eq!(names(library.path()), ["radiator_grille"]);
     harness.get_by_label("Enrolled: Radiator grille");

@@ -10,6 +10,7 @@ use std::{
 
 use egui::Key;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use jiff::Timestamp;
 use partsight::{
     app::{
         WindowOptions,
@@ -25,13 +26,14 @@ use partsight::{
             inspect::InspectFile,
         },
     },
+    files::save_cloud,
     history::{History, HungId, KeepFrames, NewEntry, Retention, StoredVerdict},
     library::Truth,
     pipeline::Recipe,
-    simulate::ObjectKind,
+    simulate::{ObjectKind, PartKind, Side},
 };
 
-use crate::kit::{history_entry, low_score, open_history};
+use crate::kit::{facing_part, history_entry, low_score, open_history};
 
 use super::{
     set_up::{
@@ -670,7 +672,7 @@ fn what_has_no_frame_any_more_cannot_be_opened_and_the_newest_row_comes_into_sig
     harness.get_by_label_contains("Inspection 198").hover();
     harness.run_steps(2);
     for _ in 0..30 {
-        page_down(&mut harness);
+        turn_page(&mut harness, -1.0);
     }
     settle(&mut harness);
     assert!(harness.query_by_label_contains("Inspection 201:").is_none());
@@ -688,12 +690,54 @@ fn what_has_no_frame_any_more_cannot_be_opened_and_the_newest_row_comes_into_sig
     assert_eq!(history_of(&harness).listed(), Some(199));
 }
 
-/// Scrolls by a page where the pointer is.
-fn page_down(harness: &mut WindowHarness) {
+#[test]
+fn the_list_opens_at_the_row_that_the_program_has_selected_however_old_it_is() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let place = folder.path().join("history");
+    let scene = folder.path().join("door.pcd");
+    let door = facing_part(PartKind::FrontDoor, Side::Left, 5);
+    save_cloud(&scene, &door.cloud).expect("written");
+    let inspect = |harness: &mut WindowHarness| {
+        act(harness, Action::GoTo(WorkspaceKind::Inspect));
+        act(harness, Action::Open(scene.clone()));
+        go_to_history(harness);
+    };
+    let mut harness = open_with(USUAL, keeping(&place));
+    inspect(&mut harness);
+    let old = history_of(&harness).listed().expect("selected");
+    drop(harness);
+    let mut history = open_history(&place);
+    for _ in 0..300 {
+        let mut entry = history_entry(1, StoredVerdict::Accepted, "fender");
+        entry.record.summary.at = Timestamp::now();
+        entry.scene = None;
+        history.add(&entry, &Retention::default()).expect("written");
+    }
+    drop(history);
+
+    // The same file is another inspection of the same part.
+    let mut harness = open_with(USUAL, keeping(&place));
+    inspect(&mut harness);
+    assert_eq!(history_of(&harness).listed(), Some(old));
+    let row = format!("Inspection {old}:");
+    harness.get_by_label_contains(&row).hover();
+    harness.run_steps(2);
+    for _ in 0..30 {
+        turn_page(&mut harness, 1.0);
+    }
+    settle(&mut harness);
+    assert!(harness.query_by_label_contains(&row).is_none());
+    // Also if it was selected before.
+    inspect(&mut harness);
+    harness.get_by_label_contains(&row);
+}
+
+/// Scrolls by this number of pages where the pointer is, up if above 0.
+fn turn_page(harness: &mut WindowHarness, pages: f32) {
     harness.event(egui::Event::MouseWheel {
         source: egui::MouseWheelSource::Wheel,
         unit: egui::MouseWheelUnit::Page,
-        delta: egui::vec2(0.0, -1.0),
+        delta: egui::vec2(0.0, pages),
         phase: egui::TouchPhase::Move,
         modifiers: egui::Modifiers::NONE,
     });
@@ -744,7 +788,7 @@ fn the_details_of_another_part_begin_at_the_top() {
     let top = top_of_verdict(&harness);
     harness.get_by_label("Accepted").hover();
     harness.run_steps(2);
-    page_down(&mut harness);
+    turn_page(&mut harness, -1.0);
     assert!(top_of_verdict(&harness) < top - 1.0);
     press(&mut harness, "Inspection 2: grille, Accepted");
     let again = top_of_verdict(&harness);

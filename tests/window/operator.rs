@@ -18,7 +18,7 @@ use partsight::{
             notice::Notice,
             robot::{AnswerSetup, RobotAction},
             roles::RoleAction,
-            session::{UserRole, WorkspaceKind},
+            session::{Source, UserRole, WorkspaceKind},
             settings,
         },
         workspaces::history::{HistoryAction, HistoryWorkspace},
@@ -646,6 +646,48 @@ fn a_file_of_a_watched_folder_that_cannot_be_read_is_named_and_advice_fits_the_f
     assert!(!shows(&harness, "press Capture"));
     // The part of the other file still has no verdict.
     assert!(shows(&harness, "text.png: found"));
+}
+
+#[test]
+fn a_capture_of_a_watched_folder_without_a_new_file_says_what_it_waits_for() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open_operators(plain_options());
+    watch_folder(&mut harness, folder.path());
+    write_unknown(&folder.path().join("1.pcd"));
+    wait_until(&mut harness, |state| {
+        let status = state.session.live.status.as_ref();
+        status.is_some_and(|status| status.num_inspected > 0)
+    });
+    toggle(&mut harness);
+    settle(&mut harness);
+    // Live has taken the only file.
+    let context = harness.ctx.clone();
+    harness.state_mut().act(Action::Capture, &context);
+    harness.run_steps(4);
+    harness.get_by_label("No new file in the folder yet");
+    harness.get_by_label("Save a capture to the folder: it is inspected automatically");
+    assert!(!shows(&harness, "Inspecting") && !shows(&harness, "Wait a moment"));
+    write_unknown(&folder.path().join("2.pcd"));
+    wait_until(&mut harness, |state| state.session.inspecting.is_none());
+    settle(&mut harness);
+    harness.get_by_label("NOK");
+}
+
+#[test]
+fn a_file_that_was_opened_in_enrol_is_not_the_source_of_the_verdict_on_the_screen() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("other.pcd");
+    write_unknown(&path);
+    let mut harness = open_with(SMALL, plain_options());
+    act(&mut harness, Action::GoTo(WorkspaceKind::Enrol));
+    act(&mut harness, Action::Open(path));
+    // This one cannot be read.
+    act(&mut harness, Action::Open(folder.path().join("gone.pcd")));
+    let source = harness.state().state().session.source.clone();
+    assert_eq!(source, Source::default());
+    act(&mut harness, Action::Role(RoleAction::Switch));
+    harness.get_by_label("OK");
+    assert!(!shows(&harness, "other.pcd") && !shows(&harness, "gone.pcd"));
 }
 
 #[test]

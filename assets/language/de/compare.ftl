@@ -29,6 +29,7 @@ compare-kept-case = Gespeicherter Fall
 compare-remove-case = Fall entfernen
 compare-run-all = Alle Fälle prüfen
 compare-run-all-hint = Jeden gespeicherten Fall mit dem Rezept rechts prüfen
+compare-undo-keep = Speichern rückgängig
 compare-undo-removal = Fall zurückholen
 compare-undo-recipe = Rezept zurückholen
 compare-undo-use = Verwenden rückgängig
@@ -214,7 +215,7 @@ compare-one-worker = 1 Thread
 ## Keys
 compare-key-keep = Angezeigten Fall speichern
 compare-key-run = Alle gespeicherten Fälle prüfen
-compare-key-undo = Entfernen eines Falls oder Rezepts oder Verwenden eines Rezepts zurücknehmen
+compare-key-undo = Speichern oder Entfernen eines Falls, Löschen oder Verwenden eines Rezepts zurücknehmen
 
 ## Work and notices
 compare-cases-title = Ordner der gespeicherten Fälle
@@ -243,7 +244,7 @@ compare-no-cases-to-run-advice = Zuerst einen Fall speichern oder einen Ordner m
 compare-no-run = Es gibt keinen Lauf zum Vergleich mit einem früheren
 compare-no-run-advice = Zuerst alle Fälle prüfen
 compare-kept-as = Gespeichert als { $name }
-compare-removed-case = { $name } entfernt
+compare-removed-case = { $name } entfernt; der Eintrag im Verlauf bleibt, wie er ist
 compare-restored-case = { $name } ist wieder da
 compare-case-gone = Es gibt keinen gespeicherten Fall namens { $name } mehr
 compare-case-gone-advice = Alle Fälle erneut prüfen

@@ -29,6 +29,7 @@ compare-kept-case = Kept case
 compare-remove-case = Remove case
 compare-run-all = Run all cases
 compare-run-all-hint = Inspect every kept case with the recipe on the right
+compare-undo-keep = Undo keep
 compare-undo-removal = Put case back
 compare-undo-recipe = Put recipe back
 compare-undo-use = Undo use
@@ -214,7 +215,7 @@ compare-one-worker = 1 worker
 ## Keys
 compare-key-keep = Keep the case in front
 compare-key-run = Run all kept cases
-compare-key-undo = Undo the removal of a case or recipe, or the use of a recipe
+compare-key-undo = Undo keeping or removing a case, or removing or using a recipe
 
 ## Work and notices
 compare-cases-title = Folder of kept cases
@@ -243,7 +244,7 @@ compare-no-cases-to-run-advice = Keep a case first, or choose a folder of cases
 compare-no-run = There is no run to compare with an earlier one
 compare-no-run-advice = Run all cases first
 compare-kept-as = Kept as { $name }
-compare-removed-case = Removed { $name }
+compare-removed-case = Removed { $name }; its entry in History stays as it is
 compare-restored-case = { $name } is back
 compare-case-gone = There is no kept case named { $name } any more
 compare-case-gone-advice = Run all cases again

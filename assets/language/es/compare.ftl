@@ -29,6 +29,7 @@ compare-kept-case = Caso guardado
 compare-remove-case = Eliminar caso
 compare-run-all = Inspeccionar todos
 compare-run-all-hint = Inspeccionar todos los casos guardados con la receta de la derecha
+compare-undo-keep = Deshacer guardado
 compare-undo-removal = Recuperar caso
 compare-undo-recipe = Recuperar receta
 compare-undo-use = Deshacer uso
@@ -243,7 +244,7 @@ compare-one-worker = 1 hilo
 ## Keys
 compare-key-keep = Guardar el caso mostrado
 compare-key-run = Inspeccionar todos los casos guardados
-compare-key-undo = Deshacer la eliminación de un caso o una receta, o el uso de una receta
+compare-key-undo = Deshacer guardar o eliminar un caso, o eliminar o usar una receta
 
 ## Work and notices
 compare-cases-title = Carpeta de casos guardados
@@ -272,7 +273,7 @@ compare-no-cases-to-run-advice = Guardar antes un caso o elegir una carpeta de c
 compare-no-run = No hay ninguna ejecución que comparar con una anterior
 compare-no-run-advice = Inspeccionar antes todos los casos
 compare-kept-as = Guardado como { $name }
-compare-removed-case = { $name }: eliminado
+compare-removed-case = { $name }: eliminado; su entrada en Historial no cambia
 compare-restored-case = { $name } está de vuelta
 compare-case-gone = Ya no existe ningún caso guardado llamado { $name }
 compare-case-gone-advice = Volver a inspeccionar todos los casos

@@ -29,6 +29,7 @@ compare-kept-case = 已保存的样本
 compare-remove-case = 移除样本
 compare-run-all = 检测全部样本
 compare-run-all-hint = 使用右侧的配方检测每个已保存的样本
+compare-undo-keep = 撤销保存
 compare-undo-removal = 恢复样本
 compare-undo-recipe = 恢复配方
 compare-undo-use = 撤销使用
@@ -213,7 +214,7 @@ compare-one-worker = 1 个线程
 ## Keys
 compare-key-keep = 保存当前样本
 compare-key-run = 检测所有已保存的样本
-compare-key-undo = 撤销移除样本或配方，或撤销使用配方
+compare-key-undo = 撤销保存或移除样本，或撤销移除或使用配方
 
 ## Work and notices
 compare-cases-title = 已保存样本的文件夹
@@ -242,7 +243,7 @@ compare-no-cases-to-run-advice = 请先保存样本，或选择样本文件夹
 compare-no-run = 没有可供比较的检测结果
 compare-no-run-advice = 请先检测全部样本
 compare-kept-as = 已保存为 { $name }
-compare-removed-case = 已移除 { $name }
+compare-removed-case = 已移除 { $name }；历史中的记录保持不变
 compare-restored-case = 已恢复 { $name }
 compare-case-gone = 名为 { $name } 的已保存样本已不存在
 compare-case-gone-advice = 请重新检测全部样本

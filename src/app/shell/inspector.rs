@@ -97,26 +97,21 @@ impl Inspector {
 }
 
 impl State {
-    /// Opens a file or a scan, which becomes the source unless it cannot be read.
+    /// Opens a file or a scan, which becomes the source unless it cannot be read, or is to be enrolled: then the result in front
+    /// is still of the source.
     pub(in crate::app) fn open(&mut self, source: Source) -> Option<Effect> {
+        if self.session.workspace == WorkspaceKind::Enrol {
+            let (scene, title) = self.next_of(&source);
+            return Some(Effect::Take(scene, title));
+        }
         let former = std::mem::replace(&mut self.session.source, source);
-        // Enrol opens it by itself.
-        if self.session.workspace != WorkspaceKind::Enrol {
-            self.inspector.former_source.get_or_insert(former);
-            return self.capture();
-        }
-        let taken = self.capture();
-        if self.session.is_live() {
-            // Live goes on with its own source.
-            self.session.source = former;
-        }
-        taken
+        self.inspector.former_source.get_or_insert(former);
+        self.capture()
     }
 
-    /// Takes a scene from the source, to be inspected, or to be enrolled if Enrol is in front. Capturing for inspection stops
-    /// following the source.
-    pub(in crate::app) fn capture(&mut self) -> Option<Effect> {
-        let (source, title) = match &self.session.source {
+    /// The next scene or scan of a source, and the title for taking it.
+    fn next_of(&mut self, source: &Source) -> (SceneOrScan, String) {
+        match source {
             Source::Cell(choice) => {
                 self.inspector.num_captures += 1;
                 let source = SceneSource::Cell {
@@ -142,7 +137,14 @@ impl State {
                 let source = SceneSource::Camera(spec.clone());
                 (SceneOrScan::Scene(source), title)
             }
-        };
+        }
+    }
+
+    /// Takes a scene from the source, to be inspected, or to be enrolled if Enrol is in front. Capturing for inspection stops
+    /// following the source.
+    pub(in crate::app) fn capture(&mut self) -> Option<Effect> {
+        let source = self.session.source.clone();
+        let (source, title) = self.next_of(&source);
         if self.session.workspace == WorkspaceKind::Enrol {
             // A file of the folder goes either to Live or to Enrol.
             if self.session.is_watching() {
@@ -177,6 +179,9 @@ impl State {
         };
         let job = self.session.inspect_job(source);
         self.inspect(title, job);
+        if let Some(run) = &mut self.session.inspecting {
+            run.is_waiting = self.session.source.is_watched();
+        }
         self.inspector.has_ended_live = ends_live;
         None
     }
@@ -340,6 +345,7 @@ impl State {
         self.session.inspecting = Some(Inspecting {
             title: title.to_owned(),
             purpose,
+            is_waiting: false,
         });
         let inspector = &mut self.inspector;
         inspector.purpose = purpose;
@@ -465,8 +471,13 @@ fn live_ended(what: String) -> Notice {
 pub(in crate::app) fn update(state: &mut State) -> Option<Event> {
     library_loader::update(state);
     let event = state.inspector.task.poll();
-    if state.inspector.running().is_none() {
-        state.session.inspecting = None;
+    match state.inspector.running() {
+        None => state.session.inspecting = None,
+        Some(running) => {
+            if let Some(run) = &mut state.session.inspecting {
+                run.is_waiting &= running.stage.is_none();
+            }
+        }
     }
     match event? {
         Ok(result) => match result {
@@ -667,6 +678,28 @@ mod tests {
         assert!(state.inspector.run_waiting());
         update(&mut state);
         assert!(state.notices.is_empty(), "{:?}", state.notices);
+    }
+
+    #[test]
+    fn a_file_that_is_opened_in_enrol_leaves_the_source_and_its_result_as_they_are() {
+        let mut state = State::default();
+        apply(&mut state, Action::Capture);
+        assert!(state.inspector.run_waiting());
+        update(&mut state);
+        let former = state.session.source.clone();
+        apply(&mut state, Action::GoTo(WorkspaceKind::Enrol));
+        let taken = apply(&mut state, Action::Open("door.pcd".into()));
+        let Some(Effect::Take(SceneOrScan::Scene(SceneSource::File(path)), _)) = taken else {
+            panic!("{taken:?}");
+        };
+        assert!(path.ends_with("door.pcd"));
+        assert_eq!(state.session.source, former);
+        assert!(state.session.current_result().is_some());
+        // It can be captured from at once, even if the file cannot be read.
+        apply(&mut state, Action::GoTo(WorkspaceKind::Inspect));
+        apply(&mut state, Action::Capture);
+        let running = state.inspector.running().expect("at work");
+        assert_eq!(running.title, "Capturing");
     }
 
     #[test]

@@ -197,6 +197,8 @@ pub struct Inspecting {
     pub title: String,
     /// Purpose of the inspection.
     pub purpose: ReinspectionPurpose,
+    /// True while it waits for a new file in a watched folder.
+    pub is_waiting: bool,
 }
 
 /// Where Capture takes a scene from.

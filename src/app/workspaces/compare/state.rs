@@ -102,6 +102,8 @@ pub struct Cases {
 /// An action that can be undone.
 #[derive(Clone, Debug)]
 pub enum Undo {
+    /// The keeping of the case of this name.
+    Keep(String),
     /// The removal of a case.
     Removal {
         /// Its name.
@@ -126,6 +128,7 @@ impl Undo {
     /// Text of the button.
     pub fn title(&self) -> String {
         match self {
+            Self::Keep(_) => text!("compare-undo-keep"),
             Self::Removal { .. } => text!("compare-undo-removal"),
             Self::Recipe { .. } => text!("compare-undo-recipe"),
             Self::Use(_) => text!("compare-undo-use"),
@@ -318,6 +321,7 @@ impl CompareState {
             CaseDone::Kept(case) => {
                 self.say(text!("compare-kept-as", name = &case.name), cx);
                 self.remark.clear();
+                self.undo = Some(Undo::Keep(case.name));
             }
             CaseDone::Removed { name, trash } => {
                 self.say(text!("compare-removed-case", name = &name), cx);

@@ -44,6 +44,10 @@ impl CompareState {
     pub(super) fn take_back(&mut self, cx: &mut ShellContext<'_>) {
         match self.undo.take() {
             None => {}
+            Some(Undo::Keep(name)) => {
+                self.change_cases(text!("compare-removing-case"), CaseEdit::Remove(name));
+                self.start_next(cx);
+            }
             Some(Undo::Removal { name, trash }) => {
                 let change = CaseEdit::Restore { name, from: trash };
                 self.change_cases(text!("compare-restoring-case"), change);

@@ -60,7 +60,7 @@ pub(super) fn ui(
                 if let Some(field) = fields::ui(ui, &open.form) {
                     actions.push(EnrolAction::WriteOpen(field));
                 }
-                super::form::shared_title(ui, &open.form, session);
+                super::form::shared_title(ui, &open.form, open.name.as_str(), session);
                 let words = open.form.words();
                 let has_changed = words.is_ok_and(|words| words != part.words());
                 ui.add_enabled_ui(has_changed, |ui| {

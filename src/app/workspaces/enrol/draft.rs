@@ -143,11 +143,11 @@ impl Form {
         })
     }
 
-    /// Finds another part with the same title.
-    pub fn shared_title(&self, library: &LibraryView) -> Option<SharedTitle> {
+    /// Finds a part with the same title, other than the one enrolled as `name`.
+    pub fn shared_title(&self, name: &str, library: &LibraryView) -> Option<SharedTitle> {
         let of = self.reference_of.as_ref().map(PartName::as_str);
-        let of = of.unwrap_or(&self.name);
-        SharedTitle::among(&self.title, &self.name, of, &library.parts)
+        let of = of.unwrap_or(name);
+        SharedTitle::among(&self.title, name, of, &library.parts)
     }
 
     /// Title of the enrolled part of this name.

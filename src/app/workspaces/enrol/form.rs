@@ -75,7 +75,7 @@ pub(super) fn ui(
         }
         reference_menu(ui, draft, session, actions);
         namesake(ui, draft, enrol, session);
-        shared_title(ui, &draft.form, session);
+        shared_title(ui, &draft.form, &draft.form.name, session);
         if let Some(fused) = draft.subject.scan() {
             summary(ui, fused, session.units);
         }
@@ -226,10 +226,10 @@ fn reference_menu(ui: &mut Ui, draft: &Draft, session: &Session, actions: &mut V
     button.on_hover_text(text!("enrol-reference-of-hint"));
 }
 
-/// Warns if another part has this title.
-pub(super) fn shared_title(ui: &mut Ui, form: &Form, session: &Session) {
+/// Warns if a part other than the one enrolled as `name` has this title.
+pub(super) fn shared_title(ui: &mut Ui, form: &Form, name: &str, session: &Session) {
     let library = session.library.as_deref();
-    if let Some(shared) = library.and_then(|library| form.shared_title(library)) {
+    if let Some(shared) = library.and_then(|library| form.shared_title(name, library)) {
         let part = shared.other.as_str();
         let what = text!("enrol-shared-title", part = part, title = shared.title);
         complaint(ui, &what, &text!("enrol-shared-title-advice"));

@@ -26,7 +26,6 @@ use crate::app::{
         context::ShellContext,
         message::Message,
         notice::{Notice, NoticeTopic},
-        session::Source,
     },
     shots::{Asked, ShotsAction, ShotsFile, source_of},
     user_error::UserError,
@@ -100,12 +99,6 @@ impl EnrolState {
         match self.shots.apply(action, used) {
             Ok(None) => {}
             Ok(Some((order, asked))) => {
-                // Live goes on with its own source.
-                if let ScanOrder::Open(files) = &order
-                    && !cx.session.is_live()
-                {
-                    cx.send(Message::UseSource(Source::Scan(files.clone())));
-                }
                 let title = order.title();
                 self.take_scan(order, title, Some(asked), cx);
             }

@@ -35,8 +35,8 @@ const NARROW: f32 = 700.0;
 /// State of the list kept between frames.
 #[derive(Default)]
 pub(super) struct List {
-    /// The inspection selected in the last frame.
-    selected: Option<i64>,
+    /// The row that was selected when the list last showed it, and [`HistoryState::num_reselected`] at that time.
+    selected: (Option<i64>, u64),
     /// The rows that were visible.
     seen: std::ops::Range<usize>,
 }
@@ -93,14 +93,19 @@ impl List {
         see(history, seen, actions);
     }
 
-    /// Scroll offset that shows the selected row if the keys have moved it out of sight.
+    /// Scroll offset that shows the selected row if the keys or the program have selected one out of sight.
     fn offset_to(&mut self, history: &HistoryState, height: f32) -> Option<f32> {
-        let listed = history.listed();
-        let before = std::mem::replace(&mut self.selected, listed);
-        let place = listed.and_then(|number| history.place_of(number))?;
+        let selected = (history.listed(), history.num_reselected);
+        let place = history.place_of_listed();
+        // The place of an old row is known once its inspection is fetched.
+        if selected == self.selected || selected.0.is_some() && place.is_none() {
+            return None;
+        }
+        self.selected = selected;
+        let place = place?;
         // The last visible row is often cut off.
         let is_in_sight = self.seen.start < place && place + 2 < self.seen.end;
-        if before == listed || before.is_none() || is_in_sight {
+        if is_in_sight {
             return None;
         }
         let top = place as f32 * (ROW + GAP);

@@ -46,6 +46,8 @@ pub struct HistoryState {
     pub page: Page,
     /// Index of the first fetched row in the list.
     pub first: usize,
+    /// Number of the selected row and its index in the list, if it is not among the fetched rows.
+    far_row: Option<(i64, usize)>,
     /// Names and titles of the parts in the history, once known.
     pub parts: Option<BTreeMap<String, String>>,
     /// The statistics shown in place of the list, if any.
@@ -56,6 +58,8 @@ pub struct HistoryState {
     pub selected: Option<i64>,
     /// Whether the selection follows the newest inspection.
     selection: Selection,
+    /// How often the program has selected the newest inspection or a part; the list then shows that row.
+    pub(super) num_reselected: u64,
     /// True while the operator, who saw a wrong part, is to choose what the selected one really is.
     pub(super) asks_actual_part: bool,
     /// The selected inspection in full, once fetched.
@@ -142,11 +146,13 @@ impl HistoryState {
             filter: ListFilter::default(),
             page: Page::default(),
             first: 0,
+            far_row: None,
             parts: None,
             statistics: StatisticsView::Closed,
             visible: 0..0,
             selected: None,
             selection: Selection::Newest,
+            num_reselected: 0,
             asks_actual_part: false,
             record: None,
             kept: Default::default(),
@@ -187,6 +193,13 @@ impl HistoryState {
     pub fn place_of(&self, number: i64) -> Option<usize> {
         let mut rows = self.page.rows.iter();
         Some(self.first + rows.position(|row| row.number == number)?)
+    }
+
+    /// Index of the selected row in the list, once known.
+    pub(super) fn place_of_listed(&self) -> Option<usize> {
+        let listed = self.listed()?;
+        let far = self.far_row.filter(|(number, _)| *number == listed);
+        self.place_of(listed).or(far.map(|(_, place)| place))
     }
 
     /// The inspection in full, if it is the one fetched last.
@@ -301,6 +314,7 @@ impl HistoryState {
         let HistoryResult {
             asked,
             page,
+            far_row,
             record,
             is_listed,
             kept,
@@ -317,6 +331,7 @@ impl HistoryState {
             ..page
         };
         self.first = asked.rows.start;
+        self.far_row = far_row;
         self.kept = kept;
         self.frames = frames;
         self.record = record.filter(|_| !is_hidden);
@@ -359,6 +374,7 @@ impl HistoryState {
     pub(super) fn select_newest(&mut self) {
         self.selected = None;
         self.selection = Selection::Newest;
+        self.num_reselected += 1;
         self.visible = 0..self.visible.len();
     }
 

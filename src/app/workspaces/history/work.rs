@@ -8,7 +8,7 @@ use jiff::Zoned;
 use super::filter::ListFilter;
 use crate::history::{
     Filter, HistoryBuffer, HistoryError, HungId, Page, PartOutcome, Record, Retention,
-    StoredVerdict, Usage,
+    StoredVerdict, Summary, Usage,
 };
 
 /// A query.
@@ -37,6 +37,8 @@ pub struct HistoryResult {
     pub record: Option<Arc<OpenedInspection>>,
     /// False if the filter hides the selected inspection.
     pub is_listed: bool,
+    /// Number of the selected row and its index in the list, if it is listed but not among the rows found.
+    pub far_row: Option<(i64, usize)>,
     /// The retention rule, and the space that kept frames take.
     pub kept: (Retention, Usage),
     /// The folder of the kept frames.
@@ -77,13 +79,28 @@ pub(super) fn look(
         Some(record) => Some(Arc::new(opened(record, history)?)),
         None => None,
     };
-    let is_listed = record.as_ref().is_none_or(|record| {
+    let head = record.as_ref().map(|record| {
         let of_part = record.part.first().unwrap_or(&record.record);
-        filter.passes(&of_part.summary)
+        &of_part.summary
     });
+    let is_listed = head.is_none_or(|head| filter.passes(head));
+    let is_found = |head: &Summary| page.rows.iter().any(|row| row.number == head.number);
+    let far_row = match head.filter(|head| is_listed && !is_found(head)) {
+        Some(head) => {
+            // The list is in the order of time.
+            let down_to_it = Filter {
+                since: Some(head.at),
+                ..filter
+            };
+            let num = history.page(&down_to_it, 0, 0)?.num_matching;
+            Some((head.number, num.saturating_sub(1)))
+        }
+        None => None,
+    };
     Ok(HistoryResult {
         asked: request.clone(),
         page,
+        far_row,
         record,
         is_listed,
         kept: history.kept()?,

@@ -108,6 +108,9 @@ impl Banner {
                 Some(SourceState::Running) => {}
             }
         } else if let Some(run) = &session.inspecting {
+            if run.is_waiting {
+                return Self::waiting_for_file();
+            }
             return Self::new(Tone::Open, text!("operator-inspecting"), &run.title, wait);
         }
         if let Some(trouble) = &session.failed {
@@ -176,13 +179,10 @@ impl Banner {
 
     /// The banner while no result counts for the part that hangs there now.
     fn without_current(session: &Session) -> Self {
-        let [title, reason, next] = if session.is_watching() {
-            [
-                text!("shell-waiting-for-file"),
-                text!("operator-no-new-file"),
-                text!("operator-save-capture"),
-            ]
-        } else if session.is_live() {
+        if session.is_watching() {
+            return Self::waiting_for_file();
+        }
+        let [title, reason, next] = if session.is_live() {
             [
                 text!("inspect-looking"),
                 text!("operator-nothing-captured"),
@@ -202,6 +202,15 @@ impl Banner {
             ]
         };
         Self::new(Tone::Open, title, reason, next)
+    }
+
+    fn waiting_for_file() -> Self {
+        Self::new(
+            Tone::Open,
+            text!("shell-waiting-for-file"),
+            text!("operator-no-new-file"),
+            text!("operator-save-capture"),
+        )
     }
 
     /// The exact error is for the engineer.
@@ -327,7 +336,11 @@ mod tests {
                 source::CellChoice,
             },
             language::Language,
-            shell::{live::LiveStatus, session::Shown},
+            shell::{
+                live::LiveStatus,
+                message::ReinspectionPurpose,
+                session::{Inspecting, Shown},
+            },
             user_error::UserError,
         },
         pipeline::{
@@ -426,6 +439,25 @@ mod tests {
         assert_eq!(off.reason, "The last verdict no longer counts");
         let past = banner(false, true);
         assert!(past.reason.starts_with("From the history"), "{past:?}");
+    }
+
+    #[test]
+    fn a_capture_that_waits_for_a_file_tells_the_operator_to_save_one() {
+        let banner = |is_waiting| {
+            let mut session = showing(inspected_cell(CellChoice::InTurn, 1), false);
+            session.inspecting = Some(Inspecting {
+                title: text!("shell-waiting-for-file"),
+                purpose: ReinspectionPurpose::New,
+                is_waiting,
+            });
+            let banner = Banner::of(&session);
+            assert_eq!((banner.tone, banner.is_current), (Tone::Open, false));
+            [banner.title, banner.next]
+        };
+        let [title, next] = banner(true);
+        assert_eq!(title, "Waiting for a new file");
+        assert!(next.starts_with("Save a capture to the folder"), "{next}");
+        assert_eq!(banner(false), ["Inspecting…", "Wait a moment"]);
     }
 
     #[test]

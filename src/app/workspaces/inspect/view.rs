@@ -18,8 +18,9 @@ use crate::{
         ui::{
             theme::{ROUNDING, Theme, font, space},
             viewport::{
-                Colouring, FitRequest, Legend, TextLabel, ViewCamera, ViewColours, ViewError,
-                ViewScene, ViewShot, ViewStyle, Viewport, ViewportGpu, furniture,
+                Colouring, FitRequest, Legend, StandardView, TextLabel, ViewCamera, ViewColours,
+                ViewDirection, ViewError, ViewScene, ViewShot, ViewStyle, Viewport, ViewportGpu,
+                furniture,
             },
             widgets::grouped,
         },
@@ -151,6 +152,8 @@ impl SceneView {
         inspected: &Inspected,
         actions: &mut Vec<InspectAction>,
     ) {
+        // The engineer turns the view as they like: the operator's is framed anew.
+        self.framed = None;
         let overlay = overlay(state, inspected);
         self.place(&state.parts, overlay.as_ref(), session, inspected);
         self.restyle(session, inspected, colouring(state, inspected));
@@ -181,13 +184,14 @@ impl SceneView {
         }
     }
 
-    /// Frames another part for the operator, when it comes and when its verdict counts, but not on every frame of it. Live does
-    /// not know at once that another part has come: until a verdict counts, a part that is cut off by the view is framed, too.
+    /// Frames another part for the operator, as the camera sees it, when it comes and when its verdict counts, but not on every
+    /// frame of it. Live does not know at once that another part has come: until a verdict counts, a part that is cut off by the
+    /// view is framed, too.
     pub(super) fn frame_part(&mut self, shown: &Shown) {
         let inspected = &shown.inspected;
         let is_new = self.looked_at.replace(shown.generation) != Some(shown.generation);
         if self.is_to_be_framed(inspected) || is_new && inspected.is_open() && self.is_cut_off() {
-            self.camera.request_fit(FitRequest::Focus);
+            ViewDirection::From(StandardView::Front).apply(&mut self.camera);
         }
     }
 
@@ -433,6 +437,7 @@ mod tests {
                 inspected::{LiveFrameContext, inspected_cell},
                 source::CellChoice,
             },
+            task::TaskRunner,
             ui::viewport::{Measurement, ViewTool},
         },
         pipeline::live::{LiveVerdict, MotionState},
@@ -500,6 +505,39 @@ mod tests {
         assert!(is_framed(&small), "the first");
         assert!(is_framed(&large));
         assert!(!is_framed(&again), "all of it is in the view");
+    }
+
+    #[test]
+    fn the_operator_sees_the_part_as_the_camera_does_wherever_the_engineer_looked_from() {
+        let [part, next] = [1, 2].map(|generation| Shown {
+            generation,
+            inspected: Arc::new(inspected_cell(CellChoice::InTurn, generation)),
+            is_past: false,
+            session: None,
+            is_outdated: false,
+        });
+        let mut view = view();
+        let is_from_front = |view: &SceneView| view.camera.forward() == glam::Vec3::Z;
+        view.frame_part(&part);
+        // The engineer looks at it from above.
+        let state = InspectState::new(&TaskRunner::without_threads());
+        let ctx = egui::Context::default();
+        Theme::install_fonts(&ctx);
+        let output = ctx.run_ui(egui::RawInput::default(), |ui| {
+            let session = Session::default();
+            view.ui(ui, &state, &session, &part.inspected, &mut Vec::new());
+        });
+        output.drop_without_applying_deltas();
+        view.camera.look(StandardView::Top);
+        view.frame_part(&part);
+        assert!(is_from_front(&view));
+        assert_eq!(view.camera.pending_fit(), Some(FitRequest::Focus));
+        // What the operator turns stays until the next part.
+        view.camera.look(StandardView::Side);
+        view.frame_part(&part);
+        assert!(!is_from_front(&view));
+        view.frame_part(&next);
+        assert!(is_from_front(&view));
     }
 
     #[test]
