@@ -29,7 +29,10 @@ use crate::{
         normals::estimate_normals,
         parallel::{map_each, num_cores},
     },
-    stages::reference::{Reference, ReferenceParams},
+    stages::{
+        rank::NUM_AT_A_TIME,
+        reference::{Reference, ReferenceParams},
+    },
     units::Metres,
 };
 
@@ -143,7 +146,15 @@ pub(super) fn read_shipped(
 }
 
 fn load_entries(entries: &[Entry], look: CloudCheckLevel, params: &ReferenceParams) -> LibraryLoad {
-    let read_one = |i: usize| read_entry(&entries[i], look, params);
+    let is_large = entries.len() > NUM_AT_A_TIME;
+    let read_one = |i: usize| {
+        let read = read_entry(&entries[i], look, params);
+        if is_large && let Ok(part) = &read {
+            // Otherwise the first inspection would wait for those of all parts.
+            part.reference.summaries();
+        }
+        read
+    };
     let mut load = LibraryLoad::default();
     for read in map_each(entries.len(), num_cores(), read_one) {
         match read {

@@ -106,8 +106,8 @@ pub struct Reference {
     pub views: Vec<ReferenceView>,
     /// The views' signatures, transformed for the circular correlation.
     pub spectra: RaySpectra,
-    /// The views' summaries, to rank large libraries.
-    pub summaries: Vec<ShapeSummary>,
+    /// Used only in large libraries, so built on first use.
+    summaries: OnceLock<Vec<ShapeSummary>>,
     /// Used only by the paper's matcher, so built on first use.
     literal: OnceLock<LiteralReference>,
     /// The cut-off by the field of view of the capture.
@@ -173,7 +173,7 @@ impl Reference {
             field: NearestField::new(&cloud.points, FIELD_CELL, FIELD_BAND),
             cloud,
             spectra: RaySpectra::default(),
-            summaries: Vec::new(),
+            summaries: OnceLock::new(),
             views: Vec::new(),
             literal: OnceLock::new(),
             cut: ViewCut::default(),
@@ -186,12 +186,9 @@ impl Reference {
     /// Replaces the views and what ranking needs of them.
     #[must_use]
     pub fn with_views(self, views: Vec<ReferenceView>) -> Self {
-        let summaries = views
-            .iter()
-            .map(|view| ShapeSummary::of(&view.plane, &view.signature));
         Self {
             spectra: RaySpectra::of(views.iter().map(|view| &view.signature.rays[..])),
-            summaries: summaries.collect(),
+            summaries: OnceLock::new(),
             views,
             ..self
         }
@@ -296,6 +293,16 @@ impl Reference {
     /// Returns the search tree over the cloud.
     pub fn tree(&self) -> &KdTree {
         self.tree.get_or_init(|| KdTree::new(&self.cloud.points))
+    }
+
+    /// Returns the views' summaries.
+    pub fn summaries(&self) -> &[ShapeSummary] {
+        self.summaries.get_or_init(|| {
+            let views = self.views.iter();
+            views
+                .map(|view| ShapeSummary::of(&view.plane, &view.signature))
+                .collect()
+        })
     }
 
     /// Returns the paper's auto-correlation of the standard view.

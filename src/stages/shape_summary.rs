@@ -14,7 +14,7 @@ const NUM_RINGS: usize = 24;
 /// Width of a ring, metres.
 const RING_WIDTH: f64 = 0.05;
 /// Spacing of the pixels that are counted, metres.
-const SPACING: f64 = 0.01;
+const SPACING: f64 = 0.02;
 
 /// Summary of a shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,16 +85,22 @@ impl ShapeSummary {
 
 fn rings(plane: &PlaneImage, signature: &FanSignature) -> [f32; NUM_RINGS] {
     let step = ((SPACING / plane.pixel.0).round() as usize).max(1);
-    let image = &plane.image;
     let area_each = (step as f64 * plane.pixel.0).powi(2) as f32;
+    // In widths of a ring.
+    let pixel = plane.pixel.0 / RING_WIDTH;
+    let corner = (plane.plane_point(0.0, 0.0) - signature.centroid) / RING_WIDTH;
     let mut rings = [0.0; NUM_RINGS];
-    for row in (0..image.height).step_by(step) {
-        for column in (0..image.width).step_by(step) {
-            if image.pixels[row * image.width + column] != 0 {
-                let at = plane.plane_point(column as f64, row as f64);
-                let ring = (at - signature.centroid).norm() / RING_WIDTH;
-                rings[(ring as usize).min(NUM_RINGS - 1)] += area_each;
-            }
+    let rows = plane.image.pixels.chunks_exact(plane.image.width.max(1));
+    for (row, pixels) in rows.enumerate().step_by(step) {
+        let y = corner.y - row as f64 * pixel;
+        for (column, _) in pixels
+            .iter()
+            .enumerate()
+            .step_by(step)
+            .filter(|(_, set)| **set != 0)
+        {
+            let x = corner.x + column as f64 * pixel;
+            rings[((x * x + y * y).sqrt() as usize).min(NUM_RINGS - 1)] += area_each;
         }
     }
     rings

@@ -59,6 +59,7 @@ pub(super) fn nth_reference(originals: &[Reference], place: usize, matcher: Matc
         Matcher::Default => {
             let views = original.views.iter().map(|view| perturb(view, &swing));
             copy = copy.with_views(views.collect());
+            copy.summaries();
             copy.views.iter_mut().for_each(without_pictures);
         }
         Matcher::Paper => {

@@ -69,7 +69,7 @@ fn score(outline_distance: Metres, overlap: f64, params: &RankParams) -> f64 {
 
 /// Returns an upper bound of the score of any placement of a reference, but for the sampling of the areas.
 pub(super) fn most_score(scene: &ShapeSummary, enrolled: &Reference, params: &RankParams) -> f64 {
-    let scores = enrolled.summaries.iter().map(|view| {
+    let scores = enrolled.summaries().iter().map(|view| {
         let distance = scene.least_outline_distance(view);
         score(distance, scene.most_overlap(view), params)
     });
