@@ -30,7 +30,7 @@ use crate::{
         parallel::{map_each, num_cores},
     },
     stages::{
-        rank::NUM_AT_A_TIME,
+        rank::EXHAUSTIVE_UP_TO,
         reference::{Reference, ReferenceParams},
     },
     units::Metres,
@@ -146,7 +146,7 @@ pub(super) fn read_shipped(
 }
 
 fn load_entries(entries: &[Entry], look: CloudCheckLevel, params: &ReferenceParams) -> LibraryLoad {
-    let is_large = entries.len() > NUM_AT_A_TIME;
+    let is_large = entries.len() > EXHAUSTIVE_UP_TO;
     let read_one = |i: usize| {
         let read = read_entry(&entries[i], look, params);
         if is_large && let Ok(part) = &read {

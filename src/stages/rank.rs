@@ -185,7 +185,7 @@ fn rank_by_overlap(
         }
     };
     let prepare = || PlacementSearch::new(query, params);
-    if references.len() <= NUM_AT_A_TIME {
+    if references.len() <= EXHAUSTIVE_UP_TO {
         return map_in_order(references.len(), num_workers, prepare, entry);
     }
     let summary = ShapeSummary::of(query.plane, query.signature);
@@ -197,7 +197,7 @@ fn rank_by_overlap(
     order.sort_unstable_by(|a, b| most[*b].total_cmp(&most[*a]).then(a.cmp(b)));
     order.truncate(params.num_compared);
     let mut entries: Vec<MatchEntry> = Vec::new();
-    for block in order.chunks(NUM_AT_A_TIME) {
+    for block in order.chunks(EXHAUSTIVE_UP_TO) {
         let num_better = entries.iter().filter(|entry| entry.score > most[block[0]]);
         if num_better.count() >= NUM_CERTAIN {
             break;
@@ -213,10 +213,11 @@ fn rank_by_overlap(
     entries
 }
 
-/// Number of first entries that are those of an exhaustive ranking, unless [`RankParams::num_compared`] ends it before.
+/// Number of first entries that are those of an exhaustive ranking, but for the sampling of areas, unless
+/// [`RankParams::num_compared`] ends the ranking before.
 pub const NUM_CERTAIN: usize = 16;
-/// Number of references compared at a time; a library of no more is ranked exhaustively.
-pub const NUM_AT_A_TIME: usize = 256;
+/// Largest number of references that are ranked exhaustively; of more, as many are compared at a time.
+pub const EXHAUSTIVE_UP_TO: usize = 256;
 
 /// Finds the placements of one reference over the scene, best first; for a matcher that finds none itself.
 pub fn place(query: &Query<'_>, reference: &Reference, params: &RankParams) -> Vec<ImagePlacement> {

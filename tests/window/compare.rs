@@ -192,7 +192,7 @@ fn keeping_a_case_is_undone_and_what_it_set_in_the_history_stays() {
     harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
     settle(&mut harness);
     assert_eq!(num(), 0);
-    harness.get_by_label_contains("its entry in History stays as it is");
+    harness.get_by_label_contains("its History entry is unchanged");
     let row = history_of(&harness).row(0).expect("listed");
     assert_eq!(row.label, Some(Truth::Part("back_door".into())));
     press(&mut harness, "Put case back");

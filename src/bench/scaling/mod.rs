@@ -26,7 +26,7 @@ use crate::{
     pipeline::{self, Cancelled, Inspection, ProgressObserver, Recipe},
     simulate::{CellSetup, Clutter, PartKind, Side, frame},
     stages::{
-        rank::{Matcher, NUM_AT_A_TIME, Query, RankParams, rank, rank_by},
+        rank::{EXHAUSTIVE_UP_TO, Matcher, Query, RankParams, rank, rank_by},
         reference::Reference,
         scene::scene_from_frame,
     },
@@ -142,7 +142,7 @@ pub fn scaling(
         scaling.rows.push(row);
     }
     scaling.crossovers = [0, 1, 2, 3].map(|place| crossover(&scaling.rows, place));
-    if matcher == Matcher::Default && most > NUM_AT_A_TIME {
+    if matcher == Matcher::Default && most > EXHAUSTIVE_UP_TO {
         scaling.same_first = Some(same_first(&references, &params, watch)?);
     }
     Ok(scaling)
@@ -226,7 +226,7 @@ fn same_first(
         let inspection = inspected(&setup, watch)?;
         if let Some(query) = inspection.query() {
             let ranking = rank(&query, references, params);
-            let exhaustive = references.chunks(NUM_AT_A_TIME).flat_map(|some| {
+            let exhaustive = references.chunks(EXHAUSTIVE_UP_TO).flat_map(|some| {
                 let ranking = rank(&query, some, params);
                 ranking.entries.into_iter().map(|entry| entry.score)
             });

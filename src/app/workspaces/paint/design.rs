@@ -66,6 +66,13 @@ impl Design {
         self.edits.clear();
     }
 
+    /// True if the part is still enrolled as it was when it was chosen or drawn on.
+    fn is_enrolled(&self, library: &LibraryView) -> bool {
+        let (part, cloud) = (self.part.as_ref(), self.cloud.as_ref());
+        let mut parts = library.parts.iter();
+        parts.any(|known| Some(&known.name) == part && Some(&known.cloud) == cloud)
+    }
+
     /// Takes over the part's new name if it was renamed in the library. If it was removed or enrolled anew, removes what is drawn
     /// on it; returns true if there was anything.
     fn follow(&mut self, library: &LibraryView) -> bool {
@@ -158,6 +165,12 @@ impl PaintState {
 
     /// Follows the part through a change of the library. Dropping what is drawn on it is an undoable step.
     pub(super) fn follow_part(&mut self, cx: &mut ShellContext<'_>) {
+        let library = cx.session.library.as_ref();
+        if self.design.part.is_none()
+            || library.is_none_or(|library| self.design.is_enrolled(library))
+        {
+            return;
+        }
         let mut design = self.design.clone();
         if follow(&mut design, cx) {
             self.change(|now| *now = design);

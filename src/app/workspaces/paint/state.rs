@@ -197,7 +197,7 @@ impl PaintState {
         Some(&self.enrolled(session)?.name)
     }
 
-    /// The part to paint as it is enrolled.
+    /// The library's entry of the part to paint.
     pub(super) fn enrolled<'a>(&self, session: &'a Session) -> Option<&'a PartMeta> {
         let parts = &session.library.as_ref()?.parts;
         let named = |name: &str| parts.iter().find(|part| part.name.as_str() == name);
