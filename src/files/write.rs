@@ -1,7 +1,7 @@
 //! Writing of files so that each is complete or absent.
 
 use std::collections::BTreeSet;
-use std::fs;
+use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -16,32 +16,56 @@ use crate::{error::lock, geometry::cloud::PointCloud};
 /// Writes a file through `fill`. Even if the power fails, `path` holds either its former content or all of the new one: a
 /// temporary file in the same folder is filled, synced and renamed.
 ///
-/// The folder must exist. A link at `path` is replaced by the file.
+/// The folder must exist. A link to a file stays, and that file is written. Devices and pipes, such as
+/// `/dev/stdout`, are written directly.
 pub fn write_atomically(
     path: &Path,
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), FileError> {
+    let is_special =
+        fs::metadata(path).is_ok_and(|metadata| !metadata.is_file() && !metadata.is_dir());
+    let written = if is_special {
+        write_directly(path, fill)
+    } else {
+        let target = path.is_symlink().then(|| path.canonicalize().ok());
+        replace_file(target.flatten().as_deref().unwrap_or(path), fill)
+    };
+    written.map_err(|error| FileError::writing(path, error))
+}
+
+/// Writes to a device or a pipe, which a rename would replace by a file.
+fn write_directly(
+    path: &Path,
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    let device = disk::open(File::options().write(true), path)?;
+    let mut writer = BufWriter::new(disk::DiskWriter(device));
+    fill(&mut writer)?;
+    writer.flush()
+}
+
+fn replace_file(
+    path: &Path,
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
     let folder = folder_of(path);
     clear_leftovers_once(folder);
-    let written = || -> io::Result<()> {
-        let mut builder = tempfile::Builder::new();
-        builder.prefix(PREFIX).suffix(SUFFIX);
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::PermissionsExt as _;
-            // As for an ordinary new file, less the umask: other users may read results.
-            builder.permissions(std::fs::Permissions::from_mode(0o666));
-        }
-        let mut writer = BufWriter::new(disk::DiskWriter(disk::temporary_file(&builder, folder)?));
-        fill(&mut writer)?;
-        let disk::DiskWriter(file) = writer
-            .into_inner()
-            .map_err(io::IntoInnerError::into_error)?;
-        disk::sync_all(file.as_file())?;
-        disk::persist(file, path)?;
-        sync_folder(folder)
-    };
-    written().map_err(|error| FileError::writing(path, error))
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(PREFIX).suffix(SUFFIX);
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt as _;
+        // As for an ordinary new file, less the umask: other users may read results.
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    let mut writer = BufWriter::new(disk::DiskWriter(disk::temporary_file(&builder, folder)?));
+    fill(&mut writer)?;
+    let disk::DiskWriter(file) = writer
+        .into_inner()
+        .map_err(io::IntoInnerError::into_error)?;
+    disk::sync_all(file.as_file())?;
+    disk::persist(file, path)?;
+    sync_folder(folder)
 }
 
 /// Writes a text file as [`write_atomically`] does.
@@ -97,8 +121,6 @@ pub fn save_cloud(path: &Path, cloud: &PointCloud) -> Result<(), FileError> {
 
 #[cfg(test)]
 mod tests {
-    use std::fs::File;
-
     use super::*;
 
     #[test]
@@ -155,6 +177,36 @@ mod tests {
         std::fs::write(&plain, b"x").unwrap();
         let mode = |path: &Path| std::fs::metadata(path).unwrap().permissions().mode();
         assert_eq!(mode(&path), mode(&plain));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_or_a_pipe_stays_and_its_target_is_written() {
+        use std::{
+            os::unix::fs::{FileTypeExt as _, symlink},
+            process::Command,
+            thread,
+        };
+
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        fs::write(at("kept.txt"), "old").unwrap();
+        symlink("kept.txt", at("link.txt")).unwrap();
+        write_text(&at("link.txt"), "new").unwrap();
+        assert_eq!(fs::read_to_string(at("kept.txt")).unwrap(), "new");
+        assert!(at("link.txt").is_symlink());
+
+        let made = Command::new("mkfifo").arg(at("pipe")).status().unwrap();
+        assert!(made.success());
+        symlink("pipe", at("link to the pipe")).unwrap();
+        for name in ["pipe", "link to the pipe"] {
+            let pipe = at("pipe");
+            let reader = thread::spawn(move || fs::read_to_string(pipe).unwrap());
+            write_text(&at(name), "through the pipe").unwrap();
+            assert_eq!(reader.join().unwrap(), "through the pipe");
+        }
+        let metadata = fs::symlink_metadata(at("pipe")).unwrap();
+        assert!(metadata.file_type().is_fifo());
     }
 
     #[test]
