@@ -125,6 +125,9 @@ pub(super) struct InspectArgs {
 }
 
 pub(super) fn run(mut args: InspectArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    // Before anything that can fail.
+    args.program.remove_previous()?;
+    args.spray.remove_previous()?;
     args.import.write_behind(&mut args.files);
     let args = &args;
     #[cfg(feature = "plant")]

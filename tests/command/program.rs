@@ -87,6 +87,29 @@ fn an_accepted_part_is_painted_by_a_program_of_each_controller() {
 }
 
 #[test]
+fn what_cannot_be_inspected_leaves_no_earlier_program_or_path() {
+    let shop = shop();
+    store_path(&shop);
+    shop.write("broken.toml", "no calibration");
+    for output in [["--program", "paint.src"], ["--spray", "paint.csv"]] {
+        for failing in [
+            ["--calibration", "missing.toml"],
+            ["--calibration", "broken.toml"],
+            ["--library", "missing"],
+            ["--recipe", "missing.toml"],
+        ] {
+            shop.coded(0, &[&["inspect", "door.pcd"][..], &output].concat());
+            assert!(shop.path(output[1]).exists());
+            shop.coded(
+                2,
+                &[&["inspect", "door.pcd"][..], &output, &failing].concat(),
+            );
+            assert!(!shop.path(output[1]).exists(), "{output:?} {failing:?}");
+        }
+    }
+}
+
+#[test]
 fn of_a_refused_part_an_old_capture_or_an_unreached_path_no_program_is_left_unless_forced() {
     let shop = shop();
     store_path(&shop);

@@ -49,6 +49,14 @@ impl ProgramChoice {
         self.program.is_some()
     }
 
+    /// Removes the program of an earlier capture: whatever this capture yields, no robot may run it.
+    pub(super) fn remove_previous(&self) -> anyhow::Result<()> {
+        if let Some(file) = &self.program {
+            remove_previous_program(file).advised()?;
+        }
+        Ok(())
+    }
+
     /// Prepares writing the program, if it is requested and possible.
     pub(super) fn start(
         &self,
@@ -60,8 +68,6 @@ impl ProgramChoice {
         let Some(file) = &self.program else {
             return Ok(None);
         };
-        // Whatever this capture yields, no robot may run an earlier program for it.
-        remove_previous_program(file).advised()?;
         check_placed_part("--program", files, frame)?;
         Ok(Some(CapturedProgram {
             file: self.options.open(file, self.robot_program_format)?,

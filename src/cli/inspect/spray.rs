@@ -52,6 +52,14 @@ pub(super) struct SprayResult<'a> {
 }
 
 impl SprayChoice {
+    /// Removes the path of an earlier capture: whatever this capture yields, it must not be mistaken for its own.
+    pub(super) fn remove_previous(&self) -> anyhow::Result<()> {
+        if let Some(file) = &self.spray {
+            remove_previous_export(file).advised()?;
+        }
+        Ok(())
+    }
+
     /// Prepares writing the path, if it is requested and possible.
     pub(super) fn start(
         &self,
@@ -63,8 +71,6 @@ impl SprayChoice {
         let Some(file) = &self.spray else {
             return Ok(None);
         };
-        // Whatever this capture yields, an earlier path must not be mistaken for its own.
-        remove_previous_export(file).advised()?;
         check_placed_part("--spray", files, frame)?;
         Ok(Some(SprayFile {
             file: file.clone(),
