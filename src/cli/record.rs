@@ -164,26 +164,38 @@ impl HistoryRecorder {
         if let Some(sender) = self.sender {
             end_sender(sender, console, tell_of);
         }
-        let num_waiting = self.keeper.num_waiting();
-        let [num_bare, num_lost] = self.writer.take_dropped();
-        for (num, what) in [
-            (num_waiting, "not in the history"),
-            (num_lost, "not in the history: the disk is too slow"),
-            (
-                num_bare,
-                "in the history without frames: the disk is too slow",
-            ),
-        ] {
-            if num > 0 {
-                let inspections_are = if num == 1 {
-                    "inspection is"
-                } else {
-                    "inspections are"
-                };
-                console.note(&format_args!("warning: {num} {inspections_are} {what}"));
-            }
+        for warning in losses(&self.keeper, self.writer.take_dropped()) {
+            console.note(&warning);
         }
     }
+}
+
+/// Returns a warning for each reason why inspections or frames are not in the history.
+fn losses(keeper: &HistoryBuffer, [num_bare, num_slow]: [usize; 2]) -> Vec<String> {
+    let losses = [
+        (
+            keeper.num_waiting() + keeper.num_lost(),
+            "not in the history",
+        ),
+        (num_slow, "not in the history: the disk is too slow"),
+        (
+            num_bare,
+            "in the history without frames: the disk is too slow",
+        ),
+    ];
+    let losses = losses.into_iter().filter(|(num, _)| *num > 0);
+    losses
+        .map(|(num, what)| format!("warning: {} {what}", inspections_are(num)))
+        .collect()
+}
+
+fn inspections_are(num: usize) -> String {
+    let inspections_are = if num == 1 {
+        "inspection is"
+    } else {
+        "inspections are"
+    };
+    format!("{num} {inspections_are}")
 }
 
 fn titles_of(library: &LibraryLoad) -> BTreeMap<String, String> {
@@ -206,19 +218,44 @@ fn tell_of(news: HistoryEvent, console: &Console) {
             let place = aside.aside.display();
             console.note(&format_args!("  it was set aside as {place}"));
         }
-        HistoryEvent::Works { numbers, .. } => {
-            let num = numbers.len();
+        HistoryEvent::Works { numbers, num_lost } => {
+            for line in writable_again(numbers.len(), num_lost) {
+                console.note(&line);
+            }
+        }
+        HistoryEvent::NotChanged { what, advice } => {
+            console.advise(&format_args!("warning: {what}"), &advice);
+        }
+        HistoryEvent::Swept(swept) if swept.num_frames > USUALLY_SWEPT => {
             console.note(&format_args!(
-                "The history is writable again: {num} waiting inspections were saved"
+                "The retention rule removed {} frames, {:.1} MB, from the history",
+                swept.num_frames,
+                swept.num_bytes as f64 / 1e6
             ));
         }
         HistoryEvent::Added { .. }
         | HistoryEvent::Changed { .. }
-        | HistoryEvent::NotChanged { .. }
         | HistoryEvent::FilesChanged
         | HistoryEvent::RuleChanged
         | HistoryEvent::Swept(_) => {}
     }
+}
+
+/// Frames up to this number are removed without a message. In the long run as many go as come, and they are removed after
+/// every 25 inspections.
+const USUALLY_SWEPT: usize = 25;
+
+fn writable_again(num_saved: usize, num_lost: usize) -> Vec<String> {
+    let mut lines = vec![format!(
+        "The history is writable again: {num_saved} waiting inspections were saved"
+    )];
+    if num_lost > 0 {
+        let inspections_are = inspections_are(num_lost);
+        lines.push(format!(
+            "warning: {inspections_are} not in the history: too many waited"
+        ));
+    }
+    lines
 }
 
 /// Origin of a scene.
@@ -229,4 +266,43 @@ pub(super) struct SceneOrigin<'a> {
     pub(super) source: &'a str,
     /// True if the scene does not come from a camera.
     pub(super) is_simulated: bool,
+}
+
+#[cfg(test)]
+mod tests {
+    use std::{fs, time::Instant};
+
+    use super::*;
+    use crate::{history::StoredVerdict, kit::history_entry};
+
+    #[test]
+    fn inspections_that_were_dropped_because_too_many_waited_are_counted() {
+        let home = tempfile::tempdir().expect("a folder");
+        let place = home.path().join("taken");
+        fs::write(&place, "a file").expect("written");
+        let keeper = HistoryBuffer::new(Some(place.clone()));
+        for ticket in 0..2100 {
+            let mut entry = history_entry(1, StoredVerdict::Rejected, "fender");
+            (entry.scene, entry.picture) = (None, None);
+            keeper.add(ticket, entry, Instant::now());
+        }
+        let expected = "warning: 2100 inspections are not in the history";
+        assert_eq!(losses(&keeper, [0; 2]), [expected]);
+
+        keeper.take_news();
+        fs::remove_file(&place).expect("removed");
+        keeper.retry_now();
+        let news = keeper.take_news();
+        let Some(HistoryEvent::Works { numbers, num_lost }) = news.last() else {
+            panic!("{news:?}");
+        };
+        let told = writable_again(numbers.len(), *num_lost);
+        assert!(told[0].ends_with("2000 waiting inspections were saved"));
+        let expected = "warning: 100 inspections are not in the history: too many waited";
+        assert_eq!(told[1..], [expected]);
+        assert_eq!(losses(&keeper, [0; 2]), [""; 0]);
+        assert_eq!(writable_again(1, 0).len(), 1);
+        let slow = "warning: 1 inspection is not in the history: the disk is too slow";
+        assert_eq!(losses(&keeper, [0, 1]), [slow]);
+    }
 }

@@ -58,7 +58,7 @@ struct Inner {
     waiting: VecDeque<NewEntry>,
     /// Changes of traceability that arrived after the rows of their part were written, oldest first.
     untraced: VecDeque<(HungId, TraceChange)>,
-    /// Number of the newest row, written or waiting; a waiting one is listed with its negative.
+    /// Highest number of a row, written or waiting; a waiting one is listed with its negative.
     last: i64,
     num_lost: usize,
     /// After a failure, when to try again.
@@ -88,6 +88,11 @@ impl HistoryBuffer {
     /// Returns the number of inspections that are not written yet.
     pub fn num_waiting(&self) -> usize {
         self.lock().waiting.len()
+    }
+
+    /// Returns the number of inspections lost since writing last worked, because too many waited.
+    pub fn num_lost(&self) -> usize {
+        self.lock().num_lost
     }
 
     /// Returns the events since the last call. Never waits for the disk.
@@ -131,6 +136,14 @@ impl HistoryBuffer {
         let mut inner = self.lock();
         if inner.next_try.is_some_and(|at| at <= now) {
             self.write_waiting(&mut inner, now);
+        }
+    }
+
+    /// Retries a failed write without waiting until it is time: at the end of the program there is no later attempt.
+    pub fn retry_now(&self) {
+        let mut inner = self.lock();
+        if inner.next_try.is_some() {
+            self.write_waiting(&mut inner, Instant::now());
         }
     }
 
@@ -227,6 +240,10 @@ impl HistoryBuffer {
         number: i64,
         change: impl FnOnce(&mut History) -> Result<(), HistoryError>,
     ) -> Result<(), HistoryError> {
+        if self.close_replaced(inner) {
+            // The number is one of the former file.
+            return Err(HistoryError::NoSuchInspection { number });
+        }
         self.ensure(inner)?;
         match &mut inner.history {
             Some(history) => change(history),
@@ -235,26 +252,28 @@ impl HistoryBuffer {
     }
 
     fn queue_change_event(&self, number: i64, changed: Result<(), HistoryError>) {
-        self.tell(match changed {
-            Ok(()) => HistoryEvent::Changed { number },
-            Err(error) => HistoryEvent::NotChanged {
-                what: error.to_string(),
-                advice: error.advice(),
-            },
+        match changed {
+            Ok(()) => self.tell(HistoryEvent::Changed { number }),
+            Err(error) => self.not_changed(&error),
+        }
+    }
+
+    fn not_changed(&self, error: &HistoryError) {
+        self.tell(HistoryEvent::NotChanged {
+            what: error.to_string(),
+            advice: error.advice(),
         });
     }
 
     /// Sets the retention rule, and removes at once the frames that it does not keep.
     pub fn set_retention(&self, retention: Retention) {
         let mut inner = self.lock();
+        self.look(&mut inner);
         inner.retention = retention.clamped();
         if let Some(history) = &mut inner.history
             && let Err(error) = history.set_retention(&retention)
         {
-            return self.tell(HistoryEvent::NotChanged {
-                what: error.to_string(),
-                advice: error.advice(),
-            });
+            return self.not_changed(&error);
         }
         self.sweep(&mut inner);
         self.tell(HistoryEvent::RuleChanged);
@@ -284,11 +303,23 @@ impl HistoryBuffer {
         }
     }
 
-    /// Opens the history for writing. If that fails, reads it as far as possible until writing works.
+    /// Closes a history whose file was moved, deleted or replaced, and reports it. Returns whether it did.
+    fn close_replaced(&self, inner: &mut Inner) -> bool {
+        let replaced = inner.history.take_if(|history| history.is_replaced());
+        let Some(replaced) = replaced else {
+            return false;
+        };
+        self.not_changed(&replaced.close_replaced());
+        true
+    }
+
+    /// Opens the history for writing, anew if its file was replaced. If that fails, reads it as far as possible until
+    /// writing works.
     fn ensure(&self, inner: &mut Inner) -> Result<(), HistoryError> {
         let Some(place) = &self.place else {
             return Ok(());
         };
+        self.close_replaced(inner);
         if inner.history.is_some() && !inner.is_only_read {
             return Ok(());
         }
@@ -336,7 +367,8 @@ impl HistoryBuffer {
             match self.write(inner, &entry) {
                 Ok(Some(number)) => {
                     numbers.push((entry.record.summary.number, number));
-                    inner.last = number;
+                    // A file that was begun anew counts from 1: no two waiting ones may get the same number.
+                    inner.last = inner.last.max(number);
                 }
                 Ok(None) => {
                     inner.waiting.push_front(entry);

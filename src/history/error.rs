@@ -69,6 +69,15 @@ pub enum HistoryError {
         /// The file.
         path: PathBuf,
     },
+    /// The file was moved, deleted or replaced while it was in use.
+    #[error(
+        "{}: the history was moved, deleted or replaced while it was in use; new inspections go to the file that is there now",
+        path.display()
+    )]
+    Replaced {
+        /// The file.
+        path: PathBuf,
+    },
     /// There is no history yet.
     #[error("{}: there is no history yet", path.display())]
     NotFound {
@@ -162,6 +171,9 @@ impl Advice for HistoryError {
             }
             Self::Foreign { .. } => {
                 "Keep the history in another folder (--history), or move that file to where it belongs".into()
+            }
+            Self::Replaced { .. } => {
+                "If earlier inspections are missing, stop every Partsight that uses this history and put the former file back; move or delete a history only while none is running".into()
             }
             Self::NotFound { .. } => {
                 "Inspect something first, or name the folder with --history".into()

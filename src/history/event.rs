@@ -33,7 +33,8 @@ pub enum HistoryEvent {
         /// Number of the inspection.
         number: i64,
     },
-    /// A change (a remark, a true label or the retention rule) could not be written.
+    /// A change (a remark, a true label or the retention rule) could not be written, or the file was moved, deleted or
+    /// replaced.
     NotChanged {
         /// The error.
         what: String,

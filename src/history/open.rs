@@ -5,6 +5,10 @@
 //! that was reported as written survives a power failure, not only a kill; a commit then waits for the disk, which is
 //! why a separate thread writes. Every program that has the history open holds a shared lock. A program that gets the
 //! exclusive lock at the beginning is alone; only then is the file checked and are strays removed.
+//!
+//! SQLite locks the file with POSIX locks: a process that closes any descriptor of the file loses all its locks on it. The
+//! next program that closes the history would then delete the log that this process still writes to. So while this process
+//! may have the history open, only SQLite reads the file.
 
 use std::{
     collections::BTreeSet,
@@ -29,6 +33,8 @@ pub const FILE: &str = "history.sqlite";
 /// Name of the folder of frames next to it.
 pub(super) const FRAMES: &str = "history-frames";
 const LOCK: &str = "history.lock";
+/// What follows the name of a file that was set aside in the name of its folder of frames.
+const FRAMES_ENDING: &str = "-frames";
 /// How long one writer waits for another.
 const PATIENCE: Duration = Duration::from_secs(10);
 /// Files up to this size, in bytes, are checked whenever they are opened, which takes some milliseconds. Larger ones
@@ -75,9 +81,9 @@ impl History {
         disk::create_dir_all(folder).map_err(|error| HistoryError::io(folder, error))?;
         let path = folder.join(FILE);
         refuse_foreign(&path)?;
-        let mut set_aside = None;
+        let mut set_aside = set_aside_frames(&path)?;
         if let Some(_alone) = Lock::alone(folder)? {
-            set_aside = set_aside_damaged(&path)?;
+            set_aside = set_aside_damaged(&path)?.or(set_aside);
             let history = Self::new(connect(&path)?, folder);
             history.tidy()?;
         }
@@ -89,6 +95,31 @@ impl History {
             set_aside,
             only_read: None,
         })
+    }
+
+    /// Returns whether the file was moved, deleted or replaced since it was opened: nobody would find what is written now.
+    pub(super) fn is_replaced(&self) -> bool {
+        let is_other = |opened| match file_identity(&self.path) {
+            Ok(found) => found != opened,
+            Err(error) => matches!(
+                error.kind(),
+                io::ErrorKind::NotFound | io::ErrorKind::NotADirectory
+            ),
+        };
+        self.identity.is_some_and(is_other)
+    }
+
+    /// Closes a history whose file was moved, deleted or replaced.
+    pub(super) fn close_replaced(self) -> HistoryError {
+        // If the log was left behind, write its rows to the file that was moved and empty the log: SQLite would apply it
+        // to the next file of this name.
+        let log = file_identity(&with_ending(&self.path, "-wal")).ok();
+        if log.is_some() && log == self.log {
+            let write_back = "PRAGMA wal_checkpoint(TRUNCATE)";
+            // If that fails, there is no other way.
+            let _ = self.file.query_row(write_back, [], |_| Ok(()));
+        }
+        HistoryError::Replaced { path: self.path }
     }
 
     /// Opens a history for reading only, even one that cannot be written because its disk is full, fails or is
@@ -133,6 +164,20 @@ impl History {
         let history = read("immutable=1").ok()??;
         Some((history, has_log))
     }
+}
+
+/// Returns device and inode of a file.
+#[cfg(unix)]
+pub(super) fn file_identity(path: &Path) -> io::Result<[u64; 2]> {
+    use std::os::unix::fs::MetadataExt as _;
+
+    fs::metadata(path).map(|file| [file.dev(), file.ino()])
+}
+
+/// Windows keeps an open database from being moved or deleted, so that all files are the same here.
+#[cfg(not(unix))]
+pub(super) fn file_identity(path: &Path) -> io::Result<[u64; 2]> {
+    fs::metadata(path).map(|_| [0; 2])
 }
 
 /// Returns the file as a URI with this parameter.
@@ -193,8 +238,9 @@ fn refuse_newer(path: &Path, found: u32) -> Result<(), HistoryError> {
 /// Opens the file and migrates it to the current version.
 fn connect(path: &Path) -> Result<Connection, HistoryError> {
     let of = |error| HistoryError::of(path, error);
-    // Check before SQLite opens the file: opening alone may write to it.
-    refuse_newer(path, Header::read(path)?.map_or(0, |header| header.version))?;
+    // Check before SQLite opens the file for writing: opening alone may write to it.
+    let found = open_without_log(path)?.and_then(|file| version(&file).ok());
+    refuse_newer(path, found.unwrap_or(0))?;
     let flags = OpenFlags::SQLITE_OPEN_READ_WRITE
         | OpenFlags::SQLITE_OPEN_CREATE
         | OpenFlags::SQLITE_OPEN_NO_MUTEX;
@@ -229,8 +275,11 @@ fn has_tables(file: &Connection) -> rusqlite::Result<bool> {
 }
 
 fn is_ours(file: &Connection) -> rusqlite::Result<bool> {
-    let application: i32 = file.pragma_query_value(None, "application_id", |row| row.get(0))?;
-    Ok(application == APPLICATION)
+    Ok(application(file)? == APPLICATION)
+}
+
+fn application(file: &Connection) -> rusqlite::Result<i32> {
+    file.pragma_query_value(None, "application_id", |row| row.get(0))
 }
 
 fn foreign(path: &Path) -> HistoryError {
@@ -241,26 +290,36 @@ fn foreign(path: &Path) -> HistoryError {
 
 /// Refuses the database of another program before `SQLite` may write to it or create files next to it.
 fn refuse_foreign(path: &Path) -> Result<(), HistoryError> {
-    let header = match Header::read(path) {
-        Ok(Some(header)) => header,
-        // A file that is not a database is treated as a damaged history.
-        Ok(None) | Err(HistoryError::Damaged { .. }) => return Ok(()),
-        Err(error) => return Err(error),
+    let Some(file) = open_without_log(path)? else {
+        return Ok(());
     };
-    let is_foreign = match (header.application, header.version) {
-        (APPLICATION, _) => false,
-        // A history before its first table, or a program that sets no application id.
-        (0, 0) => {
-            let flags = OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_URI;
-            let file = Connection::open_with_flags(address(path, "immutable=1"), flags);
-            file.and_then(|file| has_tables(&file)).unwrap_or(false)
+    let is_foreign = || -> rusqlite::Result<bool> {
+        match (application(&file)?, version(&file)?) {
+            (APPLICATION, _) => Ok(false),
+            // A history before its first table, or a program that sets no application id.
+            (0, 0) => has_tables(&file),
+            _ => Ok(true),
         }
-        _ => true,
     };
-    if is_foreign {
-        return Err(foreign(path));
+    match is_foreign() {
+        Ok(true) => Err(foreign(path)),
+        // A file that is not a database is treated as a damaged history.
+        Ok(false) | Err(_) => Ok(()),
     }
-    Ok(())
+}
+
+/// Opens the file as it is without its log, and writes nothing, not even beside it; `None` if it is missing.
+fn open_without_log(path: &Path) -> Result<Option<Connection>, HistoryError> {
+    match fs::metadata(path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+        Ok(file) if file.is_file() => {}
+        // This fails before it opens anything.
+        _ => drop(open_regular(path).map_err(|error| HistoryError::io(path, error))?),
+    }
+    let flags = OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_URI;
+    let file = Connection::open_with_flags(address(path, "immutable=1"), flags);
+    file.map(Some)
+        .map_err(|error| HistoryError::of(path, error))
 }
 
 /// Returns the first of our tables and indexes that is missing in the file.
@@ -281,7 +340,6 @@ fn lacking(file: &Connection) -> rusqlite::Result<Option<String>> {
 /// Fields from the first hundred bytes of a database.
 struct Header {
     version: u32,
-    application: i32,
     num_bytes: u64,
 }
 
@@ -291,7 +349,8 @@ const MAGIC: &[u8; 16] = b"SQLite format 3\0";
 const LOG_MAGIC: u32 = 0x377f_0682;
 
 impl Header {
-    /// Reads the header; `None` if the file is missing or empty.
+    /// Reads the header; `None` if the file is missing or empty. Call it only while nobody has the file open, not even this
+    /// process.
     fn read(path: &Path) -> Result<Option<Self>, HistoryError> {
         let damaged = |what: &str| HistoryError::Damaged {
             path: path.to_owned(),
@@ -304,10 +363,9 @@ impl Header {
             let bytes = bytes.get(at..at + 4)?;
             Some(u32::from_be_bytes(*bytes.first_chunk()?))
         };
-        let (Some(true), Some(version), Some(application), Some(num_pages)) = (
+        let (Some(true), Some(version), Some(num_pages)) = (
             bytes.first_chunk().map(|magic| magic == MAGIC),
             word(60),
-            word(68),
             word(28),
         ) else {
             return Err(damaged("it is no database"));
@@ -315,7 +373,6 @@ impl Header {
         let page = u64::from(bytes[16]) << 8 | u64::from(bytes[17]);
         Ok(Some(Self {
             version,
-            application: application as i32,
             // A page size of 65536 bytes is stored as 1.
             num_bytes: u64::from(num_pages) * if page == 1 { 65_536 } else { page },
         }))
@@ -331,6 +388,26 @@ fn first_bytes(path: &Path, most: u64) -> Result<Option<Vec<u8>>, HistoryError> 
     };
     match read() {
         Ok(bytes) => Ok(Some(bytes).filter(|bytes| !bytes.is_empty())),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(HistoryError::io(path, error)),
+    }
+}
+
+/// Sets aside frames without a file. Their rows may be in a file that was moved; a new file has none of them, so that the
+/// frames would be removed as strays.
+fn set_aside_frames(path: &Path) -> Result<Option<SetAside>, HistoryError> {
+    let frames = path.with_file_name(FRAMES);
+    let has_frames = fs::read_dir(&frames).is_ok_and(|mut files| files.next().is_some());
+    if !has_frames || path.exists() {
+        return Ok(None);
+    }
+    let aside = with_ending(&aside(path)?, FRAMES_ENDING);
+    match disk::rename(&frames, &aside) {
+        Ok(()) => Ok(Some(SetAside {
+            what: format!("{FRAMES} was there without {FILE}"),
+            aside,
+        })),
+        // Another program has just done so.
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
         Err(error) => Err(HistoryError::io(path, error)),
     }
@@ -404,7 +481,7 @@ fn set_aside(path: &Path) -> Result<PathBuf, HistoryError> {
         (path.to_owned(), aside.clone()),
         (with_ending(path, "-wal"), with_ending(&aside, "-wal")),
         (with_ending(path, "-shm"), with_ending(&aside, "-shm")),
-        (frames, with_ending(&aside, "-frames")),
+        (frames, with_ending(&aside, FRAMES_ENDING)),
     ];
     for (from, to) in moves {
         match disk::rename(&from, &to) {
@@ -424,12 +501,12 @@ fn aside(path: &Path) -> Result<PathBuf, HistoryError> {
     let numbered = |number| path.with_file_name(format!("{stem}.damaged-{number}.{ending}"));
     (1..1000)
         .map(numbered)
-        .find(|aside| !aside.exists())
+        .find(|aside| !aside.exists() && !with_ending(aside, FRAMES_ENDING).exists())
         .ok_or_else(|| HistoryError::io(path, io::ErrorKind::AlreadyExists.into()))
 }
 
 /// Returns the name of a companion file of `SQLite`.
-fn with_ending(path: &Path, ending: &str) -> PathBuf {
+pub(super) fn with_ending(path: &Path, ending: &str) -> PathBuf {
     let mut name = path.as_os_str().to_owned();
     name.push(ending);
     name.into()

@@ -1,13 +1,14 @@
 //! Retention of frames. Rows are kept forever: a hundred thousand of them take about as much space as a minute of
 //! frames.
 //!
-//! The oldest frames are removed first, by age and then by size. A frame whose inspection has a remark or a true label
-//! has been looked at by a person: no rule removes it, but it counts towards the size. A wrong acceptance is often noticed
-//! only a few parts later, so the frames of the newest accepted inspections are kept too; they never displace others.
+//! The oldest frames are removed first, by age and then by size; the oldest are those written first, since the clock may
+//! have been wrong. A frame whose inspection has a remark or a true label has been looked at by a person: no rule removes
+//! it, but it counts towards the size. A wrong acceptance is often noticed only a few parts later, so the frames of the
+//! newest accepted inspections are kept too; they never displace others.
 
 use std::collections::BTreeSet;
 
-use jiff::{SignedDuration, Timestamp};
+use jiff::Timestamp;
 use rusqlite::{OptionalExtension as _, TransactionBehavior};
 
 use super::{
@@ -26,7 +27,7 @@ pub const ACCEPTED_KEPT: usize = 200;
 pub struct Retention {
     /// The inspections whose frames are kept.
     pub keep: KeepFrames,
-    /// Maximum age of a frame, days, 1..3650.
+    /// Maximum age of a frame, days, 1..3650. A pause between two inspections counts at most a tenth of it.
     pub max_days: u32,
     /// Maximum total size, gigabytes (10⁹ bytes), 0.1..10 000; beyond it the oldest frames are removed.
     pub max_gigabytes: f64,
@@ -106,9 +107,12 @@ pub struct PruneResult {
     pub num_bytes: u64,
 }
 
+/// A clock that is wrong once makes no frame older than this part of the maximum age.
+const AGE_PARTS: i64 = 10;
+const MICROSECONDS_PER_DAY: i64 = 86_400_000_000;
+
 struct PrunableFrame {
     number: i64,
-    at: i64,
     bytes: u64,
     is_only_recent: bool,
 }
@@ -167,10 +171,8 @@ impl History {
             max_days,
             max_gigabytes,
         } = retention.clamped();
-        let days = SignedDuration::from_hours(24 * i64::from(max_days));
-        let oldest = now
-            .checked_sub(days)
-            .map_or(i64::MIN, Timestamp::as_microsecond);
+        let first_young = self.first_young(max_days, now);
+        let first_young = first_young.map_err(|error| self.error(error))?;
         let candidates = self.candidates().map_err(|error| self.error(error))?;
         let (recent, others): (Vec<_>, Vec<_>) =
             (candidates.into_iter()).partition(|frame: &PrunableFrame| frame.is_only_recent);
@@ -186,7 +188,7 @@ impl History {
             .chain(others)
             .enumerate()
             .filter(|(place, frame)| {
-                let goes = *place < num_over || frame.at < oldest || left > most;
+                let goes = *place < num_over || frame.number < first_young || left > most;
                 if goes {
                     left = left.saturating_sub(frame.bytes);
                 }
@@ -205,21 +207,61 @@ impl History {
         })
     }
 
+    /// Returns the number of the oldest inspection whose frame is not too old. Numbers are in the order of writing.
+    ///
+    /// The clock may be wrong now, or may have been at earlier inspections, so the age is the sum of the times between the
+    /// inspections written since. Each counts at most a tenth of the maximum age. Inspections at which the clock was off
+    /// count nothing if it came back afterwards.
+    fn first_young(&self, max_days: u32, now: Timestamp) -> rusqlite::Result<i64> {
+        let max_age = i64::from(max_days) * MICROSECONDS_PER_DAY;
+        let longest = max_age / AGE_PARTS;
+        let mut asked =
+            (self.file).prepare("SELECT number, at FROM inspection ORDER BY number DESC")?;
+        let mut rows = asked.query([])?;
+        let mut first = i64::MAX;
+        let (mut time, mut age) = (now.as_microsecond(), 0);
+        // Time and age before the last jump of the clock.
+        let mut before_jump = None;
+        while let Some(row) = rows.next()? {
+            let (number, at): (i64, i64) = (row.get(0)?, row.get(1)?);
+            let is_near = |time: i64| time.abs_diff(at) <= longest.unsigned_abs();
+            if !is_near(time) {
+                match before_jump {
+                    Some((former, its_age)) if is_near(former) => {
+                        (time, age) = (former, its_age);
+                        before_jump = None;
+                    }
+                    _ => before_jump = Some((time, age)),
+                }
+            }
+            let step = time.saturating_sub(at);
+            age += step.clamp(0, longest);
+            if age > max_age {
+                break;
+            }
+            // Two programs write slightly out of order: such a step back is not counted twice.
+            if step > 0 || !is_near(time) {
+                time = at;
+            }
+            first = number;
+        }
+        Ok(first)
+    }
+
     /// Returns the frames that a rule may remove, the oldest first.
     fn candidates(&self) -> rusqlite::Result<Vec<PrunableFrame>> {
         let mut asked = self.file.prepare(
-            "SELECT number, at, frame_bytes,
+            "SELECT number, frame_bytes,
                 CASE WHEN json_valid(frame) THEN coalesce(json_extract(frame, '$.is_only_recent'), 0) ELSE 0 END
             FROM inspection JOIN detail USING (number)
-            WHERE frame_bytes IS NOT NULL AND remark = '' AND label IS NULL ORDER BY at",
+            WHERE frame_bytes IS NOT NULL AND remark = '' AND label IS NULL ORDER BY number",
         )?;
         let rows = asked.query_map([], |row| {
-            let bytes: i64 = row.get(2)?;
+            let bytes: i64 = row.get(1)?;
             Ok(PrunableFrame {
                 number: row.get(0)?,
-                at: row.get(1)?,
                 bytes: bytes as u64,
-                is_only_recent: row.get(3)?,
+                is_only_recent: row.get(2)?,
             })
         })?;
         rows.collect()

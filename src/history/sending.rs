@@ -122,15 +122,22 @@ const NOTES: &str = "
     CREATE TRIGGER IF NOT EXISTS unsent_detail AFTER UPDATE ON detail BEGIN
         DELETE FROM unsent WHERE number = NEW.number;
         INSERT INTO unsent (number) VALUES (NEW.number);
-    END;
-    INSERT INTO unsent (number)
-        SELECT number FROM inspection WHERE number NOT IN (SELECT number FROM unsent) ORDER BY number;";
+    END;";
+/// Records all inspections that are not recorded yet.
+const NOTE_ALL: &str = "INSERT INTO unsent (number)
+    SELECT number FROM inspection WHERE number NOT IN (SELECT number FROM unsent) ORDER BY number";
 
 impl History {
     /// Starts recording which inspections are added or changed; at the first call also records all that exist. Returns
     /// the identity of this history, which never changes: another file has another one, a copy of it the same.
     pub fn note_changes(&mut self) -> Result<String, HistoryError> {
         note_changes(&mut self.file).map_err(|error| self.error(error))
+    }
+
+    /// Records all inspections as not sent: the database is another one, or an older state of it was restored.
+    pub fn note_all(&mut self) -> Result<(), HistoryError> {
+        let noted = self.file.execute(NOTE_ALL, []);
+        noted.map(|_| ()).map_err(|error| self.error(error))
     }
 
     /// Returns the number of inspections that are recorded as not sent.
@@ -162,6 +169,7 @@ fn note_changes(file: &mut Connection) -> rusqlite::Result<String> {
     // A later version may have recreated a table, which drops its triggers: record everything again.
     if !is_noting(&file)? {
         file.execute_batch(NOTES)?;
+        file.execute(NOTE_ALL, [])?;
     }
     file.execute(
         "INSERT INTO setting (name, json) VALUES (?, '\"' || lower(hex(randomblob(16))) || '\"')
@@ -403,9 +411,18 @@ mod tests {
         let (_folder, mut history) = new_history();
         history.note_changes().expect("noted");
         add(&mut history, 1);
-        let read = history.unsent(10).expect("read");
+        let without_frames = Retention {
+            keep: KeepFrames::None,
+            ..ALL
+        };
+        // The age goes on with each inspection.
+        for days in 1..=11 {
+            let entry = history_entry(days * 86_400, StoredVerdict::Rejected, "fender");
+            history.add(&entry, &without_frames).expect("written");
+        }
+        let read = history.unsent(100).expect("read");
         history.note_sent(&read).expect("noted");
-        let swept = history.sweep(&ALL, moment(400 * 86_400)).expect("swept");
+        let swept = history.sweep(&ALL, moment(12 * 86_400)).expect("swept");
         assert_eq!(swept.num_frames, 1);
         assert_eq!(numbers(&history.unsent(10).expect("read")), [1]);
     }

@@ -13,7 +13,7 @@ use super::{
     filter::Filter,
     frames::{self, FrameRecord},
     hung::HungId,
-    open::{FILE, FRAMES, Lock},
+    open::{FILE, FRAMES, Lock, file_identity, with_ending},
     retention::{KeepFrames, Retention},
     rows::{columns, detail_columns, head_of, insert, json, record_of, summary_of, trace_part},
     shots,
@@ -25,9 +25,13 @@ use crate::{library::Truth, scan::Shot, stages::scene::SceneCloud};
 #[derive(Debug)]
 pub struct History {
     pub(super) file: Connection,
-    path: PathBuf,
+    pub(super) path: PathBuf,
     pub(super) frames: PathBuf,
     lock: Option<Lock>,
+    /// Identity of the file at opening; `None` if unknown.
+    pub(super) identity: Option<[u64; 2]>,
+    /// Identity of its log at opening.
+    pub(super) log: Option<[u64; 2]>,
 }
 
 /// Some rows of a list, with totals.
@@ -43,9 +47,12 @@ pub struct Page {
 
 impl History {
     pub(super) fn new(file: Connection, folder: &Path) -> Self {
+        let path = folder.join(FILE);
         Self {
+            identity: file_identity(&path).ok(),
+            log: file_identity(&with_ending(&path, "-wal")).ok(),
             file,
-            path: folder.join(FILE),
+            path,
             frames: folder.join(FRAMES),
             lock: None,
         }

@@ -301,6 +301,9 @@ fn frames_go_by_rule_age_and_size_and_marked_ones_stay() {
     );
     let (old, _) = add(1, StoredVerdict::Unknown, keep(KeepFrames::NotAccepted));
     let (marked, _) = add(2, StoredVerdict::Rejected, ALL);
+    for days in (5..40).step_by(3) {
+        add(days, StoredVerdict::NoPart, keep(KeepFrames::None));
+    }
     let (next, bytes) = add(40, StoredVerdict::Accepted, ALL);
     let (newest, _) = add(41, StoredVerdict::Accepted, ALL);
     history.set_remark(marked, "asked about").expect("written");
@@ -338,6 +341,53 @@ fn frames_go_by_rule_age_and_size_and_marked_ones_stay() {
     let files = std::fs::read_dir(folder.path().join("history-frames")).expect("listed");
     // The two frames and their camera.
     assert_eq!(files.count(), 3, "{bytes}");
+}
+
+#[test]
+fn a_clock_that_is_wrong_removes_no_frames_and_the_age_goes_on_when_it_is_right() {
+    let day = 24 * 3600;
+    let (_folder, mut history) = new_history();
+    let add = |history: &mut History, days: i64, keep| {
+        let entry = history_entry(days * day, StoredVerdict::NoPart, "grille");
+        let retention = Retention { keep, ..ALL };
+        history.add(&entry, &retention).expect("written");
+    };
+    let swept = |history: &mut History, days: i64| {
+        let swept = history.sweep(&ALL, moment(days * day)).expect("swept");
+        swept.num_frames
+    };
+    for days in 1..=20 {
+        add(&mut history, days, KeepFrames::All);
+    }
+    // Ten years ahead, before its first inspection.
+    assert_eq!(swept(&mut history, 3650), 0);
+    // A clock without a battery: the inspection seems years old.
+    add(&mut history, -2000, KeepFrames::All);
+    assert_eq!(swept(&mut history, 21), 0);
+    for days in [3670, 3671] {
+        add(&mut history, days, KeepFrames::All);
+        assert_eq!(swept(&mut history, days), 0);
+    }
+    add(&mut history, 22, KeepFrames::All);
+    assert_eq!(swept(&mut history, 22), 0);
+    for days in 23..=50 {
+        add(&mut history, days, KeepFrames::None);
+    }
+    // The wrong clock made them older by at most a few days.
+    assert_eq!(swept(&mut history, 50), 21);
+
+    // The clock is wrong at every start of the computer until it has asked the network.
+    let (_folder, mut history) = new_history();
+    for days in 1..=20 {
+        add(&mut history, -2000, KeepFrames::All);
+        add(&mut history, days, KeepFrames::All);
+    }
+    assert_eq!(swept(&mut history, 21), 0);
+    for days in 21..=40 {
+        add(&mut history, days, KeepFrames::None);
+    }
+    // A tenth early at most: what is 27 days old stays.
+    assert_eq!(swept(&mut history, 40), 23);
 }
 
 #[test]
@@ -859,7 +909,15 @@ fn the_shots_of_a_scan_are_kept_and_go_together() {
     let mut history = open_history(folder.path());
     assert_eq!(files(&history), 5, "none is a stray");
     history.set_remark(2, "stays").expect("written");
-    history.sweep(&ALL, moment(400 * 24 * 3600)).expect("swept");
+    let later = Retention {
+        keep: KeepFrames::None,
+        ..ALL
+    };
+    for days in 1..=31 {
+        let entry = history_entry(days * 24 * 3600, StoredVerdict::NoPart, "grille");
+        history.add(&entry, &later).expect("written");
+    }
+    history.sweep(&ALL, moment(32 * 24 * 3600)).expect("swept");
     assert_eq!(files(&history), 2);
     assert!(history.known(1).expect("there").detail.frame.is_none());
 }

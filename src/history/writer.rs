@@ -28,7 +28,7 @@ const MAX_INSPECTIONS: usize = 4096;
 /// Work for the thread.
 type Job = Box<dyn FnOnce(&HistoryBuffer) + Send>;
 
-/// The writing thread. Dropping it waits until everything passed to it is written.
+/// The writing thread. Dropping it waits until everything passed to it is written, or a last attempt has failed.
 #[derive(Debug)]
 pub struct Writer {
     /// `None` while dropping: the thread ends once it has done all its jobs.
@@ -66,7 +66,10 @@ impl Writer {
                     match next(&received, &keeper) {
                         Ok(job) => job(keeper.as_ref()),
                         Err(RecvTimeoutError::Timeout) => keeper.retry(Instant::now()),
-                        Err(RecvTimeoutError::Disconnected) => break,
+                        Err(RecvTimeoutError::Disconnected) => {
+                            keeper.retry_now();
+                            break;
+                        }
                     }
                     on_news();
                 }
@@ -134,10 +137,12 @@ impl Writer {
         }
     }
 
-    /// Waits until everything queued is written.
+    /// Waits until everything queued is written. If writing fails, tries once more at once;
+    /// [`HistoryBuffer::num_waiting`] then counts what is still not written.
     pub fn finish(&self) {
         let (answer, answered) = sync_channel(1);
-        self.post(move |_| {
+        self.post(move |keeper| {
+            keeper.retry_now();
             let _ = answer.send(());
         });
         let _ = answered.recv();
@@ -171,6 +176,8 @@ fn next(received: &Receiver<Job>, keeper: &HistoryBuffer) -> Result<Job, RecvTim
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
     use crate::{
         history::{Filter, StoredVerdict},
@@ -197,5 +204,27 @@ mod tests {
         assert_eq!(writer.take_dropped(), [0, 0]);
         let page = keeper.page(&Filter::default(), 0, 100).expect("asked");
         assert_eq!(page.rows.len(), 10);
+    }
+
+    #[test]
+    fn at_the_end_what_waits_is_tried_once_more_before_its_time() {
+        let waiting = || {
+            let home = tempfile::tempdir().expect("a folder");
+            let place = home.path().join("taken");
+            fs::write(&place, "a file").expect("written");
+            let keeper = Arc::new(HistoryBuffer::new(Some(place.clone())));
+            let writer = Writer::start(Arc::clone(&keeper), || ()).expect("a thread");
+            writer.add(1, history_entry(1, StoredVerdict::Rejected, "fender"));
+            writer.finish();
+            assert_eq!(keeper.num_waiting(), 1);
+            fs::remove_file(&place).expect("removed");
+            (home, keeper, writer)
+        };
+        let (_home, keeper, writer) = waiting();
+        writer.finish();
+        assert_eq!(keeper.num_waiting(), 0);
+        let (_home, keeper, writer) = waiting();
+        drop(writer);
+        assert_eq!(keeper.num_waiting(), 0);
     }
 }

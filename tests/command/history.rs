@@ -412,6 +412,24 @@ fn a_damaged_history_is_named_and_to_be_restored_from_a_copy() {
     assert!(err.contains("to do: If you have a copy"), "{err}");
 }
 
+/// SQLite's locks are those of the process: closing the file in one place must not release them in another.
+#[test]
+fn a_command_that_closes_the_history_leaves_the_log_of_a_program_that_opened_it_twice() {
+    let place = Workplace::new();
+    let folder = place.path("kept");
+    let keeper = HistoryBuffer::new(Some(folder.clone()));
+    let listed = || {
+        let listed = place.accepted(&["history", "list", "--json", "--history", "kept"]);
+        listed.lines().len()
+    };
+    for (ticket, entry) in (1..=3).zip(entries()) {
+        keeper.add(ticket, entry, Instant::now());
+        // As the sender to a database does.
+        drop(History::open(&folder).expect("opened"));
+        assert_eq!(listed(), ticket as usize);
+    }
+}
+
 /// A separate file system, if this user may mount one.
 struct Disk {
     folder: tempfile::TempDir,

@@ -341,10 +341,13 @@ fn a_frame_that_is_not_kept_any_longer_takes_no_row_away_in_the_database() {
     send(&mut database, &mut history, &whose).expect("sent");
     let kept = "SELECT count(*) FROM partsight.inspection WHERE frame_bytes IS NOT NULL";
     assert_eq!(server.sql(kept), ["3"]);
-    let swept = history.sweep(&ALL, moment(400 * 86_400)).expect("swept");
+    let file = rusqlite::Connection::open(folder.path().join(FILE)).expect("there");
+    // Each takes more than the rule allows for all.
+    file.execute_batch("UPDATE inspection SET frame_bytes = 20000000000")
+        .expect("changed");
+    let swept = history.sweep(&ALL, moment(3)).expect("swept");
     assert_eq!(swept.num_frames, 3);
     // Nor does a row that a user removes from the file.
-    let file = rusqlite::Connection::open(folder.path().join(FILE)).expect("there");
     file.execute_batch("PRAGMA foreign_keys = ON; DELETE FROM inspection WHERE number = 2")
         .expect("removed");
     send(&mut database, &mut history, &whose).expect("sent");

@@ -156,4 +156,14 @@ fn what_is_inspected_while_a_database_is_named_arrives_there() {
     );
     let num = assert_same(&server, &folder.path().join("here"), "cell7");
     assert_eq!(num, 1, "one part hung there");
+    // As if an older state of the database had been restored.
+    server.sql("DELETE FROM partsight.detail");
+    server.sql("DELETE FROM partsight.inspection");
+    for (all, num) in [(&[][..], 0), (&["--all"], 1)] {
+        let [_, said] = run(folder.path(), &[&send[..], &rest, all].concat(), 0);
+        let expected = format!("{num} inspections sent");
+        assert!(said.contains(&expected), "{said}");
+    }
+    let num = assert_same(&server, &folder.path().join("here"), "cell7");
+    assert_eq!(num, 1, "sent again");
 }

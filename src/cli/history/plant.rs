@@ -55,6 +55,9 @@ pub(super) struct SendArgs {
     /// Take over the cell's name from another history whose computer or disk is gone; what that history sent stays
     #[arg(long)]
     take_over: bool,
+    /// Send every inspection again: the database is a new one, or was restored from a backup
+    #[arg(long)]
+    all: bool,
 }
 
 /// Sends the unsent rows.
@@ -71,6 +74,9 @@ pub(super) fn send(
     let mut database = Database::open(&access).advised()?;
     if asked.take_over {
         database.take_over(&whose).advised()?;
+    }
+    if asked.all {
+        history.note_all().advised()?;
     }
     let mut num = 0;
     loop {

@@ -130,8 +130,10 @@ fn more_than_can_wait_are_counted() {
         (entry.scene, entry.picture) = (None, None);
         keeper.add(ticket, entry, begun);
     }
+    assert_eq!(keeper.num_lost(), 5);
     fs::remove_file(home.path().join("taken")).expect("removed");
     keeper.retry(begun + PAUSE);
+    assert_eq!(keeper.num_lost(), 0);
     let news = keeper.take_news();
     let Some(HistoryEvent::Works { numbers, num_lost }) = news.last() else {
         panic!("{:?}", news.last());
@@ -272,4 +274,91 @@ fn a_serial_number_that_comes_later_waits_with_its_part_until_it_can_be_written(
     assert_eq!([1, 2].map(serial), ["TL-1", "TL-2"]);
     assert_eq!(numbers(&keeper), [2, 1]);
     assert_eq!(keeper.next_try(), None);
+}
+
+/// Returns the reports that the file was replaced.
+#[cfg(unix)]
+fn replacements(news: &[HistoryEvent]) -> usize {
+    let is_replaced = |news: &&HistoryEvent| matches!(news, HistoryEvent::NotChanged { what, .. } if what.contains("moved, deleted or replaced"));
+    news.iter().filter(is_replaced).count()
+}
+
+#[cfg(unix)]
+#[test]
+fn after_a_history_was_deleted_inspections_go_to_a_new_one_and_it_is_told_once() {
+    let home = tempfile::tempdir().expect("a folder");
+    let place = home.path().join("history");
+    let keeper = HistoryBuffer::new(Some(place.clone()));
+    let now = Instant::now();
+    for seconds in 1..=3 {
+        keeper.add(seconds as u64, not_accepted(seconds), now);
+    }
+    keeper.take_news();
+    fs::remove_dir_all(&place).expect("removed");
+    // A number of the former file is not one of the new.
+    keeper.set_remark(1, "a dent");
+    for seconds in 4..=5 {
+        keeper.add(seconds as u64, not_accepted(seconds), now);
+    }
+    let news = keeper.take_news();
+    assert_eq!((replacements(&news), failures(&news)), (1, 0), "{news:?}");
+    let refused = |news: &HistoryEvent| matches!(news, HistoryEvent::NotChanged { what, .. } if what.contains("no inspection 1"));
+    assert!(news.iter().any(refused), "{news:?}");
+    assert_eq!(numbers(&keeper), [2, 1]);
+    drop(keeper);
+    let history = open_history(&place);
+    let first = history.known(1).expect("written").summary;
+    assert_eq!((first.at, first.remark), (moment(4), String::new()));
+
+    // A file in the place of the folder: they wait until it is gone.
+    let keeper = HistoryBuffer::new(Some(place.clone()));
+    keeper.open(now);
+    drop(history);
+    fs::remove_dir_all(&place).expect("removed");
+    fs::write(&place, "a file").expect("written");
+    keeper.add(6, not_accepted(6), now);
+    let news = keeper.take_news();
+    assert_eq!((replacements(&news), failures(&news)), (1, 1), "{news:?}");
+    fs::remove_file(&place).expect("removed");
+    keeper.retry_now();
+    assert_eq!(replacements(&keeper.take_news()), 0);
+    assert_eq!(numbers(&keeper), [1]);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_history_that_was_moved_away_keeps_its_rows_and_frames_and_a_new_one_gets_the_next() {
+    let home = tempfile::tempdir().expect("a folder");
+    let keeper = HistoryBuffer::new(Some(home.path().to_owned()));
+    let now = Instant::now();
+    keeper.add(1, not_accepted(1), now);
+    keeper.take_news();
+    let archive = home.path().join("archive");
+    fs::create_dir(&archive).expect("made");
+    // Without its log and its frames, as in a file manager.
+    fs::rename(home.path().join(FILE), archive.join(FILE)).expect("moved");
+    keeper.add(2, not_accepted(2), now);
+    let news = keeper.take_news();
+    assert_eq!(replacements(&news), 1, "{news:?}");
+    let aside = news.iter().find_map(|news| match news {
+        HistoryEvent::SetAside(aside) => Some(&aside.aside),
+        _ => None,
+    });
+    fs::rename(aside.expect("told"), archive.join("history-frames")).expect("moved");
+    assert_eq!(numbers(&keeper), [1]);
+    let history = open_history(&archive);
+    let first = history.known(1).expect("kept");
+    assert_eq!(first.summary.at, moment(1));
+    assert!(history.scene(&first).expect("read").is_some());
+    drop(history);
+
+    // Another history takes its place.
+    let other = tempfile::tempdir().expect("a folder");
+    drop(open_history(other.path()));
+    fs::rename(other.path().join(FILE), home.path().join(FILE)).expect("moved");
+    keeper.add(3, not_accepted(3), now);
+    assert_eq!(replacements(&keeper.take_news()), 1);
+    let row = keeper.row(1).expect("asked").expect("written");
+    assert_eq!(row.summary.at, moment(3));
+    assert_eq!(numbers(&keeper), [1]);
 }

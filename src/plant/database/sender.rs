@@ -262,6 +262,10 @@ impl Shared {
     fn send(&self, database: &mut Database, whose: &CellHistory) -> Result<(), TransferError> {
         loop {
             let mut history = self.history()?;
+            // Another file may have taken its place: the next turn sends that one under its own identity.
+            if history.note_changes()? != whose.history {
+                return Ok(());
+            }
             let rows = database.send(whose, || Ok(history.unsent(BATCH)?))?;
             self.works();
             history.note_sent(&rows)?;
