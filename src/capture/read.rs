@@ -43,7 +43,10 @@ pub(super) fn image_of(
         }
         Err(error) => return Err(error.into()),
     };
-    let warnings = opened.warnings().into_iter().map(CaptureWarning::File);
+    let warnings = opened
+        .warnings_as_capture()
+        .into_iter()
+        .map(CaptureWarning::File);
     let warnings = warnings.collect();
     let image = match opened {
         FileContent::Cloud(cloud) => Image::Cloud(cloud),

@@ -53,7 +53,8 @@ pub struct Captured {
     pub name: String,
     /// When the camera captured it: for a recording the original time, for a file the time of its last modification.
     pub taken_at: Timestamp,
-    /// When the source delivered it; ages and latencies count from here.
+    /// When the source delivered it or, for a file of a watched folder, first saw it with its present time of modification;
+    /// ages and latencies count from here.
     pub arrived: Instant,
     /// The image, in camera space.
     pub image: Image,

@@ -86,6 +86,11 @@ impl Console {
         }
     }
 
+    /// Returns false once the reader has closed the pipe.
+    pub(super) fn is_read(&self) -> bool {
+        self.is_read
+    }
+
     /// Returns false if the pipe is closed or the last line could not be written.
     pub(super) fn is_writable(&self) -> bool {
         self.is_read && !self.is_failing

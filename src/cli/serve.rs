@@ -218,7 +218,7 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
     let recording = recording
         .map(|recording| recording.sent_to(database))
         .transpose()?;
-    announce(&server, &listeners, &parts, &load, console);
+    announce(&server, &listeners, &args.source, &parts, &load, console);
     #[cfg(feature = "plant")]
     if let Some(version) = super::library::taken_version(&place, console) {
         console.note(&format_args!("Library: {version}"));
@@ -266,6 +266,7 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
         told: Vec::new(),
         trouble: None,
         has_run: false,
+        has_told_closed: false,
         failure: None,
         num_inspected: 0,
         #[cfg(feature = "plant")]
@@ -277,10 +278,11 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
     session.finish()
 }
 
-/// Shows the addresses of the service, and the part numbers for robots.
+/// Shows the addresses of the service, a warning about a replayed source, and the part numbers for robots.
 fn announce(
     server: &Server,
     listeners: &[Listener],
+    source: &SourceSpec,
     parts: &[NumberedPart],
     load: &LibraryLoad,
     console: &Console,
@@ -292,6 +294,14 @@ fn announce(
         if let Some(doubt) = listener.doubt() {
             console.warn(&doubt, &doubt);
         }
+    }
+    if source.is_replayed() {
+        console.advise(
+            &format_args!(
+                "warning: {source} is replayed: the poses are of parts that hung there when it was recorded"
+            ),
+            &"Use it for trials only; to move a robot, give a camera or a watched folder as --source. Its answers have flag 4",
+        );
     }
     show_numbers(parts, load, console);
 }

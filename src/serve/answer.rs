@@ -300,7 +300,7 @@ impl Answer {
     pub const POSE: u16 = 1;
     /// Flag: the part may be another model; its pose is only about right.
     pub const APPROXIMATE: u16 = 2;
-    /// Flag: the scene is simulated, or the part was enrolled from a simulation.
+    /// Flag: the scene is simulated or replayed, or the part was enrolled from a simulation.
     pub const SIMULATED: u16 = 4;
     /// Flag of a point of the path: the gun sprays from here to the next point.
     pub const GUN_ON: u16 = 8;

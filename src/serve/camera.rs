@@ -3,7 +3,7 @@
 //! The source runs all the time, so that no trigger waits for it to open; frames that nobody requested are dropped. A frame
 //! that arrives just after a trigger may have been exposed before it. From a camera, the second frame to arrive is
 //! therefore used: it was exposed after the first one. This costs one more frame, 33 ms with a Kinect. From a watched
-//! folder, a file written after the trigger is used.
+//! folder, a file is used that was first seen after the trigger and, by its time of modification, written after it.
 
 use std::{
     sync::{Arc, Mutex},
@@ -15,6 +15,7 @@ use thiserror::Error;
 
 use super::{
     answer::{CameraState, CameraStatus, Trouble},
+    finder::FrameOrigin,
     server::Asked,
 };
 use crate::{
@@ -28,9 +29,9 @@ use crate::{
 /// How often a waiting trigger checks whether the service is ending.
 const TURN: Duration = Duration::from_millis(100);
 
-/// Least difference between two clocks that counts. A watched file arrives later than this after it was written, so that
-/// a wrong clock is noticed before a file from before a trigger could pass for a new one.
-const CLOCK_TOLERANCE: Duration = Duration::from_millis(100);
+/// Least difference between two clocks that counts: clocks that are set from one time server differ by less. It must be
+/// short, because a file from before a trigger may pass for a new one if its clock is fast by this much.
+const CLOCK_TOLERANCE: Duration = Duration::from_millis(50);
 
 /// A source that keeps running while nobody requests frames.
 pub struct Camera {
@@ -50,7 +51,9 @@ struct Opened {
 pub enum NewFrame {
     /// It is the second frame to arrive after the trigger.
     SecondArrived,
-    /// Its file was written after the trigger, by the wall clock.
+    /// It is the second frame to be replayed after the trigger. It was captured earlier, so its answer is marked.
+    SecondReplayed,
+    /// Its file was first seen after the trigger, and was written after it by the wall clock.
     WrittenAfter,
 }
 
@@ -59,20 +62,24 @@ impl NewFrame {
     pub fn of_source(spec: &SourceSpec) -> Self {
         match spec {
             SourceSpec::Watched(_) => Self::WrittenAfter,
-            SourceSpec::Simulated(_)
-            | SourceSpec::Recording(_)
-            | SourceSpec::Kinect(_)
-            | SourceSpec::Genicam(_)
-            | SourceSpec::OpenNi(_)
-            | SourceSpec::Realsense(_) => Self::SecondArrived,
+            _ if spec.is_replayed() => Self::SecondReplayed,
+            _ => Self::SecondArrived,
         }
     }
 
-    /// The time of capture, from which the frame's age is computed.
-    pub fn captured_at(self, captured: &Captured) -> Instant {
+    /// The frame's time of capture, and whether its answer is marked.
+    pub fn origin_of(self, captured: &Captured) -> FrameOrigin {
+        FrameOrigin {
+            captured: self.captured_at(captured),
+            is_simulated: captured.is_simulated || self == Self::SecondReplayed,
+        }
+    }
+
+    /// The time of capture, from which the frame's age is computed; of a replayed frame, when it was replayed.
+    fn captured_at(self, captured: &Captured) -> Instant {
         match self {
-            Self::SecondArrived => captured.arrived,
-            // Never later than its arrival, even if the file's clock is fast.
+            Self::SecondArrived | Self::SecondReplayed => captured.arrived,
+            // Never later than it was first seen, even if the file's clock is fast.
             Self::WrittenAfter => {
                 let age = Timestamp::now().duration_since(captured.taken_at);
                 let age = Duration::try_from(age).unwrap_or_default();
@@ -85,18 +92,28 @@ impl NewFrame {
     /// Whether a frame was captured after the trigger; it is the `num_arrived`-th to arrive since.
     fn is_new(self, captured: &Captured, asked: &Asked, num_arrived: usize) -> bool {
         match self {
-            Self::SecondArrived => num_arrived >= 2,
-            Self::WrittenAfter => num_arrived >= 1 && captured.taken_at >= asked.by_clock,
+            Self::SecondArrived | Self::SecondReplayed => num_arrived >= 2,
+            Self::WrittenAfter => captured.arrived > asked.at && is_dated_after(captured, asked),
         }
+    }
+
+    /// Returns by how much at least the clock of a file is ahead of this computer's, if the file is dated after the
+    /// trigger and later than it was first seen.
+    fn clock_ahead(self, captured: &Captured, asked: &Asked) -> Option<Duration> {
+        if self != Self::WrittenAfter || !is_dated_after(captured, asked) {
+            return None;
+        }
+        let age = Timestamp::now().duration_since(captured.taken_at);
+        let here = captured.arrived.elapsed();
+        let here = SignedDuration::try_from(here).unwrap_or(SignedDuration::MAX);
+        let ahead = Duration::try_from(here.saturating_sub(age)).ok();
+        ahead.filter(|ahead| *ahead > CLOCK_TOLERANCE)
     }
 }
 
-/// Returns how far the clock of a file is ahead of this computer's, if it is: the file was written after it arrived.
-fn clock_ahead(captured: &Captured) -> Option<Duration> {
-    let age = Timestamp::now().duration_since(captured.taken_at);
-    let here = SignedDuration::try_from(captured.arrived.elapsed()).unwrap_or(SignedDuration::MAX);
-    let ahead = Duration::try_from(here.saturating_sub(age)).ok();
-    ahead.filter(|ahead| *ahead > CLOCK_TOLERANCE)
+/// True if a file was written after the trigger, by the clock of its disk.
+fn is_dated_after(captured: &Captured, asked: &Asked) -> bool {
+    captured.taken_at >= asked.by_clock
 }
 
 /// Why a trigger got no frame.
@@ -131,12 +148,12 @@ pub enum NoFrame {
         /// The underlying error.
         error: Arc<CaptureError>,
     },
-    /// A file arrived before it was written, by the clock of its disk.
-    #[error("{name}: the clock of the disk is {:.1} s ahead of this computer's", ahead.as_secs_f64())]
+    /// A file was seen before it was written, by the clock of its disk.
+    #[error("{name}: the clock of the disk is at least {:.1} s ahead of this computer's", ahead.as_secs_f64())]
     ClockAhead {
         /// Name of the file.
         name: String,
-        /// The difference between the clocks.
+        /// Lower bound of the difference between the clocks.
         ahead: Duration,
     },
     /// The service is ending.
@@ -263,16 +280,11 @@ impl Camera {
             match feed.wait(TURN) {
                 Some(FeedItem::Captured(captured)) => {
                     num_arrived += usize::from(captured.arrived > asked.at);
-                    if rule.is_new(&captured, asked, num_arrived) {
-                        let ahead = match rule {
-                            NewFrame::SecondArrived => None,
-                            NewFrame::WrittenAfter => clock_ahead(&captured),
-                        };
-                        let Some(ahead) = ahead else {
-                            return Ok(captured);
-                        };
+                    if let Some(ahead) = rule.clock_ahead(&captured, asked) {
                         let name = captured.name;
                         unreadable = Some(NoFrame::ClockAhead { name, ahead });
+                    } else if rule.is_new(&captured, asked, num_arrived) {
+                        return Ok(captured);
                     }
                 }
                 Some(FeedItem::Skipped(skipped)) => {
@@ -297,9 +309,9 @@ impl Camera {
         Err(NoFrame::Stopping)
     }
 
-    /// The time of capture, from which the frame's age is computed.
-    pub fn captured_at(&self, captured: &Captured) -> Instant {
-        self.opened().rule.captured_at(captured)
+    /// The frame's time of capture, and whether its answer is marked.
+    pub fn origin_of(&self, captured: &Captured) -> FrameOrigin {
+        self.opened().rule.origin_of(captured)
     }
 
     fn restart_if_over(&self) -> Result<(), NoFrame> {
@@ -493,7 +505,7 @@ mod tests {
             .frame_after(&asked, PATIENCE, || false)
             .expect("written after");
         assert_eq!(frame.number, 3);
-        assert!(camera.captured_at(&frame) <= frame.arrived);
+        assert!(camera.origin_of(&frame).captured <= frame.arrived);
     }
 
     #[test]
@@ -513,6 +525,53 @@ mod tests {
         assert_eq!(NewFrame::WrittenAfter.captured_at(&file), file.arrived);
         // A file that waited in the feed was written before the trigger, even if its clock is fast.
         assert!(!NewFrame::WrittenAfter.is_new(&file, &Asked::now(), 0));
+    }
+
+    #[test]
+    fn a_file_first_seen_before_the_trigger_is_refused_though_it_is_dated_after_it() {
+        let asked = Asked::now();
+        let frame_after = |ahead_ms: i64| {
+            let (at, by_clock) = (asked.at, asked.by_clock);
+            let camera = scripted(NewFrame::WrittenAfter, move || {
+                let new_but_dated_before = captured(1, by_clock - SignedDuration::from_hours(1));
+                let seen_before = Captured {
+                    arrived: at
+                        .checked_sub(Duration::from_millis(10))
+                        .expect("up longer"),
+                    ..captured(2, by_clock + SignedDuration::from_millis(ahead_ms))
+                };
+                let files = [new_but_dated_before, seen_before];
+                files.map(NextCapture::Captured).into()
+            });
+            let why = camera.frame_after(&asked, PATIENCE, || false);
+            why.expect_err("written before the trigger")
+        };
+        // Too little to prove that the clock is fast.
+        assert_eq!(frame_after(20).reason(), "source_ended");
+        let why = frame_after(290);
+        assert_eq!(why.reason(), "clock_ahead");
+        assert!(why.to_string().contains("at least 0.3 s ahead"), "{why}");
+    }
+
+    #[test]
+    fn the_answer_to_a_replayed_frame_is_marked_and_that_of_a_camera_is_not() {
+        for (source, marked) in [
+            ("recording:monday", true),
+            ("openni,pace=as-taken:monday.oni", true),
+            ("realsense,pace=10:monday.db3", true),
+            ("realsense,pace=10:monday.bag", true),
+            ("openni", false),
+            ("realsense:843112072752", false),
+            ("kinect", false),
+            ("genicam", false),
+            ("watch:scans", false),
+        ] {
+            let rule = NewFrame::of_source(&source.parse().expect("a source"));
+            let mut frame = captured(1, Timestamp::now());
+            assert_eq!(rule.origin_of(&frame).is_simulated, marked, "{source}");
+            frame.is_simulated = true;
+            assert!(rule.origin_of(&frame).is_simulated, "{source}");
+        }
     }
 
     #[test]

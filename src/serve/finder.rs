@@ -39,12 +39,12 @@ pub struct NumberedPart {
     pub is_simulated: bool,
 }
 
-/// When a frame was captured, and whether it is simulated.
+/// When a frame was captured, and whether its answer is marked.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameOrigin {
-    /// When it was captured.
+    /// When it was captured or, if it is replayed, when it was replayed.
     pub captured: Instant,
-    /// True if the frame is simulated.
+    /// True if the frame is simulated or replayed: [`Answer::SIMULATED`].
     pub is_simulated: bool,
 }
 

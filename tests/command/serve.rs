@@ -303,6 +303,62 @@ fn a_service_whose_disk_is_full_warns_once_and_goes_on() {
 }
 
 #[test]
+fn a_service_whose_reader_has_ended_warns_once_and_goes_on() {
+    let place = Workplace::new();
+    let source = ["--source", "simulated,fps=5:fender", "--as", "kuka"];
+    let args = [&source[..], &["--listen", "ascii=0", "--no-history"]].concat();
+    let mut service = Service::start(&place, &args);
+    drop(service.child.stdout.take());
+    let mut robot = service.connect("ascii");
+    let message = "warning: nobody reads the output any more";
+    for _ in 0..2 {
+        let answer = asked(&mut robot, "TRIGGER\n");
+        assert!(answer.starts_with("TRIGGER;accepted;"), "{answer}");
+        let until = Instant::now() + PATIENCE;
+        while !service.messages().contains(message) {
+            assert!(Instant::now() < until, "{}", service.messages());
+            thread::sleep(Duration::from_millis(20));
+        }
+    }
+    let (code, _, messages) = service.interrupt();
+    assert_eq!(code, Some(0), "{messages}");
+    assert_eq!(messages.matches(message).count(), 1, "{messages}");
+}
+
+#[test]
+fn a_replayed_source_is_warned_of_and_its_answers_are_marked() {
+    let place = Workplace::new();
+    fs::create_dir(place.path("frames")).expect("made");
+    for number in 0..200 {
+        // Measured data in which there is no part.
+        place.write(&format!("frames/{number}.xyz"), "0 0 1\n0.1 0 1\n0 0.1 1\n");
+    }
+    let source = ["--source", "recording,pace=20:frames", "--as", "kuka"];
+    let args = [&source[..], &["--listen", "ascii=0", "--no-history"]].concat();
+    let mut service = Service::start(&place, &args);
+    let mut robot = service.connect("ascii");
+    let until = Instant::now() + PATIENCE;
+    let answer = loop {
+        let answer = asked(&mut robot, "TRIGGER\n");
+        // At its end, the recording starts over.
+        if !answer.contains(";source_ended;") {
+            break answer;
+        }
+        assert!(Instant::now() < until, "{answer}");
+    };
+    let fields: Vec<&str> = answer.split(';').collect();
+    assert!(matches!(fields[1], "no_part" | "refused"), "{answer}");
+    assert_eq!((fields[6], fields[8]), ("", "4"), "{answer}");
+    let (code, out, messages) = service.interrupt();
+    assert_eq!(code, Some(0), "{messages}");
+    let warning = "warning: recording,pace=20:frames is replayed";
+    assert_eq!(messages.matches(warning).count(), 1, "{messages}");
+    let line = out.lines().last().expect("a line");
+    let line: Value = serde_json::from_str(line).expect("a line of JSON");
+    assert_eq!(line["simulated"], false, "a camera saw it: {line}");
+}
+
+#[test]
 fn a_path_that_does_not_aim_at_the_part_goes_to_no_robot() {
     let place = Workplace::new();
     place.with_part("fender");

@@ -204,6 +204,17 @@ impl SourceSpec {
         matches!(self, Self::Simulated(_))
     }
 
+    /// True for frames that were captured earlier: a recording, an RGB-D sequence, or a file that OpenNI or librealsense
+    /// recorded.
+    pub fn is_replayed(&self) -> bool {
+        match self {
+            Self::Recording(_) => true,
+            Self::OpenNi(spec) => spec.file().is_some(),
+            Self::Realsense(spec) => spec.file().is_some(),
+            Self::Simulated(_) | Self::Watched(_) | Self::Kinect(_) | Self::Genicam(_) => false,
+        }
+    }
+
     /// True for a camera, or a recording replayed like one, that runs whether its frames are taken or not, so that frames
     /// are dropped rather than queued.
     pub fn is_live(&self) -> bool {

@@ -3,7 +3,7 @@
 use std::{
     fs, io,
     path::{Path, PathBuf},
-    time::SystemTime,
+    time::{Instant, SystemTime},
 };
 
 use crate::{
@@ -20,9 +20,9 @@ pub(super) struct FileStamp {
     camera: Option<(SystemTime, u64)>,
 }
 
-/// Lists the files that may be captures.
-pub(super) fn look(folder: &Path) -> Result<Vec<(PathBuf, FileStamp)>, CaptureError> {
-    let looked = || -> io::Result<Vec<(PathBuf, FileStamp)>> {
+/// Lists the files that may be captures, each with the time when its stamp was read: a look at a slow share takes seconds.
+pub(super) fn look(folder: &Path) -> Result<Vec<(PathBuf, FileStamp, Instant)>, CaptureError> {
+    let looked = || -> io::Result<Vec<(PathBuf, FileStamp, Instant)>> {
         let mut found = Vec::new();
         for entry in fs::read_dir(folder)? {
             let path = entry?.path();
@@ -31,6 +31,7 @@ pub(super) fn look(folder: &Path) -> Result<Vec<(PathBuf, FileStamp)>, CaptureEr
             }
             // Skip files that have disappeared since they were listed.
             if let Some((modified, bytes)) = size_and_time(&path) {
+                let seen_at = Instant::now();
                 let is_image = path
                     .extension()
                     .is_some_and(|e| e.eq_ignore_ascii_case("png"));
@@ -41,7 +42,7 @@ pub(super) fn look(folder: &Path) -> Result<Vec<(PathBuf, FileStamp)>, CaptureEr
                     bytes,
                     camera,
                 };
-                found.push((path, seen));
+                found.push((path, seen, seen_at));
             }
         }
         Ok(found)

@@ -26,7 +26,7 @@ use jiff::Timestamp;
 use self::look::{FileStamp, look};
 use super::{
     error::CaptureError,
-    read::{read_image, written_at},
+    read::read_image,
     source::{Captured, DepthSource, NextCapture, SkippedCapture},
     spec::{WatchedFrom, WatchedSpec},
 };
@@ -56,6 +56,8 @@ pub struct WatchedFolder {
 #[derive(Clone, Copy, Debug)]
 struct Watched {
     seen: FileStamp,
+    /// When it was first seen with its present time of modification.
+    first_seen: Instant,
     /// Number of looks for which it has stayed the same.
     same: u32,
     state: Progress,
@@ -91,9 +93,10 @@ impl WatchedFolder {
         let is_first = !self.has_looked;
         self.has_looked = true;
         let mut ready = Vec::new();
-        for (path, seen) in found {
+        for (path, seen, seen_at) in found {
             let file = self.files.entry(path.clone()).or_insert(Watched {
                 seen,
+                first_seen: seen_at,
                 same: 0,
                 state: if is_first && self.from == WatchedFrom::Now {
                     Progress::Done
@@ -102,8 +105,14 @@ impl WatchedFolder {
                 },
             });
             if file.seen != seen {
+                let is_same_time = file.seen.modified == seen.modified;
                 *file = Watched {
                     seen,
+                    first_seen: if is_same_time {
+                        file.first_seen
+                    } else {
+                        seen_at
+                    },
                     same: 0,
                     state: Progress::Waiting,
                 };
@@ -135,8 +144,11 @@ impl WatchedFolder {
             Ok((image, warnings)) => {
                 file.state = Progress::Done;
                 self.number += 1;
+                // If it was written again since it was seen, it is captured again.
+                let written = Timestamp::try_from(file.seen.modified);
                 return Some(NextCapture::Captured(Captured {
-                    taken_at: written_at(path).unwrap_or_else(Timestamp::now),
+                    taken_at: written.unwrap_or_else(|_| Timestamp::now()),
+                    arrived: file.first_seen,
                     warnings,
                     ..Captured::now(self.number, file_name(path), image)
                 }));

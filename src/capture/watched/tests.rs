@@ -98,6 +98,32 @@ fn a_file_that_is_written_slowly_waits_until_it_is_whole() {
 }
 
 #[test]
+fn a_capture_arrived_when_its_file_was_first_seen_with_its_time() {
+    let mut bench = Bench::new(WatchedFrom::Now);
+    bench.look();
+    let path = bench.path("door.pcd");
+    // The second file is a new one of the same name.
+    for (x, seconds) in [(1.0, 10), (2.0, 20)] {
+        save(&path, x);
+        let file = fs::File::options().write(true).open(&path).unwrap();
+        let written = std::time::UNIX_EPOCH + Duration::from_secs(seconds);
+        file.set_modified(written).unwrap();
+        let before = Instant::now();
+        assert!(bench.look().is_empty(), "it may still be written");
+        let after = Instant::now();
+        let ready = (0..3).find_map(|_| {
+            bench.source.look().unwrap();
+            bench.source.ready.pop_front()
+        });
+        let ready = ready.expect("complete");
+        let Some(NextCapture::Captured(captured)) = bench.source.take(&ready) else {
+            panic!("a capture");
+        };
+        assert!((before..=after).contains(&captured.arrived), "{x}");
+    }
+}
+
+#[test]
 fn files_come_in_the_order_they_were_written() {
     let mut bench = Bench::new(WatchedFrom::Now);
     bench.look();

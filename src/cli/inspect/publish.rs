@@ -114,10 +114,7 @@ impl Publisher {
 
     /// Sets the frame that is inspected next.
     pub(super) fn begin(&mut self, captured: &Captured) {
-        self.origin = Some(FrameOrigin {
-            captured: self.new_frame.captured_at(captured),
-            is_simulated: captured.is_simulated,
-        });
+        self.origin = Some(self.new_frame.origin_of(captured));
     }
 
     /// Returns the result of inspecting that frame.

@@ -27,8 +27,8 @@ use crate::{
     pipeline::{self, Inspection, MirrorTally, NamedRecipe, Unwatched},
     report::{CaptureLine, InspectionLine},
     serve::{
-        Asked, Camera, ClientEvent, ClientNews, Found, FrameOrigin, InspectionRecord, Inspector,
-        PartFinder, Trouble, VerdictCode,
+        Asked, Camera, ClientEvent, ClientNews, Found, InspectionRecord, Inspector, PartFinder,
+        Trouble, VerdictCode,
     },
     stages::{
         field_of_view::FieldOfView,
@@ -67,6 +67,8 @@ pub(super) struct ServeSession<'a> {
     pub(super) trouble: Option<String>,
     /// True once the camera has run.
     pub(super) has_run: bool,
+    /// True once the warning about a closed standard output was shown.
+    pub(super) has_told_closed: bool,
     /// Why the service must end.
     pub(super) failure: Option<anyhow::Error>,
     pub(super) num_inspected: u64,
@@ -99,10 +101,7 @@ impl Inspector for ServeSession<'_> {
             }
         };
         self.warn_of(&captured);
-        let origin = FrameOrigin {
-            captured: self.camera.captured_at(&captured),
-            is_simulated: captured.is_simulated,
-        };
+        let origin = self.camera.origin_of(&captured);
         let num_dropped = self.camera.feed_status().num_dropped;
         let line = CaptureLine::of(&self.source, &captured, num_dropped);
         let name = captured.name;
@@ -123,7 +122,8 @@ impl Inspector for ServeSession<'_> {
         found.report.clone_from(&line);
         self.last = Some(InspectedFrame {
             name,
-            is_simulated: origin.is_simulated,
+            // Only the answer marks a replayed frame as well.
+            is_simulated: captured.is_simulated,
             scene,
             inspection,
             line,
@@ -159,6 +159,7 @@ impl Inspector for ServeSession<'_> {
             show_event(&event, self.console);
         }
         self.look_at_camera();
+        self.look_at_output();
         if let Some(recording) = &self.recording {
             recording.tell(self.console);
         }
@@ -261,6 +262,17 @@ impl ServeSession<'_> {
         if self.trouble.as_ref() != Some(&words) {
             self.console.warn(&words, &*error);
             self.trouble = Some(words);
+        }
+    }
+
+    /// Warns once that nobody reads the output any more. A closed pipe stays closed, so no line is tried again.
+    fn look_at_output(&mut self) {
+        if !self.has_told_closed && !self.console.is_read() {
+            self.has_told_closed = true;
+            self.console.advise(
+                &"warning: nobody reads the output any more; the service goes on without it",
+                &"Check the program that reads it, then start the service again together with it",
+            );
         }
     }
 

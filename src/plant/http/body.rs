@@ -29,7 +29,7 @@ pub(super) struct AnswerBody {
     number: Option<u32>,
     /// The part may be another model; its pose is only about right.
     approximate: bool,
-    /// No camera saw the scene, or none saw the part when it was enrolled.
+    /// The scene is simulated or replayed, or no camera saw the part when it was enrolled.
     simulated: bool,
     /// How many points the part's spray path has; 0 without a pose.
     points: u32,

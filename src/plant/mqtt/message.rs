@@ -79,7 +79,7 @@ pub struct InspectionMessage {
     pub part: Option<String>,
     /// The number by which robots know the part; null if it has none.
     pub number: Option<u32>,
-    /// True if no camera saw the scene, or none saw the part when it was enrolled.
+    /// True if the scene is simulated or replayed, or if no camera saw the part when it was enrolled.
     pub simulated: bool,
     /// True if the part may be another model; its pose is only about right.
     pub approximate: bool,

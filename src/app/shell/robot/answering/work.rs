@@ -33,9 +33,9 @@ use crate::{
     report::{CaptureLine, InspectionLine, segmentation_picture},
     robot::RobotFrame,
     serve::{
-        Answer, Asked, Camera, CameraState, ClientEvent, Found, FrameOrigin, InspectionRecord,
-        Inspector, ListenAddress, Listener, NewFrame, NumberedPart, PartFinder, PoseKind,
-        ServeError, Server, ServerHandle, ServerSettings, Trouble, VerdictCode,
+        Answer, Asked, Camera, CameraState, ClientEvent, Found, InspectionRecord, Inspector,
+        ListenAddress, Listener, NewFrame, NumberedPart, PartFinder, PoseKind, ServeError, Server,
+        ServerHandle, ServerSettings, Trouble, VerdictCode,
     },
     stages::scene::{EmptyCell, SceneCloud},
 };
@@ -283,10 +283,7 @@ impl Inspector for AnsweringSession<'_> {
             Ok(captured) => captured,
             Err(why) => return Found::error(Trouble::of(why.reason(), &why)),
         };
-        let origin = FrameOrigin {
-            captured: self.camera.captured_at(&captured),
-            is_simulated: captured.is_simulated,
-        };
+        let origin = self.camera.origin_of(&captured);
         let source = inputs.followed.as_ref();
         let source = source.map_or_else(String::new, ToString::to_string);
         // At once: by the end of the inspection another part may hang there.
