@@ -124,8 +124,9 @@ mod tests {
 
     #[test]
     fn without_faces_it_is_a_cloud() {
-        let opened = read_text("v 0 0 0\nv 1 2 3\nv nan 0 0\n").unwrap();
-        let expected = PointCloud::from_points([Point3::origin(), Point3::new(1.0, 2.0, 3.0)]);
+        let opened = read_text("v 0 1 0\nv 1 2 3\nv 0 0 0\nv nan 0 0\n").unwrap();
+        let expected =
+            PointCloud::from_points([Point3::new(0.0, 1.0, 0.0), Point3::new(1.0, 2.0, 3.0)]);
         assert_eq!(opened, FileContent::Cloud(expected));
     }
 

@@ -9,7 +9,7 @@ use super::import::ImportOptions;
 use super::source::{Source, read_bytes};
 use super::{depth_png, gltf, obj, pcd, ply, stl, xyz};
 use crate::error::{Advice, guarded};
-use crate::geometry::cloud::PointCloud;
+use crate::geometry::cloud::{MAX_STRAY_SHARE, PointCloud};
 use crate::geometry::depth_frame::DepthFrame;
 use crate::geometry::mesh::TriangleMesh;
 use crate::geometry::pinhole_fit::fit_pinhole;
@@ -30,7 +30,7 @@ pub enum FileContent {
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum FileWarning {
     /// Taken as metres, the points span more than any spray cell.
-    #[error("the points span {:.0} m, so the file may be in millimetres", extent.0)]
+    #[error("the points span {:.0} m, so the file may be in {}", extent.0, units_of(*extent))]
     TooWideForMetres {
         /// The longest side of the box around the points.
         extent: Metres,
@@ -61,6 +61,9 @@ pub enum FileWarning {
 impl Advice for FileWarning {
     fn advice(&self) -> String {
         match self {
+            Self::TooWideForMetres { extent } if extent.0 < ONLY_MILLIMETRES => {
+                "Read it in its own unit, or export it in metres".into()
+            }
             Self::TooWideForMetres { .. } => "Read it as millimetres, or export it in metres".into(),
             Self::TooSmall { .. } => "Read it in its own unit, probably metres".into(),
             Self::SurplusBytes { .. } => {
@@ -77,6 +80,18 @@ impl Advice for FileWarning {
 /// The extent that causes a warning, in metres: a part of 0.1 m in millimetres looks this wide, and no cell is.
 const SUSPICIOUS_EXTENT: f64 = 100.0;
 
+/// The extent, in metres, from which only millimetres make a cell of it: in centimetres it spans 10 m or more.
+pub(crate) const ONLY_MILLIMETRES: f64 = 1000.0;
+
+/// Returns the units in which a file with this extent may be.
+fn units_of(extent: Metres) -> &'static str {
+    if extent.0 < ONLY_MILLIMETRES {
+        "millimetres, centimetres or inches"
+    } else {
+        "millimetres"
+    }
+}
+
 /// The extent below which captures and parts get a warning, in metres: a cell of metres, read as millimetres, is smaller, and
 /// no part is.
 const SMALLEST_EXTENT: f64 = 0.1;
@@ -87,7 +102,7 @@ const MIN_READINGS: usize = 1000;
 fn warnings_of(cloud: &PointCloud) -> impl Iterator<Item = FileWarning> {
     let num = cloud.surplus_bytes;
     let surplus = (num > 0).then_some(FileWarning::SurplusBytes { num });
-    // Only organised clouds must be in camera space; others may be in any space, for example references to be enrolled.
+    // Only organised clouds are always captures; others may be in any space, for example references to be enrolled.
     let share = cloud.grid.map_or(0.0, |_| cloud.share_behind());
     let behind = (share > 0.0).then_some(FileWarning::BehindCamera { share });
     let is_no_picture = cloud.grid.is_some_and(|grid| {
@@ -131,6 +146,21 @@ impl FileContent {
         }
         if let Self::Cloud(cloud) = self {
             warnings.extend(warnings_of(cloud));
+        }
+        warnings
+    }
+
+    /// As [`warnings`](Self::warnings), for content used as a capture: unorganised clouds must be in camera space, too.
+    /// [`MAX_STRAY_SHARE`] of their points may be stray.
+    pub fn warnings_as_capture(&self) -> Vec<FileWarning> {
+        let mut warnings = self.warnings();
+        if let Self::Cloud(cloud) = self
+            && cloud.grid.is_none()
+        {
+            let share = cloud.share_behind();
+            if share > MAX_STRAY_SHARE {
+                warnings.push(FileWarning::BehindCamera { share });
+            }
         }
         warnings
     }

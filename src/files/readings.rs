@@ -13,19 +13,23 @@ pub(super) const MAX_COORDINATE: f32 = 1e6;
 
 /// Marks or drops everything that is not a reading.
 ///
-/// A point is a reading if its coordinates are finite and at most [`MAX_COORDINATE`]. In an organised cloud the other
-/// cells become three NaN, and so does an exact (0, 0, 0), which some recorders write for "no reading"; in an unorganised
-/// cloud the other points are dropped with their attributes. Normals are kept only if every reading has one; otherwise the
-/// users would have to invent the rest.
+/// A point is a reading if its coordinates are finite and at most [`MAX_COORDINATE`], but not all exactly 0, which many
+/// programs write for "no reading". In an organised cloud the other cells become three NaN; in an unorganised cloud the
+/// other points are dropped with their attributes. There a (0, 0, 0) with a normal is a point: its frame may be the part's
+/// own. Normals are kept only if every reading has one; otherwise the users would have to invent the rest.
 pub(super) fn tidy(mut cloud: PointCloud, source: Source<'_>) -> Result<PointCloud, FileError> {
     let found = cloud.points.len();
     let is_organised = cloud.grid.is_some();
-    let is_reading: Vec<bool> = cloud
-        .points
-        .iter()
-        .map(|p| {
+    let normals = cloud.normals.as_ref().filter(|_| !is_organised);
+    let has_normal = |i: usize| {
+        let normal = normals.and_then(|normals| normals.get(i));
+        normal.is_some_and(|normal| normal.norm_squared() > 0.0)
+    };
+    let points = cloud.points.iter().enumerate();
+    let is_reading: Vec<bool> = points
+        .map(|(i, p)| {
             // NaN fails the comparison too.
-            p.iter().all(|c| c.abs() <= MAX_COORDINATE) && !(is_organised && *p == Point3::origin())
+            p.iter().all(|c| c.abs() <= MAX_COORDINATE) && (*p != Point3::origin() || has_normal(i))
         })
         .collect();
     if !is_reading.contains(&true) {

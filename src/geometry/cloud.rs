@@ -35,6 +35,9 @@ impl Grid {
     }
 }
 
+/// Maximum share of a capture's points that may be stray, for example lie behind the camera.
+pub const MAX_STRAY_SHARE: f64 = 0.001;
+
 /// Points in metres. The owner of the cloud states their space (camera or part).
 ///
 /// Storage is `f32`: 24 bits resolve 0.1 µm at 1 m, far below any depth camera, at half the memory traffic.

@@ -13,7 +13,7 @@ use jiff::Timestamp;
 use nalgebra::Point3;
 
 use self::{
-    cloud::{coverage_of, finite_only, middle, normals_towards, thinned},
+    cloud::{coverage_of, finite_only, middle, normals_towards, thinned, without_isolated},
     kept::{share_apart, share_on_background},
     own_pose::pose_warning,
 };
@@ -205,9 +205,9 @@ fn enrol_one_side(
 
 /// Enrols all points of a cloud.
 ///
-/// A cloud that lies in front of the camera, with normals (if any) that face it, counts as one capture; any other as a
-/// part seen from all around. For the latter, missing normals are estimated and turned away from the cloud's middle,
-/// which is right for a convex part and a guess otherwise.
+/// A few isolated points are dropped. A cloud that lies in front of the camera, with normals (if any) that face it, counts
+/// as one capture; any other as a part seen from all around. For the latter, missing normals are estimated and turned away
+/// from the cloud's middle, which is right for a convex part and a guess otherwise.
 pub fn enrol_whole(
     cloud: &PointCloud,
     about: &PartDescription,
@@ -222,7 +222,8 @@ pub fn enrol_whole(
         });
     }
     let coverage = coverage_of(&finite);
-    let (mut thin, voxel) = thinned(&finite, params);
+    let (thin, voxel) = thinned(&finite, params);
+    let mut thin = without_isolated(thin, voxel);
     if thin.normals.is_none() {
         thin.normals = Some(match coverage {
             Coverage::OneSide => normals_towards(&thin, voxel, &Point3::origin()),

@@ -1,14 +1,12 @@
 //! Refuses parts, however well they fit, in scenes that no depth camera can have seen.
 
 use super::{Inspection, rejection::Rejection, verdict::Verdict};
-use crate::{stages::scene::SceneCloud, units::Metres};
+use crate::{geometry::cloud::MAX_STRAY_SHARE, stages::scene::SceneCloud, units::Metres};
 
 /// Range of depth cameras. A part outside it results from a wrong unit or damaged numbers.
 pub(super) const RANGE: [Metres; 2] = [Metres(0.1), Metres(20.0)];
 /// Share of a part's points that may lie out of range.
 const MAX_OUTSIDE: f64 = 0.01;
-/// Share of a scene's points that may lie behind the camera, as stray readings do.
-const MAX_BEHIND: f64 = 0.001;
 
 /// Rejects an accepted part if its scene cannot be right.
 pub(super) fn refuse_unsound(inspection: &mut Inspection, scene: &SceneCloud) {
@@ -31,7 +29,7 @@ pub(super) fn refuse_unsound(inspection: &mut Inspection, scene: &SceneCloud) {
         return;
     }
     let share = cloud.share_behind();
-    if share > MAX_BEHIND {
+    if share > MAX_STRAY_SHARE {
         *rejected = Some(Rejection::BehindCamera {
             part: part(),
             share,

@@ -478,6 +478,38 @@ mod tests {
     }
 
     #[test]
+    fn stray_points_zeros_and_copies_leave_the_picture_as_it_was() {
+        let scene = scene_from_frame(&tilted_wall());
+        let points: Vec<_> = scene.cloud.finite().map(|(_, p)| *p).collect();
+        let arranged = |points: Vec<Point3<f32>>| {
+            let scene = scene_from_cloud(PointCloud::from_points(points));
+            let readings: Vec<_> = scene.cloud.finite().map(|(i, p)| (i, *p)).collect();
+            (scene.cloud.grid, scene.intrinsics, readings)
+        };
+        let expected = arranged(points.clone());
+        assert!(expected.0.is_some());
+        let with = |num: usize, stray: [f32; 3]| {
+            let strays = std::iter::repeat_n(Point3::from(stray), num);
+            points.iter().copied().chain(strays).collect::<Vec<_>>()
+        };
+        for (num, stray) in [
+            (1, [3.0, 0.0, 0.5]),
+            (100, [0.0, -9.0, 0.5]),
+            (1, [0.0, 0.0, -0.5]),
+            (300, [0.1, 0.0, 0.03]),
+            (100_000, [0.0; 3]),
+        ] {
+            assert!(arranged(with(num, stray)) == expected, "{num} of {stray:?}");
+        }
+        let twice = points.iter().chain(&points).copied().collect();
+        assert!(arranged(twice) == expected, "every point twice");
+        // Too many for stray points.
+        for stray in [[3.0, 0.0, 0.5], [0.0, 0.0, -0.5]] {
+            assert_eq!(arranged(with(1000, stray)).0, None, "{stray:?}");
+        }
+    }
+
+    #[test]
     fn a_cloud_seen_from_all_around_stays_without_a_picture() {
         let points = (0..20_000).map(|i| {
             let (a, b) = (i as f32 * 0.0917, i as f32 / 20_000.0 * 2.0 - 1.0);

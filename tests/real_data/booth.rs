@@ -6,7 +6,7 @@ use nalgebra::Point3;
 use partsight::{
     files::{FileContent, open},
     geometry::{
-        cloud::is_finite,
+        cloud::{PointCloud, is_finite},
         rigid::{RigidTransform, from_row_major, pose_error},
     },
     library::{
@@ -16,7 +16,7 @@ use partsight::{
     pipeline::{Recipe, Unwatched, Verdict, run},
     robot::cell_check::{CellBaseline, CellFinding, CellLimits, CellView},
     stages::{
-        scene::{SceneCloud, scene_from_frame},
+        scene::{SceneCloud, scene_from_cloud, scene_from_frame},
         segment::{PointLabel, SegmentParams, SegmentedPart, segment},
     },
 };
@@ -164,6 +164,32 @@ fn a_curtain_that_hides_nothing_is_not_enrolled_unless_somebody_says_so() {
             .any(|w| matches!(w, EnrolWarning::Background(_))),
         "{warned:?}"
     );
+}
+
+#[test]
+fn a_list_of_points_is_accepted_in_spite_of_stray_points_and_copies() {
+    let Some(data) = data_folder() else { return };
+    let frame = scene(&data.join("booth/left2_01.png"));
+    let enrolled = enrol_captured(&frame, &about("fender"), &EnrolParams::default());
+    let library = Library {
+        references: vec![enrolled.expect("a part").reference],
+    };
+    let points: Vec<Point3<f32>> = frame.cloud.finite().map(|(_, p)| *p).collect();
+    let of_lists = [
+        vec![],
+        vec![Point3::origin()],
+        vec![Point3::origin(); 100_000],
+        vec![Point3::new(3.0, 0.0, 0.5)],
+        vec![Point3::new(0.0, 0.0, -0.5)],
+        points.clone(),
+    ];
+    for others in of_lists {
+        let num = others.len();
+        let all = points.iter().copied().chain(others);
+        let scene = scene_from_cloud(PointCloud::from_points(all));
+        let found = run(&scene, &library, &Recipe::default(), &Unwatched).expect("not cancelled");
+        assert!(found.verdict.is_accepted(), "{num}: {:?}", found.verdict);
+    }
 }
 
 #[test]

@@ -326,7 +326,11 @@ impl SceneSource {
             }
             Self::File(path) => {
                 let opened = files::open(path)?;
-                let warnings = opened.warnings().into_iter().map(Into::into).collect();
+                let warnings = opened
+                    .warnings_as_capture()
+                    .into_iter()
+                    .map(Into::into)
+                    .collect();
                 let scene = match opened {
                     FileContent::Cloud(cloud) => scene_from_image(Image::Cloud(cloud)),
                     FileContent::Depth(frame) => scene_from_image(Image::Depth(frame)),

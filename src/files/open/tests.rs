@@ -177,6 +177,41 @@ fn numbers_that_look_like_millimetres_are_warned_about_and_kept() {
 }
 
 #[test]
+fn numbers_that_are_not_metres_may_be_in_several_units() {
+    // A capture of a cell in centimetres, and in millimetres.
+    for (scale, wanted) in [
+        (100, "may be in millimetres, centimetres or inches"),
+        (1000, "may be in millimetres"),
+    ] {
+        let text = format!("0 0 {scale}\n{} 0 {scale}\n", 3 * scale);
+        let (_folder, path) = file("cell.xyz", text.as_bytes());
+        let warnings = open(&path).unwrap().warnings();
+        let [warning] = warnings[..] else {
+            panic!("{warnings:?}");
+        };
+        assert!(warning.to_string().ends_with(wanted), "{warning}");
+        assert_eq!(warning.advice().contains("own unit"), scale == 100);
+    }
+}
+
+#[test]
+fn a_capture_behind_the_camera_is_warned_about_with_or_without_rows() {
+    let lines = |num_behind: usize| {
+        let z = |i| if i < num_behind { -1.2 } else { 1.2 };
+        let points = (0..2000).map(|i| format!("{} {} {}\n", i % 50, i / 50, z(i)));
+        points.collect::<Vec<_>>().concat()
+    };
+    for (num_behind, expected) in [(0, None), (2, None), (3, Some(0.0015)), (2000, Some(1.0))] {
+        let (_folder, path) = file("scene.xyz", lines(num_behind).as_bytes());
+        let opened = open(&path).unwrap();
+        // A cloud to be enrolled may be in any frame.
+        assert_eq!(opened.warnings(), [], "{num_behind}");
+        let behind = expected.map(|share| FileWarning::BehindCamera { share });
+        assert_eq!(opened.warnings_as_capture(), Vec::from_iter(behind));
+    }
+}
+
+#[test]
 fn metres_that_were_read_as_millimetres_are_warned_about() {
     let points = (0..2500).map(|i| {
         format!(

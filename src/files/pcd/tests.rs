@@ -149,8 +149,16 @@ fn cells_without_a_reading_stay_in_the_grid_and_leave_a_list() {
 
     let list = header("x:F:4:1 y:F:4:1 z:F:4:1", "6", "1", "ascii") + rows;
     let cloud = read_bytes(list.as_bytes()).unwrap();
-    // In an unorganised cloud the origin may be a point.
+    assert_eq!(cloud.points, [Point3::new(1.0, 2.0, 3.0)]);
+}
+
+#[test]
+fn zeros_in_a_list_are_dropped_unless_they_have_a_normal() {
+    let fields = "x:F:4:1 y:F:4:1 z:F:4:1 normal_x:F:4:1 normal_y:F:4:1 normal_z:F:4:1";
+    let rows = "1 2 3 0 0 1\n0 0 0 0 0 0\n0 0 0 nan nan nan\n0 0 0 0 0 1\n";
+    let cloud = read_bytes((header(fields, "4", "1", "ascii") + rows).as_bytes()).unwrap();
     assert_eq!(cloud.points, [Point3::new(1.0, 2.0, 3.0), Point3::origin()]);
+    assert_eq!(cloud.normals, Some(vec![Vector3::z(); 2]));
 }
 
 #[test]

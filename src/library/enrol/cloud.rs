@@ -70,13 +70,46 @@ pub(super) fn finite_only(cloud: &PointCloud) -> PointCloud {
     }
 }
 
+/// Distance to the nearest other point, in point spacings, from which a point of a thinned cloud is isolated.
+const ISOLATED: f64 = 5.0;
+/// Maximum share of isolated points: more belong to a cloud that is sparse in places, such as the corners of a mesh.
+const MAX_ISOLATED_SHARE: f64 = 0.01;
+
+/// Drops isolated points, which would set the size of the part, from a cloud thinned with this voxel.
+pub(super) fn without_isolated(cloud: PointCloud, voxel: Metres) -> PointCloud {
+    let reach = ISOLATED * voxel.0.max(spacing(&cloud.points));
+    let tree = KdTree::new(&cloud.points);
+    let is_isolated = |(i, p): (usize, &Point3<f32>)| {
+        let other = tree.nearest_other(p, i);
+        other.is_none_or(|other| f64::from(other.distance_sq) > reach * reach)
+    };
+    let is_isolated: Vec<bool> = cloud.points.iter().enumerate().map(is_isolated).collect();
+    let num_isolated = is_isolated.iter().filter(|is| **is).count();
+    if num_isolated == 0 || num_isolated as f64 > MAX_ISOLATED_SHARE * cloud.points.len() as f64 {
+        return cloud;
+    }
+    let kept = |i: &usize| !is_isolated[*i];
+    let indices = || (0..cloud.points.len()).filter(kept);
+    PointCloud {
+        points: indices().map(|i| cloud.points[i]).collect(),
+        normals: cloud
+            .normals
+            .as_ref()
+            .map(|normals| indices().map(|i| normals[i]).collect()),
+        ..PointCloud::default()
+    }
+}
+
 /// Minimum distance of a captured point from the camera, metres.
 const NEAREST: f32 = 0.1;
+/// Share of the points that must lie in front of the camera; the others may be stray.
+const IN_FRONT_SHARE: f64 = 0.99;
 /// Share of the normals that must face the camera; those at edges of a capture may be off.
 const FACING_SHARE: f64 = 0.98;
 
 pub(super) fn coverage_of(cloud: &PointCloud) -> Coverage {
-    let is_before_camera = cloud.points.iter().all(|p| p.z > NEAREST);
+    let num_in_front = cloud.points.iter().filter(|p| p.z > NEAREST).count();
+    let is_before_camera = num_in_front as f64 >= IN_FRONT_SHARE * cloud.points.len() as f64;
     let faces_camera = cloud.normals.as_ref().is_none_or(|normals| {
         let facing = cloud
             .points

@@ -115,6 +115,45 @@ fn a_whole_cloud_before_the_camera_is_one_capture_unless_its_normals_say_otherwi
 }
 
 #[test]
+fn stray_points_change_neither_the_coverage_nor_the_size_of_a_whole_cloud() {
+    let clean = sheet(|x, y| x.abs() < 0.4 && y.abs() < 0.25 && (x < 0.1 || y < 0.0));
+    let enrolled = |cloud: &PointCloud| {
+        let enrolled = enrol_whole(cloud, &about("sheet"), &EnrolParams::default());
+        enrolled.expect("a part").part
+    };
+    let (expected_low, expected_high) = enrolled(&clean).cloud.bounds().expect("points");
+    for stray in [[0.0; 3], [0.0, 0.0, -1.0], [0.0, 0.0, 5.0], [3.0, 0.0, 1.3]] {
+        let mut cloud = clean.clone();
+        // Several at one place become one point of the thinned cloud.
+        cloud.points.extend([Point3::from(stray); 5]);
+        let part = enrolled(&cloud);
+        assert_eq!(part.meta.coverage, Coverage::OneSide, "{stray:?}");
+        // The cubes begin at the stray point, so their means move by up to a cube.
+        let (low, high) = part.cloud.bounds().expect("points");
+        let off = (low - expected_low)
+            .amax()
+            .max((high - expected_high).amax());
+        assert!(off < 0.01, "{stray:?}: {low} to {high}");
+    }
+}
+
+#[test]
+fn a_few_isolated_points_are_dropped_and_many_are_kept() {
+    let voxel = Metres::from_mm(8.0);
+    let fine = sheet(|x, y| x.abs() < 0.1 && y.abs() < 0.1);
+    assert_eq!(without_isolated(fine.clone(), voxel), fine);
+    let mut stray = fine.clone();
+    stray.points.insert(700, Point3::new(0.3, 0.0, 1.3));
+    assert_eq!(without_isolated(stray, voxel), fine);
+    // Coarse around a fine middle, as the corners of a mesh are.
+    let mut uneven = fine;
+    let steps = || (-4..=4).map(|step| step as f32 * 0.1);
+    let coarse = steps().flat_map(|y| steps().map(move |x| Point3::new(x, y, 1.3)));
+    uneven.points.extend(coarse);
+    assert_eq!(without_isolated(uneven.clone(), voxel), uneven);
+}
+
+#[test]
 fn too_few_points_and_lines_are_refused_by_name() {
     let few = PointCloud::from_points([Point3::origin(); 5]);
     let params = EnrolParams::default();
