@@ -18,7 +18,7 @@ use crate::{
     cases::CaseFolder,
     error::Advice,
     files::{
-        self, FileContent, FileError, FileWarning,
+        self, DepthCamera, FileContent, FileError, FileWarning,
         import::{ImportOptions, LengthUnit, UpAxis},
     },
     geometry::cloud::PointCloud,
@@ -84,6 +84,13 @@ struct FileAdvice<'a>(&'a FileWarning);
 impl Advice for FileAdvice<'_> {
     fn advice(&self) -> String {
         match self.0 {
+            FileWarning::TooWideForMetres { extent } if extent.0 < files::ONLY_MILLIMETRES => format!(
+                "Give the unit that makes its size right: --units mm ({:.1} m), cm ({:.1} m) or in ({:.1} m), or \
+                 #units=mm after its path",
+                extent.0 * 0.001,
+                extent.0 * 0.01,
+                extent.0 * 0.0254,
+            ),
             FileWarning::TooWideForMetres { .. } => {
                 "Read it as millimetres: --units mm, or #units=mm after its path".into()
             }
@@ -95,13 +102,16 @@ impl Advice for FileAdvice<'_> {
     }
 }
 
-/// Shows the warnings about a file.
+/// Shows the warnings about a file, and about the camera of a depth image.
 pub(super) fn warn_of(path: &Path, warnings: &[FileWarning], console: &Console) {
     for warning in warnings {
         console.warn(
             &format_args!("{}: {warning}", path.display()),
             &FileAdvice(warning),
         );
+    }
+    for field in DepthCamera::misspelt_fields(path) {
+        console.warn(&field, &field);
     }
 }
 
@@ -136,7 +146,7 @@ pub(super) fn open_scene(path: &Path) -> OpenedScene {
         Err(FileError::NoPoints { .. }) => return Ok((SceneCloud::default(), Vec::new())),
         Err(error) => return Err(error.into()),
     };
-    let warnings = opened.warnings();
+    let warnings = opened.warnings_as_capture();
     let scene = match opened {
         FileContent::Cloud(cloud) => scene_from_image(Image::Cloud(cloud)),
         FileContent::Depth(frame) => scene_from_image(Image::Depth(frame)),

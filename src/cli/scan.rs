@@ -106,7 +106,8 @@ pub(super) fn run(args: &ScanArgs, console: &mut Console) -> anyhow::Result<Outc
     Ok(Outcome::accepted_if(all_used && has_part))
 }
 
-/// Reads frames with their poses and fuses them, each segmented with these parameters; warns of frames left out.
+/// Reads frames with their poses and fuses them, each segmented with these parameters; warns of frames left out and of frames
+/// that fit poorly.
 pub(super) fn open_scan(
     paths: &[PathBuf],
     given: &PosesChoice,
@@ -143,6 +144,9 @@ pub(super) fn open_scan(
         if let Some(why) = &shot.excluded {
             console.warn(&format_args!("{} is left out: {why}", shot.name), why);
         }
+    }
+    if let Some(doubt) = &scan.doubt {
+        console.warn(doubt, doubt);
     }
     Ok(scan)
 }

@@ -1,11 +1,14 @@
 //! The camera of a depth image, read from the JSON file beside it.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize, de::IgnoredAny};
 
+use super::depth_png::{FOLDER_CAMERA, intrinsics_path};
 use super::error::FileError;
+use super::open::file_of;
 use super::source::read_limited;
+use crate::error::Advice;
 use crate::geometry::{
     depth_frame::{DepthFrame, Intrinsics},
     distortion::Distortion,
@@ -125,27 +128,33 @@ impl TryFrom<Written> for DepthCamera {
 
     fn try_from(written: Written) -> Result<Self, String> {
         let metres_per_unit = match (written.metres_per_unit, written.depth_scale) {
-            (Some(metres), _) => metres,
-            (None, Some(scale)) if scale < LONGEST_UNIT => scale,
-            (None, Some(scale)) if scale > 1.0 / LONGEST_UNIT => 1.0 / scale,
-            (None, Some(scale)) => {
+            (Some(metres), None) => metres,
+            (None, Some(scale)) => metres_of_scale(scale)?,
+            (Some(metres), Some(scale)) if is_same(metres, metres_of_scale(scale)?) => metres,
+            (Some(metres), Some(scale)) => {
                 return Err(format!(
-                    "depth_scale is {scale}, expected metres per unit such as 0.001, or units per metre such as 1000"
+                    "metres_per_unit is {metres} and depth_scale {scale}, which are different units: remove the wrong one"
                 ));
             }
             (None, None) => return Err("missing field `metres_per_unit`".into()),
         };
         let mut intrinsics = written.intrinsics;
         let listed = match written.distortion {
-            Some(WrittenDistortion::Named(distortion)) => distortion,
+            Some(WrittenDistortion::Named(distortion)) => Some(distortion),
             Some(WrittenDistortion::Listed(list)) => {
-                Distortion::from_list(&list).ok_or_else(|| {
+                Some(Distortion::from_list(&list).ok_or_else(|| {
                     "distortion has more coefficients than k1 k2 p1 p2 k3 k4 k5 k6".to_owned()
-                })?
+                })?)
             }
-            Some(WrittenDistortion::Other(_)) | None => Distortion::NONE,
+            Some(WrittenDistortion::Other(_)) | None => None,
         };
-        if intrinsics.distortion.is_none() {
+        if let Some(listed) = listed {
+            if !intrinsics.distortion.is_none() && intrinsics.distortion != listed {
+                return Err(
+                    "the coefficients in distortion differ from those beside it, such as k1: remove the wrong ones"
+                        .into(),
+                );
+            }
             intrinsics.distortion = listed;
         }
         Ok(Self {
@@ -155,6 +164,107 @@ impl TryFrom<Written> for DepthCamera {
             stored: written.stored,
         })
     }
+}
+
+fn metres_of_scale(scale: f64) -> Result<f64, String> {
+    if scale < LONGEST_UNIT {
+        Ok(scale)
+    } else if scale > 1.0 / LONGEST_UNIT {
+        Ok(1.0 / scale)
+    } else {
+        Err(format!(
+            "depth_scale is {scale}, expected metres per unit such as 0.001, or units per metre such as 1000"
+        ))
+    }
+}
+
+/// True for one unit written in two ways, with the rounding of a decimal.
+fn is_same(metres: f64, other: f64) -> bool {
+    (metres - other).abs() <= 1e-6 * metres.abs()
+}
+
+/// A field of the JSON that is not read, and is spelt nearly like one that is.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}: the field {written} is not read, probably {known} is meant", path.display())]
+pub struct MisspeltField {
+    path: PathBuf,
+    written: String,
+    known: &'static str,
+}
+
+impl Advice for MisspeltField {
+    fn advice(&self) -> String {
+        format!("Rename the field to {}, or remove it", self.known)
+    }
+}
+
+/// The fields that may be missing; without one of the others there is an error anyway.
+const OPTIONAL: [&str; 14] = [
+    "metres_per_unit",
+    "depth_scale",
+    "simulated",
+    "mirrored",
+    "rotated",
+    "distortion",
+    "k1",
+    "k2",
+    "k3",
+    "k4",
+    "k5",
+    "k6",
+    "p1",
+    "p2",
+];
+/// Shorter words are too easily another program's own.
+const LEAST_LETTERS: usize = 7;
+/// Most letters that are added, missing or exchanged in a misspelt word.
+const MOST_WRONG: usize = 2;
+
+/// True if the word differs from the field's name by its case or by a letter or two.
+fn is_nearly(written: &str, known: &str) -> bool {
+    if written == known {
+        return false;
+    }
+    let written = written.to_ascii_lowercase();
+    written == known
+        || known.len() >= LEAST_LETTERS && num_edits(written.as_bytes(), known) <= MOST_WRONG
+}
+
+/// The edit distance of V. I. Levenshtein, "Binary codes capable of correcting deletions, insertions, and reversals",
+/// Soviet Physics Doklady 10(8), 1966.
+fn num_edits(written: &[u8], known: &str) -> usize {
+    // Edits from the first letters of `known`, of each number, to the letters of `written` so far.
+    let mut edits: Vec<usize> = (0..=known.len()).collect();
+    for (row, letter) in written.iter().enumerate() {
+        let mut diagonal = row;
+        edits[0] = row + 1;
+        for (column, other) in known.bytes().enumerate() {
+            let exchanged = diagonal + usize::from(*letter != other);
+            diagonal = edits[column + 1];
+            edits[column + 1] = exchanged.min(diagonal + 1).min(edits[column] + 1);
+        }
+    }
+    edits[known.len()]
+}
+
+/// Returns the misspelt fields of a camera's JSON.
+fn misspelt(path: &Path, json: &[u8]) -> Vec<MisspeltField> {
+    let fields: serde_json::Map<String, serde_json::Value> =
+        serde_json::from_slice(json).unwrap_or_default();
+    let misspelt = |written: &String| {
+        // A word longer than any field's name needs no comparison.
+        let known = OPTIONAL.into_iter().filter(|_| written.len() < 20);
+        let mut known = known.filter(|known| is_nearly(written, known));
+        Some(MisspeltField {
+            path: path.to_owned(),
+            written: written.clone(),
+            known: known.find(|known| !fields.contains_key(*known))?,
+        })
+    };
+    let others = fields
+        .keys()
+        .filter(|key| !OPTIONAL.contains(&key.as_str()));
+    others.filter_map(misspelt).collect()
 }
 
 /// The error of a camera of which some pixels have no ray of their own.
@@ -185,6 +295,24 @@ impl DepthCamera {
             },
             found => bad(found),
         })
+    }
+
+    /// Returns the misspelt fields of the camera that a depth image is read with; none for other files.
+    pub fn misspelt_fields(image: &Path) -> Vec<MisspeltField> {
+        let image = file_of(image);
+        let is_png = image
+            .extension()
+            .is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
+        let own = intrinsics_path(&image);
+        let json = if own.exists() {
+            own
+        } else {
+            own.with_file_name(FOLDER_CAMERA)
+        };
+        let bytes = is_png.then(|| read_limited(&json, MAX_CAMERA_BYTES).ok());
+        bytes
+            .flatten()
+            .map_or_else(Vec::new, |bytes| misspelt(&json, &bytes))
     }
 
     /// Returns the camera if its numbers are possible, else what is wrong with them.
@@ -320,11 +448,48 @@ mod tests {
         assert_eq!(unit(r#","depth_scale":0.00025"#), Ok(0.00025));
         assert_eq!(unit(r#","depth_scale":4000"#), Ok(0.00025));
         assert_eq!(
-            unit(r#","metres_per_unit":0.001,"depth_scale":4000"#),
+            unit(r#","metres_per_unit":0.001,"depth_scale":1000"#),
             Ok(0.001)
         );
         assert!(unit(r#","depth_scale":1"#).is_err_and(|error| error.contains("depth_scale")));
         assert!(unit("").is_err_and(|error| error.contains("metres_per_unit")));
+    }
+
+    #[test]
+    fn fields_that_contradict_each_other_are_refused() {
+        let refused = |extra: &str| camera(extra).expect_err(extra);
+        let units = refused(r#","metres_per_unit":0.001,"depth_scale":4000"#);
+        assert!(units.contains("remove the wrong one"), "{units}");
+        for listed in ["[0,0,0,0,0]", r#"{"k1":-0.2}"#] {
+            let extra = format!(r#","metres_per_unit":0.001,"k1":0.1,"distortion":{listed}"#);
+            let lens = refused(&extra);
+            assert!(lens.contains("differ") && lens.contains("k1"), "{lens}");
+        }
+        let same = camera(r#","metres_per_unit":0.001,"k1":0.1,"distortion":[0.1]"#);
+        let same = same.expect("the same twice");
+        assert!((same.intrinsics.distortion.k1 - 0.1).abs() < 1e-12);
+    }
+
+    #[test]
+    fn misspelt_fields_are_found_and_those_of_other_programs_are_not() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let image = folder.path().join("a.png");
+        let found = |json: &str| {
+            std::fs::write(folder.path().join(FOLDER_CAMERA), json).expect("written");
+            let found = DepthCamera::misspelt_fields(&image).into_iter();
+            found.map(|field| field.known).collect::<Vec<_>>()
+        };
+        assert_eq!(found(r#"{"mirored":true}"#), ["mirrored"]);
+        assert_eq!(found(r#"{"Mirrored":true,"K1":0.1}"#), ["k1", "mirrored"]);
+        assert_eq!(found(r#"{"rotate":90}"#), ["rotated"]);
+        assert_eq!(found(r#"{"mirrored":true,"Mirrored":true}"#), [""; 0]);
+        let other = r#"{"width":4,"ppx":1,"K":[1],"model":"x","distortion_model":"none","scale":1,
+            "rotation":[1],"depth_units":0.001,"p3":0,"serial":"1","mirrored":true}"#;
+        assert_eq!(found(other), [""; 0]);
+        assert_eq!(found("no JSON"), [""; 0]);
+        let cloud = folder.path().join("a.pcd");
+        std::fs::write(folder.path().join(FOLDER_CAMERA), r#"{"mirored":true}"#).expect("written");
+        assert!(DepthCamera::misspelt_fields(&cloud).is_empty());
     }
 
     /// Builds a frame from a stored 4×3 image whose depths number its pixels.

@@ -64,6 +64,7 @@ pub(crate) use self::folders::{
 };
 pub(crate) use self::names::{nearest_name, stays_inside};
 
+pub(crate) use self::open::ONLY_MILLIMETRES;
 pub use self::open::{FileContent, FileWarning, file_of, open, open_bytes};
 pub use self::pcd::write_pcd;
 pub use self::ply::{write_ply, write_ply_with};

@@ -2,19 +2,37 @@
 //! exchanged.
 //!
 //! One capture tells the two apart only if the part has no other side: because a car has it once, according to its
-//! name, or because it is nearly its own mirror image. An image of an exactly symmetric part looks right either way.
+//! name, or because it is nearly its own mirror image. An image of a symmetric part looks right either way: if only its
+//! mirror image is found, the search for the part itself failed, and is repeated.
 //! Several captures tell more, see [`MirrorTally`].
 
 use std::collections::BTreeSet;
+
+use nalgebra::{Point3, Vector3};
 
 use super::{
     Inspection, Recipe,
     rejection::Rejection,
     surface::{InspectionInputs, SurfaceResult, inspect_surface},
+    try_segment,
     verdict::{Verdict, model_deviation, verdict},
     watch::Cancelled,
 };
-use crate::{error::Advice, stages::confirm::ConfirmedMatch};
+use crate::{
+    error::Advice,
+    geometry::{principal::principal_axes, rigid::RigidTransform, statistics::sample_evenly},
+    stages::{
+        confirm::ConfirmedMatch,
+        pose::{
+            closest::Correspondence,
+            quality::{Tolerance, measure_fit},
+            refine::{AlignmentSource, Level, Search, refine},
+        },
+        reference::Reference,
+        segment::SegmentedPart,
+    },
+    units::Metres,
+};
 
 /// Least lead of a mirror image's score over that of the part itself.
 const MIRROR_LEAD: f64 = 0.3;
@@ -53,6 +71,10 @@ pub(super) fn check_mirror_image(
     };
     let mirrored = InspectionInputs { scene, ..*inputs };
     let found = inspect_surface(&part.mirrored(scene), &mirrored, least)?;
+    if !is_other_model && fits_either_way(&found, inputs, least) {
+        let part = part.clone();
+        return search_again(inspection, &part, inputs);
+    }
     let seen = if is_other_model {
         closer_mirror_match(inspection, &found, recipe)
     } else {
@@ -65,6 +87,97 @@ pub(super) fn check_mirror_image(
         }
     }
     Ok(())
+}
+
+/// True if the mirror image of a part was found that looks the same in a mirror.
+fn fits_either_way(found: &SurfaceResult, inputs: &InspectionInputs<'_>, least: f64) -> bool {
+    let best = found.ranking.entries.first();
+    let best = best.filter(|best| best.score > least);
+    let reference = best.and_then(|best| inputs.library.references.get(best.reference));
+    reference.is_some_and(is_own_mirror_image)
+}
+
+/// Further draws of a part's points. In 5 of 37 views of a symmetric lid the first draw lost it, and most others found it.
+const NUM_DRAWS: usize = 3;
+
+/// Searches for the part itself with other draws of its points, and keeps the best result.
+fn search_again(
+    inspection: &mut Inspection,
+    part: &SegmentedPart,
+    inputs: &InspectionInputs<'_>,
+) -> Result<(), Cancelled> {
+    let mut recipe = inputs.recipe.clone();
+    for _ in 0..NUM_DRAWS {
+        recipe.confirm.seed += 1;
+        let again = InspectionInputs {
+            recipe: &recipe,
+            ..*inputs
+        };
+        try_segment(inspection, part.clone(), &again)?;
+        if inspection.verdict.is_accepted() {
+            break;
+        }
+    }
+    Ok(())
+}
+
+/// Share of a part's points that lie on its mirror image if it is its own. The symmetric shipped parts reach 0.989, the back
+/// bumper with its one exhaust 0.978, the others 0.83. A part that differs by less loses less than [`MIRROR_LEAD`] of
+/// its score when it is held against its mirror image.
+const LEAST_SYMMETRIC: f64 = 0.985;
+/// Points of the part that are compared.
+const NUM_COMPARED: usize = 1000;
+/// Distance at which a point still lies on the mirror image.
+const ON_MIRROR_IMAGE: Metres = Metres(0.01);
+/// The principal plane of a part that was captured at an angle is off by some centimetres.
+const LAY_ON: [Level; 2] = [
+    Level {
+        num_surface: NUM_COMPARED,
+        num_edges: 0,
+        scale: 0.03,
+        max_steps: 8,
+        settled: 0.005,
+        search: Search::Field,
+    },
+    Level {
+        num_surface: NUM_COMPARED,
+        num_edges: 0,
+        scale: 0.01,
+        max_steps: 12,
+        settled: 0.005,
+        search: Search::Tree,
+    },
+];
+
+/// True if the reference looks the same in a mirror. The plane of symmetry is perpendicular to a principal axis, so the
+/// cloud is mirrored in each of the three planes and laid onto itself.
+fn is_own_mirror_image(reference: &Reference) -> bool {
+    let Some(target) = reference.target(0) else {
+        return false;
+    };
+    let points = sample_evenly(&reference.cloud.points, NUM_COMPARED);
+    let Some(axes) = principal_axes(points.clone().map(|p| (p.cast::<f64>(), 1.0))) else {
+        return false;
+    };
+    (0..3).any(|axis| {
+        let across: Vector3<f64> = axes.axes.column(axis).into_owned();
+        let mirrored = |p: &Point3<f32>| {
+            let p = p.cast::<f64>();
+            (p - across * (2.0 * across.dot(&(p - axes.mean)))).cast::<f32>()
+        };
+        let source = AlignmentSource {
+            surface: points.clone().map(mirrored).collect(),
+            edges: Vec::new(),
+        };
+        let refined = refine(&source, &target, &RigidTransform::identity(), &LAY_ON);
+        let pose = &refined.target_from_source;
+        let closest = Correspondence::of_each(&source.surface, &target, pose, Search::Tree);
+        let tolerance = Tolerance {
+            base: ON_MIRROR_IMAGE,
+            noise_at_1m: Metres(0.0),
+        };
+        measure_fit(&source.surface, &closest, &target, tolerance).overlap >= LEAST_SYMMETRIC
+    })
 }
 
 /// Moves a part to the front of the ranking, so that name, score, pose and pictures are of the same part. There is no pose
@@ -267,6 +380,51 @@ mod tests {
             assert!((score - door.score).abs() < 1e-12 && margin >= 0.0);
             let score = inspection.ranking.score_of(&door);
             assert_eq!(score.is_some(), door.is_examined);
+        }
+    }
+
+    #[test]
+    fn a_symmetric_part_whose_own_search_failed_is_searched_again_and_no_image_is_called_mirrored()
+    {
+        let recipe = Recipe::default();
+        let library = enrol_standard_parts(&EnrolParams::default()).expect("eight parts");
+        let scene = scene_of(&CellSetup::with_part(PartKind::TrunkLid, Side::Left, 0, 41));
+        let seen = run(&scene, &library, &recipe, &Unwatched).expect("not cancelled");
+        assert!(seen.verdict.is_accepted(), "{:?}", seen.verdict);
+        // As if the search had missed it.
+        let mut missed = seen;
+        for entry in &mut missed.ranking.entries {
+            (entry.score, entry.evidence) = (0.0, None);
+        }
+        missed.verdict = verdict(&missed.ranking, missed.pose.as_ref(), &recipe);
+        assert!(!missed.verdict.is_accepted(), "{:?}", missed.verdict);
+        let inputs = InspectionInputs {
+            scene: &scene,
+            library: &library,
+            recipe: &recipe,
+            clock: &StageClock::start(&Unwatched),
+        };
+        check_mirror_image(&mut missed, &inputs).expect("not cancelled");
+        assert!(!missed.verdict.is_mirrored(), "{:?}", missed.verdict);
+        assert!(missed.verdict.is_accepted(), "{:?}", missed.verdict);
+        assert_eq!(missed.verdict.guess(), Some("trunk_lid"));
+    }
+
+    #[test]
+    fn parts_that_look_the_same_in_a_mirror_are_told_from_those_that_nearly_do() {
+        let library = enrol_standard_parts(&EnrolParams::default()).expect("eight parts");
+        for reference in &library.references {
+            let expected = match reference.name.as_str() {
+                "trunk_lid" | "front_bumper" | "radiator_support" | "grille" => true,
+                "back_bumper" | "front_door" | "back_door" | "fender" => false,
+                other => panic!("{other}"),
+            };
+            assert_eq!(
+                is_own_mirror_image(reference),
+                expected,
+                "{}",
+                reference.name
+            );
         }
     }
 

@@ -12,7 +12,7 @@ use super::{
     overlap::{Agreement, overlap},
     part::keep_best_piece,
     register::{register, samples_of},
-    suspects::worst,
+    suspects::{PoorAgreement, check},
 };
 use crate::{
     geometry::{
@@ -51,7 +51,7 @@ pub fn assemble(
     let prepared = prepared.into_iter().collect::<Result<Vec<_>, _>>()?;
     go_on(watch, ScanStep::Align)?;
     let (mut scanned, middles): (Vec<_>, Vec<_>) = prepared.into_iter().unzip();
-    align(&mut scanned, &middles, params, watch)?;
+    let doubt = align(&mut scanned, &middles, params, watch)?;
     go_on(watch, ScanStep::Fuse)?;
     let mut cloud = fused(&scanned, params);
     cloud.cloud.is_simulated = shots.iter().any(|shot| shot.scene.cloud.is_simulated);
@@ -62,6 +62,7 @@ pub fn assemble(
         cloud,
         before,
         after,
+        doubt,
     })
 }
 
@@ -129,13 +130,13 @@ fn prepare(shot: &Shot, params: &ScanParams) -> Result<(ScannedShot, Point3<f64>
     Ok((scanned, middle))
 }
 
-/// Refines the poses and excludes the shot that fits worst, until all remaining shots agree.
+/// Refines the poses and excludes the shot that fits worst, until all remaining shots agree. Returns a doubt about those.
 fn align(
     scanned: &mut [ScannedShot],
     middles: &[Point3<f64>],
     params: &ScanParams,
     watch: &dyn ScanObserver,
-) -> Result<(), ScanError> {
+) -> Result<Option<PoorAgreement>, ScanError> {
     let mut used: Vec<usize> = (0..scanned.len()).collect();
     loop {
         if watch.is_cancelled() {
@@ -150,8 +151,9 @@ fn align(
         }
         let candidates: Vec<&ScannedShot> = used.iter().map(|&i| &scanned[i]).collect();
         let num_workers = params.register.num_workers;
-        let Some((which, why)) = worst(&candidates, &params.suspect, num_workers) else {
-            return Ok(());
+        let (which, why) = match check(&candidates, &params.suspect, num_workers) {
+            Ok(doubt) => return Ok(doubt),
+            Err(worst) => worst,
         };
         let number = used.remove(which);
         scanned[number].excluded = Some(why);

@@ -7,7 +7,8 @@
 //!
 //! 1. [`surface`]: computes normals and noise of every reading, and sets readings at depth discontinuities apart.
 //! 2. [`register`]: refines the poses of all shots together by point-to-plane ICP, softly held at the robot's poses.
-//! 3. [`suspects`]: excludes a shot that contradicts the others; the rest is refined again.
+//! 3. [`suspects`]: excludes a shot that contradicts the others; the rest is refined again. Smaller contradictions give a
+//!    warning.
 //! 4. [`fuse`]: averages the readings by their noise, and drops points that other shots look through.
 //! 5. [`part`]: the shots' segmentations vote on every point; the connected piece with the most votes is the part.
 //!
@@ -46,7 +47,7 @@ pub use self::{
     overlap::{Agreement, Overlap},
     register::RegisterParams,
     surface::ShotSurface,
-    suspects::{Excluded, SuspectParams},
+    suspects::{Excluded, PoorAgreement, SuspectParams},
 };
 
 /// One frame of a scan, with the pose of its camera according to the robot.
@@ -121,6 +122,8 @@ pub struct Scan {
     pub before: Agreement,
     /// How well they agree at the refined poses.
     pub after: Agreement,
+    /// Set if they do not agree as well as they should, though well enough to be used.
+    pub doubt: Option<PoorAgreement>,
 }
 
 /// A shot of a scan, with its refined pose and how well it fits.

@@ -98,6 +98,7 @@ fn poses_that_are_off_are_recovered() {
         }
         assert!((sum_sq / 6.0).sqrt() < rms_mm, "{kind:?}: {sum_sq}");
         assert_eq!(scan.used().count(), 6);
+        assert_eq!(scan.doubt, None, "{kind:?}");
         let rms = |overlap: Option<Overlap>| overlap.expect("an overlap").rms.mm();
         assert!(rms(scan.after.all) < rms(scan.before.all));
     }

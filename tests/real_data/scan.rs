@@ -84,6 +84,7 @@ fn the_frames_of_a_fender_and_of_a_door_agree_after_refinement() {
         let shots = shots(&folder, series, num_shots);
         let scan = assemble(&shots, &ScanParams::default(), &Unwatched).expect("a scan");
         assert_eq!(scan.used().count(), num_shots, "{series}");
+        assert_eq!(scan.doubt, None, "{series}");
         for shot in &scan.shots {
             // The robot's poses are off by a few millimetres and some tenths of a degree.
             let moved = &shot.moved;
@@ -111,6 +112,24 @@ fn the_frames_of_a_fender_and_of_a_door_agree_after_refinement() {
             before * 1e3
         );
     }
+}
+
+#[test]
+fn two_frames_of_which_one_pose_is_10_cm_off_get_a_warning_and_right_ones_get_none() {
+    let Some(data) = data_folder() else { return };
+    let shots = shots(&data.join("booth"), "left2", 8);
+    let put_together = |shots: &[Shot]| assemble(shots, &ScanParams::default(), &Unwatched);
+    for pair in shots.windows(2) {
+        let scan = put_together(pair).expect("a scan");
+        assert_eq!(scan.doubt, None);
+    }
+    let mut pair = shots[1..3].to_vec();
+    pair[1].base_from_camera.translation.vector.x += 0.1;
+    let scan = put_together(&pair).expect("a scan");
+    assert_eq!(scan.used().count(), 2);
+    let doubt = scan.doubt.expect("a doubt");
+    assert!((0.85..0.97).contains(&doubt.share), "{doubt}");
+    assert!(pair.iter().any(|shot| shot.name == doubt.name));
 }
 
 #[test]

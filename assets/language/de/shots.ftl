@@ -49,6 +49,8 @@ shots-part-moved = Teil bewegt
 shots-part-moved-by = das Teil hat sich bewegt: Die Zelle stimmt mit den anderen Bildern überein, vom Teil nur { $share } %
 shots-excluded-advice = Prüfen, ob diese Pose zu diesem Bild gehört, und das Bild bei ruhendem Arm erneut aufnehmen
 shots-part-moved-advice = Das Bild bei stillstehendem Teil erneut aufnehmen
+shots-poor-agreement = die Aufnahmen passen vielleicht nicht zusammen: Von dem, was { $shot } und die anderen Aufnahmen gemeinsam sehen, stimmen { $share } % nicht überein
+shots-poor-agreement-advice = Prüfen, ob jede Pose zu ihrem Bild gehört und sich zwischen den Aufnahmen nichts bewegt hat; mit einer weiteren Aufnahme kann Partsight eine falsche finden
 
 ## Files
 

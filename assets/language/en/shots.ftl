@@ -49,6 +49,8 @@ shots-part-moved = the part moved
 shots-part-moved-by = the part moved: the cell agrees with the other frames, { $share } % of the part does
 shots-excluded-advice = Check that this pose belongs to this frame, and capture the frame again with the arm at rest
 shots-part-moved-advice = Capture the frame again while the part stands still
+shots-poor-agreement = the shots may not fit together: of what { $shot } and the other shots see together, { $share } % disagrees
+shots-poor-agreement-advice = Check that each pose belongs to its frame and that nothing moved between the shots; with one shot more, Partsight can find a wrong one
 
 ## Files
 

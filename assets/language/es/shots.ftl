@@ -49,6 +49,8 @@ shots-part-moved = la pieza se movió
 shots-part-moved-by = la pieza se movió: la celda concuerda con las demás imágenes, de la pieza el { $share } %
 shots-excluded-advice = Comprobar que esta pose corresponde a esta imagen y volver a capturarla con el brazo en reposo
 shots-part-moved-advice = Volver a capturar la imagen con la pieza inmóvil
+shots-poor-agreement = es posible que las tomas no encajen: de lo que { $shot } y las demás tomas ven en común, no concuerda el { $share } %
+shots-poor-agreement-advice = Comprobar que cada pose corresponde a su imagen y que nada se movió entre las tomas; con una toma más, Partsight puede encontrar la errónea
 
 ## Files
 

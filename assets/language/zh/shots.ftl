@@ -49,6 +49,8 @@ shots-part-moved = 零件移动
 shots-part-moved-by = 零件移动：工位与其他帧一致，零件仅 { $share } % 一致
 shots-excluded-advice = 确认该位姿属于该帧，并在机械臂静止时重新采集
 shots-part-moved-advice = 在零件静止时重新采集该帧
+shots-poor-agreement = 各次拍摄可能不吻合：{ $shot } 与其他拍摄共同可见的部分有 { $share } % 不一致
+shots-poor-agreement-advice = 确认每个位姿属于其帧，且两次拍摄之间没有任何移动；再增加一次拍摄，Partsight 就能找出错误的那一次
 
 ## Files
 

@@ -8,7 +8,7 @@ use crate::{
     history::{KeepFrames, StoredVerdict},
     pipeline::{AcceptParams, RecipeLabel, Rejection, Unrecognisable, is_like},
     robot::cell_check::{CellFinding, CellViewError},
-    scan::Excluded,
+    scan::{Excluded, PoorAgreement},
     simulate::ObjectKind,
     stages::{
         contour::ContourError,
@@ -505,6 +505,15 @@ pub(in crate::app) fn excluded(why: &Excluded) -> String {
             text!("shots-part-moved-by", share = fixed!(share * 100.0, 0))
         }
     }
+}
+
+/// Warns of shots that were used and agree poorly.
+pub(in crate::app) fn poor_agreement(doubt: &PoorAgreement) -> String {
+    text!(
+        "shots-poor-agreement",
+        shot = doubt.name.as_str(),
+        share = fixed!((1.0 - doubt.share) * 100.0, 1)
+    )
 }
 
 /// Advises what to do about an excluded shot.

@@ -5,7 +5,7 @@ use egui::{RichText, Ui};
 use crate::app::{
     inspection::{fuse::FusedShots, scan_figure::ShotFate, unit_system::UnitSystem},
     language::{
-        results::{excluded, excluded_advice},
+        results::{excluded, excluded_advice, poor_agreement},
         text,
     },
     ui::{
@@ -49,20 +49,27 @@ fn figures(ui: &mut Ui, fused: &FusedShots, units: UnitSystem) {
     row(ui, &text!("shots-points"), &grouped(num_part));
     let open = format!("{:.0} %", fused.figure.open_share * 100.0);
     row(ui, &text!("shots-outline-open"), &open);
+    let advised = |ui: &mut Ui, text: &str, advice: String| {
+        ui.add_space(space::SMALL);
+        ui.label(sentence(text));
+        ui.label(
+            RichText::new(advice)
+                .font(font::body_strong())
+                .color(theme.warning),
+        );
+    };
     for (place, shot) in fused.rows.iter().enumerate() {
         if let ShotFate::Excluded(why) = shot.fate {
-            ui.add_space(space::SMALL);
             let text = text!(
                 "shots-shot-left-out",
                 shot = place + 1,
                 why = excluded(&why)
             );
-            ui.label(sentence(&text));
-            ui.label(
-                RichText::new(excluded_advice(&why))
-                    .font(font::body_strong())
-                    .color(theme.warning),
-            );
+            advised(ui, &text, excluded_advice(&why));
         }
+    }
+    if let Some(doubt) = &fused.scan.doubt {
+        let advice = text!("shots-poor-agreement-advice");
+        advised(ui, &poor_agreement(doubt), advice);
     }
 }
