@@ -62,6 +62,23 @@ pub(crate) fn copy_library(to: &Path) {
     }
 }
 
+/// Enrols a copy of a part of this library as another reference of it, without a title.
+pub(crate) fn add_reference(library: &Path, part: &str, name: &str) {
+    let (from, to) = (library.join(part), library.join(name));
+    fs::create_dir(&to).expect("made");
+    for file in ["cloud.ply", "signature.json", "thumbnail.png"] {
+        fs::copy(from.join(file), to.join(file)).expect("copied");
+    }
+    let meta = fs::read_to_string(from.join("part.toml")).expect("read");
+    let lines = meta.lines().map(|line| match line.split_once(" = ") {
+        Some(("name", _)) => format!("name = \"{name}\"\npart = \"{part}\"\n"),
+        Some(("title", _)) => String::new(),
+        _ => format!("{line}\n"),
+    });
+    let lines: Vec<String> = lines.collect();
+    fs::write(to.join("part.toml"), lines.concat()).expect("written");
+}
+
 /// The scene of a simulated frame.
 pub(crate) fn scene_of(setup: &CellSetup) -> SceneCloud {
     scene_from_frame(&frame(setup).frame)

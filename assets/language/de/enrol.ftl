@@ -32,6 +32,7 @@ enrol-stored-unknown = Nicht bekannt, was gespeichert wird
 enrol-look-again = Erneut untersuchen
 enrol-title = Titel
 enrol-title-hint = Gebräuchliche Bezeichnung
+enrol-title-full = Ein Titel hat höchstens { $limit } Zeichen; der Rest gehört in die Notizen
 enrol-name = Name
 enrol-name-hint = aus dem Titel vorgeschlagen
 enrol-notes = Notizen

@@ -32,6 +32,7 @@ enrol-stored-unknown = What will be stored is not known
 enrol-look-again = Look again
 enrol-title = Title
 enrol-title-hint = Title, as people call it
+enrol-title-full = A title has at most { $limit } characters; put the rest into the notes
 enrol-name = Name
 enrol-name-hint = proposed from the title
 enrol-notes = Notes

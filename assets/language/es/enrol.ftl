@@ -32,6 +32,7 @@ enrol-stored-unknown = No se sabe qué se guardará
 enrol-look-again = Volver a examinar
 enrol-title = Título
 enrol-title-hint = Nombre habitual de la pieza
+enrol-title-full = Un título tiene como máximo { $limit } caracteres; poner el resto en las notas
 enrol-name = Nombre
 enrol-name-hint = se propone a partir del título
 enrol-notes = Notas

@@ -32,6 +32,7 @@ enrol-stored-unknown = 要保存的内容未确定
 enrol-look-again = 重新分析
 enrol-title = 标题
 enrol-title-hint = 标题，即通常的叫法
+enrol-title-full = 标题最多 { $limit } 个字符；其余内容请写入说明
 enrol-name = 名称
 enrol-name-hint = 根据标题自动生成
 enrol-notes = 说明

@@ -25,7 +25,7 @@ use crate::{
     history::{HungId, InspectionContext, NewEntry, Traceability},
     library::Library,
     pipeline::{
-        self, Inspection, NamedRecipe, ProgressObserver, Recipe,
+        self, Inspection, NamedRecipe, ProgressObserver, Recipe, Verdict,
         live::{LiveVerdict, MotionState},
         scan::{ScanInspection, run_scan, unseen_points},
     },
@@ -111,6 +111,14 @@ impl Inspected {
     /// The hung part that it belongs to.
     pub(in crate::app) fn hung(&self) -> &HungId {
         &self.entry.record.summary.hung
+    }
+
+    /// Title of the part that the verdict names, whichever of its references was found; `None` without a part.
+    pub(in crate::app) fn part_title(&self) -> Option<&str> {
+        let Verdict::Part { part, .. } = &self.inspection.verdict else {
+            return None;
+        };
+        Some(self.library.title_of(part))
     }
 
     /// Traceability of the part.
@@ -404,7 +412,7 @@ pub(in crate::app) fn inspected_cell(choice: super::source::CellChoice, number: 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{app::inspection::source::CellChoice, kit::shipped_library, pipeline::Verdict};
+    use crate::{app::inspection::source::CellChoice, kit::shipped_library};
 
     #[test]
     fn a_captured_frame_comes_back_inspected() {

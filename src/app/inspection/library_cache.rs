@@ -2,6 +2,7 @@
 //! camera, the recording and the history.
 
 use std::{
+    collections::HashMap,
     fs,
     path::{Path, PathBuf},
     sync::{Arc, Mutex, MutexGuard},
@@ -18,8 +19,8 @@ use crate::{
     error::lock,
     history::HistoryBuffer,
     library::{
-        Library, LibraryError, LibraryFolder, LibraryLoad, LibraryPlace, PartMeta, PartNumbers,
-        SprayPath, open_library,
+        Library, LibraryError, LibraryFolder, LibraryLoad, LibraryPlace, PartMeta, PartName,
+        PartNumbers, SprayPath, open_library,
     },
     robot::spray::{OffThePart, off_the_part},
     stages::reference::ReferenceParams,
@@ -142,6 +143,27 @@ impl LibraryView {
     /// Title of the part enrolled under this name; the name itself if there is none.
     pub fn title_of<'a>(&'a self, name: &'a str) -> &'a str {
         self.place_of(name).map_or(name, |place| self.title(place))
+    }
+
+    /// Titles that tell all entries apart, in the library's order: the title of the part, with the entry's name where the part has
+    /// several references.
+    pub fn reference_titles(&self) -> Vec<String> {
+        let mut num_references: HashMap<&PartName, usize> = HashMap::new();
+        let mut part_titles: HashMap<&PartName, &str> = HashMap::new();
+        for entry in &self.parts {
+            *num_references.entry(entry.part_name()).or_default() += 1;
+            part_titles.insert(&entry.name, entry.shown_title());
+        }
+        let titles = self.parts.iter().map(|entry| {
+            let part = entry.part_name();
+            let title = part_titles.get(part).copied().unwrap_or(part.as_str());
+            if num_references.get(part).is_some_and(|num| *num > 1) {
+                format!("{title} · {}", entry.name)
+            } else {
+                title.to_owned()
+            }
+        });
+        titles.collect()
     }
 
     /// Index of the part with this name.

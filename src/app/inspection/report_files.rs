@@ -304,11 +304,10 @@ pub(in crate::app) fn report(
     let path = out.write(&name, &line, &stages).map_err(trouble)?;
     let view = shot.and_then(|shot| on_paper(shot).take().ok());
     let view = view.map(|view| DynamicImage::from(view).into_rgb8());
-    let title = inspected.figures.candidates.first();
     let pictures = PdfPictures {
         view: view.as_ref(),
         stages: &stages,
-        title: title.map(|best| best.title.as_str()),
+        title: inspected.part_title(),
     };
     let pdf = pose_pdf(report, &pictures);
     let files = [("json", report.to_json().into_bytes()), ("pdf", pdf)];
@@ -370,9 +369,9 @@ mod tests {
     use super::*;
     use crate::{
         app::inspection::{
-            inspected::{InspectRequest, inspect},
+            inspected::{InspectRequest, inspect, inspected_cell},
             library_cache::LibraryCache,
-            source::SceneSource,
+            source::{CellChoice, SceneSource},
         },
         kit::scene_of,
         pipeline::Unwatched,
@@ -406,6 +405,25 @@ mod tests {
             let report = report_of(&inspected, inspected.trace(), None, Convention::Kuka);
             assert_eq!(report.source.as_deref(), Some(source));
         }
+    }
+
+    #[test]
+    fn a_report_names_the_part_not_the_reference_that_was_found() {
+        let mut inspected = inspected_cell(CellChoice::InTurn, 1);
+        "front_door_b".clone_into(&mut inspected.figures.candidates[0].title);
+        let pose = report_of(&inspected, inspected.trace(), None, Convention::Kuka);
+        let folder = tempfile::tempdir().expect("a folder");
+        report(folder.path(), &inspected, &pose, None).expect("written");
+        let mut files = std::fs::read_dir(folder.path()).expect("listed");
+        let pdf = files.find_map(|file| {
+            let path = file.expect("a file").path();
+            path.extension()
+                .is_some_and(|is| is == "pdf")
+                .then_some(path)
+        });
+        let pdf = std::fs::read(pdf.expect("a report")).expect("read");
+        let title = b"Pose report: Front door, left, ";
+        assert!(pdf.windows(title.len()).any(|text| text == title));
     }
 
     #[test]

@@ -1,10 +1,12 @@
 //! Menu entries for choosing the true label of a scene.
 
+use std::collections::BTreeSet;
+
 use egui::{Ui, WidgetInfo};
 
 use crate::{
     app::{inspection::library_cache::LibraryView, language::text, ui::widgets::menu_list},
-    library::Truth,
+    library::{PartMeta, Truth},
 };
 
 /// Returns the title of a true label; `None` if it is not set.
@@ -45,8 +47,12 @@ pub(in crate::app) fn truth_entries(
             entry(ui, truth.clone());
         }
         ui.separator();
-        for part in &library.parts {
-            entry(ui, Some(Truth::Part(part.name.as_str().to_owned())));
+        // A part may have several references, of which a verdict names the part.
+        let mut seen = BTreeSet::new();
+        for part in library.parts.iter().map(PartMeta::part_name) {
+            if seen.insert(part) {
+                entry(ui, Some(Truth::Part(part.as_str().to_owned())));
+            }
         }
     });
 }

@@ -22,7 +22,7 @@ pub enum CompareAction {
     OpenCase(String),
     /// Set the truth of the case in front.
     SetTruth(Truth),
-    /// Compare with this part; without one the part follows from truth and verdict.
+    /// Compare with the reference of this entry; without one it follows from truth and verdict.
     Against(Option<String>),
     /// Set the remark that the case is kept with.
     Remark(String),

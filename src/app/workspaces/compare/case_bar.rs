@@ -1,4 +1,4 @@
-//! The bar of the case in front: its verdict, its truth, and the part that it is compared with.
+//! The bar of the case in front: its verdict, its truth, and the enrolled reference that it is compared with.
 
 use egui::{Button, RichText, Ui, WidgetInfo};
 
@@ -20,6 +20,8 @@ use crate::{
 
 /// A bar wider than this has room for a long remark.
 const WIDE: f32 = 800.0;
+/// Letters of the reference's title on the menu of references.
+const AGAINST: usize = 40;
 
 pub(super) fn ui(
     ui: &mut Ui,
@@ -179,26 +181,30 @@ fn against_menu(
         return;
     };
     let study = compare.study.as_ref();
-    let shown = study.and_then(|study| study.against.as_deref());
-    let now = shown.and_then(|part| library.place_of(part));
-    let now = now.map_or_else(
+    let shown = study.filter(|study| study.against.is_some());
+    let now = shown.map_or_else(
         || text!("compare-against-none"),
-        |place| library.title(place).to_owned(),
+        |study| study.against_title.clone(),
     );
     let chosen = compare.against.as_deref();
-    let hover = text!("compare-against-hint");
-    menu(ui, &format!("{now} ▼"), hover, &mut |ui| {
+    let fitting = shortened(&now, AGAINST);
+    let hint = text!("compare-against-hint");
+    let hover = if fitting == now {
+        hint
+    } else {
+        format!("{now}\n{hint}")
+    };
+    menu(ui, &format!("{fitting} ▼"), hover, &mut |ui| {
         let follows = ui.selectable_label(chosen.is_none(), text!("compare-against-follows"));
         if follows.clicked() {
             acts.push(CompareAction::Against(None));
             ui.close();
         }
-        for part in &library.parts {
+        for (part, title) in library.parts.iter().zip(library.reference_titles()) {
             let name = part.name.as_str();
-            let title = part.shown_title();
-            let response = ui.selectable_label(chosen == Some(name), title);
+            let response = ui.selectable_label(chosen == Some(name), &title);
             response.widget_info(|| {
-                let label = text!("compare-against-choice", part = title);
+                let label = text!("compare-against-choice", part = &title);
                 WidgetInfo::labeled(egui::Role::Button, true, label)
             });
             if response.clicked() {

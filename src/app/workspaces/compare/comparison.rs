@@ -33,7 +33,7 @@ pub enum AxisQuantity {
 /// The comparison of a scene's outline with that of an enrolled part.
 #[derive(Debug)]
 pub struct OutlineComparison {
-    /// Title of the part.
+    /// Title of the part, with the reference where the part has several.
     pub title: String,
     /// The matcher whose figures these are.
     pub matcher: Matcher,

@@ -1,11 +1,8 @@
-//! The distance of every enrolled part by both matchers; pressing a row compares with its part.
+//! The distance of every enrolled reference by both matchers; pressing a row compares with it.
 
 use egui::{Align2, Rect, RichText, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
 
-use super::{
-    CompareAction, CompareState,
-    study::{CaseStudy, PartDistance},
-};
+use super::{CompareAction, CompareState, study::PartDistance};
 use crate::{
     app::{
         inspection::unit_system::UnitSystem,
@@ -13,7 +10,7 @@ use crate::{
         shell::session::Session,
         ui::{
             theme::{ROUNDING, Theme, font, space},
-            widgets::focus_ring,
+            widgets::{fitted_middle, focus_ring},
         },
     },
     stages::rank::Matcher,
@@ -68,17 +65,18 @@ pub(super) fn ui(
         .auto_shrink(false)
         .show(ui, |ui| {
             for distance in &study.distances {
-                if row(ui, study, distance, session.units) {
-                    acts.push(CompareAction::Against(Some(distance.part.clone())));
+                let is_against = study.against.as_ref() == Some(&distance.enrolled_as);
+                if row(ui, distance, is_against, session.units) {
+                    let chosen = distance.enrolled_as.clone();
+                    acts.push(CompareAction::Against(Some(chosen)));
                 }
             }
         });
 }
 
 /// Draws a row; returns true if it was clicked.
-fn row(ui: &mut Ui, study: &CaseStudy, distance: &PartDistance, units: UnitSystem) -> bool {
+fn row(ui: &mut Ui, distance: &PartDistance, is_against: bool, units: UnitSystem) -> bool {
     let theme = Theme::of(ui);
-    let is_against = study.against.as_deref() == Some(&distance.part);
     let width = ui.available_width() - space::MEDIUM;
     // In a narrow row the figures are below the name.
     let is_wide = width > WIDE;
@@ -122,16 +120,8 @@ fn row(ui: &mut Ui, study: &CaseStudy, distance: &PartDistance, units: UnitSyste
     } else {
         font::body()
     };
-    let room = Rect::from_min_max(rect.min, pos2(end, rect.bottom()));
-    painter
-        .with_clip_rect(room.intersect(painter.clip_rect()))
-        .text(
-            inner.left_top(),
-            Align2::LEFT_TOP,
-            &distance.title,
-            name,
-            theme.text,
-        );
+    let title = fitted_middle(&painter, &distance.title, &name, end - inner.left());
+    painter.text(inner.left_top(), Align2::LEFT_TOP, title, name, theme.text);
     let colours = [theme.first_series, theme.second_series];
     for (place, (share, colour)) in distance.shares.iter().zip(colours).enumerate() {
         let top = inner.top() + 20.0 + below + 7.0 * place as f32;
@@ -147,5 +137,48 @@ fn row(ui: &mut Ui, study: &CaseStudy, distance: &PartDistance, units: UnitSyste
         paper = format!("{:.4e}", distance.paper),
         score = format!("{:.2}", distance.score),
     );
+    let hover = format!("{}\n{hover}", distance.title);
     response.on_hover_text(hover).clicked()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_long_title_keeps_its_end_and_stays_in_its_row() {
+        let ctx = egui::Context::default();
+        Theme::install_fonts(&ctx);
+        let distance = PartDistance {
+            part: "fender".into(),
+            enrolled_as: "fender_b".into(),
+            title: "Front fender of the red delivery van, left · fender_b".into(),
+            outline: Some(0.012),
+            paper: 1.5e6,
+            shares: [0.5; 2],
+            score: 0.97,
+        };
+        for width in [200.0, 350.0] {
+            let output = ctx.run_ui(egui::RawInput::default(), |ui| {
+                ui.set_max_width(width);
+                row(ui, &distance, false, UnitSystem::MillimetresDegrees);
+            });
+            let texts = output.shapes.iter().filter_map(|drawn| match &drawn.shape {
+                egui::Shape::Text(text) => {
+                    let text_and_right = (
+                        text.galley.text().to_owned(),
+                        text.visual_bounding_rect().right(),
+                    );
+                    Some(text_and_right)
+                }
+                _ => None,
+            });
+            let texts: Vec<(String, f32)> = texts.collect();
+            output.drop_without_applying_deltas();
+            let title = texts.iter().find(|(text, _)| text.contains('…'));
+            let (title, right) = title.expect("shortened");
+            assert!(title.ends_with("fender_b"), "{title}");
+            assert!(*right < width, "{title} ends at {right}");
+        }
+    }
 }

@@ -1,7 +1,8 @@
 //! The three pictures of a comparison: overlaid outlines, signatures, correlations.
 
 use egui::{
-    Align2, Color32, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
+    Align2, Color32, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, WidgetInfo, pos2,
+    vec2,
 };
 use egui_plot::FilledArea;
 
@@ -17,7 +18,7 @@ use crate::{
         ui::{
             plot::{Axes, Axis, RayCurves, curve, range_of},
             theme::{ROUNDING, Theme, font},
-            widgets::plane_in,
+            widgets::{fitted_middle, plane_in},
         },
     },
     stages::rank::Matcher,
@@ -139,6 +140,7 @@ fn empty(ui: &mut Ui, rects: [Rect; 3], compare: &CompareState) {
 struct Picture {
     painter: Painter,
     inner: Rect,
+    response: Response,
 }
 
 impl Picture {
@@ -172,6 +174,7 @@ impl Picture {
         Self {
             painter,
             inner: canvas.shrink(8.0),
+            response,
         }
     }
 
@@ -189,9 +192,14 @@ impl Picture {
 
     fn overlay(&self, comparison: &OutlineComparison, theme: &Theme) {
         let part = format!("- - {}", comparison.title);
+        let room = self.inner.width();
+        let shown = fitted_middle(&self.painter, &part, &font::small(), room);
+        if shown != part {
+            self.response.clone().on_hover_text(&comparison.title);
+        }
         self.legend(&[
             (&text!("compare-legend-query"), theme.first_series),
-            (&part, theme.reference_series),
+            (&shown, theme.reference_series),
         ]);
         let Some(overlay) = &comparison.overlay else {
             return;

@@ -40,7 +40,7 @@ pub struct CompareState {
     pub front: Front,
     /// Its truth, once chosen here or known from the history.
     pub truth: Option<Truth>,
-    /// The part to compare with, if one was chosen.
+    /// The entry of the reference to compare with, if one was chosen.
     pub against: Option<String>,
     /// The remark that the case is kept with.
     pub remark: String,

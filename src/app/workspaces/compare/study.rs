@@ -12,7 +12,7 @@ use crate::{
     },
     cases::{CaseFolder, FoundVerdict, KeptCase, Truth},
     library::Library,
-    pipeline::{self, Inspection, NamedRecipe, ProgressObserver, Refusal, Rejection},
+    pipeline::{self, Inspection, NamedRecipe, ProgressObserver, Refusal, Rejection, Verdict},
     stages::{
         rank::{MatchRanking, Matcher, Query, RankParams, rank},
         signature::LiteralSignature,
@@ -42,7 +42,7 @@ pub struct StudyRequest {
     pub recipe: Arc<NamedRecipe>,
     /// Its truth, if chosen here; otherwise the history is asked.
     pub truth: Option<Truth>,
-    /// The part to compare with, if one was chosen.
+    /// The enrolled reference to compare with, if one was chosen; the name of its entry.
     pub against: Option<String>,
 }
 
@@ -63,20 +63,25 @@ pub struct CaseStudy {
     pub refused: Option<Refusal>,
     /// Time of the inspection, milliseconds.
     pub time_ms: f64,
-    /// The distance of every part, nearest by the matcher in use first.
+    /// The distance of every enrolled reference, nearest by the matcher in use first.
     pub distances: Vec<PartDistance>,
-    /// Name of the part that it is compared with.
+    /// The enrolled reference that it is compared with; the name of its entry, which differs from the part's where that has
+    /// several.
     pub against: Option<String>,
+    /// Title of that reference.
+    pub against_title: String,
     /// `None` if the scene has no outline.
     pub comparison: Option<OutlineComparison>,
 }
 
-/// The distance of a part from the scene, by both matchers.
+/// The distance of an enrolled reference from the scene, by both matchers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PartDistance {
-    /// Enrolled name.
+    /// Name of the part.
     pub part: String,
-    /// Title of the part.
+    /// Name of the reference's entry.
+    pub enrolled_as: String,
+    /// Title of the part, with the reference where the part has several.
     pub title: String,
     /// Default matcher: root mean square distance of the outlines, metres.
     pub outline: Option<f64>,
@@ -152,7 +157,12 @@ pub fn study(
         row.ok()??.label
     };
     let truth = request.truth.clone().or_else(known);
-    let against = against(request, truth.as_ref(), &found, library);
+    let against = against(request, truth.as_ref(), &inspection, library);
+    let titles = shown.reference_titles();
+    let reference_title = |name: &str| {
+        let place = shown.place_of(name)?;
+        titles.get(place).cloned()
+    };
     let mut study = CaseStudy {
         inspected,
         truth,
@@ -166,6 +176,10 @@ pub fn study(
         distances: Vec::new(),
         comparison: None,
         found,
+        against_title: against
+            .as_deref()
+            .and_then(reference_title)
+            .unwrap_or_default(),
         against,
     };
     let Some(query) = inspection.query() else {
@@ -177,37 +191,49 @@ pub fn study(
     };
     let placed = rank(&query, &library.references, &by_outline);
     let chosen = request.recipe.rank.matcher;
-    study.distances = distances(&query, library, &placed, &inspection, chosen);
-    for distance in &mut study.distances {
-        distance.title = title_of(&distance.part);
-    }
-    if let Some(part) = study.against.as_deref()
-        && let Some(entry) = placed.entries.iter().find(|entry| entry.part == part)
+    study.distances = distances(&query, library, &placed, &inspection, &titles, chosen);
+    if let Some(name) = study.against.as_deref()
+        && let Some(entry) = placed.entries.iter().find(|e| e.enrolled_as == name)
         && let Some(reference) = library.references.get(entry.reference)
     {
         let placement = entry.placements.first();
-        let title = title_of(part);
         study.comparison = Some(OutlineComparison::of(
-            &title, &query, reference, placement, chosen,
+            &study.against_title,
+            &query,
+            reference,
+            placement,
+            chosen,
         ));
     }
     Ok(study)
 }
 
-/// The part chosen, else the true part where it differs from the one found, else the one found.
+/// Name of the entry to compare with: the one chosen, else the best reference of the true part where that differs from the one
+/// found, else of the one found.
 fn against(
     request: &StudyRequest,
     truth: Option<&Truth>,
-    found: &FoundVerdict,
+    inspection: &Inspection,
     library: &Library,
 ) -> Option<String> {
-    let is_enrolled = |name: &&str| library.references.iter().any(|r| r.name == **name);
+    let references = &library.references;
+    let is_enrolled = |name: &&str| references.iter().any(|r| r.enrolled_as == **name);
     let chosen = request.against.as_deref().filter(is_enrolled);
-    let truth = truth.and_then(Truth::part);
-    let part = chosen
-        .or(truth.filter(is_enrolled))
-        .or(found.part.as_deref());
-    part.map(str::to_owned)
+    let best_of = |part: &str| {
+        let mut ranked = inspection.ranking.entries.iter();
+        let best = ranked.find(|entry| entry.part == part);
+        // Without an outline nothing is ranked.
+        let any = || references.iter().find(|reference| reference.name == part);
+        best.map(|entry| &entry.enrolled_as)
+            .or_else(|| any().map(|reference| &reference.enrolled_as))
+    };
+    let truth = truth.and_then(Truth::part).and_then(best_of);
+    let found = || match &inspection.verdict {
+        Verdict::Part { part, .. } => best_of(part),
+        Verdict::NoPart(_) => None,
+    };
+    let best = || truth.or_else(found).cloned();
+    chosen.map(str::to_owned).or_else(best)
 }
 
 /// A share or probability with two decimals.
@@ -298,15 +324,18 @@ fn refused(why: &Refusal) -> String {
     }
 }
 
+/// The distances of the placed references; `titles` are those of the library's.
 fn distances(
     query: &Query<'_>,
     library: &Library,
     placed: &MatchRanking,
     inspection: &Inspection,
+    titles: &[String],
     matcher: Matcher,
 ) -> Vec<PartDistance> {
-    let score_of = |part: &str| {
-        let entry = inspection.ranking.entries.iter().find(|e| e.part == part);
+    let score_of = |reference: usize| {
+        let mut entries = inspection.ranking.entries.iter();
+        let entry = entries.find(|entry| entry.reference == reference);
         entry.map_or(0.0, |entry| entry.score)
     };
     let literal = LiteralSignature::of(&query.contour.outline_pixels);
@@ -317,11 +346,12 @@ fn distances(
             let reference = library.references.get(entry.reference)?;
             Some(PartDistance {
                 part: entry.part.clone(),
-                title: String::new(),
+                enrolled_as: entry.enrolled_as.clone(),
+                title: titles.get(entry.reference).cloned().unwrap_or_default(),
                 outline: Some(entry.distance).filter(|distance| distance.is_finite()),
                 paper: reference.literal().distance(&literal),
                 shares: [0.0; 2],
-                score: score_of(&entry.part),
+                score: score_of(entry.reference),
             })
         })
         .collect();
@@ -351,10 +381,10 @@ mod tests {
     use super::*;
     use crate::{
         app::{
-            inspection::{inspected::inspected_cell, source::CellChoice},
+            inspection::{camera::Camera, inspected::inspected_cell, source::CellChoice},
             language::Language,
         },
-        kit::shipped_library,
+        kit::{add_reference, copy_library, shipped_library},
         pipeline::{Recipe, Unwatched},
         simulate::{PartKind, Side},
     };
@@ -390,6 +420,39 @@ mod tests {
         assert!(other.comparison.expect("an outline").l1 > comparison.l1);
         request.against = Some("trunk_lid".into());
         assert_eq!(studied(&request).against.as_deref(), Some("trunk_lid"));
+    }
+
+    #[test]
+    fn every_reference_of_a_part_has_a_row_of_its_own_and_can_be_chosen() {
+        let folder = tempfile::tempdir().expect("a folder");
+        copy_library(folder.path());
+        add_reference(folder.path(), "fender", "fender_b");
+        let library = Some(folder.path().to_owned());
+        let library_cache = LibraryCache::new(library, Camera::default());
+        let studied = |request: &StudyRequest| study(request, &library_cache, &Unwatched);
+        let mut request = request(CellChoice::Part(PartKind::Fender, Side::Left));
+        for name in ["fender", "fender_b"] {
+            request.against = Some(name.into());
+            let study = studied(&request).expect("studied");
+            assert_eq!(study.against.as_deref(), Some(name));
+            let title = format!("Fender, left · {name}");
+            let row = study.distances.iter().find(|d| d.enrolled_as == name);
+            let row = row.expect("listed");
+            assert_eq!((row.part.as_str(), &row.title), ("fender", &title));
+            assert_eq!(study.against_title, title);
+            assert_eq!(study.comparison.expect("an outline").title, title);
+        }
+        // Without a choice it is the best reference of the true part.
+        request.against = None;
+        for (truth, title) in [("fender", "Fender, left · fender"), ("grille", "Grille")] {
+            request.truth = Some(Truth::Part(truth.into()));
+            let study = studied(&request).expect("studied");
+            assert!(
+                study.against_title.starts_with(title),
+                "{}",
+                study.against_title
+            );
+        }
     }
 
     #[test]

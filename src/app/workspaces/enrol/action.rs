@@ -64,7 +64,7 @@ pub enum EnrolAction {
     Remove(PartName),
     /// Replace this enrolled part by the draft or the next one.
     Replace(PartName),
-    /// Replace no part: the draft becomes a new one.
+    /// Replace no part: the draft becomes a new one, with the form that it had before.
     ReplaceNone,
     /// Remove the spray path of a part.
     RemovePath(PartName),

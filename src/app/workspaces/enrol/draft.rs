@@ -32,6 +32,8 @@ pub struct Draft {
     pub checked: Option<Result<Arc<Checked>, EnrolError>>,
     /// The form that describes the part.
     pub form: Form,
+    /// The form as it was until that of a part to replace took its place.
+    pub(super) form_before: Option<Form>,
     /// The scene that Inspect showed when the draft was taken, if any.
     pub(super) in_front: Weak<SceneCloud>,
 }
@@ -42,12 +44,21 @@ impl Draft {
         self.checked.as_ref()?.as_ref().ok()
     }
 
-    /// The enrolled part hardest to tell from the draft, other than the one that it replaces or is a reference of.
-    pub fn hardest(&self) -> Option<&Similarity> {
+    /// The enrolled reference hardest to tell from the draft, other than the one that it replaces and those of its own part.
+    pub fn hardest(&self, library: Option<&LibraryView>) -> Option<&Similarity> {
+        let name = self.form.name.as_str();
+        let of = self.form.reference_of.as_ref();
+        let of = of.map_or(name, PartName::as_str);
+        let part_of = |entry: &str| {
+            let library = library?;
+            Some(library.parts.get(library.place_of(entry)?)?.part_name())
+        };
         let mut all = self.ready()?.likenesses.iter();
-        let of = self.form.reference_of.as_ref().map(PartName::as_str);
-        // References of one part are alike.
-        all.find(|likeness| likeness.other != self.form.name && Some(likeness.other.as_str()) != of)
+        all.find(|likeness| {
+            let other = likeness.other.as_str();
+            // References of one part are alike.
+            other != name && part_of(other).map_or(other, PartName::as_str) != of
+        })
     }
 }
 

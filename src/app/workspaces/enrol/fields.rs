@@ -3,12 +3,15 @@
 use egui::{RichText, TextEdit, Ui, vec2};
 
 use super::draft::{Field, Form};
-use crate::app::{
-    language::{enrolment::bad_name, text},
-    ui::{
-        theme::{Theme, space},
-        widgets::{Mark, line_mark},
+use crate::{
+    app::{
+        language::{enrolment::bad_name, text},
+        ui::{
+            theme::{Theme, space},
+            widgets::{Mark, line_mark},
+        },
     },
+    library::MAX_TITLE,
 };
 
 /// Draws the fields; returns the one that was edited.
@@ -37,6 +40,11 @@ pub(super) fn ui(ui: &mut Ui, form: &Form) -> Option<Field> {
         1,
     ) {
         written = Some(Field::Title(title));
+    }
+    if form.title.chars().count() >= MAX_TITLE {
+        let text = text!("enrol-title-full", limit = MAX_TITLE);
+        let text = RichText::new(text).small().color(Theme::of(ui).warning);
+        ui.add(egui::Label::new(text).wrap());
     }
     if let Some(name) = line(
         ui,
@@ -81,4 +89,28 @@ pub(super) fn said(ui: &mut Ui, sign: Mark, text: &str) {
         let text: String = first.chain(letters).collect();
         ui.add(egui::Label::new(text).wrap());
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_title_that_has_reached_its_limit_says_so() {
+        let ctx = egui::Context::default();
+        Theme::install_fonts(&ctx);
+        for (entered, is_full) in [(79, false), (80, true), (120, true)] {
+            let mut form = Form::default();
+            form.write(Field::Title("x".repeat(entered)), None);
+            let output = ctx.run_ui(egui::RawInput::default(), |root| {
+                ui(root, &form);
+            });
+            let is_said = output.shapes.iter().any(|drawn| match &drawn.shape {
+                egui::Shape::Text(text) => text.galley.text().contains("at most 80 characters"),
+                _ => false,
+            });
+            output.drop_without_applying_deltas();
+            assert_eq!(is_said, is_full, "{entered}");
+        }
+    }
 }

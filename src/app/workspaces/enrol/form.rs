@@ -249,7 +249,8 @@ fn namesake(ui: &mut Ui, draft: &Draft, enrol: &EnrolState, session: &Session) {
 
 /// Draws which enrolled part is hardest to tell from the draft.
 fn likeness(ui: &mut Ui, draft: &Draft, session: &Session, actions: &mut Vec<EnrolAction>) {
-    let Some(likeness) = draft.hardest() else {
+    let library = session.library.as_deref();
+    let Some(likeness) = draft.hardest(library) else {
         return;
     };
     let title = title_of(session, &likeness.other);
@@ -280,7 +281,6 @@ fn likeness(ui: &mut Ui, draft: &Draft, session: &Session, actions: &mut Vec<Enr
         if text_button(ui, &text).clicked() {
             actions.push(EnrolAction::Replace(name.clone()));
         }
-        let library = session.library.as_deref();
         let other = library.and_then(|all| all.parts.iter().find(|part| part.name == name));
         let of = other.and_then(|part| part.reference_of()).unwrap_or(&name);
         let title = title_of(session, of.as_str());

@@ -1,6 +1,6 @@
 //! State of the workspace, and the actions that change it.
 
-use std::sync::Arc;
+use std::{mem, sync::Arc};
 
 use super::{
     action::{DraftPanes, EnrolAction, EnrolFile},
@@ -250,7 +250,12 @@ impl EnrolState {
             EnrolAction::Replace(name) => {
                 if let Some(form) = form_of(&name, library) {
                     if let Some(draft) = &mut self.draft {
-                        draft.form = form;
+                        let before = mem::replace(&mut draft.form, form);
+                        let replaced = self.replacing.as_ref().map(PartName::as_str);
+                        // The form of another part to replace was not written for this one.
+                        if replaced != Some(&before.name) {
+                            draft.form_before = Some(before);
+                        }
                     }
                     self.replacing = Some(name);
                     self.open = None;
@@ -259,7 +264,7 @@ impl EnrolState {
             EnrolAction::ReplaceNone => {
                 self.replacing = None;
                 if let Some(draft) = &mut self.draft {
-                    draft.form = Form::default();
+                    draft.form = draft.form_before.take().unwrap_or_default();
                 }
             }
             EnrolAction::RemovePath(name) => {
@@ -337,7 +342,7 @@ impl EnrolState {
                         text!("enrol-draft-differs-advice"),
                     ));
                 }
-                let is_outline_new = std::mem::take(&mut self.is_outline_new);
+                let is_outline_new = mem::take(&mut self.is_outline_new);
                 if let Some(draft) = &mut self.draft {
                     if is_outline_new && draft.selection.indices == selection.indices {
                         cx.notify(Notice::look(

@@ -139,7 +139,17 @@ impl EnrolState {
             }
             Some(form)
         });
-        let form = replaced.or(written).unwrap_or_default();
+        let (form, form_before) = match replaced {
+            Some(form) => {
+                let before = match &former {
+                    // Its form was that of the part to replace, too.
+                    Some(former) if former.form.name == form.name => former.form_before.clone(),
+                    _ => written,
+                };
+                (form, before)
+            }
+            None => (written.unwrap_or_default(), None),
+        };
         if let Some(former) = former {
             self.did(UndoStep::Draft(Some(Box::new(former))), cx);
         }
@@ -160,6 +170,7 @@ impl EnrolState {
             selection,
             checked: None,
             form,
+            form_before,
             in_front: if is_again {
                 Weak::new()
             } else {

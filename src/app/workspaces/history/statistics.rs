@@ -4,7 +4,7 @@
 
 use std::{cmp::Reverse, collections::BTreeMap};
 
-use egui::{Align2, Grid, RichText, ScrollArea, Sense, Ui, WidgetInfo, vec2};
+use egui::{Align2, Grid, RichText, ScrollArea, Sense, TextStyle, Ui, WidgetInfo, vec2};
 use egui_plot::{Bar, BarChart, LineStyle};
 use jiff::{Zoned, tz::TimeZone};
 
@@ -17,7 +17,7 @@ use crate::{
         ui::{
             plot::{Axes, Axis, legend},
             theme::{ROUNDING, Theme, font, space},
-            widgets::{heading, sentence},
+            widgets::{fitted_middle, heading, sentence},
         },
     },
     history::{PartOutcome, RefusalReason, StoredVerdict},
@@ -28,6 +28,8 @@ use crate::{
 const MAX_SHIFTS: usize = 21;
 /// Height of the plot, logical pixels.
 const HEIGHT: f32 = 220.0;
+/// Share of the width that a part's title takes at most.
+const MAX_TITLE_SHARE: f32 = 0.5;
 
 /// Numbers of parts that are OK and not OK.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -239,34 +241,7 @@ pub(super) fn ui(ui: &mut Ui, view: &StatisticsView, units: UnitSystem) {
             ui.weak(text!("history-no-part-left-out", count = count));
         }
         heading(ui, &text!("history-by-part"));
-        Grid::new("by part")
-            .num_columns(4)
-            .spacing(vec2(24.0, 4.0))
-            .show(ui, |ui| {
-                for name in [
-                    text!("history-column-part"),
-                    text!("operator-ok"),
-                    text!("operator-not-ok"),
-                    text!("history-ok-share"),
-                ] {
-                    ui.label(RichText::new(name).small().weak());
-                }
-                ui.end_row();
-                for (title, tally) in &found.parts {
-                    // Translate when drawing: the language may have changed since counting.
-                    let unknown = || stored_verdict(StoredVerdict::Unknown);
-                    let cells = [
-                        title.clone().unwrap_or_else(unknown),
-                        tally.num_ok.to_string(),
-                        tally.num_not_ok.to_string(),
-                        tally.share(),
-                    ];
-                    for text in cells {
-                        ui.label(text);
-                    }
-                    ui.end_row();
-                }
-            });
+        by_part(ui, &found.parts);
         if !found.reasons.is_empty() {
             heading(ui, &text!("history-by-reason"));
         }
@@ -281,6 +256,46 @@ pub(super) fn ui(ui: &mut Ui, view: &StatisticsView, units: UnitSystem) {
             ui.add(egui::Label::new(needed).wrap());
         }
     });
+}
+
+/// Draws a row for each part. A long title is shortened, so that the figures beside it stay in sight.
+fn by_part(ui: &mut Ui, parts: &[(Option<String>, Tally)]) {
+    let room = ui.available_width() * MAX_TITLE_SHARE;
+    let font = TextStyle::Body.resolve(ui.style());
+    Grid::new("by part")
+        .num_columns(4)
+        .spacing(vec2(24.0, 4.0))
+        .show(ui, |ui| {
+            for name in [
+                text!("history-column-part"),
+                text!("operator-ok"),
+                text!("operator-not-ok"),
+                text!("history-ok-share"),
+            ] {
+                ui.label(RichText::new(name).small().weak());
+            }
+            ui.end_row();
+            for (title, tally) in parts {
+                // Translate when drawing: the language may have changed since counting.
+                let unknown = || stored_verdict(StoredVerdict::Unknown);
+                let title = title.clone().unwrap_or_else(unknown);
+                let shown = fitted_middle(ui.painter(), &title, &font, room);
+                let is_whole = shown == title;
+                let label = ui.label(shown);
+                label.widget_info(|| WidgetInfo::labeled(egui::Role::Label, true, &title));
+                if !is_whole {
+                    label.on_hover_text(title);
+                }
+                for figure in [
+                    tally.num_ok.to_string(),
+                    tally.num_not_ok.to_string(),
+                    tally.share(),
+                ] {
+                    ui.label(figure);
+                }
+                ui.end_row();
+            }
+        });
 }
 
 /// A bar for each of the last shifts: accepted parts below, refused ones on top of them.
@@ -424,6 +439,45 @@ mod tests {
                 (Some("fender".into()), fender)
             ]
         );
+    }
+
+    #[test]
+    fn a_long_title_leaves_the_figures_in_sight() {
+        const WIDTH: f32 = 500.0;
+        let parts = [
+            "Front fender of the red delivery van, left. ".repeat(2),
+            "左前翼子板".repeat(16),
+        ];
+        let tally = Tally {
+            num_ok: 3,
+            num_not_ok: 1,
+        };
+        let parts = parts.map(|title| (Some(title), tally));
+        let ctx = egui::Context::default();
+        Theme::install_fonts(&ctx);
+        let mut output = ctx.run_ui(egui::RawInput::default(), |_| {});
+        // The size of the columns is known from the second frame on.
+        for _ in 0..2 {
+            output.drop_without_applying_deltas();
+            output = ctx.run_ui(egui::RawInput::default(), |ui| {
+                ui.set_max_width(WIDTH);
+                by_part(ui, &parts);
+            });
+        }
+        let texts = output.shapes.iter().filter_map(|drawn| match &drawn.shape {
+            egui::Shape::Text(text) => {
+                let right = text.visual_bounding_rect().right();
+                Some((text.galley.text().to_owned(), right))
+            }
+            _ => None,
+        });
+        let texts: Vec<(String, f32)> = texts.collect();
+        output.drop_without_applying_deltas();
+        let shares = texts.iter().filter(|(text, _)| text == "75.0 %");
+        assert_eq!(shares.count(), 2, "{texts:?}");
+        for (text, right) in &texts {
+            assert!(*right <= WIDTH, "{text} ends at {right}");
+        }
     }
 
     #[test]

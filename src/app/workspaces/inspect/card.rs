@@ -181,7 +181,8 @@ fn score(ui: &mut Ui, inspected: &Inspected, headline: &Headline) {
     };
     // A mirror image is called the image of a part that need not score more than the next one.
     let is_mirrored = inspected.inspection.verdict.is_mirrored();
-    let next = inspected.figures.candidates.get(1);
+    // Another reference of the same part is no other part.
+    let next = inspected.inspection.ranking.runner_up();
     let next = next.filter(|_| !is_mirrored);
     ui.add_space(space::MEDIUM);
     let name = if is_mirrored {
@@ -224,7 +225,7 @@ fn score(ui: &mut Ui, inspected: &Inspected, headline: &Headline) {
                 if let Some(next) = next {
                     let next = caption(text!(
                         "inspect-next",
-                        part = &next.title,
+                        part = inspected.library.title_of(&next.part),
                         score = format!("{:.2}", next.score)
                     ));
                     ui.add(Label::new(next).truncate());
@@ -342,5 +343,35 @@ fn footer(ui: &mut Ui, inspected: &Inspected, session: &Session) {
     if session.role == UserRole::Engineer {
         let label = recipe_label(&inspected.recipe.label);
         row(ui, &text!("inspect-recipe"), &shortened(&label, 28));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::inspection::{inspected::inspected_cell, source::CellChoice};
+
+    #[test]
+    fn the_next_part_is_not_another_reference_of_the_same_part() {
+        let mut found = inspected_cell(CellChoice::InTurn, 1);
+        let [first, second, third, ..] = &mut found.inspection.ranking.entries[..] else {
+            panic!("few parts");
+        };
+        second.part.clone_from(&first.part);
+        "front_door_b".clone_into(&mut second.enrolled_as);
+        "front_door_b".clone_into(&mut found.figures.candidates[1].title);
+        let next = found.library.title_of(&third.part);
+        let expected = format!("Next: {next} {:.2}", third.score);
+        let headline = Headline::of(&found, &Session::default());
+        let ctx = egui::Context::default();
+        Theme::install_fonts(&ctx);
+        let output = ctx.run_ui(egui::RawInput::default(), |ui| score(ui, &found, &headline));
+        let written = output.shapes.iter().filter_map(|drawn| match &drawn.shape {
+            egui::Shape::Text(text) => Some(text.galley.text().to_owned()),
+            _ => None,
+        });
+        let written: Vec<String> = written.collect();
+        output.drop_without_applying_deltas();
+        assert!(written.contains(&expected), "{written:?}");
     }
 }

@@ -58,14 +58,13 @@ impl Headline {
             return Self::not_yet(inspected, followed, is_live);
         }
         let verdict = &inspected.inspection.verdict;
-        let (part, certainty, rejected) = match verdict {
+        let (certainty, rejected) = match verdict {
             Verdict::Part {
-                part,
                 score,
                 margin,
                 rejected,
                 ..
-            } => (part, [*score, *margin], rejected),
+            } => ([*score, *margin], rejected),
             Verdict::NoPart(reason) => {
                 return Self {
                     title: text!("results-no-part"),
@@ -76,7 +75,7 @@ impl Headline {
             }
         };
         let best = inspected.figures.candidates.first();
-        let nearest = best.map_or_else(|| part.clone(), |best| best.title.clone());
+        let nearest = inspected.part_title().unwrap_or_default().to_owned();
         let Some(reason) = rejected else {
             return Self {
                 title: nearest,
@@ -116,8 +115,6 @@ impl Headline {
 
     /// Headline of a frame whose verdict does not count.
     fn not_yet(inspected: &Inspected, followed: &LiveFrameContext, is_live: bool) -> Self {
-        let is_part = matches!(inspected.inspection.verdict, Verdict::Part { .. });
-        let nearest = inspected.figures.candidates.first();
         let (title, why, advice) = match followed.stillness {
             MotionState::Moving if !is_live => (
                 text!("inspect-no-verdict"),
@@ -147,7 +144,7 @@ impl Headline {
         };
         Self {
             title,
-            nearest: nearest.filter(|_| is_part).map(|best| best.title.clone()),
+            nearest: inspected.part_title().map(str::to_owned),
             is_open: true,
             complaint: Some((why, advice)),
             ..Self::default()
@@ -218,6 +215,7 @@ mod tests {
     use crate::{
         app::inspection::{inspected::inspected_cell, source::CellChoice},
         library::Truth,
+        pipeline::live::LiveVerdict,
     };
 
     #[test]
@@ -241,6 +239,34 @@ mod tests {
             assert!(written.iter().any(|drawn| drawn == text), "{written:?}");
         }
         assert!(!written.iter().any(|drawn| drawn == "Accepted"));
+    }
+
+    #[test]
+    fn the_part_is_named_not_the_reference_that_was_found() {
+        let mut found = inspected_cell(CellChoice::InTurn, 1);
+        let session = Session::default();
+        "front_door_b".clone_into(&mut found.inspection.ranking.entries[0].enrolled_as);
+        "front_door_b".clone_into(&mut found.figures.candidates[0].title);
+        let headline = Headline::of(&found, &session);
+        assert_eq!(headline.title, "Front door, left");
+        found.followed = Some(LiveFrameContext {
+            stillness: MotionState::Moving,
+            standing: LiveVerdict::Open,
+        });
+        let headline = Headline::of(&found, &session);
+        assert_eq!(headline.nearest.as_deref(), Some("Front door, left"));
+        found.followed = None;
+        found.inspection.verdict = Verdict::Part {
+            part: "front_door".into(),
+            score: 0.85,
+            margin: 0.97,
+            rejected: Some(Rejection::NotSteady {
+                part: "front_door".into(),
+            }),
+            is_approximate: false,
+        };
+        let headline = Headline::of(&found, &session);
+        assert_eq!(headline.nearest.as_deref(), Some("Front door, left"));
     }
 
     #[test]

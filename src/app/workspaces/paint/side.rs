@@ -84,18 +84,19 @@ fn head(ui: &mut Ui, paint: &PaintState, session: &Session, actions: &mut Vec<Pa
         ui.label(text!("paint-library-loading"));
         return;
     };
-    let Some(part) = paint.part(session) else {
+    if library.parts.is_empty() {
         ui.label(text!("paint-no-part"));
         return;
-    };
-    let title = library.title_of(part.as_str());
-    let chosen = part.clone();
+    }
+    let chosen = paint.part(session);
+    let none = text!("paint-none-chosen");
+    let title = chosen.map_or(none.as_str(), |part| library.title_of(part.as_str()));
     let text = RichText::new(format!("{} ▼", shortened(title, TITLE))).font(font::verdict());
     let label = text!("paint-part", part = title);
     menu(ui, text, &label, text!("paint-part-hint"), |ui| {
         menu_list(ui, |ui| {
             for meta in &library.parts {
-                let is_chosen = meta.name == chosen;
+                let is_chosen = chosen == Some(&meta.name);
                 if ui
                     .selectable_label(is_chosen, library.title_of(meta.name.as_str()))
                     .clicked()
@@ -107,6 +108,11 @@ fn head(ui: &mut Ui, paint: &PaintState, session: &Session, actions: &mut Vec<Pa
         });
     });
     ui.spacing_mut().interact_size.y = 0.0;
+    if chosen.is_none() {
+        let text = RichText::new(text!("paint-recognised-gone")).color(theme.warning);
+        ui.add(Label::new(text).wrap());
+        return;
+    }
     if let Some(failed) = &paint.failed {
         let text = RichText::new(&failed.what).color(theme.rejected);
         ui.add(Label::new(text).wrap());

@@ -192,7 +192,7 @@ impl PaintState {
         !is_waiting && self.running().is_none() && self.writing().is_none()
     }
 
-    /// The part to paint: the one chosen, else the one recognised last, else the first.
+    /// The part to paint: the one chosen, else the one recognised last, else, if none was recognised, the first.
     pub fn part<'a>(&self, session: &'a Session) -> Option<&'a PartName> {
         Some(&self.enrolled(session)?.name)
     }
@@ -203,14 +203,15 @@ impl PaintState {
         let named = |name: &str| parts.iter().find(|part| part.name.as_str() == name);
         let chosen = self.design.part.as_ref();
         let chosen = chosen.and_then(|chosen| named(chosen.as_str()));
-        let recognised = || {
-            let verdict = &session.shown.as_ref()?.inspected.inspection.verdict;
-            let Verdict::Part { part, .. } = verdict else {
-                return None;
-            };
-            named(part)
-        };
-        chosen.or_else(recognised).or_else(|| parts.first())
+        if chosen.is_some() {
+            return chosen;
+        }
+        let shown = session.shown.as_ref();
+        let inspection = shown.map(|shown| &shown.inspected.inspection);
+        match inspection.map(|inspection| (&inspection.verdict, inspection.reference())) {
+            Some((Verdict::Part { part, .. }, reference)) => recognised(part, reference, parts),
+            _ => parts.first(),
+        }
     }
 
     /// The path stored with the part, if any.
@@ -456,6 +457,22 @@ impl PaintState {
             }
         }
     }
+}
+
+/// The entry of a recognised part: the reference found, since each has a frame and a path of its own; if that is no longer
+/// enrolled, the part's own reference, else another one of the part. Never another part.
+fn recognised<'a>(
+    part: &str,
+    reference: Option<&str>,
+    parts: &'a [PartMeta],
+) -> Option<&'a PartMeta> {
+    let references = parts.iter();
+    let references = references.filter(|entry| entry.part_name().as_str() == part);
+    references.min_by_key(|entry| match entry.name.as_str() {
+        name if reference == Some(name) => 0,
+        name if name == part => 1,
+        _ => 2,
+    })
 }
 
 #[cfg(test)]

@@ -432,7 +432,8 @@ fn what_is_checked_names_the_part_that_is_hardest_to_tell_from() {
     bench.take(80);
     bench.named("Twin");
     let draft = bench.enrol.draft.as_ref().expect("a draft");
-    let hardest = draft.hardest().expect("one is enrolled");
+    let library = bench.shell.session.library.as_deref();
+    let hardest = draft.hardest(library).expect("one is enrolled");
     assert!(
         hardest.other == "plate" && !hardest.is_distinguishable(),
         "{hardest}"
@@ -441,7 +442,72 @@ fn what_is_checked_names_the_part_that_is_hardest_to_tell_from() {
         PartName::new("plate").expect("a name"),
     ));
     let draft = bench.enrol.draft.as_ref().expect("a draft");
-    assert!(draft.hardest().is_none(), "it replaces the only one");
+    let library = bench.shell.session.library.as_deref();
+    assert!(draft.hardest(library).is_none(), "it replaces the only one");
+}
+
+#[test]
+fn no_reference_of_its_own_part_is_hard_to_tell_from_the_draft() {
+    let mut bench = Bench::new();
+    let plate = PartName::new("plate").expect("a name");
+    let of_plate = || EnrolAction::Write(Field::ReferenceOf(Some(plate.clone())));
+    for title in ["Plate", "Plate, bent"] {
+        bench.take(80);
+        bench.named(title);
+        if title != "Plate" {
+            bench.act(of_plate());
+        }
+        bench.act(EnrolAction::Save);
+    }
+    assert_eq!(bench.names(), ["plate", "plate_bent"]);
+    let hardest = |bench: &Bench| {
+        let draft = bench.enrol.draft.as_ref().expect("a draft");
+        let library = bench.shell.session.library.as_deref();
+        draft.hardest(library).map(|hardest| hardest.other.clone())
+    };
+    bench.take(80);
+    bench.named("Third");
+    assert!(hardest(&bench).is_some(), "a part of its own");
+    bench.act(of_plate());
+    assert_eq!(hardest(&bench), None);
+    bench.act(EnrolAction::Write(Field::ReferenceOf(None)));
+    bench.act(EnrolAction::Replace(plate));
+    assert_eq!(hardest(&bench), None);
+}
+
+#[test]
+fn what_was_written_comes_back_if_no_part_is_replaced_after_all() {
+    let mut bench = Bench::new();
+    for (width, title) in [(80, "Plate"), (90, "Sheet")] {
+        bench.take(width);
+        bench.named(title);
+        bench.act(EnrolAction::Save);
+    }
+    let [plate, sheet] = ["plate", "sheet"].map(|name| PartName::new(name).expect("a name"));
+    let form = |bench: &Bench| {
+        let draft = bench.enrol.draft.as_ref().expect("a draft");
+        draft.form.clone()
+    };
+    bench.take(100);
+    bench.named("My plate");
+    bench.act(EnrolAction::Write(Field::Notes("Batch 7".into())));
+    let written = form(&bench);
+    // Another part to replace, and another draft for it, change nothing of what was written.
+    bench.act(EnrolAction::Replace(plate.clone()));
+    bench.act(EnrolAction::Replace(sheet));
+    assert_eq!(form(&bench).title, "Sheet");
+    bench.take(110);
+    assert_eq!(form(&bench).title, "Sheet");
+    bench.act(EnrolAction::ReplaceNone);
+    assert_eq!(form(&bench), written);
+    assert!(bench.enrol.replacing.is_none());
+    // Without a draft, the replacement is chosen before anything is written.
+    bench.act(EnrolAction::Discard);
+    bench.act(EnrolAction::Replace(plate));
+    bench.take(120);
+    assert_eq!(form(&bench).title, "Plate");
+    bench.act(EnrolAction::ReplaceNone);
+    assert_eq!(form(&bench), Form::default());
 }
 
 #[test]

@@ -12,7 +12,7 @@ use crate::{
         workspaces::paint::RegionUse,
     },
     geometry::rigid::from_euler_zyx,
-    kit::copy_library,
+    kit::{add_reference, copy_library},
     library::{LibraryFolder, PartNaming},
     paint::{KeepOut, PathEdit},
     robot::RobotFrame,
@@ -391,6 +391,42 @@ fn a_stroke_moved_by_hand_stays_until_another_path_is_planned_and_undo_brings_it
     assert_eq!(bench.planned().path, moved);
     bench.run(PaintAction::Undo);
     assert_eq!(bench.planned().path, planned);
+}
+
+#[test]
+fn the_reference_that_was_recognised_is_painted_and_never_another_part() {
+    let mut bench = Bench::new();
+    add_reference(&bench.data.path().join("parts"), "fender", "fender_b");
+    // No part is chosen yet.
+    bench.act(PaintAction::Undo);
+    let choice = CellChoice::Part(PartKind::Fender, Side::Left);
+    let mut inspected = inspected_cell(choice, 1);
+    "fender_b".clone_into(&mut inspected.inspection.ranking.entries[0].enrolled_as);
+    bench.shell.session.shown = Some(Shown {
+        generation: 1,
+        inspected: Arc::new(inspected),
+        is_past: false,
+        session: None,
+        is_outdated: false,
+    });
+    bench.reload();
+    assert_eq!(bench.planned().part.as_str(), "fender_b");
+    let name = |name: &str| PartName::new(name).expect("a name");
+    let own = bench.folder().remove(&name("fender")).expect("removed");
+    bench.reload();
+    assert_eq!(bench.planned().part.as_str(), "fender_b");
+    bench.folder().remove(&name("fender_b")).expect("removed");
+    bench.reload();
+    assert_eq!(bench.paint.part(&bench.shell.session), None);
+    assert!(bench.paint.planned.is_none() && !bench.paint.is_planning());
+    bench.folder().restore(&own).expect("restored");
+    bench.reload();
+    assert_eq!(bench.planned().part.as_str(), "fender");
+    // Without a recognised part it is the first.
+    bench.shell.session.shown = None;
+    let first = bench.paint.part(&bench.shell.session);
+    let library = bench.shell.session.library.as_ref().expect("loaded");
+    assert_eq!(first, Some(&library.parts[0].name));
 }
 
 #[test]
