@@ -479,7 +479,7 @@ mod tests {
             let found = DepthCamera::misspelt_fields(&image).into_iter();
             found.map(|field| field.known).collect::<Vec<_>>()
         };
-        assert_eq!(found(r#"{"mirored":true}"#), ["mirrored"]);
+        assert_eq!(found(r#"{"mirror_ed":true}"#), ["mirrored"]);
         assert_eq!(found(r#"{"Mirrored":true,"K1":0.1}"#), ["k1", "mirrored"]);
         assert_eq!(found(r#"{"rotate":90}"#), ["rotated"]);
         assert_eq!(found(r#"{"mirrored":true,"Mirrored":true}"#), [""; 0]);
@@ -488,7 +488,8 @@ mod tests {
         assert_eq!(found(other), [""; 0]);
         assert_eq!(found("no JSON"), [""; 0]);
         let cloud = folder.path().join("a.pcd");
-        std::fs::write(folder.path().join(FOLDER_CAMERA), r#"{"mirored":true}"#).expect("written");
+        std::fs::write(folder.path().join(FOLDER_CAMERA), r#"{"mirror_ed":true}"#)
+            .expect("written");
         assert!(DepthCamera::misspelt_fields(&cloud).is_empty());
     }
 
