@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize, de::IgnoredAny};
 
 use super::depth_png::{FOLDER_CAMERA, intrinsics_path};
 use super::error::FileError;
+use super::names::num_edits;
 use super::open::file_of;
 use super::source::read_limited;
 use crate::error::Advice;
@@ -225,26 +226,8 @@ fn is_nearly(written: &str, known: &str) -> bool {
     if written == known {
         return false;
     }
-    let written = written.to_ascii_lowercase();
-    written == known
-        || known.len() >= LEAST_LETTERS && num_edits(written.as_bytes(), known) <= MOST_WRONG
-}
-
-/// The edit distance of V. I. Levenshtein, "Binary codes capable of correcting deletions, insertions, and reversals",
-/// Soviet Physics Doklady 10(8), 1966.
-fn num_edits(written: &[u8], known: &str) -> usize {
-    // Edits from the first letters of `known`, of each number, to the letters of `written` so far.
-    let mut edits: Vec<usize> = (0..=known.len()).collect();
-    for (row, letter) in written.iter().enumerate() {
-        let mut diagonal = row;
-        edits[0] = row + 1;
-        for (column, other) in known.bytes().enumerate() {
-            let exchanged = diagonal + usize::from(*letter != other);
-            diagonal = edits[column + 1];
-            edits[column + 1] = exchanged.min(diagonal + 1).min(edits[column] + 1);
-        }
-    }
-    edits[known.len()]
+    written.eq_ignore_ascii_case(known)
+        || known.len() >= LEAST_LETTERS && num_edits(written, known) <= MOST_WRONG
 }
 
 /// Returns the misspelt fields of a camera's JSON.

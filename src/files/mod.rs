@@ -63,7 +63,7 @@ pub(crate) use self::folders::{
     file_name, folder_of, new_folder, sync_folder, user_data, write_file,
 };
 pub(crate) use self::names::{nearest_name, stays_inside};
-
+#[cfg(feature = "cli")]
 pub(crate) use self::open::ONLY_MILLIMETRES;
 pub use self::open::{FileContent, FileWarning, file_of, open, open_bytes};
 pub use self::pcd::write_pcd;

@@ -32,9 +32,12 @@ pub(crate) fn nearest_name<'a>(
     wanted: &str,
 ) -> Option<&'a str> {
     let nearest = nearest_first(names, wanted).first().copied()?;
-    let wanted = letters_of(wanted);
-    let edits = edits_between(&letters_of(nearest), &wanted);
-    (2 * edits <= wanted.len()).then_some(nearest)
+    (2 * num_edits(nearest, wanted) <= letters_of(wanted).len()).then_some(nearest)
+}
+
+/// Counts the letters and digits by which two names differ.
+pub(super) fn num_edits(a: &str, b: &str) -> usize {
+    edits_between(&letters_of(a), &letters_of(b))
 }
 
 fn nearest_first<'a>(names: impl Iterator<Item = &'a str>, wanted: &str) -> Vec<&'a str> {
