@@ -131,12 +131,15 @@ impl TryFrom<Written> for DepthCamera {
         let metres_per_unit = match (written.metres_per_unit, written.depth_scale) {
             (Some(metres), None) => metres,
             (None, Some(scale)) => metres_of_scale(scale)?,
-            (Some(metres), Some(scale)) if is_same(metres, metres_of_scale(scale)?) => metres,
-            (Some(metres), Some(scale)) => {
+            // A scale that is no unit, such as 1, is another program's own.
+            (Some(metres), Some(scale))
+                if metres_of_scale(scale).is_ok_and(|other| !is_same(metres, other)) =>
+            {
                 return Err(format!(
                     "metres_per_unit is {metres} and depth_scale {scale}, which are different units: remove the wrong one"
                 ));
             }
+            (Some(metres), Some(_)) => metres,
             (None, None) => return Err("missing field `metres_per_unit`".into()),
         };
         let mut intrinsics = written.intrinsics;
@@ -443,6 +446,8 @@ mod tests {
         let refused = |extra: &str| camera(extra).expect_err(extra);
         let units = refused(r#","metres_per_unit":0.001,"depth_scale":4000"#);
         assert!(units.contains("remove the wrong one"), "{units}");
+        let other = camera(r#","metres_per_unit":0.001,"depth_scale":1"#).expect("no unit");
+        assert!((other.metres_per_unit - 0.001).abs() < 1e-12);
         for listed in ["[0,0,0,0,0]", r#"{"k1":-0.2}"#] {
             let extra = format!(r#","metres_per_unit":0.001,"k1":0.1,"distortion":{listed}"#);
             let lens = refused(&extra);

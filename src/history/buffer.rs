@@ -323,9 +323,11 @@ impl HistoryBuffer {
         if inner.history.is_some() && !inner.is_only_read {
             return Ok(());
         }
+        // Opening checks the file, and no connection of this process may have it open then.
+        inner.history = None;
         let opened = History::open(place);
         inner.is_only_read = opened.is_err();
-        if let (Err(error), None) = (&opened, &inner.history) {
+        if let Err(error) = &opened {
             inner.history = History::only_read(place, error).map(|(history, _)| history);
         }
         let OpenedHistory {

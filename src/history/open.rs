@@ -111,14 +111,22 @@ impl History {
 
     /// Closes a history whose file was moved, deleted or replaced.
     pub(super) fn close_replaced(self) -> HistoryError {
-        // If the log was left behind, write its rows to the file that was moved and empty the log: SQLite would apply it
+        // If the log was left behind, write its rows to the file that was moved and remove the log: SQLite would apply it
         // to the next file of this name.
-        let log = file_identity(&with_ending(&self.path, "-wal")).ok();
-        if log.is_some() && log == self.log {
+        let [log, index] = ["-wal", "-shm"].map(|ending| with_ending(&self.path, ending));
+        let found = file_identity(&log).ok();
+        if found.is_some() && found == self.log {
             let write_back = "PRAGMA wal_checkpoint(TRUNCATE)";
-            // If that fails, there is no other way.
-            let _ = self.file.query_row(write_back, [], |_| Ok(()));
+            let is_busy = (self.file).query_row(write_back, [], |row| row.get::<_, i64>(0));
+            // If that fails, or somebody still reads the log, there is no other way.
+            if is_busy == Ok(0) {
+                let _ = disk::remove_file(log);
+                let _ = disk::remove_file(index);
+            }
         }
+        // Closing would delete the log of the next file, which SQLite finds by its name.
+        let no_write_back = DbConfig::SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE;
+        let _ = self.file.set_db_config(no_write_back, true);
         HistoryError::Replaced { path: self.path }
     }
 
@@ -182,9 +190,14 @@ pub(super) fn file_identity(path: &Path) -> io::Result<[u64; 2]> {
 
 /// Returns the file as a URI with this parameter.
 fn address(path: &Path, how: &str) -> String {
-    let escaped = path.to_string_lossy();
-    let escaped = escaped.replace('%', "%25");
-    let escaped = escaped.replace('?', "%3f").replace('#', "%23");
+    // Byte by byte, because a name need not be text.
+    let bytes = path.as_os_str().as_encoded_bytes().iter();
+    let escaped: String = bytes
+        .map(|byte| match byte {
+            b'%' | b'?' | b'#' | 0x80.. => format!("%{byte:02x}"),
+            _ => char::from(*byte).to_string(),
+        })
+        .collect();
     format!("file:{escaped}?{how}")
 }
 

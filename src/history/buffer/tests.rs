@@ -362,3 +362,33 @@ fn a_history_that_was_moved_away_keeps_its_rows_and_frames_and_a_new_one_gets_th
     assert_eq!(row.summary.at, moment(3));
     assert_eq!(numbers(&keeper), [1]);
 }
+
+#[cfg(unix)]
+#[test]
+fn two_programs_whose_history_was_moved_away_go_on_in_one_new_file() {
+    let home = tempfile::tempdir().expect("a folder");
+    let keepers = [(); 2].map(|()| HistoryBuffer::new(Some(home.path().to_owned())));
+    let [one, other] = &keepers;
+    let now = Instant::now();
+    one.add(1, not_accepted(1), now);
+    other.add(2, not_accepted(2), now);
+    let archive = home.path().join("archive");
+    fs::create_dir(&archive).expect("made");
+    // Without its log.
+    fs::rename(home.path().join(FILE), archive.join(FILE)).expect("moved");
+    one.add(3, not_accepted(3), now);
+    one.add(4, not_accepted(4), now);
+    other.add(5, not_accepted(5), now);
+    one.add(6, not_accepted(6), now);
+    drop(keepers);
+    for (folder, seconds) in [
+        (archive.as_path(), &[1, 2][..]),
+        (home.path(), &[3, 4, 5, 6]),
+    ] {
+        let history = open_history(folder);
+        for (number, seconds) in (1..).zip(seconds) {
+            let row = history.known(number).expect("kept").summary;
+            assert_eq!(row.at, moment(*seconds), "{number} of {}", folder.display());
+        }
+    }
+}
