@@ -129,7 +129,6 @@ impl TryFrom<Written> for DepthCamera {
 
     fn try_from(written: Written) -> Result<Self, String> {
         let metres_per_unit = match (written.metres_per_unit, written.depth_scale) {
-            (Some(metres), None) => metres,
             (None, Some(scale)) => metres_of_scale(scale)?,
             // A scale that is no unit, such as 1, is another program's own.
             (Some(metres), Some(scale))
@@ -139,7 +138,7 @@ impl TryFrom<Written> for DepthCamera {
                     "metres_per_unit is {metres} and depth_scale {scale}, which are different units: remove the wrong one"
                 ));
             }
-            (Some(metres), Some(_)) => metres,
+            (Some(metres), _) => metres,
             (None, None) => return Err("missing field `metres_per_unit`".into()),
         };
         let mut intrinsics = written.intrinsics;
