@@ -97,7 +97,7 @@ impl History {
         })
     }
 
-    /// Returns whether the file was moved, deleted or replaced since it was opened: nobody would find what is written now.
+    /// Returns true if the file was moved, deleted or replaced since it was opened: rows written to it now would not be found.
     pub(super) fn is_replaced(&self) -> bool {
         let is_other = |opened| match file_identity(&self.path) {
             Ok(found) => found != opened,
@@ -321,7 +321,7 @@ fn refuse_foreign(path: &Path) -> Result<(), HistoryError> {
     }
 }
 
-/// Opens the file as it is without its log, and writes nothing, not even beside it; `None` if it is missing.
+/// Opens the file read-only and ignores its log; creates no other file. `None` if the file is missing.
 fn open_without_log(path: &Path) -> Result<Option<Connection>, HistoryError> {
     match fs::metadata(path) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
@@ -362,8 +362,8 @@ const MAGIC: &[u8; 16] = b"SQLite format 3\0";
 const LOG_MAGIC: u32 = 0x377f_0682;
 
 impl Header {
-    /// Reads the header; `None` if the file is missing or empty. Call it only while nobody has the file open, not even this
-    /// process.
+    /// Reads the header; `None` if the file is missing or empty. Call it only while no process has the file open, this one
+    /// included.
     fn read(path: &Path) -> Result<Option<Self>, HistoryError> {
         let damaged = |what: &str| HistoryError::Damaged {
             path: path.to_owned(),

@@ -278,16 +278,20 @@ fn a_trigger_without_a_frame_is_a_line_of_json_as_well() {
     );
 }
 
-#[cfg(target_os = "linux")]
-#[test]
-fn a_service_whose_disk_is_full_warns_once_and_goes_on() {
-    let place = Workplace::new();
-    let source = ["--source", "simulated,fps=5:fender", "--as", "kuka"];
-    let args = [&source[..], &["--listen", "ascii=0", "--no-history"]].concat();
-    let full = fs::File::options().write(true).open("/dev/full");
-    let mut service = Service::start_into(&place, &args, full.expect("there").into());
+/// Serves without a history.
+const WITHOUT_HISTORY: [&str; 7] = [
+    "--source",
+    "simulated,fps=5:fender",
+    "--as",
+    "kuka",
+    "--listen",
+    "ascii=0",
+    "--no-history",
+];
+
+/// Triggers twice, and expects two answers, one warning and, at the end, this exit code.
+fn warns_once_and_goes_on(mut service: Service, message: &str, exit_code: i32) {
     let mut robot = service.connect("ascii");
-    let message = "the output could not be written: the disk is full";
     for _ in 0..2 {
         let answer = asked(&mut robot, "TRIGGER\n");
         assert!(answer.starts_with("TRIGGER;accepted;"), "{answer}");
@@ -298,31 +302,28 @@ fn a_service_whose_disk_is_full_warns_once_and_goes_on() {
         }
     }
     let (code, _, messages) = service.interrupt();
-    assert_eq!(code, Some(2), "{messages}");
+    assert_eq!(code, Some(exit_code), "{messages}");
     assert_eq!(messages.matches(message).count(), 1, "{messages}");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_service_whose_disk_is_full_warns_once_and_goes_on() {
+    let place = Workplace::new();
+    let full = fs::File::options().write(true).open("/dev/full");
+    let full = full.expect("there").into();
+    let service = Service::start_into(&place, &WITHOUT_HISTORY, full);
+    let message = "the output could not be written: the disk is full";
+    warns_once_and_goes_on(service, message, 2);
 }
 
 #[test]
 fn a_service_whose_reader_has_ended_warns_once_and_goes_on() {
     let place = Workplace::new();
-    let source = ["--source", "simulated,fps=5:fender", "--as", "kuka"];
-    let args = [&source[..], &["--listen", "ascii=0", "--no-history"]].concat();
-    let mut service = Service::start(&place, &args);
+    let mut service = Service::start(&place, &WITHOUT_HISTORY);
     drop(service.child.stdout.take());
-    let mut robot = service.connect("ascii");
-    let message = "warning: nobody reads the output any more";
-    for _ in 0..2 {
-        let answer = asked(&mut robot, "TRIGGER\n");
-        assert!(answer.starts_with("TRIGGER;accepted;"), "{answer}");
-        let until = Instant::now() + PATIENCE;
-        while !service.messages().contains(message) {
-            assert!(Instant::now() < until, "{}", service.messages());
-            thread::sleep(Duration::from_millis(20));
-        }
-    }
-    let (code, _, messages) = service.interrupt();
-    assert_eq!(code, Some(0), "{messages}");
-    assert_eq!(messages.matches(message).count(), 1, "{messages}");
+    let message = "warning: the reader of the standard output has closed it";
+    warns_once_and_goes_on(service, message, 0);
 }
 
 #[test]

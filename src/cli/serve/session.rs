@@ -265,12 +265,12 @@ impl ServeSession<'_> {
         }
     }
 
-    /// Warns once that nobody reads the output any more. A closed pipe stays closed, so no line is tried again.
+    /// Warns once that standard output was closed. A closed pipe cannot be reopened, so no line is tried again.
     fn look_at_output(&mut self) {
         if !self.has_told_closed && !self.console.is_read() {
             self.has_told_closed = true;
             self.console.advise(
-                &"warning: nobody reads the output any more; the service goes on without it",
+                &"warning: the reader of the standard output has closed it; the service goes on without it",
                 &"Check the program that reads it, then start the service again together with it",
             );
         }

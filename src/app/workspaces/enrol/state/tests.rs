@@ -124,6 +124,17 @@ impl Bench {
         self.work();
     }
 
+    fn with_plate_and_sheet() -> (Self, [PartName; 2]) {
+        let mut bench = Self::new();
+        for (width, title) in [(80, "Plate"), (90, "Sheet")] {
+            bench.take(width);
+            bench.named(title);
+            bench.act(EnrolAction::Save);
+        }
+        let names = ["plate", "sheet"].map(|name| PartName::new(name).expect("a name"));
+        (bench, names)
+    }
+
     fn named(&mut self, title: &str) {
         self.act(EnrolAction::Write(Field::Title(title.into())));
     }
@@ -364,13 +375,7 @@ fn one_change_of_the_library_at_a_time() {
 
 #[test]
 fn an_undo_while_the_library_is_changed_leaves_the_order_of_the_steps() {
-    let mut bench = Bench::new();
-    for (width, title) in [(80, "Plate"), (90, "Sheet")] {
-        bench.take(width);
-        bench.named(title);
-        bench.act(EnrolAction::Save);
-    }
-    let [plate, sheet] = ["plate", "sheet"].map(|name| PartName::new(name).expect("a name"));
+    let (mut bench, [plate, sheet]) = Bench::with_plate_and_sheet();
     bench.take(100);
     bench.act(EnrolAction::Remove(plate));
     bench.begin(EnrolAction::Remove(sheet));
@@ -477,13 +482,7 @@ fn no_reference_of_its_own_part_is_hard_to_tell_from_the_draft() {
 
 #[test]
 fn what_was_written_comes_back_if_no_part_is_replaced_after_all() {
-    let mut bench = Bench::new();
-    for (width, title) in [(80, "Plate"), (90, "Sheet")] {
-        bench.take(width);
-        bench.named(title);
-        bench.act(EnrolAction::Save);
-    }
-    let [plate, sheet] = ["plate", "sheet"].map(|name| PartName::new(name).expect("a name"));
+    let (mut bench, [plate, sheet]) = Bench::with_plate_and_sheet();
     let form = |bench: &Bench| {
         let draft = bench.enrol.draft.as_ref().expect("a draft");
         draft.form.clone()
