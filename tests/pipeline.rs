@@ -16,7 +16,7 @@ use partsight::{
         parallel::on_one_core,
         rigid::pose_error,
     },
-    library::{EnrolParams, Library},
+    library::{EnrolParams, Library, PartDescription, PartName, enrol_surface},
     pipeline::{
         Cancelled, Inspection, PoseChoice, ProgressObserver, Recipe, Rejection, Stage,
         Unrecognisable, Unwatched, Verdict, run,
@@ -581,4 +581,45 @@ fn a_second_reference_of_the_same_part_takes_nothing_from_its_margin() {
         .cloned();
     library.references.extend(again);
     assert!((margin(&library) - alone).abs() < 1e-9);
+}
+
+#[test]
+fn a_part_that_looks_the_same_after_a_turn_has_an_ambiguous_pose_in_every_view() {
+    for object in [ObjectKind::Box, ObjectKind::Wheel] {
+        let seen = |turn: f64, seed| {
+            let mut setup = CellSetup::new(SimulatedObject::Object(object), seed);
+            setup.pose = PartPose::Fixed(Isometry3::from_parts(
+                Vector3::new(0.0, 0.0, 1.5).into(),
+                UnitQuaternion::from_axis_angle(&Vector3::z_axis(), turn),
+            ));
+            scene_of(&setup)
+        };
+        let about = PartDescription {
+            name: PartName::new(object.name()).expect("a name"),
+            title: String::new(),
+            notes: String::new(),
+            from: String::new(),
+            at: jiff::Timestamp::UNIX_EPOCH,
+            simulated: true,
+        };
+        let enrolled = enrol_surface(&seen(0.0, 1), 1, &about, &EnrolParams::default());
+        let library = Library {
+            references: vec![enrolled.expect("a part").reference],
+        };
+        let mut num_accepted = 0;
+        for (seed, turn) in [0.0, 0.09, 1.57, 2.5, 3.14, 4.0].into_iter().enumerate() {
+            let scene = seen(turn, 2 + seed as u64);
+            let inspection = inspected(&scene, &library, &Recipe::default());
+            if inspection.verdict.is_accepted() {
+                num_accepted += 1;
+                let pose = inspection.found_pose().expect("a pose");
+                assert!(
+                    pose.is_ambiguous(),
+                    "{object:?} at {turn}: {:?}",
+                    pose.runner_up
+                );
+            }
+        }
+        assert!(num_accepted >= 3, "{object:?}: {num_accepted}");
+    }
 }

@@ -5,6 +5,7 @@
 //! directions about 20 to 25 degrees around it. A view goes through the same projection, contour and signature as a scene.
 
 pub mod border;
+mod symmetry;
 mod view;
 mod view_cut;
 mod viewpoints;
@@ -20,7 +21,9 @@ use self::{
 pub use self::{view::ReferenceView, view_cut::ViewCut, viewpoints::seen_around};
 use crate::{
     error::Advice,
-    geometry::{cloud::PointCloud, nearest::KdTree, nearest_field::NearestField},
+    geometry::{
+        cloud::PointCloud, nearest::KdTree, nearest_field::NearestField, rigid::RigidTransform,
+    },
     stages::{
         contour::{Contour, ContourParams, lift_oriented},
         correlation::{LiteralReference, RaySpectra},
@@ -110,6 +113,8 @@ pub struct Reference {
     summaries: OnceLock<Vec<ShapeSummary>>,
     /// Used only by the paper's matcher, so built on first use.
     literal: OnceLock<LiteralReference>,
+    /// See [`Self::own_turn`].
+    own_turn: OnceLock<Option<RigidTransform>>,
     /// The cut-off by the field of view of the capture.
     pub cut: ViewCut,
     /// Oriented points and their pairs, for each side that the part can be seen from; built when a piece is first aligned.
@@ -176,6 +181,7 @@ impl Reference {
             summaries: OnceLock::new(),
             views: Vec::new(),
             literal: OnceLock::new(),
+            own_turn: OnceLock::new(),
             cut: ViewCut::default(),
             borders: OnceLock::new(),
             whole: OnceLock::new(),

@@ -18,6 +18,7 @@ use crate::{
     geometry::parallel::num_cores,
     stages::{
         pose::{
+            RunnerUp,
             closest::Correspondence,
             quality::{NUM_LOOKED_FOR, Tolerance},
             refine::{AlignmentSource, Search, refine},
@@ -156,6 +157,12 @@ impl<'a> PreparedScene<'a> {
         (candidate.fit, candidate.evidence) =
             self.evaluate(reference, candidate.view, pose, &closest, NUM_LOOKED_FOR);
         candidate.evidence.rival = candidate.rival;
+        if let Some(turn) = reference.own_turn() {
+            candidate.runner_up = Some(RunnerUp {
+                target_from_source: turn * pose,
+                ratio: 1.0,
+            });
+        }
         let view = &reference.views[candidate.view];
         let noise = self.scene.part.noise_at_1m;
         let shift = outline_shift(

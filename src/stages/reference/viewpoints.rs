@@ -32,7 +32,13 @@ pub(super) fn viewpoints(cloud: &PointCloud, coverage: Coverage) -> Option<Vec<P
     );
     let fronts: Vec<Vector3<f64>> = match coverage {
         Coverage::OneSide => vec![-principal.mean.coords.normalize()],
-        Coverage::AllAround => vec![across, -across],
+        Coverage::AllAround => {
+            // The standard view is from where most of the surface faces, if it has a front.
+            let normals = cloud.normals.iter().flatten();
+            let facing: f64 = normals.map(|n| n.cast::<f64>().dot(&across)).sum();
+            let front = if facing < 0.0 { -across } else { across };
+            vec![front, -front]
+        }
         Coverage::SeveralSides => {
             let directions = seen_directions(cloud);
             let places = directions
