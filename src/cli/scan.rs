@@ -3,6 +3,7 @@
 mod output;
 
 use std::{
+    collections::BTreeMap,
     ops::ControlFlow,
     path::{Path, PathBuf},
 };
@@ -16,7 +17,7 @@ use super::{
     console::{Advised as _, Console, advised_error},
 };
 use crate::{
-    files::{write_atomically, write_ply_with},
+    files::{file_name, write_atomically, write_ply_with},
     robot::scan_frames::{FrameNews, read_frames, with_poses},
     scan::{FusedCloud, Scan, ScanParams, Unwatched, assemble},
     stages::segment::SegmentParams,
@@ -53,7 +54,7 @@ Poses: a file such as
 Where the robot gives the flange's pose, write base_from_flange instead; the hand-eye calibration then says where the
 camera sits. A recording made with partsight capture --robot-poses needs no such file.
 The poses may be off by some millimetres and tenths of a degree: they are refined against each other. A frame that does
-not fit is named and left out.
+not fit, or overlaps no other, is named and left out.
 The cloud is written in the robot's base frame, in metres, with normals. For each point, num_shots is the number of frames
 that saw it, bit k of seen_by is set if frame k did (seen_by_high for frames 32 and up), and part is 1 on the part.
 Exit codes: 0 every frame was used, 1 some were left out or no part was found, 2 it could not run.")]
@@ -114,6 +115,7 @@ pub(super) fn open_scan(
     segment: &SegmentParams,
     console: &mut Console,
 ) -> anyhow::Result<Scan> {
+    refuse_one_name_twice(paths)?;
     let frames = read_frames(paths, &mut |news| {
         match news {
             FrameNews::Total(num) => console.start_progress(num),
@@ -149,6 +151,30 @@ pub(super) fn open_scan(
         console.warn(doubt, doubt);
     }
     Ok(scan)
+}
+
+/// Refuses frames of one name, since poses are given by name.
+fn refuse_one_name_twice(paths: &[PathBuf]) -> anyhow::Result<()> {
+    let mut former: BTreeMap<String, &Path> = BTreeMap::new();
+    for path in paths {
+        let name = file_name(path);
+        match former.insert(name.clone(), path) {
+            None => {}
+            Some(other) if other == path => {
+                return Err(advised_error(
+                    format!("{} is given twice", path.display()),
+                    "Give each frame once",
+                ));
+            }
+            Some(other) => {
+                return Err(advised_error(
+                    format!("{} and {} have one name", other.display(), path.display()),
+                    "Rename one of them, and its entry among the poses",
+                ));
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Splits each mask into its low and its high half.

@@ -191,6 +191,8 @@ fn joint_part(scan: &Scan, frames: &[(usize, Inspection)], recipe: &Recipe) -> O
 
 /// Factor on the score of a single frame where no pose fits all frames.
 const NO_JOINT_FIT: f64 = 0.3;
+/// Largest share of the part that may lie off a reference; with more, the reference fits something else in the frames.
+const MOST_OFF: f64 = 0.5;
 
 /// Checks one reference against all frames; `None` if no frame ranked it.
 fn entry_of(
@@ -227,6 +229,7 @@ fn entry_of(
         return Some(best.clone());
     };
     let fits = fit_jointly(reference, part, &starts).into_iter();
+    let fits = fits.filter(|fit| fit.off <= MOST_OFF);
     let weighed = fits.map(|fit| {
         let (evidence, sight) =
             evidence(scan, reference, &fit, (&of_frame, recipe.confirm.tolerance));

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::Point3;
 
 use super::{
     FusedCloud, Scan, ScanError, ScanObserver, ScanParams, ScanStep, ScannedShot, Shot,
@@ -10,9 +10,9 @@ use super::{
     error::MAX_SHOTS,
     fuse::fuse,
     overlap::{Agreement, overlap},
-    part::keep_best_piece,
-    register::{register, samples_of},
-    suspects::{PoorAgreement, check},
+    part::{keep_best_piece, voters},
+    register::{middle_of, register},
+    suspects::{Doubt, Excluded, check},
 };
 use crate::{
     geometry::{
@@ -48,12 +48,11 @@ pub fn assemble(
         watch.begins(ScanStep::Shot(i));
         prepare(&shots[i], params)
     });
-    let prepared = prepared.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let mut scanned = prepared.into_iter().collect::<Result<Vec<_>, _>>()?;
     go_on(watch, ScanStep::Align)?;
-    let (mut scanned, middles): (Vec<_>, Vec<_>) = prepared.into_iter().unzip();
-    let doubt = align(&mut scanned, &middles, params, watch)?;
+    let doubt = align(&mut scanned, params, watch)?;
     go_on(watch, ScanStep::Fuse)?;
-    let mut cloud = fused(&scanned, params);
+    let mut cloud = fused(&mut scanned, params);
     cloud.cloud.is_simulated = shots.iter().any(|shot| shot.scene.cloud.is_simulated);
     count_new(&cloud, &mut scanned);
     let (before, after) = agreement(&mut scanned, &cloud, num_workers);
@@ -87,8 +86,8 @@ fn go_on(watch: &dyn ScanObserver, next: ScanStep) -> Result<(), ScanError> {
     Ok(())
 }
 
-/// Returns a shot with its surface and segmentation, and the mean of the surface's readings, in camera space.
-fn prepare(shot: &Shot, params: &ScanParams) -> Result<(ScannedShot, Point3<f64>), ScanError> {
+/// Returns a shot with its surface and segmentation.
+fn prepare(shot: &Shot, params: &ScanParams) -> Result<ScannedShot, ScanError> {
     let name = || shot.name.clone();
     let num_finite = shot.scene.cloud.finite().take(LEAST_READINGS).count();
     let surface = ShotSurface::of(&shot.scene);
@@ -105,16 +104,12 @@ fn prepare(shot: &Shot, params: &ScanParams) -> Result<(ScannedShot, Point3<f64>
     if surface.num_surface < LEAST_READINGS {
         return Err(too_few(surface.num_surface));
     }
-    let samples = samples_of(&surface, LEAST_READINGS);
-    let sum = samples.iter().fold(Vector3::zeros(), |sum, &i| {
-        sum + surface.points[i as usize].coords.cast::<f64>()
-    });
-    let middle = Point3::from(sum / samples.len() as f64);
-    let scanned = ScannedShot {
+    Ok(ScannedShot {
         name: name(),
         scene: Arc::clone(&shot.scene),
         surface: Arc::new(surface),
         segmentation: Arc::new(segment(&shot.scene, &params.segment)),
+        finds_part: false,
         given: shot.base_from_camera,
         base_from_camera: shot.base_from_camera,
         moved: PoseDelta {
@@ -126,44 +121,93 @@ fn prepare(shot: &Shot, params: &ScanParams) -> Result<(ScannedShot, Point3<f64>
         after_on_part: None,
         num_new: 0,
         excluded: None,
-    };
-    Ok((scanned, middle))
+    })
 }
 
-/// Refines the poses and excludes the shot that fits worst, until all remaining shots agree. Returns a doubt about those.
+/// Refines the poses and excludes shots until all that remain agree. Returns a doubt about those.
 fn align(
     scanned: &mut [ScannedShot],
-    middles: &[Point3<f64>],
     params: &ScanParams,
     watch: &dyn ScanObserver,
-) -> Result<Option<PoorAgreement>, ScanError> {
+) -> Result<Option<Doubt>, ScanError> {
+    let found = align_as_given(scanned, params, watch);
+    if found == Err(ScanError::Cancelled) {
+        return found;
+    }
+    let all_agree = found == Ok(None) && scanned.iter().all(|shot| shot.excluded.is_none());
+    let most = largest_shift(scanned);
+    // Of a camera that moved in parallel, inverted poses nearly agree, too.
+    if (!all_agree || most > params.suspect.max_shift.0 / 2.0)
+        && let Some(shift) = shift_of_inverted(scanned, params)
+        && (!all_agree || shift < most / 2.0)
+    {
+        return Err(ScanError::PosesInverted);
+    }
+    found
+}
+
+/// Refines the poses and excludes the shot that fits worst, until all remaining shots agree.
+fn align_as_given(
+    scanned: &mut [ScannedShot],
+    params: &ScanParams,
+    watch: &dyn ScanObserver,
+) -> Result<Option<Doubt>, ScanError> {
     let mut used: Vec<usize> = (0..scanned.len()).collect();
     loop {
         if watch.is_cancelled() {
             return Err(ScanError::Cancelled);
         }
-        let surfaces: Vec<&ShotSurface> = used.iter().map(|&i| &*scanned[i].surface).collect();
-        let given: Vec<RigidTransform> = used.iter().map(|&i| scanned[i].given).collect();
-        let poses = register(&surfaces, &given, &params.register);
-        for (&i, pose) in used.iter().zip(&poses) {
-            scanned[i].base_from_camera = *pose;
-            scanned[i].moved = pose_error(pose, &scanned[i].given, &middles[i]);
-        }
+        refine(scanned, &used, params);
         let candidates: Vec<&ScannedShot> = used.iter().map(|&i| &scanned[i]).collect();
-        let num_workers = params.register.num_workers;
-        let (which, why) = match check(&candidates, &params.suspect, num_workers) {
+        let (which, why) = match check(&candidates, params) {
             Ok(doubt) => return Ok(doubt),
             Err(worst) => worst,
         };
         let number = used.remove(which);
         scanned[number].excluded = Some(why);
         if used.len() < 2 {
-            return Err(ScanError::NothingAgrees {
-                found: scanned.len(),
-                names: scanned.iter().map(|shot| shot.name.clone()).collect(),
+            let found = scanned.len();
+            let names = scanned.iter().map(|shot| shot.name.clone()).collect();
+            let mut reasons = scanned.iter().filter_map(|shot| shot.excluded);
+            return Err(if reasons.all(|why| why == Excluded::OverlapsNone) {
+                ScanError::NothingOverlaps { found, names }
+            } else {
+                ScanError::NothingAgrees { found, names }
             });
         }
     }
+}
+
+/// Refines the poses of the shots of these indices together.
+fn refine(scanned: &mut [ScannedShot], used: &[usize], params: &ScanParams) {
+    let surfaces: Vec<&ShotSurface> = used.iter().map(|&i| &*scanned[i].surface).collect();
+    let given: Vec<RigidTransform> = used.iter().map(|&i| scanned[i].given).collect();
+    let poses = register(&surfaces, &given, &params.register);
+    for (&i, pose) in used.iter().zip(&poses) {
+        let shot = &mut scanned[i];
+        shot.base_from_camera = *pose;
+        shot.moved = pose_error(pose, &shot.given, &middle_of(&shot.surface));
+    }
+}
+
+/// Returns how far the refinement moved a shot at most, in metres.
+fn largest_shift(scanned: &[ScannedShot]) -> f64 {
+    let shifts = scanned.iter().map(|shot| shot.moved.shift.0);
+    shifts.fold(0.0, f64::max)
+}
+
+/// Returns how far the refinement moves a shot at most if each pose is inverted, a common mistake in the file of the poses;
+/// `None` if the shots do not agree then.
+fn shift_of_inverted(scanned: &[ScannedShot], params: &ScanParams) -> Option<f64> {
+    let inverted = |shot: &ScannedShot| ScannedShot {
+        given: shot.given.inverse(),
+        ..shot.clone()
+    };
+    let mut inverted: Vec<ScannedShot> = scanned.iter().map(inverted).collect();
+    let all: Vec<usize> = (0..inverted.len()).collect();
+    refine(&mut inverted, &all, params);
+    let found = check(&inverted.iter().collect::<Vec<_>>(), params);
+    (found == Ok(None)).then(|| largest_shift(&inverted))
 }
 
 /// Returns how the used shots agree at the robot's poses and at the refined ones.
@@ -190,7 +234,10 @@ fn agreement(
     (before, after)
 }
 
-fn fused(scanned: &[ScannedShot], params: &ScanParams) -> FusedCloud {
+fn fused(scanned: &mut [ScannedShot], params: &ScanParams) -> FusedCloud {
+    for number in voters(scanned) {
+        scanned[number].finds_part = true;
+    }
     let all = scanned.iter().enumerate();
     let used = all.filter(|(_, shot)| shot.excluded.is_none());
     let used: Vec<(usize, &ScannedShot)> = used.collect();

@@ -46,6 +46,30 @@ pub enum ScanError {
         /// Their names.
         names: Vec<String>,
     },
+    /// No two frames see the same surface.
+    #[error(
+        "no two of the {found} frames overlap, so their poses cannot be checked: {}",
+        names.join(", ")
+    )]
+    NothingOverlaps {
+        /// Frames given.
+        found: usize,
+        /// Their names.
+        names: Vec<String>,
+    },
+    /// The frames fit together if each pose is inverted.
+    #[error(
+        "the poses look inverted: the frames fit together if each is read as camera_from_world"
+    )]
+    PosesInverted,
+    /// Only one frame shows the part that is to be inspected.
+    #[error("only one of the {found} frames shows the part: {name}")]
+    PartInOneFrame {
+        /// Frames used.
+        found: usize,
+        /// The frame that shows it.
+        name: String,
+    },
     /// The caller cancelled.
     #[error("the scan was cancelled")]
     Cancelled,
@@ -67,6 +91,15 @@ impl Advice for ScanError {
             }
             Self::NothingAgrees { .. } => {
                 "Check that each pose belongs to its frame, that they are poses of the camera in metres (for poses of the flange give base_from_flange), and that the part stood still".into()
+            }
+            Self::NothingOverlaps { .. } => {
+                "Check that each pose belongs to its frame and is a pose of the camera in metres, or add frames between these that show surface of both".into()
+            }
+            Self::PosesInverted => {
+                "Write the poses of the camera in the robot's base frame: invert each matrix of the file".into()
+            }
+            Self::PartInOneFrame { .. } => {
+                "Add frames that show the part from other sides, or inspect this frame by itself".into()
             }
             Self::Cancelled => "Start it again".into(),
         }

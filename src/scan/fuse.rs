@@ -221,8 +221,8 @@ fn drawn_to_surface(
                 let weight = 1.0 / surface.sigma(i).powi(2);
                 off_sum += weight * normal.dot(&(surface.points[i].cast::<f64>() - at));
                 weight_sum += weight;
-                let segmentation = Some(&shot.segmentation).filter(|found| found.part.is_ok());
-                let label = segmentation.and_then(|found| found.labels.get(i));
+                let labels = Some(&shot.segmentation.labels).filter(|_| shot.finds_part);
+                let label = labels.and_then(|labels| labels.get(i));
                 part_votes += u16::from(label == Some(&PointLabel::Part));
                 votes += match label {
                     Some(PointLabel::Part) => PART_VOTE,

@@ -7,18 +7,19 @@
 //!
 //! 1. [`surface`]: computes normals and noise of every reading, and sets readings at depth discontinuities apart.
 //! 2. [`register`]: refines the poses of all shots together by point-to-plane ICP, softly held at the robot's poses.
-//! 3. [`suspects`]: excludes a shot that contradicts the others; the rest is refined again. Smaller contradictions give a
-//!    warning.
+//! 3. [`suspects`]: excludes a shot that contradicts the others, or overlaps none of them; the rest is refined again. Smaller
+//!    contradictions, and those of two shots of which either may be wrong, give a warning.
 //! 4. [`fuse`]: averages the readings by their noise, and drops points that other shots look through.
 //! 5. [`part`]: the shots' segmentations vote on every point; the connected piece with the most votes is the part.
 //!
 //! The results do not depend on the number of threads.
 //!
-//! Known limits: a shot that overlaps no other keeps the robot's pose. Errors that all shots share, such as a wrong
-//! focal length, remain.
+//! Known limits: a shot whose overlap with the others shows no edge can be slid along its surface unnoticed. Errors that all
+//! shots share, such as a wrong focal length, remain.
 
 mod assemble;
 mod error;
+mod free_space;
 pub mod fuse;
 pub mod overlap;
 mod pairs;
@@ -47,7 +48,7 @@ pub use self::{
     overlap::{Agreement, Overlap},
     register::RegisterParams,
     surface::ShotSurface,
-    suspects::{Excluded, PoorAgreement, SuspectParams},
+    suspects::{Doubt, Excluded, SuspectParams},
 };
 
 /// One frame of a scan, with the pose of its camera according to the robot.
@@ -123,7 +124,7 @@ pub struct Scan {
     /// How well they agree at the refined poses.
     pub after: Agreement,
     /// Set if they do not agree as well as they should, though well enough to be used.
-    pub doubt: Option<PoorAgreement>,
+    pub doubt: Option<Doubt>,
 }
 
 /// A shot of a scan, with its refined pose and how well it fits.
@@ -137,6 +138,8 @@ pub struct ScannedShot {
     pub surface: Arc<ShotSurface>,
     /// The frame's own segmentation.
     pub segmentation: Arc<Segmentation>,
+    /// True if its segmentation counts in the vote on which points are the part.
+    pub finds_part: bool,
     /// The camera's pose according to the robot.
     pub given: RigidTransform,
     /// The refined pose; for an excluded shot the pose at which it did not fit.

@@ -76,6 +76,19 @@ pub fn samples_of(surface: &ShotSurface, num: usize) -> Vec<u32> {
         .collect()
 }
 
+/// Readings that [`middle_of`] averages, approximately.
+const NUM_AVERAGED: usize = 500;
+
+/// Returns the mean of a shot's readings, in camera space.
+pub(super) fn middle_of(surface: &ShotSurface) -> Point3<f64> {
+    let samples = samples_of(surface, NUM_AVERAGED);
+    let sum: Vector3<f64> = samples
+        .iter()
+        .map(|&i| surface.points[i as usize].coords.cast::<f64>())
+        .sum();
+    Point3::from(sum / samples.len().max(1) as f64)
+}
+
 /// Returns the refined poses of the shots, in order. `given` are the robot's poses.
 pub fn register(
     surfaces: &[&ShotSurface],

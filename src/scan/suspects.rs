@@ -1,16 +1,17 @@
 //! Finds the shot that does not fit: its pose is wrong, or the part stood elsewhere when it was taken.
 //!
-//! Limit: of two shots, a wrong pose that leaves their surfaces on each other cannot be seen; a third shot shows it.
+//! Limit: where two shots contradict each other and no third contradicts one of them, either may be wrong.
 
 use super::{
-    ScannedShot,
+    ScanParams, ScannedShot,
+    free_space::{CommonView, better_pose, common_views},
     pairs::{ProjectedReading, Reach, meet},
-    register::samples_of,
+    register::{middle_of, samples_of},
 };
 use crate::{
     geometry::{
         parallel::map_each,
-        rigid::{PoseDelta, RigidTransform},
+        rigid::{PoseDelta, RigidTransform, pose_error},
     },
     stages::segment::PointLabel,
     units::{Metres, Radians},
@@ -53,6 +54,15 @@ pub enum Excluded {
         /// Share of the common readings that agrees, 0..1.
         share: f64,
     },
+    /// It shows surface where other frames see none.
+    #[error("it contradicts the other frames: one looks past {:.1} % of what both should see", share * 100.0)]
+    LookedPast {
+        /// Share of what it and another frame see together that one of them looks past, 0..1.
+        share: f64,
+    },
+    /// It sees hardly any surface that another frame sees.
+    #[error("it overlaps no other frame, so its pose cannot be checked")]
+    OverlapsNone,
     /// The cell agrees, but the part does not.
     #[error("the part moved: the cell agrees with the other frames, {:.0} % of the part does", share * 100.0)]
     PartMoved {
@@ -66,7 +76,8 @@ impl Excluded {
     pub fn name(&self) -> &'static str {
         match self {
             Self::WrongPose { .. } => "wrong_pose",
-            Self::Contradicts { .. } => "contradicts",
+            Self::Contradicts { .. } | Self::LookedPast { .. } => "contradicts",
+            Self::OverlapsNone => "overlaps_none",
             Self::PartMoved { .. } => "part_moved",
         }
     }
@@ -75,8 +86,11 @@ impl Excluded {
 impl crate::error::Advice for Excluded {
     fn advice(&self) -> String {
         match self {
-            Self::WrongPose { .. } | Self::Contradicts { .. } => {
+            Self::WrongPose { .. } | Self::Contradicts { .. } | Self::LookedPast { .. } => {
                 "Check that this pose belongs to this frame, and capture the frame again with the arm at rest".into()
+            }
+            Self::OverlapsNone => {
+                "Check that this pose belongs to this frame, or add a frame that shows surface of this one and of another".into()
             }
             Self::PartMoved { .. } => "Capture the frame again while the part stands still".into(),
         }
@@ -88,26 +102,52 @@ impl crate::error::Advice for Excluded {
 /// this; where the wrong pose lays flat surfaces onto each other, nothing disagrees.
 const LEAST_AGREEING: f64 = 0.98;
 
-/// The shots were used, but do not agree as well as shots of one still scene.
+/// The shots were used, but do not agree as shots of one still scene do.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error(
-    "the frames may not fit together: {:.1} % of what {name} and the others see together disagrees, at most {:.0} % is \
-     usual",
-    (1.0 - share) * 100.0,
-    (1.0 - LEAST_AGREEING) * 100.0
-)]
-pub struct PoorAgreement {
-    /// The shot that agrees least.
-    pub name: String,
-    /// Share of its common readings that agrees, 0..1.
-    pub share: f64,
+pub enum Doubt {
+    /// Too much of what a shot and the others see disagrees.
+    #[error(
+        "the frames may not fit together: {:.1} % of what {name} and the others see together disagrees, at most {:.0} % is \
+         usual",
+        (1.0 - share) * 100.0,
+        (1.0 - LEAST_AGREEING) * 100.0
+    )]
+    PoorAgreement {
+        /// The shot that agrees least.
+        name: String,
+        /// Share of its common readings that agrees, 0..1.
+        share: f64,
+    },
+    /// Two shots contradict each other, and either may be wrong.
+    #[error(
+        "{} and {} contradict each other: one looks past {:.1} % of what both should see{}",
+        names[0],
+        names[1],
+        share * 100.0,
+        apart.map_or_else(String::new, |apart| format!("; they fit together if one is moved by {apart}"))
+    )]
+    Contradiction {
+        /// The two shots.
+        names: [String; 2],
+        /// Share of what both see that one of them looks past, 0..1.
+        share: f64,
+        /// Distance by which moving one of them resolves it, if that was found.
+        apart: Option<Metres>,
+    },
 }
 
-impl crate::error::Advice for PoorAgreement {
+impl crate::error::Advice for Doubt {
     fn advice(&self) -> String {
-        "Check that each pose belongs to its frame and that nothing moved between the frames; with one frame more, Partsight can \
-         find a wrong one"
-            .into()
+        match self {
+            Self::PoorAgreement { .. } => {
+                "Check that each pose belongs to its frame and that nothing moved between the frames".into()
+            }
+            Self::Contradiction { .. } => {
+                "Check that each pose belongs to its frame and that nothing moved between the frames; another frame that shows \
+                 the same edges tells which one is wrong"
+                    .into()
+            }
+        }
     }
 }
 
@@ -143,13 +183,14 @@ const REACH: Reach = Reach {
     sigmas: 4.0,
 };
 
-/// Returns the shot that fits worst, and why, as an error. If all fit, returns the poorest agreement that deserves a warning.
+/// Returns the shot that fits worst, and why, as an error. If all fit, returns the doubt that deserves a warning.
 pub(super) fn check(
     shots: &[&ScannedShot],
-    params: &SuspectParams,
-    num_workers: usize,
-) -> Result<Option<PoorAgreement>, (usize, Excluded)> {
+    params: &ScanParams,
+) -> Result<Option<Doubt>, (usize, Excluded)> {
     let n = shots.len();
+    let num_workers = params.register.num_workers;
+    let limits = &params.suspect;
     let counts: Vec<Vec<[Count; 2]>> = map_each(n, num_workers, |i| {
         let samples = samples_of(&shots[i].surface, NUM_SAMPLES);
         let others = (0..n).map(|j| {
@@ -170,10 +211,10 @@ pub(super) fn check(
     };
     let judged = shots.iter().enumerate().filter_map(|(i, shot)| {
         // Each figure as a share of its limit: 1 at the limit.
-        let moved = (shot.moved.shift.0 / params.max_shift.0)
-            .max(shot.moved.rotation.0 / params.max_turn.0);
+        let moved = (shot.moved.shift.0 / limits.max_shift.0)
+            .max(shot.moved.rotation.0 / limits.max_turn.0);
         let beyond =
-            |share: Option<f64>| share.map_or(0.0, |s| (1.0 - s) / (1.0 - params.min_share));
+            |share: Option<f64>| share.map_or(0.0, |s| (1.0 - s) / (1.0 - limits.min_share));
         let (all, part) = (of_shot(i, 0), of_shot(i, 1));
         let found = [
             (moved, Excluded::WrongPose { moved: shot.moved }),
@@ -199,12 +240,76 @@ pub(super) fn check(
     if let Some((which, (_, why))) = worst {
         return Err((which, part_moved(shots, which).unwrap_or(why)));
     }
+    let views = common_views(shots, num_workers);
+    if let Some(which) = apart_from_most(n, &views) {
+        return Err((which, Excluded::OverlapsNone));
+    }
+    let doubt = contradiction(shots, &views, params)?;
     let shares = (0..n).filter_map(|i| Some((i, of_shot(i, 0)?)));
     let least = shares.reduce(|a, b| if b.1 < a.1 { b } else { a });
     let poor = least.filter(|(_, share)| *share < LEAST_AGREEING);
-    Ok(poor.map(|(i, share)| PoorAgreement {
+    let poor = poor.map(|(i, share)| Doubt::PoorAgreement {
         name: shots[i].name.clone(),
         share,
+    });
+    Ok(doubt.or(poor))
+}
+
+/// Returns the last shot that is not linked by overlaps with most of the others; `None` if all are linked.
+fn apart_from_most(n: usize, views: &[CommonView]) -> Option<usize> {
+    let mut group: Vec<usize> = (0..n).collect();
+    for [a, b] in views.iter().filter(|v| v.is_overlap()).map(|v| v.shots) {
+        let (kept, joined) = (group[a], group[b]);
+        for one in &mut group {
+            if *one == joined {
+                *one = kept;
+            }
+        }
+    }
+    let size = |of: usize| group.iter().filter(|&&other| other == of).count();
+    let sizes: Vec<usize> = group.iter().map(|&of| size(of)).collect();
+    let most = sizes.iter().max()?;
+    let largest = group[sizes.iter().position(|size| size == most)?];
+    group.iter().rposition(|&of| of != largest)
+}
+
+/// Returns the shot that more of the others contradict than any other, as an error; a doubt if either of two may be wrong.
+fn contradiction(
+    shots: &[&ScannedShot],
+    views: &[CommonView],
+    params: &ScanParams,
+) -> Result<Option<Doubt>, (usize, Excluded)> {
+    let contradictions = || views.iter().filter(|view| view.is_contradiction());
+    let worst = contradictions().max_by(|a, b| a.violated().total_cmp(&b.violated()));
+    let Some(worst) = worst else { return Ok(None) };
+    let num_against = |i: &usize| {
+        let against = contradictions().filter(|view| view.shots.contains(i));
+        against.count()
+    };
+    let accused = (0..shots.len()).filter(|i| num_against(i) > 0);
+    let least = accused.clone().map(|i| num_against(&i)).min();
+    let wrong = accused.max_by_key(num_against);
+    let wrong = wrong.filter(|i| Some(num_against(i)) > least);
+    let share = worst.violated();
+    let moved = |i: usize| {
+        let pose = better_pose(shots, i, &params.register)?;
+        Some(pose_error(
+            &pose,
+            &shots[i].given,
+            &middle_of(&shots[i].surface),
+        ))
+    };
+    if let Some(wrong) = wrong {
+        let why = match moved(wrong) {
+            Some(moved) => Excluded::WrongPose { moved },
+            None => Excluded::LookedPast { share },
+        };
+        return Err((wrong, why));
+    }
+    Ok(Some(Doubt::Contradiction {
+        names: worst.shots.map(|i| shots[i].name.clone()),
+        share,
+        apart: moved(worst.shots[1]).map(|moved| moved.shift),
     }))
 }
 

@@ -1,10 +1,17 @@
 //! Simulated scans, compared with the truth.
 
-use nalgebra::{Isometry3, Point3, Translation3};
+use nalgebra::{Isometry3, Point3, Translation3, Vector3};
 
-use super::*;
+use super::{
+    part::{background_sign, require_two_to_show_part},
+    *,
+};
 use crate::{
-    geometry::{nearest::KdTree, rigid::pose_error},
+    geometry::{
+        depth_frame::{DepthFrame, Intrinsics},
+        nearest::KdTree,
+        rigid::pose_error,
+    },
     simulate::{PartKind, ScanSetup, Side, SimulatedObject, SimulatedScan},
     stages::scene::scene_from_frame,
     units::Radians,
@@ -57,13 +64,9 @@ fn shared_error(scan: &Scan, truth: &[RigidTransform]) -> RigidTransform {
     };
     let n = used().count() as f64;
     let middle = Point3::new(1.9, 0.0, 1.1);
-    let turn = used().fold(nalgebra::Vector3::zeros(), |sum, e| {
-        sum + e.rotation.scaled_axis()
-    }) / n;
+    let turn = used().fold(Vector3::zeros(), |sum, e| sum + e.rotation.scaled_axis()) / n;
     let turn = nalgebra::UnitQuaternion::from_scaled_axis(turn);
-    let shift = used().fold(nalgebra::Vector3::zeros(), |sum, e| {
-        sum + (e * middle - middle)
-    }) / n;
+    let shift = used().fold(Vector3::zeros(), |sum, e| sum + (e * middle - middle)) / n;
     Isometry3::from_parts(
         Translation3::from(middle.coords + shift - turn * middle.coords),
         turn,
@@ -112,7 +115,7 @@ fn a_shot_whose_pose_is_wrong_is_named_and_left_out() {
         (7, [0.0, 0.0, -0.05]),
     ] {
         let (mut shots, _) = shots_of(&simulated(PartKind::Fender, 5, seed));
-        shots[2].base_from_camera.translation.vector += nalgebra::Vector3::from(shift);
+        shots[2].base_from_camera.translation.vector += Vector3::from(shift);
         let scan = put_together(&shots);
         let excluded: Vec<usize> = (0..5)
             .filter(|&k| scan.shots[k].excluded.is_some())
@@ -120,6 +123,123 @@ fn a_shot_whose_pose_is_wrong_is_named_and_left_out() {
         assert_eq!(excluded, [2], "{shift:?}: {:?}", scan.shots[2].moved);
         // None of its readings is in the cloud.
         assert!(scan.cloud.seen_by.iter().all(|mask| mask & 4 == 0));
+    }
+}
+
+/// A frame of a flat plate before a wall and beside a flat pillar, taken from `at` along the wall.
+fn plate_from(at: f64) -> Shot {
+    let camera = Intrinsics::KINECT;
+    let depth = (0..camera.width * camera.height).map(|i| {
+        let (u, v) = ((i % camera.width) as f64, (i / camera.width) as f64);
+        let seen = |z: f64| camera.point_at(u, v, z) + Vector3::x() * at;
+        let (plate, pillar) = (seen(1.0), seen(0.9));
+        if plate.x.abs() < 0.3 && plate.y.abs() < 0.25 {
+            10_000
+        } else if pillar.x < -0.55 {
+            9_000
+        } else {
+            19_000
+        }
+    });
+    let frame = DepthFrame {
+        intrinsics: camera,
+        metres_per_unit: 0.0001,
+        depth: depth.collect(),
+        is_simulated: true,
+    };
+    Shot {
+        name: format!("from {at}"),
+        scene: Arc::new(scene_from_frame(&frame)),
+        base_from_camera: Isometry3::translation(at, 0.0, 0.0),
+    }
+}
+
+#[test]
+fn a_pose_that_slides_a_flat_part_along_itself_is_found() {
+    let mut shots = [0.0, 0.15, 0.3].map(plate_from);
+    assert_eq!(put_together(&shots).doubt, None);
+    let near_8_cm = |found: Metres| (55.0..105.0).contains(&found.mm());
+    shots[1].base_from_camera.translation.vector.y += 0.08;
+    // Of two shots, either may be wrong.
+    let scan = put_together(&shots[..2]);
+    assert_eq!(scan.used().count(), 2);
+    let Some(Doubt::Contradiction { names, apart, .. }) = scan.doubt else {
+        panic!("{:?}", scan.doubt);
+    };
+    assert_eq!(names, ["from 0", "from 0.15"]);
+    assert!(apart.is_some_and(near_8_cm), "{apart:?}");
+    // A third tells which.
+    let scan = put_together(&shots);
+    let why = scan.shots.iter().map(|shot| shot.excluded);
+    let why: Vec<Option<Excluded>> = why.collect();
+    let [None, Some(Excluded::WrongPose { moved }), None] = why[..] else {
+        panic!("{why:?}");
+    };
+    assert!(near_8_cm(moved.shift), "{moved:?}");
+    assert_eq!(scan.doubt, None);
+}
+
+#[test]
+fn a_shot_that_takes_background_for_the_part_is_outvoted() {
+    // From the left, the pillar is larger than the plate, but the view cuts it off on three sides.
+    let (good, poor, poorer) = (plate_from(0.2), plate_from(-0.45), plate_from(-0.5));
+    let scan = put_together(&[good, poor.clone()]);
+    assert_eq!(
+        scan.shots
+            .iter()
+            .map(|shot| shot.finds_part)
+            .collect::<Vec<_>>(),
+        [true, false]
+    );
+    let part = scan.cloud.part();
+    assert!(part.cloud.points.len() > 5000);
+    assert!(
+        part.cloud
+            .points
+            .iter()
+            .all(|p| p.x.abs() < 0.35 && p.z < 1.1)
+    );
+    assert_eq!(background_sign(&scan), None);
+    // Where no shot knows better, enrolling is refused.
+    let scan = put_together(&[poor, poorer]);
+    assert!(background_sign(&scan).is_some());
+}
+
+#[test]
+fn a_part_that_one_shot_alone_shows_is_not_inspected_as_a_scan() {
+    let scan = put_together(&[plate_from(0.2), plate_from(1.4)]);
+    let refused = require_two_to_show_part(&scan).expect_err("one");
+    let name = "from 0.2".into();
+    assert_eq!(refused, ScanError::PartInOneFrame { found: 2, name });
+    let both = put_together(&[plate_from(0.2), plate_from(0.3)]);
+    assert_eq!(require_two_to_show_part(&both), Ok(()));
+}
+
+#[test]
+fn a_shot_that_overlaps_no_other_is_left_out() {
+    let (mut shots, _) = shots_of(&simulated(PartKind::Fender, 4, 12));
+    shots[1].base_from_camera.translation.vector.z += 10.0;
+    let scan = put_together(&shots);
+    let why = scan.shots.iter().map(|shot| shot.excluded);
+    let expected = [None, Some(Excluded::OverlapsNone), None, None];
+    assert_eq!(why.collect::<Vec<_>>(), expected);
+    let refused = assemble(&shots[..2], &ScanParams::default(), &Unwatched);
+    let refused = refused.expect_err("no overlap");
+    assert!(matches!(
+        refused,
+        ScanError::NothingOverlaps { found: 2, .. }
+    ));
+}
+
+#[test]
+fn inverted_poses_are_recognised() {
+    for num in [2, 4] {
+        let (mut shots, _) = shots_of(&simulated(PartKind::Fender, num, 13));
+        for shot in &mut shots {
+            shot.base_from_camera = shot.base_from_camera.inverse();
+        }
+        let refused = assemble(&shots, &ScanParams::default(), &Unwatched);
+        assert_eq!(refused.expect_err("inverted"), ScanError::PosesInverted);
     }
 }
 

@@ -11,7 +11,7 @@ use partsight::{
     },
     library::{
         EnrolError, EnrolParams, EnrolWarning, Library, PartDescription, PartName, enrol_captured,
-        enrol_surface, surfaces_to_enrol,
+        enrol_surface, likenesses, surfaces_to_enrol,
     },
     pipeline::{Recipe, Unwatched, Verdict, run},
     robot::cell_check::{CellBaseline, CellFinding, CellLimits, CellView},
@@ -164,6 +164,48 @@ fn a_curtain_that_hides_nothing_is_not_enrolled_unless_somebody_says_so() {
             .any(|w| matches!(w, EnrolWarning::Background(_))),
         "{warned:?}"
     );
+}
+
+#[test]
+fn frames_of_one_part_are_not_told_apart_and_those_of_another_part_are() {
+    let Some(data) = data_folder() else { return };
+    let frame = |name: &str| {
+        let scene = scene(&data.join(format!("booth/{name}.png")));
+        let enrolled = enrol_captured(&scene, &about(name), &EnrolParams::default());
+        (enrolled.expect("a part"), scene)
+    };
+    let mut library = shipped_library();
+    library.references.push(frame("left2_01").0.reference);
+    for name in ["left2_00", "left2_02", "left2_03", "left2_06", "left2_07"] {
+        let (enrolled, scene) = frame(name);
+        let found = &likenesses(&enrolled, Some(&scene), &library)[0];
+        assert!(
+            found.other == "left2_01" && !found.is_distinguishable(),
+            "{name}: {found:?}"
+        );
+    }
+    for name in ["right2_01", "right2_02", "right2_04", "right2_05"] {
+        let (enrolled, scene) = frame(name);
+        let found = &likenesses(&enrolled, Some(&scene), &library)[0];
+        assert!(found.is_distinguishable(), "{name}: {found:?}");
+    }
+}
+
+#[test]
+fn a_frame_that_shows_too_little_to_be_recognised_in_it_is_warned_of() {
+    let Some(data) = data_folder() else { return };
+    for (name, is_little) in [("right2_05", false), ("right2_06", true)] {
+        let scene = scene(&data.join(format!("booth/{name}.png")));
+        let enrolled = enrol_captured(&scene, &about(name), &EnrolParams::default());
+        let enrolled = enrolled.expect("a part");
+        let is_warned = |warning: &EnrolWarning| matches!(warning, EnrolWarning::TooLittle { .. });
+        assert_eq!(enrolled.warnings.iter().any(is_warned), is_little, "{name}");
+        let library = Library {
+            references: vec![enrolled.reference],
+        };
+        let found = run(&scene, &library, &Recipe::default(), &Unwatched).expect("not cancelled");
+        assert_eq!(found.verdict.is_accepted(), !is_little, "{name}");
+    }
 }
 
 #[test]

@@ -2,12 +2,15 @@
 
 use std::{path::Path, sync::Arc};
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Point3, Translation3, Vector3};
 use partsight::{
     files::{FileContent, open},
     geometry::{nearest::KdTree, rigid::RigidTransform},
     robot::frame_poses::{FramePose, read_frame_poses},
-    scan::{Scan, ScanParams, Shot, ShotSurface, Unwatched, assemble, surface::Use},
+    scan::{
+        Doubt, Excluded, Scan, ScanError, ScanParams, Shot, ShotSurface, Unwatched, assemble,
+        surface::Use,
+    },
     stages::scene::scene_from_frame,
 };
 
@@ -127,9 +130,57 @@ fn two_frames_of_which_one_pose_is_10_cm_off_get_a_warning_and_right_ones_get_no
     pair[1].base_from_camera.translation.vector.x += 0.1;
     let scan = put_together(&pair).expect("a scan");
     assert_eq!(scan.used().count(), 2);
-    let doubt = scan.doubt.expect("a doubt");
-    assert!((0.85..0.97).contains(&doubt.share), "{doubt}");
-    assert!(pair.iter().any(|shot| shot.name == doubt.name));
+    let Some(Doubt::Contradiction { names, apart, .. }) = scan.doubt else {
+        panic!("{:?}", scan.doubt);
+    };
+    assert_eq!(names, ["left2_01.png", "left2_02.png"]);
+    let apart = apart.expect("a better pose").mm();
+    assert!((70.0..130.0).contains(&apart), "{apart} mm");
+}
+
+#[test]
+fn a_frame_of_a_door_slid_along_it_is_left_out() {
+    let Some(data) = data_folder() else { return };
+    let all = shots(&data.join("booth"), "right2", 7);
+    let mut shots = [1, 4, 5].map(|k| all[k].clone());
+    shots[0].base_from_camera *= Translation3::new(0.15, 0.0, 0.0);
+    let scan = assemble(&shots, &ScanParams::default(), &Unwatched).expect("a scan");
+    let Some(Excluded::WrongPose { moved }) = scan.shots[0].excluded else {
+        panic!("{:?}", scan.shots[0].excluded);
+    };
+    assert!((120.0..180.0).contains(&moved.shift.mm()), "{moved:?}");
+    assert_eq!(scan.used().count(), 2);
+}
+
+#[test]
+fn the_pillar_that_a_frame_takes_for_the_fender_is_not_the_part() {
+    let Some(data) = data_folder() else { return };
+    let all = shots(&data.join("booth"), "left2", 8);
+    let whole = assemble(&all, &ScanParams::default(), &Unwatched).expect("a scan");
+    let tree = KdTree::new(&whole.cloud.part().cloud.points);
+    for other in [0, 1, 2, 3, 4, 6, 7] {
+        let pair = [other, 5].map(|k| all[k].clone());
+        let scan = assemble(&pair, &ScanParams::default(), &Unwatched).expect("a scan");
+        assert!(scan.shots[0].finds_part && !scan.shots[1].finds_part);
+        let part = scan.cloud.part();
+        let is_near = |p: &&Point3<f32>| tree.nearest(p, 0.02 * 0.02).is_some();
+        let num_near = part.cloud.points.iter().filter(is_near).count();
+        assert!(
+            num_near as f64 > 0.9 * part.cloud.points.len() as f64,
+            "{other}"
+        );
+    }
+}
+
+#[test]
+fn frames_with_inverted_poses_are_refused() {
+    let Some(data) = data_folder() else { return };
+    let mut shots = shots(&data.join("booth"), "left2", 8)[1..3].to_vec();
+    for shot in &mut shots {
+        shot.base_from_camera = shot.base_from_camera.inverse();
+    }
+    let refused = assemble(&shots, &ScanParams::default(), &Unwatched).expect_err("inverted");
+    assert_eq!(refused, ScanError::PosesInverted);
 }
 
 #[test]

@@ -22,8 +22,6 @@ shots-no-part = kein Teil gefunden
 shots-no-part-says = Die übrigen Aufnahmen bestimmen, was davon das Teil ist
 shots-moved = verschoben { $shift } · { $turn }
 shots-rms = rms { $rms }
-shots-overlaps-none = überlappt keine andere
-shots-overlaps-none-says = Behält die Pose des Roboters
 shots-to-be-dropped = Wird weggelassen…
 
 ## The summary
@@ -45,12 +43,19 @@ shots-wrong-pose = falsche Pose
 shots-wrong-pose-by = die Pose ist falsch: Das Bild passt { $shift } und { $turn } daneben
 shots-contradicts = Widerspruch zu den anderen Bildern
 shots-contradicts-by = sie widerspricht den anderen Bildern: { $share } % des gemeinsam Gesehenen stimmen überein
+shots-looked-past-by = sie widerspricht den anderen Bildern: Eines blickt an { $share } % dessen vorbei, was beide sehen müssten
+shots-overlaps-none = überlappt keine andere
+shots-overlaps-none-says = sie überlappt keine andere Aufnahme, daher lässt sich ihre Pose nicht prüfen
 shots-part-moved = Teil bewegt
 shots-part-moved-by = das Teil hat sich bewegt: Die Zelle stimmt mit den anderen Bildern überein, vom Teil nur { $share } %
 shots-excluded-advice = Prüfen, ob diese Pose zu diesem Bild gehört, und das Bild bei ruhendem Arm erneut aufnehmen
+shots-overlaps-none-advice = Prüfen, ob diese Pose zu diesem Bild gehört, oder eine Aufnahme hinzufügen, die Fläche von dieser und von einer anderen zeigt
 shots-part-moved-advice = Das Bild bei stillstehendem Teil erneut aufnehmen
 shots-poor-agreement = die Aufnahmen passen vielleicht nicht zusammen: Von dem, was { $shot } und die anderen Aufnahmen gemeinsam sehen, stimmen { $share } % nicht überein
-shots-poor-agreement-advice = Prüfen, ob jede Pose zu ihrem Bild gehört und sich zwischen den Aufnahmen nichts bewegt hat; mit einer weiteren Aufnahme kann Partsight eine falsche finden
+shots-poor-agreement-advice = Prüfen, ob jede Pose zu ihrem Bild gehört und sich zwischen den Aufnahmen nichts bewegt hat
+shots-contradiction = { $a } und { $b } widersprechen sich: Eine blickt an { $share } % dessen vorbei, was beide sehen müssten
+shots-contradiction-apart = { $a } und { $b } widersprechen sich: Eine blickt an { $share } % dessen vorbei, was beide sehen müssten; sie passen zusammen, wenn eine um { $apart } verschoben wird
+shots-contradiction-advice = Prüfen, ob jede Pose zu ihrem Bild gehört und sich zwischen den Aufnahmen nichts bewegt hat; eine weitere Aufnahme derselben Kanten zeigt, welche falsch ist
 
 ## Files
 

@@ -22,8 +22,6 @@ shots-no-part = no part found in it
 shots-no-part-says = The other shots determine what in it is the part
 shots-moved = moved { $shift } · { $turn }
 shots-rms = rms { $rms }
-shots-overlaps-none = overlaps no other
-shots-overlaps-none-says = It keeps the pose that the robot gave
 shots-to-be-dropped = To be dropped…
 
 ## The summary
@@ -45,12 +43,19 @@ shots-wrong-pose = its pose is wrong
 shots-wrong-pose-by = its pose is wrong: the frame fits { $shift } and { $turn } away
 shots-contradicts = it contradicts the other frames
 shots-contradicts-by = it contradicts the other frames: { $share } % of what they see together agrees
+shots-looked-past-by = it contradicts the other frames: one looks past { $share } % of what both should see
+shots-overlaps-none = overlaps no other
+shots-overlaps-none-says = it overlaps no other shot, so its pose cannot be checked
 shots-part-moved = the part moved
 shots-part-moved-by = the part moved: the cell agrees with the other frames, { $share } % of the part does
 shots-excluded-advice = Check that this pose belongs to this frame, and capture the frame again with the arm at rest
+shots-overlaps-none-advice = Check that this pose belongs to this frame, or add a shot that shows surface of this one and of another
 shots-part-moved-advice = Capture the frame again while the part stands still
 shots-poor-agreement = the shots may not fit together: of what { $shot } and the other shots see together, { $share } % disagrees
-shots-poor-agreement-advice = Check that each pose belongs to its frame and that nothing moved between the shots; with one shot more, Partsight can find a wrong one
+shots-poor-agreement-advice = Check that each pose belongs to its frame and that nothing moved between the shots
+shots-contradiction = { $a } and { $b } contradict each other: one looks past { $share } % of what both should see
+shots-contradiction-apart = { $a } and { $b } contradict each other: one looks past { $share } % of what both should see; they fit together if one is moved by { $apart }
+shots-contradiction-advice = Check that each pose belongs to its frame and that nothing moved between the shots; another shot that shows the same edges tells which one is wrong
 
 ## Files
 

@@ -22,8 +22,6 @@ shots-no-part = sin pieza en ella
 shots-no-part-says = Las demás tomas determinan qué de ella es la pieza
 shots-moved = movida { $shift } · { $turn }
 shots-rms = rms { $rms }
-shots-overlaps-none = no solapa con otra
-shots-overlaps-none-says = Conserva la pose que dio el robot
 shots-to-be-dropped = Se quitará…
 
 ## The summary
@@ -45,12 +43,19 @@ shots-wrong-pose = pose errónea
 shots-wrong-pose-by = su pose es errónea: la imagen encaja a { $shift } y { $turn }
 shots-contradicts = contradice a las demás imágenes
 shots-contradicts-by = contradice a las demás imágenes: concuerda el { $share } % de lo que ven en común
+shots-looked-past-by = contradice a las demás imágenes: una ve más allá del { $share } % de lo que ambas deberían ver
+shots-overlaps-none = no solapa con otra
+shots-overlaps-none-says = no solapa con ninguna otra toma, así que su pose no se puede comprobar
 shots-part-moved = la pieza se movió
 shots-part-moved-by = la pieza se movió: la celda concuerda con las demás imágenes, de la pieza el { $share } %
 shots-excluded-advice = Comprobar que esta pose corresponde a esta imagen y volver a capturarla con el brazo en reposo
+shots-overlaps-none-advice = Comprobar que esta pose corresponde a esta imagen, o añadir una toma que muestre superficie de esta y de otra
 shots-part-moved-advice = Volver a capturar la imagen con la pieza inmóvil
 shots-poor-agreement = es posible que las tomas no encajen: de lo que { $shot } y las demás tomas ven en común, no concuerda el { $share } %
-shots-poor-agreement-advice = Comprobar que cada pose corresponde a su imagen y que nada se movió entre las tomas; con una toma más, Partsight puede encontrar la errónea
+shots-poor-agreement-advice = Comprobar que cada pose corresponde a su imagen y que nada se movió entre las tomas
+shots-contradiction = { $a } y { $b } se contradicen: una ve más allá del { $share } % de lo que ambas deberían ver
+shots-contradiction-apart = { $a } y { $b } se contradicen: una ve más allá del { $share } % de lo que ambas deberían ver; encajan si una se desplaza { $apart }
+shots-contradiction-advice = Comprobar que cada pose corresponde a su imagen y que nada se movió entre las tomas; otra toma que muestre los mismos bordes indica cuál es errónea
 
 ## Files
 

@@ -22,8 +22,6 @@ shots-no-part = 未找到零件
 shots-no-part-says = 由其他拍摄确定其中哪些属于零件
 shots-moved = 修正 { $shift } · { $turn }
 shots-rms = rms { $rms }
-shots-overlaps-none = 与其他拍摄无重叠
-shots-overlaps-none-says = 保留机器人给出的位姿
 shots-to-be-dropped = 将被去除…
 
 ## The summary
@@ -45,12 +43,19 @@ shots-wrong-pose = 位姿错误
 shots-wrong-pose-by = 位姿错误：该帧在偏移 { $shift }、{ $turn } 处匹配
 shots-contradicts = 与其他帧矛盾
 shots-contradicts-by = 与其他帧矛盾：共同可见部分仅 { $share } % 一致
+shots-looked-past-by = 与其他帧矛盾：双方应共同看到的部分有 { $share } % 被其中一帧看穿
+shots-overlaps-none = 与其他拍摄无重叠
+shots-overlaps-none-says = 与其他拍摄无重叠，无法检查其位姿
 shots-part-moved = 零件移动
 shots-part-moved-by = 零件移动：工位与其他帧一致，零件仅 { $share } % 一致
 shots-excluded-advice = 确认该位姿属于该帧，并在机械臂静止时重新采集
+shots-overlaps-none-advice = 确认该位姿属于该帧，或增加一次同时拍到该帧与另一帧表面的拍摄
 shots-part-moved-advice = 在零件静止时重新采集该帧
 shots-poor-agreement = 各次拍摄可能不吻合：{ $shot } 与其他拍摄共同可见的部分有 { $share } % 不一致
-shots-poor-agreement-advice = 确认每个位姿属于其帧，且两次拍摄之间没有任何移动；再增加一次拍摄，Partsight 就能找出错误的那一次
+shots-poor-agreement-advice = 确认每个位姿属于其帧，且两次拍摄之间没有任何移动
+shots-contradiction = { $a } 与 { $b } 相互矛盾：双方应共同看到的部分有 { $share } % 被其中一帧看穿
+shots-contradiction-apart = { $a } 与 { $b } 相互矛盾：双方应共同看到的部分有 { $share } % 被其中一帧看穿；将其中一帧移动 { $apart } 即可吻合
+shots-contradiction-advice = 确认每个位姿属于其帧，且两次拍摄之间没有任何移动；再拍摄一次相同的边缘即可判断哪一个有误
 
 ## Files
 

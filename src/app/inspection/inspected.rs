@@ -34,6 +34,7 @@ use crate::{
         RobotFrame,
         spray::{CarriedPath, OffThePart, carry},
     },
+    scan::part::require_two_to_show_part,
     stages::{
         reference::Reference,
         scene::SceneCloud,
@@ -209,6 +210,9 @@ pub(in crate::app) fn inspect_scan(
         Ok(fused) => Arc::new(fused.ok_or(TaskError::Cancelled)?),
         Err(error) => return Ok(Err(error)),
     };
+    if let Err(error) = require_two_to_show_part(&fused.scan) {
+        return Ok(Err(error.into()));
+    }
     let fitted = loaded.fitting(&request.recipe, steps);
     let fitted = fitted.ok_or(TaskError::Cancelled)?;
     let ScanInspection {

@@ -57,6 +57,14 @@ pub(in crate::app) fn enrol_warning(warning: &EnrolWarning) -> [String; 2] {
             text!("enrol-warning-apart", percent = *percent),
             text!("enrol-warning-apart-advice"),
         ],
+        EnrolWarning::TooLittle { score, needed } => [
+            text!(
+                "enrol-warning-too-little",
+                score = format!("{score:.2}"),
+                needed = format!("{needed:.2}")
+            ),
+            text!("enrol-warning-too-little-advice"),
+        ],
         EnrolWarning::Unconstrained(freedom) => [
             text!(
                 "enrol-warning-unconstrained",
@@ -157,6 +165,10 @@ mod tests {
             EnrolWarning::TouchesEdge,
             EnrolWarning::OnBackground { percent: 12 },
             EnrolWarning::Apart { percent: 7 },
+            EnrolWarning::TooLittle {
+                score: 0.7,
+                needed: 0.9,
+            },
             EnrolWarning::Symmetric { degrees: 180 },
             EnrolWarning::GoesOnUnseen { percent: 21 },
         ]);

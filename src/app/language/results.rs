@@ -8,7 +8,7 @@ use crate::{
     history::{KeepFrames, StoredVerdict},
     pipeline::{AcceptParams, RecipeLabel, Rejection, Unrecognisable, is_like},
     robot::cell_check::{CellFinding, CellViewError},
-    scan::{Excluded, PoorAgreement},
+    scan::{Doubt, Excluded},
     simulate::ObjectKind,
     stages::{
         contour::ContourError,
@@ -485,7 +485,8 @@ pub(in crate::app) fn cell_view_error_advice(error: &CellViewError) -> String {
 pub(in crate::app) fn excluded_in_short(why: &Excluded) -> String {
     match why {
         Excluded::WrongPose { .. } => text!("shots-wrong-pose"),
-        Excluded::Contradicts { .. } => text!("shots-contradicts"),
+        Excluded::Contradicts { .. } | Excluded::LookedPast { .. } => text!("shots-contradicts"),
+        Excluded::OverlapsNone => text!("shots-overlaps-none"),
         Excluded::PartMoved { .. } => text!("shots-part-moved"),
     }
 }
@@ -501,27 +502,60 @@ pub(in crate::app) fn excluded(why: &Excluded) -> String {
         Excluded::Contradicts { share } => {
             text!("shots-contradicts-by", share = fixed!(share * 100.0, 0))
         }
+        Excluded::LookedPast { share } => {
+            text!("shots-looked-past-by", share = fixed!(share * 100.0, 1))
+        }
+        Excluded::OverlapsNone => text!("shots-overlaps-none-says"),
         Excluded::PartMoved { share } => {
             text!("shots-part-moved-by", share = fixed!(share * 100.0, 0))
         }
     }
 }
 
-/// Warns of shots that were used and agree poorly.
-pub(in crate::app) fn poor_agreement(doubt: &PoorAgreement) -> String {
-    text!(
-        "shots-poor-agreement",
-        shot = doubt.name.as_str(),
-        share = fixed!((1.0 - doubt.share) * 100.0, 1)
-    )
+/// Warns of shots that were used and do not agree, and advises what to do.
+pub(in crate::app) fn doubt(doubt: &Doubt) -> [String; 2] {
+    match doubt {
+        Doubt::PoorAgreement { name, share } => [
+            text!(
+                "shots-poor-agreement",
+                shot = name.as_str(),
+                share = fixed!((1.0 - share) * 100.0, 1)
+            ),
+            text!("shots-poor-agreement-advice"),
+        ],
+        Doubt::Contradiction {
+            names: [a, b],
+            share,
+            apart,
+        } => {
+            let share = fixed!(share * 100.0, 1);
+            let what = match apart {
+                Some(apart) => text!(
+                    "shots-contradiction-apart",
+                    a = a.as_str(),
+                    b = b.as_str(),
+                    share = share,
+                    apart = apart.to_string()
+                ),
+                None => text!(
+                    "shots-contradiction",
+                    a = a.as_str(),
+                    b = b.as_str(),
+                    share = share
+                ),
+            };
+            [what, text!("shots-contradiction-advice")]
+        }
+    }
 }
 
 /// Advises what to do about an excluded shot.
 pub(in crate::app) fn excluded_advice(why: &Excluded) -> String {
     match why {
-        Excluded::WrongPose { .. } | Excluded::Contradicts { .. } => {
+        Excluded::WrongPose { .. } | Excluded::Contradicts { .. } | Excluded::LookedPast { .. } => {
             text!("shots-excluded-advice")
         }
+        Excluded::OverlapsNone => text!("shots-overlaps-none-advice"),
         Excluded::PartMoved { .. } => text!("shots-part-moved-advice"),
     }
 }

@@ -316,9 +316,6 @@ fn words(ui: &mut Ui, row: &ShotRow, is_taken: bool, units: UnitSystem) {
                     text!("shots-rms", rms = units.length(rms.0)),
                     theme.weak_text,
                 );
-            } else {
-                let says = text!("shots-overlaps-none-says");
-                small(ui, text!("shots-overlaps-none"), theme.warning).on_hover_text(says);
             }
         }
     }

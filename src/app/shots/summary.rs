@@ -5,7 +5,7 @@ use egui::{RichText, Ui};
 use crate::app::{
     inspection::{fuse::FusedShots, scan_figure::ShotFate, unit_system::UnitSystem},
     language::{
-        results::{excluded, excluded_advice, poor_agreement},
+        results::{doubt, excluded, excluded_advice},
         text,
     },
     ui::{
@@ -68,8 +68,8 @@ fn figures(ui: &mut Ui, fused: &FusedShots, units: UnitSystem) {
             advised(ui, &text, excluded_advice(&why));
         }
     }
-    if let Some(doubt) = &fused.scan.doubt {
-        let advice = text!("shots-poor-agreement-advice");
-        advised(ui, &poor_agreement(doubt), advice);
+    if let Some(found) = &fused.scan.doubt {
+        let [what, advice] = doubt(found);
+        advised(ui, &what, advice);
     }
 }

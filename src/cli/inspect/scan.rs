@@ -5,7 +5,7 @@ use crate::{
     cli::record::{HistoryRecorder, SceneOrigin},
     cli::{
         Outcome,
-        console::Console,
+        console::{Advised as _, Console},
         recipe::show_recipe,
         scan::open_scan,
         verdict::{show_card, show_in_robot},
@@ -18,6 +18,7 @@ use crate::{
     },
     report::{InspectionLine, ScanLine},
     robot::RobotFrame,
+    scan::part::require_two_to_show_part,
 };
 
 pub(super) fn inspect(args: &InspectArgs, console: &mut Console) -> anyhow::Result<Outcome> {
@@ -27,6 +28,7 @@ pub(super) fn inspect(args: &InspectArgs, console: &mut Console) -> anyhow::Resu
     let database = args.history_to.chosen(console)?;
     let load = (args.library).load_some(&recipe.reference_params(), console)?;
     let scan = open_scan(&args.scan, &args.poses, &recipe.segment, console)?;
+    require_two_to_show_part(&scan).advised()?;
     let recording = (!args.no_history)
         .then(|| HistoryRecorder::start(&args.history, &load, &recipe, &trace, console))
         .flatten();

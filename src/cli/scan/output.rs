@@ -107,8 +107,7 @@ pub(super) fn show(scan: &Scan, part: &FusedCloud, console: &mut Console) {
         };
         let remark = match &shot.excluded {
             Some(_) => "LEFT OUT",
-            None if shot.after.is_none() => "overlaps no other: the robot's pose",
-            None if shot.segmentation.part.is_err() => "no part found in it",
+            None if !shot.finds_part => "no part found in it",
             None => "",
         };
         table.row([

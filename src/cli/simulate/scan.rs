@@ -1,7 +1,7 @@
 //! `partsight simulate --scan DIR`: writes frames of one part from several sides, with the poses that a robot would
 //! report.
 
-use std::path::Path;
+use std::{collections::BTreeSet, path::Path};
 
 use serde_json::json;
 
@@ -12,7 +12,7 @@ use crate::{
         console::{Advised as _, Console, advised_error},
         write_json,
     },
-    files::{disk, write_depth_png},
+    files::{depth_png::intrinsics_path, disk, file_name, write_depth_png},
     geometry::rigid::row_major,
     robot::frame_poses::FRAME_POSES,
     simulate::{ScanSetup, SimulatedScan},
@@ -44,6 +44,7 @@ pub(super) fn run(
             "Give a folder that can be written",
         )
     })?;
+    refuse_other_files(folder, args.shots)?;
     let scan = SimulatedScan::new(ScanSetup {
         subject: *subject,
         num_shots: args.shots,
@@ -55,7 +56,7 @@ pub(super) fn run(
     let mut frames = serde_json::Map::new();
     console.start_progress(args.shots);
     for (k, shot) in scan.shots().iter().enumerate() {
-        let name = format!("frame-{:02}.png", k + 1);
+        let name = frame_name(k);
         console.begin(&name);
         write_depth_png(&folder.join(&name), &shot.frame).advised()?;
         let pose = json!({
@@ -77,4 +78,38 @@ pub(super) fn run(
         args.shots
     ));
     Ok(Outcome::Accepted)
+}
+
+fn frame_name(k: usize) -> String {
+    format!("frame-{:02}.png", k + 1)
+}
+
+/// Refuses a folder with files that are not replaced, such as the frames of an earlier scan with more of them: they would
+/// belong to this scan, too.
+fn refuse_other_files(folder: &Path, num_shots: usize) -> anyhow::Result<()> {
+    let unreadable = |error: std::io::Error| {
+        advised_error(
+            format!("{}: {error}", folder.display()),
+            "Give a folder that can be read",
+        )
+    };
+    let mut written = BTreeSet::from([FRAME_POSES.to_owned()]);
+    for k in 0..num_shots {
+        let camera = intrinsics_path(Path::new(&frame_name(k)));
+        written.extend([frame_name(k), file_name(&camera)]);
+    }
+    for entry in folder.read_dir().map_err(unreadable)? {
+        let name = entry.map_err(unreadable)?.file_name();
+        if !written.contains(&*name.to_string_lossy()) {
+            return Err(advised_error(
+                format!(
+                    "{}: {} is no file of this scan and would become part of it",
+                    folder.display(),
+                    name.display()
+                ),
+                "Give a new folder, or empty this one first",
+            ));
+        }
+    }
+    Ok(())
 }
