@@ -13,13 +13,13 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use clap::Args;
+use clap::{ArgGroup, Args};
 
 use self::{hung::FollowedParts, session::InspectSession};
 use super::{
     LibraryChoice, Outcome,
     calibrate::CalibrationChoice,
-    console::{Advised as _, Console},
+    console::{Advised as _, Console, advised_error},
     follow::{follow, parse_source},
     input::{EmptyCellChoice, ImportChoice, Scenes, open_ahead},
     output::{Columns, OutputFormat},
@@ -39,6 +39,7 @@ use crate::{
 
 /// Recognise the part in captured scenes and say where it is
 #[derive(Debug, Args)]
+#[command(group(ArgGroup::new("robot_file").multiple(true)))]
 #[command(after_help = "\
 Examples:
   partsight inspect door.pcd
@@ -76,7 +77,7 @@ pub(super) struct InspectArgs {
     files: Vec<PathBuf>,
     /// Instead of files: several frames of one part, each with the pose of its camera, for one verdict and one pose; a
     /// folder, a recording or files
-    #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with_all = ["files", "source", "empty_cell", "spray", "program", "report"])]
+    #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with_all = ["files", "source", "empty_cell", "report"])]
     scan: Vec<PathBuf>,
     #[command(flatten)]
     import: ImportChoice,
@@ -128,6 +129,7 @@ pub(super) fn run(mut args: InspectArgs, console: &mut Console) -> anyhow::Resul
     // Before anything that can fail.
     args.program.remove_previous()?;
     args.spray.remove_previous()?;
+    check_outputs(&args)?;
     args.import.write_behind(&mut args.files);
     let args = &args;
     #[cfg(feature = "plant")]
@@ -136,6 +138,28 @@ pub(super) fn run(mut args: InspectArgs, console: &mut Console) -> anyhow::Resul
         return scan::inspect(args, console);
     }
     open_ahead(&args.files, |scenes| inspect(args, scenes, console))
+}
+
+/// Refuses combinations of options that write a file for a robot. The parser would refuse them before an earlier file is
+/// removed.
+fn check_outputs(args: &InspectArgs) -> anyhow::Result<()> {
+    let wanted = [
+        ("--program", args.program.is_wanted()),
+        ("--spray", args.spray.is_wanted()),
+    ];
+    let wanted = wanted.into_iter().filter(|(_, is_wanted)| *is_wanted);
+    let wanted: Vec<&str> = wanted.map(|(option, _)| option).collect();
+    match wanted[..] {
+        [option] if !args.scan.is_empty() => Err(advised_error(
+            format!("{option} takes a capture's file, not a scan"),
+            "Give one capture",
+        )),
+        [_, _] => Err(advised_error(
+            "--program and --spray cannot be used together",
+            "Run inspect once for each",
+        )),
+        _ => Ok(()),
+    }
 }
 
 fn inspect(
@@ -156,7 +180,9 @@ fn inspect(
     let (spray, program) = if args.program.is_wanted() {
         (None, args.program.start(files, frame, place, &load)?)
     } else {
-        (args.spray.start(files, frame, place, &load)?, None)
+        let is_forced = args.program.is_forced();
+        let spray = (args.spray).start(files, frame, place, &load, is_forced)?;
+        (spray, None)
     };
     let format = match (args.json, args.files.as_slice()) {
         (true, _) => OutputFormat::Json,

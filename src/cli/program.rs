@@ -18,10 +18,10 @@ use crate::{
         RobotFrame, WrittenPose,
         arm::{Arm, ArmError, Obstacles, PathCheck, PlacedArm, Rail},
         program::{
-            Program, ProgramFormat, ProgramSettings, check_reach, clock_ahead_of_file,
+            ClockAhead, Program, ProgramFormat, ProgramSettings, check_reach, clock_ahead_of_file,
             program_points,
         },
-        spray::{BandStatus, CarriedPath, MOST_TILT, off_the_part},
+        spray::{BandStatus, CarriedPath, MOST_TILT, OffThePart, off_the_part},
     },
     stages::reference::Reference,
     units::{Metres, Radians, counted},
@@ -53,9 +53,9 @@ pub(super) struct ProgramOptions {
     arm: Option<String>,
     #[command(flatten)]
     cell: CellChoice,
-    /// Write the program despite doubts about part, path, capture or reach; the program names them
-    #[arg(long, requires = "program")]
-    force: bool,
+    /// Write the file despite doubts about part, path, capture or reach; it names them
+    #[arg(long, requires = "robot_file")]
+    pub(super) force: bool,
 }
 
 /// Where an arm stands, and the obstacles besides the part.
@@ -207,6 +207,21 @@ impl ProgramOptions {
     }
 }
 
+/// Advice against the first doubt about a path of this part, if another capture or place of the arm does not help.
+pub(super) fn advice_on_path(
+    off: Option<&OffThePart>,
+    ahead: Option<&ClockAhead>,
+    part: &PartName,
+) -> Option<String> {
+    let off = off.map(|off| {
+        format!(
+            "{} (partsight library path {part} shows it), or plan a new one",
+            off.advice()
+        )
+    });
+    off.or_else(|| ahead.map(ClockAhead::advice))
+}
+
 impl ProgramFile {
     /// Writes the program of a carried path, unless there are doubts and `--force` is not set.
     pub(super) fn write(
@@ -243,22 +258,16 @@ impl ProgramFile {
         let points = program_points(carried, frame, reach.as_ref().map(|(_, reach)| reach));
         if let (false, Some(doubt)) = (self.is_forced, doubts.first()) {
             console.note(&format_args!("no program was written: {doubt}"));
-            let advice = if let Some(off) = off {
-                format!(
-                    "{} (partsight library path {} shows it), or plan a new one",
-                    off.advice(),
-                    subject.part
-                )
-            } else if let Some(ahead) = ahead {
-                ahead.advice()
-            } else if subject.scene.is_some() {
-                "Capture all of the part again, or move part or arm".to_owned()
-            } else {
+            let advice = advice_on_path(off.as_ref(), ahead.as_ref(), subject.part);
+            let advice = advice.unwrap_or_else(|| {
+                if subject.scene.is_some() {
+                    return "Capture all of the part again, or move part or arm".to_owned();
+                }
                 format!(
                     "Run partsight path check {} with the same options to see why, and whether another --base reaches more, or change the path",
                     subject.part
                 )
-            };
+            });
             console.note(&format_args!("  to do: {advice}; --force writes it anyway"));
             return Ok(Outcome::NotAccepted);
         }

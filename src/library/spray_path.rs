@@ -62,6 +62,8 @@ pub const MAX_PATH_POINTS: usize = 20_000;
 pub(super) const MAX_BYTES: u64 = 8 << 20;
 /// Default stand-off of a taught path, metres: the middle of the band.
 const TAUGHT: f64 = 0.15;
+/// Minimum stand-off, metres. Nobody sprays from nearer: such a number is in another unit.
+const LEAST_STAND_OFF: f64 = 0.02;
 /// Maximum distance from the origin, metres. Larger than any part or arm: such numbers are in another unit.
 const FARTHEST: f64 = 20.0;
 /// Maximum speed, m/s. Faster than any robot moves a gun: such numbers are in another unit.
@@ -227,6 +229,18 @@ struct Columns {
 impl Columns {
     fn of(heading: Row<'_>, path: &Path) -> Result<Self, SprayPathError> {
         let known: Vec<Option<(Column, f64)>> = heading.cells().map(column).collect();
+        let contents: Vec<Option<Column>> = known
+            .iter()
+            .map(|known| known.map(|(column, _)| column))
+            .collect();
+        for (i, cell) in heading.cells().enumerate() {
+            if contents[i].is_some() && contents[..i].contains(&contents[i]) {
+                return Err(SprayPathError::TwoColumns {
+                    path: path.to_owned(),
+                    column: cell.to_owned(),
+                });
+            }
+        }
         let has = |wanted: Column| known.iter().flatten().any(|(column, _)| *column == wanted);
         let all = |kind: fn(usize) -> Column| (0..3).all(|axis| has(kind(axis)));
         let is_nozzle = all(Column::Nozzle) && all(Column::Direction);
@@ -292,7 +306,7 @@ impl Columns {
                 distance: Metres(at.coords.norm()),
             });
         }
-        if let Some(distance) = stand_off.filter(|d| !(0.0..=1.0).contains(d)) {
+        if let Some(distance) = stand_off.filter(|d| !(LEAST_STAND_OFF..=1.0).contains(d)) {
             return Err(PathLineProblem::StandOff {
                 distance: Metres(distance),
             });

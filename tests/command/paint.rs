@@ -20,6 +20,7 @@ fn a_path_is_planned_written_read_and_simulated_to_the_same_film() {
         .coded(0, &[&plan[..], &["--output", "path.csv"]].concat())
         .json();
     assert!(planned["within"].as_f64().expect("a share") > 0.95);
+    assert_eq!(planned["schema"], 1);
     let speed = format!("speed={}", planned["speed_mm_s"]);
     let spacing = format!("spacing={}", planned["spacing_mm"]);
     let simulate = ["path", "simulate", "fender", "--coat", "primer", "--json"];

@@ -110,6 +110,40 @@ fn what_cannot_be_inspected_leaves_no_earlier_program_or_path() {
 }
 
 #[test]
+fn both_outputs_at_once_or_one_for_a_scan_are_refused_and_leave_no_earlier_file() {
+    let shop = shop();
+    store_path(&shop);
+    let program = ["--program", "paint.src"];
+    let spray = ["--spray", "paint.csv"];
+    for (capture, outputs, wanted) in [
+        ("door.pcd", vec![program, spray], "cannot be used together"),
+        (
+            "--scan",
+            vec![program],
+            "--program takes a capture's file, not a scan",
+        ),
+        (
+            "--scan",
+            vec![spray],
+            "--spray takes a capture's file, not a scan",
+        ),
+    ] {
+        for output in &outputs {
+            shop.coded(0, &[&["inspect", "door.pcd"][..], output].concat());
+        }
+        let mut inspect = vec!["inspect", capture];
+        if capture == "--scan" {
+            inspect.push("frames");
+        }
+        let ran = shop.coded(2, &[inspect, outputs.concat()].concat());
+        assert!(ran.err.contains(wanted), "{}", ran.err);
+        for [_, file] in outputs {
+            assert!(!shop.path(file).exists(), "{file}");
+        }
+    }
+}
+
+#[test]
 fn of_a_refused_part_an_old_capture_or_an_unreached_path_no_program_is_left_unless_forced() {
     let shop = shop();
     store_path(&shop);
@@ -147,6 +181,18 @@ fn of_a_refused_part_an_old_capture_or_an_unreached_path_no_program_is_left_unle
     assert!(!shop.path("paint.src").exists());
     shop.coded(0, &[&inspect[..], &["--force"]].concat());
     assert!(shop.read("paint.src").contains("FORCED: the capture"));
+    let spray = ["inspect", "door.pcd", "--spray", "out.csv"];
+    let ran = shop.coded(1, &spray);
+    let wanted = "no spray path was written: the capture is more than 10 minutes old";
+    assert!(ran.err.contains(wanted), "{}", ran.err);
+    assert!(!shop.path("out.csv").exists());
+    shop.coded(0, &[&spray[..], &["--force"]].concat());
+    assert!(
+        shop.read("out.csv")
+            .contains("# DOUBT: the capture is more")
+    );
+    let ran = shop.coded(2, &["inspect", "door.pcd", "--force"]);
+    assert!(ran.err.contains("--spray"), "{}", ran.err);
     // A capture dated later than now may be just as old.
     let later = SystemTime::now() + Duration::from_hours(1);
     let file = File::options().write(true).open(shop.path("door.pcd"));
@@ -157,6 +203,8 @@ fn of_a_refused_part_an_old_capture_or_an_unreached_path_no_program_is_left_unle
     assert!(ran.err.contains("Set the clocks"), "{}", ran.err);
     assert!(!ran.err.contains("10 minutes"), "{}", ran.err);
     assert!(!shop.path("paint.src").exists());
+    let ran = shop.coded(1, &spray);
+    assert!(ran.err.contains("Set the clocks"), "{}", ran.err);
     shop.coded(0, &[&inspect[..], &["--force"]].concat());
     // A file that is not a program is not removed.
     shop.write("notes.src", "mine");
@@ -188,6 +236,7 @@ fn a_path_is_checked_against_an_arm() {
     assert!(!ran.out.contains("--base"), "{}", ran.out);
     let ran = shop.coded(1, &[&check[..], &far, &["--json"]].concat());
     let line = ran.json();
+    assert_eq!(line["schema"], 1);
     assert_eq!(line["num_points"], 3);
     assert_eq!(line["num_reached"], 0);
 }
@@ -446,6 +495,14 @@ fn no_program_is_written_for_a_pose_that_another_one_fits_as_well_unless_forced(
     assert!(ran.err.contains(&warning), "{}", ran.err);
     let header = shop.read("paint.src");
     assert!(header.contains(&format!("FORCED: {doubt}")), "{header}");
+    let spray = ["inspect", "bowl.xyz", "--spray", "out.json"];
+    let ran = run(1, &spray);
+    let wanted = format!("no spray path was written: {doubt}");
+    assert!(ran.err.contains(&wanted), "{}", ran.err);
+    assert!(!shop.path("out.json").exists());
+    run(0, &[&spray[..], &["--force"]].concat());
+    let written: serde_json::Value = serde_json::from_str(&shop.read("out.json")).expect("JSON");
+    assert_eq!(written["doubts"], serde_json::json!([doubt]));
 }
 
 #[test]
@@ -469,7 +526,27 @@ fn no_program_is_written_of_a_path_that_does_not_aim_at_the_part_unless_forced()
         .split_once('\n')
         .expect("the line that names the part");
     shop.write("grille.csv", unnamed);
-    for path in ["grille.csv", "far.csv"] {
+    // The surface in place of the nozzle.
+    let path = ["path", "plan", "front_door", "--coat", "primer"];
+    shop.run(&[&path[..], &["--output", "door.csv"]].concat());
+    let mut on_door =
+        "nozzle_x_mm,nozzle_y_mm,nozzle_z_mm,direction_x,direction_y,direction_z,gun_on\n"
+            .to_owned();
+    let planned = shop.read("door.csv");
+    for line in planned.lines().filter(|line| !line.starts_with(['#', 'n'])) {
+        let cells: Vec<&str> = line.split(',').collect();
+        let number = |i: usize| cells[i].parse::<f64>().expect("a number");
+        let [x, y, z] = [0, 1, 2].map(|i| number(i) + 150.0 * number(i + 3));
+        writeln!(
+            on_door,
+            "{x},{y},{z},{},{}",
+            cells[3..6].join(","),
+            cells[7]
+        )
+        .expect("memory");
+    }
+    shop.write("on_door.csv", &on_door);
+    for path in ["grille.csv", "far.csv", "on_door.csv"] {
         let ran = shop.coded(1, &["library", "path", "front_door", path]);
         let doubt = "the spray path does not aim at the part: ";
         assert!(ran.err.contains(doubt), "{}", ran.err);

@@ -2,11 +2,11 @@
 program-files = Roboterprogramme
 program-no-nozzle = Ohne die Lage der Düse am Flansch lässt sich die Reichweite nicht prüfen
 program-no-nozzle-advice = In Lackieren unter dem Arm eintragen oder keinen Arm wählen
-program-stale = Kein Programm geschrieben: Die Aufnahme ist älter als 10 Minuten
+program-stale = Nichts geschrieben: Die Aufnahme ist älter als 10 Minuten
 program-stale-advice = Das Teil neu aufnehmen
-program-clock-ahead = Kein Programm geschrieben: Die Aufnahme ist um { $seconds } s später als jetzt datiert, ihr Alter ist also nicht bekannt
+program-clock-ahead = Nichts geschrieben: Die Aufnahme ist um { $seconds } s später als jetzt datiert, ihr Alter ist also nicht bekannt
 program-clock-ahead-advice = Die Uhren dieses Rechners und des Rechners, der die Aufnahme geschrieben hat, nach demselben Zeitserver stellen und das Teil neu aufnehmen
-program-ambiguous = Kein Programm geschrieben: Eine andere Lage des Teils passt ebenso gut
+program-ambiguous = Nichts geschrieben: Eine andere Lage des Teils passt ebenso gut
 program-ambiguous-advice = Das ganze Teil erneut aufnehmen, damit nur eine Lage passt
 program-off-part = Kein Programm geschrieben: Die Lackierbahn zielt nicht auf das Teil (nur bei { $aiming } von { $all } Punkten mit eingeschalteter Pistole)
 program-off-part-advice = Prüfen, ob die Bahn zu diesem Teil gehört, oder in Lackieren eine neue planen und speichern

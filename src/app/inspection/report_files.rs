@@ -31,8 +31,9 @@ use crate::{
             ClockAhead, Program, ProgramFormat, ProgramSettings, check_reach, clock_ahead,
             clock_ahead_of_file, is_stale, is_stale_file, program_points, remove_previous_program,
         },
-        spray::{CarriedPath, OffThePart, SprayExport},
+        spray::{CarriedPath, OffThePart, SprayExport, remove_previous_export},
     },
+    stages::pose::PoseEstimate,
 };
 
 /// Writes a picture of a 3-D view as PNG; returns a message about it.
@@ -52,7 +53,7 @@ pub(in crate::app) fn picture(path: &Path, shot: &ViewShot) -> Result<String, Us
 }
 
 /// Writes a spray path for the robot, as CSV or JSON like `partsight inspect --spray`, or as a program for its controller like
-/// `--program`; returns a message about it.
+/// `--program`; returns a message about it. Writes nothing if the pose may not be that of the part now.
 pub(in crate::app) fn spray_path(
     path: &Path,
     inspected: &Inspected,
@@ -74,43 +75,46 @@ pub(in crate::app) fn spray_path(
         .pose
         .as_ref()
         .and_then(|pose| pose.as_ref().ok());
+    let off = inspected.off_the_part;
+    let (ahead, is_stale) = match &inspected.origin {
+        Origin::File { path, .. } => (clock_ahead_of_file(path), is_stale_file(path)),
+        Origin::Simulated { .. } | Origin::Scan { .. } | Origin::Frame { .. } => {
+            let at = inspected.at.into();
+            (clock_ahead(at), is_stale(at))
+        }
+    };
+    // Another capture does not help a path that does not aim at the part: that is said first.
+    let refused = if off.is_some() {
+        None
+    } else if let Some(ClockAhead { ahead }) = ahead {
+        let what = text!("program-clock-ahead", seconds = ahead.as_secs());
+        Some((what, text!("program-clock-ahead-advice")))
+    } else if is_stale {
+        Some((text!("program-stale"), text!("program-stale-advice")))
+    } else if pose.is_some_and(PoseEstimate::is_ambiguous) {
+        let advice = text!("program-ambiguous-advice");
+        Some((text!("program-ambiguous"), advice))
+    } else {
+        None
+    };
+    if let Some((what, advice)) = refused {
+        // The file of an earlier part must not remain either.
+        remove_previous_program(path).map_err(|error| UserError::of(&error))?;
+        remove_previous_export(path).map_err(|error| UserError::of(&error))?;
+        return Err(UserError { what, advice });
+    }
     if let (Ok(_), Some(pose)) = (ProgramFormat::of(path), pose) {
         let subject = ProgramSubject {
             part: part.name.as_str(),
             part_points: &inspected.part_points,
-            off: inspected.off_the_part,
+            off,
             scene: Some(&scene_name(&inspected.origin).display().to_string()),
             camera_from_part: pose.camera_from_part(),
             is_simulated,
         };
-        // The program of an earlier part must not remain either.
-        let (ahead, is_stale) = match &inspected.origin {
-            Origin::File { path, .. } => (clock_ahead_of_file(path), is_stale_file(path)),
-            Origin::Simulated { .. } | Origin::Scan { .. } | Origin::Frame { .. } => {
-                let at = inspected.at.into();
-                (clock_ahead(at), is_stale(at))
-            }
-        };
-        // Another capture does not help a path that does not aim at the part: that is said first.
-        let refused = if subject.off.is_some() {
-            None
-        } else if let Some(ClockAhead { ahead }) = ahead {
-            let what = text!("program-clock-ahead", seconds = ahead.as_secs());
-            Some((what, text!("program-clock-ahead-advice")))
-        } else if is_stale {
-            Some((text!("program-stale"), text!("program-stale-advice")))
-        } else if pose.is_ambiguous() {
-            let advice = text!("program-ambiguous-advice");
-            Some((text!("program-ambiguous"), advice))
-        } else {
-            None
-        };
-        if let Some((what, advice)) = refused {
-            remove_previous_program(path).map_err(|error| UserError::of(&error))?;
-            return Err(UserError { what, advice });
-        }
         return program(path, carried, robot, &target?, &subject);
     }
+    let doubts: Vec<String> = off.iter().map(ToString::to_string).collect();
     let export = SprayExport {
         path: carried,
         part: part.name.as_str(),
@@ -120,10 +124,11 @@ pub(in crate::app) fn spray_path(
         params: &inspected.recipe.stand_off,
         is_stored: true,
         is_simulated,
+        doubts: &doubts,
         at: inspected.at,
     };
     export.save(path).map_err(|error| UserError::of(&error))?;
-    if let Some(off) = inspected.off_the_part {
+    if let Some(off) = off {
         return Ok(text!(
             "inspect-path-written-off-part",
             path = path.display().to_string(),

@@ -1,10 +1,10 @@
 //! `partsight inspect --program`: writes the part's spray path as a program for the robot's controller.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 
-use super::spray::{SprayResult, check_placed_part, names_of};
+use super::spray::{SprayResult, check_placed_part, doubts_of, names_of};
 use crate::{
     cli::{
         Outcome,
@@ -14,7 +14,7 @@ use crate::{
     library::{LibraryLoad, LibraryPlace, PartName},
     robot::{
         RobotFrame,
-        program::{ProgramFormat, clock_ahead_of_file, is_stale_file, remove_previous_program},
+        program::{ProgramFormat, remove_previous_program},
         spray::carry,
     },
 };
@@ -26,7 +26,7 @@ pub(super) struct ProgramChoice {
     /// .mod, .script, .jbi or .drl. Needs a calibration and one file. Nothing is written if the part is not accepted, if
     /// another pose fits nearly as well, if the capture is older than 10 minutes or dated later than now, if the path does
     /// not aim at the part, or if --arm does not reach every point
-    #[arg(long, value_name = "FILE", conflicts_with = "spray")]
+    #[arg(long, value_name = "FILE", group = "robot_file")]
     program: Option<PathBuf>,
     /// Language of the program, if the file's ending does not give it: krl, ls, rapid, urscript, jbi or drl
     #[arg(long, value_name = "FORMAT", value_parser = parse_format, requires = "program")]
@@ -47,6 +47,11 @@ impl ProgramChoice {
     /// Returns whether a program is requested.
     pub(super) fn is_wanted(&self) -> bool {
         self.program.is_some()
+    }
+
+    /// Returns whether a file is to be written despite doubts.
+    pub(super) fn is_forced(&self) -> bool {
+        self.options.force
     }
 
     /// Removes the program of an earlier capture: whatever this capture yields, no robot may run it.
@@ -112,14 +117,7 @@ impl CapturedProgram {
         if !inspection.verdict.is_accepted() {
             doubts.push("the part was not accepted".to_owned());
         }
-        if pose.is_ambiguous() {
-            doubts.push("another pose of the part fits nearly as well".to_owned());
-        }
-        // The program's file reports a capture dated later than now.
-        let scene = Path::new(seen.scene);
-        if clock_ahead_of_file(scene).is_none() && is_stale_file(scene) {
-            doubts.push("the capture is more than 10 minutes old".to_owned());
-        }
+        doubts.extend(doubts_of(seen.scene, pose.is_ambiguous()));
         let subject = ProgramSubject {
             part: name,
             reference: &seen.library.references[first.reference],

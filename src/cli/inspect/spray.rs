@@ -1,6 +1,6 @@
 //! `partsight inspect --spray`: writes the part's spray path for the robot.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use jiff::Timestamp;
@@ -10,12 +10,13 @@ use crate::{
         Outcome,
         console::{Advised as _, Console, advised_error, store_a_path},
         input::parse_convention,
-        program::against_seen,
+        program::{advice_on_path, against_seen},
     },
     library::{Library, LibraryLoad, LibraryPlace, PartName},
     pipeline::Inspection,
     robot::{
         Convention, RobotFrame,
+        program::{clock_ahead_of_file, is_stale_file},
         spray::{SprayExport, carry, default_path, off_the_part, remove_previous_export},
     },
     stages::stand_off::StandOffParams,
@@ -26,8 +27,9 @@ use crate::{
 #[derive(Debug, Args)]
 pub(super) struct SprayChoice {
     /// Write the part's stored spray path, moved to where the part hangs now, in the robot's base frame: .csv or .json.
-    /// Needs a calibration and one file; nothing is written if the part is not accepted
-    #[arg(long, value_name = "FILE")]
+    /// Needs a calibration and one file. Nothing is written if the part is not accepted, if another pose fits nearly as
+    /// well, if the capture is older than 10 minutes or dated later than now, or if the path does not aim at the part
+    #[arg(long, value_name = "FILE", group = "robot_file")]
     spray: Option<PathBuf>,
     /// Convention of the poses in that file
     #[arg(long, value_name = "CONVENTION", default_value = "matrix", value_parser = parse_convention, requires = "spray")]
@@ -41,6 +43,7 @@ pub(super) struct SprayFile {
     place: LibraryPlace,
     /// Name of each reference of the library, and whether it is simulated.
     parts: Vec<(PartName, bool)>,
+    is_forced: bool,
 }
 
 /// The inspection whose part the path is carried to.
@@ -52,6 +55,11 @@ pub(super) struct SprayResult<'a> {
 }
 
 impl SprayChoice {
+    /// Returns whether a spray path is requested.
+    pub(super) fn is_wanted(&self) -> bool {
+        self.spray.is_some()
+    }
+
     /// Removes the path of an earlier capture: whatever this capture yields, it must not be mistaken for its own.
     pub(super) fn remove_previous(&self) -> anyhow::Result<()> {
         if let Some(file) = &self.spray {
@@ -67,6 +75,7 @@ impl SprayChoice {
         frame: Option<&RobotFrame>,
         place: LibraryPlace,
         load: &LibraryLoad,
+        is_forced: bool,
     ) -> anyhow::Result<Option<SprayFile>> {
         let Some(file) = &self.spray else {
             return Ok(None);
@@ -77,8 +86,22 @@ impl SprayChoice {
             convention: self.spray_as,
             place,
             parts: names_of(load),
+            is_forced,
         }))
     }
+}
+
+/// Returns the reasons why the pose found in a capture may not be that of the part now. A capture dated later than now is
+/// not among them: it has advice of its own.
+pub(super) fn doubts_of(scene: &str, is_ambiguous: bool) -> Vec<String> {
+    let scene = Path::new(scene);
+    let is_old = clock_ahead_of_file(scene).is_none() && is_stale_file(scene);
+    let all = [
+        (is_ambiguous, "another pose of the part fits nearly as well"),
+        (is_old, "the capture is more than 10 minutes old"),
+    ];
+    let doubts = all.into_iter().filter(|(is_doubt, _)| *is_doubt);
+    doubts.map(|(_, doubt)| doubt.to_owned()).collect()
 }
 
 /// Refuses an option that writes a carried path if there are several captures or no calibration.
@@ -157,6 +180,22 @@ impl SprayFile {
                 store_a_path(name.as_str()),
             ));
         };
+        let mut doubts = doubts_of(scene, pose.is_ambiguous());
+        let ahead = clock_ahead_of_file(Path::new(scene));
+        if let Some(ahead) = &ahead {
+            doubts.insert(0, ahead.to_string());
+        }
+        let off = off_the_part(&path, reference);
+        if let Some(off) = &off {
+            doubts.insert(0, off.to_string());
+        }
+        if let (false, Some(doubt)) = (self.is_forced, doubts.first()) {
+            console.note(&format_args!("no spray path was written: {doubt}"));
+            let advice = advice_on_path(off.as_ref(), ahead.as_ref(), name);
+            let advice = advice.unwrap_or_else(|| "Capture all of the part again".to_owned());
+            console.note(&format_args!("  to do: {advice}; --force writes it anyway"));
+            return Ok(Outcome::NotAccepted);
+        }
         let carried = carry(&path, &pose.camera_from_part(), &part.cloud, params);
         let export = SprayExport {
             path: &carried,
@@ -167,6 +206,7 @@ impl SprayFile {
             params,
             is_stored,
             is_simulated: *is_simulated,
+            doubts: &doubts,
             at: Timestamp::now(),
         };
         export.save(&self.file).advised()?;
@@ -177,8 +217,8 @@ impl SprayFile {
             self.convention.title(),
             against_seen(&carried)
         ));
-        if let Some(off) = off_the_part(&path, reference) {
-            console.warn(&off, &off);
+        for doubt in &doubts {
+            console.note(&format_args!("warning: written by --force: {doubt}"));
         }
         if !is_stored {
             console.note(&format_args!(

@@ -1,6 +1,6 @@
 //! `partsight path check`: checks that an arm reaches a part's path in its standard position.
 
-use std::cmp::Ordering;
+use std::{cell::RefCell, cmp::Ordering};
 
 use clap::Args;
 use nalgebra::Translation3;
@@ -17,6 +17,7 @@ use crate::{
     },
     geometry::rigid::RigidTransform,
     library::PartName,
+    report::SCHEMA,
     robot::{
         Convention, WrittenPose,
         arm::{
@@ -100,16 +101,22 @@ pub(super) fn run(
     let (num, all) = (found.num_reached(), points.len());
     let (mut base, mut rail) = (None, None);
     if num < all {
-        // No progress display: the console shows that the command is working, and Ctrl-C ends it.
-        let (progress, is_cancelled) = (|_, _| {}, || false);
+        let progress = progress_on(console);
+        // Ctrl-C ends the command.
+        let is_cancelled = || false;
         rail = suggest_rail(&placed, &points, &params, num, &progress, &is_cancelled).advised()?;
         base = suggest_base(&placed, &points, &params, num, &progress, &is_cancelled).advised()?;
+        drop(progress);
+        console.end_progress();
     }
     if args.json {
         let moving = placed.arm.moving_rail();
         let range = moving.map(|_| found.rail_range().map(|at| 1000.0 * at));
         let listed = found.points.iter().enumerate().map(|(i, point)| {
-            let joints = point.joints.map(|joints| joints.map(f64::to_degrees));
+            let joints = point.joints.map(|joints| {
+                let shown = placed.arm.on_pendant(&joints);
+                shown.map(f64::to_degrees)
+            });
             json!({
                 "index": i + 1,
                 "joints_deg": joints,
@@ -126,6 +133,7 @@ pub(super) fn run(
             })
         });
         let line = json!({
+            "schema": SCHEMA,
             "part": name.as_str(),
             "arm": placed.arm.name,
             "num_points": all,
@@ -147,6 +155,19 @@ pub(super) fn run(
         }
     }
     Ok(Outcome::accepted_if(num == all))
+}
+
+/// Shows the number of places examined by each search as a progress bar.
+fn progress_on(console: &mut Console) -> impl Fn(usize, usize) {
+    let console = RefCell::new(console);
+    move |num_done, total| {
+        if num_done == 0 {
+            console.borrow_mut().start_progress(total);
+            console.borrow().begin(&"places of the arm");
+        } else {
+            console.borrow().done();
+        }
+    }
 }
 
 /// Shows the result in words.

@@ -31,7 +31,13 @@ pub(super) struct ExportArgs {
     #[arg(long = "as", value_name = "FORMAT", value_parser = parse_format)]
     format: Option<ProgramFormat>,
     /// File of the program, which is named like it. An earlier program of that name is removed first
-    #[arg(id = "program", long = "output", short = 'o', value_name = "FILE")]
+    #[arg(
+        id = "program",
+        long = "output",
+        short = 'o',
+        value_name = "FILE",
+        group = "robot_file"
+    )]
     output: PathBuf,
     #[command(flatten)]
     options: ProgramOptions,

@@ -17,6 +17,7 @@ use crate::{
     library::{PartName, SprayPath, StoredPart},
     paint::{Coat, CoatFolder, Film, KeepOut, PaintSurface, plan, propose, simulate},
     pipeline::parameters::Setting,
+    report::SCHEMA,
     units::counted,
 };
 
@@ -211,6 +212,7 @@ fn show(
     let micrometres = |metres: f64| 1e6 * metres;
     if is_json {
         console.line(&json!({
+            "schema": SCHEMA,
             "part": name.as_str(),
             "scope": surface.scope(),
             "num_points": path.points().len(),

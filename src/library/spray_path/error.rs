@@ -30,6 +30,14 @@ pub enum SprayPathError {
         /// The heading.
         found: String,
     },
+    /// The heading has two columns for the same number.
+    #[error("{}: the heading has a second column for the same number, {:?}", path.display(), shortened(column))]
+    TwoColumns {
+        /// The file.
+        path: PathBuf,
+        /// Name of the second column.
+        column: String,
+    },
     /// A line is not a valid point.
     #[error("{}, line {line}: {problem}", path.display())]
     Line {
@@ -97,8 +105,8 @@ pub enum PathLineProblem {
         /// Distance from the part's origin.
         distance: Metres,
     },
-    /// The stand-off is not from 0 to 1 m.
-    #[error("a stand-off of {distance}, expected 0 to 1000 mm")]
+    /// The stand-off is not from 20 mm to 1 m.
+    #[error("a stand-off of {distance}, expected 20 to 1000 mm")]
     StandOff {
         /// The value.
         distance: Metres,
@@ -131,6 +139,7 @@ impl Advice for SprayPathError {
             Self::NoHeading { .. } | Self::MissingColumns { .. } => {
                 "Begin with nozzle_x_mm,nozzle_y_mm,nozzle_z_mm,direction_x,direction_y,direction_z or with x_mm,y_mm,z_mm,normal_x,normal_y,normal_z,stand_off_mm".into()
             }
+            Self::TwoColumns { .. } => "Leave out one of the two columns".into(),
             Self::Line { problem, .. } => match problem {
                 PathLineProblem::FarAway { .. } | PathLineProblem::StandOff { .. } => {
                     "Check the unit in the heading: _mm or _m".into()

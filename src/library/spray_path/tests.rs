@@ -84,6 +84,14 @@ fn what_is_no_path_is_named() {
             "x,y,z,normal_x,normal_y,normal_z\n1,2,3,0,0,1\n".into(),
             "does not name all columns",
         ),
+        (
+            "x_mm,x_mm,y_mm,z_mm,normal_x,normal_y,normal_z\n1,2,3,4,0,0,1\n".into(),
+            "a second column for the same number, \"x_mm\"",
+        ),
+        (
+            format!("{}1,2,3,0,0,1,1\n", HEAD.replace('\n', ",nozzle_z_m\n")),
+            "\"nozzle_z_m\"",
+        ),
         (HEAD.into(), "no points"),
         (
             format!("{HEAD}1,2,3,0,0,1\n1,2,3,0,0\n"),
@@ -102,6 +110,10 @@ fn what_is_no_path_is_named() {
         (
             "x_mm,y_mm,z_mm,normal_x,normal_y,normal_z,stand_off_m\n1,2,3,0,0,1,150\n".into(),
             "150000.0 mm",
+        ),
+        (
+            "x_mm,y_mm,z_mm,normal_x,normal_y,normal_z,stand_off_mm\n1,2,3,0,0,1,0.15\n".into(),
+            "expected 20 to 1000 mm",
         ),
         (
             format!("{}1,2,3,0,0,1,2\n", HEAD.replace('\n', ",gun_on\n")),

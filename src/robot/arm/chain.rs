@@ -10,7 +10,10 @@ use super::{
     kinematics::{Joints, Solver},
     way::{SLOWEST, may_move_by_joints},
 };
-use crate::geometry::rigid::RigidTransform;
+use crate::geometry::{
+    parallel::{map_each, num_cores},
+    rigid::RigidTransform,
+};
 
 /// Costs in seconds of joint motion: of a singularity nearby, and of turning the nozzle by one step.
 const SINGULAR_COST: f64 = 2.0;
@@ -33,6 +36,10 @@ const JUMP_COST: f64 = 1e4;
 const COLLISION_COST: f64 = 1e6;
 /// Chains chosen before every candidate is tested for collisions.
 const LAZY_ROUNDS: usize = 3;
+/// Number of configurations of an arm.
+pub(super) const NUM_CONFIGURATIONS: usize = 8;
+/// Minimum number of candidates of a point for which it pays to start threads.
+const LEAST_SHARED: usize = 1000;
 
 /// Possible joints at a point.
 #[derive(Clone, Copy)]
@@ -42,6 +49,8 @@ pub(super) struct Candidate {
     pub(super) tilt: Tilt,
     /// The configuration, one of eight, as one bit.
     configuration: u8,
+    /// Number of the solution for this pose of the nozzle; candidates that share it differ by whole turns of joints.
+    solution: usize,
     /// Cost of the point itself, without the move to it.
     cost: f64,
     /// Whether it collides; none if not tested yet.
@@ -49,30 +58,68 @@ pub(super) struct Candidate {
 }
 
 impl Candidate {
-    /// Whether it collides. Tests it once and adds a collision to its cost.
-    fn collides(&mut self, solver: &Solver<'_>) -> bool {
-        if let Some(known) = self.is_collision {
-            return known;
-        }
-        let collides = solver.collides(&self.joints);
-        if collides {
+    /// Sets whether it collides, and adds a collision to its cost once.
+    fn set_collision(&mut self, is_collision: bool) {
+        if self.is_collision.is_none() && is_collision {
             self.cost += COLLISION_COST;
         }
-        self.is_collision = Some(collides);
-        collides
+        self.is_collision = Some(is_collision);
     }
+}
+
+/// Tests all candidates of a point for collisions. The poses of gun and wrist depend on that of the nozzle alone, and whole
+/// turns of joints move nothing, so both are tested once for all candidates that share them.
+pub(super) fn test_all(
+    here: &mut [Candidate],
+    solver: &Solver<'_>,
+    point: &ArmPoint,
+    num_turns: usize,
+) {
+    for posed in here.chunk_by_mut(|a, b| (a.turn, a.tilt) == (b.turn, b.tilt)) {
+        let pose = nozzle_at(point, posed[0].tilt, angle_of(posed[0].turn, num_turns));
+        let gun_collides = solver.gun_collides(&pose);
+        for alike in posed.chunk_by_mut(|a, b| a.solution == b.solution) {
+            let collides = gun_collides || solver.arm_collides(&alike[0].joints);
+            for candidate in alike {
+                candidate.set_collision(collides);
+            }
+        }
+    }
+}
+
+/// Whether gun and wrist are clear of the cell's obstacles at some turn of the nozzle with one of these tilts. If not, no
+/// arm reaches the point without a collision.
+pub(super) fn is_gun_free(
+    solver: &Solver<'_>,
+    point: &ArmPoint,
+    num_turns: usize,
+    tilts: &[Tilt],
+) -> bool {
+    let mut poses = poses_of(point, num_turns, tilts);
+    poses.any(|(_, _, pose)| !solver.gun_collides(&pose))
+}
+
+/// Whether the arm reaches the point without a collision at some turn of the nozzle with one of these tilts.
+pub(super) fn is_free(
+    solver: &Solver<'_>,
+    point: &ArmPoint,
+    num_turns: usize,
+    tilts: &[Tilt],
+) -> bool {
+    let free = poses_of(point, num_turns, tilts).map(|(_, _, pose)| pose);
+    let mut free = free.filter(|pose| !solver.gun_collides(pose));
+    free.any(|pose| {
+        let solutions = solver.solutions(&pose, None);
+        solutions
+            .iter()
+            .any(|joints| !solver.within_limits(joints).is_empty() && !solver.arm_collides(joints))
+    })
 }
 
 /// Angle of a step about z, radians within ±π; the steps are even.
 pub(super) fn angle_of(turn: usize, num_turns: usize) -> f64 {
     let angle = TAU * turn as f64 / num_turns as f64;
     if angle > PI { angle - TAU } else { angle }
-}
-
-/// Steps between two turns, the shorter way round.
-fn turns_apart(a: usize, b: usize, num_turns: usize) -> usize {
-    let apart = a.abs_diff(b);
-    apart.min(num_turns - apart)
 }
 
 /// A tilt of the nozzle about the point that it aims at: a rotation vector in the nozzle's xy plane, radians.
@@ -111,6 +158,20 @@ pub(super) fn turns_of(point: &ArmPoint, num_turns: usize) -> impl Iterator<Item
     (0..num_turns).step_by(step)
 }
 
+/// Tilt, turn and pose of the nozzle at a point for each of these tilts and every turn.
+fn poses_of(
+    point: &ArmPoint,
+    num_turns: usize,
+    tilts: &[Tilt],
+) -> impl Iterator<Item = (Tilt, usize, RigidTransform)> {
+    tilts.iter().flat_map(move |tilt| {
+        turns_of(point, num_turns).map(move |turn| {
+            let pose = nozzle_at(point, *tilt, angle_of(turn, num_turns));
+            (*tilt, turn, pose)
+        })
+    })
+}
+
 /// All joints at a point with these tilts of the nozzle.
 pub(super) fn candidates_of(
     solver: &Solver<'_>,
@@ -119,31 +180,29 @@ pub(super) fn candidates_of(
     tilts: &[Tilt],
 ) -> Vec<Candidate> {
     let mut all = Vec::new();
-    for tilt in tilts {
-        let [x, y] = *tilt;
-        for turn in turns_of(point, num_turns) {
-            let pose = nozzle_at(point, *tilt, angle_of(turn, num_turns));
-            for solution in solver.solutions(&pose, None) {
-                let is_singular = solver.singularity(&solution).is_some();
-                let configuration = solver.arm.configuration_bit(&solution);
-                // Prefer the orientation of the path.
-                let away = turn.min(num_turns - turn) as f64;
-                let cost = 0.1 * TURN_COST * away
-                    + TILT_COST * x.hypot(y)
-                    + if is_singular { SINGULAR_COST } else { 0.0 };
-                let within = solver.within_limits(&solution).into_iter();
-                all.extend(within.map(|joints| {
-                    let wound = joints.iter().map(|angle| (angle.abs() - PI).max(0.0));
-                    Candidate {
-                        joints,
-                        turn,
-                        tilt: *tilt,
-                        configuration,
-                        cost: cost + WOUND_COST * wound.sum::<f64>(),
-                        is_collision: None,
-                    }
-                }));
-            }
+    for (tilt, turn, pose) in poses_of(point, num_turns, tilts) {
+        let [x, y] = tilt;
+        for (solution, folded) in solver.solutions(&pose, None).into_iter().enumerate() {
+            let is_singular = solver.singularity(&folded).is_some();
+            let configuration = solver.arm.configuration_bit(&folded);
+            // Prefer the orientation of the path.
+            let away = turn.min(num_turns - turn) as f64;
+            let cost = 0.1 * TURN_COST * away
+                + TILT_COST * x.hypot(y)
+                + if is_singular { SINGULAR_COST } else { 0.0 };
+            let within = solver.within_limits(&folded).into_iter();
+            all.extend(within.map(|joints| {
+                let wound = joints.iter().map(|angle| (angle.abs() - PI).max(0.0));
+                Candidate {
+                    joints,
+                    turn,
+                    tilt,
+                    configuration,
+                    solution,
+                    cost: cost + WOUND_COST * wound.sum::<f64>(),
+                    is_collision: None,
+                }
+            }));
         }
     }
     all
@@ -175,8 +234,8 @@ pub(super) fn move_time(from: &RigidTransform, to: &RigidTransform, speed: f64) 
 /// Lazy PRM", ICRA 2000: an untested candidate costs as little as a free one, so a chain stays the cheapest if all its
 /// candidates prove free. If one collides, all candidates of its point are tested and another chain is chosen. A path
 /// without collisions takes one test per point; one that collides nearly everywhere takes [`LAZY_ROUNDS`] more chains
-/// and a test of each candidate. `solvers` has one solver per point, for the rail's position there. Returns `None` soon
-/// after `is_cancelled` returns true.
+/// and all tests. `solvers` has one solver per point, for the rail's position there. Returns `None` soon after
+/// `is_cancelled` returns true.
 pub(super) fn free_chain(
     solvers: &[Solver<'_>],
     points: &[ArmPoint],
@@ -190,29 +249,161 @@ pub(super) fn free_chain(
     for _ in 0..LAZY_ROUNDS {
         let chosen = best_chain(arm, points, candidates, num_turns, is_cancelled)?;
         let mut is_final = true;
-        for ((here, chosen), solver) in candidates.iter_mut().zip(&chosen).zip(solvers) {
+        for (i, (here, chosen)) in candidates.iter_mut().zip(&chosen).enumerate() {
             let chosen = chosen.and_then(|index| here.get_mut(index));
-            let untested = chosen.filter(|candidate| candidate.is_collision.is_none());
-            if untested.is_some_and(|candidate| candidate.collides(solver)) {
-                is_final = false;
-                for candidate in here {
-                    candidate.collides(solver);
+            let Some(untested) = chosen.filter(|candidate| candidate.is_collision.is_none()) else {
+                continue;
+            };
+            let collides = solvers[i].collides(&untested.joints);
+            untested.set_collision(collides);
+            if collides {
+                if is_cancelled() {
+                    return None;
                 }
+                is_final = false;
+                test_all(here, &solvers[i], &points[i], num_turns);
             }
         }
         if is_final {
             return Some(chosen);
         }
     }
-    for (here, solver) in candidates.iter_mut().zip(solvers) {
+    for (i, here) in candidates.iter_mut().enumerate() {
         if is_cancelled() {
             return None;
         }
-        for candidate in here {
-            candidate.collides(solver);
+        if here
+            .iter()
+            .any(|candidate| candidate.is_collision.is_none())
+        {
+            test_all(here, &solvers[i], &points[i], num_turns);
         }
     }
     best_chain(arm, points, candidates, num_turns, is_cancelled)
+}
+
+/// Cost of a chain up to a candidate, and the candidate at the previous point; none if the chain begins here.
+type Chained = (f64, Option<usize>);
+
+/// The point before another one, whose candidates continue the chains up to here.
+///
+/// A point may have thousands of candidates, and comparing all of them with all of the next point takes minutes. They are
+/// compared by configuration and turn of the nozzle, the cheapest chain first, until even a move without any motion of the
+/// joints would cost too much.
+struct Former<'a> {
+    arm: &'a Arm,
+    candidates: &'a [Candidate],
+    chains: &'a [Chained],
+    /// Indices of the candidates by configuration and turn, in ascending order of their chains' costs.
+    groups: Vec<Vec<Vec<usize>>>,
+    /// Least cost of a chain to each configuration; infinite if it has no candidate.
+    least: [f64; NUM_CONFIGURATIONS],
+    num_turns: usize,
+    /// True if the nozzle may turn on the way to the next point.
+    is_turn_free: bool,
+    /// Seconds of the move to the next point.
+    allowed: Option<f64>,
+    jump_cost: f64,
+}
+
+impl<'a> Former<'a> {
+    fn new(
+        arm: &'a Arm,
+        [start, end]: [&ArmPoint; 2],
+        candidates: &'a [Candidate],
+        chains: &'a [Chained],
+        num_turns: usize,
+    ) -> Self {
+        let mut order: Vec<usize> = (0..candidates.len()).collect();
+        order.sort_unstable_by(|&a, &b| chains[a].0.total_cmp(&chains[b].0).then(a.cmp(&b)));
+        let mut groups = vec![vec![Vec::new(); num_turns]; NUM_CONFIGURATIONS];
+        let mut least = [f64::INFINITY; NUM_CONFIGURATIONS];
+        for k in order {
+            let place = candidates[k].configuration.trailing_zeros() as usize;
+            groups[place][candidates[k].turn].push(k);
+            least[place] = least[place].min(chains[k].0);
+        }
+        // With the gun off, the arm may move more slowly.
+        let speed = if start.is_gun_on {
+            start.speed
+        } else {
+            start.speed.min(SLOWEST)
+        };
+        Self {
+            arm,
+            candidates,
+            chains,
+            groups,
+            least,
+            num_turns,
+            is_turn_free: end.is_turn_free,
+            allowed: move_time(&start.robot_from_nozzle, &end.robot_from_nozzle, speed),
+            jump_cost: if may_move_by_joints(arm, start, end) {
+                JOINT_MOVE_COST
+            } else {
+                JUMP_COST
+            },
+        }
+    }
+
+    /// The cheapest chain to a candidate of the next point.
+    fn chain_to(&self, candidate: &Candidate) -> Chained {
+        // Larger turns of the nozzle are only considered if no smaller one continues without a collision.
+        let all = self.num_turns / 2;
+        let near = if self.is_turn_free { all.min(1) } else { all };
+        let mut best = self.cheapest(candidate, near, (f64::INFINITY, None));
+        let is_free = |k: usize| self.candidates[k].is_collision != Some(true);
+        if !best.1.is_some_and(is_free) {
+            best = self.cheapest(candidate, all, best);
+        }
+        (best.0 + candidate.cost, best.1)
+    }
+
+    /// The cheapest chain and move to a candidate with at most this many steps of turn, if it is cheaper than `best`.
+    fn cheapest(&self, candidate: &Candidate, most_apart: usize, mut best: Chained) -> Chained {
+        let own = candidate.configuration.trailing_zeros() as usize;
+        let others = (0..NUM_CONFIGURATIONS).filter(|place| *place != own);
+        for place in [own].into_iter().chain(others) {
+            let change = if place == own { 0.0 } else { self.jump_cost };
+            if self.least[place] + change > best.0 {
+                continue;
+            }
+            for apart in 0..=most_apart {
+                let is_jump = place != own || 4 * apart > self.num_turns;
+                let jump = if is_jump { self.jump_cost } else { 0.0 };
+                let least = TURN_COST * apart as f64 + jump;
+                let up = (candidate.turn + apart) % self.num_turns;
+                let down = (candidate.turn + self.num_turns - apart) % self.num_turns;
+                for turn in [up].into_iter().chain((down != up).then_some(down)) {
+                    for &k in &self.groups[place][turn] {
+                        if self.chains[k].0 + least > best.0 {
+                            break;
+                        }
+                        let step = self.step_cost(&self.candidates[k], candidate, apart, is_jump);
+                        let cost = self.chains[k].0 + step;
+                        // Of equal chains the first candidate, in whichever order they are compared.
+                        if cost.total_cmp(&best.0).then(Some(k).cmp(&best.1)).is_lt() {
+                            best = (cost, Some(k));
+                        }
+                    }
+                }
+            }
+        }
+        best
+    }
+
+    /// Cost of the move between two candidates with `apart` steps of turn between them.
+    fn step_cost(&self, from: &Candidate, to: &Candidate, apart: usize, is_jump: bool) -> f64 {
+        let (time, angle) = joint_time(self.arm, &from.joints, &to.joints);
+        // Speed of the fastest joint as a share of its maximum.
+        let share = self.allowed.map_or(time, |allowed| time / allowed);
+        let rush = if is_jump || share > 1.0 || angle > PI {
+            self.jump_cost
+        } else {
+            RUSH_COST * (share - RUSH).max(0.0)
+        };
+        time + TURN_COST * apart as f64 + rush
+    }
 }
 
 /// Finds the cheapest chain of candidates; it has `None` at a point without candidates, after which a new chain begins.
@@ -223,71 +414,27 @@ fn best_chain(
     num_turns: usize,
     is_cancelled: &dyn Fn() -> bool,
 ) -> Option<Vec<Option<usize>>> {
-    // For every candidate, the cost up to it and the candidate at the previous point.
-    let mut chains: Vec<Vec<(f64, Option<usize>)>> = Vec::with_capacity(points.len());
+    // One chain per candidate of every point.
+    let mut chains: Vec<Vec<Chained>> = Vec::with_capacity(points.len());
     for (i, here) in candidates.iter().enumerate() {
         if is_cancelled() {
             return None;
         }
-        let before = i
-            .checked_sub(1)
-            .map(|before| (&candidates[before], &chains[before]));
-        let row = here.iter().map(|candidate| {
-            let Some((former, costs)) = before.filter(|(former, _)| !former.is_empty()) else {
-                return (candidate.cost, None);
-            };
-            let (start, end) = (&points[i - 1], &points[i]);
-            // With the gun off, the arm may move more slowly.
-            let speed = if start.is_gun_on {
-                start.speed
-            } else {
-                start.speed.min(SLOWEST)
-            };
-            let allowed = move_time(&start.robot_from_nozzle, &end.robot_from_nozzle, speed);
-            let jump_cost = if may_move_by_joints(arm, start, end) {
-                JOINT_MOVE_COST
-            } else {
-                JUMP_COST
-            };
-            let step = |previous: &Candidate| {
-                let apart = turns_apart(previous.turn, candidate.turn, num_turns);
-                let (time, angle) = joint_time(arm, &previous.joints, &candidate.joints);
-                // Speed of the fastest joint as a share of its maximum.
-                let share = allowed.map_or(time, |allowed| time / allowed);
-                let is_jump = share > 1.0
-                    || angle > PI
-                    || 4 * apart > num_turns
-                    || previous.configuration != candidate.configuration;
-                let rush = RUSH_COST * (share - RUSH).max(0.0);
-                time + TURN_COST * apart as f64 + if is_jump { jump_cost } else { rush }
-            };
-            let cheapest = |is_near: bool| {
-                let mut best = (f64::INFINITY, None);
-                for (k, (previous, (cost, _))) in former.iter().zip(costs).enumerate() {
-                    let is_out = is_near
-                        && end.is_turn_free
-                        && turns_apart(previous.turn, candidate.turn, num_turns) > 1;
-                    if *cost >= best.0 || is_out {
-                        continue;
-                    }
-                    let cost = cost + step(previous);
-                    if cost < best.0 {
-                        best = (cost, Some(k));
-                    }
-                }
-                best
-            };
-            // Larger turns of the nozzle are only considered if no smaller one continues without a collision.
-            let near = cheapest(true);
-            let is_free = |k: usize| former[k].is_collision != Some(true);
-            let best = if near.1.is_some_and(is_free) {
-                near
-            } else {
-                cheapest(false)
-            };
-            (best.0 + candidate.cost, best.1)
+        let before = i.checked_sub(1);
+        let before = before.filter(|before| !candidates[*before].is_empty());
+        let former = before.map(|before| {
+            let ends = [&points[before], &points[i]];
+            Former::new(arm, ends, &candidates[before], &chains[before], num_turns)
         });
-        let row = row.collect();
+        let num_workers = if here.len() < LEAST_SHARED {
+            1
+        } else {
+            num_cores()
+        };
+        let row = map_each(here.len(), num_workers, |k| match &former {
+            Some(former) => former.chain_to(&here[k]),
+            None => (here[k].cost, None),
+        });
         chains.push(row);
     }
     let mut chosen = vec![None; points.len()];

@@ -6,7 +6,8 @@ use super::{
     ArmError, PlacedArm,
     acceleration::check_accelerations,
     chain::{
-        Candidate, UPRIGHT, angle_of, candidates_of, free_chain, nozzle_at, tilts_up_to, turns_of,
+        Candidate, UPRIGHT, angle_of, candidates_of, free_chain, is_free, nozzle_at, test_all,
+        tilts_up_to, turns_of,
     },
     kinematics::{Joints, Solver},
     problem::PointProblem,
@@ -14,7 +15,13 @@ use super::{
     validate::validate,
     way::{Way, WayEnd, way_between},
 };
-use crate::{geometry::rigid::RigidTransform, units::counted};
+use crate::{
+    geometry::{
+        parallel::{map_each, num_cores},
+        rigid::RigidTransform,
+    },
+    units::counted,
+};
 
 /// A pose of the nozzle that the arm must reach.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -267,19 +274,32 @@ fn check_on(
         )
     };
     let checked = check(&mut candidates)?;
-    let is_bad: Vec<bool> = checked
-        .iter()
-        .map(|point| point.problem.is_some())
-        .collect();
-    if params.max_tilt <= 0.0 || !is_bad.contains(&true) {
+    if params.max_tilt <= 0.0 || num_bad(&checked) == 0 {
         return Ok(checked);
     }
     let tilts = tilts_up_to(params.max_tilt);
+    // A tilt is of no use where gun or arm collide with every one.
+    let collides = |i: usize| matches!(checked[i].problem, Some(PointProblem::Collision { .. }));
+    let may_help = map_each(points.len(), num_cores(), |i| {
+        let is_hopeless = || {
+            collides(i)
+                && (is_cancelled() || !is_free(&solvers[i], &points[i], params.num_turns, &tilts))
+        };
+        checked[i].problem.is_some() && !is_hopeless()
+    });
+    go_on()?;
+    if !may_help.contains(&true) {
+        return Ok(checked);
+    }
     for (i, (solver, point)) in solvers.iter().zip(points).enumerate() {
         let near = i.saturating_sub(NEAR)..points.len().min(i + NEAR + 1);
-        if is_bad[near].contains(&true) {
+        if may_help[near].contains(&true) {
             go_on()?;
             candidates[i].extend(candidates_of(solver, point, params.num_turns, &tilts));
+            // Most of them collide as well: chains that were to find that out one by one would take longer.
+            if collides(i) {
+                test_all(&mut candidates[i], solver, point, params.num_turns);
+            }
         }
     }
     let tilted = check(&mut candidates)?;

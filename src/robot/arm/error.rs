@@ -51,7 +51,7 @@ pub enum ArmError {
         /// Upper limit, degrees.
         high: f64,
     },
-    /// The rail has no length, or is too long.
+    /// The rail is too short or too long.
     #[error("the rail runs from {low:.0} to {high:.0} mm")]
     Rail {
         /// First position, millimetres.
@@ -134,7 +134,7 @@ impl Advice for ArmError {
             }
             Self::Limits { .. } => "Give the lower limit first, then the upper one, in degrees".into(),
             Self::Rail { .. } => {
-                "Give a start below the end, both within 100 m (100000 mm) of where the cell was calibrated".into()
+                "Give start and end in millimetres: the end 100 mm or more above the start, both within 100000 mm of where the cell was calibrated".into()
             }
             Self::Standing { .. } => {
                 "Measure its positions from where the cell was calibrated, or give its top speed if it moves along the path".into()

@@ -107,21 +107,48 @@ impl<'a> Solver<'a> {
         // Joints 1 to 3, the forearm behind the elbow's offset, the middle of the wrist, the flange.
         let poses = self.opw.forward_with_joint_poses(joints);
         let poses = poses.map(|pose| robot_from_foot * isometry(&pose));
-        let [_, shoulder, elbow, forearm, wrist, flange] =
+        let [_, shoulder, elbow, forearm, wrist, _] =
             poses.map(|pose| Point3::from(pose.translation.vector));
-        let [upper_arm, forearm_radius, wrist_radius] = self.arm.radii;
-        let gun_end = poses[5] * self.gun_end;
+        let [upper_arm, forearm_radius, _] = self.arm.radii;
+        let [gun, wrist_body] = self.gun_and_wrist(&poses[5]);
         let capsule = |body, from, to, radius| Capsule {
             body,
             axis: Segment { from, to },
             radius,
         };
         [
-            capsule(Body::Gun, flange, gun_end, self.gun_radius),
-            capsule(Body::Wrist, wrist, flange, wrist_radius),
+            gun,
+            wrist_body,
             capsule(Body::Forearm, forearm, wrist, forearm_radius),
             capsule(Body::Forearm, elbow, forearm, forearm_radius),
             capsule(Body::UpperArm, shoulder, elbow, upper_arm),
+        ]
+    }
+
+    /// Gun and wrist with the flange at this pose, in whichever configuration and wherever the arm stands.
+    fn gun_and_wrist(&self, robot_from_flange: &RigidTransform) -> [Capsule; 2] {
+        let [.., c4] = self.arm.lengths;
+        let [.., wrist_radius] = self.arm.radii;
+        let flange = Point3::from(robot_from_flange.translation.vector);
+        let gun = Segment {
+            from: flange,
+            to: robot_from_flange * self.gun_end,
+        };
+        let wrist = Segment {
+            from: robot_from_flange * Point3::new(0.0, 0.0, -c4),
+            to: flange,
+        };
+        [
+            Capsule {
+                body: Body::Gun,
+                axis: gun,
+                radius: self.gun_radius,
+            },
+            Capsule {
+                body: Body::Wrist,
+                axis: wrist,
+                radius: wrist_radius,
+            },
         ]
     }
 
@@ -157,20 +184,36 @@ impl<'a> Solver<'a> {
         Some(self.obstacles.floor? - axis.from.z)
     }
 
-    /// All pairs of these bodies and obstacles that are too near.
-    fn pairs(&self, bodies: &[Capsule; 5]) -> impl Iterator<Item = Nearness> {
-        let of_arm = self.obstacles.pairs_of_arm(bodies, self.column());
-        of_arm.chain(self.obstacles.pairs(bodies))
+    /// All pairs of the arm's own bodies that are too near.
+    fn pairs_of_arm(&self, bodies: &[Capsule; 5]) -> impl Iterator<Item = Nearness> {
+        self.obstacles.pairs_of_arm(bodies, self.column())
     }
 
-    /// Whether gun or arm are too near to something; stops at the first.
+    /// Whether gun or arm are too near to something.
     pub(super) fn collides(&self, joints: &Joints) -> bool {
-        self.pairs(&self.bodies(joints)).next().is_some()
+        let bodies = self.bodies(joints);
+        self.pairs_of_arm(&bodies).next().is_some() || self.obstacles.are_hit_by(&bodies)
+    }
+
+    /// Whether gun or wrist are too near to an obstacle of the cell with the nozzle at this pose: then all joints that
+    /// reach it collide, wherever the arm stands.
+    pub(super) fn gun_collides(&self, robot_from_nozzle: &RigidTransform) -> bool {
+        let bodies = self.gun_and_wrist(&(robot_from_nozzle * self.nozzle_from_flange));
+        self.obstacles.are_hit_by(&bodies)
+    }
+
+    /// As [`Self::collides`], but without what [`Self::gun_collides`] tests.
+    pub(super) fn arm_collides(&self, joints: &Joints) -> bool {
+        let bodies = self.bodies(joints);
+        let [_, _, rest @ ..] = &bodies;
+        self.pairs_of_arm(&bodies).next().is_some() || self.obstacles.are_hit_by(rest)
     }
 
     /// As [`Self::collides`], but finds the worst pair, which takes longer.
     pub(super) fn collision(&self, joints: &Joints) -> Option<PointProblem> {
-        let (body, obstacle) = worst(self.pairs(&self.bodies(joints)))?;
+        let bodies = self.bodies(joints);
+        let pairs = self.pairs_of_arm(&bodies);
+        let (body, obstacle) = worst(pairs.chain(self.obstacles.pairs(&bodies)))?;
         Some(PointProblem::Collision { body, obstacle })
     }
 

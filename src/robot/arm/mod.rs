@@ -17,7 +17,7 @@
 //! If their limits are known, the accelerations of joints and rail are checked too (`acceleration`).
 //!
 //! Known limits: the choice of configurations and turns does not consider accelerations. Joint 3 of FANUC arms is
-//! coupled to joint 2 on the controller; here it is the angle against the upper arm, and so is its limit.
+//! counted from the horizontal on the controller; here it is the angle against the upper arm, and so is its limit.
 
 mod acceleration;
 mod chain;
@@ -145,6 +145,17 @@ impl Arm {
             (true, false) => Some("joints"),
             (false, true) => Some("rail"),
             (false, false) => None,
+        }
+    }
+
+    /// The joints as the teach pendant of its maker shows them. FANUC counts joint 3 from the horizontal, so that it keeps
+    /// its value while joint 2 alone moves: it is the angle against the upper arm less that of joint 2.
+    pub fn on_pendant(&self, joints: &Joints) -> Joints {
+        let [j1, j2, j3, j4, j5, j6] = *joints;
+        match self.maker {
+            // The forearm leans forward by joint 2 less joint 3: their signs are opposite.
+            Some(Convention::Fanuc) => [j1, j2, j3 - j2, j4, j5, j6],
+            _ => *joints,
         }
     }
 

@@ -234,16 +234,33 @@ impl Obstacles {
                 let distance = part.distance(&axis, within)?;
                 Some((distance - within, body, Obstacle::Part))
             });
-            let floor = self.floor.iter().filter_map(move |floor| {
-                let room = axis.from.z.min(axis.to.z) - floor - within;
-                (room < 0.0).then_some((room, body, Obstacle::Floor))
-            });
-            let boxes = self.boxes.iter().filter_map(move |one| {
-                let distance = one.distance(&axis, within)?;
-                Some((distance - within, body, Obstacle::Box(one.name.clone())))
-            });
-            part.chain(floor).chain(boxes)
+            part.chain(self.pairs_besides_part(*capsule))
         })
+    }
+
+    /// Whether one of these bodies is too near to an obstacle of the cell; faster than [`Self::pairs`], which finds the
+    /// distances.
+    pub(super) fn are_hit_by(&self, bodies: &[Capsule]) -> bool {
+        bodies.iter().any(|capsule| {
+            let within = capsule.radius + self.clearance;
+            let part = self.part.as_ref();
+            part.is_some_and(|part| part.is_near(&capsule.axis, within))
+                || self.pairs_besides_part(*capsule).next().is_some()
+        })
+    }
+
+    fn pairs_besides_part(&self, capsule: Capsule) -> impl Iterator<Item = Nearness> {
+        let Capsule { body, axis, radius } = capsule;
+        let within = radius + self.clearance;
+        let floor = self.floor.iter().filter_map(move |floor| {
+            let room = axis.from.z.min(axis.to.z) - floor - within;
+            (room < 0.0).then_some((room, body, Obstacle::Floor))
+        });
+        let boxes = self.boxes.iter().filter_map(move |one| {
+            let distance = one.distance(&axis, within)?;
+            Some((distance - within, body, Obstacle::Box(one.name.clone())))
+        });
+        floor.chain(boxes)
     }
 
     /// All pairs of the arm's bodies, and of these and the base column, given by its axis and radius, that are too
@@ -368,6 +385,16 @@ impl PartPoints {
         }
         let distance = axis.distance_to_cloud(&self.tree, within)?;
         Some(distance - self.spacing)
+    }
+
+    /// Whether the distance is below `within`. The outer end of gun or arm, where its axis ends, is usually the nearest
+    /// to the part: testing it first saves the search along the axis.
+    fn is_near(&self, axis: &Segment, within: f64) -> bool {
+        let end = Segment {
+            from: axis.to,
+            to: axis.to,
+        };
+        self.distance(&end, within).is_some() || self.distance(axis, within).is_some()
     }
 }
 

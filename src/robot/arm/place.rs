@@ -5,11 +5,15 @@ use nalgebra::Translation3;
 
 use super::{
     ArmError, ArmPoint, CheckParams, PlacedArm,
+    chain::{UPRIGHT, is_gun_free, tilts_up_to},
     check::{check_unless, ends_of, is_reached},
     kinematics::Solver,
     validate::{PIT, validate},
 };
-use crate::geometry::statistics::sample_evenly;
+use crate::geometry::{
+    parallel::{map_each, num_cores},
+    statistics::sample_evenly,
+};
 
 /// A better place for the base or the rail, and what the arm reaches there.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -104,9 +108,16 @@ impl Search<'_> {
         shifts: Vec<[f64; 3]>,
         at: impl Fn([f64; 3]) -> (PlacedArm, f64),
     ) -> Result<Option<PlaceSuggestion>, ArmError> {
-        // The arm may stand on a box already, or in front of the part's cloud.
         let (here, rail) = at([0.0; 3]);
-        let known = Solver::new(&here, rail).in_column();
+        let solver = Solver::new(&here, rail);
+        // Where the gun collides, it does so wherever the arm stands.
+        if self.num_gun_free(&solver)? <= self.num_reached {
+            return Ok(None);
+        }
+        let mut sample = self.sample();
+        sample.retain(|point| is_gun_free(&solver, point, NUM_TURNS, &[UPRIGHT]));
+        // The arm may stand on a box already, or in front of the part's cloud.
+        let known = solver.in_column();
         let shifts: Vec<[f64; 3]> = shifts
             .into_iter()
             .filter(|shift| {
@@ -117,7 +128,6 @@ impl Search<'_> {
             })
             .collect();
         let total = shifts.len() + NUM_CHECKED;
-        let sample = self.sample();
         let mut ranked = Vec::with_capacity(shifts.len());
         for shift in shifts {
             (self.progress)(ranked.len(), total);
@@ -144,6 +154,28 @@ impl Search<'_> {
             }
         }
         Ok(found)
+    }
+
+    /// Number of points at which the gun is clear of all obstacles in some orientation that the check allows: no place
+    /// reaches more.
+    fn num_gun_free(&self, solver: &Solver<'_>) -> Result<usize, ArmError> {
+        let &Self {
+            points,
+            params,
+            is_cancelled,
+            ..
+        } = self;
+        let mut tilts = vec![UPRIGHT];
+        if params.max_tilt > 0.0 {
+            tilts.extend(tilts_up_to(params.max_tilt));
+        }
+        let free = map_each(points.len(), num_cores(), |i| {
+            !is_cancelled() && is_gun_free(solver, &points[i], params.num_turns, &tilts)
+        });
+        if is_cancelled() {
+            return Err(ArmError::Cancelled);
+        }
+        Ok(free.into_iter().filter(|is_free| *is_free).count())
     }
 
     /// Points to compare places with: some of the path, and the ends of its program.

@@ -19,14 +19,20 @@ pub struct Rail {
     pub acceleration: Option<f64>,
 }
 
+/// Minimum length, metres: a shorter rail was probably given in metres.
+const LEAST_LENGTH: f64 = 0.1;
+
 impl Rail {
     pub(super) fn checked(self) -> Result<Self, ArmError> {
         let [low, high] = self.range;
-        if !(low < high && low.abs().max(high.abs()) <= 100.0) {
-            return Err(ArmError::Rail {
+        let wrong_range = || {
+            Err(ArmError::Rail {
                 low: low * 1000.0,
                 high: high * 1000.0,
-            });
+            })
+        };
+        if !(low < high && low.abs().max(high.abs()) <= 100.0) {
+            return wrong_range();
         }
         if self.speed.is_none() && !(low..=high).contains(&0.0) {
             return Err(ArmError::Standing {
@@ -49,6 +55,9 @@ impl Rail {
                 what: "the rail's acceleration in mm/s²".into(),
                 value: acceleration * 1000.0,
             });
+        }
+        if high - low < LEAST_LENGTH {
+            return wrong_range();
         }
         Ok(self)
     }

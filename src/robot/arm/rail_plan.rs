@@ -21,7 +21,7 @@
 
 use super::{
     ArmError, ArmPoint, CheckParams, PlacedArm,
-    chain::{UPRIGHT, angle_of, move_time, nozzle_at, turns_of},
+    chain::{NUM_CONFIGURATIONS, UPRIGHT, angle_of, move_time, nozzle_at, turns_of},
     kinematics::Solver,
 };
 use crate::geometry::parallel::{map_each, num_cores};
@@ -43,8 +43,6 @@ const MISSED: f64 = 1e7;
 const JUMP: f64 = 0.9 * MISSED;
 /// Points examined, evenly, between the ends of a move: a slow rail passes thousands on its way.
 const MAX_LOOKED_AT: usize = 100;
-/// Number of configurations of an arm.
-const NUM_CONFIGURATIONS: usize = 8;
 
 /// Returns the rail's position at every point, metres; `params.rail` if it does not move along the path. Returns
 /// [`ArmError::Cancelled`] soon after `is_cancelled` returns true.

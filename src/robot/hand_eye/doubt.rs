@@ -1,7 +1,7 @@
 //! Doubts about a set of pairs, with advice.
 
 use super::{
-    CalibrationBounds, Equation, HandEyeSolution, Mount, PosePair, Residuals, Span,
+    CalibrationBounds, HandEyeSolution, Mount, PosePair, Poses, Residuals, Span, equations_of,
     mistake::{LikelyMistake, disagreement},
     suspects::suspects,
 };
@@ -22,6 +22,16 @@ pub enum HandEyeDoubt {
         /// The flange or the target.
         what: &'static str,
         /// Distance from its frame's origin.
+        distance: Metres,
+    },
+    /// All positions are nearer than those of any cell: probably another unit.
+    #[error("{what} never lies more than {:.1} mm from {origin}", distance.mm())]
+    TooNear {
+        /// The flange or the target.
+        what: &'static str,
+        /// The robot's base or the camera.
+        origin: &'static str,
+        /// Greatest distance from it.
         distance: Metres,
     },
     /// Robot and camera turned by different angles between the same two captures.
@@ -118,6 +128,7 @@ impl HandEyeDoubt {
     pub fn is_grave(&self) -> bool {
         match self {
             Self::FarAway { .. }
+            | Self::TooNear { .. }
             | Self::TurnsDisagree { .. }
             | Self::Mistaken { .. }
             | Self::FarFromFlange { .. }
@@ -136,8 +147,8 @@ impl HandEyeDoubt {
 impl Advice for HandEyeDoubt {
     fn advice(&self) -> String {
         match self {
-            Self::FarAway { .. } => {
-                "Check the unit of the lengths: name the convention that the poses are written in".into()
+            Self::FarAway { .. } | Self::TooNear { .. } => {
+                "Check the unit of the lengths: each convention has its own (partsight report --conventions)".into()
             }
             Self::TurnsDisagree { .. } => {
                 "Check the convention of the robot's poses, and that each line holds both poses of one capture".into()
@@ -151,8 +162,14 @@ impl Advice for HandEyeDoubt {
                      where the camera sees the target"
                         .into()
                 }
+                LikelyMistake::AnglesSwapped => {
+                    "Check the convention of the robot's poses: kuka, or fanuc or yaskawa".into()
+                }
                 LikelyMistake::CameraInMillimetres | LikelyMistake::CameraInMetres => {
                     "Check the unit of the camera's poses: name the convention that they are written in".into()
+                }
+                LikelyMistake::RobotInMillimetres | LikelyMistake::RobotInMetres => {
+                    "Check the unit of the robot's poses: write them in that of their convention (partsight report --conventions)".into()
                 }
             },
             Self::FarFromFlange { .. } => {
@@ -185,7 +202,10 @@ impl Advice for HandEyeDoubt {
 }
 
 /// No cell is larger.
-const FARTHEST: Metres = Metres(20.0);
+pub(super) const FARTHEST: Metres = Metres(20.0);
+/// The same in metres that were read as millimetres. No arm moves within so little around its base, and no target is so near
+/// to the camera.
+pub(super) const NEAREST: Metres = Metres(0.02);
 /// Least largest turn (15°), so that the camera's noise is small in comparison.
 const LEAST_TURN: Radians = Radians(0.26);
 const LEAST_OTHER_TURN: Radians = Radians(0.07);
@@ -210,7 +230,7 @@ const ENOUGH_PAIRS: usize = 6;
 /// Returns all doubts, the gravest first.
 pub(super) fn doubts(
     pairs: &[PosePair],
-    equations: &[Equation],
+    mount: Mount,
     residuals: &Residuals,
     span: &Span,
     bounds: CalibrationBounds,
@@ -225,11 +245,14 @@ pub(super) fn doubts(
     } else if lead < LEAST_LEAD {
         doubts.push(HandEyeDoubt::SeveralAnswers);
     }
-    let suspects = suspects(equations);
+    let poses: Vec<Poses> = pairs.iter().map(PosePair::poses).collect();
+    let equations = equations_of(mount, poses.iter().copied());
+    let suspects = suspects(&equations);
     // At most one pair in three can be a slip; more suspects mean a mistake in all pairs.
     let suspects = suspects.filter(|found| 3 * found.pairs.len() <= equations.len());
     let rms_of_most = suspects.as_ref().map_or(residuals.rms, |found| found.rms);
-    doubts.extend(disagreement(equations, rms_of_most));
+    doubts.extend(disagreement(mount, &poses, rms_of_most));
+    doubts.extend(too_near(&poses));
     if !doubts.iter().any(HandEyeDoubt::is_grave) {
         doubts.extend(far);
     }
@@ -271,6 +294,29 @@ fn far_away(pairs: &[PosePair]) -> Option<HandEyeDoubt> {
         pair: pair.name.clone(),
         what,
         distance: Metres(distance),
+    })
+}
+
+/// Reports the flange or the target, if it never is far from its origin.
+fn too_near(poses: &[Poses]) -> Option<HandEyeDoubt> {
+    let [flange, target] = farthest(poses);
+    let all = [
+        ("the robot's flange", "the robot's base", flange),
+        ("the target", "the camera", target),
+    ];
+    let near = all.into_iter().find(|(_, _, distance)| *distance < NEAREST);
+    near.map(|(what, origin, distance)| HandEyeDoubt::TooNear {
+        what,
+        origin,
+        distance,
+    })
+}
+
+/// Greatest distances of the robot's and of the camera's positions from their origins.
+pub(super) fn farthest(poses: &[Poses]) -> [Metres; 2] {
+    [0, 1].map(|i: usize| {
+        let distances = poses.iter().map(|pair| pair[i].translation.vector.norm());
+        Metres(distances.fold(0.0, f64::max))
     })
 }
 

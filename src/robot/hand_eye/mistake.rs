@@ -1,8 +1,15 @@
 //! Why pairs do not agree: each common mistake is undone in turn, and the one that makes them agree is reported.
+//!
+//! The pairs only show by which factor the unit of the camera differs from that of the robot. Which of the two is wrong
+//! follows from the lengths: undoing the mistake must leave both as in a cell.
 
-use nalgebra::{Isometry3, Translation3, Vector3};
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
-use super::{Equation, closed_form, doubt::HandEyeDoubt, refine};
+use super::{
+    Equation, Mount, Poses, closed_form,
+    doubt::{FARTHEST, HandEyeDoubt, NEAREST, farthest},
+    equations_of, refine,
+};
 use crate::{
     geometry::{
         rigid::{PoseDelta, RigidTransform},
@@ -34,27 +41,43 @@ pub enum LikelyMistake {
         "the camera sat on the other mount, or its poses went the other way (target_from_camera)"
     )]
     CameraInverted,
+    /// The robot's angles about x and z were read for one another.
+    #[error(
+        "the first and the third angle of the robot's poses changed places: KUKA's A B C begin with the turn about z, FANUC's W P R and Yaskawa's Rx Ry Rz with that about x"
+    )]
+    AnglesSwapped,
     /// The camera's lengths were millimetres read as metres.
     #[error("the camera's lengths were a thousandth of what was read")]
     CameraInMillimetres,
     /// The camera's lengths were metres read as millimetres.
     #[error("the camera's lengths were a thousand times what was read")]
     CameraInMetres,
+    /// The robot's lengths were millimetres read as metres.
+    #[error("the robot's lengths were a thousandth of what was read")]
+    RobotInMillimetres,
+    /// The robot's lengths were metres read as millimetres.
+    #[error("the robot's lengths were a thousand times what was read")]
+    RobotInMetres,
 }
 
 /// Returns why the pairs do not agree, if they do not.
-pub(super) fn disagreement(equations: &[Equation], rms: PoseDelta) -> Option<HandEyeDoubt> {
+pub(super) fn disagreement(mount: Mount, poses: &[Poses], rms: PoseDelta) -> Option<HandEyeDoubt> {
     if rms.shift <= AGREE.shift && rms.rotation <= AGREE.rotation {
         return None;
     }
-    // Even with inverted poses, robot and camera turn by the same angle.
-    let apart = turns_apart(equations);
+    let equations = equations_of(mount, poses.iter().copied());
+    // Even with inverted poses or swapped angles, robot and camera turn by the same angle.
+    let apart = turns_apart(&equations);
     if apart > TURNS_AGREE {
         return Some(HandEyeDoubt::TurnsDisagree { apart });
     }
-    let as_given = quality(equations, rms);
+    let as_given = quality(&equations, rms);
     let tried = LikelyMistake::ALL.iter().filter_map(|&mistake| {
-        let equations = mistake.undone(equations);
+        let poses: Vec<Poses> = poses.iter().map(|pair| mistake.undone(pair)).collect();
+        if mistake.is_of_unit() && !is_of_a_cell(&poses) {
+            return None;
+        }
+        let equations = equations_of(mount, poses.into_iter());
         let fit = refine::refine(&equations, closed_form::solve(&equations)?.unknowns).unknowns;
         let off: Vec<PoseDelta> = equations.iter().map(|e| e.off(&fit)).collect();
         let then = super::rms(&off);
@@ -96,33 +119,52 @@ fn quality(equations: &[Equation], rms: PoseDelta) -> f64 {
     rms.shift.0 / spread.max(f64::MIN_POSITIVE) + rms.rotation.0
 }
 
+/// Whether the robot's and the camera's positions are as far from their origins as in a cell.
+fn is_of_a_cell(poses: &[Poses]) -> bool {
+    let [flange, target] = farthest(poses);
+    let range = NEAREST..=FARTHEST;
+    range.contains(&flange) && range.contains(&target)
+}
+
 impl LikelyMistake {
-    const ALL: [Self; 4] = [
+    const ALL: [Self; 7] = [
         Self::RobotInverted,
         Self::CameraInverted,
+        Self::AnglesSwapped,
         Self::CameraInMillimetres,
         Self::CameraInMetres,
+        Self::RobotInMillimetres,
+        Self::RobotInMetres,
     ];
 
-    /// The equations as they were probably meant.
-    fn undone(self, equations: &[Equation]) -> Vec<Equation> {
+    fn is_of_unit(self) -> bool {
+        match self {
+            Self::RobotInverted | Self::CameraInverted | Self::AnglesSwapped => false,
+            Self::CameraInMillimetres
+            | Self::CameraInMetres
+            | Self::RobotInMillimetres
+            | Self::RobotInMetres => true,
+        }
+    }
+
+    /// The poses of a pair as they were probably meant.
+    fn undone(self, [robot, camera]: &Poses) -> Poses {
         let scaled = |pose: &RigidTransform, factor: f64| {
             let shift = Translation3::from(pose.translation.vector * factor);
             Isometry3::from_parts(shift, pose.rotation)
         };
-        let undone = |e: &Equation| {
-            let (g, b) = (&e.anchor_from_mount, &e.camera_from_target);
-            let (g, b) = match self {
-                Self::RobotInverted => (g.inverse(), *b),
-                Self::CameraInverted => (*g, b.inverse()),
-                Self::CameraInMillimetres => (*g, scaled(b, 0.001)),
-                Self::CameraInMetres => (*g, scaled(b, 1000.0)),
-            };
-            Equation {
-                anchor_from_mount: g,
-                camera_from_target: b,
+        match self {
+            Self::RobotInverted => [robot.inverse(), *camera],
+            Self::CameraInverted => [*robot, camera.inverse()],
+            Self::AnglesSwapped => {
+                let (about_x, about_y, about_z) = robot.rotation.euler_angles();
+                let meant = UnitQuaternion::from_euler_angles(about_z, about_y, about_x);
+                [Isometry3::from_parts(robot.translation, meant), *camera]
             }
-        };
-        equations.iter().map(undone).collect()
+            Self::CameraInMillimetres => [*robot, scaled(camera, 0.001)],
+            Self::CameraInMetres => [*robot, scaled(camera, 1000.0)],
+            Self::RobotInMillimetres => [scaled(robot, 0.001), *camera],
+            Self::RobotInMetres => [scaled(robot, 1000.0), *camera],
+        }
     }
 }

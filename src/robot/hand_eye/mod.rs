@@ -220,6 +220,23 @@ struct Equation {
     camera_from_target: RigidTransform,
 }
 
+/// Pose of the flange in the robot's base frame, and that of the target in the camera frame.
+type Poses = [RigidTransform; 2];
+
+fn equations_of(mount: Mount, pairs: impl Iterator<Item = Poses>) -> Vec<Equation> {
+    let equations = pairs.map(|[robot_from_flange, camera_from_target]| Equation {
+        anchor_from_mount: mount.carrier(&robot_from_flange),
+        camera_from_target,
+    });
+    equations.collect()
+}
+
+impl PosePair {
+    fn poses(&self) -> Poses {
+        [self.robot_from_flange, self.camera_from_target]
+    }
+}
+
 impl Equation {
     /// The target's pose in the camera frame according to X and Z.
     fn predicted(&self, unknowns: &HandEyeSolution) -> RigidTransform {
@@ -247,13 +264,7 @@ struct HandEyeSolution {
 /// Pairs that do not span enough, or contradict each other, give a result with [`HandEye::doubts`].
 pub fn solve(pairs: &[PosePair], mount: Mount) -> Result<HandEye, HandEyeError> {
     check(pairs)?;
-    let equations: Vec<Equation> = pairs
-        .iter()
-        .map(|pair| Equation {
-            anchor_from_mount: mount.carrier(&pair.robot_from_flange),
-            camera_from_target: pair.camera_from_target,
-        })
-        .collect();
+    let equations = equations_of(mount, pairs.iter().map(PosePair::poses));
     let start = closed_form::solve(&equations).ok_or(HandEyeError::Unsolvable)?;
     let refined = refine::refine(&equations, start.unknowns);
     let unknowns = refined.unknowns;
@@ -261,9 +272,7 @@ pub fn solve(pairs: &[PosePair], mount: Mount) -> Result<HandEye, HandEyeError> 
     let span = Span::of(pairs);
     let bounds = refined.bounds(&equations);
     let far = doubt::far_from_flange(mount, &unknowns);
-    let doubts = doubt::doubts(
-        pairs, &equations, &residuals, &span, bounds, start.lead, far,
-    );
+    let doubts = doubt::doubts(pairs, mount, &residuals, &span, bounds, start.lead, far);
     Ok(HandEye {
         mount,
         mount_from_camera: unknowns.mount_from_camera,

@@ -327,6 +327,10 @@ fn a_reserved_word_of_the_language_is_no_name_of_a_program() {
         (ProgramFormat::Krl, "if_1", false),
         (ProgramFormat::Rapid, "Test", true),
         (ProgramFormat::Rapid, "tests", false),
+        // The controller starts at a procedure of this name.
+        (ProgramFormat::Rapid, "main", true),
+        (ProgramFormat::Rapid, "main_1", false),
+        (ProgramFormat::Krl, "main", false),
         (ProgramFormat::UrScript, "if", true),
         (ProgramFormat::UrScript, "movel", true),
         (ProgramFormat::UrScript, "IF", false),

@@ -59,17 +59,19 @@ const RAPID_WORDS: &str = "ALIAS AND BACKWARD CASE CONNECT CONST DEFAULT DIV DO 
     ENDMODULE ENDPROC ENDRECORD ENDTEST ENDTRAP ENDWHILE ERROR EXIT FALSE FOR FROM FUNC GOTO IF INOUT LOCAL MOD MODULE \
     NOSTEPIN NOT NOVIEW OR PERS PROC RAISE READONLY RECORD RETRY RETURN STEP SYSMODULE TASK TEST THEN TO TRAP TRUE \
     TRYNEXT UNDO VAR VIEWONLY WHILE WITH XOR";
+/// Names that a controller's own module or the routine at which it starts already has.
+const RAPID_NAMES: &str = "BASE MAIN USER";
 /// Also the functions that a program calls: it would call itself instead.
 const URSCRIPT_WORDS: &str = "False True and break continue def elif else end global halt if join kill local not or \
     return run sec thread while xor movej movel set_standard_digital_out set_tcp";
 
-/// True for a reserved word of the language. The formats of LS and JBI have a field for the name, and DRL programs
+/// True for a reserved word of the language, and for a name that every controller already has. The formats of LS and JBI have a field for the name, and DRL programs
 /// contain none.
 pub(super) fn is_reserved(format: ProgramFormat, name: &str) -> bool {
     let is_in = |words: &str| words.split(' ').any(|word| word.eq_ignore_ascii_case(name));
     match format {
         ProgramFormat::Krl => is_in(KRL_WORDS),
-        ProgramFormat::Rapid => is_in(RAPID_WORDS),
+        ProgramFormat::Rapid => is_in(RAPID_WORDS) || is_in(RAPID_NAMES),
         // Case matters here.
         ProgramFormat::UrScript => URSCRIPT_WORDS.split(' ').any(|word| word == name),
         ProgramFormat::Ls | ProgramFormat::Jbi | ProgramFormat::Drl => false,

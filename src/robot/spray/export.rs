@@ -34,6 +34,8 @@ pub struct SprayExport<'a> {
     pub is_stored: bool,
     /// True if the scene, or the enrolled part, was simulated.
     pub is_simulated: bool,
+    /// Reasons against moving a robot by the poses.
+    pub doubts: &'a [String],
     /// When the file was made.
     pub at: Timestamp,
 }
@@ -66,6 +68,7 @@ struct Json<'a> {
     at: Timestamp,
     simulated: bool,
     stored_path: bool,
+    doubts: &'a [String],
     frame: &'static str,
     tool: &'static str,
     calibration: &'a str,
@@ -123,10 +126,15 @@ impl SprayExport<'_> {
         } else {
             ""
         };
+        let doubts = self.doubts.iter();
+        let doubts: String = doubts
+            .map(|doubt| format!("# DOUBT: {}\n", csv_comment(doubt)))
+            .collect();
         let mut text = format!(
             "# Partsight spray path, version {SCHEMA}\n\
              # part: {}, {kind}\n\
              # scene: {}, accepted{seen}\n\
+             {doubts}\
              # made: {}\n\
              # frame: {FRAME}, by the calibration {}\n\
              # each line: robot_from_nozzle; tool: {TOOL}\n\
@@ -200,6 +208,7 @@ impl SprayExport<'_> {
             at: self.at,
             simulated: self.is_simulated,
             stored_path: self.is_stored,
+            doubts: self.doubts,
             frame: FRAME,
             tool: TOOL,
             calibration: &self.frame.name,

@@ -15,8 +15,8 @@
 //! angle; ours is [`MOST_TILT`].
 //!
 //! A path that does not aim at the part is found without the camera, because a part may be half hidden: its nozzle does
-//! not meet the enrolled surface, or not near its own stand-off ([`off_the_part`]). Most paths of another part do, since
-//! all parts hang at about the same place.
+//! not meet the enrolled surface, or not near its own stand-off, or is on or behind that surface ([`off_the_part`]). Most
+//! paths of another part do, since all parts hang at about the same place.
 //!
 //! Known limits: where the camera does not see the part, because something is in front of it or it faces away, nothing
 //! can be compared; such points are [`BandStatus::NotSeen`]. Reach and collisions of the arm are not checked here.
@@ -205,20 +205,40 @@ pub fn against_reference(
 
 /// A path that does not belong to the part with which it is stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "the spray path does not aim at the part: {num_aiming} of {} with the gun on {} the enrolled part in front of the nozzle at about the stand-off",
-    counted(*.num_spraying, "point", "points"),
-    if *.num_aiming == 1 { "has" } else { "have" }
-)]
+#[error("the spray path does not aim at the part: {}", self.reason())]
 pub struct OffThePart {
     /// Number of points with the gun on.
     pub num_spraying: usize,
     /// Number of those that aim at the part.
     pub num_aiming: usize,
+    /// Number of those whose nozzle is less than 20 mm in front of the part, or behind its surface, if this is why the
+    /// path is refused; otherwise 0.
+    pub num_too_near: usize,
+}
+
+impl OffThePart {
+    fn reason(&self) -> String {
+        let all = counted(self.num_spraying, "point", "points");
+        if self.num_too_near > 0 {
+            let least = Metres(LEAST_DISTANCE).mm();
+            return format!(
+                "at {} of {all} with the gun on the nozzle is less than {least:.0} mm in front of the enrolled part, or behind its surface",
+                self.num_too_near
+            );
+        }
+        let verb = if self.num_aiming == 1 { "has" } else { "have" };
+        format!(
+            "{} of {all} with the gun on {verb} the enrolled part in front of the nozzle at about the stand-off",
+            self.num_aiming
+        )
+    }
 }
 
 impl Advice for OffThePart {
     fn advice(&self) -> String {
+        if self.num_too_near > 0 {
+            return "Check that the positions are those of the nozzle (nozzle_x_mm) and not of the surface (x_mm, normal_x, stand_off_mm), in the part's frame and in the unit that the heading says".into();
+        }
         "Check that the path is that of this part, in the part's frame, in the unit that its heading says, and points towards the part".into()
     }
 }
@@ -230,19 +250,26 @@ const LEAST_AIMING: f64 = 0.05;
 const LEAST_AT_STAND_OFF: f64 = 0.5;
 /// A stand-off may be off by half of it, or by this, metres, if that is more.
 const LEAST_SLACK: f64 = 0.05;
+/// Minimum distance of the nozzle from the surface in front of it, metres. Nobody sprays from nearer: such positions are
+/// probably those of the surface.
+const LEAST_DISTANCE: f64 = 0.02;
+/// Maximum share of the points that meet the part whose nozzle is nearer than that. Of the points planned over the shipped
+/// parts with the least stand-off of a coat, 30 mm, up to 4.4 % are, from 40 mm on none.
+const MOST_TOO_NEAR: f64 = 0.05;
 
 /// Where a path names no stand-off, the surface is looked for as well around this distance: up to 1.15 m.
 const FAR: Metres = Metres(0.75);
 
 /// Compares a path with the part as it was enrolled; `None` if it belongs to it, or if the part has no normals. Where the
-/// path names no stand-off, the nozzle only has to be in front of the part.
+/// path names no stand-off, any distance from 20 mm on will do.
 pub fn off_the_part(path: &SprayPath, reference: &Reference) -> Option<OffThePart> {
     let surface = ReferenceSurface::of(reference)?;
     let taught = StandOffParams::default().taught;
     let points = path.points();
     // A path that never sprays is judged by all of its points.
     let sprays = points.iter().any(|point| point.is_gun_on);
-    let (mut num_spraying, mut num_met, mut num_aiming) = (0_usize, 0_usize, 0_usize);
+    let (mut num_spraying, mut num_met) = (0_usize, 0_usize);
+    let (mut num_aiming, mut num_too_near) = (0_usize, 0_usize);
     for point in points.iter().filter(|point| point.is_gun_on || !sprays) {
         num_spraying += 1;
         let nozzle = tool_frame(point);
@@ -254,18 +281,25 @@ pub fn off_the_part(path: &SprayPath, reference: &Reference) -> Option<OffThePar
             continue;
         };
         num_met += 1;
-        let is_near = point
-            .stand_off
-            .map_or(met.distance.0 > -LEAST_SLACK, |taught| {
-                (met.distance.0 - taught.0).abs() <= LEAST_SLACK.max(0.5 * taught.0)
-            });
-        num_aiming += usize::from(is_near);
+        if met.distance.0 < LEAST_DISTANCE {
+            num_too_near += 1;
+            continue;
+        }
+        let is_at_stand_off = point.stand_off.is_none_or(|taught| {
+            (met.distance.0 - taught.0).abs() <= LEAST_SLACK.max(0.5 * taught.0)
+        });
+        num_aiming += usize::from(is_at_stand_off);
     }
-    let is_off = (num_aiming as f64) < LEAST_AIMING * num_spraying as f64
+    if num_too_near as f64 <= MOST_TOO_NEAR * num_met as f64 {
+        num_too_near = 0;
+    }
+    let is_off = num_too_near > 0
+        || (num_aiming as f64) < LEAST_AIMING * num_spraying as f64
         || (num_aiming as f64) < LEAST_AT_STAND_OFF * num_met as f64;
     is_off.then_some(OffThePart {
         num_spraying,
         num_aiming,
+        num_too_near,
     })
 }
 

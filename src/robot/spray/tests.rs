@@ -157,6 +157,46 @@ fn a_planned_path_aims_at_its_part_and_one_of_another_part_or_frame_does_not() {
 }
 
 #[test]
+fn a_path_on_the_surface_or_behind_it_is_refused_with_any_stand_off() {
+    let at = |distance: f64, stand_off: Option<f64>| {
+        let points = (0..9).map(|i| PathPoint {
+            stand_off: stand_off.map(Metres),
+            ..before(0.09 * f64::from(i) - 0.36, 0.0, distance)
+        });
+        let path = SprayPath::new(points.collect()).expect("points");
+        off_the_part(&path, &plate())
+    };
+    for (distance, stand_off, is_refused) in [
+        (0.15, None, false),
+        (0.03, None, false),
+        (0.01, None, true),
+        // Points of the surface in place of the nozzle, and 35 mm farther.
+        (0.0, None, true),
+        (-0.035, None, true),
+        (0.0, Some(0.15), true),
+        (0.03, Some(0.03), false),
+        (0.07, Some(0.03), false),
+        (0.005, Some(0.03), true),
+        (-0.015, Some(0.03), true),
+    ] {
+        let off = at(distance, stand_off);
+        assert_eq!(off.is_some(), is_refused, "{distance} {stand_off:?}");
+        let Some(off) = off else { continue };
+        assert_eq!((off.num_aiming, off.num_too_near), (0, 9), "{off}");
+        let wanted = "at 9 of 9 points with the gun on the nozzle is less than 20 mm in front";
+        assert!(off.to_string().contains(wanted), "{off}");
+        assert!(off.advice().contains("nozzle_x_mm"), "{}", off.advice());
+    }
+    // A single such point may be at a fold or an edge.
+    let mut points: Vec<PathPoint> = (0..40)
+        .map(|i| before(0.018 * f64::from(i) - 0.36, 0.0, 0.15))
+        .collect();
+    points[7] = before(-0.2, 0.0, 0.01);
+    let path = SprayPath::new(points).expect("points");
+    assert_eq!(off_the_part(&path, &plate()), None);
+}
+
+#[test]
 fn a_part_without_a_path_is_begun_before_its_middle() {
     let path = default_path(&plate(), &StandOffParams::default()).expect("normals");
     let [start] = path.points() else {
@@ -234,6 +274,7 @@ fn every_line_of_an_export_reads_back_to_the_nozzle_in_the_robots_frame() {
         robot_from_camera: from_euler_zyx([-2.2, 0.1, -1.6, 1.5, -0.2, 2.0]),
         name: "Cell 2 (00112233)".into(),
     };
+    let doubts = ["another pose fits".to_owned()];
     for convention in Convention::ALL {
         let export = SprayExport {
             path: &carried,
@@ -244,6 +285,7 @@ fn every_line_of_an_export_reads_back_to_the_nozzle_in_the_robots_frame() {
             params: &StandOffParams::default(),
             is_stored: true,
             is_simulated: true,
+            doubts: &doubts,
             at: Timestamp::UNIX_EPOCH,
         };
         let csv = export.csv();
@@ -252,6 +294,7 @@ fn every_line_of_an_export_reads_back_to_the_nozzle_in_the_robots_frame() {
             "robot's base frame",
             "Cell 2 (00112233)",
             "SIMULATED",
+            "# DOUBT: another pose fits\n",
             "27 of 27 inside",
         ] {
             assert!(csv.contains(word), "{word}: {csv}");
@@ -264,6 +307,7 @@ fn every_line_of_an_export_reads_back_to_the_nozzle_in_the_robots_frame() {
         );
         let num = convention.names().len();
         let json: serde_json::Value = serde_json::from_str(&export.json()).expect("JSON");
+        assert_eq!(json["doubts"], serde_json::json!(doubts));
         for (i, (line, taught)) in lines.zip(path().points()).enumerate() {
             let cells: Vec<&str> = line.split(',').collect();
             assert_eq!(cells.len(), num + 6, "{line}");

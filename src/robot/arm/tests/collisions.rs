@@ -131,3 +131,48 @@ fn a_free_configuration_is_preferred_to_one_that_collides() {
     assert_eq!(found.num_collisions(), 60, "{found:?}");
     assert!(found.points.iter().all(|point| point.joints.is_some()));
 }
+
+#[test]
+fn the_gun_collides_alike_with_all_joints_that_hold_the_nozzle_in_one_pose() {
+    for name in ARM_NAMES {
+        let placed = with_gun(name);
+        let points = row(&placed, 12, 0.3);
+        let free = check(&placed, &points);
+        let end = end_of_gun(&placed, &free.points[6].joints.expect("reached"));
+        let blocked = among(&placed, &[("post", end, 0.02)]);
+        let solver = Solver::new(&blocked, 0.0);
+        let mut num_colliding = 0;
+        for point in &points {
+            let collides = solver.gun_collides(&point.robot_from_nozzle);
+            num_colliding += usize::from(collides);
+            for joints in solver.solutions(&point.robot_from_nozzle, None) {
+                let gun_and_wrist = &solver.bodies(&joints)[..2];
+                let is_hit = blocked.obstacles.are_hit_by(gun_and_wrist);
+                assert_eq!(is_hit, collides, "{name}");
+                let is_any = collides || solver.arm_collides(&joints);
+                assert_eq!(solver.collides(&joints), is_any, "{name}");
+            }
+        }
+        assert!((1..12).contains(&num_colliding), "{name}: {num_colliding}");
+    }
+}
+
+#[test]
+fn where_every_tilt_collides_the_nozzle_is_not_tilted_and_no_place_is_examined() {
+    let placed = with_gun("irb2600");
+    let mut points = row(&placed, 60, 0.3);
+    for point in &mut points {
+        point.is_turn_free = true;
+    }
+    let blocked = among(&placed, &[("hall", Point3::origin(), 20.0)]);
+    let may_tilt = CheckParams {
+        max_tilt: 0.17,
+        ..CheckParams::default()
+    };
+    let found = check_path(&blocked, &points, &may_tilt).expect("checked");
+    assert_eq!(found.num_collisions(), 60);
+    assert_eq!(found, check(&blocked, &points));
+    let examined = |_, _| panic!("no place helps");
+    let found = suggest_base(&blocked, &points, &may_tilt, 0, &examined, &|| false);
+    assert_eq!(found.expect("searched"), None);
+}

@@ -85,6 +85,9 @@ fn a_rail_is_read_from_files_and_options() {
         ("y,nan,5", "runs from"),
         ("y,0,inf", "runs from"),
         ("y,0,900000", "runs from"),
+        // In metres.
+        ("y,-2,2", "runs from -2 to 2 mm"),
+        ("y,-2,2,1", "runs from -2 to 2 mm"),
         ("y,0,5,0", "speed"),
         ("y,0,5,-1", "speed"),
         ("y,0,5,nan", "speed"),

@@ -205,3 +205,24 @@ fn gun_and_arm_are_capsules_from_joint_to_joint_up_to_the_mouth() {
         }
     }
 }
+
+#[test]
+fn joint_3_of_a_fanuc_is_counted_from_the_horizontal_on_its_pendant() {
+    let placed = placed("m-20ia");
+    let solver = Solver::new(&placed, 0.0);
+    let forearm = |joints: &Joints| {
+        let [_, _, forearm, ..] = solver.bodies(joints);
+        (forearm.axis.to - forearm.axis.from).normalize()
+    };
+    let upright = [0.3, 0.0, 0.0, 0.2, 0.4, 0.1];
+    // The upper arm leans and the forearm stays horizontal.
+    let leaning = [0.3, 0.5, 0.5, 0.2, 0.4, 0.1];
+    for joints in [&upright, &leaning] {
+        assert!(forearm(joints).z.abs() < 1e-9, "{}", forearm(joints));
+        let [_, j2, j3, ..] = placed.arm.on_pendant(joints);
+        assert_eq!([j2, j3], [joints[1], 0.0]);
+    }
+    assert!((forearm(&upright) - forearm(&leaning)).norm() < 1e-9);
+    let other = Arm::named("irb2600").expect("known");
+    assert_eq!(other.on_pendant(&leaning), leaning);
+}

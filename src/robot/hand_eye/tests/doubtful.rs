@@ -223,21 +223,61 @@ fn lengths_in_another_unit_are_told() {
             sound.iter().map(scale).collect()
         };
         let first = |pairs: &[PosePair]| solve(pairs, cell.mount).expect("solved").doubts.remove(0);
+        let is_mistake = |doubt: &HandEyeDoubt, wanted: LikelyMistake| matches!(doubt, HandEyeDoubt::Mistaken { mistake, .. } if *mistake == wanted);
         let doubt = first(&scaled(0.001));
-        assert!(
-            matches!(
-                doubt,
-                HandEyeDoubt::Mistaken {
-                    mistake: LikelyMistake::CameraInMetres,
-                    ..
-                }
-            ),
-            "{doubt}"
-        );
+        assert!(is_mistake(&doubt, LikelyMistake::CameraInMetres), "{doubt}");
         assert!(matches!(
             first(&scaled(1000.0)),
             HandEyeDoubt::FarAway { .. }
         ));
+        // The same factor between camera and robot, but the robot's poses are those of no arm.
+        let mut small = sound.clone();
+        for pair in &mut small {
+            pair.robot_from_flange.translation.vector *= 0.001;
+        }
+        let doubt = first(&small);
+        assert!(is_mistake(&doubt, LikelyMistake::RobotInMetres), "{doubt}");
+        // If both are in metres, the pairs agree.
+        for pair in &mut small {
+            pair.camera_from_target.translation.vector *= 0.001;
+        }
+        let found = solve(&small, cell.mount).expect("solved");
+        let is_near = |doubt: &HandEyeDoubt| matches!(doubt, HandEyeDoubt::TooNear { .. });
+        assert!(found.doubts.iter().any(is_near), "{:?}", found.doubts);
+        assert!(!found.is_usable());
+    });
+}
+
+#[test]
+fn angles_of_another_makers_order_are_told() {
+    use crate::robot::Convention;
+
+    over_cells(20, |cell, random| {
+        for (written, read) in [
+            (Convention::Kuka, Convention::Fanuc),
+            (Convention::Yaskawa, Convention::Kuka),
+        ] {
+            let mut pairs = cell.pairs(10, 0.7, noise(0.5, 0.1), random);
+            for pair in &mut pairs {
+                let numbers = written.write(&pair.robot_from_flange).values;
+                let numbers: Vec<f64> = numbers.iter().map(|number| number.value).collect();
+                pair.robot_from_flange = read.read(&numbers).expect("six numbers");
+            }
+            let found = solve(&pairs, cell.mount).expect("a result");
+            let is_swap = |doubt: &&HandEyeDoubt| {
+                matches!(
+                    doubt,
+                    HandEyeDoubt::Mistaken {
+                        mistake: LikelyMistake::AnglesSwapped,
+                        ..
+                    }
+                )
+            };
+            let doubt = found.doubts.iter().find(is_swap).map(ToString::to_string);
+            let names_makers = doubt.is_some_and(|doubt| doubt.contains("FANUC's W P R"));
+            assert!(names_makers, "{:?}", found.doubts);
+            assert!(!found.is_usable());
+        }
     });
 }
 
