@@ -11,7 +11,7 @@ use numpy::PyArrayDyn;
 use partsight::{
     EnrolParams, LibraryError, LibraryFolder, LibraryLoad, PartDescription, PartName,
     enrol_captured,
-    library::{LibraryPlace, MAX_TITLE, most_similar, open_library},
+    library::{LibraryPlace, MAX_TITLE, likenesses, open_library},
     pipeline::NamedRecipe,
 };
 use pyo3::prelude::*;
@@ -210,9 +210,9 @@ impl Library {
         for warning in &enrolled.warnings {
             warn(py, warning)?;
         }
-        let coverage = enrolled.part.meta.coverage;
-        let similar = most_similar(&enrolled.reference, coverage, &load.library);
-        similar.map_or(Ok(()), |similar| warn(py, &similar))
+        let similar = py.detach(|| likenesses(&enrolled, Some(cloud), &load.library));
+        let similar = similar.first().filter(|first| !first.is_distinguishable());
+        similar.map_or(Ok(()), |similar| warn(py, similar))
     }
 
     /// The number of references.

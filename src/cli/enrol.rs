@@ -19,8 +19,9 @@ use crate::{
     library::{
         EnrolError, EnrolParams, Enrolled, LibraryError, LibraryFolder, MAX_TITLE, PartDescription,
         PartName, SharedTitle, enrol_captured, enrol_mesh, enrol_scan, enrol_surface, enrol_whole,
-        most_similar, surfaces_to_enrol,
+        likenesses, surfaces_to_enrol,
     },
+    scan::part::background_sign,
     stages::{
         reference::ReferenceParams,
         scene::{SceneCloud, scene_from_cloud, scene_from_frame},
@@ -86,7 +87,7 @@ pub(super) fn run(mut args: EnrolArgs, console: &mut Console) -> anyhow::Result<
     args.import.write_behind(&mut args.file);
     let args = &args;
     let of = part_of(args)?;
-    let mut enrolled = enrolled_from(args, console)?;
+    let (mut enrolled, scene) = enrolled_from(args, console)?;
     enrolled.part.meta.part = of;
     enrolled.reference.name = enrolled.part.meta.part_name().to_string();
     for warning in &enrolled.warnings {
@@ -126,9 +127,9 @@ pub(super) fn run(mut args: EnrolArgs, console: &mut Console) -> anyhow::Result<
     if let Some(shared) = SharedTitle::among(&part.meta.title, name, of, &load.parts) {
         console.warn(&shared, &shared);
     }
-    let others = load.library;
-    if let Some(likeness) = most_similar(&enrolled.reference, part.meta.coverage, &others) {
-        console.warn(&likeness, &likeness);
+    let hardest = likenesses(&enrolled, scene.as_ref(), &load.library);
+    if let Some(likeness) = hardest.first().filter(|first| !first.is_distinguishable()) {
+        console.warn(likeness, likeness);
     }
     Ok(Outcome::Accepted)
 }
@@ -180,29 +181,43 @@ fn about(args: &EnrolArgs, from: &Path, simulated: bool) -> anyhow::Result<PartD
     })
 }
 
-fn enrolled_from(args: &EnrolArgs, console: &mut Console) -> anyhow::Result<Enrolled> {
+/// Enrols the part, and returns the scene that it was cut out of, if any.
+fn enrolled_from(
+    args: &EnrolArgs,
+    console: &mut Console,
+) -> anyhow::Result<(Enrolled, Option<SceneCloud>)> {
     let params = EnrolParams {
         segment: args.recipe.recipe()?.segment.clone(),
         ..EnrolParams::default()
     };
     if let [first, ..] = args.scan.as_slice() {
         let scan = open_scan(&args.scan, &args.poses, &params.segment, console)?;
+        if let Some(sign) = background_sign(&scan) {
+            return Err(advised_error(
+                format!("the surface found may be background: {sign}"),
+                "Add frames that show more of the part, or select it in the window's Enrol workspace",
+            ));
+        }
         let about = about(args, first, scan.cloud.cloud.is_simulated)?;
-        return enrol_scan(&scan, &about, &params).advised();
+        return Ok((enrol_scan(&scan, &about, &params).advised()?, None));
     }
     let file = args.file.as_deref().expect("required without --scan");
     let opened = files::open(file).advised()?;
     warn_of(file, &opened.warnings(), console);
     let about = about(args, file, opened.is_simulated())?;
     let path = file.display();
-    let captured = |scene: &SceneCloud| match args.segment.filter(|number| *number > 0) {
-        Some(number) => enrol_surface(scene, number, &about, &params),
-        None => enrol_captured(scene, &about, &params).inspect_err(|error| {
-            if let EnrolError::Background(_) = error {
-                list_surfaces(scene, &params, console);
-            }
-        }),
+    let captured = |scene: SceneCloud| {
+        let enrolled = match args.segment.filter(|number| *number > 0) {
+            Some(number) => enrol_surface(&scene, number, &about, &params),
+            None => enrol_captured(&scene, &about, &params).inspect_err(|error| {
+                if let EnrolError::Background(_) = error {
+                    list_surfaces(&scene, &params, console);
+                }
+            }),
+        };
+        enrolled.map(|enrolled| (enrolled, Some(scene)))
     };
+    let alone = |enrolled| (enrolled, None);
     let enrolled = match opened {
         FileContent::Mesh(_) if args.segment.is_some() => {
             return Err(advised_error(
@@ -210,17 +225,17 @@ fn enrolled_from(args: &EnrolArgs, console: &mut Console) -> anyhow::Result<Enro
                 "Leave --segment out",
             ));
         }
-        FileContent::Mesh(mesh) => enrol_mesh(&mesh, &about, &params),
+        FileContent::Mesh(mesh) => enrol_mesh(&mesh, &about, &params).map(alone),
         FileContent::Depth(frame) if args.whole => {
-            enrol_whole(&scene_from_frame(&frame).cloud, &about, &params)
+            enrol_whole(&scene_from_frame(&frame).cloud, &about, &params).map(alone)
         }
-        FileContent::Depth(frame) => captured(&scene_from_frame(&frame)),
+        FileContent::Depth(frame) => captured(scene_from_frame(&frame)),
         FileContent::Cloud(cloud)
             if args.segment.is_some() || (cloud.grid.is_some() && !args.whole) =>
         {
-            captured(&scene_from_cloud(cloud))
+            captured(scene_from_cloud(cloud))
         }
-        FileContent::Cloud(cloud) => enrol_whole(&cloud, &about, &params),
+        FileContent::Cloud(cloud) => enrol_whole(&cloud, &about, &params).map(alone),
     };
     // The error is about the cloud and does not name the file.
     enrolled.map_err(|error| advised_error(format!("{path}: {error}"), error.advice()))

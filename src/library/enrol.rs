@@ -13,7 +13,10 @@ use jiff::Timestamp;
 use nalgebra::Point3;
 
 use self::{
-    cloud::{coverage_of, finite_only, middle, normals_towards, thinned, without_isolated},
+    cloud::{
+        face_one_way, finite_only, is_one_capture, middle, normals_towards, thinned,
+        without_isolated,
+    },
     kept::{share_apart, share_on_background},
     own_pose::pose_warning,
 };
@@ -88,6 +91,8 @@ pub struct Enrolled {
     pub part: Part,
     /// The part as a reference, prepared for ranking and pose.
     pub reference: Reference,
+    /// The part in the captured scene that it was cut out of; `None` if it was not cut out of one.
+    pub seen: Option<SegmentedPart>,
     /// Warnings about the part.
     pub warnings: Vec<EnrolWarning>,
 }
@@ -197,6 +202,7 @@ fn enrol_one_side(
         cut: ViewCut::of(found, scene),
     };
     let mut enrolled = assemble(cloud, &source, about, params)?;
+    enrolled.seen = Some(found.clone());
     if found.touches_edge {
         enrolled.warnings.push(EnrolWarning::TouchesEdge);
     }
@@ -206,8 +212,9 @@ fn enrol_one_side(
 /// Enrols all points of a cloud.
 ///
 /// A few isolated points are dropped. A cloud that lies in front of the camera, with normals (if any) that face it, counts
-/// as one capture; any other as a part seen from all around. For the latter, missing normals are estimated and turned away
-/// from the cloud's middle, which is right for a convex part and a guess otherwise.
+/// as one capture. Of any other, missing normals are estimated and turned away from the cloud's middle, which is right for
+/// a convex part and a guess otherwise. If the normals face one way, it counts as seen from several sides, else from all
+/// around.
 pub fn enrol_whole(
     cloud: &PointCloud,
     about: &PartDescription,
@@ -221,20 +228,24 @@ pub fn enrol_whole(
             needed: MIN_POINTS,
         });
     }
-    let coverage = coverage_of(&finite);
+    let is_one_capture = is_one_capture(&finite);
     let (thin, voxel) = thinned(&finite, params);
     let mut thin = without_isolated(thin, voxel);
-    if thin.normals.is_none() {
-        thin.normals = Some(match coverage {
-            Coverage::OneSide => normals_towards(&thin, voxel, &Point3::origin()),
-            Coverage::AllAround | Coverage::SeveralSides => {
-                normals_towards(&thin, voxel, &middle(&thin))
-                    .into_iter()
-                    .map(|inward| -inward)
-                    .collect()
-            }
-        });
-    }
+    let normals = thin.normals.take().unwrap_or_else(|| {
+        if is_one_capture {
+            return normals_towards(&thin, voxel, &Point3::origin());
+        }
+        let inward = normals_towards(&thin, voxel, &middle(&thin)).into_iter();
+        inward.map(|inward| -inward).collect()
+    });
+    let coverage = if is_one_capture {
+        Coverage::OneSide
+    } else if face_one_way(&normals) {
+        Coverage::SeveralSides
+    } else {
+        Coverage::AllAround
+    };
+    thin.normals = Some(normals);
     let source = ReferenceOrigin {
         coverage,
         how: EnrolMethod::WholeCloud,
@@ -299,11 +310,9 @@ fn assemble(
         })?;
     let part = Part {
         meta: PartMeta {
-            schema_version: match source.how {
-                EnrolMethod::Scan => SCANNED_VERSION,
-                EnrolMethod::Segmented | EnrolMethod::WholeCloud | EnrolMethod::Mesh => {
-                    PLAIN_VERSION
-                }
+            schema_version: match source.coverage {
+                Coverage::SeveralSides => SCANNED_VERSION,
+                Coverage::OneSide | Coverage::AllAround => PLAIN_VERSION,
             },
             name: about.name.clone(),
             part: None,
@@ -333,6 +342,7 @@ fn assemble(
             .into_iter()
             .collect(),
         reference,
+        seen: None,
     })
 }
 

@@ -68,6 +68,29 @@ pub enum LibraryError {
         /// The name asked for.
         name: PartName,
     },
+    /// The part has references of its own, which would be left without a part.
+    #[error(
+        "{name} cannot become a reference of {of}: it has references of its own, {}",
+        joined(references)
+    )]
+    HasReferences {
+        /// Name of the part.
+        name: PartName,
+        /// The part that it was to become a reference of.
+        of: PartName,
+        /// Its references.
+        references: Vec<PartName>,
+    },
+    /// The part in the trash is damaged, and the library has a sound one of that name.
+    #[error(
+        "{name} was not restored, because the removed part is damaged ({problem}); the one in the library is unchanged"
+    )]
+    DamagedInTrash {
+        /// Name of the part.
+        name: PartName,
+        /// Why the removed part cannot be loaded.
+        problem: Box<EntryProblem>,
+    },
     /// The trash has no such entry.
     #[error("{}: no removed part is kept there", kept.display())]
     NotInTrash {
@@ -85,6 +108,11 @@ pub enum LibraryError {
     /// The system names no folder for user data.
     #[error("this system has no folder for user data")]
     NoUserFolder,
+}
+
+fn joined(names: &[PartName]) -> String {
+    let names: Vec<&str> = names.iter().map(PartName::as_str).collect();
+    names.join(", ")
 }
 
 fn listed(names: &[String]) -> String {
@@ -120,6 +148,13 @@ impl Advice for LibraryError {
             Self::NameTaken { name, .. } => {
                 format!("Choose another name, or remove or rename {name} first")
             }
+            Self::HasReferences { name, .. } => format!(
+                "Rename {name} first (`partsight library rename {name} --to NAME`), which takes its references along, or remove them"
+            ),
+            Self::DamagedInTrash { name, problem } => format!(
+                "To restore an older one, move {} out of the .trash folder; to get the damaged one nevertheless, remove {name} first",
+                problem.path.display()
+            ),
             Self::NotInTrash { .. } => {
                 "Look into the library's .trash folder: it may have been emptied or moved by hand"
                     .into()

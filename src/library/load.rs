@@ -208,6 +208,11 @@ fn read_entry(
     })
 }
 
+/// Returns why a stored part cannot be loaded; `None` if it can.
+pub(super) fn problem_of(entry: &Entry) -> Option<EntryProblem> {
+    read_entry(entry, CloudCheckLevel::Quick, &ReferenceParams::default()).err()
+}
+
 /// Reads the `part.toml` of a stored part.
 pub(super) fn meta_of(entry: &Entry) -> Result<PartMeta, EntryProblem> {
     read_meta(entry).map_err(|reason| EntryProblem {

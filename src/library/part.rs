@@ -19,9 +19,9 @@ use crate::{
 
 /// Newest version of the files; this program also reads older ones.
 pub const SCHEMA_VERSION: u32 = 2;
-/// Version of parts that were not scanned, which older programs can read too.
+/// Version of parts seen from one side or all around, which older programs can read too.
 pub(super) const PLAIN_VERSION: u32 = 1;
-/// Version of parts enrolled from a scan: older programs do not know their coverage.
+/// Version of parts seen from several sides: older programs do not know this coverage.
 pub(super) const SCANNED_VERSION: u32 = 2;
 
 /// An enrolled part with the content of its folder.

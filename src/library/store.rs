@@ -17,7 +17,7 @@ use super::{
     },
     error::LibraryError,
     install::RenamedFolder,
-    load::meta_of,
+    load::{meta_of, problem_of},
     name::PartName,
     part::{FileCheck, Part, PartMeta, PartNaming},
     trash,
@@ -194,8 +194,19 @@ impl LibraryFolder {
         Ok((entry, meta))
     }
 
-    /// Saves a part; an existing part of that name goes to the trash once the new one is in place.
+    /// Saves a part; an existing part of that name goes to the trash once the new one is in place. A part that has references
+    /// of its own is not replaced by a reference of another part: they would be left without a part.
     pub fn save(&self, part: &Part) -> Result<Saved, LibraryError> {
+        if let Some(of) = part.meta.reference_of() {
+            let references = self.references_of(&part.meta.name)?;
+            if !references.is_empty() {
+                return Err(LibraryError::HasReferences {
+                    name: part.meta.name.clone(),
+                    of: of.clone(),
+                    references,
+                });
+            }
+        }
         self.writing(|| {
             self.finish_interrupted_write()?;
             let name = part.meta.name.as_str();
@@ -222,6 +233,12 @@ impl LibraryFolder {
             sync_folder(&self.path)?;
             Ok(trash)
         })
+    }
+
+    /// Returns the text of a part's `part.toml`, which no other version of the part has; `None` if it cannot be read.
+    pub fn version_of(&self, name: &PartName) -> Option<String> {
+        let entry = self.entry(name.as_str()).ok()?;
+        fs::read_to_string(entry.path.join(META)).ok()
     }
 
     /// Returns name, title and notes of a part.
@@ -286,12 +303,24 @@ impl LibraryFolder {
         })?
     }
 
-    /// Restores a part from the trash; an existing part of that name goes there once the restored one is in place.
+    /// Restores a part from the trash; an existing part of that name goes there once the restored one is in place. A
+    /// damaged part does not replace a sound one.
     pub fn restore(&self, kept: &Path) -> Result<Restored, LibraryError> {
         let not_there = || LibraryError::NotInTrash {
             kept: kept.to_owned(),
         };
         let name = trash::name_of(&self.path, kept).ok_or_else(not_there)?;
+        if let Some(present) = self.entry(name.as_str()).ok()
+            && problem_of(&present).is_none()
+        {
+            let coming = Entry::in_folder(name.to_string(), kept.to_owned());
+            if let Some(problem) = problem_of(&coming) {
+                return Err(LibraryError::DamagedInTrash {
+                    name,
+                    problem: Box::new(problem),
+                });
+            }
+        }
         self.writing(|| {
             self.finish_interrupted_write()?;
             let replaced = self.replace_entry(kept, name.as_str(), name.as_str())?;

@@ -443,6 +443,55 @@ fn one_more_reference_of_a_part_is_named_and_goes_with_it() {
 }
 
 #[test]
+fn a_part_with_references_of_its_own_becomes_none_of_another_part() {
+    let place = Workplace::new();
+    place.with_part("fender");
+    place.with_part("grille");
+    let more = |name, of| {
+        let enrol = ["enrol", "grille.pcd", "--name", name, "--as", of];
+        [&enrol[..], &["--library", "parts"]].concat()
+    };
+    place.accepted(&more("grille_b", "grille"));
+    let before = place.read("parts/grille/part.toml");
+    let refused = place.coded(2, &more("grille", "fender"));
+    assert!(
+        refused.err.contains("references of its own, grille_b"),
+        "{}",
+        refused.err
+    );
+    assert!(refused.err.contains("library rename grille"));
+    assert_eq!(place.read("parts/grille/part.toml"), before);
+}
+
+#[test]
+fn a_damaged_part_is_not_restored_over_a_sound_one() {
+    let place = Workplace::new();
+    place.with_part("fender");
+    let cloud = place.path("parts/fender/cloud.ply");
+    fs::write(&cloud, "x").expect("written");
+    let library = |code: i32, args: &[&str]| {
+        place.coded(code, &[&["library", "--library", "parts"], args].concat())
+    };
+    library(0, &["remove", "fender"]);
+    place.accepted(&[
+        "enrol",
+        "fender-reference.pcd",
+        "--name",
+        "fender",
+        "--library",
+        "parts",
+    ]);
+    let sound = fs::read(&cloud).expect("there");
+    let refused = library(2, &["restore", "fender"]);
+    assert!(
+        refused.err.contains("the removed part is damaged"),
+        "{}",
+        refused.err
+    );
+    assert_eq!(fs::read(&cloud).expect("there"), sound);
+}
+
+#[test]
 fn a_rename_without_a_new_name_says_what_it_changed() {
     let place = Workplace::new();
     place.with_part("fender");

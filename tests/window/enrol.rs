@@ -351,10 +351,13 @@ fn a_removed_part_comes_back_by_undo() {
     let library = library();
     let mut harness = open(library.path());
     enrol(&mut harness, PartKind::Grille, "Grille");
+    harness.get_by_label("Saved: see it in Inspect");
     press(&mut harness, "Enrolled: Grille");
     press(&mut harness, "Remove");
     assert!(names(library.path()).is_empty());
     assert!(harness.query_by_label("Enrolled: Grille").is_none());
+    let saved = harness.query_by_label("Saved: see it in Inspect");
+    assert!(saved.is_none());
     press(&mut harness, "Undo");
     assert_eq!(names(library.path()), ["grille"]);
     harness.get_by_label("Enrolled: Grille");
@@ -890,6 +893,16 @@ fn without_a_library_the_window_says_so_everywhere_and_still_captures() {
     settle(&mut harness);
     let library = state(&harness).session.library.as_ref().expect("loaded");
     assert!(library.unloaded.is_none());
+}
+
+#[test]
+fn without_a_library_the_button_says_why_nothing_can_be_saved() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open(&folder.path().join("missing"));
+    capture(&mut harness, PartKind::Grille, Side::Left);
+    write(&mut harness, "Title", "Grille");
+    harness.get_by_label("This library cannot be changed: see above");
+    assert!(harness.get_by_label("Save").accesskit_node().is_disabled());
 }
 
 #[test]

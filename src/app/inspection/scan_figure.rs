@@ -45,10 +45,10 @@ pub enum ShotFate {
     Used {
         /// Correction of its pose by the refinement.
         moved: PoseDelta,
-        /// Distance to what other shots see of the same surface, on the part if they overlap there; `None` if it overlaps
-        /// none.
+        /// Distance to what other shots see of the same surface, on the part if they overlap there; `None` if too few of its
+        /// readings meet others.
         rms: Option<Metres>,
-        /// False if segmentation found no part in it.
+        /// False if segmentation found no part in it, or something that looks like background.
         has_part: bool,
     },
     /// The shot does not fit and was left out.
@@ -92,7 +92,7 @@ fn fate(shot: &ScannedShot) -> ShotFate {
         None => ShotFate::Used {
             moved: shot.moved,
             rms: shot.after_on_part.or(shot.after).map(|overlap| overlap.rms),
-            has_part: shot.segmentation.part.is_ok(),
+            has_part: shot.finds_part,
         },
     }
 }

@@ -5,7 +5,6 @@ use nalgebra::{Point3, Vector3};
 use super::EnrolParams;
 use crate::{
     geometry::{cloud::PointCloud, nearest::KdTree, normals::estimate_normals, voxel::downsample},
-    stages::reference::Coverage,
     units::Metres,
 };
 
@@ -107,7 +106,8 @@ const IN_FRONT_SHARE: f64 = 0.99;
 /// Share of the normals that must face the camera; those at edges of a capture may be off.
 const FACING_SHARE: f64 = 0.98;
 
-pub(super) fn coverage_of(cloud: &PointCloud) -> Coverage {
+/// Returns whether the cloud may be one capture by a camera at the origin.
+pub(super) fn is_one_capture(cloud: &PointCloud) -> bool {
     let num_in_front = cloud.points.iter().filter(|p| p.z > NEAREST).count();
     let is_before_camera = num_in_front as f64 >= IN_FRONT_SHARE * cloud.points.len() as f64;
     let faces_camera = cloud.normals.as_ref().is_none_or(|normals| {
@@ -119,11 +119,16 @@ pub(super) fn coverage_of(cloud: &PointCloud) -> Coverage {
             .count();
         facing as f64 >= FACING_SHARE * normals.len() as f64
     });
-    if is_before_camera && faces_camera {
-        Coverage::OneSide
-    } else {
-        Coverage::AllAround
-    }
+    is_before_camera && faces_camera
+}
+
+/// Length of the mean normal from which a surface faces one way: 0 for a closed surface, 0.5 for half a sphere, 0.9 for a
+/// scanned fender. From behind, such a surface shows hardly a point.
+const ONE_WAY: f32 = 0.3;
+
+/// Returns whether a surface with these normals faces one way.
+pub(super) fn face_one_way(normals: &[Vector3<f32>]) -> bool {
+    normals.iter().sum::<Vector3<f32>>().norm() > ONE_WAY * normals.len() as f32
 }
 
 pub(super) fn middle(cloud: &PointCloud) -> Point3<f64> {

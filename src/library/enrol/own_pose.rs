@@ -1,4 +1,5 @@
-//! Whether a part's shape fixes its pose, tested by confirming the reference in its own standard view.
+//! Whether a part can be recognised and its shape fixes its pose, tested by confirming the reference in its own standard
+//! view.
 
 use nalgebra::Point3;
 
@@ -15,12 +16,14 @@ use crate::{
     },
 };
 
+/// Score that inspections need by default.
+const LEAST_SCORE: f64 = 0.9;
 /// Margin over another pose below which an inspection rejects the pose.
 const LEAST_LEAD: f64 = 0.05;
 /// Turn, degrees: below it, the confirmation distinguishes two poses only by their shift.
 const LEAST_TURN: f64 = 10.0;
 
-/// Returns what an inspection of the whole part without noise would find wrong with its pose.
+/// Returns why an inspection of the whole part without noise would not accept it, or what it would find wrong with its pose.
 pub(super) fn pose_warning(reference: &Reference, coverage: Coverage) -> Option<EnrolWarning> {
     let view = reference.views.first()?;
     let (_, seen) = seen_around(&reference.cloud, coverage).into_iter().next()?;
@@ -38,6 +41,13 @@ pub(super) fn pose_warning(reference: &Reference, coverage: Coverage) -> Option<
     };
     let (confirmed, pose) = confirm(&scene, references, &ranking, &ConfirmParams::default(), 0.0);
     let (found, pose) = (confirmed.entries.first()?, pose.ok()?);
+    // Only of one capture is it known where the camera was.
+    if coverage == Coverage::OneSide && found.score < LEAST_SCORE {
+        return Some(EnrolWarning::TooLittle {
+            score: found.score,
+            needed: LEAST_SCORE,
+        });
+    }
     if let Some(freedom) = pose.uncertainty.and_then(|found| found.freedom) {
         return Some(EnrolWarning::Unconstrained(freedom));
     }

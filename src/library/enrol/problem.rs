@@ -32,6 +32,17 @@ pub enum EnrolWarning {
         /// Share of the selected points outside the largest piece, rounded.
         percent: u8,
     },
+    /// Not even an inspection of this same view would accept it.
+    #[error(
+        "there is too little of the part to recognise it by: this same view would score {score:.2}, and {needed:.2} is \
+         needed"
+    )]
+    TooLittle {
+        /// Score of the reference in its own standard view, 0..1.
+        score: f64,
+        /// Score that inspections need.
+        needed: f64,
+    },
     /// The shape does not fix the pose.
     #[error("the shape does not fix the pose: {0}")]
     Unconstrained(FreeMotion),
@@ -63,6 +74,9 @@ impl Advice for EnrolWarning {
                 "Drop what is background: an inspection removes it and compares the rest"
             }
             Self::Apart { .. } => "Drop what does not belong to the part",
+            Self::TooLittle { .. } => {
+                "Enrol more of the part: move the camera back, or enrol several frames as a scan"
+            }
             Self::Unconstrained(_) => {
                 "Enrol more of the part, so that corners or openings constrain its pose"
             }

@@ -276,3 +276,32 @@ fn the_shape_of_every_simulated_part_fixes_its_pose() {
         assert_eq!(enrolled.expect("a part").warnings, [], "{kind:?}");
     }
 }
+
+#[test]
+fn a_part_too_small_to_be_recognised_is_warned_of() {
+    let small = sheet(|x, y| x.abs() < 0.1 && y.abs() < 0.08);
+    let enrolled = enrol_whole(&small, &about("sheet"), &EnrolParams::default());
+    let warnings = enrolled.expect("enough points").warnings;
+    assert!(
+        matches!(warnings[..], [EnrolWarning::TooLittle { score, .. }] if score < 0.5),
+        "{warnings:?}"
+    );
+}
+
+#[test]
+fn a_cloud_that_faces_one_way_is_shown_from_there() {
+    // As `scan --part-only` writes it: in the frame of a robot, with normals towards the cameras.
+    let mut cloud = sheet(|x, y| x.abs() < 0.4 && y.abs() < 0.25 && (x < 0.1 || y < 0.0));
+    for point in &mut cloud.points {
+        point.z = 0.0;
+    }
+    for towards in [Vector3::z(), -Vector3::z()] {
+        cloud.normals = Some(vec![towards; cloud.points.len()]);
+        let enrolled = enrol_whole(&cloud, &about("sheet"), &EnrolParams::default());
+        let part = enrolled.expect("enough points").part;
+        assert_eq!(part.meta.coverage, Coverage::SeveralSides);
+        assert_eq!(part.meta.schema_version, SCANNED_VERSION);
+        let area = part.signature.area_m2;
+        assert!((area - 0.325).abs() < 0.02, "{area}");
+    }
+}

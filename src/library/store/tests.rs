@@ -126,6 +126,25 @@ fn a_replaced_and_a_removed_part_lie_in_the_trash_whole() {
 }
 
 #[test]
+fn a_part_with_references_of_its_own_does_not_become_one_of_another_part() {
+    let (_guard, library) = library();
+    let save = |name: &str, of: Option<&str>| {
+        let mut part = part(name, 0.4);
+        part.meta.part = of.map(part_name);
+        library.save(&part)
+    };
+    for (name, of) in [("door", None), ("gate", None), ("gate_b", Some("gate"))] {
+        save(name, of).expect("saved");
+    }
+    let error = save("gate", Some("door")).expect_err("gate_b would have no part");
+    assert!(error.to_string().contains("gate_b"), "{error}");
+    assert!(error.advice().contains("library rename gate"));
+    save("gate", None).expect("still a part of its own");
+    save("gate_b", Some("door")).expect("has none");
+    save("gate", Some("door")).expect("has none any more");
+}
+
+#[test]
 fn folders_that_are_no_parts_by_their_name_are_told() {
     let (_guard, library) = library();
     library.save(&part("plate", 0.4)).expect("saved");

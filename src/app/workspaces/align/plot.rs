@@ -95,9 +95,18 @@ fn name_the_searches(
     let x = drawn.position_from_point_x(middle);
     let top = pos2(x, drawn.frame().top() + 2.0);
     let rect = Align2::CENTER_TOP.anchor_size(top, galley.size());
+    let rect = moved_inside(rect, *drawn.frame());
     painter.rect_filled(rect.expand(2.0), 0.0, theme.control);
     painter.galley(rect.min, galley, theme.weak_text);
     Some(rect)
+}
+
+/// Moves a label sideways until it covers no number beside the plot.
+fn moved_inside(label: Rect, area: Rect) -> Rect {
+    const PAD: f32 = 4.0;
+    let most = area.right() - PAD - label.width();
+    let left = label.left().min(most).max(area.left() + PAD);
+    label.translate(Vec2::new(left - label.left(), 0.0))
 }
 
 /// Labels the goal where no curve runs through the label: above its line at the right, middle or left, else below it.
@@ -179,4 +188,21 @@ fn name(
     let rect = rect.unwrap_or_else(|| place(lifts[0]));
     painter.galley(rect.min, galley, colour);
     rect
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_label_stays_beside_the_numbers_of_the_axes() {
+        let area = Rect::from_min_max(pos2(60.0, 0.0), pos2(400.0, 200.0));
+        let label = |left: f32| Rect::from_min_size(pos2(left, 2.0), Vec2::new(80.0, 14.0));
+        for (left, moved) in [(10.0, 64.0), (150.0, 150.0), (390.0, 316.0)] {
+            assert_eq!(moved_inside(label(left), area), label(moved));
+        }
+        // What is wider than the plot begins at its left edge.
+        let narrow = area.with_max_x(100.0);
+        assert_eq!(moved_inside(label(10.0), narrow), label(64.0));
+    }
 }

@@ -105,10 +105,7 @@ fn heading(
 /// Draws the panel before there is a curve.
 fn none(ui: &mut Ui, align: &AlignState) {
     ui.label(RichText::new("E(R, t), m²").font(font::body_strong()));
-    let text = match &align.shown {
-        Some(_) => text!("align-no-way"),
-        None => text!("align-way"),
-    };
+    let text = explanation(align);
     let middle = ui.available_height() / 2.0 - space::TARGET;
     ui.add_space(middle.max(0.0));
     ui.vertical_centered(|ui| {
@@ -116,4 +113,14 @@ fn none(ui: &mut Ui, align: &AlignState) {
         ui.weak(text);
         ui.allocate_space(vec2(0.0, 0.0));
     });
+}
+
+/// Explains why there is no curve.
+pub(super) fn explanation(align: &AlignState) -> String {
+    match &align.shown {
+        // The next method may find a pose.
+        Some(_) if align.is_pair_at_work() => text!("align-aligning-now"),
+        Some(_) => text!("align-no-way"),
+        None => text!("align-way"),
+    }
 }

@@ -30,7 +30,7 @@ use crate::{
 pub struct AlignState {
     /// What is aligned to what.
     pub pairing: Pairing,
-    /// Name of the chosen enrolled part; `None` means the library's first.
+    /// Name of the chosen enrolled part or reference; `None` means the library's first.
     pub part: Option<String>,
     /// The start of a moved copy.
     pub start: Start,
@@ -357,11 +357,11 @@ impl AlignState {
     }
 }
 
-/// Name of the part that the current scene was recognised as, accepted or not.
+/// Name of the reference that the current scene was recognised by, accepted or not.
 fn recognised(session: &Session) -> Option<String> {
-    let inspected = &session.shown.as_ref()?.inspected;
-    match &inspected.inspection.verdict {
-        Verdict::Part { part, .. } => Some(part.clone()),
+    let inspection = &session.shown.as_ref()?.inspected.inspection;
+    match &inspection.verdict {
+        Verdict::Part { .. } => inspection.reference().map(str::to_owned),
         Verdict::NoPart(_) => None,
     }
 }

@@ -42,7 +42,7 @@ pub enum EnrolAction {
     Write(Field),
     /// Examine the draft again, after it was cancelled.
     LookAgain,
-    /// Save the draft.
+    /// Save the draft; with the card of an enrolled part open, store that part's form.
     Save,
     /// Discard the draft.
     Discard,

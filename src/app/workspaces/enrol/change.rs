@@ -38,10 +38,29 @@ pub struct Changed {
     pub what: ChangeText,
     /// The change that reverts it.
     pub back: LibraryChange,
+    /// The changed part as it is now.
+    pub left: PartVersion,
     /// The changed part, if it is in the library now.
     pub name: Option<PartName>,
     /// The library after the change.
     pub library: Arc<LibraryView>,
+}
+
+/// A part as a change left it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PartVersion {
+    name: PartName,
+    /// [`LibraryFolder::version_of`]; `None` if the part was removed.
+    version: Option<String>,
+}
+
+impl PartVersion {
+    fn of(name: PartName, folder: &LibraryFolder) -> Self {
+        Self {
+            version: folder.version_of(&name),
+            name,
+        }
+    }
 }
 
 /// Description of a change.
@@ -62,14 +81,24 @@ impl From<String> for ChangeText {
     }
 }
 
-/// Changes the library in use and reloads it.
+/// Changes the library in use and reloads it. An undo or redo is refused if the part is not as the previous change left it,
+/// because it would discard what somebody else did.
 pub(super) fn change(
     change: LibraryChange,
+    left: Option<&PartVersion>,
     library_cache: &LibraryCache,
 ) -> Result<Changed, UserError> {
     let loaded = library_cache.get();
     let folder = loaded.folder_to_change()?;
     let title_of = |name: &PartName| loaded.shown.title_of(name.as_str()).to_owned();
+    if let Some(left) = left
+        && PartVersion::of(left.name.clone(), folder) != *left
+    {
+        return Err(UserError {
+            what: text!("enrol-changed-since", part = title_of(&left.name)),
+            advice: text!("enrol-changed-since-advice"),
+        });
+    }
     if let LibraryChange::Save(_, words, _) = &change
         && loaded.shown.place_of(words.name.as_str()).is_none()
         && folder.path().join(words.name.as_str()).exists()
@@ -90,23 +119,26 @@ pub(super) fn change(
     };
     let done = make(&change, folder, &title_of).map_err(|error| UserError::of(&error))?;
     let (what, back, name) = done;
+    let left = PartVersion::of(name.clone(), folder);
+    let is_there = !matches!(change, LibraryChange::Remove(_));
     let library = library_cache
         .reload()
         .map_err(|error| UserError::of(&error))?;
     Ok(Changed {
         what,
         back,
-        name,
+        left,
+        name: is_there.then_some(name),
         library: Arc::clone(&library.shown),
     })
 }
 
-/// Makes the change; returns its description, its inverse, and the part that is there now.
+/// Makes the change; returns its description, its inverse, and the name of the part now.
 fn make(
     change: &LibraryChange,
     folder: &LibraryFolder,
     title_of: &dyn Fn(&PartName) -> String,
-) -> Result<(ChangeText, LibraryChange, Option<PartName>), LibraryError> {
+) -> Result<(ChangeText, LibraryChange, PartName), LibraryError> {
     Ok(match change {
         LibraryChange::Save(enrolled, words, of) => {
             let part = described(&enrolled.part, words, of.as_ref());
@@ -127,7 +159,7 @@ fn make(
             (
                 ChangeText { brief, whole },
                 replaced.map_or(back, LibraryChange::Restore),
-                Some(name),
+                name,
             )
         }
         LibraryChange::Rename(name, words) => {
@@ -139,12 +171,12 @@ fn make(
                 text!("enrol-renamed", before = before, now = now)
             };
             let back = LibraryChange::Rename(words.name.clone(), before);
-            (what.into(), back, Some(words.name.clone()))
+            (what.into(), back, words.name.clone())
         }
         LibraryChange::Remove(name) => {
             let kept = folder.remove(name)?;
             let what = text!("enrol-removed", part = title_of(name));
-            (what.into(), LibraryChange::Restore(kept), None)
+            (what.into(), LibraryChange::Restore(kept), name.clone())
         }
         LibraryChange::Restore(kept) => {
             let restored = folder.restore(kept)?;
@@ -152,7 +184,7 @@ fn make(
             let what = text!("enrol-brought-back", part = title_of(&name));
             let back = LibraryChange::Remove(name.clone());
             let back = restored.replaced.map_or(back, LibraryChange::Restore);
-            (what.into(), back, Some(name))
+            (what.into(), back, name)
         }
         LibraryChange::SetPath(name, path) => {
             // A damaged path cannot be brought back.
@@ -167,7 +199,7 @@ fn make(
                 None => text!("enrol-removed-path", part = title),
             };
             let back = LibraryChange::SetPath(name.clone(), former);
-            (what.into(), back, Some(name.clone()))
+            (what.into(), back, name.clone())
         }
         LibraryChange::ReadPath(..) => unreachable!("it was read before"),
     })

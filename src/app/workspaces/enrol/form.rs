@@ -105,9 +105,12 @@ pub(super) fn as_new(ui: &mut Ui, actions: &mut Vec<EnrolAction>) {
 }
 
 /// Returns why the draft cannot be saved now, and what to do.
-fn unready(draft: &Draft) -> Option<String> {
+fn unready(draft: &Draft, session: &Session) -> Option<String> {
+    let library = session.library.as_deref();
+    let is_fixed = library.is_some_and(|library| library.is_fixed.is_some());
     let has_no_words = draft.form.title.is_empty() && draft.form.name.is_empty();
     match &draft.checked {
+        _ if is_fixed => Some(text!("enrol-unready-library")),
         Some(Err(_)) => Some(text!("enrol-unready-trouble")),
         _ if has_no_words => Some(text!("enrol-unready-title")),
         _ if draft.form.words().is_err() => Some(text!("enrol-unready-name")),
@@ -312,7 +315,7 @@ fn buttons(
     actions: &mut Vec<EnrolAction>,
 ) {
     let theme = Theme::of(ui);
-    let unready = unready(draft);
+    let unready = unready(draft, session);
     let is_replacing = enrol.replaced_title(session).is_some();
     if is_replacing && enrol.replacing.is_some() {
         as_new(ui, actions);

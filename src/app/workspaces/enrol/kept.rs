@@ -127,8 +127,8 @@ impl DraftFile {
         }
         match self.due {
             Some(due) if now < due => ctx.request_repaint_after_secs((due - now) as f32),
-            // Wait: while the draft is examined, its selection is still the previous one.
-            Some(_) if self.seen.is_some() && enrol.running().is_some() => {}
+            // Wait: while the draft is examined, its selection is still the previous one. Another draft may take long.
+            Some(_) if self.seen.is_some() && enrol.is_examining() => {}
             Some(_) => {
                 self.due = None;
                 let path = self.path.clone()?;
@@ -289,13 +289,21 @@ mod tests {
 
     use super::{
         super::{
+            action::EnrolAction,
+            draft::Field,
             outline::{DrawnOutline, DrawnOver},
             segments::PointAction,
             selection::{Edit, OutlineMode},
         },
         *,
     };
-    use crate::app::inspection::source::CellChoice;
+    use crate::app::{
+        inspection::{
+            inspected::SceneOrScan,
+            source::{CellChoice, SceneSource},
+        },
+        shell::context::TestShell,
+    };
 
     fn outline(over: DrawnOver) -> DrawnOutline {
         let corners = [[0.1, 0.2], [0.7, 0.2], [0.4, 1.0 / 3.0]];
@@ -346,6 +354,39 @@ mod tests {
             save(&path, None, None).expect("removed");
             assert_eq!(load(&path), None);
         }
+    }
+
+    #[test]
+    fn a_title_is_written_while_another_draft_is_being_taken() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("draft.json");
+        let runner = TaskRunner::without_threads();
+        let (mut enrol, mut shell) = (EnrolState::new(&runner), TestShell::default());
+        let scene = |number| {
+            let choice = CellChoice::InTurn;
+            SceneOrScan::Scene(SceneSource::Cell { choice, number })
+        };
+        enrol.take(scene(1), "Taking".into(), &shell.context());
+        while enrol.draft_task.run_waiting() {
+            enrol.update(&mut shell.context());
+        }
+        let title = EnrolAction::Write(Field::Title("Plate".into()));
+        enrol.apply(title, &mut shell.context());
+        enrol.take(scene(2), "Taking".into(), &shell.context());
+        let mut file = DraftFile::new(Some(path.clone()), &runner);
+        let context = egui::Context::default();
+        for time in [0.0, 2.0 * DELAY] {
+            let input = egui::RawInput {
+                time: Some(time),
+                ..egui::RawInput::default()
+            };
+            context.run_ui(input, |_| {}).drop_without_applying_deltas();
+            assert_eq!(file.keep(&enrol, &context), None);
+        }
+        assert!(enrol.is_taking_another() && file.writing.run_waiting());
+        let kept = load(&path).expect("written").expect("whole");
+        assert_eq!(kept.form.title, "Plate");
+        assert!(kept.checksum.is_some());
     }
 
     #[test]

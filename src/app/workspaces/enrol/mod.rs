@@ -55,7 +55,7 @@ use crate::app::{
         session::{Session, WorkspaceKind},
         workspace::Workspace,
     },
-    shots::{ShotList, ShotsState, ShownShots, StripTab},
+    shots::{ShotList, ShownShots, StripTab},
     task::{Running, TaskRunner},
     ui::{
         theme::{Theme, font, space},
@@ -107,6 +107,8 @@ const SHORTCUTS: [Shortcut<EnrolAction>; 5] = [
 const CARD: [f32; 2] = [360.0, 320.0];
 /// Height of the strip of enrolled parts, logical pixels.
 const STRIP: f32 = 150.0;
+/// Height of the additional line of a shot that is about to be dropped, logical pixels.
+const TO_BE_DROPPED: f32 = 16.0;
 
 /// The workspace.
 pub struct EnrolWorkspace {
@@ -246,7 +248,7 @@ impl Panes {
             });
         let scan = shown_scan(enrol, session);
         Panel::bottom("enrolled parts")
-            .exact_size(strip_height(scan.map(|scan| scan.shots)))
+            .exact_size(strip_height(scan))
             .resizable(false)
             .frame(panel(Margin::symmetric(14, 6)))
             .show(ui, |ui| {
@@ -334,11 +336,16 @@ fn shown_scan<'a>(enrol: &'a EnrolState, session: &'a Session) -> Option<ShownSh
     })
 }
 
-fn strip_height(shots: Option<&ShotsState>) -> f32 {
-    match shots.map(|shots| shots.strip) {
-        None => STRIP,
-        Some(StripTab::Shots) => ShotList::HEIGHT,
-        Some(StripTab::Usual) => STRIP + space::TARGET + space::SMALL,
+fn strip_height(scan: Option<ShownShots<'_>>) -> f32 {
+    let Some(scan) = scan else {
+        return STRIP;
+    };
+    match scan.shots.strip {
+        StripTab::Shots if !scan.choice.dropped.is_subset(&scan.fused.choice.dropped) => {
+            ShotList::HEIGHT + TO_BE_DROPPED
+        }
+        StripTab::Shots => ShotList::HEIGHT,
+        StripTab::Usual => STRIP + space::TARGET + space::SMALL,
     }
 }
 
@@ -370,8 +377,13 @@ fn empty(ui: &mut Ui, enrol: &EnrolState, session: &Session, actions: &mut Vec<E
         if let Some(shown) = &session.shown {
             let inspected = &shown.inspected;
             let saved = enrol.saved_from.as_ref();
-            // What was just saved is not offered again.
-            let is_saved = saved.is_some_and(|saved| saved.is_inspected_in(inspected));
+            let library = session.library.as_deref();
+            // What was just saved is not offered again, unless it was removed.
+            let is_saved = saved.is_some_and(|saved| {
+                let is_enrolled =
+                    library.is_some_and(|all| all.place_of(saved.part.as_str()).is_some());
+                is_enrolled && saved.matter.is_inspected_in(inspected)
+            });
             let (text, label, action) = if is_saved {
                 let text = text!("enrol-see-inspected");
                 (text.clone(), text, EnrolAction::SeeInspected)

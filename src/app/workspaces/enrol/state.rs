@@ -8,7 +8,7 @@ use super::{
     draft::{Draft, Form, OpenedPart},
     kept::KeptDraft,
     selection::{Corrections, Edit, OutlineMode},
-    undo::{DraftEffect, LastChangedPart, LibraryStep, SavedMatter, UndoStep},
+    undo::{DraftEffect, LastChangedPart, LibraryStep, SavedDraft, UndoStep},
     work::{self, DraftEvent},
 };
 use crate::{
@@ -46,8 +46,8 @@ pub struct EnrolState {
     pub replacing: Option<PartName>,
     /// The part changed last, if it is in the library.
     pub latest: Option<LastChangedPart>,
-    /// What the draft that was saved last was made of.
-    pub(super) saved_from: Option<SavedMatter>,
+    /// The draft that was saved last, unless it was of a mesh.
+    pub(super) saved_from: Option<SavedDraft>,
     /// Number of library changes so far.
     pub num_changes: u64,
     /// The enrolled part whose card is open.
@@ -158,6 +158,11 @@ impl EnrolState {
         self.running().is_some() && self.job != DraftJob::Look
     }
 
+    /// True while the draft is being examined.
+    pub(super) fn is_examining(&self) -> bool {
+        self.running().is_some() && self.job == DraftJob::Look
+    }
+
     /// The draft, if a person has put work into it.
     pub(super) fn worked_on(&self) -> Option<&Draft> {
         self.draft.as_ref().filter(|draft| {
@@ -227,6 +232,7 @@ impl EnrolState {
                 }
             }
             EnrolAction::LookAgain => self.look(cx),
+            EnrolAction::Save if self.open.is_some() => self.rename(cx),
             EnrolAction::Save => self.save(cx),
             EnrolAction::Discard => {
                 if let Some(former) = self.draft.take() {
@@ -441,7 +447,12 @@ impl EnrolState {
         let Some(open) = &self.open else {
             return;
         };
+        let library = cx.session.library.as_deref();
+        let Some(before) = form_of(&open.name, library) else {
+            return;
+        };
         match open.form.words() {
+            Ok(words) if before.words().is_ok_and(|before| before == words) => {}
             Ok(words) => {
                 let rename = LibraryChange::Rename(open.name.clone(), words);
                 self.change(rename, DraftEffect::Stays, cx);

@@ -6,7 +6,7 @@ use std::{
 };
 
 use super::{
-    change::{self, ChangeText, Changed, LibraryChange},
+    change::{self, ChangeText, Changed, LibraryChange, PartVersion},
     draft::Draft,
     selection::Corrections,
     state::{EnrolState, form_of},
@@ -58,6 +58,8 @@ pub struct LibraryStep {
     pub what: ChangeText,
     /// Effect on the draft.
     pub draft: DraftEffect,
+    /// The part as the previous change left it; `None` for a new change.
+    pub left: Option<PartVersion>,
 }
 
 /// Effect of a library step on the draft.
@@ -67,6 +69,15 @@ pub enum DraftEffect {
     Stays,
     /// The draft is exchanged for this one: a saved draft goes, and comes back when saving is undone.
     MakesWay(Option<Box<Draft>>),
+}
+
+/// The draft that was saved last.
+#[derive(Debug)]
+pub(super) struct SavedDraft {
+    /// Name of the part.
+    pub(super) part: PartName,
+    /// What it was made of.
+    pub(super) matter: SavedMatter,
 }
 
 /// What a saved draft was made of. It is compared by identity: two captures may have the same name.
@@ -155,6 +166,7 @@ impl EnrolState {
             change,
             what: ChangeText::default(),
             draft,
+            left: None,
         };
         self.start_change(None, step, cx);
     }
@@ -169,11 +181,13 @@ impl EnrolState {
         if self.is_changing_library() {
             return;
         }
-        let (change, library_cache) = (step.change.clone(), cx.services.library_cache.clone());
+        let (change, left) = (step.change.clone(), step.left.clone());
+        let library_cache = cx.services.library_cache.clone();
         self.pending = Some((way, step));
         self.change_task
             .start(text!("enrol-changing-library"), move |_| {
-                Ok(Box::new(change::change(change, &library_cache)?))
+                let changed = change::change(change, left.as_ref(), &library_cache)?;
+                Ok(Box::new(changed))
             });
     }
 
@@ -182,12 +196,14 @@ impl EnrolState {
         let Changed {
             what,
             back,
+            left,
             name,
             library,
         } = changed;
         let Some((way, mut step)) = self.pending.take() else {
             return;
         };
+        self.track_saved_part(&step.change);
         self.track_replaced_part(&step.change, &library);
         self.num_changes += 1;
         self.latest = name.clone().map(|name| LastChangedPart {
@@ -195,6 +211,7 @@ impl EnrolState {
             what: PartChange::of(&step.change),
         });
         step.change = back;
+        step.left = Some(left);
         let notice = match way {
             None => {
                 step.what.clone_from(&what);
@@ -210,7 +227,9 @@ impl EnrolState {
             let coming = other.take();
             let going = self.draft.take().map(Box::new);
             let kept = going.as_ref().filter(|_| way != Some(UndoDirection::Undo));
-            self.saved_from = kept.and_then(|draft| SavedMatter::of(draft));
+            let matter = kept.and_then(|draft| SavedMatter::of(draft));
+            let named = name.clone().zip(matter);
+            self.saved_from = named.map(|(part, matter)| SavedDraft { part, matter });
             if way.is_none() {
                 let newest = going.as_deref();
                 let newest = newest.filter(|draft| self.is_newest(draft, cx.session));
@@ -243,6 +262,16 @@ impl EnrolState {
     pub(super) fn not_changed(&mut self) {
         if let Some((Some(way), step)) = self.pending.take() {
             self.steps.from(way).push(UndoStep::Library(step));
+        }
+    }
+
+    /// Follows the part that was saved last if it was renamed.
+    fn track_saved_part(&mut self, made: &LibraryChange) {
+        if let LibraryChange::Rename(before, words) = made
+            && let Some(saved) = &mut self.saved_from
+            && saved.part == *before
+        {
+            saved.part = words.name.clone();
         }
     }
 

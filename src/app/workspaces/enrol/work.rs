@@ -174,8 +174,8 @@ fn check(
     // Clear the placeholder name, so that no enrolled part is left out of the comparison for having the same.
     enrolled.reference.name.clear();
     let loaded = library_cache.get();
-    let coverage = enrolled.part.meta.coverage;
-    let likenesses = likenesses(&enrolled.reference, coverage, &loaded.library);
+    let scene = subject.scene().map(AsRef::as_ref);
+    let likenesses = likenesses(&enrolled, scene, &loaded.library);
     Ok(DraftEvent::Checked(Ok(Arc::new(Checked {
         enrolled: Arc::new(enrolled),
         likenesses,

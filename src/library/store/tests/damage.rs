@@ -154,3 +154,24 @@ fn a_damaged_part_comes_back_as_it_was() {
         EntryError::BadMeta { .. }
     ));
 }
+
+#[test]
+fn a_damaged_part_in_the_trash_does_not_replace_a_sound_one() {
+    let (_guard, library, damaged) = two_parts();
+    fs::write(damaged.join(CLOUD), "x").expect("written");
+    let name = part_name("damaged");
+    let kept = library.remove(&name).expect("removed");
+    library.save(&part("damaged", 0.6)).expect("saved");
+    let before = library.version_of(&name).expect("there");
+    let error = library.restore(&kept).expect_err("damaged");
+    assert!(
+        matches!(error, LibraryError::DamagedInTrash { .. }),
+        "{error:?}"
+    );
+    assert!(error.to_string().contains(CLOUD) && error.advice().contains(".trash"));
+    assert_eq!(library.version_of(&name), Some(before));
+    // Without a sound one nothing is lost.
+    library.remove(&name).expect("removed");
+    library.restore(&kept).expect("restored");
+    assert_eq!(load(&library).problems.len(), 1);
+}

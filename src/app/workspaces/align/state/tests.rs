@@ -3,12 +3,16 @@ use std::sync::Arc;
 use super::*;
 use crate::{
     app::{
-        inspection::{camera::Camera, library_cache::LibraryCache},
+        inspection::{
+            camera::Camera, inspected::inspected_cell, library_cache::LibraryCache,
+            source::CellChoice,
+        },
         language::Language,
-        shell::context::TestShell,
-        workspaces::align::track::in_the_window,
+        shell::{context::TestShell, session::Shown},
+        workspaces::align::{scrubber::explanation, track::in_the_window},
     },
     geometry::{cloud::PointCloud, rigid::RigidTransform},
+    simulate::{PartKind, Side},
     stages::pose::PoseMethod,
 };
 
@@ -139,6 +143,24 @@ fn the_source_is_the_part_moved_by_the_start_and_the_truth_brings_it_back() {
         let first = start.transform() * reference.cloud.points[0].cast::<f64>();
         assert!((pair.source.points[0].cast::<f64>() - first).norm() < 1e-6);
     }
+}
+
+#[test]
+fn a_scene_is_aligned_to_the_reference_that_it_was_recognised_by() {
+    let mut bench = Bench::with_library();
+    let choice = CellChoice::Part(PartKind::Fender, Side::Left);
+    let mut inspected = inspected_cell(choice, 3);
+    // As if the fender had a second reference of this name, and that was found.
+    inspected.inspection.ranking.entries[0].enrolled_as = "grille".into();
+    bench.shell.session.shown = Some(Shown {
+        generation: 1,
+        inspected: Arc::new(inspected),
+        is_past: false,
+        session: None,
+        is_outdated: false,
+    });
+    bench.act(AlignAction::Choose(Pairing::Scene));
+    assert_eq!(bench.align.part.as_deref(), Some("grille"));
 }
 
 #[test]
@@ -341,7 +363,11 @@ fn poor_pairs_are_refused_in_words_in_each_methods_place() {
     bench.act(AlignAction::Choose(Pairing::Files));
     bench.act(AlignAction::Chosen(AlignFile::Source, few.clone()));
     bench.act(AlignAction::Chosen(AlignFile::Target, few));
+    // The pair, and the first of the methods.
+    bench.run_until(AlignAction::Run, 2);
+    assert_eq!(explanation(&bench.align), "Aligning…");
     bench.run(AlignAction::Run);
+    assert!(explanation(&bench.align).starts_with("No method found a pose"));
     let shown = bench.align.shown.as_ref().expect("a result");
     assert_eq!(shown.runs.len(), PoseMethod::ALL.len());
     for run in &shown.runs {

@@ -23,6 +23,7 @@ use crate::{
         ui::viewport::ViewCamera,
     },
     geometry::cloud::PointCloud,
+    library::{LibraryFolder, PartNaming},
     simulate::{PartKind, Side},
     stages::scene::SceneCloud,
 };
@@ -355,6 +356,39 @@ fn a_change_that_fails_can_be_tried_again() {
 }
 
 #[test]
+fn an_undo_does_not_discard_what_another_program_did_since() {
+    let mut bench = Bench::new();
+    bench.take(80);
+    bench.named("Plate");
+    bench.act(EnrolAction::Save);
+    let other = LibraryFolder::open(bench.folder.path()).expect("there");
+    let plate = PartName::new("plate").expect("a name");
+    let names = || other.names().expect("listed");
+    let is_refused = |bench: &Bench| {
+        let last = bench.notices.last().expect("a notice");
+        last.what.contains("left as it is") && !last.advice.is_empty()
+    };
+    let own = other.words(&plate).expect("saved");
+    let theirs = PartNaming {
+        notes: "theirs".into(),
+        ..own.clone()
+    };
+    other.rename(&plate, &theirs).expect("changed");
+    bench.act(EnrolAction::Undo);
+    assert!(is_refused(&bench), "{:?}", bench.notices);
+    assert_eq!(names(), ["plate"]);
+    // As it was, it may go, and a part that has taken its place since stays.
+    other.rename(&plate, &own).expect("changed back");
+    bench.act(EnrolAction::Undo);
+    assert!(names().is_empty() && !is_refused(&bench));
+    let trashed = other.trashed().expect("listed");
+    other.restore(&trashed[0].kept).expect("restored");
+    bench.act(EnrolAction::Redo);
+    assert!(is_refused(&bench), "{:?}", bench.notices);
+    assert_eq!(other.trashed().expect("listed").len(), trashed.len() - 1);
+}
+
+#[test]
 fn one_change_of_the_library_at_a_time() {
     let mut bench = Bench::new();
     bench.take(80);
@@ -397,9 +431,9 @@ fn what_was_saved_is_known_by_its_scene_not_by_its_name() {
     let mut inspected = inspected_cell(CellChoice::InTurn, 1);
     inspected.origin = origin;
     let saved = bench.enrol.saved_from.as_ref().expect("saved");
-    assert!(!saved.is_inspected_in(&inspected));
+    assert!(!saved.matter.is_inspected_in(&inspected));
     inspected.scene = scene.expect("a scene");
-    assert!(saved.is_inspected_in(&inspected));
+    assert!(saved.matter.is_inspected_in(&inspected));
 }
 
 #[test]
@@ -417,6 +451,31 @@ fn a_part_is_renamed_while_it_is_looked_at() {
     assert_eq!(bench.names(), ["sheet"]);
     let open = bench.enrol.open.as_ref().expect("still open");
     assert_eq!(open.name.as_str(), "sheet");
+}
+
+#[test]
+fn with_a_card_open_save_stores_its_words_and_leaves_the_draft() {
+    let mut bench = Bench::new();
+    bench.take(80);
+    bench.named("Plate");
+    bench.act(EnrolAction::Save);
+    bench.take(90);
+    bench.named("Sheet");
+    bench.act(EnrolAction::Open(PartName::new("plate").expect("a name")));
+    let title = Field::Title("Plate, bent".into());
+    bench.act(EnrolAction::WriteOpen(title));
+    bench.act(EnrolAction::Save);
+    let library = bench.shell.session.library.as_ref().expect("loaded");
+    let titles: Vec<&str> = library.parts.iter().map(|part| &*part.title).collect();
+    assert_eq!(titles, ["Plate, bent"]);
+    assert!(bench.enrol.draft.is_some());
+    // Its words are stored already.
+    let num_changes = bench.enrol.num_changes;
+    bench.act(EnrolAction::Save);
+    assert_eq!(bench.enrol.num_changes, num_changes);
+    bench.act(EnrolAction::Close);
+    bench.act(EnrolAction::Save);
+    assert_eq!(bench.names(), ["plate", "sheet"]);
 }
 
 #[test]
