@@ -115,6 +115,71 @@ fn a_frame_with_a_wrong_pose_is_named_and_left_out() {
 }
 
 #[test]
+fn inverted_poses_are_refused_by_every_command_that_takes_a_scan() {
+    let place = with_scan("3");
+    change_poses(&place, |poses| {
+        let frames = poses["frames"].as_object_mut().expect("frames");
+        for entry in frames.values_mut() {
+            let pose = &mut entry["world_from_camera"];
+            let inverse = Matrix4::from_row_slice(&matrix(pose)).try_inverse();
+            // The numbers are stored column by column.
+            let numbers = inverse.expect("rigid").transpose();
+            *pose = json!(numbers.as_slice());
+        }
+    });
+    let (scan, library) = (["--scan", "frames"], ["--library", "parts"]);
+    place.accepted(&[
+        "enrol",
+        "frames/frame-01.png",
+        "--name",
+        "one",
+        "--library",
+        "parts",
+    ]);
+    for args in [
+        ["scan", "frames", "--out", "all.ply"].to_vec(),
+        [&["inspect"], &scan[..], &library].concat(),
+        [&["enrol", "--name", "two"], &scan[..], &library].concat(),
+    ] {
+        let ran = place.coded(2, &args);
+        assert!(ran.err.contains("the poses look inverted"), "{}", ran.err);
+        assert!(ran.err.contains("invert each matrix"), "{}", ran.err);
+    }
+}
+
+#[test]
+fn a_frame_that_is_given_twice_is_refused_as_such() {
+    let place = with_scan("2");
+    let frame = "frames/frame-01.png";
+    let ran = place.coded(2, &["scan", frame, frame, "--out", "all.ply"]);
+    assert!(
+        ran.err.contains("frame-01.png is given twice"),
+        "{}",
+        ran.err
+    );
+    std::fs::create_dir(place.path("other")).expect("made");
+    std::fs::copy(place.path(frame), place.path("other/frame-01.png")).expect("copied");
+    let ran = place.coded(
+        2,
+        &["scan", frame, "other/frame-01.png", "--out", "all.ply"],
+    );
+    assert!(ran.err.contains("have one name"), "{}", ran.err);
+}
+
+#[test]
+fn a_simulated_scan_is_not_written_among_frames_of_another() {
+    let place = with_scan("4");
+    let again = [
+        "simulate", "--part", "fender", "--scan", "frames", "--shots",
+    ];
+    let fewer = place.coded(2, &[&again[..], &["3"]].concat());
+    assert!(fewer.err.contains("frame-04"), "{}", fewer.err);
+    assert!(fewer.err.contains("Give a new folder"), "{}", fewer.err);
+    place.accepted(&[&again[..], &["4"]].concat());
+    place.accepted(&["scan", "frames", "--out", "all.ply"]);
+}
+
+#[test]
 fn poses_that_do_not_suffice_are_refused_with_advice() {
     let refused = |place: &Workplace, args: &[&str], expected: &str| {
         let ran = place.coded(2, &[&["scan", "frames"], args].concat());
