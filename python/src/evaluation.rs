@@ -116,6 +116,7 @@ fn columns_of(problem: &CaseError) -> (String, Option<String>, Option<u32>) {
     match problem {
         CaseError::Damaged { name, what } => (name.clone(), Some(what.clone()), None),
         CaseError::Newer { name, found, .. } => (name.clone(), None, Some(*found)),
+        CaseError::NoSuchCase { name, .. } => (name.clone(), Some(problem.to_string()), None),
         // The other errors concern a whole folder.
         other => (String::new(), Some(other.to_string()), None),
     }

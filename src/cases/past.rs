@@ -2,8 +2,13 @@
 
 use std::path::Path;
 
-use super::{error::CaseError, judge::Truth, meta::CaseDescription, store::CaseFolder};
-use crate::history::{FrameError, Record, StoredVerdict, read_frame};
+use super::{
+    error::CaseError,
+    judge::Truth,
+    meta::CaseDescription,
+    store::{CaseFolder, KeptCase},
+};
+use crate::history::{FrameError, Record, StoredVerdict, Summary, read_frame};
 
 /// The source of the true label of an exported inspection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,14 +32,21 @@ impl TruthFrom {
     }
 }
 
-/// Writes past inspections as cases, and counts those that cannot become cases.
+/// Writes past inspections as cases, and counts those that cannot become cases. An inspection whose case is in the folder
+/// already gets no other one: its true label replaces that of the case.
 #[derive(Debug)]
 pub struct PastCases<'a> {
     folder: &'a CaseFolder,
     frames: &'a Path,
     truth: TruthFrom,
-    /// Number of cases written.
-    pub num_kept: usize,
+    /// The cases that were in the folder before the export, without those whose inspection was found.
+    before: Vec<KeptCase>,
+    /// Number of new cases.
+    pub num_new: usize,
+    /// Number of cases with another true label than before.
+    pub num_updated: usize,
+    /// Number of cases that stay as they were.
+    pub num_unchanged: usize,
     /// Number of inspections without a known true label.
     pub num_without_truth: usize,
     /// Number of inspections whose frame is not kept.
@@ -47,17 +59,29 @@ pub struct PastCases<'a> {
 
 impl<'a> PastCases<'a> {
     /// Exports from this folder of kept frames into this folder of cases.
-    pub fn new(folder: &'a CaseFolder, frames: &'a Path, truth: TruthFrom) -> Self {
-        Self {
+    pub fn new(
+        folder: &'a CaseFolder,
+        frames: &'a Path,
+        truth: TruthFrom,
+    ) -> Result<Self, CaseError> {
+        Ok(Self {
             folder,
             frames,
             truth,
-            num_kept: 0,
+            before: folder.list()?.cases,
+            num_new: 0,
+            num_updated: 0,
+            num_unchanged: 0,
             num_without_truth: 0,
             num_without_frame: 0,
             num_scans: 0,
             problems: Vec::new(),
-        }
+        })
+    }
+
+    /// Returns the number of inspections that are cases now.
+    pub fn num_kept(&self) -> usize {
+        self.num_new + self.num_updated + self.num_unchanged
     }
 
     /// Writes an inspection as a case if it has a true label and one kept frame.
@@ -66,6 +90,9 @@ impl<'a> PastCases<'a> {
             self.num_without_truth += 1;
             return Ok(());
         };
+        if let Some(case) = self.take_case_of(record) {
+            return self.update(&case, &record.summary);
+        }
         let Some(frame) = &record.detail.frame else {
             self.num_without_frame += 1;
             return Ok(());
@@ -81,18 +108,56 @@ impl<'a> PastCases<'a> {
                 return Ok(());
             }
         };
-        let mut about = CaseDescription::of(record, truth);
-        // Many scenes of a camera have the same name.
-        about.origin = format!("inspection {} {}", record.summary.number, about.origin);
+        let about = CaseDescription {
+            origin: origin_of(&record.summary),
+            ..CaseDescription::of(record, truth)
+        };
         self.folder.keep(&scene, about)?;
-        self.num_kept += 1;
+        self.num_new += 1;
+        Ok(())
+    }
+
+    /// Takes the case of an inspection out of those before: an earlier export of it, else one of its scene that was kept
+    /// without an export.
+    fn take_case_of(&mut self, record: &Record) -> Option<KeptCase> {
+        let summary = &record.summary;
+        // The number alone may be that of another history.
+        let is_export = |case: &KeptCase| {
+            let about = &case.meta.about;
+            about.origin == origin_of(summary) && about.kept_at == summary.at
+        };
+        let is_same_scene = |case: &KeptCase| {
+            let scene = &case.meta.scene;
+            let frame = record.detail.frame.as_ref();
+            case.meta.about.origin == summary.scene
+                && frame.is_some_and(|of| (of.bytes, of.crc32) == (scene.bytes, scene.crc32))
+        };
+        let before = || self.before.iter();
+        let place = before()
+            .position(is_export)
+            .or_else(|| before().position(is_same_scene))?;
+        Some(self.before.remove(place))
+    }
+
+    /// Gives a case the true label of its inspection. Without one the truth of the case stays: a person may have entered it
+    /// in the case alone.
+    fn update(&mut self, case: &KeptCase, summary: &Summary) -> Result<(), CaseError> {
+        match &summary.label {
+            Some(label) if *label != case.meta.about.truth => {
+                self.folder.set_truth(&case.name, label.clone())?;
+                self.num_updated += 1;
+            }
+            _ => self.num_unchanged += 1,
+        }
         Ok(())
     }
 
     /// Summarises in English what was written to the folder of this name, and what was not.
     pub fn in_words(&self, folder: &str) -> String {
-        let cases = if self.num_kept == 1 { "case" } else { "cases" };
-        let written = format!("{} {cases} written to {folder}", self.num_kept);
+        let written = format!(
+            "cases in {folder}: {} new, {} updated, {} unchanged",
+            self.num_new, self.num_updated, self.num_unchanged
+        );
         let left_out = [
             (self.num_without_truth, "without a true label"),
             (self.num_without_frame, "without a kept frame"),
@@ -109,6 +174,11 @@ impl<'a> PastCases<'a> {
     }
 }
 
+/// Origin of the case of an inspection: many scenes of a camera have the same name.
+fn origin_of(summary: &Summary) -> String {
+    format!("inspection {} {}", summary.number, summary.scene)
+}
+
 #[cfg(test)]
 mod tests {
     use std::fs;
@@ -116,9 +186,18 @@ mod tests {
     use super::*;
     use crate::{
         cases::CaseAnswer,
-        history::{Filter, Retention},
+        history::{Filter, History, Retention},
         kit::{history_entry, low_score, new_history},
     };
+
+    /// Exports, and returns the numbers of new, updated and unchanged cases.
+    fn exported(history: &History, folder: &CaseFolder, truth: TruthFrom) -> [usize; 3] {
+        let past = PastCases::new(folder, history.frames_folder(), truth);
+        let mut past = past.expect("listed");
+        let taken = history.each(&Filter::default(), |record| past.take(&record));
+        taken.expect("kept");
+        [past.num_new, past.num_updated, past.num_unchanged]
+    }
 
     #[test]
     fn a_case_says_what_was_found_and_what_a_person_said_of_it() {
@@ -131,9 +210,8 @@ mod tests {
         history.set_label(1, Some(&truth)).expect("labelled");
         history.set_remark(1, "bent").expect("written");
         let folder = CaseFolder::at(home.path().join("cases"));
-        let mut past = PastCases::new(&folder, history.frames_folder(), TruthFrom::Label);
-        let taken = history.each(&Filter::default(), |record| past.take(&record));
-        taken.expect("kept");
+        let counts = exported(&history, &folder, TruthFrom::Label);
+        assert_eq!(counts, [1, 0, 0]);
         let list = folder.list().expect("listed");
         let about = &list.cases[0].meta.about;
         assert_eq!(about.origin, "inspection 1 frame 1");
@@ -146,6 +224,53 @@ mod tests {
     }
 
     #[test]
+    fn an_inspection_that_is_a_case_already_gets_no_other_one() {
+        let (home, mut history) = new_history();
+        for seconds in 1..=3 {
+            let entry = history_entry(seconds, StoredVerdict::Accepted, "grille");
+            history.add(&entry, &Retention::default()).expect("written");
+        }
+        let folder = CaseFolder::at(home.path().join("cases"));
+        let kept = history.known(3).expect("written");
+        let scene = history.scene(&kept).expect("read").expect("kept");
+        // As Compare keeps it.
+        let about = CaseDescription {
+            kept_at: jiff::Timestamp::UNIX_EPOCH,
+            remark: "bent".into(),
+            difficulty: Some("hard".into()),
+            ..CaseDescription::of(&kept, Truth::NotEnrolled)
+        };
+        folder.keep(&scene, about).expect("kept");
+        let all = TruthFrom::LabelOrVerdict;
+        // The verdict does not replace the label of a person.
+        assert_eq!(exported(&history, &folder, all), [2, 0, 1]);
+        assert_eq!(exported(&history, &folder, all), [0, 0, 3]);
+
+        for number in [1, 3] {
+            let labelled = history.set_label(number, Some(&Truth::Nothing));
+            labelled.expect("labelled");
+        }
+        assert_eq!(exported(&history, &folder, all), [0, 2, 1]);
+        assert_eq!(exported(&history, &folder, all), [0, 0, 3]);
+        let list = folder.list().expect("listed");
+        assert!(list.problems.is_empty(), "{:?}", list.problems);
+        let found = list.cases.iter().map(|case| {
+            folder.read_scene(case).expect("read");
+            let about = &case.meta.about;
+            let difficulty = about.difficulty.as_deref();
+            (about.truth.name(), about.remark.as_str(), difficulty)
+        });
+        let mut found: Vec<_> = found.collect();
+        found.sort_unstable();
+        let expected = [
+            ("grille", "", None),
+            ("nothing", "", None),
+            ("nothing", "bent", Some("hard")),
+        ];
+        assert_eq!(found, expected);
+    }
+
+    #[test]
     fn the_first_case_that_cannot_be_written_ends_the_export() {
         let (home, mut history) = new_history();
         for (number, seconds) in (1..).zip(1..=2) {
@@ -155,9 +280,10 @@ mod tests {
             labelled.expect("labelled");
         }
         let path = home.path().join("cases");
-        fs::write(&path, "not a folder").expect("written");
         let folder = CaseFolder::at(&path);
-        let mut past = PastCases::new(&folder, history.frames_folder(), TruthFrom::Label);
+        let past = PastCases::new(&folder, history.frames_folder(), TruthFrom::Label);
+        let mut past = past.expect("listed");
+        fs::write(&path, "not a folder").expect("written");
         let mut num = 0;
         let taken = history.each(&Filter::default(), |record| {
             num += 1;

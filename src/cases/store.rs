@@ -3,12 +3,13 @@
 //! Readers never write, so cases can be read from a write-protected medium. A lock admits one writer at a time.
 
 use std::{
-    fs, io,
+    fs, io, mem,
     path::{Path, PathBuf},
 };
 
 use super::{
     error::CaseError,
+    judge::Truth,
     meta::{CaseDescription, CaseMeta, SCHEMA_VERSION},
 };
 use crate::{
@@ -21,6 +22,8 @@ use crate::{
 };
 
 const META: &str = "case.toml";
+/// A new `case.toml` until it is complete.
+const NEW_META: &str = ".case.toml";
 /// The name of the scene's file, without its ending.
 const SCENE: &str = "scene";
 const NEW_PREFIX: &str = ".new-";
@@ -113,13 +116,13 @@ impl CaseFolder {
 
     /// Reads the scene of a case, bit for bit as it was written.
     pub fn read_scene(&self, case: &KeptCase) -> Result<SceneCloud, CaseError> {
-        let folder = self.path.join(&case.name);
+        let folder = self.place_of(&case.name)?;
         case.scene(&|file| read_bytes(&folder.join(file)))
     }
 
     /// Reads all that an inspection of the case needs. What is damaged shows when it is unpacked.
     pub fn pack(&self, case: &KeptCase) -> Result<PackedCase, CaseError> {
-        let folder = self.path.join(&case.name);
+        let folder = self.place_of(&case.name)?;
         let content = |file: &str| {
             let read = read_bytes(&folder.join(file));
             read.map_err(|error| case.damaged(&error))
@@ -139,12 +142,30 @@ impl CaseFolder {
         })
     }
 
+    /// Changes the true label of a case and returns the one before.
+    pub fn set_truth(&self, name: &str, truth: Truth) -> Result<Truth, CaseError> {
+        let folder = self.changeable(name)?;
+        let meta = self.read_meta(name)?;
+        let mut meta = meta.ok_or_else(|| self.no_such_case(name))?;
+        let before = mem::replace(&mut meta.about.truth, truth);
+        // The record of the scene is written as this schema has it.
+        meta.schema_version = SCHEMA_VERSION;
+        let written = || -> io::Result<()> {
+            let text = toml::to_string(&meta).map_err(io::Error::other)?;
+            self.writing(|| {
+                let new = folder.join(NEW_META);
+                write_file(&new, text.as_bytes())?;
+                disk::rename(&new, folder.join(META))?;
+                sync_folder(&folder)
+            })
+        };
+        written().map_err(|source| self.unwritable(source))?;
+        Ok(before)
+    }
+
     /// Moves a case, damaged or not, to the trash and returns its path there.
     pub fn remove(&self, name: &str) -> Result<PathBuf, CaseError> {
-        let folder = self.path.join(name);
-        if !is_plain(name) || !folder.is_dir() {
-            return Err(self.no_such_case(name));
-        }
+        let folder = self.changeable(name)?;
         let trash = self.path.join(TRASH);
         let moved = || -> io::Result<PathBuf> {
             self.writing(|| {
@@ -174,6 +195,25 @@ impl CaseFolder {
             })
         };
         moved().map_err(|source| self.unwritable(source))
+    }
+
+    /// Path of a case.
+    fn place_of(&self, name: &str) -> Result<PathBuf, CaseError> {
+        let place = self.path.join(name);
+        if place.is_dir() {
+            Ok(place)
+        } else {
+            Err(self.no_such_case(name))
+        }
+    }
+
+    /// Path of a case that may be changed: no other folder has such a name.
+    fn changeable(&self, name: &str) -> Result<PathBuf, CaseError> {
+        if is_plain(name) {
+            self.place_of(name)
+        } else {
+            Err(self.no_such_case(name))
+        }
     }
 
     fn no_such_case(&self, name: &str) -> CaseError {
@@ -248,6 +288,9 @@ impl CaseFolder {
             Ok(found) => Err(damaged(format!(
                 "{file} has {found} bytes, expected {bytes}"
             ))),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                Err(damaged(format!("{file} is missing")))
+            }
             Err(error) => Err(damaged(format!("{file}: {}", words_of(&error)))),
         }
     }

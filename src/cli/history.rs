@@ -18,7 +18,7 @@ use jiff::{Timestamp, tz::TimeZone};
 use self::moments::{parse_since, parse_until};
 use super::{
     LibraryChoice, Outcome,
-    console::{Advised as _, Console, Table, marked_simulated},
+    console::{Advised as _, Console, Table, advised_error, marked_simulated},
     record::HistoryChoice,
 };
 use crate::{
@@ -76,7 +76,8 @@ enum HistoryCommand {
     Label {
         /// Number of the inspection
         number: i64,
-        /// An enrolled name, `-` for something that is not enrolled, `none` for nothing, `?` to remove the label
+        /// An enrolled name, `-` or `not_enrolled` for something that is not enrolled, `none` or `nothing` for nothing,
+        /// `?` to remove the label
         part: String,
         #[command(flatten)]
         library: LibraryChoice,
@@ -199,7 +200,8 @@ struct ExportArgs {
     /// Write a table to this file, the oldest first
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
-    /// Write those with a kept frame and a true label as cases into this folder
+    /// Write those with a kept frame and a true label as cases into this folder; those that are cases there already only
+    /// get their present label
     #[arg(long, value_name = "DIR")]
     cases: Option<PathBuf>,
     /// With --cases: use the accepted part where no true label is set
@@ -256,10 +258,17 @@ pub(super) fn run(args: &HistoryArgs, console: &mut Console) -> anyhow::Result<O
             part,
             library,
         } => {
-            let label = match part.as_str() {
+            let label = match part.trim() {
+                "" => {
+                    return Err(advised_error(
+                        "the label is empty",
+                        "Give ? to remove the label, or none if nothing hung there",
+                    ));
+                }
                 "?" => None,
-                "-" => Some(Truth::NotEnrolled),
-                "none" => Some(Truth::Nothing),
+                // Lists show the words of `Truth::name`.
+                "-" | "not_enrolled" => Some(Truth::NotEnrolled),
+                "none" | "nothing" => Some(Truth::Nothing),
                 part => Some(Truth::Part(part.to_owned())),
             };
             open(&folder, console)?

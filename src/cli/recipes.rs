@@ -165,7 +165,7 @@ struct ListLine<'a> {
 fn list(json: bool, console: &mut Console) -> anyhow::Result<()> {
     let mut list = folder()?.list().advised()?;
     for problem in &list.problems {
-        console.warn(&format_args!("set aside {problem}"), problem);
+        console.warn(problem, problem);
     }
     list.recipes.insert(0, RecipeFile::built_in());
     let mut table = Table::new(&["NAME", "IDENTITY", "CHANGED", "DEFAULT", "NOTES"]);
@@ -292,7 +292,7 @@ fn rename(name: &PartName, to: &PartName, console: &mut Console) -> anyhow::Resu
     let folder = folder()?;
     folder.rename(name, to).advised()?;
     console.line(&format_args!("Recipe {name} is now named {to}"));
-    if folder.default_name().advised()? == to.as_str() {
+    if folder.is_default(to) {
         console.note(&"It stays the default recipe");
     }
     Ok(())
@@ -300,7 +300,7 @@ fn rename(name: &PartName, to: &PartName, console: &mut Console) -> anyhow::Resu
 
 fn remove(name: &PartName, console: &mut Console) -> anyhow::Result<()> {
     let folder = folder()?;
-    let was_default = folder.default_name().advised()? == name.as_str();
+    let was_default = folder.is_default(name);
     folder.remove(name).advised()?;
     console.line(&format_args!("Removed {name}"));
     if was_default {

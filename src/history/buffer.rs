@@ -22,7 +22,7 @@ use super::{
     error::HistoryError,
     event::HistoryEvent,
     hung::HungId,
-    open::OpenedHistory,
+    open::{FILE, OpenedHistory},
     retention::{PruneResult, Retention, Usage},
     store::History,
     traceability::TraceChange,
@@ -206,7 +206,7 @@ impl HistoryBuffer {
     }
 
     /// Sets the true label of a part on the row that stands for it, and the remark if that row has none. Returns the
-    /// changed row; `None` if the part has no row.
+    /// changed row; `None` in memory only, if the part has no row.
     pub fn label_part(
         &self,
         hung: &HungId,
@@ -216,7 +216,12 @@ impl HistoryBuffer {
         let mut inner = self.lock();
         self.look(&mut inner);
         let Some(mut row) = inner.part(hung)? else {
-            return Ok(None);
+            return match &self.place {
+                Some(place) => Err(HistoryError::NoSuchPart {
+                    path: place.join(FILE),
+                }),
+                None => Ok(None),
+            };
         };
         let number = row.number;
         let set = |row: &mut Summary| {

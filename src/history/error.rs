@@ -104,6 +104,12 @@ pub enum HistoryError {
         /// The number asked for.
         number: i64,
     },
+    /// There is no inspection of this part.
+    #[error("{}: the history has no inspection of this part, so its true label is not set there", path.display())]
+    NoSuchPart {
+        /// The file.
+        path: PathBuf,
+    },
     /// The system names no folder for user data.
     #[error("this system has no folder for user data")]
     NoUserFolder,
@@ -188,6 +194,9 @@ impl Advice for HistoryError {
             Self::Table(error) => error.advice(),
             Self::NoSuchInspection { .. } => {
                 "Use one of the numbers that `partsight history list` shows".into()
+            }
+            Self::NoSuchPart { .. } => {
+                "If the history was moved or replaced, put the former file back and set the true label in History".into()
             }
             Self::NoUserFolder => "Name a folder with --history".into(),
         }

@@ -225,7 +225,9 @@ fn as_depth(scene: &SceneCloud) -> Option<DepthFrame> {
         return None;
     }
     let points = &scene.cloud.points;
-    UNITS.into_iter().find_map(|metres_per_unit| {
+    // A cloud may have been made of a depth image elsewhere.
+    let mut units = scene.metres_per_unit.into_iter().chain(UNITS);
+    units.find_map(|metres_per_unit| {
         let depths = points.iter().map(|p| units_of(p, metres_per_unit));
         let frame = DepthFrame {
             intrinsics,
@@ -421,6 +423,21 @@ mod tests {
         assert_same(&scene, &read(folder.path(), &record).expect("read"));
         let opened = crate::files::open(&folder.path().join(&record.file)).expect("opened");
         assert!(matches!(opened, FileContent::Depth(_)));
+    }
+
+    #[test]
+    fn a_depth_image_of_any_unit_stays_one_and_names_its_unit() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let setup = CellSetup::with_part(PartKind::Grille, Side::Left, 0, 3);
+        let mut frame = crate::simulate::frame(&setup).frame;
+        frame.metres_per_unit = 0.001_010_5;
+        let scene = scene_from_frame(&frame);
+        let record = write(folder.path(), &scene, Timestamp::UNIX_EPOCH).expect("written");
+        let record = record.expect("kept");
+        assert_eq!(record.metres_per_unit, Some(frame.metres_per_unit));
+        assert_same(&scene, &read(folder.path(), &record).expect("read"));
+        let opened = crate::files::open(&folder.path().join(&record.file)).expect("opened");
+        assert_eq!(opened, FileContent::Depth(frame));
     }
 
     #[test]

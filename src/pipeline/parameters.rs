@@ -346,6 +346,18 @@ pub fn num_changed<R: Parameters>(recipe: &R) -> usize {
     changed(recipe).count()
 }
 
+/// True if every parameter has a value that it can be set to. Recipe files are checked as they are read; a recipe from
+/// elsewhere may hold any value.
+pub fn is_valid<R: Parameters>(recipe: &R) -> bool {
+    let (mut set, mut copied) = (R::default(), R::default());
+    let is_each_valid = R::ALL.iter().all(|parameter| {
+        parameter.copy(recipe, &mut copied);
+        parameter.set(&mut set, parameter.value(recipe)).is_ok()
+    });
+    // A choice only copies options that exist.
+    is_each_valid && copied == *recipe
+}
+
 /// A parameter with a valid value, written as `segment.plane_distance=12`. The value is the name of an option, or a
 /// number in the parameter's unit, which may follow it.
 #[derive(Clone, Debug)]
@@ -561,6 +573,30 @@ mod tests {
             }
             assert_eq!(recipe, Recipe::default());
         }
+    }
+
+    #[test]
+    fn a_recipe_is_valid_if_all_its_values_are() {
+        assert!(is_valid(&Recipe::default()));
+        for parameter in PARAMETERS {
+            let Kind::Number(number) = &parameter.kind else {
+                continue;
+            };
+            let [least, most] = number.range;
+            let with = |shown: f64| {
+                let mut recipe = Recipe::default();
+                (number.set)(&mut recipe, shown / number.unit.per_inner());
+                recipe
+            };
+            assert!(is_valid(&with(least)) && is_valid(&with(most)));
+            assert!(!is_valid(&with(most + 1.0)), "{}", parameter.key);
+        }
+        let mut recipe = Recipe::default();
+        recipe.accept.min_score = f64::NAN;
+        assert!(!is_valid(&recipe));
+        let mut recipe = Recipe::default();
+        recipe.signature.num_rays = 300;
+        assert!(!is_valid(&recipe));
     }
 
     #[test]

@@ -59,6 +59,15 @@ pub enum RecipeError {
         /// Names of the recipes that exist.
         available: Vec<String>,
     },
+    /// The file that names the default recipe cannot be read.
+    #[error("the default recipe is unknown: {0}")]
+    BadDefault(FileError),
+    /// No recipe of the user can have the name of the file.
+    #[error("{} is not used: its name is not one that a recipe can have", path.display())]
+    BadFileName {
+        /// The file.
+        path: PathBuf,
+    },
     /// The default recipe is missing or cannot be read.
     #[error("the default recipe {name} cannot be used: {reason}")]
     NoDefault {
@@ -108,11 +117,13 @@ impl Advice for RecipeError {
                     None => format!("Give one that partsight recipe list shows; {file}"),
                 }
             }
-            Self::NoDefault { .. } => {
+            Self::BadDefault(_) | Self::NoDefault { .. } => {
                 format!("Choose another: partsight recipe default {BUILT_IN}; or name one with --recipe")
             }
-            Self::Exists { .. } => "Choose another name, or replace it".into(),
-            Self::BuiltIn => "Choose another name".into(),
+            Self::BadFileName { .. } => {
+                "Rename the file: lowercase letters, digits, _ and -, for example glossy.toml".into()
+            }
+            Self::Exists { .. } | Self::BuiltIn => "Choose another name".into(),
             Self::NoUserFolder => "Set HOME, or give the recipe as a file".into(),
         }
     }

@@ -29,9 +29,9 @@ pub struct RecipeFolder {
 pub struct RecipeList {
     /// The recipes in the order of their names, without the built-in one.
     pub recipes: Vec<RecipeFile>,
-    /// Name of the default recipe.
+    /// Name of the default recipe; empty if it cannot be read.
     pub default: String,
-    /// One error for each recipe that could not be read.
+    /// Errors of the recipes that cannot be read, of files with other names, and of the default.
     pub problems: Vec<RecipeError>,
 }
 
@@ -68,12 +68,19 @@ impl RecipeFolder {
 
     /// Reads all recipes. A damaged one becomes a problem of the list and does not affect the others.
     pub fn list(&self) -> Result<RecipeList, RecipeError> {
-        let mut list = RecipeList {
-            default: self.default_name()?,
-            ..RecipeList::default()
-        };
-        for name in self.names()? {
-            match self.read(&name) {
+        let mut list = RecipeList::default();
+        match self.default_name() {
+            Ok(name) => list.default = name,
+            Err(problem) => list.problems.push(problem),
+        }
+        for file in self.files()? {
+            let read = match name_of(&file) {
+                Some(name) if name.as_str() != BUILT_IN => self.read(&name),
+                _ => Err(RecipeError::BadFileName {
+                    path: self.path.join(file),
+                }),
+            };
+            match read {
                 Ok(recipe) => list.recipes.push(recipe),
                 Err(problem) => list.problems.push(problem),
             }
@@ -88,23 +95,28 @@ impl RecipeFolder {
         Ok(names)
     }
 
-    /// The sorted names of the files; none if the folder does not exist.
+    /// The sorted names of the files, without those that no recipe may have; none if the folder does not exist.
     pub(crate) fn file_names(&self) -> Result<Vec<PartName>, RecipeError> {
+        let files = self.files()?;
+        Ok(files.iter().filter_map(|file| name_of(file)).collect())
+    }
+
+    /// The files in the order of their names, without the path of the folder; none if it does not exist.
+    fn files(&self) -> Result<Vec<PathBuf>, RecipeError> {
         let reading = |error| FileError::reading(&self.path, error);
         let entries = match fs::read_dir(&self.path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
             entries => entries.map_err(reading)?,
         };
-        let mut names = Vec::new();
+        let mut files = Vec::new();
         for entry in entries {
-            let path = PathBuf::from(entry.map_err(reading)?.file_name());
-            let stem = path.file_stem().and_then(|stem| stem.to_str());
-            if path.extension().is_some_and(|ending| ending == ENDING) {
-                names.extend(stem.and_then(|stem| PartName::new(stem).ok()));
+            let file = PathBuf::from(entry.map_err(reading)?.file_name());
+            if file.extension().is_some_and(|ending| ending == ENDING) {
+                files.push(file);
             }
         }
-        names.sort();
-        Ok(names)
+        files.sort_by(|a, b| a.file_stem().cmp(&b.file_stem()));
+        Ok(files)
     }
 
     /// Reads the recipe of this name. The file name counts, not the name inside, because the file may have been
@@ -152,7 +164,7 @@ impl RecipeFolder {
             Err(error) => return Err(FileError::writing(&path, error).into()),
         }
         sync_folder(&self.path).map_err(|error| FileError::writing(&path, error))?;
-        if self.default_name()? == name.as_str() {
+        if self.is_default(name) {
             self.set_default(&RecipeFile::built_in().name)?;
         }
         Ok(())
@@ -161,7 +173,7 @@ impl RecipeFolder {
     /// Renames a recipe; if it was the default, it stays the default.
     pub fn rename(&self, from: &PartName, to: &PartName) -> Result<RecipeFile, RecipeError> {
         self.changeable(from)?;
-        let was_default = self.default_name()? == from.as_str();
+        let was_default = self.is_default(from);
         let renamed = RecipeFile {
             name: to.clone(),
             ..self.read(from)?
@@ -185,8 +197,14 @@ impl RecipeFolder {
             {
                 Ok(BUILT_IN.into())
             }
-            Err(error) => Err(error.into()),
+            Err(error) => Err(RecipeError::BadDefault(error)),
         }
+    }
+
+    /// True if this recipe is the default; while the default cannot be read, none is.
+    pub fn is_default(&self, name: &PartName) -> bool {
+        self.default_name()
+            .is_ok_and(|default| default == name.as_str())
     }
 
     /// Makes this recipe the default.
@@ -223,6 +241,11 @@ impl RecipeFolder {
         let made = made.and_then(|()| sync_folder(folder_of(&self.path)));
         made.map_err(|error| FileError::writing(&self.path, error).into())
     }
+}
+
+/// The name of the recipe in a file, if it is one that a recipe can have.
+fn name_of(file: &Path) -> Option<PartName> {
+    PartName::new(file.file_stem()?.to_str()?).ok()
 }
 
 /// Opens the recipe of this name in the folder, or the recipe file at this path; a text that cannot be a name is a
@@ -369,8 +392,36 @@ mod tests {
         }
         let list = folder.list().expect("listed");
         assert_eq!(names(&folder), ["copy", "glossy"]);
-        assert_eq!(list.problems.len(), 1);
-        assert!(list.problems[0].to_string().contains("bad.toml"));
+        let problems: Vec<String> = list.problems.iter().map(ToString::to_string).collect();
+        assert_eq!(problems.len(), 3, "{problems:?}");
+        for (problem, file) in problems
+            .iter()
+            .zip(["No Name.toml", "bad.toml", "built-in.toml"])
+        {
+            assert!(problem.contains(file), "{problem}");
+        }
+    }
+
+    #[test]
+    fn while_the_default_cannot_be_read_only_what_uses_it_is_refused() {
+        let (_data, folder) = folder();
+        for name in ["glossy", "matt"] {
+            folder.save(&recipe(name, 0.8), Replace::No).expect("saved");
+        }
+        fs::write(folder.path().join(DEFAULT), "").expect("written");
+        let list = folder.list().expect("listed");
+        assert_eq!((list.recipes.len(), list.default.as_str()), (2, ""));
+        assert!(list.problems[0].advice().contains("default built-in"));
+        let refused = open_recipe(Ok(folder.clone()), None).expect_err("no default");
+        assert!(refused.to_string().contains(DEFAULT), "{refused}");
+        assert!(refused.advice().contains("default built-in"));
+        folder
+            .rename(&name("matt"), &name("silk"))
+            .expect("renamed");
+        folder.remove(&name("glossy")).expect("removed");
+        folder.set_default(&name(BUILT_IN)).expect("chosen");
+        assert_eq!(folder.default_name().expect("read"), BUILT_IN);
+        assert_eq!(names(&folder), ["silk"]);
     }
 
     #[test]

@@ -44,6 +44,8 @@ pub struct SceneCloud {
     pub empty_cell: Option<Arc<EmptyCell>>,
     /// The field of view found in other frames of the same camera.
     pub known_view: Option<Arc<FieldOfView>>,
+    /// Metres per unit of the depth image that the points come from, if it was not reduced.
+    pub metres_per_unit: Option<f64>,
     /// The original capture, if the picture was reduced.
     pub reduced: Option<Reduced>,
     /// The program fault that prevented making the scene, which is then empty.
@@ -165,7 +167,10 @@ pub fn full_scene(frame: &DepthFrame) -> SceneCloud {
         0 => f32::NAN,
         units => f32::from(*units) * scale,
     };
-    scene_of_depths(frame, frame.intrinsics, frame.depth.iter().map(metres))
+    SceneCloud {
+        metres_per_unit: Some(frame.metres_per_unit),
+        ..scene_of_depths(frame, frame.intrinsics, frame.depth.iter().map(metres))
+    }
 }
 
 fn scene_of_depths(

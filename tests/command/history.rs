@@ -170,11 +170,47 @@ fn a_label_that_is_no_part_names_the_library_and_no_case_is_written_into_one() {
     );
     assert!(mistyped.err.contains(&library), "{}", mistyped.err);
     let exported = place.accepted(&["history", "export", "--cases", "cases"]);
-    let words = "1 case written to cases";
+    let words = "cases in cases: 1 new, 0 updated, 0 unchanged";
     assert!(exported.err.contains(words), "{}", exported.err);
+    place.accepted(&["history", "label", "1", "-"]);
+    let again = place.accepted(&["history", "export", "--cases", "cases"]);
+    let words = "cases in cases: 0 new, 1 updated, 0 unchanged";
+    assert!(again.err.contains(words), "{}", again.err);
+    let judged = place.accepted(&["evaluate", "cases", "--json", "judged.json"]);
+    assert_eq!(judged.code, 0);
+    let cases = &place.json("judged.json")["cases"];
+    assert_eq!(cases.as_array().map(Vec::len), Some(1));
+    assert_eq!(cases[0]["truth"]["is"], "not_enrolled");
     let library = "data/partsight/library";
     let refused = place.coded(2, &["history", "export", "--cases", library]);
     assert!(refused.err.contains("holds parts"), "{}", refused.err);
+}
+
+#[test]
+fn a_label_takes_the_words_of_the_list_and_an_empty_one_is_refused() {
+    let place = with_captures();
+    assert_eq!(place.run(&["inspect", "hood.png"]).code, 1);
+    let label = || {
+        let listed = place.accepted(&["history", "list", "--json"]).lines();
+        listed[0]["label"].clone()
+    };
+    for (given, shown) in [
+        ("-", "not_enrolled"),
+        ("nothing", "nothing"),
+        ("not_enrolled", "not_enrolled"),
+        ("none", "nothing"),
+    ] {
+        let set = place.accepted(&["history", "label", "1", given]);
+        // The name of a part would be compared with the library.
+        assert_eq!((label(), set.err.as_str()), (shown.into(), ""), "{given}");
+    }
+    for empty in ["", " "] {
+        let refused = place.coded(2, &["history", "label", "1", empty]);
+        assert!(refused.err.contains("? to remove"), "{}", refused.err);
+        assert_eq!(label(), "nothing");
+    }
+    place.accepted(&["history", "label", "1", "?"]);
+    assert_eq!(label(), Value::Null);
 }
 
 #[test]

@@ -227,6 +227,33 @@ fn a_recipe_that_cannot_be_used_stops_the_command_with_advice() {
 }
 
 #[test]
+fn files_that_cannot_be_used_are_named_and_the_others_are_listed() {
+    let place = Workplace::new();
+    place.accepted(&["recipe", "save", "glossy"]);
+    let recipes = "data/partsight/recipes";
+    place.write(&format!("{recipes}/Upper.toml"), "schema = 1\n");
+    place.write(&format!("{recipes}/bad.toml"), "schema = 9\n");
+    place.write(&format!("{recipes}/default"), "");
+    let listed = place.accepted(&["recipe", "list"]);
+    assert!(listed.out.contains("glossy"), "{}", listed.out);
+    for words in ["Upper.toml", "bad.toml", "recipe default built-in"] {
+        assert!(listed.err.contains(words), "{}", listed.err);
+    }
+    // They stay where they are.
+    assert!(!listed.err.contains("aside"), "{}", listed.err);
+    let refused = place.coded(2, &["inspect", "none.pcd"]);
+    assert!(
+        refused.err.contains("recipe default built-in"),
+        "{}",
+        refused.err
+    );
+    place.accepted(&["recipe", "rename", "glossy", "shiny"]);
+    place.accepted(&["recipe", "remove", "shiny"]);
+    place.accepted(&["recipe", "default", "built-in"]);
+    assert_eq!(place.accepted(&["recipe", "default"]).out, "built-in\n");
+}
+
+#[test]
 fn a_renamed_recipe_stays_what_it_is_and_takes_no_other_ones_name() {
     let place = Workplace::new();
     for (name, score) in [("glossy", "0.85"), ("matt", "0.8")] {
@@ -240,6 +267,8 @@ fn a_renamed_recipe_stays_what_it_is_and_takes_no_other_ones_name() {
         "{}",
         taken.err
     );
+    let same = place.coded(2, &["recipe", "rename", "glossy", "glossy"]);
+    assert!(!same.err.contains("replace"), "{}", same.err);
     let renamed = place.accepted(&["recipe", "rename", "glossy", "shiny"]);
     assert!(
         renamed.out.contains("glossy is now named shiny"),

@@ -195,7 +195,7 @@ fn keeping_a_case_is_undone_and_what_it_set_in_the_history_stays() {
     harness.get_by_label_contains("its History entry is unchanged");
     let row = history_of(&harness).row(0).expect("listed");
     assert_eq!(row.label, Some(Truth::Part("back_door".into())));
-    press(&mut harness, "Put case back");
+    press(&mut harness, "Redo");
     assert_eq!(num(), 1);
 }
 
@@ -536,19 +536,59 @@ fn every_control_is_large_enough_labelled_and_inside_a_small_window() {
     harness.get_by_label("Run all kept cases");
 }
 
+/// Describes a case that another program keeps.
+fn about(origin: &str) -> CaseDescription {
+    CaseDescription {
+        origin: origin.into(),
+        simulated: true,
+        kept_at: jiff::Timestamp::UNIX_EPOCH,
+        remark: String::new(),
+        difficulty: None,
+        truth: Truth::Part("fender".into()),
+        found: FoundVerdict::default(),
+        pose: None,
+    }
+}
+
+#[test]
+fn cases_that_another_program_adds_damages_or_removes_are_listed_as_they_are() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let cases = CaseFolder::at(folder.path());
+    let mut harness = open(folder.path());
+    press(&mut harness, "Compare");
+    keep(&mut harness, DOOR, "Front door, left");
+    let wait_for_cases = |harness: &mut WindowHarness, num: usize| {
+        wait_for(harness, |window| {
+            let compare = window.workspace::<CompareWorkspace>();
+            let cases = compare.and_then(|compare| compare.state.cases.as_ref());
+            cases.is_some_and(|cases| cases.list.len() == num)
+        });
+        settle(harness);
+    };
+    let scene = scene_of(&CellSetup::with_part(PartKind::Fender, Side::Left, 0, 5));
+    cases.keep(&scene, about("Monday")).expect("kept");
+    wait_for_cases(&mut harness, 2);
+    cases.keep(&scene, about("Tuesday")).expect("kept");
+    let file = folder.path().join("tuesday").join("case.toml");
+    std::fs::remove_file(file).expect("removed");
+    press(&mut harness, "Run all cases");
+    harness.get_by_label_contains("· 2 of 2 right · none wrongly refused · 1 cannot be read");
+    assert!(harness.query_by_label_contains("outdated").is_none());
+    std::fs::remove_dir_all(folder.path().join("monday")).expect("removed");
+    wait_for_cases(&mut harness, 1);
+    harness.get_by_label("· outdated: a case was removed");
+    press(&mut harness, "Run all cases");
+    harness.get_by_label_contains("· 1 of 1 right");
+    assert!(harness.query_by_label_contains("outdated").is_none());
+}
+
 #[test]
 fn an_earlier_run_is_compared_and_what_is_worse_is_listed_first() {
     let folder = tempfile::tempdir().expect("a folder");
     let setup = CellSetup::with_part(PartKind::Fender, Side::Left, 0, 5);
     let about = CaseDescription {
-        origin: "Monday".into(),
-        simulated: true,
-        kept_at: jiff::Timestamp::UNIX_EPOCH,
-        remark: String::new(),
         difficulty: Some("placed anyhow".into()),
-        truth: Truth::Part("fender".into()),
-        found: FoundVerdict::default(),
-        pose: None,
+        ..about("Monday")
     };
     let cases = CaseFolder::at(folder.path().join("cases"));
     let scene = scene_of(&setup);
@@ -660,6 +700,33 @@ fn it_is_drawn_in_both_sizes_and_colours() {
 }
 
 #[test]
+fn the_button_of_a_changed_recipe_with_a_long_name_stays_in_the_window() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let recipes = RecipeFolder::at(folder.path().join("recipes"));
+    let name = "clear_coat_of_the_third_booth_in_the_afternoon";
+    let file = RecipeFile {
+        name: PartName::new(name).expect("a name"),
+        ..RecipeFile::built_in()
+    };
+    recipes.save(&file, Replace::No).expect("saved");
+    for size in [USUAL, SMALL] {
+        let options = WindowOptions {
+            cases: Some(folder.path().join("cases")),
+            recipes: Some(recipes.path().to_owned()),
+            ..plain_options()
+        };
+        let mut harness = open_with(size, options);
+        press(&mut harness, "Compare");
+        let opened = CompareAction::Recipe(RecipeAction::Open(name.into()));
+        act_in_compare(&mut harness, opened);
+        act_in_compare(&mut harness, CompareAction::Set("accept.min_score", 0.95));
+        let label = format!("Recipe {name} (modified)");
+        let button = harness.get_by_label(&label);
+        assert!(button.rect().right() < size.x, "{:?}", button.rect());
+    }
+}
+
+#[test]
 fn recipes_that_a_command_saves_are_listed_and_what_is_on_trial_stays() {
     let folder = tempfile::tempdir().expect("a folder");
     let recipes = RecipeFolder::at(folder.path().join("recipes"));
@@ -702,4 +769,12 @@ fn recipes_that_a_command_saves_are_listed_and_what_is_on_trial_stays() {
     });
     let tried = own(&harness).tried.as_ref().expect("on trial");
     assert!((tried.accept.min_score - 0.97).abs() < 1e-12);
+    // Saving asks before it replaces that value.
+    press(&mut harness, "Recipe strict (modified)");
+    press(&mut harness, "Save");
+    let saved = || recipes.read(&strict.name).expect("kept").recipe;
+    assert!((saved().accept.min_score - 0.99).abs() < 1e-12);
+    harness.get_by_label("Replace recipe strict?");
+    press(&mut harness, "Replace it");
+    assert!((saved().accept.min_score - 0.97).abs() < 1e-12);
 }

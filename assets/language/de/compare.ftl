@@ -31,6 +31,7 @@ compare-run-all = Alle Fälle prüfen
 compare-run-all-hint = Jeden gespeicherten Fall mit dem Rezept rechts prüfen
 compare-undo-keep = Speichern rückgängig
 compare-undo-removal = Fall zurückholen
+compare-undo-truth = Tatsächliches Teil rückgängig
 compare-undo-recipe = Rezept zurückholen
 compare-undo-use = Verwenden rückgängig
 compare-undo-open = Öffnen rückgängig
@@ -90,7 +91,7 @@ compare-tally =
         [0] keiner
        *[other] { $refused }
     } zu Unrecht abgewiesen
-compare-num-damaged = { $count } beschädigt
+compare-num-unreadable = { $count } nicht lesbar
 compare-run-running = läuft, { $done } von { $total } fertig
 compare-run-stopped = abgebrochen, { $done } von { $total } fertig
 compare-other-recipe = mit einem anderen Rezept
@@ -151,6 +152,9 @@ compare-save-name = Unter diesem Namen speichern
 compare-rename-name = In diesen Namen umbenennen
 compare-cancel-name = Namenseingabe abbrechen
 compare-name-taken = Es gibt bereits ein Rezept namens { $name }
+compare-replace-title = Rezept { $name } ersetzen?
+compare-replace-why = Ein anderes Programm hat es geändert, während es hier ausprobiert wurde; dessen Fassung ginge verloren
+compare-replace = Ersetzen
 compare-num-changed = { $count } geändert
 compare-list-changes = Anzeigen
 compare-reset-all = Zurücksetzen
@@ -215,7 +219,7 @@ compare-one-worker = 1 Thread
 ## Keys
 compare-key-keep = Angezeigten Fall speichern
 compare-key-run = Alle gespeicherten Fälle prüfen
-compare-key-undo = Speichern oder Entfernen eines Falls, Löschen oder Verwenden eines Rezepts zurücknehmen
+compare-key-undo = Speichern oder Entfernen eines Falls, Angabe seines tatsächlichen Teils, Löschen, Verwenden oder Öffnen eines Rezepts zurücknehmen
 
 ## Work and notices
 compare-cases-title = Ordner der gespeicherten Fälle
@@ -229,6 +233,7 @@ compare-listing-cases = Gespeicherte Fälle werden gelesen
 compare-keeping-case = Fall wird gespeichert
 compare-removing-case = Fall wird entfernt
 compare-restoring-case = Fall wird zurückgeholt
+compare-saving-truth = Tatsächliches Teil wird gespeichert
 compare-running-cases = Gespeicherte Fälle werden geprüft
 compare-measuring = Dauer der Rangliste wird gemessen
 compare-comparing-earlier = Vergleich mit einem früheren Lauf
@@ -246,10 +251,16 @@ compare-no-run-advice = Zuerst alle Fälle prüfen
 compare-kept-as = Gespeichert als { $name }
 compare-removed-case = { $name } entfernt; der Eintrag im Verlauf bleibt, wie er ist
 compare-restored-case = { $name } ist wieder da
+compare-truth-saved = Tatsächliches Teil von { $name } gespeichert; der Eintrag im Verlauf bleibt, wie er ist
 compare-case-gone = Es gibt keinen gespeicherten Fall namens { $name } mehr
 compare-case-gone-advice = Alle Fälle erneut prüfen
+compare-front-gone = Der gespeicherte Fall { $name } fehlt oder ist beschädigt
+compare-front-gone-advice = Stattdessen wird die zuletzt geprüfte Szene gezeigt; zum erneuten Vergleichen den Fall in seinen Ordner zurückkopieren
 compare-recipe-changed-elsewhere = Rezept { $name } wurde von einem anderen Programm geändert
 compare-recipe-changed-elsewhere-advice = Zum Verwenden in „Vergleich“ öffnen; bis dahin gelten die bisherigen Parameter
+compare-tried-changed-elsewhere-advice = Zum Ausprobieren dieser Fassung erneut öffnen; vor dem Ersetzen durch die eigene wird gefragt
+compare-recipe-gone = Rezept { $name } ist nicht mehr unter den gespeicherten Rezepten
+compare-recipe-gone-advice = Ein anderes Programm hat es umbenannt oder gelöscht: seine Parameter in „Vergleich“ unter einem Namen speichern oder ein anderes Rezept öffnen
 compare-saved-recipe = Rezept { $name } gespeichert
 compare-restored-recipe = Rezept { $name } ist wieder da
 compare-renamed-recipe = Rezept { $before } heißt jetzt { $now }
@@ -261,4 +272,3 @@ compare-recipe-used =
         [one] { $count } Parameter weicht
        *[other] { $count } Parameter weichen
     } von der Vorgabe ab
-compare-recipe-used-before = Szenen werden wieder mit dem vorigen Rezept geprüft

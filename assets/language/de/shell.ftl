@@ -153,8 +153,8 @@ shell-writing-settings = Einstellungen werden gespeichert
 shell-settings-not-used = Die Einstellungen in { $path } werden nicht verwendet: { $why }
 shell-settings-set-aside = Sie wurden nach { $path } verschoben; das Fenster startet mit Standardeinstellungen
 shell-settings-values-not-used = { $keys } in { $path } { $num ->
-    [one] ist nicht lesbar und hat den Standardwert
-   *[other] sind nicht lesbar und haben Standardwerte
+    [one] ist nicht verwendbar und hat den Standardwert
+   *[other] sind nicht verwendbar und haben Standardwerte
 }; alle anderen Einstellungen bleiben
 shell-settings-kept-beside = Die Datei, wie sie war, ist { $path }
 shell-settings-move-away = Die Datei verschieben: Sie konnte nicht beiseitegelegt werden ({ $why })

@@ -31,6 +31,7 @@ compare-run-all = Run all cases
 compare-run-all-hint = Inspect every kept case with the recipe on the right
 compare-undo-keep = Undo keep
 compare-undo-removal = Put case back
+compare-undo-truth = Undo actual part
 compare-undo-recipe = Put recipe back
 compare-undo-use = Undo use
 compare-undo-open = Undo open
@@ -90,7 +91,7 @@ compare-tally =
         [0] none
        *[other] { $refused }
     } wrongly refused
-compare-num-damaged = { $count } damaged
+compare-num-unreadable = { $count } cannot be read
 compare-run-running = running, { $done } of { $total } done
 compare-run-stopped = stopped, { $done } of { $total } done
 compare-other-recipe = with another recipe
@@ -151,6 +152,9 @@ compare-save-name = Save under this name
 compare-rename-name = Rename under this name
 compare-cancel-name = Cancel the name
 compare-name-taken = There is a recipe named { $name } already
+compare-replace-title = Replace recipe { $name }?
+compare-replace-why = Another program changed it while it was on trial here; that version would be lost
+compare-replace = Replace it
 compare-num-changed = { $count } changed from default
 compare-list-changes = List them
 compare-reset-all = Reset all
@@ -215,7 +219,7 @@ compare-one-worker = 1 worker
 ## Keys
 compare-key-keep = Keep the case in front
 compare-key-run = Run all kept cases
-compare-key-undo = Undo keeping or removing a case, or removing or using a recipe
+compare-key-undo = Undo keeping or removing a case, setting its actual part, or removing, using or opening a recipe
 
 ## Work and notices
 compare-cases-title = Folder of kept cases
@@ -229,6 +233,7 @@ compare-listing-cases = Listing the kept cases
 compare-keeping-case = Keeping the case
 compare-removing-case = Removing a case
 compare-restoring-case = Putting the case back
+compare-saving-truth = Saving the actual part
 compare-running-cases = Running the kept cases
 compare-measuring = Measuring the ranking
 compare-comparing-earlier = Comparing with an earlier run
@@ -246,10 +251,16 @@ compare-no-run-advice = Run all cases first
 compare-kept-as = Kept as { $name }
 compare-removed-case = Removed { $name }; its History entry is unchanged
 compare-restored-case = { $name } is back
+compare-truth-saved = Saved the actual part of { $name }; its History entry is unchanged
 compare-case-gone = There is no kept case named { $name } any more
 compare-case-gone-advice = Run all cases again
+compare-front-gone = The kept case { $name } is gone or damaged
+compare-front-gone-advice = The scene inspected last is in front instead; copy the case back to its folder to compare it again
 compare-recipe-changed-elsewhere = Recipe { $name } was changed by another program
 compare-recipe-changed-elsewhere-advice = Open it in Compare to use it; until then its previous parameters are used
+compare-tried-changed-elsewhere-advice = Open it again to try that version; Save asks before it replaces it
+compare-recipe-gone = Recipe { $name } is no longer among the saved recipes
+compare-recipe-gone-advice = Another program renamed or deleted it: save its parameters under a name in Compare, or open another recipe
 compare-saved-recipe = Saved recipe { $name }
 compare-restored-recipe = Recipe { $name } is back
 compare-renamed-recipe = Recipe { $before } is named { $now } now
@@ -257,4 +268,3 @@ compare-removed-recipe = Removed recipe { $name }
 compare-default-recipe = Commands without --recipe now use "{ $name }"
 compare-imported-recipe = Imported recipe { $name }
 compare-recipe-used = Scenes are inspected with recipe { $recipe } now: { $count } changed from default
-compare-recipe-used-before = Scenes are inspected with the previous recipe again

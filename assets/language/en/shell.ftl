@@ -153,8 +153,8 @@ shell-writing-settings = Writing the settings
 shell-settings-not-used = The settings in { $path } are not used: { $why }
 shell-settings-set-aside = They were moved to { $path }; the window starts with default settings
 shell-settings-values-not-used = { $keys } in { $path } { $num ->
-    [one] cannot be read and has its default value
-   *[other] cannot be read and have their default values
+    [one] cannot be used and has its default value
+   *[other] cannot be used and have their default values
 }; all other settings are kept
 shell-settings-kept-beside = The file as it was is { $path }
 shell-settings-move-away = Move the file away: it could not be set aside ({ $why })

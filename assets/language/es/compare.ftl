@@ -31,6 +31,7 @@ compare-run-all = Inspeccionar todos
 compare-run-all-hint = Inspeccionar todos los casos guardados con la receta de la derecha
 compare-undo-keep = Deshacer guardado
 compare-undo-removal = Recuperar caso
+compare-undo-truth = Deshacer pieza real
 compare-undo-recipe = Recuperar receta
 compare-undo-use = Deshacer uso
 compare-undo-open = Deshacer apertura
@@ -90,10 +91,10 @@ compare-tally =
         [0] ninguno
        *[other] { $refused }
     } con rechazo erróneo
-compare-num-damaged =
+compare-num-unreadable =
     { $count ->
-        [one] { $count } dañado
-       *[other] { $count } dañados
+        [one] { $count } ilegible
+       *[other] { $count } ilegibles
     }
 compare-run-running = en curso, { $done } de { $total } hechos
 compare-run-stopped = detenido, { $done } de { $total } hechos
@@ -172,6 +173,9 @@ compare-save-name = Guardar con este nombre
 compare-rename-name = Cambiar a este nombre
 compare-cancel-name = Cancelar la introducción del nombre
 compare-name-taken = Ya existe una receta llamada { $name }
+compare-replace-title = ¿Sustituir la receta { $name }?
+compare-replace-why = Otro programa la modificó mientras se probaba aquí; esa versión se perdería
+compare-replace = Sustituir
 compare-num-changed =
     { $count ->
         [one] { $count } modificado
@@ -244,7 +248,7 @@ compare-one-worker = 1 hilo
 ## Keys
 compare-key-keep = Guardar el caso mostrado
 compare-key-run = Inspeccionar todos los casos guardados
-compare-key-undo = Deshacer guardar o eliminar un caso, o eliminar o usar una receta
+compare-key-undo = Deshacer guardar o eliminar un caso, indicar su pieza real, o eliminar, usar o abrir una receta
 
 ## Work and notices
 compare-cases-title = Carpeta de casos guardados
@@ -258,6 +262,7 @@ compare-listing-cases = Leyendo los casos guardados
 compare-keeping-case = Guardando el caso
 compare-removing-case = Eliminando un caso
 compare-restoring-case = Recuperando el caso
+compare-saving-truth = Guardando la pieza real
 compare-running-cases = Inspeccionando los casos guardados
 compare-measuring = Midiendo la clasificación
 compare-comparing-earlier = Comparando con una ejecución anterior
@@ -275,10 +280,16 @@ compare-no-run-advice = Inspeccionar antes todos los casos
 compare-kept-as = Guardado como { $name }
 compare-removed-case = { $name }: eliminado; su entrada en Historial no cambia
 compare-restored-case = { $name } está de vuelta
+compare-truth-saved = Pieza real de { $name } guardada; su entrada en Historial no cambia
 compare-case-gone = Ya no existe ningún caso guardado llamado { $name }
 compare-case-gone-advice = Volver a inspeccionar todos los casos
+compare-front-gone = El caso guardado { $name } falta o está dañado
+compare-front-gone-advice = En su lugar se muestra la última escena inspeccionada; para volver a compararlo, copiar el caso de nuevo a su carpeta
 compare-recipe-changed-elsewhere = Otro programa ha modificado la receta { $name }
 compare-recipe-changed-elsewhere-advice = Abrirla en Comparar para usarla; hasta entonces se usan sus parámetros anteriores
+compare-tried-changed-elsewhere-advice = Abrirla de nuevo para probar esa versión; antes de sustituirla por la propia se pregunta
+compare-recipe-gone = La receta { $name } ya no está entre las recetas guardadas
+compare-recipe-gone-advice = Otro programa le cambió el nombre o la eliminó: guardar sus parámetros con un nombre en Comparar o abrir otra receta
 compare-saved-recipe = Receta { $name } guardada
 compare-restored-recipe = Receta { $name } recuperada
 compare-renamed-recipe = La receta { $before } se llama ahora { $now }
@@ -290,4 +301,3 @@ compare-recipe-used =
         [one] { $count } parámetro modificado
        *[other] { $count } parámetros modificados
     }
-compare-recipe-used-before = Las escenas vuelven a inspeccionarse con la receta anterior

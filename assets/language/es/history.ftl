@@ -154,11 +154,7 @@ history-wrote =
 history-no-cases = Ninguna inspección se ha convertido en caso: { $what }
 history-no-cases-advice = Indicar la pieza real de algunas inspecciones y conservar sus imágenes
 history-wrote-cases = { $path }: { $what }
-history-cases-kept =
-    { $count ->
-        [one] { $count } guardada como caso
-       *[other] { $count } guardadas como casos
-    }
+history-cases-kept = casos: { $new } nuevos, { $updated } actualizados, { $unchanged } sin cambios
 history-cases-without-truth = { $count } sin pieza real
 history-cases-without-frame = { $count } sin imagen conservada
 history-cases-scans = { $count } que son escaneos

@@ -153,8 +153,8 @@ shell-writing-settings = Guardando los ajustes
 shell-settings-not-used = Los ajustes de { $path } no se usan: { $why }
 shell-settings-set-aside = Se han movido a { $path }; la ventana se abre con los ajustes predeterminados
 shell-settings-values-not-used = { $keys } en { $path } { $num ->
-    [one] no se puede leer y tiene su valor predeterminado
-   *[other] no se pueden leer y tienen sus valores predeterminados
+    [one] no se puede usar y tiene su valor predeterminado
+   *[other] no se pueden usar y tienen sus valores predeterminados
 }; los demás ajustes se conservan
 shell-settings-kept-beside = El archivo tal como estaba es { $path }
 shell-settings-move-away = Mover el archivo a otro lugar: no se pudo apartar ({ $why })

@@ -31,6 +31,7 @@ compare-run-all = 检测全部样本
 compare-run-all-hint = 使用右侧的配方检测每个已保存的样本
 compare-undo-keep = 撤销保存
 compare-undo-removal = 恢复样本
+compare-undo-truth = 撤销实际零件
 compare-undo-recipe = 恢复配方
 compare-undo-use = 撤销使用
 compare-undo-open = 撤销打开
@@ -89,7 +90,7 @@ compare-tally =
         [0] 无误拒绝
        *[other] { $refused } 个误拒绝
     }
-compare-num-damaged = { $count } 个已损坏
+compare-num-unreadable = { $count } 个无法读取
 compare-run-running = 检测中，已完成 { $done } / { $total }
 compare-run-stopped = 已停止，已完成 { $done } / { $total }
 compare-other-recipe = 使用了其他配方
@@ -150,6 +151,9 @@ compare-save-name = 以此名称保存
 compare-rename-name = 改为此名称
 compare-cancel-name = 取消命名
 compare-name-taken = 已有名为 { $name } 的配方
+compare-replace-title = 替换配方 { $name }？
+compare-replace-why = 在此试用期间，其他程序更改了它；该版本将丢失
+compare-replace = 替换
 compare-num-changed = { $count } 项与默认值不同
 compare-list-changes = 列出
 compare-reset-all = 全部重置
@@ -214,7 +218,7 @@ compare-one-worker = 1 个线程
 ## Keys
 compare-key-keep = 保存当前样本
 compare-key-run = 检测所有已保存的样本
-compare-key-undo = 撤销保存或移除样本，或撤销移除或使用配方
+compare-key-undo = 撤销保存或移除样本、设置其实际零件，或撤销移除、使用或打开配方
 
 ## Work and notices
 compare-cases-title = 已保存样本的文件夹
@@ -228,6 +232,7 @@ compare-listing-cases = 正在列出已保存的样本
 compare-keeping-case = 正在保存样本
 compare-removing-case = 正在移除样本
 compare-restoring-case = 正在恢复样本
+compare-saving-truth = 正在保存实际零件
 compare-running-cases = 正在检测已保存的样本
 compare-measuring = 正在测量排名用时
 compare-comparing-earlier = 正在与先前的结果比较
@@ -245,10 +250,16 @@ compare-no-run-advice = 请先检测全部样本
 compare-kept-as = 已保存为 { $name }
 compare-removed-case = 已移除 { $name }；历史中的记录保持不变
 compare-restored-case = 已恢复 { $name }
+compare-truth-saved = 已保存 { $name } 的实际零件；历史中的记录保持不变
 compare-case-gone = 名为 { $name } 的已保存样本已不存在
 compare-case-gone-advice = 请重新检测全部样本
+compare-front-gone = 已保存样本 { $name } 缺失或已损坏
+compare-front-gone-advice = 现在显示最近检测的场景；如需再次比较，请将样本复制回其文件夹
 compare-recipe-changed-elsewhere = 配方 { $name } 已被其他程序更改
 compare-recipe-changed-elsewhere-advice = 请在“比较”中打开以使用它；在此之前使用其原有参数
+compare-tried-changed-elsewhere-advice = 请重新打开以试用该版本；用自己的版本替换之前会先询问
+compare-recipe-gone = 配方 { $name } 已不在已保存的配方中
+compare-recipe-gone-advice = 其他程序已将其重命名或删除：请在“比较”中以某个名称保存其参数，或打开其他配方
 compare-saved-recipe = 已保存配方 { $name }
 compare-restored-recipe = 已恢复配方 { $name }
 compare-renamed-recipe = 配方 { $before } 现名为 { $now }
@@ -256,4 +267,3 @@ compare-removed-recipe = 已删除配方 { $name }
 compare-default-recipe = 不带 --recipe 的命令现在使用“{ $name }”
 compare-imported-recipe = 已导入配方 { $name }
 compare-recipe-used = 现在使用配方 { $recipe } 检测场景：{ $count } 个参数与默认值不同
-compare-recipe-used-before = 重新使用之前的配方检测场景

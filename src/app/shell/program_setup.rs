@@ -99,34 +99,58 @@ impl ProgramSetup {
         }
     }
 
-    /// Replaces each number out of its range, as a file may contain, by its default.
+    /// Replaces each number out of its range, as a file may contain, by its default; returns the keys of the replaced ones.
     ///
     /// NaN never equals itself, so that settings would be written and the reach checked without end.
-    #[must_use]
-    pub(in crate::app) fn checked(mut self) -> Self {
+    pub(in crate::app) fn replace_unusable(&mut self) -> Vec<&'static str> {
         let usual = Self::default();
-        for (value, range, usual) in [
-            (&mut self.clearance_mm, Self::CLEARANCE, usual.clearance_mm),
+        let mut replaced = Vec::new();
+        for (key, value, range, usual) in [
             (
+                "clearance_mm",
+                &mut self.clearance_mm,
+                Self::CLEARANCE,
+                usual.clearance_mm,
+            ),
+            (
+                "gun_radius_mm",
                 &mut self.gun_radius_mm,
                 Self::GUN_RADIUS,
                 usual.gun_radius_mm,
             ),
-            (&mut self.speed_mm_s, Self::SPEED, usual.speed_mm_s),
-            (&mut self.approach_mm, Self::APPROACH, usual.approach_mm),
-            (&mut self.blend_mm, Self::BLEND, usual.blend_mm),
-            (&mut self.max_tilt_deg, Self::MAX_TILT, usual.max_tilt_deg),
+            (
+                "speed_mm_s",
+                &mut self.speed_mm_s,
+                Self::SPEED,
+                usual.speed_mm_s,
+            ),
+            (
+                "approach_mm",
+                &mut self.approach_mm,
+                Self::APPROACH,
+                usual.approach_mm,
+            ),
+            ("blend_mm", &mut self.blend_mm, Self::BLEND, usual.blend_mm),
+            (
+                "max_tilt_deg",
+                &mut self.max_tilt_deg,
+                Self::MAX_TILT,
+                usual.max_tilt_deg,
+            ),
         ] {
             if !range.contains(value) {
                 *value = usual;
+                replaced.push(key);
             }
         }
         for (place, value) in self.base.iter_mut().enumerate() {
             if !Self::base_range(place).contains(value) {
                 *value = 0.0;
+                replaced.push("base");
             }
         }
-        self
+        replaced.dedup();
+        replaced
     }
 
     /// Title of the arm, or the name of its file, which is not read because the window asks every frame.

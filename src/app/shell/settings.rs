@@ -29,7 +29,7 @@ use crate::{
     error::Advice as _,
     files::{advice_on, disk, open_regular, user_settings, write_text},
     history::Traceability,
-    pipeline::{NamedRecipe, Recipe, RecipeLabel},
+    pipeline::{NamedRecipe, Recipe, RecipeLabel, parameters::is_valid},
     robot::Convention,
 };
 
@@ -213,7 +213,7 @@ struct Versioned {
     schema: u32,
 }
 
-/// The settings of a file, and the keys whose values cannot be read.
+/// The settings of a file, and the keys whose values cannot be used.
 struct ReadSettings {
     settings: Settings,
     bad_keys: Vec<String>,
@@ -312,7 +312,7 @@ fn read(path: &Path) -> Result<ReadSettings, BadSettings> {
         return Err(BadSettings::Newer { found });
     }
     let table: Table = toml::from_str(&text).map_err(garbled)?;
-    let (table, bad_keys) = readable(table);
+    let (table, mut bad_keys) = usable(table);
     let has_live = table.contains_key("live");
     let mut settings: Settings = table.try_into().map_err(garbled)?;
     if !has_live {
@@ -321,17 +321,19 @@ fn read(path: &Path) -> Result<ReadSettings, BadSettings> {
     }
     let is_sensible = |size: &[f32; 2]| size.iter().all(|side| SIDES.contains(side));
     settings.window = settings.window.filter(is_sensible);
-    settings.program = settings.program.checked();
+    let replaced = settings.program.replace_unusable().into_iter();
+    bad_keys.extend(replaced.map(|key| format!("program.{key}")));
     Ok(ReadSettings { settings, bad_keys })
 }
 
-/// Removes the keys whose values cannot be read, and returns their names. Tables stay whole or go: half of a recipe, or
+/// Removes the keys whose values cannot be used, and returns their names. Tables stay whole or go: half of a recipe, or
 /// half of a robot's set-up, would be another one.
-fn readable(mut table: Table) -> (Table, Vec<String>) {
+fn usable(mut table: Table) -> (Table, Vec<String>) {
     let is_bad = |(key, value): (&String, &Value)| {
         let alone = Table::from_iter([(key.clone(), value.clone())]);
-        let is_read = alone.try_into::<Settings>().is_ok();
-        (!is_read).then(|| key.clone())
+        let read = alone.try_into::<Settings>();
+        let is_usable = read.is_ok_and(|read| read.recipe.is_none_or(|recipe| is_valid(&recipe)));
+        (!is_usable).then(|| key.clone())
     };
     let bad_keys: Vec<String> = table.iter().filter_map(is_bad).collect();
     table.retain(|key, _| !bad_keys.iter().any(|bad| bad == key));
@@ -467,7 +469,7 @@ mod tests {
     }
 
     #[test]
-    fn only_the_values_that_cannot_be_read_go_back_to_their_defaults() {
+    fn only_the_values_that_cannot_be_used_go_back_to_their_defaults() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("settings.toml");
         let bad = [
@@ -480,6 +482,11 @@ mod tests {
                 "answering",
             ),
             ("[recipe.accept]\nmin_score = \"high\"", "recipe"),
+            ("[recipe.accept]\nmin_score = -5.0", "recipe"),
+            ("[recipe.accept]\nmin_score = nan", "recipe"),
+            ("[recipe.project]\npixel = 0.0", "recipe"),
+            ("[recipe.signature]\nnum_rays = 300", "recipe"),
+            ("[program]\nspeed_mm_s = -1.0", "program.speed_mm_s"),
         ];
         for (number, (line, key)) in bad.into_iter().enumerate() {
             let text = format!("average = 4\nlock_after = 15\n{line}\n");
@@ -527,14 +534,16 @@ mod tests {
     }
 
     #[test]
-    fn numbers_of_a_robot_program_that_cannot_be_are_the_usual_ones() {
+    fn numbers_of_a_robot_program_that_cannot_be_are_named_and_the_usual_ones() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("settings.toml");
         let text = "[program]\narm = \"gp25\"\nspeed_mm_s = nan\nblend_mm = inf\nclearance_mm = 30.0\n\
                     base = [nan, -800.0, 0.0, 500.0, 0.0, 90.0]\n";
         fs::write(&path, text).expect("written");
         let (settings, trouble) = load(&path);
-        assert_eq!(trouble, None);
+        let named = "program.speed_mm_s, program.blend_mm, program.base in ";
+        let trouble = trouble.expect("said");
+        assert!(trouble.what.starts_with(named), "{trouble:?}");
         let wanted = ProgramSetup {
             arm: Some("gp25".into()),
             clearance_mm: 30.0,

@@ -79,7 +79,7 @@ pub(in crate::app) fn line_mark(ui: &mut Ui, side: f32, radius: f32, sign: Mark)
 }
 
 /// Returns the width of a text in one line.
-fn text_width(painter: &Painter, text: &str, font: &FontId) -> f32 {
+pub(in crate::app) fn text_width(painter: &Painter, text: &str, font: &FontId) -> f32 {
     let galley = painter.layout_no_wrap(text.to_owned(), font.clone(), Color32::PLACEHOLDER);
     galley.size().x
 }

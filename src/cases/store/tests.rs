@@ -106,7 +106,9 @@ fn a_kept_scene_opens_again_bit_for_bit_with_the_same_verdict() {
 fn a_damaged_case_is_named_and_the_others_load() {
     let folder = tempfile::tempdir().expect("a folder");
     let cases = CaseFolder::at(folder.path());
-    let names = ["cut", "garbled", "gone", "newer", "sound", "swapped"];
+    let names = [
+        "cut", "garbled", "gone", "newer", "no_scene", "sound", "swapped",
+    ];
     for name in names {
         cases.keep(&crumb(), about(name)).expect("kept");
     }
@@ -118,6 +120,7 @@ fn a_damaged_case_is_named_and_the_others_load() {
     let text = fs::read_to_string(at("newer", META)).expect("read");
     let newer = text.replace("schema_version = 2", "schema_version = 3");
     fs::write(at("newer", META), newer).expect("written");
+    fs::remove_file(at("no_scene", CRUMB)).expect("removed");
     let mut other = scene.clone();
     *other.last_mut().expect("bytes") ^= 1;
     fs::write(at("swapped", CRUMB), other).expect("written");
@@ -130,7 +133,8 @@ fn a_damaged_case_is_named_and_the_others_load() {
     for (said, name) in said.iter().zip(names) {
         assert!(said.contains(name), "{said}");
     }
-    assert_eq!(said.len(), 4);
+    assert_eq!(said.len(), 5);
+    assert!(said[4].ends_with("scene.pcd is missing"), "{}", said[4]);
     assert!(
         list.problems
             .iter()
@@ -189,6 +193,45 @@ fn a_removed_case_can_be_put_back() {
     for name in ["", "..", "../cases", ".trash", "missing"] {
         let refused = cases.remove(name).expect_err("refused");
         assert!(matches!(refused, CaseError::NoSuchCase { .. }), "{name}");
+    }
+}
+
+#[test]
+fn a_case_whose_folder_is_gone_is_not_damaged() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let cases = CaseFolder::at(folder.path());
+    let kept = cases.keep(&crumb(), about("frame 1")).expect("kept");
+    fs::remove_dir_all(folder.path().join(&kept.name)).expect("removed");
+    for gone in [
+        cases.read_scene(&kept).map(|_| ()),
+        cases.pack(&kept).map(|_| ()),
+        cases.set_truth(&kept.name, Truth::Nothing).map(|_| ()),
+    ] {
+        assert!(
+            matches!(gone, Err(CaseError::NoSuchCase { .. })),
+            "{gone:?}"
+        );
+    }
+}
+
+#[test]
+fn the_truth_of_a_case_is_changed_and_nothing_else() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let cases = CaseFolder::at(folder.path());
+    let mut kept = cases.keep(&crumb(), about("frame 1")).expect("kept");
+    let before = cases.set_truth(&kept.name, Truth::NotEnrolled);
+    assert_eq!(before.expect("changed"), Truth::Part("front_door".into()));
+    kept.meta.about.truth = Truth::NotEnrolled;
+    assert_eq!(cases.list().expect("listed").cases, [kept.clone()]);
+    fs::remove_file(folder.path().join(&kept.name).join(CRUMB)).expect("removed");
+    let refused = cases.set_truth(&kept.name, Truth::Nothing);
+    assert!(matches!(refused, Err(CaseError::Damaged { .. })));
+    for name in ["..", ".trash", "missing"] {
+        let refused = cases.set_truth(name, Truth::Nothing);
+        assert!(
+            matches!(refused, Err(CaseError::NoSuchCase { .. })),
+            "{name}"
+        );
     }
 }
 
@@ -253,6 +296,12 @@ fn a_case_of_the_first_version_is_read_with_its_empty_cell() {
     assert_eq!(bits(&again), bits(&scene));
     assert_eq!(again.intrinsics, scene.intrinsics);
     assert!(again.empty_cell.as_deref() == Some(&cell));
+    // A new truth is written in the newest schema.
+    cases.set_truth("old", Truth::Nothing).expect("changed");
+    let list = cases.list().expect("listed");
+    assert_eq!(list.cases[0].meta.schema_version, SCHEMA_VERSION);
+    let again = cases.read_scene(&list.cases[0]).expect("read");
+    assert_eq!(bits(&again), bits(&scene));
     fs::write(case.join("empty-cell.pcd"), &points).expect("another");
     cases.read_scene(&list.cases[0]).expect_err("another cell");
 }
@@ -362,6 +411,32 @@ fn whichever_call_fails_a_case_is_removed_whole_or_not_at_all() {
                 "the case is lost"
             );
             list.cases.len().to_string()
+        },
+        between: &[],
+    }
+    .fails_at_every_call();
+}
+
+#[cfg(unix)]
+#[test]
+fn whichever_call_fails_a_case_has_its_old_truth_or_the_new() {
+    use crate::files::disk::faults::{Writer, told};
+
+    let scene = crumb();
+    let at = |folder: &Path| CaseFolder::at(folder.join("cases"));
+    Writer {
+        test: "cases::store::tests::whichever_call_fails_a_case_has_its_old_truth_or_the_new",
+        prepare: &|folder| {
+            at(folder).keep(&scene, about("door")).expect("kept");
+        },
+        write: &|folder| {
+            let changed = at(folder).set_truth("door", Truth::NotEnrolled);
+            changed.map(|_| ()).map_err(|error| told(&error))
+        },
+        state: &|folder| {
+            let list = at(folder).list().expect("listed");
+            assert!(list.problems.is_empty(), "{:?}", list.problems);
+            format!("{:?}", list.cases[0].meta.about.truth)
         },
         between: &[],
     }

@@ -31,7 +31,8 @@ pub(super) fn run(
             TruthFrom::Label
         };
         let folder = open_case_folder(path)?;
-        let mut cases = PastCases::new(&folder, history.frames_folder(), truth);
+        let cases = PastCases::new(&folder, history.frames_folder(), truth);
+        let mut cases = cases.advised()?;
         let exported = history.each(&filter, |record| cases.take(&record));
         exported.advised()?;
         for problem in &cases.problems {
@@ -39,7 +40,7 @@ pub(super) fn run(
         }
         let written = cases.in_words(&path.display().to_string());
         console.note(&written);
-        if cases.num_kept == 0 {
+        if cases.num_kept() == 0 {
             return Err(advised_error(
                 "no inspection could be kept as a case",
                 "Label some first (partsight history label NUMBER PART), or add --accepted-as-truth",

@@ -4,9 +4,7 @@ use std::fs;
 
 use super::*;
 use crate::{
-    history::{
-        Filter, StoredVerdict, Traceability, open::FILE, schema::APPLICATION, waiting::MAX_WAITING,
-    },
+    history::{Filter, StoredVerdict, Traceability, schema::APPLICATION, waiting::MAX_WAITING},
     kit::{history_entry, moment, open_history, small_scene},
 };
 
@@ -225,8 +223,11 @@ fn a_label_goes_to_the_row_that_stands_for_the_part_whether_it_waits_or_is_writt
     // An existing remark is kept.
     assert_eq!(label(&other, "painted"), (2, Some(other), bent()));
     assert_eq!((row(1).label, row(3).label), (None, None));
-    let unknown = keeper.label_part(&HungId::new(), &Truth::Nothing, "");
-    assert_eq!(unknown.expect("asked"), None);
+    let unknown = |keeper: &HistoryBuffer| keeper.label_part(&HungId::new(), &Truth::Nothing, "");
+    let refused = unknown(&keeper).expect_err("no such part");
+    assert!(refused.to_string().contains("no inspection of this part"));
+    let in_memory = HistoryBuffer::default();
+    assert_eq!(unknown(&in_memory).expect("asked"), None);
 }
 
 #[test]
@@ -290,13 +291,17 @@ fn after_a_history_was_deleted_inspections_go_to_a_new_one_and_it_is_told_once()
     let place = home.path().join("history");
     let keeper = HistoryBuffer::new(Some(place.clone()));
     let now = Instant::now();
-    for seconds in 1..=3 {
-        keeper.add(seconds as u64, not_accepted(seconds), now);
+    let entries = [1, 2, 3].map(not_accepted);
+    let part = entries[0].record.summary.hung.clone();
+    for (ticket, entry) in (1..).zip(entries) {
+        keeper.add(ticket, entry, now);
     }
     keeper.take_news();
     fs::remove_dir_all(&place).expect("removed");
-    // A number of the former file is not one of the new.
+    // Neither a number nor a part of the former file is one of the new.
     keeper.set_remark(1, "a dent");
+    let labelled = keeper.label_part(&part, &Truth::Nothing, "");
+    assert!(matches!(labelled, Err(HistoryError::NoSuchPart { .. })));
     for seconds in 4..=5 {
         keeper.add(seconds as u64, not_accepted(seconds), now);
     }

@@ -20,7 +20,7 @@ pub enum CompareAction {
     FrontScene,
     /// Bring the kept case of this name to the front.
     OpenCase(String),
-    /// Set the truth of the case in front.
+    /// Set the truth of the case in front; that of a kept case is saved.
     SetTruth(Truth),
     /// Compare with the reference of this entry; without one it follows from truth and verdict.
     Against(Option<String>),
@@ -52,8 +52,10 @@ pub enum CompareAction {
     Use,
     /// Change the kept recipes.
     Recipe(RecipeAction),
-    /// Undo the last action that can be undone.
+    /// Undo the last change that can be undone.
     Undo,
+    /// Redo the change that was undone last.
+    Redo,
 }
 
 /// An action on the kept recipes; one without a name applies to the recipe on trial.
@@ -61,8 +63,10 @@ pub enum CompareAction {
 pub enum RecipeAction {
     /// Try the recipe of this name.
     Open(String),
-    /// Save it under its name.
+    /// Save it under its name; ask first if that would replace the recipe of another program.
     Save,
+    /// Answer whether saving may replace the recipe of another program.
+    Replace(bool),
     /// Save a copy under the next free name, and put the copy on trial.
     Duplicate,
     /// Start to enter a name.

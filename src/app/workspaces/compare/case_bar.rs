@@ -2,7 +2,7 @@
 
 use egui::{Button, RichText, Ui, WidgetInfo};
 
-use super::{CompareAction, CompareState, Front};
+use super::{CompareAction, CompareState, Front, Undo};
 use crate::{
     app::{
         language::{keys, text},
@@ -36,7 +36,12 @@ pub(super) fn ui(
     };
     ui.horizontal_wrapped(|ui| {
         case_menu(ui, compare, session, acts);
+        let opacity = ui.opacity();
+        if compare.is_study_old() {
+            ui.multiply_opacity(0.55);
+        }
         verdict(ui, compare, session);
+        ui.set_opacity(opacity);
         truth_menu(ui, compare, session, acts);
     });
     ui.horizontal_wrapped(|ui| {
@@ -215,7 +220,7 @@ fn against_menu(
     });
 }
 
-/// Draws the remark and the buttons: keep, remove, run all, undo.
+/// Draws the remark and the buttons: keep, remove, run all, undo, redo.
 fn case_buttons(
     ui: &mut Ui,
     compare: &CompareState,
@@ -268,11 +273,18 @@ fn case_buttons(
     if run.on_hover_text(text!("compare-run-all-hint")).clicked() {
         acts.push(CompareAction::RunAll);
     }
-    if let Some(undo) = &compare.undo {
-        let title = undo.title();
-        let button = Button::new(&title).shortcut_text(key(&keys("Ctrl Z")).weak());
+    let undo = compare.undo.done.last();
+    let redo = compare.undo.undone.last().map(|_| text!("shell-redo"));
+    for (title, shortcut, action) in [
+        (undo.map(Undo::title), "Ctrl Z", CompareAction::Undo),
+        (redo, "Ctrl Shift Z", CompareAction::Redo),
+    ] {
+        let Some(title) = title else {
+            continue;
+        };
+        let button = Button::new(&title).shortcut_text(key(&keys(shortcut)).weak());
         if labelled(ui, button, &title).clicked() {
-            acts.push(CompareAction::Undo);
+            acts.push(action);
         }
     }
 }

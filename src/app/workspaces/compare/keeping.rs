@@ -55,7 +55,7 @@ impl CompareState {
             inspected: Arc::clone(inspected),
             about: Box::new(about),
         };
-        self.change_cases(text!("compare-keeping-case"), change);
+        self.change_cases(change, None);
     }
 }
 

@@ -21,6 +21,7 @@ use crate::{
             theme::{ROUNDING, Theme, font, space},
             widgets::{focus_ring, labelled, shortened, text_button},
         },
+        user_error::UserError,
     },
     cases::{CaseAnswer, CaseOutcome, KeptCase},
 };
@@ -41,7 +42,8 @@ pub(super) fn ui(
     acts: &mut Vec<CompareAction>,
 ) {
     header(ui, compare, session, acts);
-    let cases = compare.cases.as_ref().map(|cases| &*cases.list);
+    let listed = compare.cases.as_ref();
+    let cases = listed.map(|cases| &*cases.list);
     let Some(cases) = cases.filter(|cases| !cases.is_empty()) else {
         let text = match (cases, compare.folder.as_deref()) {
             (None, _) => text!("compare-looking"),
@@ -51,6 +53,10 @@ pub(super) fn ui(
             (Some(_), None) => text!("compare-no-cases"),
         };
         ui.label(RichText::new(text).font(font::verdict()).weak());
+        if let Some(listed) = listed.filter(|listed| !listed.problems.is_empty()) {
+            let text = text!("compare-num-unreadable", count = listed.problems.len());
+            ui.label(text).on_hover_text(words_of(&listed.problems));
+        }
         ui.weak(text!("compare-no-cases-advice"));
         return;
     };
@@ -159,10 +165,13 @@ fn header(ui: &mut Ui, compare: &CompareState, session: &Session, acts: &mut Vec
             total = tally.total,
             refused = tally.refused,
         )];
-        if !run.troubles.is_empty() {
-            rest.push(text!("compare-num-damaged", count = run.troubles.len()));
+        let problems = run.cases.problems.iter().chain(&run.troubles);
+        let problems: Vec<UserError> = problems.cloned().collect();
+        if !problems.is_empty() {
+            rest.push(text!("compare-num-unreadable", count = problems.len()));
         }
-        let (done, total) = (run.results.len() + run.troubles.len(), run.cases.len());
+        let done = run.results.len() + run.troubles.len();
+        let total = run.cases.list.len();
         if run.ended.is_none() {
             rest.push(if compare.is_running_cases() {
                 text!("compare-run-running", done = done, total = total)
@@ -170,7 +179,10 @@ fn header(ui: &mut Ui, compare: &CompareState, session: &Session, acts: &mut Vec
                 text!("compare-run-stopped", done = done, total = total)
             });
         }
-        ui.label(format!("· {}", rest.join(" · ")));
+        let rest = ui.label(format!("· {}", rest.join(" · ")));
+        if !problems.is_empty() {
+            rest.on_hover_text(words_of(&problems));
+        }
         if *run.recipe != **compare.tried_recipe(session) {
             let text = format!("· {}", text!("compare-other-recipe"));
             ui.label(RichText::new(text).color(theme.warning));
@@ -186,6 +198,12 @@ fn header(ui: &mut Ui, compare: &CompareState, session: &Session, acts: &mut Vec
         }
     });
     ui.spacing_mut().interact_size.y = height;
+}
+
+/// All of these problems: the notices join those with the same advice.
+fn words_of(problems: &[UserError]) -> String {
+    let words: Vec<&str> = problems.iter().map(|error| error.what.as_str()).collect();
+    words.join("\n")
 }
 
 /// Lists all cases, before any run.

@@ -1,21 +1,29 @@
 //! The recipes that are saved as files, and the task that makes their changes one after the other.
 
-use std::{collections::VecDeque, path::PathBuf, sync::Arc};
+use std::{
+    collections::VecDeque,
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
 use crate::{
     app::{
         inspection::folder_watch::FolderWatch,
         language::text,
-        shell::context::ShellContext,
+        shell::{context::ShellContext, settings::set_aside, undo_stack::UndoDirection},
         task::{Task, TaskRunner},
         user_error::UserError,
     },
+    files::disk,
     library::PartName,
     pipeline::{
         BUILT_IN, NamedRecipe, Recipe, RecipeError, RecipeFile, RecipeFolder, RecipeLabel,
         RecipeList, Replace,
     },
 };
+
+/// The changed recipe on trial when the window was closed, in the folder of recipes; hidden, as it is none of them.
+const TRIAL: &str = ".trial.recipe";
 
 /// The kept recipes, and the changes that wait for the task.
 #[derive(Debug)]
@@ -28,6 +36,12 @@ pub struct KeptRecipes {
     pub naming: Option<Naming>,
     /// True while the parameters that differ from their defaults are shown.
     pub is_listing_changes: bool,
+    /// Name of the recipe that another program changed while it was on trial.
+    pub(super) changed_elsewhere: Option<String>,
+    /// True while it is asked whether saving may replace that recipe.
+    pub is_asking: bool,
+    /// The recipe on trial as the last window left it.
+    pub(super) resumed: Option<Box<RecipeFile>>,
     waiting: VecDeque<RecipeChange>,
     pub(super) task: Task<Changed>,
     /// Watches for changes by commands.
@@ -58,6 +72,8 @@ pub enum NamingPurpose {
 #[derive(Debug)]
 pub(super) enum RecipeChange {
     List,
+    /// Reads the recipe on trial as the last window left it.
+    Resume,
     Save(Box<RecipeFile>, Replace),
     /// Saves a removed recipe again.
     Restore {
@@ -65,7 +81,8 @@ pub(super) enum RecipeChange {
         was_default: bool,
     },
     Rename(PartName, PartName),
-    Remove(PartName),
+    /// With the direction, if it undoes or redoes another change.
+    Remove(PartName, Option<UndoDirection>),
     MakeDefault(PartName),
     /// Under its own name, or the next free one.
     Import(PathBuf),
@@ -82,6 +99,7 @@ pub(super) struct Changed {
 #[derive(Debug)]
 pub(super) enum RecipeDone {
     Listed,
+    Resumed(Option<Box<RecipeFile>>),
     /// The recipe on trial has this name now.
     Saved(PartName),
     Restored(PartName),
@@ -89,6 +107,7 @@ pub(super) enum RecipeDone {
     Removed {
         file: Box<RecipeFile>,
         was_default: bool,
+        way: Option<UndoDirection>,
     },
     Default(PartName),
     Imported(PartName),
@@ -105,8 +124,11 @@ impl KeptRecipes {
             },
             naming: None,
             is_listing_changes: false,
+            changed_elsewhere: None,
+            is_asking: false,
+            resumed: None,
             // Listed in the first frame: the recipe in use may differ from its file by now.
-            waiting: VecDeque::from([RecipeChange::List]),
+            waiting: VecDeque::from([RecipeChange::List, RecipeChange::Resume]),
             task: Task::new("recipes", runner),
             watch: FolderWatch::new("recipe-watch", runner),
         }
@@ -117,8 +139,7 @@ impl KeptRecipes {
     }
 
     pub(super) fn of_name(&self, name: &str) -> Option<&RecipeFile> {
-        let mut recipes = self.list.recipes.iter();
-        recipes.find(|file| file.name.as_str() == name)
+        of_name(&self.list, name)
     }
 
     /// True if there is a recipe of this name.
@@ -162,6 +183,25 @@ impl KeptRecipes {
         }
     }
 
+    /// Writes the recipe on trial for the next window; `None` removes that of the last one. A second window that changed
+    /// nothing leaves what the first one wrote.
+    pub(super) fn keep_trial(&self, trial: Option<&RecipeFile>) {
+        let Some(folder) = &self.folder else {
+            return;
+        };
+        if trial == self.resumed.as_deref() {
+            return;
+        }
+        let path = folder.path().join(TRIAL);
+        // The window is closing, so an error could not be shown.
+        if let Some(trial) = trial {
+            let _ = disk::create_dir_all(folder.path());
+            let _ = trial.write(&path);
+        } else {
+            let _ = disk::remove_file(&path);
+        }
+    }
+
     /// Starts the next waiting change; a change is never cancelled for the next.
     pub(super) fn start_next(&mut self) {
         if let (None, Some(folder)) = (self.task.running(), &self.folder)
@@ -176,19 +216,44 @@ impl KeptRecipes {
     }
 }
 
-fn is_taken(list: &RecipeList, name: &str) -> bool {
-    name == BUILT_IN || list.recipes.iter().any(|file| file.name.as_str() == name)
+pub(super) fn of_name<'a>(list: &'a RecipeList, name: &str) -> Option<&'a RecipeFile> {
+    let mut recipes = list.recipes.iter();
+    recipes.find(|file| file.name.as_str() == name)
 }
 
-/// The first free name of `name_2`, `name_3` and so on.
+fn is_taken(list: &RecipeList, name: &str) -> bool {
+    name == BUILT_IN || of_name(list, name).is_some()
+}
+
+/// The first free name of `name_2`, `name_3` and so on; a long name is shortened for it.
 pub(super) fn free_name(list: &RecipeList, name: &str) -> Result<PartName, RecipeError> {
-    let number = (2..10_000).find(|number| !is_taken(list, &format!("{name}_{number}")));
-    Ok(PartName::new(&format!("{name}_{}", number.unwrap_or(2)))?)
+    let mut copies = (2..10_000).map(|number| {
+        let ending = format!("_{number}");
+        let room = PartName::MAX_LENGTH - ending.len();
+        let kept: String = name.chars().take(room).collect();
+        kept + &ending
+    });
+    let free = copies.find(|copy| !is_taken(list, copy));
+    Ok(PartName::new(free.as_deref().unwrap_or(name))?)
+}
+
+/// Reads the recipe on trial as the last window left it. A file that cannot be read is set aside.
+fn read_trial(path: &Path) -> Result<Option<Box<RecipeFile>>, RecipeError> {
+    if !path.exists() {
+        return Ok(None);
+    }
+    let read = RecipeFile::read(path);
+    if read.is_err() {
+        // If this fails, the next start reports the file again.
+        let _ = set_aside(path);
+    }
+    Ok(Some(Box::new(read?)))
 }
 
 fn carry_out(folder: &RecipeFolder, change: RecipeChange) -> Result<Changed, RecipeError> {
     let done = match change {
         RecipeChange::List => RecipeDone::Listed,
+        RecipeChange::Resume => RecipeDone::Resumed(read_trial(&folder.path().join(TRIAL))?),
         RecipeChange::Save(file, replace) => RecipeDone::Saved(folder.save(&file, replace)?.name),
         RecipeChange::Restore { file, was_default } => {
             let name = folder.save(&file, Replace::No)?.name;
@@ -201,11 +266,15 @@ fn carry_out(folder: &RecipeFolder, change: RecipeChange) -> Result<Changed, Rec
             folder.rename(&from, &to)?;
             RecipeDone::Renamed(from, to)
         }
-        RecipeChange::Remove(name) => {
+        RecipeChange::Remove(name, way) => {
             let file = Box::new(folder.read(&name)?);
-            let was_default = folder.default_name()? == name.as_str();
+            let was_default = folder.is_default(&name);
             folder.remove(&name)?;
-            RecipeDone::Removed { file, was_default }
+            RecipeDone::Removed {
+                file,
+                was_default,
+                way,
+            }
         }
         RecipeChange::MakeDefault(name) => {
             folder.set_default(&name)?;

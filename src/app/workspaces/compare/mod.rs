@@ -46,8 +46,15 @@ use crate::app::{
     ui::theme::{Theme, space},
 };
 
-/// The shortcuts of the workspace.
-const SHORTCUTS: [Shortcut<CompareAction>; 3] = [
+/// The shortcuts of the workspace. The one with more modifiers comes first, as the other would match it too.
+const SHORTCUTS: [Shortcut<CompareAction>; 4] = [
+    Shortcut {
+        modifiers: Modifiers::COMMAND.plus(Modifiers::SHIFT),
+        key: Key::Z,
+        keys: || keys("Ctrl Shift Z"),
+        does: || text!("shell-redo"),
+        action: || CompareAction::Redo,
+    },
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::K,
@@ -124,6 +131,10 @@ impl Workspace for CompareWorkspace {
 
     fn update(&mut self, cx: &mut ShellContext<'_>) {
         self.state.update(cx);
+    }
+
+    fn close(&mut self) {
+        self.state.keep_trial();
     }
 
     fn key_bindings(&self) -> Vec<KeyBinding> {

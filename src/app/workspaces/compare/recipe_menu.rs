@@ -13,7 +13,9 @@ use crate::{
         shell::session::Session,
         ui::{
             theme::{Theme, space},
-            widgets::{button_width, labelled, line_edit, shortened, show_scroll_bar, text_button},
+            widgets::{
+                self, button_width, labelled, line_edit, shortened, show_scroll_bar, text_button,
+            },
         },
     },
     error::Advice as _,
@@ -47,17 +49,42 @@ pub(super) fn ui(
         let current = &compare.tried_recipe(session).label.name;
         name_ui(ui, compare, naming, current, acts);
     }
+    if compare.recipes.is_asking {
+        question(ui, &compare.tried_recipe(session).label.name, acts);
+    }
     changes(ui, compare, compare.tried_recipe(session), acts);
+}
+
+/// Asks whether saving may replace the recipe of another program.
+fn question(ui: &Ui, name: &str, acts: &mut Vec<CompareAction>) {
+    let modal = widgets::dialog(ui.ctx(), "replace recipe", |ui| {
+        ui.set_max_width(420.0);
+        ui.heading(text!("compare-replace-title", name = name));
+        ui.weak(text!("compare-replace-why"));
+        ui.add_space(space::MEDIUM);
+        let mut answer = None;
+        ui.horizontal(|ui| {
+            if widgets::default_button(ui, &text!("shell-cancel"), true) {
+                answer = Some(false);
+            }
+            if text_button(ui, &text!("compare-replace")).clicked() {
+                answer = Some(true);
+            }
+        });
+        answer
+    });
+    let is_closed = modal.should_close();
+    if let Some(may_replace) = modal.inner.or(is_closed.then_some(false)) {
+        acts.push(CompareAction::Recipe(RecipeAction::Replace(may_replace)));
+    }
 }
 
 fn menu(ui: &mut Ui, compare: &CompareState, session: &Session, acts: &mut Vec<CompareAction>) {
     let theme = Theme::of(ui);
     let label = &compare.tried_recipe(session).label;
-    let name = shortened(&label.name, MAX_LETTERS);
-    let mut text = RichText::new(format!("{name} ▼"));
+    let mut text = RichText::new(fitted_name(ui, label));
     if label.is_changed {
-        let name = text!("results-recipe-modified", name = name);
-        text = RichText::new(format!("{name} ▼")).color(theme.accent);
+        text = text.color(theme.accent);
     }
     let full = text!("compare-recipe-named", recipe = recipe_label(label));
     let list = &compare.recipes.list;
@@ -122,6 +149,21 @@ fn menu(ui: &mut Ui, compare: &CompareState, session: &Session, acts: &mut Vec<C
         .response;
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &full));
     response.on_hover_text(full);
+}
+
+/// The name of a recipe as its button has it, cut off where the button would be wider than the panel.
+fn fitted_name(ui: &Ui, label: &RecipeLabel) -> String {
+    let with_name_of = |most: usize| {
+        let name = shortened(&label.name, most);
+        if label.is_changed {
+            format!("{} ▼", text!("results-recipe-modified", name = name))
+        } else {
+            format!("{name} ▼")
+        }
+    };
+    let mut texts = (2..=MAX_LETTERS).rev().map(with_name_of);
+    let fits = |text: &String| button_width(ui, text) <= ui.available_width();
+    texts.find(fits).unwrap_or_else(|| with_name_of(2))
 }
 
 /// Draws the built-in recipe and the saved ones.

@@ -136,7 +136,9 @@ fn outcome(ui: &mut Ui, compare: &CompareState, session: &Session, acts: &mut Ve
         } else {
             text!("compare-case-is")
         };
-        ui.weak(head);
+        if compare.study.is_some() || compare.is_study_pending() {
+            ui.weak(head);
+        }
         if compare.is_study_old() {
             ui.multiply_opacity(0.55);
         }

@@ -1,22 +1,27 @@
 //! Actions on the kept recipes: opening one to try it, saving the recipe on trial, renaming, deleting, importing and
 //! exporting.
 
-use std::{path::PathBuf, sync::Arc};
+use std::{mem, path::PathBuf, sync::Arc};
 
 use super::{
     action::RecipeAction,
-    kept_recipes::{Changed, Naming, NamingPurpose, RecipeChange, RecipeDone, free_name},
+    kept_recipes::{Changed, Naming, NamingPurpose, RecipeChange, RecipeDone, free_name, of_name},
     schedule::StudyNeed,
     state::{CompareState, Undo},
 };
 use crate::{
     app::{
         language::text,
-        shell::{context::ShellContext, message::Message, notice::Notice, session::UserRole},
+        shell::{
+            context::ShellContext, message::Message, notice::Notice, session::UserRole,
+            undo_stack::UndoDirection,
+        },
         user_error::UserError,
     },
     library::PartName,
-    pipeline::{BUILT_IN, NamedRecipe, Recipe, RecipeError, RecipeFile, Replace},
+    pipeline::{
+        BUILT_IN, NamedRecipe, Recipe, RecipeError, RecipeFile, RecipeLabel, RecipeList, Replace,
+    },
 };
 
 impl CompareState {
@@ -29,7 +34,19 @@ impl CompareState {
                 self.open_recipe(&name, cx);
                 Ok(())
             }
+            RecipeAction::Save if self.recipes.changed_elsewhere.as_deref() == Some(name) => {
+                self.recipes.is_asking = true;
+                Ok(())
+            }
             RecipeAction::Save => self.save_recipe(name, Replace::Yes, cx),
+            RecipeAction::Replace(may_replace) => {
+                self.recipes.is_asking = false;
+                if may_replace {
+                    self.save_recipe(name, Replace::Yes, cx)
+                } else {
+                    Ok(())
+                }
+            }
             RecipeAction::Duplicate => free_name(&self.recipes.list, name)
                 .and_then(|copy| self.save_recipe(copy.as_str(), Replace::No, cx)),
             RecipeAction::Name(purpose) => {
@@ -56,7 +73,9 @@ impl CompareState {
                 Ok(())
             }
             RecipeAction::TakeName => self.take_name(name, cx),
-            RecipeAction::Delete => self.with_name(name, RecipeChange::Remove, cx),
+            RecipeAction::Delete => {
+                self.with_name(name, |name| RecipeChange::Remove(name, None), cx)
+            }
             RecipeAction::MakeDefault => self.with_name(name, RecipeChange::MakeDefault, cx),
             RecipeAction::Import(path) => {
                 self.recipes.start(RecipeChange::Import(path), cx);
@@ -157,15 +176,28 @@ impl CompareState {
             self.due = StudyNeed::Now;
         }
         if before.label.is_changed {
-            self.undo = Some(Undo::Trial(before));
+            self.undo.push(Undo::Trial(before));
         }
         self.recipes.naming = None;
+        self.recipes
+            .changed_elsewhere
+            .take_if(|changed| changed == name);
         self.put_on_trial(recipe, cx);
     }
 
     /// Puts this recipe on trial, unless it is the one in use.
     pub(super) fn put_on_trial(&mut self, recipe: NamedRecipe, cx: &ShellContext<'_>) {
         self.tried = (recipe != *cx.session.recipe).then(|| Arc::new(recipe));
+    }
+
+    /// Keeps the changed recipe on trial for the next window.
+    pub(super) fn keep_trial(&self) {
+        let changed = self.tried.as_ref().filter(|tried| tried.label.is_changed);
+        let file = changed.and_then(|tried| {
+            let name = PartName::new(&tried.label.name).ok()?;
+            Some(self.file_of(tried, name))
+        });
+        self.recipes.keep_trial(file.as_deref());
     }
 
     /// Takes in the results of the task.
@@ -184,8 +216,10 @@ impl CompareState {
 
     fn on_changed(&mut self, changed: Changed, cx: &mut ShellContext<'_>) {
         let Changed { list, done } = changed;
-        let known = std::mem::replace(&mut self.recipes.list, list);
-        if matches!(done, RecipeDone::Listed) {
+        let known_list = mem::replace(&mut self.recipes.list, list);
+        let is_listed = matches!(done, RecipeDone::Listed);
+        if is_listed {
+            let known = &known_list;
             let known: Vec<String> = known.problems.iter().map(ToString::to_string).collect();
             for problem in &self.recipes.list.problems {
                 if !known.contains(&problem.to_string()) {
@@ -195,15 +229,18 @@ impl CompareState {
         }
         // Recipe on trial and recipe in use may have another name now, or differ from their files.
         let in_use = Arc::clone(&cx.session.recipe);
-        let mut names = [self.tried.as_ref(), Some(&in_use)].map(|recipe| {
-            let recipe = recipe.unwrap_or(&in_use);
-            recipe.label.name.clone()
-        });
+        let tried = Arc::clone(self.tried_recipe(cx.session));
+        let mut names = [&tried, &in_use].map(|recipe| recipe.label.name.clone());
         match &done {
             // A recipe saved under another name is on trial; the one in use keeps its name until another one is used.
-            RecipeDone::Saved(name) => names[0] = name.to_string(),
+            RecipeDone::Saved(name) => {
+                names[0] = name.to_string();
+                let changed = &mut self.recipes.changed_elsewhere;
+                changed.take_if(|changed| changed == name.as_str());
+            }
             RecipeDone::Renamed(from, to) => {
-                for name in names.iter_mut().filter(|name| *name == from.as_str()) {
+                let all = names.iter_mut().chain(&mut self.recipes.changed_elsewhere);
+                for name in all.filter(|name| *name == from.as_str()) {
                     *name = to.to_string();
                 }
             }
@@ -212,30 +249,38 @@ impl CompareState {
         let now = self
             .recipes
             .named(&names[1], Arc::clone(&in_use.parameters));
-        let tried = self.tried.as_ref().unwrap_or(&in_use);
-        let tried = self.recipes.named(&names[0], Arc::clone(&tried.parameters));
-        self.tried = (tried != now).then(|| Arc::new(tried));
+        let tried_now = self.recipes.named(&names[0], Arc::clone(&tried.parameters));
+        if is_listed {
+            let in_use = [&in_use.label, &now.label];
+            let tried = [&tried.label, &tried_now.label];
+            self.report_changes_elsewhere(&known_list, in_use, tried, cx);
+        }
+        self.tried = (tried_now != now).then(|| Arc::new(tried_now));
         if now.label != in_use.label {
-            let is_listed = matches!(done, RecipeDone::Listed);
-            if is_listed && now.label.is_changed && cx.session.role == UserRole::Engineer {
-                cx.notify(Notice::look(
-                    text!("compare-recipe-changed-elsewhere", name = &now.label.name),
-                    text!("compare-recipe-changed-elsewhere-advice"),
-                ));
-            }
             cx.send(Message::UseRecipe(Arc::new(now)));
         }
         let said = match done {
             RecipeDone::Listed => return,
+            RecipeDone::Resumed(file) => return self.resume(file, cx),
             RecipeDone::Saved(name) => text!("compare-saved-recipe", name = name.as_str()),
-            RecipeDone::Restored(name) => text!("compare-restored-recipe", name = name.as_str()),
+            RecipeDone::Restored(name) => {
+                let said = text!("compare-restored-recipe", name = name.as_str());
+                let undone = Some(UndoDirection::Undo);
+                self.undo.add_inverse(undone, Undo::RemoveRecipe(name));
+                said
+            }
             RecipeDone::Renamed(from, to) => {
                 let [before, now] = [&from, &to].map(PartName::as_str);
                 text!("compare-renamed-recipe", before = before, now = now)
             }
-            RecipeDone::Removed { file, was_default } => {
+            RecipeDone::Removed {
+                file,
+                was_default,
+                way,
+            } => {
                 let said = text!("compare-removed-recipe", name = file.name.as_str());
-                self.undo = Some(Undo::Recipe { file, was_default });
+                let inverse = Undo::Recipe { file, was_default };
+                self.undo.add_inverse(way, inverse);
                 said
             }
             RecipeDone::Default(name) => text!("compare-default-recipe", name = name.as_str()),
@@ -249,5 +294,57 @@ impl CompareState {
             }
         };
         self.say(said, cx);
+    }
+
+    /// Puts the recipe on trial again that was when the last window was closed.
+    fn resume(&mut self, file: Option<Box<RecipeFile>>, cx: &ShellContext<'_>) {
+        if let (Some(file), None) = (&file, &self.tried) {
+            let parameters = Arc::new(file.recipe.clone());
+            let recipe = self.recipes.named(file.name.as_str(), parameters);
+            self.put_on_trial(recipe, cx);
+            self.due = StudyNeed::Now;
+        }
+        self.recipes.resumed = file;
+    }
+
+    /// Reports that another program changed, renamed or deleted the recipe in use or on trial. Each is given by its label
+    /// before and now.
+    fn report_changes_elsewhere(
+        &mut self,
+        known: &RecipeList,
+        in_use: [&RecipeLabel; 2],
+        tried: [&RecipeLabel; 2],
+        cx: &mut ShellContext<'_>,
+    ) {
+        let list = &self.recipes.list;
+        let is_other = |[before, now]: [&RecipeLabel; 2]| {
+            let [was, is] = [known, list].map(|list| of_name(list, &now.name));
+            let is_replaced = was.is_some_and(|was| Some(&was.recipe) != is.map(|is| &is.recipe));
+            now.name != BUILT_IN && now.is_changed && (!before.is_changed || is_replaced)
+        };
+        let [is_other_in_use, is_other_tried] = [in_use, tried].map(is_other);
+        let name = match (is_other_in_use, is_other_tried) {
+            (false, false) => return,
+            (true, _) => &in_use[1].name,
+            (false, true) => &tried[1].name,
+        };
+        let is_kept = self.recipes.has(name);
+        if is_other_tried {
+            let name = &tried[1].name;
+            self.recipes.changed_elsewhere = self.recipes.has(name).then(|| name.clone());
+        }
+        if cx.session.role != UserRole::Engineer {
+            return;
+        }
+        let changed = text!("compare-recipe-changed-elsewhere", name = name);
+        let (what, advice) = match (is_kept, is_other_in_use) {
+            (false, _) => (
+                text!("compare-recipe-gone", name = name),
+                text!("compare-recipe-gone-advice"),
+            ),
+            (true, true) => (changed, text!("compare-recipe-changed-elsewhere-advice")),
+            (true, false) => (changed, text!("compare-tried-changed-elsewhere-advice")),
+        };
+        cx.notify(Notice::look(what, advice));
     }
 }

@@ -15,6 +15,7 @@ use crate::{
             context::ShellContext,
             notice::Notice,
             session::{Session, Shown, WorkspaceKind},
+            undo_stack::UndoDirection,
         },
     },
     cases::CaseFolder,
@@ -41,6 +42,8 @@ pub(super) enum Job {
         folder: Option<PathBuf>,
         /// The change.
         change: CaseEdit,
+        /// The direction of a change that undoes or redoes another one.
+        way: Option<UndoDirection>,
     },
     /// Run all kept cases.
     Run {
@@ -104,6 +107,16 @@ impl CompareState {
         !self.is_current || self.due != StudyNeed::No
     }
 
+    /// True while the case in front is studied, or is to be.
+    pub fn is_study_pending(&self) -> bool {
+        self.due != StudyNeed::No || self.job_at_work() == Some(JobKind::Study)
+    }
+
+    /// True if the kept cases have to be listed and nothing is cancelled for it.
+    pub(super) fn has_to_list(&self) -> bool {
+        !self.is_listed && self.running().is_none()
+    }
+
     /// True if [`CompareAction::Follow`](super::CompareAction::Follow) would do something.
     pub fn is_behind(&self, session: &Session) -> bool {
         let has_more = !self.queue.is_empty() || self.due != StudyNeed::No;
@@ -112,7 +125,7 @@ impl CompareState {
             Some(JobKind::Run | JobKind::Scaling) => self.due == StudyNeed::Now,
             Some(JobKind::Study | JobKind::Cases) => false,
         };
-        !self.is_listed || has_more && is_free || self.has_new_scene(session)
+        self.has_to_list() || has_more && is_free || self.has_new_scene(session)
     }
 
     /// True if no job runs, and none is due while the workspace is in front.
@@ -131,9 +144,17 @@ impl CompareState {
         self.queue.push_back((title, job));
     }
 
-    pub(super) fn change_cases(&mut self, title: String, change: CaseEdit) {
-        let folder = self.folder.clone();
-        self.ask(title, Job::Cases { folder, change });
+    /// `way` is the direction of a change that undoes or redoes another one.
+    pub(super) fn change_cases(&mut self, change: CaseEdit, way: Option<UndoDirection>) {
+        let (title, folder) = (change.title(), self.folder.clone());
+        self.ask(
+            title,
+            Job::Cases {
+                folder,
+                change,
+                way,
+            },
+        );
     }
 
     /// Starts the next job, if the running one may be cancelled for it.
@@ -194,10 +215,7 @@ impl CompareState {
     pub(super) fn run_all(&mut self, cx: &mut ShellContext<'_>) {
         let cases = self.cases.as_ref().filter(|cases| !cases.list.is_empty());
         let Some(cases) = cases else {
-            return cx.notify(Notice::look(
-                text!("compare-no-cases-to-run"),
-                text!("compare-no-cases-to-run-advice"),
-            ));
+            return cx.notify(no_cases());
         };
         let job = Job::Run {
             folder: cases.folder.clone(),
@@ -222,4 +240,12 @@ impl CompareState {
             Job::Earlier { path, run },
         );
     }
+}
+
+/// Why no run begins; retracted once there are cases.
+pub(super) fn no_cases() -> Notice {
+    Notice::look(
+        text!("compare-no-cases-to-run"),
+        text!("compare-no-cases-to-run-advice"),
+    )
 }

@@ -9,12 +9,13 @@ use std::{
 use super::{
     action::{CompareAction, CompareFile, RecipeAction},
     kept_recipes::KeptRecipes,
-    schedule::{Job, JobKind, StudyNeed},
+    schedule::{Job, JobKind, StudyNeed, no_cases},
     study::CaseStudy,
     work::{CaseDone, CaseEdit, CaseRun, CompareResult, RunChanges},
 };
 use crate::{
     app::{
+        inspection::folder_watch::FolderWatch,
         language::text,
         shell::{
             context::ShellContext,
@@ -22,12 +23,14 @@ use crate::{
             message::Message,
             notice::{Notice, NoticeTopic},
             session::Shown,
+            undo_stack::{UndoDirection, UndoStack},
         },
         task::{Running, Task, TaskRunner},
         user_error::UserError,
     },
     bench::scaling::Scaling,
-    cases::{CaseFolder, Cell, KeptCase, Truth},
+    cases::{CaseError, CaseFolder, Cell, KeptCase, Truth},
+    library::PartName,
     pipeline::{NamedRecipe, Recipe, RecipeFile, parameters::Parameter},
 };
 
@@ -60,8 +63,8 @@ pub struct CompareState {
     pub scaling: Option<Arc<Scaling>>,
     /// Changes since an earlier run, listed instead of the matrix.
     pub changes: Option<Arc<RunChanges>>,
-    /// The action that can be undone.
-    pub undo: Option<Undo>,
+    /// The changes that can be undone and redone.
+    pub undo: UndoStack<Undo>,
     /// The kept recipes.
     pub recipes: KeptRecipes,
     /// True if the study is of the newest request.
@@ -75,7 +78,10 @@ pub struct CompareState {
     dialog: FileDialog<CompareFile>,
     /// The newest inspection that was noticed.
     pub(super) followed: Option<Shown>,
+    /// False if the kept cases have to be listed: at first, and after a change by another program.
     pub(super) is_listed: bool,
+    /// Watches for changes of the kept cases by other programs.
+    watch: FolderWatch,
     /// The last notice of something done; the next one replaces it.
     said: Option<Notice>,
 }
@@ -97,40 +103,49 @@ pub struct Cases {
     pub folder: CaseFolder,
     /// The cases in the order of their names.
     pub list: Arc<[KeptCase]>,
+    /// Errors of the cases that cannot be read.
+    pub problems: Arc<[UserError]>,
 }
 
-/// An action that can be undone.
+impl Cases {
+    pub(super) fn of(folder: CaseFolder) -> Result<Self, CaseError> {
+        let list = folder.list()?;
+        Ok(Self {
+            problems: list.problems.iter().map(UserError::of).collect(),
+            list: list.cases.into(),
+            folder,
+        })
+    }
+}
+
+/// A change that undoes or redoes another one.
 #[derive(Clone, Debug)]
 pub enum Undo {
-    /// The keeping of the case of this name.
-    Keep(String),
-    /// The removal of a case.
-    Removal {
-        /// Its name.
-        name: String,
-        /// Its path in the trash.
-        trash: PathBuf,
-    },
-    /// The removal of a recipe.
+    /// Change the kept cases of this folder.
+    Cases(CaseFolder, CaseEdit),
+    /// Save a removed recipe again.
     Recipe {
         /// Its contents.
         file: Box<RecipeFile>,
         /// True if it was the default recipe.
         was_default: bool,
     },
-    /// The use of a recipe; holds the one in use before.
+    /// Remove the recipe of this name.
+    RemoveRecipe(PartName),
+    /// Use this recipe.
     Use(Arc<NamedRecipe>),
-    /// The opening of a recipe; holds the unsaved one that was on trial.
+    /// Put this recipe on trial.
     Trial(Arc<NamedRecipe>),
 }
 
 impl Undo {
-    /// Text of the button.
+    /// Text of the button that undoes.
     pub fn title(&self) -> String {
         match self {
-            Self::Keep(_) => text!("compare-undo-keep"),
-            Self::Removal { .. } => text!("compare-undo-removal"),
-            Self::Recipe { .. } => text!("compare-undo-recipe"),
+            Self::Cases(_, CaseEdit::Restore { .. }) => text!("compare-undo-removal"),
+            Self::Cases(_, CaseEdit::SetTruth { .. }) => text!("compare-undo-truth"),
+            Self::Cases(..) => text!("compare-undo-keep"),
+            Self::Recipe { .. } | Self::RemoveRecipe(_) => text!("compare-undo-recipe"),
             Self::Use(_) => text!("compare-undo-use"),
             Self::Trial(_) => text!("compare-undo-open"),
         }
@@ -154,7 +169,7 @@ impl CompareState {
             cell: None,
             scaling: None,
             changes: None,
-            undo: None,
+            undo: UndoStack::default(),
             recipes: KeptRecipes::new(recipes, runner),
             is_current: false,
             due: StudyNeed::No,
@@ -164,6 +179,7 @@ impl CompareState {
             dialog: FileDialog::default(),
             followed: None,
             is_listed: false,
+            watch: FolderWatch::new("case-watch", runner),
             said: None,
         }
     }
@@ -189,9 +205,8 @@ impl CompareState {
             }
             CompareAction::OpenCase(name) => self.open_case(&name, cx),
             CompareAction::SetTruth(truth) => {
-                self.truth = Some(truth);
-                self.due = StudyNeed::WhenFree;
                 cx.send(Message::RemoveNotices(NoticeTopic::Case));
+                self.set_truth(truth);
             }
             CompareAction::Against(part) => {
                 self.against = part;
@@ -213,9 +228,7 @@ impl CompareState {
                 self.ask(text!("compare-measuring"), Job::Scaling);
             }
             CompareAction::Earlier(path) => self.compare_with_earlier(path, cx),
-            CompareAction::Remove(name) => {
-                self.change_cases(text!("compare-removing-case"), CaseEdit::Remove(name));
-            }
+            CompareAction::Remove(name) => self.change_cases(CaseEdit::Remove(name), None),
             CompareAction::Set(key, value) => {
                 let mut recipe = Recipe::clone(self.tried_recipe(cx.session));
                 let set = Parameter::of_key(key).map(|parameter| parameter.set(&mut recipe, value));
@@ -235,7 +248,8 @@ impl CompareState {
             CompareAction::Recipe(action) => self.apply_to_recipes(action, cx),
             // The next job waits until the session has the other recipe.
             CompareAction::Use => return self.use_recipe(cx),
-            CompareAction::Undo => return self.take_back(cx),
+            CompareAction::Undo => return self.undo_or_redo(UndoDirection::Undo, cx),
+            CompareAction::Redo => return self.undo_or_redo(UndoDirection::Redo, cx),
         }
         self.start_next(cx);
     }
@@ -247,6 +261,10 @@ impl CompareState {
                 Ok(result) => self.receive(result, cx),
                 Err(error) => {
                     cx.notify(error);
+                    if self.job == Some(JobKind::Study) {
+                        // It is of another case or recipe.
+                        self.study = None;
+                    }
                     self.compare_run_with_cases();
                 }
             }
@@ -261,6 +279,12 @@ impl CompareState {
             };
             self.apply(action, cx);
         }
+        if let Some(cases) = &self.cases {
+            self.watch.watch(cases.folder.path());
+        }
+        if self.watch.has_changed() {
+            self.is_listed = false;
+        }
         self.update_recipes(cx);
     }
 
@@ -274,6 +298,11 @@ impl CompareState {
                 self.is_current = true;
             }
             CompareResult::Ran(run) => {
+                // Every run lists the cases anew.
+                let known = self.cases.as_ref().map(|cases| &cases.list);
+                if known.is_none_or(|known| !Arc::ptr_eq(known, &run.cases.list)) {
+                    self.take_cases(run.cases.clone(), cx);
+                }
                 if run.ended.is_some() {
                     for trouble in run.troubles.clone() {
                         cx.notify(trouble);
@@ -289,53 +318,99 @@ impl CompareState {
             }
             CompareResult::Cases {
                 cases,
-                troubles,
+                trouble,
                 done,
+                way,
             } => {
-                for trouble in troubles {
+                if let Some(trouble) = trouble {
                     cx.notify(trouble);
                 }
-                self.take_done(done, cx);
-                self.cases = Some(cases);
+                self.take_done(done, &cases.folder, way, cx);
+                self.take_cases(cases, cx);
                 self.compare_run_with_cases();
             }
         }
+    }
+
+    /// Takes over a new list of the kept cases, also for the case in front; reports the problems that it did not have
+    /// before.
+    fn take_cases(&mut self, cases: Cases, cx: &mut ShellContext<'_>) {
+        let before = self.cases.take();
+        let known = before.as_ref().map_or(&[][..], |before| &*before.problems);
+        for problem in cases.problems.iter().filter(|&new| !known.contains(new)) {
+            cx.notify(problem.clone());
+        }
+        if !cases.list.is_empty() && before.is_none_or(|before| before.list.is_empty()) {
+            cx.send(Message::Retract(no_cases()));
+        }
+        if let Front::Kept(front) = &self.front {
+            let mut all = cases.list.iter();
+            match all.find(|case| case.name == front.name) {
+                None => {
+                    cx.notify(Notice::look(
+                        text!("compare-front-gone", name = &front.name),
+                        text!("compare-front-gone-advice"),
+                    ));
+                    self.front_scene();
+                }
+                Some(now) if *now != **front => {
+                    self.truth = Some(now.meta.about.truth.clone());
+                    self.front = Front::Kept(Box::new(now.clone()));
+                    self.due = self.due.max(StudyNeed::WhenFree);
+                }
+                Some(_) => {}
+            }
+        }
+        self.cases = Some(cases);
     }
 
     /// Finds out whether the run that has ended, or was stopped, is about the cases kept now.
     pub(super) fn compare_run_with_cases(&mut self) {
         let is_running = self.is_running_cases();
         let both = self.run.as_ref().zip(self.cases.as_ref());
-        let differing = both.filter(|(run, cases)| !is_running && run.cases != cases.list);
+        let differing = both.filter(|(run, cases)| !is_running && run.cases.list != cases.list);
         self.num_covered = differing.map(|(run, cases)| {
-            let ran = run.cases.iter().map(|case| (case.name.as_str(), case));
+            let ran = run.cases.list.iter().map(|case| (case.name.as_str(), case));
             let ran: HashMap<&str, &KeptCase> = ran.collect();
             let is_covered = |case: &&KeptCase| ran.get(case.name.as_str()) == Some(case);
             cases.list.iter().filter(is_covered).count()
         });
     }
 
-    fn take_done(&mut self, done: CaseDone, cx: &mut ShellContext<'_>) {
-        match done {
-            CaseDone::Listed => {}
+    fn take_done(
+        &mut self,
+        done: CaseDone,
+        folder: &CaseFolder,
+        way: Option<UndoDirection>,
+        cx: &mut ShellContext<'_>,
+    ) {
+        let (said, inverse) = match done {
+            CaseDone::Listed => return,
             CaseDone::Kept(case) => {
-                self.say(text!("compare-kept-as", name = &case.name), cx);
                 self.remark.clear();
-                self.undo = Some(Undo::Keep(case.name));
+                let said = text!("compare-kept-as", name = &case.name);
+                (said, CaseEdit::Remove(case.name))
             }
             CaseDone::Removed { name, trash } => {
-                self.say(text!("compare-removed-case", name = &name), cx);
                 if matches!(&self.front, Front::Kept(case) if case.name == name) {
                     self.front_scene();
-                    self.due = StudyNeed::WhenFree;
                 }
-                self.undo = Some(Undo::Removal { name, trash });
+                let said = text!("compare-removed-case", name = &name);
+                (said, CaseEdit::Restore { name, from: trash })
             }
             CaseDone::Restored(name) => {
-                self.say(text!("compare-restored-case", name = name), cx);
-                self.undo = None;
+                let said = text!("compare-restored-case", name = &name);
+                (said, CaseEdit::Remove(name))
             }
-        }
+            CaseDone::TruthSet { name, before } => {
+                let said = text!("compare-truth-saved", name = &name);
+                let truth = before;
+                (said, CaseEdit::SetTruth { name, truth })
+            }
+        };
+        self.say(said, cx);
+        let inverse = Undo::Cases(folder.clone(), inverse);
+        self.undo.add_inverse(way, inverse);
     }
 
     /// Shows a notice of something done, in place of the one before.
@@ -351,6 +426,7 @@ impl CompareState {
     fn front_scene(&mut self) {
         self.front = Front::Scene;
         self.forget();
+        self.due = self.due.max(StudyNeed::WhenFree);
     }
 
     /// Clears what was chosen for the case before.
@@ -361,9 +437,9 @@ impl CompareState {
     }
 
     fn follow(&mut self, cx: &mut ShellContext<'_>) {
-        if !self.is_listed {
+        if self.has_to_list() {
             self.is_listed = true;
-            self.change_cases(text!("compare-listing-cases"), CaseEdit::List);
+            self.change_cases(CaseEdit::List, None);
         }
         if self.has_new_scene(cx.session) {
             let scene_of = |shown: &Option<Shown>| {
@@ -384,18 +460,30 @@ impl CompareState {
         }
     }
 
-    fn use_folder(&mut self, path: PathBuf) {
+    fn set_truth(&mut self, truth: Truth) {
+        match &self.front {
+            Front::Scene => {
+                self.truth = Some(truth);
+                self.due = StudyNeed::WhenFree;
+            }
+            Front::Kept(case) if case.meta.about.truth == truth => {}
+            Front::Kept(case) => {
+                let name = case.name.clone();
+                self.change_cases(CaseEdit::SetTruth { name, truth }, None);
+            }
+        }
+    }
+
+    pub(super) fn use_folder(&mut self, path: PathBuf) {
         self.folder = Some(path);
         self.cases = None;
         self.run = None;
         self.cell = None;
         self.changes = None;
-        self.undo = None;
         if matches!(self.front, Front::Kept(_)) {
             self.front_scene();
-            self.due = StudyNeed::WhenFree;
         }
-        self.change_cases(text!("compare-listing-cases"), CaseEdit::List);
+        self.change_cases(CaseEdit::List, None);
     }
 
     fn open_case(&mut self, name: &str, cx: &mut ShellContext<'_>) {

@@ -6,12 +6,11 @@ use super::{
     kept_recipes::RecipeChange,
     schedule::StudyNeed,
     state::{CompareState, Undo},
-    work::CaseEdit,
 };
 use crate::{
     app::{
         language::{results::recipe_label, text},
-        shell::{context::ShellContext, message::Message},
+        shell::{context::ShellContext, message::Message, undo_stack::UndoDirection},
     },
     pipeline::{NamedRecipe, Recipe, parameters::num_changed},
 };
@@ -33,50 +32,57 @@ impl CompareState {
         let Some(tried) = self.tried.take() else {
             return;
         };
-        let num = num_changed::<Recipe>(&tried);
-        let recipe = recipe_label(&tried.label);
-        let text = text!("compare-recipe-used", recipe = recipe, count = num);
-        self.say(text, cx);
-        self.undo = Some(Undo::Use(Arc::clone(&cx.session.recipe)));
-        inspect_with(tried, cx);
+        self.undo.push(Undo::Use(Arc::clone(&cx.session.recipe)));
+        self.inspect_with(tried, cx);
     }
 
-    pub(super) fn take_back(&mut self, cx: &mut ShellContext<'_>) {
-        match self.undo.take() {
-            None => {}
-            Some(Undo::Keep(name)) => {
-                self.change_cases(text!("compare-removing-case"), CaseEdit::Remove(name));
+    /// Undoes the last change, or redoes the one undone last.
+    pub(super) fn undo_or_redo(&mut self, way: UndoDirection, cx: &mut ShellContext<'_>) {
+        let Some(step) = self.undo.from(way).pop() else {
+            return;
+        };
+        let way = Some(way);
+        match step {
+            Undo::Cases(folder, change) => {
+                let shown = self.cases.as_ref().map(|cases| &cases.folder);
+                if shown != Some(&folder) {
+                    self.use_folder(folder.path().to_owned());
+                }
+                self.change_cases(change, way);
                 self.start_next(cx);
             }
-            Some(Undo::Removal { name, trash }) => {
-                let change = CaseEdit::Restore { name, from: trash };
-                self.change_cases(text!("compare-restoring-case"), change);
-                self.start_next(cx);
-            }
-            Some(Undo::Recipe { file, was_default }) => {
+            Undo::Recipe { file, was_default } => {
                 let change = RecipeChange::Restore { file, was_default };
                 self.recipes.start(change, cx);
             }
-            Some(Undo::Trial(before)) => {
-                self.put_on_trial(NamedRecipe::clone(&before), cx);
+            Undo::RemoveRecipe(name) => self.recipes.start(RecipeChange::Remove(name, way), cx),
+            Undo::Trial(other) => {
+                let now = Arc::clone(self.tried_recipe(cx.session));
+                self.undo.add_inverse(way, Undo::Trial(now));
+                self.put_on_trial(NamedRecipe::clone(&other), cx);
                 self.due = StudyNeed::Now;
                 self.start_next(cx);
             }
-            Some(Undo::Use(before)) => {
+            Undo::Use(other) => {
+                let now = Arc::clone(&cx.session.recipe);
                 // The recipe that was in use stays on trial.
-                self.tried
-                    .get_or_insert_with(|| Arc::clone(&cx.session.recipe));
-                self.say(text!("compare-recipe-used-before"), cx);
-                inspect_with(before, cx);
+                let tried = self.tried.take().unwrap_or_else(|| Arc::clone(&now));
+                self.tried = (tried != other).then_some(tried);
+                self.undo.add_inverse(way, Undo::Use(now));
+                self.inspect_with(other, cx);
             }
         }
     }
-}
 
-/// Uses this recipe, and inspects the scene of the Inspect workspace with it.
-fn inspect_with(recipe: Arc<NamedRecipe>, cx: &mut ShellContext<'_>) {
-    cx.send(Message::UseRecipe(recipe));
-    cx.send(Message::InspectShown {
-        title: text!("compare-inspecting"),
-    });
+    /// Uses this recipe, and inspects the scene of the Inspect workspace with it.
+    fn inspect_with(&mut self, recipe: Arc<NamedRecipe>, cx: &mut ShellContext<'_>) {
+        let num = num_changed::<Recipe>(&recipe);
+        let label = recipe_label(&recipe.label);
+        let text = text!("compare-recipe-used", recipe = label, count = num);
+        self.say(text, cx);
+        cx.send(Message::UseRecipe(recipe));
+        cx.send(Message::InspectShown {
+            title: text!("compare-inspecting"),
+        });
+    }
 }

@@ -11,16 +11,18 @@ use super::{keeping::keep_case, matrix::Matrix, schedule::Job, state::Cases, stu
 use crate::{
     app::{
         inspection::{inspected::Inspected, library_cache::LibraryCache},
+        language::text,
+        shell::undo_stack::UndoDirection,
         task::{TaskContext, TaskError},
         user_error::UserError,
     },
     bench::scaling::{Scaling, ScalingError, ScalingRow, scaling, sizes},
     cases::{
         Calibration, CaseDescription, CaseError, CaseFolder, CaseJudge, CaseResult, Changes,
-        Confusion, EarlierRun, KeptCase, RecordError, TradeOff,
+        Confusion, EarlierRun, KeptCase, RecordError, TradeOff, Truth,
     },
     files::file_name,
-    history::HistoryBuffer,
+    history::{HistoryBuffer, HistoryError},
     pipeline::NamedRecipe,
     stages::rank::Matcher,
 };
@@ -46,6 +48,25 @@ pub enum CaseEdit {
         /// Its path in the trash.
         from: PathBuf,
     },
+    /// Change the truth of a case.
+    SetTruth {
+        /// Its name.
+        name: String,
+        /// Its new truth.
+        truth: Truth,
+    },
+}
+
+impl CaseEdit {
+    pub(super) fn title(&self) -> String {
+        match self {
+            Self::List => text!("compare-listing-cases"),
+            Self::Keep { .. } => text!("compare-keeping-case"),
+            Self::Remove(_) => text!("compare-removing-case"),
+            Self::Restore { .. } => text!("compare-restoring-case"),
+            Self::SetTruth { .. } => text!("compare-saving-truth"),
+        }
+    }
 }
 
 /// A change that was made.
@@ -64,6 +85,13 @@ pub enum CaseDone {
     },
     /// A removed case was put back.
     Restored(String),
+    /// The truth of a case was changed.
+    TruthSet {
+        /// Its name.
+        name: String,
+        /// Its truth before.
+        before: Truth,
+    },
 }
 
 /// A result of the task.
@@ -75,10 +103,12 @@ pub enum CompareResult {
     Cases {
         /// The cases and their folder.
         cases: Cases,
-        /// Damaged cases, and a history that does not take the label.
-        troubles: Vec<UserError>,
+        /// A history that does not take the label.
+        trouble: Option<UserError>,
         /// The change before they were listed.
         done: CaseDone,
+        /// The direction of a change that undoes or redoes another one.
+        way: Option<UndoDirection>,
     },
     /// The run over all kept cases, so far.
     Ran(Arc<CaseRun>),
@@ -104,10 +134,10 @@ pub struct CaseRun {
     pub recipe: Arc<NamedRecipe>,
     /// One result per case that could be read.
     pub results: Vec<CaseResult>,
-    /// The cases that could not be read.
+    /// The listed cases whose scenes could not be read.
     pub troubles: Vec<UserError>,
     /// The cases in the folder.
-    pub cases: Arc<[KeptCase]>,
+    pub cases: Cases,
     /// Truth against answer.
     pub matrix: Matrix,
     /// Scores against the shares of right guesses.
@@ -125,9 +155,20 @@ pub(super) fn run(
     context: &TaskContext<CompareResult>,
 ) -> Result<CompareResult, TaskError> {
     Ok(match job {
-        Job::Cases { folder, change } => {
+        Job::Cases {
+            folder,
+            change,
+            way,
+        } => {
             let history = library_cache.history();
-            cases(folder.as_deref(), change, history).map_err(|error| UserError::of(&error))?
+            let changed = change_cases(folder.as_deref(), change, history);
+            let (cases, trouble, done) = changed.map_err(|error| UserError::of(&error))?;
+            CompareResult::Cases {
+                cases,
+                trouble: trouble.map(|error| UserError::of(&error)),
+                done,
+                way,
+            }
         }
         Job::Run { folder, recipe } => run_cases(&folder, &recipe, library_cache, context)?,
         Job::Scaling => measure_scaling(context)?,
@@ -164,18 +205,19 @@ fn changes(path: &Path, run: &CaseRun) -> Result<RunChanges, RecordError> {
     })
 }
 
-fn cases(
+/// Changes the kept cases and lists them.
+fn change_cases(
     folder: Option<&Path>,
     change: CaseEdit,
     history: &HistoryBuffer,
-) -> Result<CompareResult, CaseError> {
-    let mut troubles = Vec::new();
+) -> Result<(Cases, Option<HistoryError>, CaseDone), CaseError> {
+    let mut trouble = None;
     let folder = folder.map_or_else(CaseFolder::of_user, |path| Ok(CaseFolder::at(path)))?;
     let done = match change {
         CaseEdit::List => CaseDone::Listed,
         CaseEdit::Keep { inspected, about } => {
-            let (kept, trouble) = keep_case(&folder, &inspected, *about, history)?;
-            troubles.extend(trouble.map(|error| UserError::of(&error)));
+            let (kept, error) = keep_case(&folder, &inspected, *about, history)?;
+            trouble = error;
             CaseDone::Kept(Box::new(kept))
         }
         CaseEdit::Remove(name) => {
@@ -186,15 +228,12 @@ fn cases(
             folder.restore(&name, &from)?;
             CaseDone::Restored(name)
         }
+        CaseEdit::SetTruth { name, truth } => {
+            let before = folder.set_truth(&name, truth)?;
+            CaseDone::TruthSet { name, before }
+        }
     };
-    let list = folder.list()?;
-    troubles.extend(list.problems.iter().map(UserError::of));
-    let list = list.cases.into();
-    Ok(CompareResult::Cases {
-        cases: Cases { folder, list },
-        troubles,
-        done,
-    })
+    Ok((Cases::of(folder)?, trouble, done))
 }
 
 fn run_cases(
@@ -204,12 +243,11 @@ fn run_cases(
     context: &TaskContext<CompareResult>,
 ) -> Result<CompareResult, TaskError> {
     let loaded = library_cache.get();
-    let list = folder.list().map_err(|error| UserError::of(&error))?;
+    let cases = Cases::of(folder.clone()).map_err(|error| UserError::of(&error))?;
     let library = loaded.fitting(recipe, context);
     let library = library.ok_or(TaskError::Cancelled)?;
     let order = library.references.iter().map(|r| r.name.clone());
     let order: Vec<String> = order.collect();
-    let cases: Arc<[KeptCase]> = list.cases.into();
     let judge = CaseJudge::new(&library, recipe);
     let (mut results, mut troubles) = (Vec::new(), Vec::new());
     let so_far = |results: &[CaseResult], troubles: &[UserError], ended| {
@@ -221,13 +259,13 @@ fn run_cases(
             trade_off: TradeOff::of(results),
             results: results.to_vec(),
             troubles: troubles.to_vec(),
-            cases: Arc::clone(&cases),
+            cases: cases.clone(),
             ended,
         })
     };
-    for (done, case) in cases.iter().enumerate() {
+    for (done, case) in cases.list.iter().enumerate() {
         context.check()?;
-        context.progress(done, cases.len());
+        context.progress(done, cases.list.len());
         match folder.read_scene(case) {
             Ok(scene) => results.push(judge.judge(case, &scene, context)?),
             Err(error) => troubles.push(UserError::of(&error)),

@@ -35,10 +35,11 @@ fn write_cases(
 ) -> Result<String, UserError> {
     let cases = CaseFolder::at(folder);
     let frames = history.frames_folder().unwrap_or_default();
-    let mut kept = PastCases::new(&cases, &frames, TruthFrom::Label);
+    let kept = PastCases::new(&cases, &frames, TruthFrom::Label);
+    let mut kept = kept.map_err(|error| UserError::of(&error))?;
     let exported = history.each(filter, |record| kept.take(&record));
     exported.map_err(|error| UserError::of(&error))?;
-    if kept.num_kept == 0 {
+    if kept.num_kept() == 0 {
         return Err(UserError {
             what: text!("history-no-cases", what = in_words(&kept)),
             advice: text!("history-no-cases-advice"),
@@ -62,7 +63,12 @@ fn in_words(kept: &PastCases<'_>) -> String {
     let scans = (num > 0).then(|| text!("history-cases-scans", count = num));
     let num = kept.problems.len();
     let unreadable = (num > 0).then(|| text!("history-cases-unreadable", count = num));
-    let mut words = vec![text!("history-cases-kept", count = kept.num_kept)];
+    let mut words = vec![text!(
+        "history-cases-kept",
+        new = kept.num_new,
+        updated = kept.num_updated,
+        unchanged = kept.num_unchanged
+    )];
     words.extend(
         [without_truth, without_frame, scans, unreadable]
             .into_iter()

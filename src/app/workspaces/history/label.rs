@@ -47,7 +47,7 @@ impl Remark {
             if let Some((number, remark)) = self.take_edited(Some(row.number)) {
                 actions.push(HistoryAction::Remark(number, remark));
             }
-            self.draft = Some((row.number, row.remark.clone(), row.remark.clone()));
+            self.draft = Some((row.number, row.remark.clone(), in_one_line(&row.remark)));
         }
         let Some((_, known, text)) = &mut self.draft else {
             return is_labelled;
@@ -56,7 +56,7 @@ impl Remark {
         let response = ui.add(field);
         let label = text!("history-your-remark");
         response.widget_info(|| WidgetInfo::labeled(egui::Role::TextInput, true, &label));
-        if response.lost_focus() && text.trim() != known {
+        if response.lost_focus() && is_edited(text, known) {
             // Until the stored remark comes back.
             known.clone_from(text);
             let remark = text.trim().to_owned();
@@ -68,9 +68,19 @@ impl Remark {
     /// Takes a remark that was edited before another inspection came to the front or the window closes.
     pub(super) fn take_edited(&mut self, front: Option<i64>) -> Option<(i64, String)> {
         let (number, known, text) = self.draft.take()?;
-        let is_edited = Some(number) != front && text.trim() != known.trim();
+        let is_edited = Some(number) != front && is_edited(&text, &known);
         is_edited.then(|| (number, text.trim().to_owned()))
     }
+}
+
+/// True if the text in the field is no longer that of the stored remark.
+fn is_edited(text: &str, known: &str) -> bool {
+    text.trim() != in_one_line(known).trim()
+}
+
+/// Returns a remark without line breaks, which commands may store: in one line they are drawn as boxes.
+pub(super) fn in_one_line(remark: &str) -> String {
+    remark.replace(char::is_control, " ")
 }
 
 /// Draws the menu of true labels; returns true while it is open. What is chosen in it is the label of the inspection for

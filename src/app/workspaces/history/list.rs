@@ -7,7 +7,7 @@ use egui::{
 };
 use jiff::{Timestamp, tz::TimeZone};
 
-use super::{HistoryAction, HistoryState, bar};
+use super::{HistoryAction, HistoryState, bar, label::in_one_line};
 use crate::{
     app::{
         inspection::library_cache::LibraryView,
@@ -19,7 +19,7 @@ use crate::{
         shell::{session::Session, truth_menu::truth_title},
         ui::{
             theme::{ROUNDING, Theme, font, space},
-            widgets::{Mark, fitted_middle, fitted_path, focus_ring, mark},
+            widgets::{Mark, fitted_middle, fitted_path, focus_ring, mark, shortened, text_width},
         },
     },
     history::{StoredVerdict, Summary},
@@ -31,6 +31,8 @@ const ROW: f32 = 40.0;
 const GAP: f32 = 2.0;
 /// Below this width, logical pixels, dates are shortened.
 const NARROW: f32 = 700.0;
+/// Longest remark in a row, characters: measuring more would take time for every row of every frame.
+const MAX_REMARK: usize = 80;
 
 /// State of the list kept between frames.
 #[derive(Default)]
@@ -174,7 +176,10 @@ const COLUMNS: [Column; 5] = [
             let scene = stored_scene(&past.scene, past.is_simulated);
             match past.remark.as_str() {
                 "" => scene,
-                remark => format!("{remark} · {scene}"),
+                remark => {
+                    let remark = shortened(&in_one_line(remark), MAX_REMARK);
+                    format!("{remark} · {scene}")
+                }
             }
         },
         look: |theme| (font::body(), theme.weak_text),
@@ -259,7 +264,7 @@ impl Column {
             Width::Share(_) => {
                 let room = to - space::SMALL - from;
                 let text = if self.is_path {
-                    fitted_path(painter, text, &font, room)
+                    fitted_scene(painter, text, &font, room)
                 } else {
                     text.to_owned()
                 };
@@ -273,6 +278,20 @@ impl Column {
                 painter.text(pos2(to, y), Align2::RIGHT_CENTER, text, font, colour);
             }
         }
+    }
+}
+
+/// Fits a scene with the remark before it: folders are left out first, then the middle of the remark, down to half of the
+/// room.
+fn fitted_scene(painter: &Painter, text: &str, font: &FontId, room: f32) -> String {
+    let text = fitted_path(painter, text, font, room);
+    match text.rsplit_once(" · ") {
+        Some((remark, scene)) if text_width(painter, &text, font) > room => {
+            let scene = format!(" · {scene}");
+            let rest = (room - text_width(painter, &scene, font)).max(room / 2.0);
+            fitted_middle(painter, remark, font, rest) + &scene
+        }
+        _ => text,
     }
 }
 
@@ -389,38 +408,67 @@ mod tests {
     use super::*;
     use crate::kit::history_entry;
 
+    /// The texts of a row of a narrow list that are not cut off.
+    fn written(past: &Summary) -> Vec<String> {
+        let ctx = egui::Context::default();
+        Theme::install_fonts(&ctx);
+        let output = ctx.run_ui(RawInput::default(), |ui| {
+            let rect = Rect::from_min_size(pos2(0.0, 0.0), vec2(600.0, ROW));
+            paint(
+                ui.painter(),
+                rect,
+                past,
+                &Layout::across(600.0),
+                Theme::of(ui),
+            );
+        });
+        let written = output.shapes.iter().filter_map(|shape| match &shape.shape {
+            Shape::Text(text) if !text.galley.elided => Some(text.galley.text().to_owned()),
+            _ => None,
+        });
+        let written = written.collect();
+        output.drop_without_applying_deltas();
+        written
+    }
+
+    fn accepted() -> Summary {
+        let entry = history_entry(1, StoredVerdict::Accepted, "front_door");
+        entry.record.summary
+    }
+
     #[test]
     fn a_serial_number_is_readable_to_its_end_in_a_narrow_list() {
         let texts = |serial: &str| {
-            let mut past = history_entry(1, StoredVerdict::Accepted, "front_door")
-                .record
-                .summary;
+            let mut past = accepted();
             past.trace.serial = serial.into();
-            let ctx = egui::Context::default();
-            Theme::install_fonts(&ctx);
-            let output = ctx.run_ui(RawInput::default(), |ui| {
-                let rect = Rect::from_min_size(pos2(0.0, 0.0), vec2(600.0, ROW));
-                paint(
-                    ui.painter(),
-                    rect,
-                    &past,
-                    &Layout::across(600.0),
-                    Theme::of(ui),
-                );
-            });
-            let written = output.shapes.iter().filter_map(|shape| match &shape.shape {
-                Shape::Text(text) if !text.galley.elided => Some(text.galley.text().to_owned()),
-                _ => None,
-            });
-            let written: Vec<String> = written.collect();
-            output.drop_without_applying_deltas();
-            written
+            written(&past)
         };
         let vehicle = "WVWZZZ1JZXW000017";
         let written = texts(vehicle);
         assert!(written.iter().any(|text| text == vehicle), "{written:?}");
         let written = texts(&format!("{vehicle}/{vehicle}/{vehicle}"));
         let is_cut = |text: &String| text.contains('…') && text.ends_with("000017");
+        assert!(written.iter().any(is_cut), "{written:?}");
+    }
+
+    #[test]
+    fn a_remark_of_any_length_leaves_room_for_the_scene_and_has_no_line_breaks() {
+        let texts = |remark: &str| {
+            let past = Summary {
+                scene: "a.pcd".into(),
+                is_simulated: false,
+                remark: remark.into(),
+                ..accepted()
+            };
+            written(&past)
+        };
+        let written = texts("a\nb");
+        assert!(
+            written.iter().any(|text| text == "a b · a.pcd"),
+            "{written:?}"
+        );
+        let written = texts(&"the hook was in front of it ".repeat(200));
+        let is_cut = |text: &String| text.starts_with("the") && text.ends_with(" · a.pcd");
         assert!(written.iter().any(is_cut), "{written:?}");
     }
 }

@@ -1,13 +1,20 @@
+use std::path::Path;
+
 use jiff::Timestamp;
 
 use super::*;
 use crate::{
-    app::{shell::context::TestShell, workspaces::compare::matrix::Matrix},
+    app::{
+        shell::context::TestShell,
+        workspaces::compare::{kept_recipes::RecipeChange, matrix::Matrix},
+    },
     cases::{
         Calibration, CaseDescription, CaseMeta, Confusion, FoundVerdict, SCHEMA_VERSION, TradeOff,
     },
+    geometry::cloud::PointCloud,
     history::FrameRecord,
-    stages::scene::PictureEdge,
+    pipeline::{RecipeFolder, Replace},
+    stages::scene::{PictureEdge, scene_from_cloud},
 };
 
 fn kept(name: &str) -> KeptCase {
@@ -50,15 +57,34 @@ fn listed(done: CaseDone) -> CompareResult {
 }
 
 fn listed_as(names: &[&str], done: CaseDone) -> CompareResult {
-    let cases = Cases {
+    CompareResult::Cases {
+        cases: cases(names),
+        trouble: None,
+        done,
+        way: None,
+    }
+}
+
+fn cases(names: &[&str]) -> Cases {
+    Cases {
         folder: CaseFolder::at("cases"),
         list: names.iter().map(|name| kept(name)).collect(),
-    };
-    CompareResult::Cases {
-        cases,
-        troubles: Vec::new(),
-        done,
+        problems: Arc::default(),
     }
+}
+
+/// An ended run over these cases.
+fn ran(bench: &Bench, cases: Cases) -> CompareResult {
+    CompareResult::Ran(Arc::new(CaseRun {
+        recipe: Arc::clone(&bench.shell.session.recipe),
+        results: Vec::new(),
+        troubles: Vec::new(),
+        cases,
+        matrix: Matrix::of(Confusion::of(&[], &[])),
+        calibration: Calibration::of(&[]),
+        trade_off: TradeOff::of(&[]),
+        ended: Some(Timestamp::UNIX_EPOCH),
+    }))
 }
 
 /// The workspace without a window; jobs do not run, and the test supplies their results.
@@ -73,6 +99,44 @@ impl Bench {
             compare: CompareState::new(None, None, &TaskRunner::without_threads()),
             shell: TestShell::default(),
         }
+    }
+
+    /// The workspace on these folders of cases and recipes; the jobs that change them run in `work` and `work_on_recipes`.
+    fn on_disk(folder: &Path) -> Self {
+        let (cases, recipes) = (folder.join("cases"), folder.join("recipes"));
+        let runner = TaskRunner::without_threads();
+        Self {
+            compare: CompareState::new(Some(cases), Some(recipes), &runner),
+            shell: TestShell::default(),
+        }
+    }
+
+    /// Runs the waiting changes of the kept cases.
+    fn work(&mut self) {
+        while self.at_work() == Some(JobKind::Cases) {
+            assert!(self.compare.task.run_waiting());
+            self.compare.update(&mut self.shell.context());
+        }
+    }
+
+    /// Runs the waiting changes of the recipes.
+    fn work_on_recipes(&mut self) {
+        self.compare.update(&mut self.shell.context());
+        while self.compare.recipes.task.run_waiting() {
+            self.compare.update(&mut self.shell.context());
+        }
+    }
+
+    /// Lists the recipes again, as after a change by another program.
+    fn relist_recipes(&mut self) {
+        let cx = &mut self.shell.context();
+        self.compare.recipes.start(RecipeChange::List, cx);
+        self.work_on_recipes();
+    }
+
+    fn names(&self) -> Vec<&str> {
+        let cases = self.compare.cases.as_ref().expect("listed");
+        cases.list.iter().map(|case| case.name.as_str()).collect()
     }
 
     /// Two kept cases, the first in front and under study.
@@ -126,7 +190,10 @@ fn a_change_of_the_kept_cases_is_never_pushed_out() {
     };
     bench.done(listed(removed));
     assert!(bench.compare.is_running_cases());
-    assert!(matches!(bench.compare.undo, Some(Undo::Removal { .. })));
+    assert!(matches!(
+        bench.compare.undo.done[..],
+        [Undo::Cases(_, CaseEdit::Restore { .. })]
+    ));
     // The recipe was changed before the run began: the case in front is still studied, as soon as possible.
     assert!(bench.is_behind());
     bench.act(CompareAction::Follow);
@@ -152,18 +219,7 @@ fn another_recipe_gives_a_run_up_and_another_part_waits_for_its_end() {
 #[test]
 fn a_run_is_outdated_until_it_covers_the_cases_that_are_kept_now() {
     let mut bench = Bench::with_a_case();
-    let run = |bench: &Bench, names: &[&str]| {
-        CompareResult::Ran(Arc::new(CaseRun {
-            recipe: Arc::clone(&bench.shell.session.recipe),
-            results: Vec::new(),
-            troubles: Vec::new(),
-            cases: names.iter().map(|name| kept(name)).collect(),
-            matrix: Matrix::of(Confusion::of(&[], &[])),
-            calibration: Calibration::of(&[]),
-            trade_off: TradeOff::of(&[]),
-            ended: Some(Timestamp::UNIX_EPOCH),
-        }))
-    };
+    let run = |bench: &Bench, names: &[&str]| ran(bench, cases(names));
     let of_two = run(&bench, &["a", "b"]);
     bench.done(of_two);
     assert_eq!(bench.compare.num_covered, None);
@@ -188,8 +244,9 @@ fn a_run_is_outdated_until_it_covers_the_cases_that_are_kept_now() {
     other[1].meta.about.truth = Truth::NotEnrolled;
     bench.done(CompareResult::Cases {
         cases,
-        troubles: Vec::new(),
+        trouble: None,
         done: CaseDone::Listed,
+        way: None,
     });
     assert_eq!(bench.compare.num_covered, Some(2));
     bench.done(listed_as(&["a", "b", "c"], CaseDone::Restored("b".into())));
@@ -289,11 +346,311 @@ fn what_is_said_of_something_done_takes_the_place_of_what_was_said_before() {
     let mut bench = Bench::new();
     for name in ["a", "b"] {
         let done = CaseDone::Kept(Box::new(kept(name)));
-        bench.compare.take_done(done, &mut bench.shell.context());
+        let (folder, cx) = (CaseFolder::at("cases"), &mut bench.shell.context());
+        bench.compare.take_done(done, &folder, None, cx);
     }
     assert!(matches!(
         &bench.shell.messages[..],
         [Message::Notify(first), Message::Retract(gone), Message::Notify(second)]
             if first == gone && second.what == "Kept as b"
     ));
+}
+
+#[test]
+fn a_run_takes_over_the_cases_that_it_listed() {
+    let mut bench = Bench::with_a_case();
+    let of_three = ran(&bench, cases(&["a", "b", "c"]));
+    bench.done(of_three);
+    assert_eq!(bench.names(), ["a", "b", "c"]);
+    assert_eq!(bench.compare.num_covered, None);
+    bench.act(CompareAction::OpenCase("c".into()));
+    assert!(matches!(&bench.compare.front, Front::Kept(case) if case.name == "c"));
+}
+
+#[test]
+fn the_cases_are_listed_again_after_a_change_by_another_program_once_nothing_runs() {
+    let mut bench = Bench::with_a_case();
+    bench.act(CompareAction::RunAll);
+    bench.compare.is_listed = false;
+    bench.act(CompareAction::Follow);
+    assert!(bench.compare.is_running_cases() && !bench.is_behind());
+    let of_two = ran(&bench, cases(&["a", "b"]));
+    bench.done(of_two);
+    while bench.at_work() == Some(JobKind::Study) {
+        bench.compare.cancel();
+    }
+    assert!(bench.is_behind());
+    bench.act(CompareAction::Follow);
+    assert_eq!(bench.at_work(), Some(JobKind::Cases));
+}
+
+#[test]
+fn a_case_in_front_that_another_program_changed_or_removed_is_shown_as_it_is() {
+    let mut bench = Bench::with_a_case();
+    let mut other = cases(&["a", "b"]);
+    let list = Arc::get_mut(&mut other.list).expect("the only one");
+    list[0].meta.about.truth = Truth::Nothing;
+    bench.compare.take_cases(other, &mut bench.shell.context());
+    assert_eq!(bench.compare.truth, Some(Truth::Nothing));
+    assert!(bench.compare.is_study_old());
+    bench.shell.messages.clear();
+    bench.done(listed_as(&["b"], CaseDone::Listed));
+    assert!(matches!(bench.compare.front, Front::Scene));
+    assert!(bench.shell.notices()[0].contains("case a is gone"));
+}
+
+#[test]
+fn a_problem_of_the_list_is_reported_once_and_the_advice_to_keep_a_case_goes_with_the_first() {
+    let mut bench = Bench::new();
+    bench.act(CompareAction::Follow);
+    let list = |names: &[&str], problems: &[&str]| {
+        let problem = |what: &&str| UserError {
+            what: (*what).into(),
+            advice: String::new(),
+        };
+        CompareResult::Cases {
+            cases: Cases {
+                problems: problems.iter().map(problem).collect(),
+                ..cases(names)
+            },
+            trouble: None,
+            done: CaseDone::Listed,
+            way: None,
+        }
+    };
+    bench.done(list(&[], &["x is damaged"]));
+    bench.act(CompareAction::RunAll);
+    bench.shell.messages.clear();
+    bench.done(list(&["a"], &["x is damaged", "y is damaged"]));
+    assert_eq!(bench.shell.notices(), ["y is damaged"]);
+    let gone = no_cases();
+    let mut messages = bench.shell.messages.iter();
+    assert!(messages.any(|message| matches!(message, Message::Retract(other) if *other == gone)));
+}
+
+#[test]
+fn a_study_that_failed_leaves_no_verdict_of_another_case() {
+    let mut bench = Bench::with_a_case();
+    let study = CaseStudy {
+        inspected: None,
+        truth: None,
+        recipe: Arc::clone(&bench.shell.session.recipe),
+        found: FoundVerdict::default(),
+        found_title: String::new(),
+        refused: None,
+        time_ms: 1.0,
+        distances: Vec::new(),
+        against: None,
+        against_title: String::new(),
+        comparison: None,
+    };
+    bench.done(CompareResult::Studied(Arc::new(study)));
+    assert!(bench.compare.study.is_some() && !bench.compare.is_study_old());
+    bench.act(CompareAction::OpenCase("b".into()));
+    assert_eq!(bench.at_work(), Some(JobKind::Study));
+    let failed = UserError {
+        what: "b is damaged".into(),
+        advice: String::new(),
+    };
+    let task = &mut bench.compare.task;
+    task.start("made up", move |_| Err(failed.into()));
+    assert!(task.run_waiting());
+    bench.compare.update(&mut bench.shell.context());
+    assert!(bench.compare.study.is_none());
+    assert!(bench.compare.is_study_old() && !bench.compare.is_study_pending());
+}
+
+/// Keeps a case of this name, as another program does.
+fn keep_at(folder: &Path, name: &str) {
+    let points = (0..12).map(|i| nalgebra::Point3::new(i as f32 * 0.1, 0.2, 1.0));
+    let scene = scene_from_cloud(PointCloud::from_points(points));
+    let kept = CaseFolder::at(folder).keep(&scene, kept(name).meta.about);
+    kept.expect("kept");
+}
+
+#[test]
+fn removed_cases_come_back_one_after_the_other_and_go_again() {
+    let home = tempfile::tempdir().expect("a folder");
+    let [folder, other] = ["cases", "other"].map(|name| home.path().join(name));
+    for name in ["a", "b", "c"] {
+        keep_at(&folder, name);
+    }
+    let mut bench = Bench::on_disk(home.path());
+    bench.act(CompareAction::Follow);
+    bench.work();
+    for name in ["a", "b"] {
+        bench.act(CompareAction::Remove(name.into()));
+        bench.work();
+    }
+    assert_eq!(bench.names(), ["c"]);
+    // Neither another folder nor a recipe that is opened or used takes the changes away.
+    bench.act(CompareAction::Folder(other));
+    bench.work();
+    bench.act(CompareAction::Set("project.pixel", 4.0));
+    bench.act(CompareAction::Use);
+    assert!(bench.names().is_empty());
+    bench.act(CompareAction::Undo);
+    bench.act(CompareAction::Undo);
+    bench.work();
+    assert_eq!(bench.names(), ["b", "c"]);
+    bench.act(CompareAction::Undo);
+    bench.work();
+    assert_eq!(bench.names(), ["a", "b", "c"]);
+    bench.act(CompareAction::Redo);
+    bench.work();
+    assert_eq!(bench.names(), ["b", "c"]);
+    bench.act(CompareAction::Undo);
+    bench.work();
+    assert_eq!(bench.names(), ["a", "b", "c"]);
+    let undo = &bench.compare.undo;
+    assert!(undo.done.is_empty() && undo.undone.len() == 3);
+}
+
+#[test]
+fn the_truth_of_a_kept_case_is_saved_undone_and_redone() {
+    let home = tempfile::tempdir().expect("a folder");
+    let folder = home.path().join("cases");
+    keep_at(&folder, "a");
+    let mut bench = Bench::on_disk(home.path());
+    bench.act(CompareAction::Follow);
+    bench.work();
+    bench.act(CompareAction::OpenCase("a".into()));
+    let saved = || {
+        let list = CaseFolder::at(&folder).list().expect("listed");
+        list.cases[0].meta.about.truth.clone()
+    };
+    let fender = Truth::Part("fender".into());
+    for (action, truth) in [
+        (
+            CompareAction::SetTruth(Truth::NotEnrolled),
+            Truth::NotEnrolled,
+        ),
+        (CompareAction::Undo, fender.clone()),
+        (CompareAction::Redo, Truth::NotEnrolled),
+        (CompareAction::Undo, fender),
+    ] {
+        bench.act(action);
+        bench.work();
+        assert_eq!(saved(), truth);
+        assert_eq!(bench.compare.truth.as_ref(), Some(&truth));
+        let front = &bench.compare.front;
+        assert!(matches!(front, Front::Kept(case) if case.meta.about.truth == truth));
+    }
+    // The truth that it has is not written again.
+    bench.compare.cancel();
+    bench.act(CompareAction::SetTruth(saved()));
+    assert_eq!(bench.at_work(), None);
+}
+
+/// A recipe `strict` in the folder, as another program saves it.
+fn save_strict(folder: &Path, min_score: f64) -> RecipeFolder {
+    let recipes = RecipeFolder::at(folder.join("recipes"));
+    let mut strict = RecipeFile {
+        name: PartName::new("strict").expect("a name"),
+        ..RecipeFile::built_in()
+    };
+    strict.recipe.accept.min_score = min_score;
+    recipes.save(&strict, Replace::Yes).expect("saved");
+    recipes
+}
+
+fn min_score(recipe: &Recipe) -> f64 {
+    (recipe.accept.min_score * 1000.0).round() / 1000.0
+}
+
+#[test]
+fn saving_asks_before_it_replaces_what_another_program_saved() {
+    let home = tempfile::tempdir().expect("a folder");
+    let recipes = save_strict(home.path(), 0.95);
+    let mut bench = Bench::on_disk(home.path());
+    bench.work_on_recipes();
+    let recipe = CompareAction::Recipe;
+    bench.act(recipe(RecipeAction::Open("strict".into())));
+    bench.act(CompareAction::Set("accept.min_score", 0.97));
+    save_strict(home.path(), 0.99);
+    bench.relist_recipes();
+    assert_eq!(
+        bench.shell.notices(),
+        ["Recipe strict was changed by another program"]
+    );
+    let saved = || {
+        let name = PartName::new("strict").expect("a name");
+        min_score(&recipes.read(&name).expect("kept").recipe)
+    };
+    for (answer, value) in [(false, 0.99), (true, 0.97)] {
+        bench.act(recipe(RecipeAction::Save));
+        bench.work_on_recipes();
+        assert!(bench.compare.recipes.is_asking);
+        assert!((saved() - 0.99).abs() < 1e-9);
+        bench.act(recipe(RecipeAction::Replace(answer)));
+        bench.work_on_recipes();
+        assert!(!bench.compare.recipes.is_asking);
+        assert!((saved() - value).abs() < 1e-9);
+    }
+    // Now it is this window's own.
+    bench.act(CompareAction::Set("accept.min_score", 0.5));
+    bench.act(recipe(RecipeAction::Save));
+    bench.work_on_recipes();
+    assert!((saved() - 0.5).abs() < 1e-9);
+}
+
+#[test]
+fn a_recipe_in_use_that_is_gone_is_not_said_to_be_changed() {
+    let home = tempfile::tempdir().expect("a folder");
+    let recipes = save_strict(home.path(), 0.95);
+    let strict = PartName::new("strict").expect("a name");
+    let mut bench = Bench::on_disk(home.path());
+    let file = recipes.read(&strict).expect("kept");
+    bench.shell.session.recipe = Arc::new(file.into());
+    bench.work_on_recipes();
+    assert!(bench.shell.notices().is_empty());
+    recipes.remove(&strict).expect("removed");
+    bench.relist_recipes();
+    assert_eq!(
+        bench.shell.notices(),
+        ["Recipe strict is no longer among the saved recipes"]
+    );
+}
+
+#[test]
+fn a_changed_recipe_on_trial_is_on_trial_at_the_next_start_until_it_is_used() {
+    let home = tempfile::tempdir().expect("a folder");
+    save_strict(home.path(), 0.95);
+    let start = || {
+        let mut bench = Bench::on_disk(home.path());
+        bench.work_on_recipes();
+        assert!(bench.shell.notices().is_empty());
+        bench
+    };
+    let mut bench = start();
+    bench.act(CompareAction::Recipe(RecipeAction::Open("strict".into())));
+    bench.act(CompareAction::Set("accept.min_score", 0.97));
+    bench.compare.keep_trial();
+
+    // A second window that tries nothing else leaves it.
+    start().compare.keep_trial();
+    let mut bench = start();
+    let tried = bench.compare.tried.clone().expect("on trial");
+    assert_eq!(tried.label.to_string(), "strict (modified)");
+    assert!((min_score(&tried) - 0.97).abs() < 1e-9);
+    bench.act(CompareAction::Use);
+    bench.compare.keep_trial();
+    assert!(start().compare.tried.is_none());
+}
+
+#[test]
+fn the_copy_of_a_recipe_with_a_long_name_has_a_shorter_one() {
+    let home = tempfile::tempdir().expect("a folder");
+    save_strict(home.path(), 0.95);
+    let mut bench = Bench::on_disk(home.path());
+    bench.work_on_recipes();
+    let long = "x".repeat(PartName::MAX_LENGTH);
+    for copy in [2, 3] {
+        let tried = bench.compare.recipes.named(&long, Arc::default());
+        bench.compare.tried = Some(Arc::new(tried));
+        bench.act(CompareAction::Recipe(RecipeAction::Duplicate));
+        bench.work_on_recipes();
+        let name = format!("{}_{copy}", "x".repeat(PartName::MAX_LENGTH - 2));
+        assert!(bench.compare.recipes.has(&name), "{name}");
+    }
 }
