@@ -58,6 +58,11 @@ pub(super) struct Candidate {
 }
 
 impl Candidate {
+    /// The configuration as a number from 0.
+    fn place(&self) -> usize {
+        self.configuration.trailing_zeros() as usize
+    }
+
     /// Sets whether it collides, and adds a collision to its cost once.
     fn set_collision(&mut self, is_collision: bool) {
         if self.is_collision.is_none() && is_collision {
@@ -208,11 +213,10 @@ pub(super) fn candidates_of(
     all
 }
 
-/// Returns the seconds that the slowest joint needs between two positions, and the largest angle of a joint, radians.
-fn joint_time(arm: &Arm, from: &Joints, to: &Joints) -> (f64, f64) {
+/// Returns the seconds that the slowest joint needs to turn by these angles, radians, and the largest of them.
+fn joint_time(arm: &Arm, angles: impl Iterator<Item = f64>) -> (f64, f64) {
     let mut worst = (0.0_f64, 0.0_f64);
-    for ((to, from), speed) in to.iter().zip(from).zip(arm.speeds) {
-        let angle = (to - from).abs();
+    for (angle, speed) in angles.zip(arm.speeds) {
         worst = (worst.0.max(angle / speed), worst.1.max(angle));
     }
     worst
@@ -285,17 +289,25 @@ pub(super) fn free_chain(
 /// Cost of a chain up to a candidate, and the candidate at the previous point; none if the chain begins here.
 type Chained = (f64, Option<usize>);
 
+/// Candidates of a point whose joints are much the same.
+struct Group {
+    /// Least and greatest angle of each joint.
+    range: [[f64; 2]; 6],
+    /// Their indices in ascending order of their chains' costs.
+    members: Vec<usize>,
+}
+
 /// The point before another one, whose candidates continue the chains up to here.
 ///
-/// A point may have thousands of candidates, and comparing all of them with all of the next point takes minutes. They are
-/// compared by configuration and turn of the nozzle, the cheapest chain first, until even a move without any motion of the
-/// joints would cost too much.
+/// A point may have thousands of candidates, and comparing all of them with all of the next point takes minutes. Groups
+/// of the same configuration, turn of the nozzle and whole turns of joints are compared, and one is left as soon as no
+/// member can be part of the cheapest chain.
 struct Former<'a> {
     arm: &'a Arm,
     candidates: &'a [Candidate],
     chains: &'a [Chained],
-    /// Indices of the candidates by configuration and turn, in ascending order of their chains' costs.
-    groups: Vec<Vec<Vec<usize>>>,
+    /// By configuration and turn.
+    groups: Vec<Vec<Vec<Group>>>,
     /// Least cost of a chain to each configuration; infinite if it has no candidate.
     least: [f64; NUM_CONFIGURATIONS],
     num_turns: usize,
@@ -314,14 +326,40 @@ impl<'a> Former<'a> {
         chains: &'a [Chained],
         num_turns: usize,
     ) -> Self {
+        let whole_turns = |angle: f64| (angle / TAU).round() as i8;
+        let kind = |k: usize| {
+            let Candidate {
+                configuration,
+                turn,
+                joints,
+                ..
+            } = &candidates[k];
+            (*configuration, *turn, joints.map(whole_turns))
+        };
         let mut order: Vec<usize> = (0..candidates.len()).collect();
-        order.sort_unstable_by(|&a, &b| chains[a].0.total_cmp(&chains[b].0).then(a.cmp(&b)));
-        let mut groups = vec![vec![Vec::new(); num_turns]; NUM_CONFIGURATIONS];
+        order.sort_unstable_by(|&a, &b| {
+            let by_cost = || chains[a].0.total_cmp(&chains[b].0);
+            kind(a).cmp(&kind(b)).then_with(by_cost).then(a.cmp(&b))
+        });
+        let no_group = || (0..num_turns).map(|_| Vec::new()).collect();
+        let mut groups: Vec<Vec<Vec<Group>>> =
+            (0..NUM_CONFIGURATIONS).map(|_| no_group()).collect();
         let mut least = [f64::INFINITY; NUM_CONFIGURATIONS];
-        for k in order {
-            let place = candidates[k].configuration.trailing_zeros() as usize;
-            groups[place][candidates[k].turn].push(k);
-            least[place] = least[place].min(chains[k].0);
+        for members in order.chunk_by(|&a, &b| kind(a) == kind(b)) {
+            let first = members[0];
+            let place = candidates[first].place();
+            least[place] = least[place].min(chains[first].0);
+            let mut range = candidates[first].joints.map(|angle| [angle; 2]);
+            for &k in members {
+                for ([low, high], angle) in range.iter_mut().zip(candidates[k].joints) {
+                    *low = low.min(angle);
+                    *high = high.max(angle);
+                }
+            }
+            groups[place][candidates[first].turn].push(Group {
+                range,
+                members: members.to_vec(),
+            });
         }
         // With the gun off, the arm may move more slowly.
         let speed = if start.is_gun_on {
@@ -361,7 +399,7 @@ impl<'a> Former<'a> {
 
     /// The cheapest chain and move to a candidate with at most this many steps of turn, if it is cheaper than `best`.
     fn cheapest(&self, candidate: &Candidate, most_apart: usize, mut best: Chained) -> Chained {
-        let own = candidate.configuration.trailing_zeros() as usize;
+        let own = candidate.place();
         let others = (0..NUM_CONFIGURATIONS).filter(|place| *place != own);
         for place in [own].into_iter().chain(others) {
             let change = if place == own { 0.0 } else { self.jump_cost };
@@ -370,39 +408,60 @@ impl<'a> Former<'a> {
             }
             for apart in 0..=most_apart {
                 let is_jump = place != own || 4 * apart > self.num_turns;
-                let jump = if is_jump { self.jump_cost } else { 0.0 };
-                let least = TURN_COST * apart as f64 + jump;
                 let up = (candidate.turn + apart) % self.num_turns;
                 let down = (candidate.turn + self.num_turns - apart) % self.num_turns;
-                for turn in [up].into_iter().chain((down != up).then_some(down)) {
-                    for &k in &self.groups[place][turn] {
-                        if self.chains[k].0 + least > best.0 {
-                            break;
-                        }
-                        let step = self.step_cost(&self.candidates[k], candidate, apart, is_jump);
-                        let cost = self.chains[k].0 + step;
-                        // Of equal chains the first candidate, in whichever order they are compared.
-                        if cost.total_cmp(&best.0).then(Some(k).cmp(&best.1)).is_lt() {
-                            best = (cost, Some(k));
-                        }
-                    }
+                let turns = [up].into_iter().chain((down != up).then_some(down));
+                for group in turns.flat_map(|turn| &self.groups[place][turn]) {
+                    best = self.cheapest_of(group, candidate, apart, is_jump, best);
                 }
             }
         }
         best
     }
 
-    /// Cost of the move between two candidates with `apart` steps of turn between them.
-    fn step_cost(&self, from: &Candidate, to: &Candidate, apart: usize, is_jump: bool) -> f64 {
-        let (time, angle) = joint_time(self.arm, &from.joints, &to.joints);
+    /// As [`Self::cheapest`], from the members of one group.
+    fn cheapest_of(
+        &self,
+        group: &Group,
+        candidate: &Candidate,
+        apart: usize,
+        is_jump: bool,
+        mut best: Chained,
+    ) -> Chained {
+        let turn_cost = TURN_COST * apart as f64;
+        let joints = group.range.iter().zip(&candidate.joints);
+        let shortest = joint_time(
+            self.arm,
+            joints.map(|([low, high], angle)| (low - angle).max(angle - high).max(0.0)),
+        );
+        // A jump may cost less than a rush.
+        let least = self.rush_cost(shortest, is_jump).min(self.jump_cost);
+        let least = shortest.0 + turn_cost + least;
+        for &k in &group.members {
+            if self.chains[k].0 + least > best.0 {
+                break;
+            }
+            let joints = self.candidates[k].joints.iter().zip(&candidate.joints);
+            let time = joint_time(self.arm, joints.map(|(from, to)| (to - from).abs()));
+            let step = time.0 + turn_cost + self.rush_cost(time, is_jump);
+            let cost = self.chains[k].0 + step;
+            // Of equal chains the first candidate, in whichever order they are compared.
+            if cost.total_cmp(&best.0).then(Some(k).cmp(&best.1)).is_lt() {
+                best = (cost, Some(k));
+            }
+        }
+        best
+    }
+
+    /// Cost of a jump, or else of joints that are nearly too fast.
+    fn rush_cost(&self, (time, angle): (f64, f64), is_jump: bool) -> f64 {
         // Speed of the fastest joint as a share of its maximum.
         let share = self.allowed.map_or(time, |allowed| time / allowed);
-        let rush = if is_jump || share > 1.0 || angle > PI {
+        if is_jump || share > 1.0 || angle > PI {
             self.jump_cost
         } else {
             RUSH_COST * (share - RUSH).max(0.0)
-        };
-        time + TURN_COST * apart as f64 + rush
+        }
     }
 }
 

@@ -127,9 +127,10 @@ impl SprayExport<'_> {
             ""
         };
         let doubts = self.doubts.iter();
-        let doubts: String = doubts
+        let doubts: Vec<String> = doubts
             .map(|doubt| format!("# DOUBT: {}\n", csv_comment(doubt)))
             .collect();
+        let doubts = doubts.concat();
         let mut text = format!(
             "# Partsight spray path, version {SCHEMA}\n\
              # part: {}, {kind}\n\

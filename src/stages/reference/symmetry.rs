@@ -1,6 +1,6 @@
 //! Turns that lay a reference onto itself: no view tells its poses before and after such a turn apart.
 
-use nalgebra::{Point3, Translation3, Unit, UnitQuaternion, Vector3};
+use nalgebra::{Translation3, Unit, UnitQuaternion, Vector3};
 
 use super::{NUM_EDGES, Reference};
 use crate::{
@@ -100,6 +100,8 @@ impl Reference {
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::Point3;
+
     use crate::{
         bench::suites::enrol_standard_parts,
         geometry::cloud::PointCloud,
@@ -118,8 +120,8 @@ mod tests {
             let spoke = turn / std::f32::consts::TAU * num_spokes as f32;
             let across = (spoke - spoke.round()) / num_spokes as f32 * std::f32::consts::TAU;
             let is_spoke = (across * radius).abs() < 0.03 && radius < 0.3;
-            let is_first = is_marked && spoke.round() as usize % num_spokes == 0 && radius > 0.1;
-            let is_part = (0.25..0.34).contains(&radius) || (is_spoke && !is_first);
+            let is_first = (spoke.round() as usize).is_multiple_of(num_spokes) && radius > 0.1;
+            let is_part = (0.25..0.34).contains(&radius) || (is_spoke && !(is_marked && is_first));
             is_part.then(|| Point3::new(0.1 + x, y - 0.2, 1.2))
         });
         let points: Vec<Point3<f32>> = points.collect();
