@@ -84,7 +84,10 @@ const LEAST_POINTS: usize = 50;
 pub fn require_two_to_show_part(scan: &Scan) -> Result<(), ScanError> {
     let part = scan.cloud.part();
     let shows_part = |(number, _): &(usize, &ScannedShot)| {
-        let seen = part.seen_by.iter().filter(|mask| *mask >> number & 1 == 1);
+        let seen = part
+            .seen_by
+            .iter()
+            .filter(|mask| (*mask >> number) & 1 == 1);
         seen.count() >= LEAST_POINTS
     };
     let mut showing = scan.used().filter(shows_part);
