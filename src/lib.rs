@@ -75,6 +75,8 @@ pub mod simulate;
 #[doc(hidden)]
 pub mod stages;
 #[doc(hidden)]
+pub mod station;
+#[doc(hidden)]
 pub mod units;
 
 #[cfg(test)]

@@ -242,7 +242,9 @@ impl ProgramFile {
         });
         let reach: Result<_, ArmError> = reach.transpose();
         let reach = reach.advised()?;
-        let doubt = |(arm, reach): &(PlacedArm, PathCheck)| reach.doubt(&arm.arm.name);
+        let doubt = |(arm, reach): &(PlacedArm, PathCheck)| {
+            reach.missed(&arm.arm.name).map(|missed| missed.to_string())
+        };
         doubts.extend(reach.as_ref().and_then(doubt));
         let ahead = subject
             .scene

@@ -3,7 +3,7 @@
 use nalgebra::Translation3;
 
 use super::{
-    ArmError, PlacedArm,
+    ArmError, NotReached, PlacedArm,
     acceleration::check_accelerations,
     chain::{
         Candidate, UPRIGHT, angle_of, candidates_of, free_chain, is_free, nozzle_at, test_all,
@@ -15,12 +15,9 @@ use super::{
     validate::validate,
     way::{Way, WayEnd, way_between},
 };
-use crate::{
-    geometry::{
-        parallel::{map_each, num_cores},
-        rigid::RigidTransform,
-    },
-    units::counted,
+use crate::geometry::{
+    parallel::{map_each, num_cores},
+    rigid::RigidTransform,
 };
 
 /// A pose of the nozzle that the arm must reach.
@@ -137,15 +134,15 @@ impl PathCheck {
         positions.fold(range, |[low, high], at| [low.min(at), high.max(at)])
     }
 
-    /// Returns a reason against writing a program for this arm; `None` if it reaches every point.
-    pub fn doubt(&self, arm: &str) -> Option<String> {
-        let (num, all) = (self.num_reached(), self.points.len());
-        let collisions = match self.num_collisions() {
-            0 => String::new(),
-            num => format!(" and would collide at {num}"),
-        };
-        let all_points = counted(all, "point", "points");
-        (num < all).then(|| format!("{arm} reaches {num} of {all_points}{collisions}"))
+    /// What the arm of this name misses; `None` if it reaches every point without a collision.
+    pub fn missed(&self, arm: &str) -> Option<NotReached> {
+        let (num_reached, num_points) = (self.num_reached(), self.points.len());
+        (num_reached < num_points).then(|| NotReached {
+            arm: arm.to_owned(),
+            num_reached,
+            num_collisions: self.num_collisions(),
+            num_points,
+        })
     }
 }
 

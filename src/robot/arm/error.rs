@@ -3,7 +3,40 @@
 use std::path::PathBuf;
 
 use super::ARM_NAMES;
-use crate::{error::Advice, files::FileError, units::Metres};
+use crate::{
+    error::Advice,
+    files::FileError,
+    units::{Metres, counted},
+};
+
+/// An arm that does not reach all of a path, or collides on it.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{arm} reaches {num_reached} of {}{}", counted(*num_points, "point", "points"), self.collisions())]
+pub struct NotReached {
+    /// Name of the arm.
+    pub arm: String,
+    /// Number of points that it reaches without a collision.
+    pub num_reached: usize,
+    /// Number of points at which it collides.
+    pub num_collisions: usize,
+    /// Number of all points.
+    pub num_points: usize,
+}
+
+impl NotReached {
+    fn collisions(&self) -> String {
+        match self.num_collisions {
+            0 => String::new(),
+            num => format!(" and would collide at {num}"),
+        }
+    }
+}
+
+impl Advice for NotReached {
+    fn advice(&self) -> String {
+        "Move part or arm, or change the path".into()
+    }
+}
 
 /// Why an arm cannot be used, or a path not be checked.
 #[derive(Debug, thiserror::Error)]

@@ -44,7 +44,7 @@ use crate::{geometry::rigid::RigidTransform, robot::Convention};
 
 pub use self::{
     check::{ArmPoint, CheckParams, PathCheck, PointCheck, check_path},
-    error::ArmError,
+    error::{ArmError, NotReached},
     kinematics::{Joints, Singularity},
     models::ARM_NAMES,
     obstacles::{Body, Obstacle, Obstacles},

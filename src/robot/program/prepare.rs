@@ -207,7 +207,7 @@ mod tests {
         let stops: Vec<bool> = stops.iter().map(|point| point.is_stop).collect();
         assert_eq!(stops, [true, false, false, false, true]);
         let near = check_reach(&arm, &line(1.2), &frame, &settings).expect("checked");
-        assert_eq!(near.doubt("arm"), None, "{near:?}");
+        assert_eq!(near.missed("arm"), None, "{near:?}");
         let [begin, end] = near.ends.as_ref().expect("ends");
         for (end, point) in [(begin, &near.points[0]), (end, &near.points[4])] {
             let (end, point) = (end.joints.expect("reached"), point.joints.expect("reached"));
@@ -220,7 +220,7 @@ mod tests {
         let far = check_reach(&arm, &line(1.2), &frame, &settings).expect("checked");
         let problems: Vec<bool> = far.points.iter().map(|p| p.problem.is_some()).collect();
         assert_eq!(problems, [true, false, false, false, true]);
-        let doubt = far.doubt("arm").expect("not reached");
+        let doubt = far.missed("arm").expect("not reached").to_string();
         assert!(doubt.starts_with("arm reaches 3 of 5 points"), "{doubt}");
         let none = CarriedPath { points: Vec::new() };
         assert!(check_reach(&arm, &none, &frame, &settings).is_err());
@@ -249,11 +249,17 @@ mod tests {
         let plate = (0..=100).flat_map(|i| (0..=100).map(move |k| [side(i), side(k)]));
         let plate: Vec<Point3<f32>> = plate.map(|[y, z]| Point3::new(0.0, y, z)).collect();
         // 150 mm in front of the mouth, as a part hangs.
-        assert_eq!(checked(&plate, 1.75, 0.1).doubt("arm"), None);
+        assert_eq!(checked(&plate, 1.75, 0.1).missed("arm"), None);
         // 50 mm behind it.
         let through = checked(&plate, 1.55, 0.1);
         let wanted = "arm reaches 0 of 5 points and would collide at 5";
-        assert_eq!(through.doubt("arm").as_deref(), Some(wanted));
+        assert_eq!(
+            through
+                .missed("arm")
+                .map(|missed| missed.to_string())
+                .as_deref(),
+            Some(wanted)
+        );
         let wanted = PointProblem::Collision {
             body: Body::Gun,
             obstacle: Obstacle::Part,
@@ -267,6 +273,6 @@ mod tests {
         let problems: Vec<bool> = begun.points.iter().map(|p| p.problem.is_some()).collect();
         assert_eq!(problems, [true, false, false, false, false], "{begun:?}");
         assert_eq!(begun.num_collisions(), 1);
-        assert_eq!(checked(&bolt, 1.26, 0.1).doubt("arm"), None);
+        assert_eq!(checked(&bolt, 1.26, 0.1).missed("arm"), None);
     }
 }

@@ -1,0 +1,8 @@
+//! Whether a robot may act on a result.
+//!
+//! Every front end asks here, so that operator, engineer, robot and files never disagree: [`doubts`] lists the reasons
+//! against a result, and a robot may act on it only if there are none.
+
+mod doubt;
+
+pub use self::doubt::{ClockAhead, Currency, Doubt, doubts};
