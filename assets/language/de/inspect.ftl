@@ -72,10 +72,7 @@ inspect-mean = Mittel
 inspect-worst-of = { $value }, max. { $worst }
 inspect-in-band = im Band
 inspect-points-in-band = { $inside } von { $num } Punkten
-inspect-points-not-seen = { $count ->
-        [one] An 1 Punkt nicht geprüft
-       *[other] An { $count } Punkten nicht geprüft
-    }, wo die Kamera das Teil nicht sieht
+inspect-points-not-seen = An { $count } von { $all } Punkten nicht geprüft, wo die Kamera das Teil nicht sieht
 inspect-path-not-seen = Die Kamera sieht das Teil an keinem Punkt der Bahn
 inspect-angle = Winkel
 inspect-angle-counts = { $count ->
@@ -199,7 +196,7 @@ inspect-picture-saved = Bild gespeichert: { $path }
 inspect-no-spray-path = Für das Angezeigte gibt es keine Lackierbahn
 inspect-no-spray-path-advice = Eine beim Teil speichern und ein Teil aufnehmen, das akzeptiert wird
 inspect-path-written = { $path } geschrieben: { $inside } von { $num } geprüften Punkten im Band, als { $convention }
-inspect-path-written-off-part = { $path } geschrieben, aber die Lackierbahn zielt nicht auf das Teil (nur bei { $aiming } von { $all } Punkten mit eingeschalteter Pistole)
+inspect-path-not-written = Keine Lackierbahn geschrieben: { $why }
 inspect-report-written = { $files }, die Bilder der Stufen und eine Zeile von { $table } in { $folder } geschrieben
 inspect-report-set-aside = { $files }, die Bilder der Stufen und eine Zeile von { $table } in { $folder } geschrieben; die letzte Zeile war unvollständig und liegt jetzt in { $aside }
 inspect-watching-folder = Ordner wird überwacht

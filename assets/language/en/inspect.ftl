@@ -72,10 +72,7 @@ inspect-mean = mean
 inspect-worst-of = { $value }, worst { $worst }
 inspect-in-band = inside the band
 inspect-points-in-band = { $inside } of { $num } points
-inspect-points-not-seen = { $count ->
-        [one] Not checked at 1 point
-       *[other] Not checked at { $count } points
-    }, where the camera does not see the part
+inspect-points-not-seen = Not checked at { $count } of { $all } points, where the camera does not see the part
 inspect-path-not-seen = The camera sees the part at no point of the path
 inspect-angle = angle
 inspect-angle-counts = { $count ->
@@ -199,7 +196,7 @@ inspect-picture-saved = Saved the picture { $path }
 inspect-no-spray-path = There is no spray path for the inspection in front
 inspect-no-spray-path-advice = Store one with the part, and capture a part that is accepted
 inspect-path-written = Wrote { $path }: { $inside } of { $num } checked points within the band, as { $convention }
-inspect-path-written-off-part = Wrote { $path }, but the spray path does not aim at the part (only { $aiming } of { $all } points with the gun on)
+inspect-path-not-written = No spray path was written: { $why }
 inspect-report-written = Wrote { $files }, the pictures of its stages and a row of { $table } to { $folder }
 inspect-report-set-aside = Wrote { $files }, the pictures of its stages and a row of { $table } to { $folder }; its last row was incomplete and was set aside in { $aside }
 inspect-watching-folder = Watching a folder

@@ -72,10 +72,7 @@ inspect-mean = media
 inspect-worst-of = { $value }, peor { $worst }
 inspect-in-band = dentro de la banda
 inspect-points-in-band = { $inside } de { $num } puntos
-inspect-points-not-seen = { $count ->
-        [one] Sin comprobar en 1 punto
-       *[other] Sin comprobar en { $count } puntos
-    }, donde la cámara no ve la pieza
+inspect-points-not-seen = Sin comprobar en { $count } de { $all } puntos, donde la cámara no ve la pieza
 inspect-path-not-seen = La cámara no ve la pieza en ningún punto de la trayectoria
 inspect-angle = ángulo
 inspect-angle-counts = { $count ->
@@ -199,7 +196,7 @@ inspect-picture-saved = Imagen guardada: { $path }
 inspect-no-spray-path = No hay trayectoria de pintura para lo que se muestra
 inspect-no-spray-path-advice = Guardar una con la pieza y capturar una pieza que se acepte
 inspect-path-written = { $path } escrito: { $inside } de { $num } puntos comprobados en la banda, como { $convention }
-inspect-path-written-off-part = { $path } escrito, pero la trayectoria no apunta a la pieza (solo { $aiming } de { $all } puntos con la pistola abierta)
+inspect-path-not-written = No se escribió ninguna trayectoria: { $why }
 inspect-report-written = Escritos { $files }, las imágenes de sus etapas y una fila de { $table } en { $folder }
 inspect-report-set-aside = Escritos { $files }, las imágenes de sus etapas y una fila de { $table } en { $folder }; su última fila estaba incompleta y se apartó en { $aside }
 inspect-watching-folder = Vigilando una carpeta

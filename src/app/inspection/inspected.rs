@@ -40,6 +40,7 @@ use crate::{
         scene::SceneCloud,
         stand_off::{StandOff, StandOffError, stand_off},
     },
+    station::Currency,
 };
 
 /// Something to inspect or enrol.
@@ -131,6 +132,16 @@ impl Inspected {
     pub(in crate::app) fn is_open(&self) -> bool {
         let followed = self.followed.as_ref();
         followed.is_some_and(|followed| followed.standing.counted().is_none())
+    }
+
+    /// When it was captured, as far as the inspection alone shows.
+    pub(in crate::app) fn captured(&self) -> Currency {
+        match &self.origin {
+            Origin::File { path, .. } => Currency::File(path.clone()),
+            Origin::Simulated { .. } | Origin::Scan { .. } | Origin::Frame { .. } => {
+                Currency::CapturedAt(self.at.into())
+            }
+        }
     }
 
     /// Returns what to inspect for the same inspection again: all shots of a scan, else the scene.

@@ -106,7 +106,7 @@ pub struct InspectState {
     seen: Option<u64>,
     /// The scan of that result.
     seen_scan: Option<Arc<FusedShots>>,
-    writing: Task<String>,
+    writing: Task<Notice>,
     dialog: FileDialog<InspectFile>,
 }
 
@@ -327,7 +327,7 @@ impl InspectState {
                 }
                 self.writing
                     .start(text!("inspect-saving-picture"), move |_| {
-                        Ok(report_files::picture(&path, &shot)?)
+                        Ok(Notice::done(report_files::picture(&path, &shot)?))
                     });
             }
             Err(error) => cx.notify(error),
@@ -349,12 +349,8 @@ impl InspectState {
                 let robot = robot.as_deref();
                 let report = report_files::report_of(&inspected, &trace, robot, convention)
                     .reported_as(actual.as_ref());
-                Ok(report_files::report(
-                    &folder,
-                    &inspected,
-                    &report,
-                    shot.as_ref(),
-                )?)
+                let written = report_files::report(&folder, &inspected, &report, shot.as_ref())?;
+                Ok(Notice::done(written))
             });
     }
 
@@ -372,12 +368,13 @@ impl InspectState {
         if inspected.spray.is_none() || is_reported {
             return;
         }
+        let currency = inspected.captured();
         let (convention, setup) = (cx.session.convention, cx.session.program.clone());
         self.writing.start(text!("inspect-writing-path"), move |_| {
             let target = setup.target();
-            Ok(report_files::spray_path(
-                &path, &inspected, &robot, convention, target,
-            )?)
+            let written =
+                report_files::spray_path(&path, &inspected, &currency, &robot, convention, target)?;
+            Ok(Notice::of_robot_file(written))
         });
     }
 }
