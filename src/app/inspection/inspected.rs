@@ -1,6 +1,9 @@
 //! Inspects a scene or a scan and prepares what the panels draw, in a task.
 
-use std::{sync::Arc, time::Instant};
+use std::{
+    sync::Arc,
+    time::{Instant, SystemTime},
+};
 
 use jiff::Timestamp;
 use nalgebra::Point3;
@@ -76,6 +79,8 @@ pub struct Inspected {
     pub origin: Origin,
     /// When it was inspected.
     pub at: Timestamp,
+    /// When the scene was captured.
+    pub captured_at: SystemTime,
     /// The inspected scene.
     pub scene: Arc<SceneCloud>,
     /// The recipe used.
@@ -381,6 +386,7 @@ impl FinishedInspection {
             None => entry,
         };
         Inspected {
+            captured_at: origin.captured_at(),
             origin,
             at,
             scene,

@@ -4,6 +4,7 @@ use std::{collections::BTreeSet, path::PathBuf, sync::Arc};
 
 use super::{
     action::{InspectAction, InspectFile},
+    hold::Hold,
     robot_numbers::{clipboard_text, numbered},
 };
 use crate::{
@@ -29,7 +30,6 @@ use crate::{
         user_error::UserError,
     },
     history::Traceability,
-    robot::Convention,
 };
 
 /// An addition to the points of the view.
@@ -174,13 +174,6 @@ impl InspectState {
             InspectAction::Candidate(place) => self.candidate = place,
             InspectAction::UseConvention(convention) => {
                 cx.send(Message::UseConvention(convention));
-            }
-            InspectAction::NextConvention => {
-                let all = Convention::ALL;
-                let now = cx.session.convention;
-                let place = all.iter().position(|known| *known == now);
-                let next = all[place.map_or(0, |place| (place + 1) % all.len())];
-                cx.send(Message::UseConvention(next));
             }
             InspectAction::CopyPose => copy_pose(cx),
             InspectAction::Compare => cx.send(Message::GoTo(WorkspaceKind::Compare)),
@@ -359,7 +352,7 @@ impl InspectState {
     }
 
     /// Writes the spray path of the inspection shown for the robot; nothing without a path or a calibrated cell.
-    fn write_spray_path(&mut self, path: PathBuf, cx: &ShellContext<'_>) {
+    fn write_spray_path(&mut self, path: PathBuf, cx: &mut ShellContext<'_>) {
         let Some(shown) = &cx.session.shown else {
             return;
         };
@@ -367,10 +360,12 @@ impl InspectState {
         let Some(robot) = cx.session.robot_of(&inspected).cloned() else {
             return;
         };
-        // It may have been reported while the file was being chosen.
-        let is_reported = cx.session.shift.reported_as(&inspected).is_some();
-        if inspected.spray.is_none() || is_reported {
+        if inspected.spray.is_none() {
             return;
+        }
+        // It may have left while the file was being chosen.
+        if let Some(hold) = Hold::of_files(cx.session, &inspected) {
+            return cx.notify(Notice::look(hold.reason, hold.advice));
         }
         let (convention, setup) = (cx.session.convention, cx.session.program.clone());
         self.writing.start(text!("inspect-writing-path"), move |_| {
@@ -398,11 +393,11 @@ fn copy_pose(cx: &mut ShellContext<'_>) {
     let Some(shown) = &cx.session.shown else {
         return;
     };
-    let Some(numbered) = numbered(cx.session, &shown.inspected) else {
-        return cx.notify(Notice::look(
-            text!("inspect-no-pose-to-copy"),
-            text!("inspect-no-pose-advice"),
-        ));
+    let hold = Hold::of_files(cx.session, &shown.inspected);
+    let numbered = match (hold, numbered(cx.session, &shown.inspected)) {
+        (Some(hold), _) => return cx.notify(Notice::look(hold.reason, hold.advice)),
+        (None, Some(numbered)) => numbered,
+        (None, None) => return,
     };
     let title = convention_title(numbered.pose.convention);
     let what = text!(
@@ -421,6 +416,7 @@ mod tests {
         inspection::{inspected::inspected_cell, scan_choice::ScanFiles, source::CellChoice},
         shell::{context::TestShell, session::Shown},
     };
+    use crate::{geometry::rigid::RigidTransform, robot::RobotFrame};
 
     #[test]
     fn what_is_shown_is_hidden_and_shown_again() {
@@ -499,7 +495,7 @@ mod tests {
     }
 
     #[test]
-    fn the_pose_of_an_accepted_part_is_copied() {
+    fn the_pose_of_an_accepted_part_is_copied_once_the_cell_is_calibrated() {
         let mut shell = TestShell::default();
         let mut state = InspectState::new(&TaskRunner::without_threads());
         state.apply(InspectAction::CopyPose, &mut shell.context());
@@ -512,6 +508,13 @@ mod tests {
             session: None,
             is_outdated: false,
         });
+        state.apply(InspectAction::CopyPose, &mut shell.context());
+        assert_eq!(shell.notices(), ["Not calibrated: the robot gets no pose"]);
+        shell.messages.clear();
+        shell.session.robot = Some(Arc::new(RobotFrame {
+            robot_from_camera: RigidTransform::identity(),
+            name: "cell 1".into(),
+        }));
         state.apply(InspectAction::CopyPose, &mut shell.context());
         assert!(matches!(
             &shell.messages[..],
