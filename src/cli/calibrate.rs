@@ -16,7 +16,7 @@ use super::{
 };
 use crate::robot::{
     RobotFrame, WrittenPose,
-    calibration::{CalibrationError, CameraPlace, CellCalibration, Loaded, Origin, default_path},
+    calibration::{CalibrationError, CameraPlace, CellCalibration, Origin, default_path},
     hand_eye::Mount,
 };
 
@@ -29,6 +29,7 @@ Examples:
   partsight calibrate hand-eye poses.csv --captures captures/ --mount eye-to-hand --out cell.toml
   partsight calibrate capture-pose \"kuka 900 0 1100 0 90 0\"
   partsight calibrate show --as fanuc
+  partsight calibrate confirm --calibration cell.toml
 
 The calibration is a text file, by default cell.toml in your data folder, where the other commands find it.
 Conventions: matrix (16 numbers, metres), quaternion-xyzw, rotation-vector, kuka, fanuc, abb, universal-robots,
@@ -43,6 +44,7 @@ enum CalibrateCommand {
     HandEye(hand_eye::HandEyeArgs),
     Set(SetArgs),
     CapturePose(CapturePoseArgs),
+    Confirm(ConfirmArgs),
     Show(show::ShowArgs),
 }
 
@@ -78,6 +80,19 @@ struct CapturePoseArgs {
     #[arg(value_name = "POSE", value_parser = parse_robot_pose, allow_hyphen_values = true)]
     pose: WrittenPose,
     /// The calibration to change; default: your own
+    #[arg(long, value_name = "FILE")]
+    calibration: Option<PathBuf>,
+}
+
+/// Confirm the numbers of a calibration that was edited: until then, no robot gets poses by them
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Example:
+  partsight calibrate confirm --calibration cell.toml
+
+The numbers then count as entered by hand. Check them first: partsight calibrate show")]
+struct ConfirmArgs {
+    /// The calibration; default: your own. The former file is kept beside it
     #[arg(long, value_name = "FILE")]
     calibration: Option<PathBuf>,
 }
@@ -130,6 +145,7 @@ pub(super) fn run(args: &CalibrateArgs, console: &mut Console) -> anyhow::Result
         CalibrateCommand::HandEye(args) => hand_eye::run(args, console),
         CalibrateCommand::Set(args) => set(args, console),
         CalibrateCommand::CapturePose(args) => capture_pose(args, console),
+        CalibrateCommand::Confirm(args) => confirm(args, console),
         CalibrateCommand::Show(args) => show::run(args, console),
     }
 }
@@ -140,7 +156,7 @@ fn set(args: &SetArgs, console: &mut Console) -> anyhow::Result<Outcome> {
 }
 
 fn capture_pose(args: &CapturePoseArgs, console: &mut Console) -> anyhow::Result<Outcome> {
-    let (path, mut calibration) = load(args.calibration.as_deref(), console)?;
+    let (path, mut calibration) = load(args.calibration.as_deref())?;
     match &mut calibration.camera {
         CameraPlace::OnFlange { capture_pose, .. } => *capture_pose = Some(args.pose.pose),
         CameraPlace::Fixed { .. } => {
@@ -156,6 +172,26 @@ fn capture_pose(args: &CapturePoseArgs, console: &mut Console) -> anyhow::Result
     calibration.save_keeping_former(&path).advised()?;
     console.line(&format_args!("{}: captures are taken from", path.display()));
     show::matrix("robot_from_flange", &args.pose.pose, console);
+    question_unit(&calibration, console);
+    Ok(Outcome::Accepted)
+}
+
+fn confirm(args: &ConfirmArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    let path = path_of(args.calibration.as_deref())?;
+    let former = CellCalibration::confirm(&path).advised()?;
+    let shown = path.display();
+    match former {
+        Some(former) => {
+            console.line(&format_args!("Confirmed the numbers of {shown}"));
+            console.line(&format_args!(
+                "  the previous file is kept in {}",
+                former.display()
+            ));
+        }
+        None => console.line(&format_args!("{shown} was not edited: nothing to confirm")),
+    }
+    let calibration = CellCalibration::load(&path).advised()?;
+    show::calibration(&calibration, None, console);
     question_unit(&calibration, console);
     Ok(Outcome::Accepted)
 }
@@ -197,39 +233,22 @@ fn path_of(given: Option<&Path>) -> anyhow::Result<PathBuf> {
 }
 
 /// Loads the named calibration, or the user's own. Also returns its path.
-fn load(given: Option<&Path>, console: &Console) -> anyhow::Result<(PathBuf, CellCalibration)> {
+fn load(given: Option<&Path>) -> anyhow::Result<(PathBuf, CellCalibration)> {
     let path = path_of(given)?;
-    let loaded = CellCalibration::load(&path).advised()?;
-    note_if_edited(&loaded, &path, console);
-    Ok((path, loaded.calibration))
-}
-
-fn note_if_edited(loaded: &Loaded, path: &Path, console: &Console) {
-    if loaded.is_edited {
-        console.note(&format_args!(
-            "note: {} was edited by hand: its numbers count as entered by hand",
-            path.display()
-        ));
-    }
+    let calibration = CellCalibration::load(&path).advised()?;
+    Ok((path, calibration))
 }
 
 /// Returns the calibration for a scan: a named one is loaded at once and must be valid; the user's own, if any, is read
 /// only when needed.
 pub(super) fn scan_calibration(
     given: Option<&Path>,
-    console: &Console,
 ) -> anyhow::Result<impl FnOnce() -> Result<Option<CellCalibration>, CalibrationError>> {
-    let named = given.map(|path| load(Some(path), console)).transpose()?;
+    let named = given.map(|path| load(Some(path))).transpose()?;
     Ok(move || match (named, default_path()) {
         (Some((_, calibration)), _) => Ok(Some(calibration)),
         (None, Err(_)) => Ok(None),
-        (None, Ok(path)) => {
-            let loaded = CellCalibration::load_if_there(&path)?;
-            Ok(loaded.map(|loaded| {
-                note_if_edited(&loaded, &path, console);
-                loaded.calibration
-            }))
-        }
+        (None, Ok(path)) => CellCalibration::load_if_there(&path),
     })
 }
 
@@ -253,7 +272,7 @@ impl CalibrationChoice {
         let must_be = self.calibration.is_some() || self.robot_pose.is_some();
         let given = self.robot_pose.as_ref().map(|written| &written.pose);
         if must_be {
-            let (path, calibration) = load(self.calibration.as_deref(), console)?;
+            let (path, calibration) = load(self.calibration.as_deref())?;
             if given.is_some() && calibration.camera.mount() == Mount::EyeToHand {
                 return Err(advised_error(
                     format!(
@@ -272,7 +291,7 @@ impl CalibrationChoice {
             console.warn(&format_args!("no poses for the robot: {error}"), &error);
             None
         });
-        let frame = own.map(|own| own.calibration.frame(None)).transpose();
+        let frame = own.map(|own| own.frame(None)).transpose();
         Ok(frame.unwrap_or_else(|error| {
             console.warn(&format_args!("no poses for the robot: {error}"), &error);
             None

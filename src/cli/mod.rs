@@ -30,6 +30,7 @@ mod recipe;
 mod recipes;
 mod record;
 mod report;
+mod robot_file;
 mod scan;
 mod serve;
 mod simulate;

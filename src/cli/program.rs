@@ -3,28 +3,25 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use jiff::Timestamp;
 
 use super::{
     Outcome,
     console::{Advised as _, Console, advised_error},
     input::{parse_nozzle_pose, parse_robot_pose, within},
+    robot_file,
 };
 use crate::{
-    error::Advice as _,
     geometry::rigid::RigidTransform,
     library::{PartName, SprayPath},
     robot::{
         RobotFrame, WrittenPose,
-        arm::{Arm, ArmError, Obstacles, PathCheck, PlacedArm, Rail},
-        program::{
-            ClockAhead, Program, ProgramFormat, ProgramSettings, check_reach, clock_ahead_of_file,
-            program_points,
-        },
-        spray::{BandStatus, CarriedPath, MOST_TILT, OffThePart, off_the_part},
+        arm::{Arm, Obstacles, PlacedArm, Rail},
+        program::{ProgramFormat, ProgramSettings, ranges},
+        spray::{CarriedPath, off_the_part},
     },
     stages::reference::Reference,
-    units::{Metres, Radians, counted},
+    station::robot_file::{CapturedPart, RobotFile, RobotFileContent},
+    units::{Metres, Radians},
 };
 
 /// Tool, gun and arm of a program; the command names its file `program`.
@@ -37,7 +34,7 @@ pub(super) struct ProgramOptions {
     #[arg(long, value_name = "POSE", value_parser = parse_nozzle_pose, allow_hyphen_values = true, requires = "program")]
     nozzle: Option<WrittenPose>,
     /// Number of the digital output that opens the gun
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(0..=9999), allow_negative_numbers = true, requires = "program")]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(0..=i64::from(ranges::MAX_GUN_OUTPUT)), allow_negative_numbers = true, requires = "program")]
     gun_output: u16,
     /// Speed where the path sets none, 1 to 5000 mm/s
     #[arg(long, value_name = "MM/S", default_value_t = 250.0, value_parser = parse_speed, allow_negative_numbers = true, requires = "program")]
@@ -46,7 +43,7 @@ pub(super) struct ProgramOptions {
     #[arg(long, value_name = "MM", default_value_t = 100.0, value_parser = parse_approach, allow_negative_numbers = true, requires = "program")]
     approach: f64,
     /// Radius within which the robot may cut corners, 0 to 100 mm
-    #[arg(long, value_name = "MM", default_value_t = 5.0, value_parser = |text: &str| within(text, &(0.0..=100.0)), allow_negative_numbers = true, requires = "program")]
+    #[arg(long, value_name = "MM", default_value_t = 5.0, value_parser = |text: &str| within(text, &ranges::BLEND_MM), allow_negative_numbers = true, requires = "program")]
     blend: f64,
     /// Check that this arm reaches the path: a name, or a TOML file; needs --nozzle
     #[arg(long, value_name = "ARM", requires_all = ["program", "nozzle"])]
@@ -79,14 +76,14 @@ pub(super) struct CellChoice {
     #[arg(long, value_name = "FILE", requires = "arm")]
     obstacles: Option<PathBuf>,
     /// Minimum distance of gun and arm from part, boxes and floor, 0 to 1000 mm
-    #[arg(long, value_name = "MM", default_value_t = 20.0, value_parser = |text: &str| within(text, &(0.0..=1000.0)), allow_negative_numbers = true, requires = "arm")]
+    #[arg(long, value_name = "MM", default_value_t = 20.0, value_parser = |text: &str| within(text, &ranges::CLEARANCE_MM), allow_negative_numbers = true, requires = "arm")]
     clearance: f64,
     /// Radius of the gun around the line from the flange to the nozzle's mouth, from 1 mm to half the gun's length
-    #[arg(long, value_name = "MM", default_value_t = 50.0, value_parser = |text: &str| within(text, &(1.0..=1000.0)), allow_negative_numbers = true, requires = "arm")]
+    #[arg(long, value_name = "MM", default_value_t = 50.0, value_parser = |text: &str| within(text, &ranges::GUN_RADIUS_MM), allow_negative_numbers = true, requires = "arm")]
     gun_radius: f64,
     /// Maximum tilt of the nozzle about the point that it aims at, 0 to 30 degrees; used only where the arm cannot
     /// otherwise follow the path
-    #[arg(long, value_name = "DEG", default_value_t = 10.0, value_parser = |text: &str| within(text, &(0.0..=30.0)), allow_negative_numbers = true, requires = "arm")]
+    #[arg(long, value_name = "DEG", default_value_t = 10.0, value_parser = |text: &str| within(text, &ranges::MAX_TILT_DEG), allow_negative_numbers = true, requires = "arm")]
     max_tilt: f64,
 }
 
@@ -128,12 +125,12 @@ pub(super) fn parse_format(name: &str) -> Result<ProgramFormat, String> {
 
 /// Parses `--speed`, mm/s. Most controllers' own limits are lower.
 pub(super) fn parse_speed(text: &str) -> Result<f64, String> {
-    within(text, &(1.0..=5000.0))
+    within(text, &ranges::SPEED_MM_S)
 }
 
 /// Parses `--approach`, mm.
 pub(super) fn parse_approach(text: &str) -> Result<f64, String> {
-    within(text, &(10.0..=1000.0))
+    within(text, &ranges::APPROACH_MM)
 }
 
 /// A program to write.
@@ -151,8 +148,8 @@ pub(super) struct ProgramSubject<'a> {
     pub(super) reference: &'a Reference,
     /// The stored path, in part space.
     pub(super) path: &'a SprayPath,
-    /// Name of the capture; `None` for the standard position.
-    pub(super) scene: Option<&'a str>,
+    /// The capture; `None` for the standard position.
+    pub(super) capture: Option<CapturedPart<'a>>,
     pub(super) camera_from_part: RigidTransform,
     pub(super) is_simulated: bool,
 }
@@ -207,21 +204,6 @@ impl ProgramOptions {
     }
 }
 
-/// Advice against the first doubt about a path of this part, if another capture or place of the arm does not help.
-pub(super) fn advice_on_path(
-    off: Option<&OffThePart>,
-    ahead: Option<&ClockAhead>,
-    part: &PartName,
-) -> Option<String> {
-    let off = off.map(|off| {
-        format!(
-            "{} (partsight library path {part} shows it), or plan a new one",
-            off.advice()
-        )
-    });
-    off.or_else(|| ahead.map(ClockAhead::advice))
-}
-
 impl ProgramFile {
     /// Writes the program of a carried path, unless there are doubts and `--force` is not set.
     pub(super) fn write(
@@ -229,109 +211,33 @@ impl ProgramFile {
         carried: &CarriedPath,
         subject: &ProgramSubject<'_>,
         frame: &RobotFrame,
-        mut doubts: Vec<String>,
-        console: &mut Console,
+        console: &Console,
     ) -> anyhow::Result<Outcome> {
-        let robot_from_part = frame.robot_from_part(&subject.camera_from_part);
-        let reach = self.arm.as_ref().map(|arm| {
-            let arm = arm
-                .clone()
-                .with_part(&subject.reference.cloud.points, &robot_from_part);
-            let reach = check_reach(&arm, carried, frame, &self.settings)?;
-            Ok((arm, reach))
-        });
-        let reach: Result<_, ArmError> = reach.transpose();
-        let reach = reach.advised()?;
-        let doubt = |(arm, reach): &(PlacedArm, PathCheck)| {
-            reach.missed(&arm.arm.name).map(|missed| missed.to_string())
+        let file = RobotFile {
+            file: &self.file,
+            content: RobotFileContent::Program {
+                format: self.format,
+                settings: &self.settings,
+                arm: self.arm.as_ref(),
+            },
+            carried,
+            frame,
+            part: subject.part.as_str(),
+            part_points: &subject.reference.cloud.points,
+            off: off_the_part(subject.path, subject.reference),
+            capture: subject.capture,
+            camera_from_part: subject.camera_from_part,
+            is_stored: true,
+            is_simulated: subject.is_simulated,
+            is_forced: self.is_forced,
         };
-        doubts.extend(reach.as_ref().and_then(doubt));
-        let ahead = subject
-            .scene
-            .and_then(|scene| clock_ahead_of_file(Path::new(scene)));
-        if let Some(ahead) = &ahead {
-            doubts.insert(0, ahead.to_string());
-        }
-        // Neither another capture nor another place of the arm helps against this one.
-        let off = off_the_part(subject.path, subject.reference);
-        if let Some(off) = &off {
-            doubts.insert(0, off.to_string());
-        }
-        let points = program_points(carried, frame, reach.as_ref().map(|(_, reach)| reach));
-        if let (false, Some(doubt)) = (self.is_forced, doubts.first()) {
-            console.note(&format_args!("no program was written: {doubt}"));
-            let advice = advice_on_path(off.as_ref(), ahead.as_ref(), subject.part);
-            let advice = advice.unwrap_or_else(|| {
-                if subject.scene.is_some() {
-                    return "Capture all of the part again, or move part or arm".to_owned();
-                }
-                format!(
-                    "Run partsight path check {} with the same options to see why, and whether another --base reaches more, or change the path",
-                    subject.part
-                )
-            });
-            console.note(&format_args!("  to do: {advice}; --force writes it anyway"));
+        if robot_file::write(&file, console)?.is_none() {
             return Ok(Outcome::NotAccepted);
         }
-        let program = Program {
-            points: &points,
-            settings: &self.settings,
-            reach: reach.as_ref(),
-            part: subject.part.as_str(),
-            scene: subject.scene,
-            robot_from_part,
-            calibration: &frame.name,
-            is_simulated: subject.is_simulated,
-            doubts: &doubts,
-            at: Timestamp::now(),
-        };
-        let num_parts = program.save(&self.file, self.format).advised()?;
-        console.note(&format_args!(
-            "{}: {} as {}; {}",
-            self.file.display(),
-            counted(points.len(), "point", "points"),
-            self.format.title(),
-            against_seen(carried)
-        ));
-        if num_parts > 0 {
-            console.note(&format_args!(
-                "  it calls {num_parts} programs that lie beside it; the controller needs all of them"
-            ));
-        }
-        let base = reach.as_ref().map(|(arm, _)| arm.robot_from_base);
+        let base = self.arm.as_ref().map(|arm| arm.robot_from_base);
         if base.is_some_and(|base| base != RigidTransform::identity()) {
             console.note(&"  its poses are in the frame of the calibration; --base only affects the check. If the controller's frame moves with the base, calibrate the cell again and leave --base out");
         }
-        for doubt in &doubts {
-            console.note(&format_args!("warning: written by --force: {doubt}"));
-        }
         Ok(Outcome::Accepted)
     }
-}
-
-/// Describes how many points of a carried path are within the band, of those that could be checked against the capture.
-/// Adds the number of unchecked points if there are more of them than the moves beside a part that is seen whole.
-pub(super) fn against_seen(carried: &CarriedPath) -> String {
-    let num = carried.points.len();
-    let num_seen = carried.num_seen();
-    let verb = |num: usize, one: &'static str, many| if num == 1 { one } else { many };
-    let num_inside = carried.num_inside();
-    let mut words = format!(
-        "of {num_seen} that {} at what was seen of the part, {num_inside} {} within the band",
-        verb(num_seen, "aims", "aim"),
-        verb(num_inside, "is", "are")
-    );
-    let num_flat = carried.count(BandStatus::TooFlat);
-    if num_flat > 0 {
-        words = format!(
-            "{words}, {num_flat} {} it at more than {:.0}°, as strokes that lean towards flanks may",
-            verb(num_flat, "meets", "meet"),
-            MOST_TILT.degrees()
-        );
-    }
-    if 4 * num_seen < num {
-        let rest = num - num_seen;
-        words = format!("{words}. Not checked against what was seen: the other {rest}");
-    }
-    words
 }

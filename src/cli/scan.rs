@@ -134,7 +134,7 @@ pub(super) fn open_scan(
         ControlFlow::Continue(())
     })
     .advised()?;
-    let calibration = scan_calibration(given.calibration.as_deref(), console)?;
+    let calibration = scan_calibration(given.calibration.as_deref())?;
     let shots = with_poses(paths, given.poses.as_deref(), frames, calibration);
     let params = ScanParams {
         segment: segment.clone(),

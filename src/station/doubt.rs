@@ -7,6 +7,7 @@ use std::{
 
 use crate::{
     error::Advice,
+    files::file_of,
     pipeline::Inspection,
     robot::{RobotFrame, arm::NotReached, spray::OffThePart},
     stages::pose::PoseEstimate,
@@ -144,7 +145,8 @@ impl Currency {
             Self::Superseded => Some(Doubt::Superseded),
             Self::CapturedAt(captured) => age_doubt(*captured),
             Self::File(path) => {
-                let written = path.metadata().and_then(|meta| meta.modified());
+                // The path may name unit, axes or a mesh behind the file.
+                let written = file_of(path).metadata().and_then(|meta| meta.modified());
                 written.map_or(Some(Doubt::Old), age_doubt)
             }
         }
@@ -221,6 +223,8 @@ mod tests {
         assert_eq!(kind(&of_file), Some("old"), "no file, so no age");
         let file = std::fs::File::create(&path).expect("created");
         assert_eq!(kind(&of_file), None);
+        let in_millimetres = Currency::File(folder.path().join("door.pcd#units=mm"));
+        assert_eq!(kind(&in_millimetres), None);
         file.set_modified(now + Duration::from_hours(1))
             .expect("dated");
         let doubt = of_file.doubt().expect("ahead");

@@ -4,5 +4,6 @@
 //! against a result, and a robot may act on it only if there are none.
 
 mod doubt;
+pub mod robot_file;
 
 pub use self::doubt::{ClockAhead, Currency, Doubt, doubts};

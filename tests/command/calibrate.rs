@@ -560,3 +560,55 @@ fn numbers_that_the_file_cannot_hold_are_not_reported_as_written_and_a_wrong_uni
     assert!(ran.err.contains(advice), "{}", ran.err);
     assert_eq!(place.read("cell.toml"), written);
 }
+
+#[test]
+fn a_calibration_with_a_changed_digit_gives_no_pose_until_it_is_confirmed() {
+    let place = Workplace::new();
+    let at = |x: &str| format!("kuka {x} -400 1900 86 -5 120");
+    let own = ["calibrate", "set", "--mount", "eye-to-hand"];
+    place.coded(0, &[&own[..], &[&at("1200")]].concat());
+    let folder = place.coded(0, &["calibrate", "show", "--json"]).json();
+    let path = folder["calibration"].as_str().expect("a path").to_owned();
+    assert_eq!(folder["edited"], false);
+    let digit = place
+        .read(&path)
+        .replace("1.200000000000", "7.200000000000");
+    place.write(&path, &digit);
+    let fender = ["simulate", "--part", "fender", "--placement", "facing"];
+    place.coded(0, &[&fender[..], &["--out", "fender.pcd"]].concat());
+
+    let wanted = "the numbers were changed after the calibration";
+    let inspect = ["inspect", "fender.pcd", "--json"];
+    let named = ["--calibration", path.as_str()];
+    let spray = ["--spray", "out.csv"];
+    for args in [&named[..], &spray, &[&named[..], &spray].concat()] {
+        let ran = place.coded(2, &[&inspect[..], args].concat());
+        assert!(ran.err.contains(wanted), "{args:?}: {}", ran.err);
+        assert!(ran.out.is_empty(), "{}", ran.out);
+    }
+    assert!(!place.path("out.csv").exists());
+    let serve = ["serve", "--source", "simulated:fender"];
+    for args in [&[][..], &named] {
+        let ran = place.coded(2, &[&serve[..], args].concat());
+        assert!(ran.err.contains(wanted), "{}", ran.err);
+    }
+    // The part is recognised, but nothing is in the robot's frame.
+    let ran = place.accepted(&inspect);
+    assert!(ran.err.contains(wanted), "{}", ran.err);
+    assert!(ran.json()["robot"].is_null(), "{}", ran.out);
+    // A pose of the arm would write a checksum.
+    let ran = place.coded(2, &["calibrate", "capture-pose", &at("900")]);
+    assert!(ran.err.contains(wanted), "{}", ran.err);
+    assert_eq!(place.read(&path), digit);
+    let shown = place.coded(0, &["calibrate", "show", "--json"]).json();
+    assert_eq!(shown["edited"], true);
+
+    let ran = place.coded(0, &["calibrate", "confirm"]);
+    assert!(ran.out.contains("Confirmed"), "{}", ran.out);
+    assert!(ran.out.contains("cell.former.toml"), "{}", ran.out);
+    let ran = place.accepted(&inspect);
+    assert!(!ran.err.contains(wanted), "{}", ran.err);
+    assert!(!ran.json()["robot"].is_null(), "{}", ran.out);
+    let ran = place.coded(0, &["calibrate", "confirm"]);
+    assert!(ran.out.contains("nothing to confirm"), "{}", ran.out);
+}

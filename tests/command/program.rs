@@ -191,6 +191,10 @@ fn of_a_refused_part_an_old_capture_or_an_unreached_path_no_program_is_left_unle
         shop.read("out.csv")
             .contains("# DOUBT: the capture is more")
     );
+    // The unit behind its name does not make it younger.
+    let ran = shop.coded(1, &["inspect", "door.pcd#units=m", "--spray", "out.csv"]);
+    assert!(ran.err.contains(wanted), "{}", ran.err);
+    assert!(!shop.path("out.csv").exists());
     let ran = shop.coded(2, &["inspect", "door.pcd", "--force"]);
     assert!(ran.err.contains("--spray"), "{}", ran.err);
     // A capture dated later than now may be just as old.
@@ -503,6 +507,8 @@ fn no_program_is_written_for_a_pose_that_another_one_fits_as_well_unless_forced(
     run(0, &[&spray[..], &["--force"]].concat());
     let written: serde_json::Value = serde_json::from_str(&shop.read("out.json")).expect("JSON");
     assert_eq!(written["doubts"], serde_json::json!([doubt]));
+    let unchecked = &written["not_checked"];
+    assert_eq!(unchecked[0], "reach and collisions");
 }
 
 #[test]
@@ -589,17 +595,38 @@ fn both_exports_say_how_much_of_the_path_was_checked_against_what_was_seen() {
         })
     };
     for err in store(&[0.0, 4000.0, 4040.0, 4080.0]) {
+        for wanted in [
+            "of 1 that aims at what was seen of the part",
+            "warning: not checked: reach and collisions\n",
+            "warning: not checked: the stand-off at 3 of 4 points",
+        ] {
+            assert!(err.contains(wanted), "{err}");
+        }
+    }
+    let program = shop.read("paint.src").replace("\r\n; ", " ");
+    let table = shop.read("out.csv");
+    for wanted in ["reach and collisions", "the stand-off at 3 of 4 points"] {
+        assert!(program.contains(wanted), "{program:.1500}");
         assert!(
-            err.contains("of 1 that aims at what was seen of the part"),
-            "{err}"
+            table.contains(&format!("# NOT CHECKED: {wanted}")),
+            "{table}"
         );
-        assert!(!err.contains("Not checked"), "{err}");
     }
-    // The door is less than a quarter of the path.
-    for err in store(&[4120.0]) {
-        let wanted = "within the band. Not checked against what was seen: the other 4";
-        assert!(err.contains(wanted), "{err}");
-    }
+}
+
+#[test]
+fn a_program_without_obstacles_names_the_collisions_that_were_not_checked() {
+    let shop = shop();
+    store_path(&shop);
+    let inspect = ["inspect", "door.pcd", "--program", "paint.mod", "--force"];
+    let arm = ["--arm", "irb4600", "--nozzle", "kuka 0 0 250 0 45 0"];
+    let wanted = "not checked: collisions with anything but part and arm";
+    let ran = shop.coded(0, &[&inspect[..], &arm].concat());
+    assert!(ran.err.contains(wanted), "{}", ran.err);
+    shop.write("boxes.toml", "floor_mm = -5000\n");
+    let boxes = ["--obstacles", "boxes.toml"];
+    let ran = shop.coded(0, &[&inspect[..], &arm, &boxes].concat());
+    assert!(!ran.err.contains(wanted), "{}", ran.err);
 }
 
 #[test]

@@ -9,6 +9,7 @@ use std::path::Path;
 use nalgebra::Point3;
 use partsight::files::{FileContent, open, save_cloud, write_pcd};
 use partsight::geometry::cloud::{Grid, PointCloud};
+use partsight::robot::calibration::{CalibrationError, CellCalibration};
 
 use crate::data_folder;
 
@@ -258,4 +259,20 @@ fn a_real_frame_survives_being_saved_in_every_format() {
     write_pcd(&mut once, &frame).expect("written");
     write_pcd(&mut twice, &cloud_at(&target.path().join("frame.pcd"))).expect("written");
     assert!(once == twice, "a PCD read and written again differs");
+}
+
+#[test]
+fn a_hand_eye_calibration_with_a_changed_digit_is_refused_until_it_is_confirmed() {
+    let Some(folder) = data_folder() else {
+        return;
+    };
+    let target = tempfile::tempdir().expect("a temporary folder");
+    let path = target.path().join("cell.toml");
+    std::fs::copy(folder.join("reported/cell_digit/cell.toml"), &path).expect("copied");
+    let error = CellCalibration::load(&path).expect_err("7.2 m instead of 1.2 m");
+    assert!(matches!(error, CalibrationError::Edited { .. }), "{error}");
+    assert!(CellCalibration::confirm(&path).expect("written").is_some());
+    let confirmed = CellCalibration::load(&path).expect("confirmed");
+    let shift = confirmed.camera.mount_from_camera().translation.vector;
+    assert!((shift.x - 7.2).abs() < 1e-6, "{shift}");
 }

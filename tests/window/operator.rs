@@ -366,7 +366,7 @@ fn an_ok_of_live_is_gone_once_live_is_off_until_the_next_capture() {
     press(&mut harness, "Switch");
     assert!(harness.query_by_label("Accepted").is_none());
     harness.get_by_label("Recognised");
-    harness.get_by_label("Another part may hang there now");
+    harness.get_by_label("Another part may hang there by now");
     harness.get_by_label("Press Live or Capture for the current part");
     assert!(harness.query_by_label("robot_from_part").is_none());
     harness.get_by_label("camera_from_part");

@@ -244,7 +244,9 @@ fn an_arm_is_chosen_its_reach_shown_and_the_program_exported() {
     assert_eq!(session(&harness).nozzle, "kuka 0 0 250 0 45 0");
     // With the base as calibrated, the arm does not reach all points.
     harness.get_by_label_contains("ABB IRB 4600-40/2.55 misses");
-    harness.get_by_label_contains("Accelerations of the joints are not checked");
+    harness.get_by_label_contains(
+        "Not checked: collisions with anything but part and arm, such as the part's stand; accelerations of the joints",
+    );
     press(&mut harness, "Show next");
     // A box around the whole reach of the arm.
     let boxes = folder.path().join("boxes.toml");

@@ -354,7 +354,7 @@ fn in_enrol(harness: &mut WindowHarness, action: EnrolAction) {
 }
 
 /// Whatever the arm; leaves the stored path as it was.
-fn an_export_of_a_path_off_the_part_warns_and_no_program_is_written(
+fn nothing_is_written_of_a_path_off_the_part(
     harness: &mut WindowHarness,
     folder: &Path,
     program: &Path,
@@ -372,10 +372,11 @@ fn an_export_of_a_path_off_the_part_warns_and_no_program_is_written(
     choose_in_inspect(harness, InspectFile::SprayPath, program.to_owned());
     assert!(!program.exists());
     harness.get_by_label_contains("No program was written: the spray path does not aim");
-    let export = folder.join("far_in_base.csv");
+    let export = folder.join("out.csv");
+    assert!(export.exists(), "that of the path before");
     choose_in_inspect(harness, InspectFile::SprayPath, export.clone());
-    assert!(export.exists());
-    harness.get_by_label_contains("but the spray path does not aim at the part");
+    assert!(!export.exists());
+    harness.get_by_label_contains("No spray path was written: the spray path does not aim");
     in_enrol(harness, EnrolAction::Undo);
 }
 
@@ -458,6 +459,13 @@ fn a_spray_path_is_stored_carried_shown_and_exported() {
             .count(),
         6
     );
+    // Beside the result, and in the file.
+    harness.get_by_label_contains("Not checked at 1 of 6 points");
+    harness.get_by_label_contains("Not checked: reach and collisions; the stand-off at 1 of 6");
+    assert!(
+        text.contains("# NOT CHECKED: reach and collisions"),
+        "{text}"
+    );
     // The ending of the file's name selects a program.
     let program = folder.path().join("paint.ls");
     choose_in_inspect(&mut harness, InspectFile::SprayPath, program.clone());
@@ -479,11 +487,7 @@ fn a_spray_path_is_stored_carried_shown_and_exported() {
     assert!(!program.exists());
     harness.get_by_label_contains("No program was written: KUKA KR 6 R900-2 misses");
 
-    an_export_of_a_path_off_the_part_warns_and_no_program_is_written(
-        &mut harness,
-        folder.path(),
-        &program,
-    );
+    nothing_is_written_of_a_path_off_the_part(&mut harness, folder.path(), &program);
 
     // Undo works as for any change of the library.
     in_enrol(&mut harness, EnrolAction::Undo);

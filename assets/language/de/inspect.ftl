@@ -25,21 +25,10 @@ inspect-hold-replayed = Aus einer Aufzeichnung abgespielt: Das Teil hängt nicht
 inspect-hold-choose-camera = Eine Kamera als Quelle wählen
 inspect-hold-choose-camera-operator = Den Einrichter eine Kamera wählen lassen
 inspect-hold-not-calibrated = Nicht kalibriert: Der Roboter bekommt keine Pose
-inspect-hold-not-calibrated-advice = Die Zelle unter „Roboter…“ kalibrieren
 inspect-hold-not-calibrated-operator = Roboter nicht starten: Den Einrichter rufen, damit er die Zelle kalibriert
-inspect-hold-moving = Das Teil bewegt sich
-inspect-hold-lost = Die Quelle ist ausgefallen: Dort kann jetzt ein anderes Teil hängen
-inspect-hold-lost-advice = Die Quelle wieder anschließen
-inspect-hold-superseded = Dort kann jetzt ein anderes Teil hängen
-inspect-hold-no-pose = Es wurde keine Pose geschätzt
-inspect-hold-no-pose-advice = Ein Rezept wählen, das die Pose schätzt
-inspect-hold-clock = Die Aufnahme ist um { $seconds } s später als jetzt datiert, ihr Alter ist also nicht bekannt
 inspect-hold-clock-operator = Roboter nicht starten: Den Einrichter rufen, damit er die Uhren stellt
 inspect-hold-old = Vor mehr als 10 Minuten aufgenommen: Es kann jetzt anders hängen
 inspect-hold-old-file = Aus einer Datei, die älter als 10 Minuten ist: Es kann jetzt anders hängen
-inspect-hold-old-advice = Das Teil neu aufnehmen
-inspect-hold-ambiguous = Eine andere Lage des Teils passt ebenso gut
-inspect-hold-ambiguous-advice = Die Sichtseite so zur Kamera drehen, dass das ganze Teil im Bild ist
 
 ## The card
 
@@ -93,10 +82,7 @@ inspect-mean = Mittel
 inspect-worst-of = { $value }, max. { $worst }
 inspect-in-band = im Band
 inspect-points-in-band = { $inside } von { $num } Punkten
-inspect-points-not-seen = { $count ->
-        [one] An 1 Punkt nicht geprüft
-       *[other] An { $count } Punkten nicht geprüft
-    }, wo die Kamera das Teil nicht sieht
+inspect-points-not-seen = An { $count } von { $all } Punkten nicht geprüft, wo die Kamera das Teil nicht sieht
 inspect-path-not-seen = Die Kamera sieht das Teil an keinem Punkt der Bahn
 inspect-angle = Winkel
 inspect-angle-counts = { $count ->
@@ -220,7 +206,7 @@ inspect-picture-saved = Bild gespeichert: { $path }
 inspect-no-spray-path = Für das Angezeigte gibt es keine Lackierbahn
 inspect-no-spray-path-advice = Eine beim Teil speichern und ein Teil aufnehmen, das akzeptiert wird
 inspect-path-written = { $path } geschrieben: { $inside } von { $num } geprüften Punkten im Band, als { $convention }
-inspect-path-written-off-part = { $path } geschrieben, aber die Lackierbahn zielt nicht auf das Teil (nur bei { $aiming } von { $all } Punkten mit eingeschalteter Pistole)
+inspect-path-not-written = Keine Lackierbahn geschrieben: { $why }
 inspect-report-written = { $files }, die Bilder der Stufen und eine Zeile von { $table } in { $folder } geschrieben
 inspect-report-set-aside = { $files }, die Bilder der Stufen und eine Zeile von { $table } in { $folder } geschrieben; die letzte Zeile war unvollständig und liegt jetzt in { $aside }
 inspect-watching-folder = Ordner wird überwacht

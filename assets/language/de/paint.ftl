@@ -139,16 +139,11 @@ paint-joint-acceleration = Achse { $joint } beschleunigt zu langsam
 paint-rail-acceleration = Schiene beschleunigt zu langsam
 paint-acceleration-advice = Langsamer fahren, wo zu langsam beschleunigt wird, oder Ecken mit größerem Radius fahren
 paint-joints-advice = Einen anderen Winkel der Düse versuchen, mehr Neigung der Pistole, einen anderen Ort des Sockels oder weniger Geschwindigkeit
-paint-unchecked-accelerations =
-    { $what ->
-        [joints] Beschleunigungen der Achsen sind ungeprüft: keine Grenzen bekannt
-        [rail] Beschleunigung der Schiene ist ungeprüft: keine Grenze bekannt
-       *[both] Beschleunigungen von Achsen und Schiene sind ungeprüft: keine Grenzen bekannt
-    }
 paint-arm-folds-over = der Arm müsste umschlagen
 paint-collisions = Kollisionen
 paint-collisions-not-checked = nicht geprüft
 paint-no-collisions-reached = keine, wo er hinreicht
+paint-no-collisions-part = keine mit Teil und Arm
 paint-num-collisions =
     { $count ->
         [0] keine

@@ -19,8 +19,12 @@ robot-saved = Gespeichert; die frühere Kalibrierung liegt in { $path }
 
 robot-not-calibrated = Die Zelle ist nicht kalibriert: Posen sind im Kamerakoordinatensystem, ein Roboter kann sie nicht verwenden
 robot-file = Datei
-robot-edited = Die Datei wurde bearbeitet: Ihre Zahlen gelten als von Hand eingegeben
-robot-edited-advice = Neu kalibrieren, um Restfehler dazu zu erhalten
+robot-edited = die Zahlen der Kalibrierung wurden geändert und nicht bestätigt: Kein Roboter erhält Posen
+robot-edited-advice = Die Zahlen unter Roboter… prüfen; bestätigen, wenn sie stimmen, sonst neu kalibrieren
+robot-confirm = Bestätigen…
+robot-confirm-says = Steht die Kamera dort? Die Zahlen gelten dann als von Hand eingegeben, und Roboter erhalten Posen danach. Die frühere Datei bleibt erhalten
+robot-confirm-not = Jetzt nicht
+robot-confirm-right = Sie stimmen
 robot-load = Laden…
 robot-forget = Vergessen
 robot-cell = Zelle
@@ -210,3 +214,38 @@ robot-long-rotation = die Länge des Rotationsvektors ist { $length }, erwartet 
 robot-long-rotation-advice = Den Rotationsvektor in Radiant angeben; diese Zahlen sehen nach Grad aus
 robot-not-rigid = die 16 Zahlen sind keine starre Transformation: Sie strecken, spiegeln oder enden nicht mit 0 0 0 1
 robot-not-rigid-advice = Eine Drehung und eine Verschiebung angeben, Zeile für Zeile mit mindestens 4 Nachkommastellen; Zeilen und Spalten nicht vertauschen
+
+## Warum ein Roboter mit einem Ergebnis nicht arbeiten darf
+robot-doubt-source-lost = die Quelle ist ausgefallen, was jetzt dort hängt, ist also nicht bekannt
+robot-doubt-source-lost-advice = Die Quelle wieder verbinden und das Teil neu aufnehmen
+robot-doubt-moving = das Teil bewegt sich
+robot-doubt-moving-advice = Warten, bis das Teil still hängt
+robot-doubt-superseded = inzwischen kann dort ein anderes Teil hängen
+robot-doubt-capture-again = Das ganze Teil neu aufnehmen
+robot-doubt-not-accepted = das Teil wurde nicht akzeptiert
+robot-doubt-no-pose = das Teil hat keine Pose
+robot-doubt-no-pose-advice = Ein Rezept wählen, das die Pose schätzt, und das Teil neu prüfen
+robot-doubt-not-calibrated = die Zelle ist nicht kalibriert
+robot-doubt-not-calibrated-advice = Die Lage der Kamera in der Roboterzelle kalibrieren, oben unter Roboter…
+robot-doubt-clock-ahead = die Aufnahme ist um { $seconds } s später als jetzt datiert, ihr Alter ist also nicht bekannt
+robot-doubt-clock-ahead-advice = Die Uhren dieses Rechners und des Rechners, der die Aufnahme geschrieben hat, nach demselben Zeitserver stellen und das Teil neu aufnehmen
+robot-doubt-old = die Aufnahme ist älter als 10 Minuten oder von unbekanntem Alter
+robot-doubt-ambiguous = eine andere Pose des Teils passt fast ebenso gut
+robot-doubt-ambiguous-advice = Die Vorderseite des Teils zur Kamera drehen, das ganze Teil im Bild
+robot-doubt-off-part = die Lackierbahn zielt nicht auf das Teil (nur bei { $aiming } von { $all } Punkten mit eingeschalteter Pistole)
+robot-doubt-too-near = die Lackierbahn zielt nicht auf das Teil (bei { $near } von { $all } Punkten mit eingeschalteter Pistole ist die Düse weniger als 20 mm davor oder hinter seiner Oberfläche)
+robot-doubt-off-part-advice = Prüfen, ob die Bahn zu diesem Teil gehört, oder in Lackieren eine neue planen und speichern
+robot-doubt-not-reached = { $arm } erreicht { $missed } von { $all } Punkten nicht
+robot-doubt-not-reached-advice = Das Teil oder den Fuß des Arms versetzen oder die Bahn ändern
+
+## Was nicht geprüft wurde
+robot-not-checked = Nicht geprüft: { $what }
+robot-unchecked-arm = Reichweite und Kollisionen
+robot-unchecked-surroundings = Kollisionen mit anderem als Teil und Arm, etwa mit der Halterung des Teils
+robot-unchecked-accelerations =
+    { $what ->
+        [joints] Beschleunigungen der Gelenke
+        [rail] Beschleunigung der Schiene
+       *[both] Beschleunigungen von Gelenken und Schiene
+    }
+robot-unchecked-points = der Düsenabstand an { $num } von { $all } Punkten, wo die Kamera keine Oberfläche sah

@@ -22,6 +22,7 @@ shell-stop-live-says = Quelle nicht mehr verfolgen (L)
 shell-live-says = Quelle verfolgen und möglichst viele Bilder prüfen (L)
 shell-calibrated-by = Kalibriert durch { $name } (B)
 shell-no-flange-pose = Die Flanschpose bei der Aufnahme ist nicht bekannt (B)
+shell-calibration-edited = Die Zahlen der Kalibrierung wurden geändert und nicht bestätigt (B)
 shell-not-calibrated = Lage der Kamera in der Roboterzelle: nicht kalibriert (B)
 shell-dark = Dunkel
 shell-light = Hell

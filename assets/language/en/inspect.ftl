@@ -25,21 +25,10 @@ inspect-hold-replayed = Replayed from a recording: the part does not hang there
 inspect-hold-choose-camera = Choose a camera as the source
 inspect-hold-choose-camera-operator = Ask the engineer to choose a camera
 inspect-hold-not-calibrated = Not calibrated: the robot gets no pose
-inspect-hold-not-calibrated-advice = Calibrate the cell in Robot…
 inspect-hold-not-calibrated-operator = Do not start the robot: call the engineer to calibrate the cell
-inspect-hold-moving = The part is moving
-inspect-hold-lost = The source was lost: another part may hang there now
-inspect-hold-lost-advice = Connect the source again
-inspect-hold-superseded = Another part may hang there now
-inspect-hold-no-pose = No pose was estimated
-inspect-hold-no-pose-advice = Choose a recipe that estimates the pose
-inspect-hold-clock = The capture is dated { $seconds } s later than now, so its age is not known
 inspect-hold-clock-operator = Do not start the robot: call the engineer to set the clocks
 inspect-hold-old = Captured more than 10 minutes ago: it may hang elsewhere now
 inspect-hold-old-file = From a file more than 10 minutes old: it may hang elsewhere now
-inspect-hold-old-advice = Capture the part again
-inspect-hold-ambiguous = Another pose of the part fits as well
-inspect-hold-ambiguous-advice = Turn the part's face to the camera, so that all of it is in the picture
 
 ## The card
 
@@ -93,10 +82,7 @@ inspect-mean = mean
 inspect-worst-of = { $value }, worst { $worst }
 inspect-in-band = inside the band
 inspect-points-in-band = { $inside } of { $num } points
-inspect-points-not-seen = { $count ->
-        [one] Not checked at 1 point
-       *[other] Not checked at { $count } points
-    }, where the camera does not see the part
+inspect-points-not-seen = Not checked at { $count } of { $all } points, where the camera does not see the part
 inspect-path-not-seen = The camera sees the part at no point of the path
 inspect-angle = angle
 inspect-angle-counts = { $count ->
@@ -220,7 +206,7 @@ inspect-picture-saved = Saved the picture { $path }
 inspect-no-spray-path = There is no spray path for the inspection in front
 inspect-no-spray-path-advice = Store one with the part, and capture a part that is accepted
 inspect-path-written = Wrote { $path }: { $inside } of { $num } checked points within the band, as { $convention }
-inspect-path-written-off-part = Wrote { $path }, but the spray path does not aim at the part (only { $aiming } of { $all } points with the gun on)
+inspect-path-not-written = No spray path was written: { $why }
 inspect-report-written = Wrote { $files }, the pictures of its stages and a row of { $table } to { $folder }
 inspect-report-set-aside = Wrote { $files }, the pictures of its stages and a row of { $table } to { $folder }; its last row was incomplete and was set aside in { $aside }
 inspect-watching-folder = Watching a folder

@@ -139,16 +139,11 @@ paint-joint-acceleration = joint { $joint } accelerates too slowly
 paint-rail-acceleration = rail accelerates too slowly
 paint-acceleration-advice = Run slower where it accelerates too slowly, or round the corners in a larger radius
 paint-joints-advice = Try another angle of the nozzle, more tilt of the gun, another place of the base, or a lower speed
-paint-unchecked-accelerations =
-    { $what ->
-        [joints] Accelerations of the joints are not checked: no limits are known
-        [rail] The acceleration of the rail is not checked: no limit is known
-       *[both] Accelerations of joints and rail are not checked: no limits are known
-    }
 paint-arm-folds-over = the arm would fold over
 paint-collisions = Collisions
 paint-collisions-not-checked = not checked
 paint-no-collisions-reached = none where it reaches
+paint-no-collisions-part = none with part and arm
 paint-num-collisions =
     { $count ->
         [0] none

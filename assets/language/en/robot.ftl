@@ -19,8 +19,12 @@ robot-saved = Saved; the previous calibration is kept in { $path }
 
 robot-not-calibrated = The cell is not calibrated: poses are in the camera's frame, and a robot cannot use them
 robot-file = file
-robot-edited = the file was edited: its numbers count as entered by hand
-robot-edited-advice = Calibrate again to have residuals beside them
+robot-edited = the numbers of the calibration were changed and not confirmed: no robot gets poses
+robot-edited-advice = Check the numbers in Robot…; confirm them if they are right, else calibrate again
+robot-confirm = Confirm…
+robot-confirm-says = Is this where the camera stands? The numbers will count as entered by hand, and robots get poses by them. The former file is kept
+robot-confirm-not = Not now
+robot-confirm-right = They are right
 robot-load = Load…
 robot-forget = Forget
 robot-cell = cell
@@ -210,3 +214,38 @@ robot-long-rotation = the rotation vector has length { $length }, expected at mo
 robot-long-rotation-advice = Give the rotation vector in radians; these look like degrees
 robot-not-rigid = the 16 numbers are not a rigid transform: they stretch, mirror or do not end in 0 0 0 1
 robot-not-rigid-advice = Give a rotation and a shift, row after row with at least 4 decimals; check rows against columns
+
+## Why a robot must not act on a result
+robot-doubt-source-lost = the source was lost, so what hangs there now is not known
+robot-doubt-source-lost-advice = Connect the source again, and capture the part again
+robot-doubt-moving = the part is moving
+robot-doubt-moving-advice = Wait until the part hangs still
+robot-doubt-superseded = another part may hang there by now
+robot-doubt-capture-again = Capture all of the part again
+robot-doubt-not-accepted = the part was not accepted
+robot-doubt-no-pose = the part has no pose
+robot-doubt-no-pose-advice = Choose a recipe that estimates the pose, and inspect the part again
+robot-doubt-not-calibrated = the cell is not calibrated
+robot-doubt-not-calibrated-advice = Calibrate where the camera stands in the robot's cell, with Robot… at the top
+robot-doubt-clock-ahead = the capture is dated { $seconds } s later than now, so its age is not known
+robot-doubt-clock-ahead-advice = Set the clocks of this computer and of the one that wrote the capture from the same time server, and capture the part again
+robot-doubt-old = the capture is more than 10 minutes old, or of unknown age
+robot-doubt-ambiguous = another pose of the part fits nearly as well
+robot-doubt-ambiguous-advice = Turn the part's face to the camera, all of it inside the picture
+robot-doubt-off-part = the spray path does not aim at the part (only { $aiming } of { $all } points with the gun on)
+robot-doubt-too-near = the spray path does not aim at the part (at { $near } of { $all } points with the gun on, the nozzle is less than 20 mm in front of it or behind its surface)
+robot-doubt-off-part-advice = Check that the path is that of this part, or plan and store a new one in Paint
+robot-doubt-not-reached = { $arm } misses { $missed } of { $all } points
+robot-doubt-not-reached-advice = Move the part or the arm's base, or change the path
+
+## What was not checked
+robot-not-checked = Not checked: { $what }
+robot-unchecked-arm = reach and collisions
+robot-unchecked-surroundings = collisions with anything but part and arm, such as the part's stand
+robot-unchecked-accelerations =
+    { $what ->
+        [joints] accelerations of the joints
+        [rail] acceleration of the rail
+       *[both] accelerations of joints and rail
+    }
+robot-unchecked-points = the stand-off at { $num } of { $all } points, where the camera saw no surface

@@ -22,6 +22,7 @@ shell-stop-live-says = Stop following the source (L)
 shell-live-says = Follow the source and inspect as many frames as possible (L)
 shell-calibrated-by = Calibrated by { $name } (B)
 shell-no-flange-pose = The flange pose at a capture is not known (B)
+shell-calibration-edited = The numbers of the calibration were changed and not confirmed (B)
 shell-not-calibrated = Where the camera sits in the robot's cell: not calibrated (B)
 shell-dark = Dark
 shell-light = Light

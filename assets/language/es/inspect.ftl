@@ -25,21 +25,10 @@ inspect-hold-replayed = Reproducida de una grabación: la pieza no cuelga ahí
 inspect-hold-choose-camera = Elegir una cámara como fuente
 inspect-hold-choose-camera-operator = Pedir al técnico que elija una cámara
 inspect-hold-not-calibrated = Sin calibrar: el robot no recibe la pose
-inspect-hold-not-calibrated-advice = Calibrar la celda en Robot…
 inspect-hold-not-calibrated-operator = No arrancar el robot: llamar al técnico para que calibre la celda
-inspect-hold-moving = La pieza se mueve
-inspect-hold-lost = Se perdió la fuente: ahora puede colgar otra pieza
-inspect-hold-lost-advice = Conectar de nuevo la fuente
-inspect-hold-superseded = Ahora puede colgar otra pieza
-inspect-hold-no-pose = No se estimó la pose
-inspect-hold-no-pose-advice = Elegir una receta que estime la pose
-inspect-hold-clock = La captura tiene una fecha { $seconds } s posterior a la actual, así que no se conoce su antigüedad
 inspect-hold-clock-operator = No arrancar el robot: llamar al técnico para que ponga los relojes en hora
 inspect-hold-old = Capturada hace más de 10 minutos: ahora puede colgar de otro modo
 inspect-hold-old-file = De un archivo de más de 10 minutos: ahora puede colgar de otro modo
-inspect-hold-old-advice = Capturar la pieza de nuevo
-inspect-hold-ambiguous = Otra pose de la pieza encaja igual de bien
-inspect-hold-ambiguous-advice = Girar la cara vista hacia la cámara, con toda la pieza en la imagen
 
 ## The card
 
@@ -93,10 +82,7 @@ inspect-mean = media
 inspect-worst-of = { $value }, peor { $worst }
 inspect-in-band = dentro de la banda
 inspect-points-in-band = { $inside } de { $num } puntos
-inspect-points-not-seen = { $count ->
-        [one] Sin comprobar en 1 punto
-       *[other] Sin comprobar en { $count } puntos
-    }, donde la cámara no ve la pieza
+inspect-points-not-seen = Sin comprobar en { $count } de { $all } puntos, donde la cámara no ve la pieza
 inspect-path-not-seen = La cámara no ve la pieza en ningún punto de la trayectoria
 inspect-angle = ángulo
 inspect-angle-counts = { $count ->
@@ -220,7 +206,7 @@ inspect-picture-saved = Imagen guardada: { $path }
 inspect-no-spray-path = No hay trayectoria de pintura para lo que se muestra
 inspect-no-spray-path-advice = Guardar una con la pieza y capturar una pieza que se acepte
 inspect-path-written = { $path } escrito: { $inside } de { $num } puntos comprobados en la banda, como { $convention }
-inspect-path-written-off-part = { $path } escrito, pero la trayectoria no apunta a la pieza (solo { $aiming } de { $all } puntos con la pistola abierta)
+inspect-path-not-written = No se escribió ninguna trayectoria: { $why }
 inspect-report-written = Escritos { $files }, las imágenes de sus etapas y una fila de { $table } en { $folder }
 inspect-report-set-aside = Escritos { $files }, las imágenes de sus etapas y una fila de { $table } en { $folder }; su última fila estaba incompleta y se apartó en { $aside }
 inspect-watching-folder = Vigilando una carpeta

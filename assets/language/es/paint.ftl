@@ -139,16 +139,11 @@ paint-joint-acceleration = eje { $joint } acelera demasiado despacio
 paint-rail-acceleration = el carril acelera demasiado despacio
 paint-acceleration-advice = Reduzca la velocidad donde acelera demasiado despacio, o redondee las esquinas con un radio mayor
 paint-joints-advice = Pruebe otro ángulo de la boquilla, más inclinación de la pistola, otro lugar de la base o menos velocidad
-paint-unchecked-accelerations =
-    { $what ->
-        [joints] No se comprueban las aceleraciones de los ejes: no se conocen sus límites
-        [rail] No se comprueba la aceleración del carril: no se conoce su límite
-       *[both] No se comprueban las aceleraciones de los ejes y del carril: no se conocen sus límites
-    }
 paint-arm-folds-over = el brazo tendría que voltearse
 paint-collisions = Colisiones
 paint-collisions-not-checked = no comprobadas
 paint-no-collisions-reached = ninguna donde alcanza
+paint-no-collisions-part = ninguna con pieza y brazo
 paint-num-collisions =
     { $count ->
         [0] ninguna

@@ -19,8 +19,12 @@ robot-saved = Guardada; la calibración anterior se conserva en { $path }
 
 robot-not-calibrated = La celda no está calibrada: las poses están en el sistema de la cámara y un robot no puede usarlas
 robot-file = archivo
-robot-edited = el archivo se editó: sus números cuentan como introducidos a mano
-robot-edited-advice = Calibrar de nuevo para tener los residuos
+robot-edited = los números de la calibración se cambiaron y no se confirmaron: ningún robot recibe poses
+robot-edited-advice = Compruebe los números en Robot…; confírmelos si son correctos, si no, calibre de nuevo
+robot-confirm = Confirmar…
+robot-confirm-says = ¿Está la cámara ahí? Los números contarán como introducidos a mano y los robots recibirán poses según ellos. El archivo anterior se conserva
+robot-confirm-not = Ahora no
+robot-confirm-right = Son correctos
 robot-load = Cargar…
 robot-forget = Olvidar
 robot-cell = celda
@@ -210,3 +214,38 @@ robot-long-rotation = la longitud del vector de rotación es { $length }; se esp
 robot-long-rotation-advice = Indicar el vector de rotación en radianes; estos números parecen grados
 robot-not-rigid = los 16 números no son una transformación rígida: estiran, reflejan o no terminan en 0 0 0 1
 robot-not-rigid-advice = Indicar una rotación y un desplazamiento, fila a fila con al menos 4 decimales; no confundir filas y columnas
+
+## Por qué un robot no debe actuar según un resultado
+robot-doubt-source-lost = la fuente se perdió, así que no se sabe qué cuelga ahí ahora
+robot-doubt-source-lost-advice = Conecte la fuente de nuevo y capture la pieza otra vez
+robot-doubt-moving = la pieza se mueve
+robot-doubt-moving-advice = Espere a que la pieza cuelgue quieta
+robot-doubt-superseded = puede que ya cuelgue ahí otra pieza
+robot-doubt-capture-again = Capture de nuevo la pieza entera
+robot-doubt-not-accepted = la pieza no fue aceptada
+robot-doubt-no-pose = la pieza no tiene pose
+robot-doubt-no-pose-advice = Elija una receta que estime la pose e inspeccione la pieza de nuevo
+robot-doubt-not-calibrated = la celda no está calibrada
+robot-doubt-not-calibrated-advice = Calibre dónde está la cámara en la celda del robot, arriba en Robot…
+robot-doubt-clock-ahead = la captura tiene una fecha { $seconds } s posterior a la actual, así que no se conoce su antigüedad
+robot-doubt-clock-ahead-advice = Ponga en hora este ordenador y el que escribió la captura con el mismo servidor de hora y capture la pieza de nuevo
+robot-doubt-old = la captura tiene más de 10 minutos, o no se conoce su antigüedad
+robot-doubt-ambiguous = otra pose de la pieza encaja casi igual de bien
+robot-doubt-ambiguous-advice = Gire la cara de la pieza hacia la cámara, toda dentro de la imagen
+robot-doubt-off-part = la trayectoria no apunta a la pieza (solo { $aiming } de { $all } puntos con la pistola abierta)
+robot-doubt-too-near = la trayectoria no apunta a la pieza (en { $near } de { $all } puntos con la pistola abierta, la boquilla está a menos de 20 mm delante de ella o detrás de su superficie)
+robot-doubt-off-part-advice = Compruebe que la trayectoria es de esta pieza, o planifique y guarde otra en Pintar
+robot-doubt-not-reached = { $arm } no alcanza { $missed } de { $all } puntos
+robot-doubt-not-reached-advice = Mueva la pieza o la base del brazo, o cambie la trayectoria
+
+## Lo que no se comprobó
+robot-not-checked = Sin comprobar: { $what }
+robot-unchecked-arm = alcance y colisiones
+robot-unchecked-surroundings = colisiones con algo que no sea la pieza o el brazo, como el soporte de la pieza
+robot-unchecked-accelerations =
+    { $what ->
+        [joints] aceleraciones de las articulaciones
+        [rail] aceleración del carril
+       *[both] aceleraciones de las articulaciones y del carril
+    }
+robot-unchecked-points = la distancia de boquilla en { $num } de { $all } puntos, donde la cámara no vio superficie

@@ -22,6 +22,7 @@ shell-stop-live-says = Dejar de seguir la fuente (L)
 shell-live-says = Seguir la fuente e inspeccionar tantas imágenes como sea posible (L)
 shell-calibrated-by = Calibrado con { $name } (B)
 shell-no-flange-pose = No se conoce la pose de la brida al capturar (B)
+shell-calibration-edited = Los números de la calibración se cambiaron y no se confirmaron (B)
 shell-not-calibrated = Dónde está la cámara en la celda del robot: sin calibrar (B)
 shell-dark = Oscuro
 shell-light = Claro

@@ -139,16 +139,11 @@ paint-joint-acceleration = 关节 { $joint } 加速太慢
 paint-rail-acceleration = 导轨加速太慢
 paint-acceleration-advice = 在加速太慢处降低速度，或加大拐角半径
 paint-joints-advice = 尝试喷嘴的其他角度、更大的喷枪倾斜、底座的其他位置或更低的速度
-paint-unchecked-accelerations =
-    { $what ->
-        [joints] 未检查关节加速度：限值未知
-        [rail] 未检查导轨加速度：限值未知
-       *[both] 未检查关节和导轨加速度：限值未知
-    }
 paint-arm-folds-over = 机械臂需要翻转
 paint-collisions = 碰撞
 paint-collisions-not-checked = 未检查
 paint-no-collisions-reached = 可达处无
+paint-no-collisions-part = 与零件和机械臂无
 paint-num-collisions =
     { $count ->
         [0] 无

@@ -19,8 +19,12 @@ robot-saved = 已保存；原标定保留在 { $path }
 
 robot-not-calibrated = 工位未标定：位姿位于相机坐标系，机器人无法使用
 robot-file = 文件
-robot-edited = 文件已被编辑：其数值视为手动输入
-robot-edited-advice = 重新标定以获得残差
+robot-edited = 标定的数值被更改且未确认：机器人得不到位姿
+robot-edited-advice = 请在“机器人…”中检查数值；正确则确认，否则重新标定
+robot-confirm = 确认…
+robot-confirm-says = 相机确实在此处吗？数值将视为手动输入，机器人将按其获得位姿。旧文件会保留
+robot-confirm-not = 暂不
+robot-confirm-right = 数值正确
 robot-load = 加载…
 robot-forget = 弃用
 robot-cell = 工位
@@ -199,3 +203,38 @@ robot-long-rotation = 旋转向量的长度为 { $length }，应不大于 2π
 robot-long-rotation-advice = 请以弧度给出旋转向量；这些数值看起来是角度
 robot-not-rigid = 这 16 个数值不是刚体变换：有拉伸、镜像，或不以 0 0 0 1 结尾
 robot-not-rigid-advice = 输入旋转和平移，逐行排列，保留至少 4 位小数；检查行与列是否颠倒
+
+## 机器人为何不得按结果动作
+robot-doubt-source-lost = 来源已断开，无法得知现在挂着什么
+robot-doubt-source-lost-advice = 请重新连接来源，并重新采集零件
+robot-doubt-moving = 零件在移动
+robot-doubt-moving-advice = 请等零件静止
+robot-doubt-superseded = 那里现在可能挂着另一个零件
+robot-doubt-capture-again = 请重新采集完整零件
+robot-doubt-not-accepted = 零件未接受
+robot-doubt-no-pose = 零件没有位姿
+robot-doubt-no-pose-advice = 请选择估计位姿的配方，并重新检测零件
+robot-doubt-not-calibrated = 工位未标定
+robot-doubt-not-calibrated-advice = 请在上方“机器人…”中标定相机在机器人工位中的位置
+robot-doubt-clock-ahead = 采集的时间比现在晚 { $seconds } 秒，因此无法得知其新旧
+robot-doubt-clock-ahead-advice = 请让本机和写出该采集的计算机与同一时间服务器对时，然后重新采集零件
+robot-doubt-old = 采集已超过 10 分钟，或新旧未知
+robot-doubt-ambiguous = 零件的另一个位姿几乎同样吻合
+robot-doubt-ambiguous-advice = 请将零件正面朝向相机，并使其完整位于画面内
+robot-doubt-off-part = 喷涂轨迹未对准零件（喷枪打开的 { $all } 个点中只有 { $aiming } 个对准）
+robot-doubt-too-near = 喷涂轨迹未对准零件（喷枪打开的 { $all } 个点中有 { $near } 个点喷嘴距零件不足 20 mm 或位于其表面之后）
+robot-doubt-off-part-advice = 请检查轨迹是否属于此零件，或在“喷涂”中重新规划并保存
+robot-doubt-not-reached = { $arm } 有 { $missed } 个点不可达，共 { $all } 个
+robot-doubt-not-reached-advice = 请移动零件或机械臂底座，或修改轨迹
+
+## 未检查的内容
+robot-not-checked = 未检查：{ $what }
+robot-unchecked-arm = 可达范围和碰撞
+robot-unchecked-surroundings = 与零件和机械臂以外物体（如零件支架）的碰撞
+robot-unchecked-accelerations =
+    { $what ->
+        [joints] 关节加速度
+        [rail] 导轨加速度
+       *[both] 关节和导轨的加速度
+    }
+robot-unchecked-points = { $all } 个点中 { $num } 个点的喷距，相机在那里未看到表面

@@ -22,6 +22,7 @@ shell-stop-live-says = 停止跟踪来源 (L)
 shell-live-says = 跟踪来源，检测尽可能多的帧 (L)
 shell-calibrated-by = 标定文件：{ $name } (B)
 shell-no-flange-pose = 采集时的法兰位姿未知 (B)
+shell-calibration-edited = 标定的数值被更改且未确认 (B)
 shell-not-calibrated = 相机在机器人工位中的位置：未标定 (B)
 shell-dark = 深色
 shell-light = 浅色

@@ -238,8 +238,7 @@ fn read(
 ) -> Result<ShotChoice, FuseError> {
     let calibration = || {
         let path = request.calibration.as_deref();
-        let loaded = path.map_or(Ok(None), CellCalibration::load_if_there)?;
-        Ok(loaded.map(|loaded| loaded.calibration))
+        Ok(path.map_or(Ok(None), CellCalibration::load_if_there)?)
     };
     let mut frames_of = |paths: &[PathBuf], poses: Option<&Path>| {
         let frames = read_frames(paths, &mut |news| {

@@ -6,18 +6,18 @@ use std::{
 };
 
 use image::{DynamicImage, ImageFormat};
-use jiff::Timestamp;
-use nalgebra::Point3;
 
 use super::{inspected::Inspected, source::Origin};
 use crate::{
     app::{
-        language::{robot::convention_title, text},
+        language::{
+            robot::{convention_title, doubt, not_checked},
+            text,
+        },
         ui::viewport::{ViewColours, ViewShot},
         user_error::UserError,
     },
     files::{file_name, write_atomically},
-    geometry::rigid::RigidTransform,
     history::Traceability,
     report::{
         InspectionLine, ReportError, ReportFolder,
@@ -27,13 +27,12 @@ use crate::{
     robot::{
         Convention, RobotFrame,
         arm::{PathCheck, PlacedArm},
-        program::{
-            ClockAhead, Program, ProgramFormat, ProgramSettings, check_reach, clock_ahead,
-            clock_ahead_of_file, is_stale, is_stale_file, program_points, remove_previous_program,
-        },
-        spray::{CarriedPath, OffThePart, SprayExport, remove_previous_export},
+        program::{ProgramFormat, ProgramSettings},
     },
-    stages::pose::PoseEstimate,
+    station::{
+        Currency, Doubt,
+        robot_file::{CapturedPart, RobotFile, RobotFileContent, RobotFileError, remove_previous},
+    },
 };
 
 /// Writes a picture of a 3-D view as PNG; returns a message about it.
@@ -52,97 +51,13 @@ pub(in crate::app) fn picture(path: &Path, shot: &ViewShot) -> Result<String, Us
     ))
 }
 
-/// Writes a spray path for the robot, as CSV or JSON like `partsight inspect --spray`, or as a program for its controller like
-/// `--program`; returns a message about it. Writes nothing if the pose may not be that of the part now.
-pub(in crate::app) fn spray_path(
-    path: &Path,
-    inspected: &Inspected,
-    robot: &RobotFrame,
-    convention: Convention,
-    target: Result<ProgramTarget, UserError>,
-) -> Result<String, UserError> {
-    let first = inspected.inspection.ranking.entries.first();
-    let part = first.and_then(|first| inspected.library.parts.get(first.reference));
-    let (Some(carried), Some(part)) = (&inspected.spray, part) else {
-        return Err(UserError {
-            what: text!("inspect-no-spray-path"),
-            advice: text!("inspect-no-spray-path-advice"),
-        });
-    };
-    let is_simulated = inspected.origin.is_simulated() || part.simulated;
-    let pose = inspected
-        .inspection
-        .pose
-        .as_ref()
-        .and_then(|pose| pose.as_ref().ok());
-    let off = inspected.off_the_part;
-    let (ahead, is_stale) = match &inspected.origin {
-        Origin::File { path, .. } => (clock_ahead_of_file(path), is_stale_file(path)),
-        Origin::Simulated { .. } | Origin::Scan { .. } | Origin::Frame { .. } => {
-            let at = inspected.at.into();
-            (clock_ahead(at), is_stale(at))
-        }
-    };
-    // Another capture does not help a path that does not aim at the part: that is said first.
-    let refused = if off.is_some() {
-        None
-    } else if let Some(ClockAhead { ahead }) = ahead {
-        let what = text!("program-clock-ahead", seconds = ahead.as_secs());
-        Some((what, text!("program-clock-ahead-advice")))
-    } else if is_stale {
-        Some((text!("program-stale"), text!("program-stale-advice")))
-    } else if pose.is_some_and(PoseEstimate::is_ambiguous) {
-        let advice = text!("program-ambiguous-advice");
-        Some((text!("program-ambiguous"), advice))
-    } else {
-        None
-    };
-    if let Some((what, advice)) = refused {
-        // The file of an earlier part must not remain either.
-        remove_previous_program(path).map_err(|error| UserError::of(&error))?;
-        remove_previous_export(path).map_err(|error| UserError::of(&error))?;
-        return Err(UserError { what, advice });
-    }
-    if let (Ok(_), Some(pose)) = (ProgramFormat::of(path), pose) {
-        let subject = ProgramSubject {
-            part: part.name.as_str(),
-            part_points: &inspected.part_points,
-            off,
-            scene: Some(&scene_name(&inspected.origin).display().to_string()),
-            camera_from_part: pose.camera_from_part(),
-            is_simulated,
-        };
-        return program(path, carried, robot, &target?, &subject);
-    }
-    let doubts: Vec<String> = off.iter().map(ToString::to_string).collect();
-    let export = SprayExport {
-        path: carried,
-        part: part.name.as_str(),
-        scene: &scene_name(&inspected.origin).display().to_string(),
-        frame: robot,
-        convention,
-        params: &inspected.recipe.stand_off,
-        is_stored: true,
-        is_simulated,
-        doubts: &doubts,
-        at: inspected.at,
-    };
-    export.save(path).map_err(|error| UserError::of(&error))?;
-    if let Some(off) = off {
-        return Ok(text!(
-            "inspect-path-written-off-part",
-            path = path.display().to_string(),
-            aiming = off.num_aiming,
-            all = off.num_spraying
-        ));
-    }
-    Ok(text!(
-        "inspect-path-written",
-        path = path.display().to_string(),
-        inside = carried.num_inside(),
-        num = carried.num_seen(),
-        convention = convention_title(convention)
-    ))
+/// A file that was written for a robot.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct WrittenForRobot {
+    /// Describes what was written.
+    pub what: String,
+    /// What was not checked, in words; `None` if everything was.
+    pub not_checked: Option<String>,
 }
 
 /// Tool, gun and arm that run a program.
@@ -153,101 +68,124 @@ pub(in crate::app) struct ProgramTarget {
     pub arm: Option<PlacedArm>,
 }
 
-/// The part that a program is for.
-pub(in crate::app) struct ProgramSubject<'a> {
-    pub part: &'a str,
-    /// Points that it was enrolled with, part frame.
-    pub part_points: &'a [Point3<f32>],
-    /// Whether its path does not aim at it.
-    pub off: Option<OffThePart>,
-    /// Name of the scene; `None` for the standard position.
-    pub scene: Option<&'a str>,
-    pub camera_from_part: RigidTransform,
-    pub is_simulated: bool,
+impl ProgramTarget {
+    /// The content of a program in this language.
+    pub(in crate::app) fn content(&self, format: ProgramFormat) -> RobotFileContent<'_> {
+        RobotFileContent::Program {
+            format,
+            settings: &self.settings,
+            arm: self.arm.as_ref(),
+        }
+    }
 }
 
-/// Writes a carried path as a program for the robot's controller, in the language given by the file's ending; returns a
-/// message about it. First removes an earlier program of that name; writes nothing if the path does not aim at the part, or if the
-/// arm cannot run it without a collision.
-pub(in crate::app) fn program(
+/// Writes the spray path of an inspection for the robot, as CSV or JSON like `partsight inspect --spray`, or as a program for
+/// its controller like `--program`. First removes an earlier file of that name; writes nothing if there are doubts.
+pub(in crate::app) fn spray_path(
     path: &Path,
-    carried: &CarriedPath,
+    inspected: &Inspected,
+    currency: &Currency,
     robot: &RobotFrame,
-    target: &ProgramTarget,
-    subject: &ProgramSubject<'_>,
-) -> Result<String, UserError> {
-    let format = ProgramFormat::of(path).map_err(|error| UserError::of(&error))?;
-    remove_previous_program(path).map_err(|error| UserError::of(&error))?;
-    if let Some(off) = subject.off {
+    convention: Convention,
+    target: Result<ProgramTarget, UserError>,
+) -> Result<WrittenForRobot, UserError> {
+    remove_earlier(path)?;
+    let first = inspected.inspection.ranking.entries.first();
+    let part = first.and_then(|first| inspected.library.parts.get(first.reference));
+    let pose = inspected.inspection.found_pose();
+    let (Some(carried), Some(part), Some(pose)) = (&inspected.spray, part, pose) else {
         return Err(UserError {
-            what: text!(
-                "program-off-part",
-                aiming = off.num_aiming,
-                all = off.num_spraying
-            ),
-            advice: text!("program-off-part-advice"),
+            what: text!("inspect-no-spray-path"),
+            advice: text!("inspect-no-spray-path-advice"),
         });
-    }
-    let ProgramTarget { settings, arm } = target;
-    let robot_from_part = robot.robot_from_part(&subject.camera_from_part);
-    let reach = match arm.clone() {
-        Some(arm) => {
-            let arm = arm.with_part(subject.part_points, &robot_from_part);
-            let reach = check_reach(&arm, carried, robot, settings);
-            Some((arm, reach.map_err(|error| UserError::of(&error))?))
-        }
-        None => None,
     };
-    let checked = reach.as_ref();
-    let refused = checked.and_then(|(arm, check)| not_reached(&arm.arm.name, check));
-    if let Some(error) = refused {
-        return Err(error);
-    }
-    let points = program_points(carried, robot, reach.as_ref().map(|(_, reach)| reach));
-    let program = Program {
-        points: &points,
-        settings,
-        reach: reach.as_ref(),
-        part: subject.part,
-        scene: subject.scene,
-        robot_from_part,
-        calibration: &robot.name,
-        is_simulated: subject.is_simulated,
-        doubts: &[],
-        at: Timestamp::now(),
+    let program = match ProgramFormat::of(path) {
+        Ok(format) => Some((format, target?)),
+        Err(_) => None,
     };
-    let saved = program.save(path, format);
-    let num_parts = saved.map_err(|error| UserError::of(&error))?;
-    Ok(if num_parts > 0 {
-        text!(
-            "program-written-parts",
-            path = path.display().to_string(),
-            parts = num_parts,
-            count = points.len(),
-            format = format.title()
-        )
-    } else {
-        text!(
-            "program-written",
-            path = path.display().to_string(),
-            count = points.len(),
-            format = format.title()
-        )
+    let content = match &program {
+        Some((format, target)) => target.content(*format),
+        None => RobotFileContent::Poses {
+            convention,
+            params: &inspected.recipe.stand_off,
+        },
+    };
+    robot_file(&RobotFile {
+        file: path,
+        content,
+        carried,
+        frame: robot,
+        part: part.name.as_str(),
+        part_points: &inspected.part_points,
+        off: inspected.off_the_part,
+        capture: Some(CapturedPart {
+            scene: &scene_name(&inspected.origin).display().to_string(),
+            inspection: &inspected.inspection,
+            currency,
+        }),
+        camera_from_part: pose.camera_from_part(),
+        is_stored: true,
+        is_simulated: inspected.origin.is_simulated() || part.simulated,
+        is_forced: false,
     })
+}
+
+/// Removes an earlier file of this name, so that no robot acts on it, whatever follows.
+pub(in crate::app) fn remove_earlier(path: &Path) -> Result<(), UserError> {
+    remove_previous(path).map_err(|error| UserError::of(&error))
+}
+
+/// Writes a file for a robot, unless there are doubts.
+pub(in crate::app) fn robot_file(file: &RobotFile<'_>) -> Result<WrittenForRobot, UserError> {
+    let written = file.write().map_err(|error| match error {
+        RobotFileError::Doubts(doubts) => not_written(file.content, &doubts),
+        error => UserError::of(&error),
+    })?;
+    let path = file.file.display().to_string();
+    let count = file.carried.points.len();
+    let what = match file.content {
+        RobotFileContent::Poses { convention, .. } => text!(
+            "inspect-path-written",
+            path = path,
+            inside = file.carried.num_inside(),
+            num = file.carried.num_seen(),
+            convention = convention_title(convention)
+        ),
+        RobotFileContent::Program { format, .. } if written.num_called > 0 => text!(
+            "program-written-parts",
+            path = path,
+            parts = written.num_called,
+            count = count,
+            format = format.title()
+        ),
+        RobotFileContent::Program { format, .. } => text!(
+            "program-written",
+            path = path,
+            count = count,
+            format = format.title()
+        ),
+    };
+    Ok(WrittenForRobot {
+        what,
+        not_checked: not_checked(&written.unchecked),
+    })
+}
+
+/// The refusal to write a file because of doubts, of which the first is shown.
+fn not_written(content: RobotFileContent<'_>, doubts: &[Doubt]) -> UserError {
+    let [why, advice] = doubts.first().map(doubt).unwrap_or_default();
+    let what = match content {
+        RobotFileContent::Poses { .. } => text!("inspect-path-not-written", why = why),
+        RobotFileContent::Program { .. } => text!("program-not-written", why = why),
+    };
+    UserError { what, advice }
 }
 
 /// The refusal to write a program of a path that the arm of this name does not reach; `None` if it reaches all of it.
 pub(in crate::app) fn not_reached(arm: &str, check: &PathCheck) -> Option<UserError> {
-    let (num_reached, all) = (check.num_reached(), check.points.len());
-    (num_reached < all).then(|| UserError {
-        what: text!(
-            "program-not-reached",
-            arm = arm,
-            missed = all - num_reached,
-            all = all
-        ),
-        advice: text!("program-not-reached-advice"),
-    })
+    let [why, advice] = doubt(&Doubt::NotReached(check.missed(arm)?));
+    let what = text!("program-not-written", why = why);
+    Some(UserError { what, advice })
 }
 
 /// Makes the pose report of the shown inspection.

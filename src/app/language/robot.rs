@@ -1,7 +1,11 @@
 //! Texts about the poses of a robot in the language of the window. In English they equal those of the library itself.
 
-use crate::robot::{
-    Convention, ConventionError, FARTHEST, NOZZLE_DISTANCE, WrittenPoseError, calibration::UNNAMED,
+use crate::{
+    robot::{
+        Convention, ConventionError, FARTHEST, NOZZLE_DISTANCE, WrittenPoseError,
+        calibration::UNNAMED,
+    },
+    station::{Doubt, robot_file::Unchecked},
 };
 
 /// Returns the name of a convention.
@@ -43,6 +47,93 @@ pub(in crate::app) fn calibration_name(name: &str) -> String {
         Some(identity) => text!("robot-unnamed") + identity,
         None => name.to_owned(),
     }
+}
+
+/// Explains why a robot must not act on a result, and what to do.
+pub(in crate::app) fn doubt(doubt: &Doubt) -> [String; 2] {
+    match doubt {
+        Doubt::ReportedWrong => [
+            text!("operator-reported-wrong"),
+            text!("robot-doubt-capture-again"),
+        ],
+        Doubt::SourceLost => [
+            text!("robot-doubt-source-lost"),
+            text!("robot-doubt-source-lost-advice"),
+        ],
+        Doubt::Moving => [
+            text!("robot-doubt-moving"),
+            text!("robot-doubt-moving-advice"),
+        ],
+        Doubt::Superseded => [
+            text!("robot-doubt-superseded"),
+            text!("robot-doubt-capture-again"),
+        ],
+        Doubt::NotAccepted => [
+            text!("robot-doubt-not-accepted"),
+            text!("robot-doubt-capture-again"),
+        ],
+        Doubt::NoPose => [
+            text!("robot-doubt-no-pose"),
+            text!("robot-doubt-no-pose-advice"),
+        ],
+        Doubt::NotCalibrated => [
+            text!("robot-doubt-not-calibrated"),
+            text!("robot-doubt-not-calibrated-advice"),
+        ],
+        Doubt::ClockAhead(ahead) => [
+            text!(
+                "robot-doubt-clock-ahead",
+                seconds = ahead.ahead.as_secs().to_string()
+            ),
+            text!("robot-doubt-clock-ahead-advice"),
+        ],
+        Doubt::Old => [text!("robot-doubt-old"), text!("robot-doubt-capture-again")],
+        Doubt::Ambiguous => [
+            text!("robot-doubt-ambiguous"),
+            text!("robot-doubt-ambiguous-advice"),
+        ],
+        Doubt::OffThePart(off) => [
+            if off.num_too_near > 0 {
+                text!(
+                    "robot-doubt-too-near",
+                    near = off.num_too_near,
+                    all = off.num_spraying
+                )
+            } else {
+                text!(
+                    "robot-doubt-off-part",
+                    aiming = off.num_aiming,
+                    all = off.num_spraying
+                )
+            },
+            text!("robot-doubt-off-part-advice"),
+        ],
+        Doubt::NotReached(missed) => [
+            text!(
+                "robot-doubt-not-reached",
+                arm = missed.arm.as_str(),
+                missed = missed.num_points - missed.num_reached,
+                all = missed.num_points
+            ),
+            text!("robot-doubt-not-reached-advice"),
+        ],
+    }
+}
+
+/// Lists what was not checked; `None` if everything was.
+pub(in crate::app) fn not_checked(unchecked: &[Unchecked]) -> Option<String> {
+    let words = unchecked.iter().map(|unchecked| match unchecked {
+        Unchecked::Arm => text!("robot-unchecked-arm"),
+        Unchecked::Surroundings => text!("robot-unchecked-surroundings"),
+        Unchecked::Accelerations(what) => {
+            text!("robot-unchecked-accelerations", what = *what)
+        }
+        Unchecked::NotSeen { num, num_points } => {
+            text!("robot-unchecked-points", num = *num, all = *num_points)
+        }
+    });
+    let what = words.collect::<Vec<String>>().join("; ");
+    (!what.is_empty()).then(|| text!("robot-not-checked", what = what))
 }
 
 /// Explains why a text is not a pose, and what to do.
@@ -141,8 +232,12 @@ fn convention_error(error: &ConventionError) -> [String; 2] {
 
 #[cfg(test)]
 mod tests {
+    use std::time::Duration;
+
     use super::*;
-    use crate::{app::language::Language, error::Advice as _, robot::parse_nozzle};
+    use crate::{
+        app::language::Language, error::Advice as _, robot::parse_nozzle, station::ClockAhead,
+    };
 
     #[test]
     fn in_english_they_equal_those_of_the_library() {
@@ -171,6 +266,38 @@ mod tests {
             assert_eq!(written_pose_error(&error), expected);
         }
         assert_eq!(calibration_name(UNNAMED), UNNAMED);
+    }
+
+    #[test]
+    fn doubts_and_what_was_not_checked_read_as_in_the_commands() {
+        let ahead = Duration::from_secs(3600);
+        for kind in [
+            Doubt::SourceLost,
+            Doubt::Moving,
+            Doubt::Superseded,
+            Doubt::NotAccepted,
+            Doubt::NoPose,
+            Doubt::ClockAhead(ClockAhead { ahead }),
+            Doubt::Old,
+            Doubt::Ambiguous,
+        ] {
+            assert_eq!(doubt(&kind), [kind.to_string(), kind.advice()]);
+        }
+        for unchecked in [
+            Unchecked::Arm,
+            Unchecked::Surroundings,
+            Unchecked::NotSeen {
+                num: 426,
+                num_points: 660,
+            },
+        ] {
+            let expected = format!("Not checked: {unchecked}");
+            assert_eq!(not_checked(&[unchecked]), Some(expected));
+        }
+        assert_eq!(not_checked(&[]), None);
+        let both = [Unchecked::Arm, Unchecked::Accelerations("rail")];
+        let expected = "Not checked: reach and collisions; acceleration of the rail";
+        assert_eq!(not_checked(&both).as_deref(), Some(expected));
     }
 
     #[test]

@@ -58,9 +58,9 @@ impl<'a> ShellContext<'a> {
     }
 
     /// Shows the result of a task, which describes what was written, or its error.
-    pub fn notify_written(&mut self, task: &mut Task<String>) {
+    pub fn notify_written(&mut self, task: &mut Task<Notice>) {
         match task.poll() {
-            Some(Ok(what)) => self.notify(Notice::done(what)),
+            Some(Ok(written)) => self.notify(written),
             Some(Err(error)) => self.notify(error),
             None => {}
         }

@@ -4,7 +4,10 @@ use std::path::{Path, PathBuf};
 
 use crate::{
     app::{
-        inspection::source::{Origin, file_name},
+        inspection::{
+            report_files::WrittenForRobot,
+            source::{Origin, file_name},
+        },
         language::text,
         user_error::UserError,
     },
@@ -114,6 +117,14 @@ impl Notice {
             advice: advice.into(),
             in_millimetres: None,
             num_more: 0,
+        }
+    }
+
+    /// Makes a notice of a file written for a robot: what was not checked needs attention.
+    pub fn of_robot_file(written: WrittenForRobot) -> Self {
+        match written.not_checked {
+            Some(not_checked) => Self::look(written.what, not_checked),
+            None => Self::done(written.what),
         }
     }
 

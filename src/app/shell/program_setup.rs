@@ -17,7 +17,7 @@ use crate::{
         Convention,
         arm::{ARM_NAMES, Arm, ArmError, GUN_RADIUS, Obstacles, PlacedArm},
         parse_nozzle,
-        program::{PROGRAM_ENDINGS, ProgramFormat, ProgramSettings},
+        program::{PROGRAM_ENDINGS, ProgramFormat, ProgramSettings, ranges},
     },
     units::{Metres, Radians},
 };
@@ -77,19 +77,6 @@ impl Default for ProgramSetup {
 }
 
 impl ProgramSetup {
-    /// Valid clearances, mm.
-    pub const CLEARANCE: RangeInclusive<f64> = 0.0..=500.0;
-    /// Valid radii of the gun, mm.
-    pub const GUN_RADIUS: RangeInclusive<f64> = 1.0..=500.0;
-    /// Valid speeds, mm/s.
-    pub const SPEED: RangeInclusive<f64> = 1.0..=2000.0;
-    /// Valid distances of the approach points, mm.
-    pub const APPROACH: RangeInclusive<f64> = 10.0..=1000.0;
-    /// Valid blend radii, mm.
-    pub const BLEND: RangeInclusive<f64> = 0.0..=100.0;
-    /// Valid limits of the nozzle's tilt, degrees.
-    pub const MAX_TILT: RangeInclusive<f64> = 0.0..=30.0;
-
     /// Valid values of the number of `base` at this place.
     pub fn base_range(place: usize) -> RangeInclusive<f64> {
         if place < 3 {
@@ -109,32 +96,37 @@ impl ProgramSetup {
             (
                 "clearance_mm",
                 &mut self.clearance_mm,
-                Self::CLEARANCE,
+                ranges::CLEARANCE_MM,
                 usual.clearance_mm,
             ),
             (
                 "gun_radius_mm",
                 &mut self.gun_radius_mm,
-                Self::GUN_RADIUS,
+                ranges::GUN_RADIUS_MM,
                 usual.gun_radius_mm,
             ),
             (
                 "speed_mm_s",
                 &mut self.speed_mm_s,
-                Self::SPEED,
+                ranges::SPEED_MM_S,
                 usual.speed_mm_s,
             ),
             (
                 "approach_mm",
                 &mut self.approach_mm,
-                Self::APPROACH,
+                ranges::APPROACH_MM,
                 usual.approach_mm,
             ),
-            ("blend_mm", &mut self.blend_mm, Self::BLEND, usual.blend_mm),
+            (
+                "blend_mm",
+                &mut self.blend_mm,
+                ranges::BLEND_MM,
+                usual.blend_mm,
+            ),
             (
                 "max_tilt_deg",
                 &mut self.max_tilt_deg,
-                Self::MAX_TILT,
+                ranges::MAX_TILT_DEG,
                 usual.max_tilt_deg,
             ),
         ] {

@@ -168,6 +168,7 @@ fn robot_button(ui: &mut Ui, state: &State, robot: &RobotCell, actions: &mut Vec
         (Some(frame), _) => {
             text!("shell-calibrated-by", name = calibration_name(&frame.name))
         }
+        (None, Some(in_use)) if in_use.is_edited => text!("shell-calibration-edited"),
         (None, Some(_)) => text!("shell-no-flange-pose"),
         (None, None) => text!("shell-not-calibrated"),
     };

@@ -5,14 +5,17 @@ use std::path::PathBuf;
 use clap::Args;
 use serde::Serialize;
 
-use super::{Console, Outcome, load};
+use super::{Console, Outcome, path_of};
 use crate::{
-    cli::{console::in_columns, input::parse_convention},
+    cli::{
+        console::{Advised as _, in_columns},
+        input::parse_convention,
+    },
     geometry::rigid::{RigidTransform, row_major},
     report::SCHEMA,
     robot::{
         Convention,
-        calibration::{CameraPlace, CellCalibration, Origin},
+        calibration::{CalibrationError, CameraPlace, CellCalibration, Origin, ReadCalibration},
     },
 };
 
@@ -48,10 +51,16 @@ struct Line<'a> {
     robot_from_flange: Option<[f64; 16]>,
     origin: &'a Origin,
     made_at: jiff::Timestamp,
+    /// True if its numbers were changed and not confirmed: then no robot gets poses by them.
+    edited: bool,
 }
 
 pub(super) fn run(args: &ShowArgs, console: &mut Console) -> anyhow::Result<Outcome> {
-    let (path, loaded) = load(args.calibration.as_deref(), console)?;
+    let path = path_of(args.calibration.as_deref())?;
+    let ReadCalibration {
+        calibration: loaded,
+        is_edited,
+    } = CellCalibration::read(&path).advised()?;
     if args.json {
         let (fixed, on_flange, capture_pose) = match &loaded.camera {
             CameraPlace::Fixed { robot_from_camera } => (Some(robot_from_camera), None, None),
@@ -71,12 +80,17 @@ pub(super) fn run(args: &ShowArgs, console: &mut Console) -> anyhow::Result<Outc
             robot_from_flange: capture_pose.map(row_major),
             origin: &loaded.origin,
             made_at: loaded.made_at,
+            edited: is_edited,
         };
         console.line(&serde_json::to_string(&line)?);
         return Ok(Outcome::Accepted);
     }
     console.line(&path.display());
     calibration(&loaded, args.convention, console);
+    if is_edited {
+        let edited = CalibrationError::Edited { path };
+        console.warn(&edited, &edited);
+    }
     Ok(Outcome::Accepted)
 }
 

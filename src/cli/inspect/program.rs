@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::spray::{SprayResult, check_placed_part, doubts_of, names_of};
+use super::spray::{SprayResult, check_placed_part, names_of};
 use crate::{
     cli::{
         Outcome,
@@ -12,10 +12,10 @@ use crate::{
         program::{ProgramFile, ProgramOptions, ProgramSubject, parse_format},
     },
     library::{LibraryLoad, LibraryPlace, PartName},
-    robot::{
-        RobotFrame,
-        program::{ProgramFormat, remove_previous_program},
-        spray::carry,
+    robot::{RobotFrame, program::ProgramFormat, spray::carry},
+    station::{
+        Currency,
+        robot_file::{CapturedPart, remove_previous},
     },
 };
 
@@ -57,7 +57,7 @@ impl ProgramChoice {
     /// Removes the program of an earlier capture: whatever this capture yields, no robot may run it.
     pub(super) fn remove_previous(&self) -> anyhow::Result<()> {
         if let Some(file) = &self.program {
-            remove_previous_program(file).advised()?;
+            remove_previous(file).advised()?;
         }
         Ok(())
     }
@@ -87,9 +87,8 @@ impl CapturedProgram {
     pub(super) fn write(
         &self,
         seen: &SprayResult<'_>,
-        is_scene_simulated: bool,
         frame: &RobotFrame,
-        console: &mut Console,
+        console: &Console,
     ) -> anyhow::Result<Outcome> {
         let inspection = seen.inspection;
         let pose = inspection.found_pose();
@@ -113,19 +112,19 @@ impl CapturedProgram {
         };
         let camera_from_part = pose.camera_from_part();
         let carried = carry(&path, &camera_from_part, &part.cloud, seen.params);
-        let mut doubts = Vec::new();
-        if !inspection.verdict.is_accepted() {
-            doubts.push("the part was not accepted".to_owned());
-        }
-        doubts.extend(doubts_of(seen.scene, pose.is_ambiguous()));
+        let currency = Currency::File(seen.scene.into());
         let subject = ProgramSubject {
             part: name,
             reference: &seen.library.references[first.reference],
             path: &path,
-            scene: Some(seen.scene),
+            capture: Some(CapturedPart {
+                scene: seen.scene,
+                inspection,
+                currency: &currency,
+            }),
             camera_from_part,
-            is_simulated: *is_simulated || is_scene_simulated,
+            is_simulated: *is_simulated || seen.is_simulated,
         };
-        self.file.write(&carried, &subject, frame, doubts, console)
+        self.file.write(&carried, &subject, frame, console)
     }
 }

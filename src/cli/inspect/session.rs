@@ -212,6 +212,7 @@ impl InspectSession {
         }
         let seen = spray::SprayResult {
             scene: &name,
+            is_simulated: file_says_simulated,
             inspection: &inspection,
             library: &self.library,
             params: &self.recipe.stand_off,
@@ -219,9 +220,7 @@ impl InspectSession {
         Ok(match (&self.spray, &self.program, &self.robot) {
             (Some(spray), _, Some(robot)) => outcome.max(spray.write(&seen, robot, console)?),
             // A refused part keeps its outcome even if its program was forced.
-            (_, Some(program), Some(robot)) => {
-                outcome.max(program.write(&seen, file_says_simulated, robot, console)?)
-            }
+            (_, Some(program), Some(robot)) => outcome.max(program.write(&seen, robot, console)?),
             _ => {
                 self.write_report(path, &line, pictures)?;
                 outcome

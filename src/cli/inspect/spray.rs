@@ -1,26 +1,27 @@
 //! `partsight inspect --spray`: writes the part's spray path for the robot.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
-use jiff::Timestamp;
 
 use crate::{
     cli::{
         Outcome,
         console::{Advised as _, Console, advised_error, store_a_path},
         input::parse_convention,
-        program::{advice_on_path, against_seen},
+        robot_file,
     },
     library::{Library, LibraryLoad, LibraryPlace, PartName},
     pipeline::Inspection,
     robot::{
         Convention, RobotFrame,
-        program::{clock_ahead_of_file, is_stale_file},
-        spray::{SprayExport, carry, default_path, off_the_part, remove_previous_export},
+        spray::{carry, default_path, off_the_part},
     },
     stages::stand_off::StandOffParams,
-    units::counted,
+    station::{
+        Currency,
+        robot_file::{CapturedPart, RobotFile, RobotFileContent, remove_previous},
+    },
 };
 
 /// Whether and how the spray path is written.
@@ -49,6 +50,8 @@ pub(super) struct SprayFile {
 /// The inspection whose part the path is carried to.
 pub(super) struct SprayResult<'a> {
     pub(super) scene: &'a str,
+    /// True if the file says that it is simulated.
+    pub(super) is_simulated: bool,
     pub(super) inspection: &'a Inspection,
     pub(super) library: &'a Library,
     pub(super) params: &'a StandOffParams,
@@ -63,7 +66,7 @@ impl SprayChoice {
     /// Removes the path of an earlier capture: whatever this capture yields, it must not be mistaken for its own.
     pub(super) fn remove_previous(&self) -> anyhow::Result<()> {
         if let Some(file) = &self.spray {
-            remove_previous_export(file).advised()?;
+            remove_previous(file).advised()?;
         }
         Ok(())
     }
@@ -89,19 +92,6 @@ impl SprayChoice {
             is_forced,
         }))
     }
-}
-
-/// Returns the reasons why the pose found in a capture may not be that of the part now. A capture dated later than now is
-/// not among them: it has advice of its own.
-pub(super) fn doubts_of(scene: &str, is_ambiguous: bool) -> Vec<String> {
-    let scene = Path::new(scene);
-    let is_old = clock_ahead_of_file(scene).is_none() && is_stale_file(scene);
-    let all = [
-        (is_ambiguous, "another pose of the part fits nearly as well"),
-        (is_old, "the capture is more than 10 minutes old"),
-    ];
-    let doubts = all.into_iter().filter(|(is_doubt, _)| *is_doubt);
-    doubts.map(|(_, doubt)| doubt.to_owned()).collect()
 }
 
 /// Refuses an option that writes a carried path if there are several captures or no calibration.
@@ -140,29 +130,29 @@ pub(super) fn names_of(load: &LibraryLoad) -> Vec<(PartName, bool)> {
 }
 
 impl SprayFile {
-    /// Carries the path and writes it; nothing is written for a part that was not accepted.
+    /// Carries the path and writes it, unless there is a reason against it.
     pub(super) fn write(
         &self,
         seen: &SprayResult<'_>,
         frame: &RobotFrame,
-        console: &mut Console,
+        console: &Console,
     ) -> anyhow::Result<Outcome> {
         let SprayResult {
             scene,
+            is_simulated,
             inspection,
             library,
             params,
-        } = seen;
+        } = *seen;
         let pose = inspection.found_pose();
         let first = inspection.ranking.entries.first();
-        let found = pose.zip(first).filter(|_| inspection.verdict.is_accepted());
         let part = inspection.segmentation.part.as_ref().ok();
-        let (Some((pose, first)), Some(part)) = (found, part) else {
-            console.note(&"no spray path was written: the part was not accepted with a pose");
+        let (Some((pose, first)), Some(part)) = (pose.zip(first), part) else {
+            console.note(&"no spray path was written: no part was found with a pose");
             return Ok(Outcome::NotAccepted);
         };
         let reference = &library.references[first.reference];
-        let (name, is_simulated) = &self.parts[first.reference];
+        let (name, is_part_simulated) = &self.parts[first.reference];
         let stored = self.place.spray_path(name.as_str()).advised()?;
         if let (None, Some(other)) = (&stored, inspection.other_reference()) {
             let part = &first.part;
@@ -180,45 +170,32 @@ impl SprayFile {
                 store_a_path(name.as_str()),
             ));
         };
-        let mut doubts = doubts_of(scene, pose.is_ambiguous());
-        let ahead = clock_ahead_of_file(Path::new(scene));
-        if let Some(ahead) = &ahead {
-            doubts.insert(0, ahead.to_string());
-        }
-        let off = off_the_part(&path, reference);
-        if let Some(off) = &off {
-            doubts.insert(0, off.to_string());
-        }
-        if let (false, Some(doubt)) = (self.is_forced, doubts.first()) {
-            console.note(&format_args!("no spray path was written: {doubt}"));
-            let advice = advice_on_path(off.as_ref(), ahead.as_ref(), name);
-            let advice = advice.unwrap_or_else(|| "Capture all of the part again".to_owned());
-            console.note(&format_args!("  to do: {advice}; --force writes it anyway"));
-            return Ok(Outcome::NotAccepted);
-        }
-        let carried = carry(&path, &pose.camera_from_part(), &part.cloud, params);
-        let export = SprayExport {
-            path: &carried,
-            part: name.as_str(),
-            scene,
+        let camera_from_part = pose.camera_from_part();
+        let carried = carry(&path, &camera_from_part, &part.cloud, params);
+        let currency = Currency::File(scene.into());
+        let file = RobotFile {
+            file: &self.file,
+            content: RobotFileContent::Poses {
+                convention: self.convention,
+                params,
+            },
+            carried: &carried,
             frame,
-            convention: self.convention,
-            params,
+            part: name.as_str(),
+            part_points: &reference.cloud.points,
+            off: off_the_part(&path, reference),
+            capture: Some(CapturedPart {
+                scene,
+                inspection,
+                currency: &currency,
+            }),
+            camera_from_part,
             is_stored,
-            is_simulated: *is_simulated,
-            doubts: &doubts,
-            at: Timestamp::now(),
+            is_simulated: *is_part_simulated || is_simulated,
+            is_forced: self.is_forced,
         };
-        export.save(&self.file).advised()?;
-        console.note(&format_args!(
-            "{}: {} as {}; {}",
-            self.file.display(),
-            counted(carried.points.len(), "point", "points"),
-            self.convention.title(),
-            against_seen(&carried)
-        ));
-        for doubt in &doubts {
-            console.note(&format_args!("warning: written by --force: {doubt}"));
+        if robot_file::write(&file, console)?.is_none() {
+            return Ok(Outcome::NotAccepted);
         }
         if !is_stored {
             console.note(&format_args!(

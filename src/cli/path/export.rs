@@ -15,11 +15,9 @@ use crate::{
     },
     geometry::rigid::RigidTransform,
     library::PartName,
-    robot::{
-        program::{ProgramFormat, remove_previous_program},
-        spray::carry,
-    },
+    robot::{program::ProgramFormat, spray::carry},
     stages::stand_off::StandOffParams,
+    station::robot_file::remove_previous,
 };
 
 /// Write the stored path of a part, hung as it was enrolled, as a program for the robot's controller
@@ -52,7 +50,7 @@ pub(super) fn run(
 ) -> anyhow::Result<Outcome> {
     let name = &args.part;
     // Whatever happens next, no robot may run an earlier program for this one.
-    remove_previous_program(&args.output).advised()?;
+    remove_previous(&args.output).advised()?;
     let Some(frame) = args.calibration.frame(console)? else {
         return Err(advised_error(
             "a program needs to know where the camera sits in the robot's cell",
@@ -76,9 +74,9 @@ pub(super) fn run(
         part: name,
         reference: &part.reference,
         path: &path,
-        scene: None,
+        capture: None,
         camera_from_part: standard,
         is_simulated: part.meta.simulated,
     };
-    file.write(&carried, &subject, &frame, Vec::new(), console)
+    file.write(&carried, &subject, &frame, console)
 }

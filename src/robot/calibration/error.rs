@@ -45,6 +45,12 @@ pub enum CalibrationError {
         /// Length of its shift.
         distance: Metres,
     },
+    /// The numbers are not those that the program wrote.
+    #[error("{}: the numbers were changed after the calibration: its checksum is missing or does not match", path.display())]
+    Edited {
+        /// The file.
+        path: PathBuf,
+    },
     /// The numbers would change in the file, so it was not written.
     #[error("{}: not written: the file would not give back the same numbers", path.display())]
     NotKept {
@@ -74,6 +80,10 @@ impl Advice for CalibrationError {
             Self::TooFar { .. } => {
                 "Give the shift in metres: the first three numbers of the matrix's last column".into()
             }
+            Self::Edited { path } => format!(
+                "Check the numbers. If they are right, confirm them: partsight calibrate confirm --calibration {}, or Robot… in the window; else calibrate again",
+                path.display()
+            ),
             Self::NotKept { .. } => {
                 "Check the numbers and their convention: a camera sits within metres of the robot".into()
             }

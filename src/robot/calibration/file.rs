@@ -28,12 +28,13 @@ const MAX_BYTES: u64 = 1 << 20;
 /// Tolerance for a rotation: people enter numbers with four digits.
 const ROUNDING: f64 = 1e-3;
 
-/// A calibration read from a file.
+/// A calibration read from a file, to be shown.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Loaded {
+pub struct ReadCalibration {
     /// The calibration.
     pub calibration: CellCalibration,
-    /// True if the file's numbers are not those that the program wrote: someone edited the file.
+    /// True if the file's numbers are not those that the program wrote. They are not used until a person confirms them: a
+    /// changed digit moves every pose that a robot gets.
     pub is_edited: bool,
 }
 
@@ -69,14 +70,35 @@ const HEAD: &str = "\
 ";
 
 impl CellCalibration {
-    /// Reads a calibration file.
-    pub fn load(path: &Path) -> Result<Loaded, CalibrationError> {
+    /// Reads a calibration file to be used. Refuses edited numbers that were not confirmed.
+    pub fn load(path: &Path) -> Result<Self, CalibrationError> {
+        let read = Self::read(path)?;
+        if read.is_edited {
+            return Err(CalibrationError::Edited {
+                path: path.to_owned(),
+            });
+        }
+        Ok(read.calibration)
+    }
+
+    /// Reads a calibration file to be shown, edited or not.
+    pub fn read(path: &Path) -> Result<ReadCalibration, CalibrationError> {
         let text = read_text(path, MAX_BYTES)?;
         parse(&text, path)
     }
 
-    /// Reads a calibration file; `None` if it does not exist.
-    pub fn load_if_there(path: &Path) -> Result<Option<Loaded>, CalibrationError> {
+    /// Confirms the edited numbers of a calibration file, which then count as entered by hand: writes their checksum, and
+    /// copies the former file beside it. Returns the path of the copy; `None` if there was nothing to confirm.
+    pub fn confirm(path: &Path) -> Result<Option<PathBuf>, CalibrationError> {
+        let read = Self::read(path)?;
+        if !read.is_edited {
+            return Ok(None);
+        }
+        read.calibration.save_keeping_former(path)
+    }
+
+    /// As [`Self::load`]; `None` if the file does not exist.
+    pub fn load_if_there(path: &Path) -> Result<Option<Self>, CalibrationError> {
         match Self::load(path) {
             Err(CalibrationError::File(FileError::NotFound { .. })) => Ok(None),
             loaded => loaded.map(Some),
@@ -157,7 +179,7 @@ impl CellCalibration {
         }
         let _ = write!(
             text,
-            "# Of the numbers above; without this line, or with another one, they count as entered by hand.\nchecksum = {}\n\n[origin]\n{}",
+            "# Of the numbers above. After editing them, confirm them: partsight calibrate confirm\nchecksum = {}\n\n[origin]\n{}",
             quoted(&format!("{:08x}", crc32(checked.as_bytes()))),
             toml::to_string(&self.origin).expect("numbers and text have a TOML form")
         );
@@ -174,7 +196,7 @@ fn written(number: f64) -> String {
     format!("{rounded:15.DECIMALS$}")
 }
 
-fn parse(text: &str, path: &Path) -> Result<Loaded, CalibrationError> {
+fn parse(text: &str, path: &Path) -> Result<ReadCalibration, CalibrationError> {
     let bad = |found: String| CalibrationError::Bad {
         path: path.to_owned(),
         found,
@@ -249,7 +271,7 @@ fn parse(text: &str, path: &Path) -> Result<Loaded, CalibrationError> {
         // The residuals belong to other numbers.
         calibration.origin = Origin::ByHand;
     }
-    Ok(Loaded {
+    Ok(ReadCalibration {
         calibration,
         is_edited,
     })

@@ -27,7 +27,7 @@ use crate::{
 
 pub use self::{
     error::CalibrationError,
-    file::{Loaded, SCHEMA_VERSION, default_path},
+    file::{ReadCalibration, SCHEMA_VERSION, default_path},
 };
 
 /// What a calibration without a name is called.

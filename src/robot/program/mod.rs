@@ -37,6 +37,7 @@ mod jbi;
 mod krl;
 mod ls;
 mod prepare;
+pub mod ranges;
 mod rapid;
 mod save;
 mod steps;
@@ -58,10 +59,7 @@ use crate::{
 pub use self::{
     error::ProgramError,
     format::{PROGRAM_ENDINGS, ProgramFormat},
-    prepare::{
-        ClockAhead, arm_points, check_reach, clock_ahead, clock_ahead_of_file, is_stale,
-        is_stale_file, program_points,
-    },
+    prepare::{arm_points, check_reach, program_points},
     save::{ProgramTexts, remove_previous_program},
 };
 
@@ -136,6 +134,8 @@ pub struct Program<'a> {
     pub is_simulated: bool,
     /// Reasons against writing the program, which were overridden.
     pub doubts: &'a [String],
+    /// What was not checked.
+    pub unchecked: &'a [String],
     /// When the program was made.
     pub at: Timestamp,
 }
@@ -161,16 +161,16 @@ impl Program<'_> {
         }
         let settings = self.settings;
         let lengths = [
-            ("approach", settings.approach, [0.01, 1.0]),
-            ("blend", settings.blend, [0.0, 0.1]),
+            ("approach", settings.approach, ranges::APPROACH_MM),
+            ("blend", settings.blend, ranges::BLEND_MM),
         ];
-        for (name, value, [low, high]) in lengths {
-            if !(low..=high).contains(&value.0) {
+        for (name, value, range) in lengths {
+            if !range.contains(&value.mm()) {
                 return Err(ProgramError::Length {
                     name,
                     value,
-                    low: Metres(low),
-                    high: Metres(high),
+                    low: Metres::from_mm(*range.start()),
+                    high: Metres::from_mm(*range.end()),
                 });
             }
         }
@@ -334,8 +334,9 @@ impl Program<'_> {
                 Metres(obstacles.clearance),
                 Metres(arm.checked_gun_radius())
             ));
-        } else {
-            lines.push("reach and collisions: not checked".into());
+        }
+        for unchecked in self.unchecked {
+            lines.push(format!("{unchecked}: not checked"));
         }
         lines.push(format!(
             "{}, gun: output {}",

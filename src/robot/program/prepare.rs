@@ -1,64 +1,11 @@
 //! Converts a carried path to the points of a program, and checks whether an arm reaches them.
 
-use std::{
-    path::Path,
-    time::{Duration, SystemTime},
-};
-
 use super::{ProgramPoint, ProgramSettings};
-use crate::{
-    error::Advice,
-    robot::{
-        RobotFrame,
-        arm::{ArmError, ArmPoint, CheckParams, PathCheck, PlacedArm, check_path},
-        spray::CarriedPath,
-    },
+use crate::robot::{
+    RobotFrame,
+    arm::{ArmError, ArmPoint, CheckParams, PathCheck, PlacedArm, check_path},
+    spray::CarriedPath,
 };
-
-/// A part captured longer ago than this may hang elsewhere by now.
-const STALE: Duration = Duration::from_mins(10);
-
-/// Least difference between two clocks that counts. File systems round times by up to 2 s.
-const CLOCK_TOLERANCE: Duration = Duration::from_secs(5);
-
-/// A capture that is dated later than now by this computer's clock, so that its age is not known.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the capture is dated {} s later than now, so its age is not known", ahead.as_secs())]
-pub struct ClockAhead {
-    /// The difference between the clocks.
-    pub ahead: Duration,
-}
-
-impl Advice for ClockAhead {
-    fn advice(&self) -> String {
-        "Set the clocks of this computer and of the one that wrote the capture from the same time server, and capture the part again".into()
-    }
-}
-
-/// Returns the difference of the clocks if the capture is dated later than now: a program of it must be forced.
-pub fn clock_ahead(captured: SystemTime) -> Option<ClockAhead> {
-    let ahead = captured.duration_since(SystemTime::now()).ok()?;
-    (ahead > CLOCK_TOLERANCE).then_some(ClockAhead { ahead })
-}
-
-/// The same for a capture's file, by its time of modification; `None` if the system does not provide that.
-pub fn clock_ahead_of_file(scene: &Path) -> Option<ClockAhead> {
-    let written = scene.metadata().and_then(|meta| meta.modified());
-    clock_ahead(written.ok()?)
-}
-
-/// Returns true if the capture is more than 10 minutes old, or of unknown age because it is dated later than now: a
-/// program of it must be forced.
-pub fn is_stale(captured: SystemTime) -> bool {
-    let age = SystemTime::now().duration_since(captured);
-    age.is_ok_and(|age| age > STALE) || clock_ahead(captured).is_some()
-}
-
-/// The same for a capture's file, by its time of modification; false if the system does not provide that.
-pub fn is_stale_file(scene: &Path) -> bool {
-    let written = scene.metadata().and_then(|meta| meta.modified());
-    written.is_ok_and(is_stale)
-}
 
 /// Returns the nozzle poses of a path in the robot's base frame, for an arm. `speed`, in m/s, applies where the path
 /// sets none.
@@ -173,30 +120,6 @@ mod tests {
             name: "cell".into(),
         };
         (arm, frame)
-    }
-
-    #[test]
-    fn a_capture_dated_later_than_now_is_of_unknown_age() {
-        let now = SystemTime::now();
-        for (captured, is_too_old, is_ahead) in [
-            (now - Duration::from_mins(11), true, false),
-            (now - Duration::from_mins(1), false, false),
-            (now + Duration::from_secs(2), false, false),
-            (now + Duration::from_hours(1), true, true),
-        ] {
-            assert_eq!(is_stale(captured), is_too_old, "{captured:?}");
-            assert_eq!(clock_ahead(captured).is_some(), is_ahead, "{captured:?}");
-        }
-        let folder = tempfile::tempdir().expect("a folder");
-        let path = folder.path().join("door.pcd");
-        let file = std::fs::File::create(&path).expect("created");
-        assert_eq!(clock_ahead_of_file(&path), None);
-        let later = now + Duration::from_hours(1);
-        file.set_modified(later).expect("dated");
-        let error = clock_ahead_of_file(&path).expect("ahead");
-        assert!(error.to_string().contains("later than now"), "{error}");
-        assert!(error.advice().contains("clocks"), "{}", error.advice());
-        assert!(is_stale_file(&path));
     }
 
     #[test]

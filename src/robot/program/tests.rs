@@ -61,6 +61,7 @@ fn program<'a>(points: &'a [ProgramPoint], settings: &'a ProgramSettings) -> Pro
         calibration: "Cell 2 (00112233)",
         is_simulated: true,
         doubts: &[],
+        unchecked: &[],
         at: Timestamp::UNIX_EPOCH,
     }
 }
@@ -149,9 +150,11 @@ fn a_header_says_part_pose_time_and_that_nothing_was_seen() {
     let points = row();
     let settings = ProgramSettings::default();
     let doubts = ["the part was not accepted".to_owned()];
+    let unchecked = ["reach and collisions".to_owned()];
     for format in ProgramFormat::ALL {
         let program = Program {
             doubts: &doubts,
+            unchecked: &unchecked,
             ..program(&points, &settings)
         };
         let text = text_of(&program, format);

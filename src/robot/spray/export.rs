@@ -32,10 +32,14 @@ pub struct SprayExport<'a> {
     pub params: &'a StandOffParams,
     /// True for the part's stored path, false for the default point of a part without one.
     pub is_stored: bool,
+    /// True if the part was accepted.
+    pub is_accepted: bool,
     /// True if the scene, or the enrolled part, was simulated.
     pub is_simulated: bool,
     /// Reasons against moving a robot by the poses.
     pub doubts: &'a [String],
+    /// What was not checked.
+    pub unchecked: &'a [String],
     /// When the file was made.
     pub at: Timestamp,
 }
@@ -68,7 +72,9 @@ struct Json<'a> {
     at: Timestamp,
     simulated: bool,
     stored_path: bool,
+    accepted: bool,
     doubts: &'a [String],
+    not_checked: &'a [String],
     frame: &'static str,
     tool: &'static str,
     calibration: &'a str,
@@ -126,16 +132,22 @@ impl SprayExport<'_> {
         } else {
             ""
         };
-        let doubts = self.doubts.iter();
-        let doubts: Vec<String> = doubts
-            .map(|doubt| format!("# DOUBT: {}\n", csv_comment(doubt)))
-            .collect();
-        let doubts = doubts.concat();
+        let accepted = if self.is_accepted {
+            "accepted"
+        } else {
+            "not accepted"
+        };
+        let marked = |mark: &str, texts: &[String]| {
+            let lines = texts.iter();
+            let lines = lines.map(|text| format!("# {mark}: {}\n", csv_comment(text)));
+            lines.collect::<String>()
+        };
+        let notes = marked("DOUBT", self.doubts) + &marked("NOT CHECKED", self.unchecked);
         let mut text = format!(
             "# Partsight spray path, version {SCHEMA}\n\
              # part: {}, {kind}\n\
-             # scene: {}, accepted{seen}\n\
-             {doubts}\
+             # scene: {}, {accepted}{seen}\n\
+             {notes}\
              # made: {}\n\
              # frame: {FRAME}, by the calibration {}\n\
              # each line: robot_from_nozzle; tool: {TOOL}\n\
@@ -209,7 +221,9 @@ impl SprayExport<'_> {
             at: self.at,
             simulated: self.is_simulated,
             stored_path: self.is_stored,
+            accepted: self.is_accepted,
             doubts: self.doubts,
+            not_checked: self.unchecked,
             frame: FRAME,
             tool: TOOL,
             calibration: &self.frame.name,

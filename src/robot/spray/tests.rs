@@ -275,6 +275,7 @@ fn every_line_of_an_export_reads_back_to_the_nozzle_in_the_robots_frame() {
         name: "Cell 2 (00112233)".into(),
     };
     let doubts = ["another pose fits".to_owned()];
+    let unchecked = ["reach".to_owned()];
     for convention in Convention::ALL {
         let export = SprayExport {
             path: &carried,
@@ -284,8 +285,10 @@ fn every_line_of_an_export_reads_back_to_the_nozzle_in_the_robots_frame() {
             convention,
             params: &StandOffParams::default(),
             is_stored: true,
+            is_accepted: true,
             is_simulated: true,
             doubts: &doubts,
+            unchecked: &unchecked,
             at: Timestamp::UNIX_EPOCH,
         };
         let csv = export.csv();
@@ -295,6 +298,7 @@ fn every_line_of_an_export_reads_back_to_the_nozzle_in_the_robots_frame() {
             "Cell 2 (00112233)",
             "SIMULATED",
             "# DOUBT: another pose fits\n",
+            "# NOT CHECKED: reach\n",
             "27 of 27 inside",
         ] {
             assert!(csv.contains(word), "{word}: {csv}");
@@ -308,6 +312,7 @@ fn every_line_of_an_export_reads_back_to_the_nozzle_in_the_robots_frame() {
         let num = convention.names().len();
         let json: serde_json::Value = serde_json::from_str(&export.json()).expect("JSON");
         assert_eq!(json["doubts"], serde_json::json!(doubts));
+        assert_eq!(json["not_checked"], serde_json::json!(unchecked));
         for (i, (line, taught)) in lines.zip(path().points()).enumerate() {
             let cells: Vec<&str> = line.split(',').collect();
             assert_eq!(cells.len(), num + 6, "{line}");

@@ -4,7 +4,7 @@ use egui::{RichText, Ui};
 
 use super::{
     dialog::told,
-    state::{RobotAction, RobotCell, RobotDialog, RobotFile},
+    state::{RobotAction, RobotCell, RobotDialog, RobotFile, edited},
 };
 use crate::{
     app::{
@@ -15,7 +15,7 @@ use crate::{
         shell::session::Session,
         ui::{
             theme::{Theme, space},
-            widgets::{Mark, heading, row, sentence, text_button},
+            widgets::{Mark, default_button, heading, row, sentence, text_button},
         },
         user_error::UserError,
     },
@@ -44,11 +44,8 @@ pub(super) fn ui(
             figures(ui, &in_use.calibration);
             row(ui, &text!("robot-file"), &in_use.path.display().to_string());
             if in_use.is_edited {
-                let edited = UserError {
-                    what: text!("robot-edited"),
-                    advice: text!("robot-edited-advice"),
-                };
-                told(ui, Mark::Look, &edited);
+                told(ui, Mark::Look, &edited());
+                confirm(ui, dialog, caused);
             }
             let calibration = &in_use.calibration;
             let name = calibration.camera.mount().camera_transform();
@@ -58,7 +55,9 @@ pub(super) fn ui(
                 calibration.camera.mount_from_camera(),
                 session.convention,
             );
-            if let CameraPlace::OnFlange { capture_pose, .. } = &calibration.camera {
+            if let CameraPlace::OnFlange { capture_pose, .. } = &calibration.camera
+                && !in_use.is_edited
+            {
                 arm(
                     ui,
                     capture_pose.as_ref(),
@@ -76,6 +75,25 @@ pub(super) fn ui(
         }
         if in_use.is_some() && text_button(ui, &text!("robot-forget")).clicked() {
             caused.push(RobotAction::Forget);
+        }
+    });
+}
+
+/// Draws the button that confirms edited numbers, or the question before.
+fn confirm(ui: &mut Ui, dialog: &mut RobotDialog, caused: &mut Vec<RobotAction>) {
+    if !dialog.is_confirming {
+        if text_button(ui, &text!("robot-confirm")).clicked() {
+            caused.push(RobotAction::Confirm);
+        }
+        return;
+    }
+    ui.label(text!("robot-confirm-says"));
+    ui.horizontal(|ui| {
+        if default_button(ui, &text!("robot-confirm-not"), true) {
+            dialog.is_confirming = false;
+        }
+        if text_button(ui, &text!("robot-confirm-right")).clicked() {
+            caused.push(RobotAction::Confirm);
         }
     });
 }

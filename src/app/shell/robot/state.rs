@@ -108,6 +108,8 @@ pub struct RobotDialog {
     pub insists: bool,
     /// Limits for the next baseline of the cell.
     pub limits: CellLimits,
+    /// True while the user is asked whether edited numbers are right.
+    pub is_confirming: bool,
     /// True while the user is asked whether to replace the baseline.
     pub is_replacing: bool,
     /// Protocol of the server.
@@ -150,6 +152,7 @@ impl RobotDialog {
             solved: None,
             insists: false,
             limits: CellLimits::default(),
+            is_confirming: false,
             is_replacing: false,
             protocol: at.protocol,
             address,
@@ -216,6 +219,8 @@ pub enum RobotAction {
     Load(PathBuf),
     /// Calculate from this file of pairs.
     Pairs(PathBuf),
+    /// Confirm the edited numbers of the calibration in use, after a question.
+    Confirm,
     /// Use no calibration.
     Forget,
     /// An action of the check of the cell.
@@ -257,6 +262,14 @@ impl RobotFile {
                 choice: FileChoice::NewFile("cell-checks.csv".into()),
             },
         }
+    }
+}
+
+/// States that the calibration in use was edited and not confirmed.
+pub(super) fn edited() -> UserError {
+    UserError {
+        what: text!("robot-edited"),
+        advice: text!("robot-edited-advice"),
     }
 }
 
@@ -358,6 +371,7 @@ impl RobotCell {
                 dialog.left_out.clear();
                 self.solve();
             }
+            RobotAction::Confirm => self.confirm(),
             RobotAction::Forget => {
                 self.in_use = None;
                 cx.send(Message::UseCalibration(RememberedCell::Forgotten, None));
@@ -410,8 +424,23 @@ impl RobotCell {
         self.task.start(text!("robot-saving"), job);
     }
 
+    /// Asks whether the edited numbers are right, then confirms them.
+    fn confirm(&mut self) {
+        let (Some(dialog), Some(in_use)) = (&mut self.dialog, &self.in_use) else {
+            return;
+        };
+        dialog.is_confirming = !dialog.is_confirming && in_use.is_edited;
+        if !dialog.is_confirming && in_use.is_edited {
+            let path = in_use.path.clone();
+            let job = |_: &_| Ok(work::confirm(path)?);
+            self.task.start(text!("robot-saving"), job);
+        }
+    }
+
     fn store_arm(&mut self) {
         if let (Some(dialog), Some(in_use)) = (&self.dialog, &self.in_use)
+            // Storing writes a checksum, which would confirm edited numbers.
+            && !in_use.is_edited
             && let Ok(written) = dialog.typed_arm()
         {
             let mut calibration = in_use.calibration.clone();
@@ -433,6 +462,7 @@ impl RobotCell {
             edited.insists = false;
         }
         if known.page != edited.page {
+            edited.is_confirming = false;
             edited.is_replacing = false;
             edited.is_changing = false;
             if edited.page == RobotPage::Check {
@@ -518,10 +548,16 @@ impl RobotCell {
                     RememberedCell::File(in_use.path.clone())
                 };
                 cx.send(Message::UseCalibration(cell, in_use.frame()));
+                let is_edited = in_use.is_edited;
                 self.in_use = Some(in_use);
-                if let Some(dialog) = &mut self.dialog {
-                    dialog.page = RobotPage::InUse;
-                    dialog.trouble = None;
+                match &mut self.dialog {
+                    Some(dialog) => {
+                        dialog.page = RobotPage::InUse;
+                        dialog.is_confirming = false;
+                        dialog.trouble = None;
+                    }
+                    None if is_edited => cx.notify(edited()),
+                    None => {}
                 }
             }
             RobotResult::Solved(solved) => {
@@ -652,8 +688,52 @@ mod tests {
         bench.apply(RobotAction::StoreArm);
         assert!(bench.work());
         assert!(bench.shell.session.robot.is_some());
-        let stored = CellCalibration::load(&path).expect("read").calibration;
+        let stored = CellCalibration::load(&path).expect("read");
         assert!(stored.frame(None).is_ok());
+    }
+
+    #[test]
+    fn edited_numbers_give_no_frame_until_they_are_confirmed_twice() {
+        let mut bench = Bench::new();
+        let path = bench.folder.path().join("cell.toml");
+        let calibration = CellCalibration {
+            name: String::new(),
+            notes: String::new(),
+            camera: CameraPlace::on(
+                Mount::EyeToHand,
+                from_euler_zyx([0.1, 0.2, 0.3, 1.2, 0.0, 2.0]),
+            ),
+            origin: Origin::ByHand,
+            made_at: Timestamp::UNIX_EPOCH,
+        };
+        let text = calibration.to_text();
+        let digit = text.replace("1.200000000000", "7.200000000000");
+        assert_ne!(digit, text);
+        fs::write(&path, &digit).expect("written");
+        // When the window starts, and later in the dialog.
+        bench
+            .robot
+            .apply(RobotAction::Load(path.clone()), &mut bench.shell.context());
+        assert!(bench.robot.task.run_waiting());
+        bench.robot.update(&mut bench.shell.context());
+        let notified = bench.shell.messages.iter().any(
+            |message| matches!(message, Message::Notify(notice) if notice.what == edited().what),
+        );
+        assert!(notified, "{:?}", bench.shell.messages);
+        bench.deliver();
+        assert!(bench.shell.session.robot.is_none() && bench.robot.in_use.is_some());
+        bench.apply(RobotAction::Toggle);
+        bench.apply(RobotAction::Confirm);
+        assert!(bench.dialog().is_confirming && !bench.work(), "asked first");
+        assert_eq!(fs::read_to_string(&path).expect("read"), digit);
+        bench.apply(RobotAction::Confirm);
+        assert!(bench.work());
+        let frame = bench.shell.session.robot.clone().expect("a frame");
+        assert!((frame.robot_from_camera.translation.vector.x - 7.2).abs() < 1e-9);
+        assert!(CellCalibration::load(&path).is_ok());
+        // Nothing is left to confirm.
+        bench.apply(RobotAction::Confirm);
+        assert!(!bench.work() && !bench.dialog().is_confirming);
     }
 
     /// Writes pairs of a fixed camera that sees a target on the flange.

@@ -6,7 +6,7 @@ use crate::{
     app::user_error::UserError,
     robot::{
         Convention, RobotFrame,
-        calibration::{CellCalibration, Loaded},
+        calibration::{CellCalibration, ReadCalibration},
         hand_eye::{HandEye, Mount, solve},
         pairs::{PairConventions, read_pairs},
     },
@@ -28,13 +28,17 @@ pub struct CellInUse {
     pub path: PathBuf,
     /// The calibration.
     pub calibration: CellCalibration,
-    /// True if the file was edited by hand.
+    /// True if the file was edited and not confirmed.
     pub is_edited: bool,
 }
 
 impl CellInUse {
-    /// The robot's frame; `None` if the camera is on the flange and the arm's pose is unknown.
+    /// The robot's frame; `None` if the file was edited and not confirmed, or if the camera is on the flange and the arm's
+    /// pose is unknown.
     pub fn frame(&self) -> Option<Arc<RobotFrame>> {
+        if self.is_edited {
+            return None;
+        }
         self.calibration.frame(None).ok().map(Arc::new)
     }
 }
@@ -57,6 +61,13 @@ pub struct SolvedPairs {
 /// Saves a calibration to be used, keeping the former file.
 pub(super) fn save(path: PathBuf, calibration: &CellCalibration) -> Result<RobotResult, UserError> {
     let former = calibration.save_keeping_former(&path);
+    let former = former.map_err(|error| UserError::of(&error))?;
+    load(path, former)
+}
+
+/// Confirms the edited numbers of a calibration to be used, keeping the former file.
+pub(super) fn confirm(path: PathBuf) -> Result<RobotResult, UserError> {
+    let former = CellCalibration::confirm(&path);
     let former = former.map_err(|error| UserError::of(&error))?;
     load(path, former)
 }
@@ -84,10 +95,10 @@ pub(super) fn solve_pairs(
 
 /// Reads a calibration to be used; `former` is where the former one was kept, if there was one.
 pub(super) fn load(path: PathBuf, former: Option<PathBuf>) -> Result<RobotResult, UserError> {
-    let Loaded {
+    let ReadCalibration {
         calibration,
         is_edited,
-    } = CellCalibration::load(&path).map_err(|error| UserError::of(&error))?;
+    } = CellCalibration::read(&path).map_err(|error| UserError::of(&error))?;
     let in_use = Arc::new(CellInUse {
         path,
         calibration,

@@ -54,7 +54,7 @@ pub struct AlignState {
     /// The current job of the task, or its last.
     job: AlignJob,
     /// Its result describes what was written.
-    writing: Task<String>,
+    writing: Task<Notice>,
     dialog: FileDialog<AlignFile>,
 }
 
@@ -312,7 +312,7 @@ impl AlignState {
         let title = text!("shell-writing", file = file_name(&path));
         let text = table::text(&self.table.rows, ',');
         self.writing
-            .start(title, move |_| Ok(work::write(&path, &text)?));
+            .start(title, move |_| Ok(Notice::done(work::write(&path, &text)?)));
     }
 
     /// Takes in the results of the tasks and of the file dialog.

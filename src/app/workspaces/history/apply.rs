@@ -344,7 +344,8 @@ impl HistoryState {
         let filter = self.filter.at(&Zoned::now());
         let keeper = Arc::clone(cx.services.library_cache.history());
         self.exporting.start(title, move |_| {
-            Ok(export::write(&filter, file, &path, &keeper)?)
+            let written = export::write(&filter, file, &path, &keeper)?;
+            Ok(Notice::done(written))
         });
     }
 }

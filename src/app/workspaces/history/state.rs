@@ -21,7 +21,7 @@ use crate::{
     app::{
         inspection::inspected::Inspected,
         language::text,
-        shell::{context::ShellContext, file_dialog::FileDialog},
+        shell::{context::ShellContext, file_dialog::FileDialog, notice::Notice},
         task::{Task, TaskRunner},
         user_error::UserError,
     },
@@ -99,7 +99,7 @@ pub struct HistoryState {
     pub(super) held: Option<HistoryAction>,
     pub(super) looking: Task<Box<HistoryResult>>,
     pub(super) counting: Task<Box<Statistics>>,
-    pub(super) exporting: Task<String>,
+    pub(super) exporting: Task<Notice>,
     pub(super) dialog: FileDialog<HistoryFile>,
 }
 

@@ -1,7 +1,7 @@
 //! Tests that operator, engineer, copies, exports and answers agree on whether a robot may act, in every state of the session.
 
 use std::{
-    sync::Arc,
+    sync::{Arc, OnceLock},
     time::{Duration, SystemTime},
 };
 
@@ -226,12 +226,9 @@ fn captured() -> Inspected {
     inspected
 }
 
-/// A window in this state. The recording, the source of the state, is a camera else.
-fn shell_in(
-    change: fn(&mut Session, &mut Inspected),
-    is_calibrated: bool,
-    is_ambiguous: bool,
-) -> TestShell {
+/// A window in this state, without a calibration.
+fn shell_in(change: fn(&mut Session, &mut Inspected), is_ambiguous: bool) -> TestShell {
+    static PLACE: OnceLock<Arc<Inspected>> = OnceLock::new();
     let mut inspected = captured();
     if is_ambiguous && let Some(Ok(pose)) = &mut inspected.inspection.pose {
         pose.runner_up = Some(RunnerUp {
@@ -242,16 +239,11 @@ fn shell_in(
     let mut shell = TestShell::default();
     let session = &mut shell.session;
     session.source = Source::Camera(Box::new("kinect".parse().expect("a source")));
-    session.robot = is_calibrated.then(|| {
-        Arc::new(RobotFrame {
-            robot_from_camera: RigidTransform::translation(1.0, 0.0, 0.5),
-            name: "cell 1".into(),
-        })
-    });
     // In place of the result, which the change may still alter.
+    let place = PLACE.get_or_init(|| Arc::new(inspected_cell(CellChoice::Empty, 1)));
     session.shown = Some(Shown {
         generation: 1,
-        inspected: Arc::new(inspected_cell(CellChoice::Empty, 1)),
+        inspected: Arc::clone(place),
         is_past: false,
         session: None,
         is_outdated: false,
@@ -261,75 +253,84 @@ fn shell_in(
     shell
 }
 
+fn calibrate(session: &mut Session) {
+    session.robot = Some(Arc::new(RobotFrame {
+        robot_from_camera: RigidTransform::translation(1.0, 0.0, 0.5),
+        name: "cell 1".into(),
+    }));
+}
+
 #[test]
 fn operator_engineer_copies_exports_and_robots_agree_in_every_state() {
-    let folder = tempfile::tempdir().expect("a folder");
     for (name, may, change) in STATES {
-        for (is_calibrated, is_ambiguous) in
-            [(true, false), (true, true), (false, false), (false, true)]
-        {
-            let state = format!("{name}, calibrated: {is_calibrated}, ambiguous: {is_ambiguous}");
-            let mut shell = shell_in(change, is_calibrated, is_ambiguous);
-            let is_clear = is_calibrated && !is_ambiguous;
-            let has_numbers = is_clear && may != May::Wait;
-            let is_go = is_clear && may == May::Act;
-            let session = &shell.session;
-            let inspected = Arc::clone(&session.shown.as_ref().expect("shown").inspected);
-
-            assert_eq!(
-                session.robot_doubts(&inspected).is_empty(),
-                has_numbers,
-                "{state}"
+        for is_ambiguous in [false, true] {
+            let mut shell = shell_in(change, is_ambiguous);
+            let state = format!("{name}, ambiguous: {is_ambiguous}");
+            agree(&mut shell, May::Wait, &format!("{state}, not calibrated"));
+            calibrate(&mut shell.session);
+            agree(
+                &mut shell,
+                if is_ambiguous { May::Wait } else { may },
+                &state,
             );
-            assert_eq!(session.is_go(&inspected), is_go, "{state}");
-            // The operator.
-            let banner = Banner::of(session);
-            assert_eq!(banner.tone == Tone::Ok, is_go, "{state}: {banner:?}");
-            let starts = banner.next.to_lowercase().replace("do not start", "");
-            assert_eq!(
-                starts.contains("start the robot"),
-                is_go,
-                "{state}: {banner:?}"
-            );
-            if !is_go {
-                assert!(!banner.next.is_empty(), "{state}: {banner:?}");
-            }
-            // The engineer.
-            let headline = Headline::of(&inspected, session);
-            assert_eq!(headline.is_go, is_go, "{state}");
-            let pose = numbered(session, &inspected);
-            let is_of_robot = pose.is_some_and(|pose| pose.name == "robot_from_part");
-            assert_eq!(is_of_robot, has_numbers, "{state}");
-            // Both are told the same reason, if the engineer is told one.
-            let [operator, engineer] = [UserRole::Operator, UserRole::Engineer]
-                .map(|role| Hold::of(session, &inspected, role).map(|hold| hold.reason));
-            assert_eq!(operator, engineer, "{state}");
-            assert_eq!(operator.is_none(), is_go, "{state}");
-            if banner.tone == Tone::Recognised {
-                assert_eq!(Some(banner.reason), operator, "{state}");
-            }
-            // Whatever is copied or written.
-            let mut inspect = InspectState::new(&TaskRunner::without_threads());
-            inspect.apply(InspectAction::CopyPose, &mut shell.context());
-            let is_copied = (shell.messages.iter())
-                .any(|message| matches!(message, Message::CopyText(text) if text.starts_with("robot_from_part")));
-            assert_eq!(is_copied, has_numbers, "{state}");
-            let is_anything_copied =
-                (shell.messages.iter()).any(|message| matches!(message, Message::CopyText(_)));
-            assert_eq!(is_anything_copied, has_numbers, "{state}");
-            let path = folder.path().join("path.csv");
-            let chosen = InspectAction::Chosen(InspectFile::SprayPath, path);
-            inspect.apply(chosen, &mut shell.context());
-            assert_eq!(inspect.writing().is_some(), has_numbers, "{state}");
         }
     }
+}
+
+/// Checks that all agree that a robot may do this.
+fn agree(shell: &mut TestShell, may: May, state: &str) {
+    let (has_numbers, is_go) = (may != May::Wait, may == May::Act);
+    let session = &shell.session;
+    let inspected = Arc::clone(&session.shown.as_ref().expect("shown").inspected);
+    let doubts = session.robot_doubts(&inspected);
+    assert_eq!(doubts.is_empty(), has_numbers, "{state}: {doubts:?}");
+    assert_eq!(session.is_go(&inspected), is_go, "{state}");
+    // The operator.
+    let banner = Banner::of(session);
+    assert_eq!(banner.tone == Tone::Ok, is_go, "{state}: {banner:?}");
+    let starts = banner.next.to_lowercase().replace("do not start", "");
+    let is_start = starts.contains("start the robot");
+    assert_eq!(is_start, is_go, "{state}: {banner:?}");
+    assert!(!banner.next.is_empty(), "{state}: {banner:?}");
+    // The engineer.
+    assert_eq!(Headline::of(&inspected, session).is_go, is_go, "{state}");
+    let pose = numbered(session, &inspected);
+    let is_of_robot = pose.is_some_and(|pose| pose.name == "robot_from_part");
+    assert_eq!(is_of_robot, has_numbers, "{state}");
+    // Both have the same reason.
+    let [operator, engineer] = [UserRole::Operator, UserRole::Engineer]
+        .map(|role| Hold::of(session, &inspected, role).map(|hold| hold.reason));
+    assert_eq!(operator, engineer, "{state}");
+    assert_eq!(operator.is_none(), is_go, "{state}");
+    if banner.tone == Tone::Recognised {
+        assert_eq!(Some(banner.reason), operator, "{state}");
+    }
+    // What is copied, and what is written in place of the file of an earlier part.
+    let mut inspect = InspectState::new(&TaskRunner::without_threads());
+    shell.messages.clear();
+    inspect.apply(InspectAction::CopyPose, &mut shell.context());
+    let copied = shell.messages.iter().find_map(|message| match message {
+        Message::CopyText(text) => Some(text.starts_with("robot_from_part")),
+        _ => None,
+    });
+    assert_eq!(copied, has_numbers.then_some(true), "{state}");
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("path.csv");
+    std::fs::write(&path, "# Partsight spray path").expect("written");
+    let chosen = InspectAction::Chosen(InspectFile::SprayPath, path.clone());
+    inspect.apply(chosen, &mut shell.context());
+    assert!(inspect.run_waiting(), "{state}");
+    inspect.update(&mut shell.context());
+    let notices = shell.notices();
+    assert_eq!(path.exists(), has_numbers, "{state}: {notices:?}");
 }
 
 #[test]
 fn a_part_that_moves_by_now_is_called_moving_though_its_last_verdict_was_accepted() {
     let moves: fn(&mut Session, &mut Inspected) =
         |session, inspected| follow(session, inspected, MotionState::Moving);
-    let shell = shell_in(moves, true, false);
+    let mut shell = shell_in(moves, false);
+    calibrate(&mut shell.session);
     let session = &shell.session;
     assert_eq!(Banner::of(session).title, "Moving");
     let inspected = &session.shown.as_ref().expect("shown").inspected;
@@ -343,7 +344,7 @@ fn a_part_that_moves_by_now_is_called_moving_though_its_last_verdict_was_accepte
 
 #[test]
 fn without_a_calibration_both_are_told_what_is_missing() {
-    let shell = shell_in(|_, _| (), false, false);
+    let shell = shell_in(|_, _| (), false);
     let session = &shell.session;
     let banner = Banner::of(session);
     assert_eq!(banner.tone, Tone::Recognised);

@@ -70,7 +70,7 @@ pub(super) fn ui(
         .show_separator_line(false)
         .frame(Frame::new())
         .show(ui, |ui| {
-            let copying = pose_to_copy.map(|_| Hold::of_files(session, inspected));
+            let copying = pose_to_copy.map(|_| Hold::robot_of_files(session, inspected).err());
             action_buttons(ui, copying, actions);
         });
     hold::look_again(ui);

@@ -65,7 +65,8 @@ pub(super) fn ui(
         ui.separator();
         let export = Button::new(text!("inspect-export-path"));
         let why_not = if figure.spray.is_some() {
-            Hold::of_files(session, inspected).map(|hold| hold.in_words())
+            let hold = Hold::robot_of_files(session, inspected).err();
+            hold.map(|hold| hold.in_words())
         } else {
             Some(text!("inspect-export-path-says"))
         };

@@ -1,17 +1,18 @@
 //! Why a robot must not act on a recognised part, and what the operator or the engineer does about it.
 
-use std::time::Duration;
+use std::{sync::Arc, time::Duration};
 
 use egui::Ui;
 
 use crate::{
     app::{
         inspection::{inspected::Inspected, source::Origin},
-        language::text,
+        language::{robot::doubt, text},
         shell::session::{Session, Source, UserRole},
         ui::widgets::sentence,
+        user_error::UserError,
     },
-    error::Advice as _,
+    robot::RobotFrame,
     station::Doubt,
 };
 
@@ -45,13 +46,20 @@ impl Hold {
         first.map(|doubt| Self::of_doubt(doubt, session, inspected, role))
     }
 
-    /// As [`of`](Self::of), but only what also keeps the pose from being copied and a path from being written.
-    pub(super) fn of_files(session: &Session, inspected: &Inspected) -> Option<Self> {
+    /// The robot frame in which the pose may be copied and a path be written, or why not. The pose of a part that hangs nowhere
+    /// may: what is written of it says so.
+    pub(super) fn robot_of_files<'a>(
+        session: &'a Session,
+        inspected: &'a Inspected,
+    ) -> Result<&'a Arc<RobotFrame>, Self> {
         let doubts = session.robot_doubts(inspected);
-        // What was not accepted never has a pose for a robot, however old it is.
-        let refused = doubts.iter().find(|doubt| **doubt == Doubt::NotAccepted);
-        let first = refused.or(doubts.first())?;
-        Some(Self::of_doubt(first, session, inspected, session.role))
+        let robot = session.robot_of(inspected);
+        robot.filter(|_| doubts.is_empty()).ok_or_else(|| {
+            // What was not accepted never has a pose for a robot, however old it is.
+            let refused = doubts.iter().find(|doubt| **doubt == Doubt::NotAccepted);
+            let first = refused.or(doubts.first()).unwrap_or(&Doubt::NotCalibrated);
+            Self::of_doubt(first, session, inspected, session.role)
+        })
     }
 
     /// Reason and advice as one text, for a control that cannot be used.
@@ -66,102 +74,55 @@ impl Hold {
             } else {
                 text!("inspect-hold-simulated")
             },
-            advice: by_role(
-                role,
-                text!("inspect-hold-choose-camera-operator"),
-                text!("inspect-hold-choose-camera"),
-            ),
+            advice: match role {
+                UserRole::Operator => text!("inspect-hold-choose-camera-operator"),
+                UserRole::Engineer => text!("inspect-hold-choose-camera"),
+            },
         }
     }
 
-    fn of_doubt(doubt: &Doubt, session: &Session, inspected: &Inspected, role: UserRole) -> Self {
-        let shown = session.shown.as_ref();
-        let is_past = shown.is_some_and(|shown| shown.is_past);
+    fn of_doubt(found: &Doubt, session: &Session, inspected: &Inspected, role: UserRole) -> Self {
+        let is_past = session.shown.as_ref().is_some_and(|shown| shown.is_past);
         let is_file = matches!(inspected.origin, Origin::File { .. } | Origin::Scan { .. });
-        let (reason, advice) = match doubt {
-            Doubt::ReportedWrong => (
-                text!("operator-reported-wrong"),
-                by_role(
-                    role,
-                    text!("operator-reported-wrong-next"),
-                    inspect_current(&session.source),
-                ),
-            ),
-            Doubt::SourceLost => (
-                text!("inspect-hold-lost"),
-                by_role(
-                    role,
-                    text!("operator-no-camera-next"),
-                    text!("inspect-hold-lost-advice"),
-                ),
-            ),
-            Doubt::Moving => (text!("inspect-hold-moving"), text!("inspect-let-it-hang")),
-            Doubt::Superseded if is_past => (
-                text!("inspect-from-history"),
-                inspect_current(&session.source),
-            ),
-            Doubt::Superseded if session.inspecting.is_some() => {
-                (text!("inspect-previous-result"), text!("inspect-wait"))
+        let [usual_reason, usual_advice] = doubt(found);
+        let reason = match found {
+            Doubt::Superseded if is_past => text!("inspect-from-history"),
+            Doubt::Superseded if session.inspecting.is_some() => text!("inspect-previous-result"),
+            Doubt::NotAccepted => text!("inspect-no-pose-to-copy"),
+            Doubt::NotCalibrated => text!("inspect-hold-not-calibrated"),
+            Doubt::Old if is_file => text!("inspect-hold-old-file"),
+            Doubt::Old => text!("inspect-hold-old"),
+            _ => sentence(&usual_reason),
+        };
+        let advice = match (found, role) {
+            (Doubt::Superseded, _) if session.inspecting.is_some() => text!("inspect-wait"),
+            (Doubt::Superseded, _) => inspect_current(&session.source),
+            (Doubt::NotAccepted, _) => text!("inspect-no-pose-advice"),
+            // What only the engineer can do.
+            (Doubt::ReportedWrong, UserRole::Operator) => text!("operator-reported-wrong-next"),
+            (Doubt::NoPose, UserRole::Operator) => text!("operator-unconfirmed-next"),
+            (Doubt::NotCalibrated, UserRole::Operator) => {
+                text!("inspect-hold-not-calibrated-operator")
             }
-            Doubt::Superseded => (
-                text!("inspect-hold-superseded"),
-                inspect_current(&session.source),
-            ),
-            Doubt::NoPose => (
-                text!("inspect-hold-no-pose"),
-                by_role(
-                    role,
-                    text!("operator-unconfirmed-next"),
-                    text!("inspect-hold-no-pose-advice"),
-                ),
-            ),
-            Doubt::NotCalibrated => (
-                text!("inspect-hold-not-calibrated"),
-                by_role(
-                    role,
-                    text!("inspect-hold-not-calibrated-operator"),
-                    text!("inspect-hold-not-calibrated-advice"),
-                ),
-            ),
-            Doubt::ClockAhead(clock) => (
-                text!("inspect-hold-clock", seconds = clock.ahead.as_secs()),
-                by_role(
-                    role,
-                    text!("inspect-hold-clock-operator"),
-                    text!("program-clock-ahead-advice"),
-                ),
-            ),
-            Doubt::Old if is_file => (
-                text!("inspect-hold-old-file"),
-                text!("inspect-hold-old-advice"),
-            ),
-            Doubt::Old => (text!("inspect-hold-old"), text!("inspect-hold-old-advice")),
-            Doubt::Ambiguous => (
-                text!("inspect-hold-ambiguous"),
-                text!("inspect-hold-ambiguous-advice"),
-            ),
-            Doubt::NotAccepted => (
-                text!("inspect-no-pose-to-copy"),
-                text!("inspect-no-pose-advice"),
-            ),
-            other @ (Doubt::OffThePart(_) | Doubt::NotReached(_)) => {
-                (sentence(&other.to_string()), other.advice())
-            }
+            (Doubt::ClockAhead(_), UserRole::Operator) => text!("inspect-hold-clock-operator"),
+            _ => usual_advice,
         };
         Self { reason, advice }
+    }
+}
+
+impl From<Hold> for UserError {
+    fn from(hold: Hold) -> Self {
+        Self {
+            what: hold.reason,
+            advice: hold.advice,
+        }
     }
 }
 
 /// Draws the window again soon: a capture grows old without any event.
 pub(super) fn look_again(ui: &Ui) {
     ui.ctx().request_repaint_after(AGE_CHECK);
-}
-
-fn by_role(role: UserRole, operator: String, engineer: String) -> String {
-    match role {
-        UserRole::Operator => operator,
-        UserRole::Engineer => engineer,
-    }
 }
 
 /// Says how the part that hangs there now is inspected.

@@ -2,7 +2,7 @@
 
 use egui::{Align, Layout, RichText, Ui};
 
-use super::action::InspectAction;
+use super::{action::InspectAction, hold::Hold};
 use crate::{
     app::{
         inspection::inspected::Inspected,
@@ -18,7 +18,6 @@ use crate::{
     },
     geometry::rigid::RigidTransform,
     robot::{Convention, RobotPose, RobotValue, Unit},
-    station::Doubt,
 };
 
 /// An accepted pose in the chosen convention.
@@ -35,20 +34,18 @@ pub(super) struct NumberedPose {
 /// Returns the pose in the robot's frame if a robot may act on it, else in the camera's, to be read only; `None` unless
 /// accepted, or if a person has reported that it is another part.
 pub(super) fn numbered(session: &Session, inspected: &Inspected) -> Option<NumberedPose> {
-    let doubts = session.robot_doubts(inspected);
-    if doubts.contains(&Doubt::ReportedWrong) {
+    if session.shift.reported_as(inspected).is_some() {
         return None;
     }
     let camera_from_part = accepted_pose(inspected)?;
-    let robot = session.robot_of(inspected);
-    let (name, frame, transform) = match robot.filter(|_| doubts.is_empty()) {
-        Some(robot) => (
+    let (name, frame, transform) = match Hold::robot_of_files(session, inspected) {
+        Ok(robot) => (
             "robot_from_part",
             text!("inspect-robot-frame", name = calibration_name(&robot.name)),
             robot.robot_from_part(&camera_from_part),
         ),
-        None => {
-            let frame = match robot {
+        Err(_) => {
+            let frame = match session.robot_of(inspected) {
                 Some(_) => text!("inspect-camera-frame-only"),
                 None => text!("inspect-camera-frame"),
             };

@@ -51,6 +51,15 @@ fn stored(ui: &mut Ui, path: &CarriedPath, params: &StandOffParams, units: UnitS
         num = path.num_seen()
     );
     row(ui, &text!("inspect-in-band"), &inside);
+    let num_unseen = path.count(BandStatus::NotSeen);
+    if num_unseen > 0 {
+        let text = text!(
+            "inspect-points-not-seen",
+            count = num_unseen,
+            all = path.points.len()
+        );
+        ui.label(RichText::new(text).small().color(Theme::of(ui).warning));
+    }
     let steepest = met.iter().map(|hit| hit.tilt.0).fold(0.0, f64::max);
     angle_row(ui, [mean(|hit| hit.tilt.0), steepest], units);
     let angle_counts = text!(
@@ -59,11 +68,6 @@ fn stored(ui: &mut Ui, path: &CarriedPath, params: &StandOffParams, units: UnitS
         limit = units.angle(MOST_TILT.0)
     );
     ui.label(RichText::new(angle_counts).small().weak());
-    let num_unseen = path.count(BandStatus::NotSeen);
-    if num_unseen > 0 {
-        let text = text!("inspect-points-not-seen", count = num_unseen);
-        ui.label(RichText::new(text).small().weak());
-    }
 }
 
 fn distance_rows(ui: &mut Ui, [mean, worst]: [f64; 2], params: &StandOffParams, units: UnitSystem) {

@@ -106,7 +106,7 @@ pub struct InspectState {
     seen: Option<u64>,
     /// The scan of that result.
     seen_scan: Option<Arc<FusedShots>>,
-    writing: Task<String>,
+    writing: Task<Notice>,
     dialog: FileDialog<InspectFile>,
 }
 
@@ -154,6 +154,12 @@ impl InspectState {
     /// The file that is being written, if any.
     pub fn writing(&self) -> Option<&Running> {
         self.writing.running()
+    }
+
+    /// Runs the writing that waits; false if there is none.
+    #[cfg(test)]
+    pub(super) fn run_waiting(&mut self) -> bool {
+        self.writing.run_waiting()
     }
 
     /// True if a picture of the view is requested.
@@ -320,7 +326,7 @@ impl InspectState {
                 }
                 self.writing
                     .start(text!("inspect-saving-picture"), move |_| {
-                        Ok(report_files::picture(&path, &shot)?)
+                        Ok(Notice::done(report_files::picture(&path, &shot)?))
                     });
             }
             Err(error) => cx.notify(error),
@@ -337,42 +343,45 @@ impl InspectState {
         let convention = cx.session.convention;
         let trace = cx.session.trace.of_part(&inspected);
         let actual = cx.session.shift.reported_as(&inspected).cloned();
+        let doubts = cx.session.robot_doubts(&inspected);
+        let doubt = doubts.first().map(ToString::to_string);
         self.writing
             .start(text!("inspect-writing-report"), move |_| {
                 let robot = robot.as_deref();
                 let report = report_files::report_of(&inspected, &trace, robot, convention)
-                    .reported_as(actual.as_ref());
-                Ok(report_files::report(
-                    &folder,
-                    &inspected,
-                    &report,
-                    shot.as_ref(),
-                )?)
+                    .reported_as(actual.as_ref())
+                    .withheld(doubt.as_deref());
+                let written = report_files::report(&folder, &inspected, &report, shot.as_ref())?;
+                Ok(Notice::done(written))
             });
     }
 
     /// Writes the spray path of the inspection shown for the robot; nothing without a path or a calibrated cell.
-    fn write_spray_path(&mut self, path: PathBuf, cx: &mut ShellContext<'_>) {
+    fn write_spray_path(&mut self, path: PathBuf, cx: &ShellContext<'_>) {
         let Some(shown) = &cx.session.shown else {
             return;
         };
         let inspected = Arc::clone(&shown.inspected);
-        let Some(robot) = cx.session.robot_of(&inspected).cloned() else {
-            return;
-        };
         if inspected.spray.is_none() {
             return;
         }
-        // It may have left while the file was being chosen.
-        if let Some(hold) = Hold::of_files(cx.session, &inspected) {
-            return cx.notify(Notice::look(hold.reason, hold.advice));
-        }
+        let currency = cx.session.currency(&inspected);
+        // The part may have left while the file was being chosen.
+        let robot = Hold::robot_of_files(cx.session, &inspected).map(Arc::clone);
         let (convention, setup) = (cx.session.convention, cx.session.program.clone());
         self.writing.start(text!("inspect-writing-path"), move |_| {
+            let robot = match robot {
+                Ok(robot) => robot,
+                Err(hold) => {
+                    // The file of an earlier part must not remain.
+                    report_files::remove_earlier(&path)?;
+                    return Err(UserError::from(hold).into());
+                }
+            };
             let target = setup.target();
-            Ok(report_files::spray_path(
-                &path, &inspected, &robot, convention, target,
-            )?)
+            let written =
+                report_files::spray_path(&path, &inspected, &currency, &robot, convention, target)?;
+            Ok(Notice::of_robot_file(written))
         });
     }
 }
@@ -393,11 +402,11 @@ fn copy_pose(cx: &mut ShellContext<'_>) {
     let Some(shown) = &cx.session.shown else {
         return;
     };
-    let hold = Hold::of_files(cx.session, &shown.inspected);
-    let numbered = match (hold, numbered(cx.session, &shown.inspected)) {
-        (Some(hold), _) => return cx.notify(Notice::look(hold.reason, hold.advice)),
-        (None, Some(numbered)) => numbered,
-        (None, None) => return,
+    if let Err(hold) = Hold::robot_of_files(cx.session, &shown.inspected) {
+        return cx.notify(UserError::from(hold));
+    }
+    let Some(numbered) = numbered(cx.session, &shown.inspected) else {
+        return;
     };
     let title = convention_title(numbered.pose.convention);
     let what = text!(

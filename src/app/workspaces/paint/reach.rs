@@ -16,12 +16,13 @@ use crate::{
     app::{
         inspection::{
             library_cache::LibraryCache,
-            report_files::{self, ProgramSubject, ProgramTarget},
+            report_files::{self, ProgramTarget, WrittenForRobot, remove_earlier},
             source::file_name,
         },
         language::text,
         shell::{
             context::ShellContext,
+            notice::Notice,
             program_setup::ProgramSetup,
             session::{Session, WorkspaceKind},
         },
@@ -36,10 +37,11 @@ use crate::{
             ArmError, Body, Obstacle, Obstacles, PathCheck, PlaceSuggestion, PointProblem,
             suggest_base, suggest_rail,
         },
-        program::{arm_points, check_reach},
+        program::{ProgramFormat, arm_points, check_reach},
         spray::{CarriedPath, OffThePart, carry, off_the_part},
     },
     stages::stand_off::StandOffParams,
+    station::robot_file::{RobotFile, Unchecked},
 };
 
 /// Input of a reach check.
@@ -70,8 +72,8 @@ pub struct Reach {
     pub rail: Option<PlaceSuggestion>,
     /// Direction of its rail in the frame of the calibration.
     pub rail_direction: Option<Vector3<f64>>,
-    /// Whose accelerations are not checked: `joints`, `rail` or `joints and rail`.
-    pub unchecked_accelerations: Option<&'static str>,
+    /// What is not checked.
+    pub unchecked: Vec<Unchecked>,
     /// The positions, metres, between which its rail moves along the path; `None` for a rail that stands still.
     pub rail_range: Option<[f64; 2]>,
     /// Lines over the points not reached, and the boxes of the cell.
@@ -198,13 +200,8 @@ impl PaintState {
         let name = file_name(&file);
         self.writing
             .start(text!("shell-writing", file = name), move |_| {
-                Ok(write_program(
-                    &file,
-                    &planned,
-                    &setup,
-                    &robot,
-                    &library_cache,
-                )?)
+                let written = write_program(&file, &planned, &setup, &robot, &library_cache)?;
+                Ok(Notice::of_robot_file(written))
             });
     }
 }
@@ -272,7 +269,7 @@ fn found(
     let moving = arm.arm.moving_rail();
     let mut reach = Reach {
         arm: arm.arm.name.clone(),
-        unchecked_accelerations: arm.arm.unchecked_accelerations(),
+        unchecked: Unchecked::of_arm(Some(&arm)),
         rail_range: moving.map(|_| check.rail_range()),
         rail_direction: arm.arm.rail.map(|rail| rail.direction.into_inner()),
         lines: LineSet::new(lines),
@@ -328,24 +325,32 @@ fn outlines(obstacles: &Obstacles, robot_from_part: &RigidTransform) -> Vec<Line
     obstacles.boxes().flat_map(edges_of).collect()
 }
 
-/// Writes the program of a path in the part's standard position; describes what was written.
+/// Writes the program of a path in the part's standard position.
 pub(super) fn write_program(
     file: &Path,
     planned: &Planned,
     setup: &ProgramSetup,
     robot: &RobotFrame,
     library_cache: &LibraryCache,
-) -> Result<String, UserError> {
+) -> Result<WrittenForRobot, UserError> {
+    remove_earlier(file)?;
+    let format = ProgramFormat::of(file).map_err(|error| UserError::of(&error))?;
     let path = in_standard_position(planned, library_cache)?;
-    let subject = ProgramSubject {
+    let target = setup.target()?;
+    report_files::robot_file(&RobotFile {
+        file,
+        content: target.content(format),
+        carried: &path.carried,
+        frame: robot,
         part: planned.part.as_str(),
         part_points: &path.part_points,
         off: path.off,
-        scene: None,
+        capture: None,
         camera_from_part: RigidTransform::identity(),
+        is_stored: true,
         is_simulated: path.is_simulated,
-    };
-    report_files::program(file, &path.carried, robot, &setup.target()?, &subject)
+        is_forced: false,
+    })
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{
     app::{
-        language::text,
+        language::{robot::not_checked, text},
         shell::{program_setup::ProgramSetup, session::Session},
         ui::{
             parameter_control::fold,
@@ -22,7 +22,9 @@ use crate::{
     robot::{
         Convention,
         arm::{ARM_NAMES, Arm, PointProblem},
+        program::ranges,
     },
+    station::robot_file::Unchecked,
 };
 
 /// Draws the section.
@@ -72,40 +74,36 @@ pub(super) fn ui(
                 });
             };
             let mut output = f64::from(setup.gun_output);
-            number(text!("paint-gun-output"), &mut output, 0.0..=9999.0, "");
+            let outputs = 0.0..=f64::from(ranges::MAX_GUN_OUTPUT);
+            number(text!("paint-gun-output"), &mut output, outputs, "");
             setup.gun_output = output.round() as u16;
             let radius = &mut setup.gun_radius_mm;
             number(
                 text!("paint-gun-radius"),
                 radius,
-                ProgramSetup::GUN_RADIUS,
+                ranges::GUN_RADIUS_MM,
                 "mm",
             );
             let clearance = &mut setup.clearance_mm;
             number(
                 text!("paint-clearance"),
                 clearance,
-                ProgramSetup::CLEARANCE,
+                ranges::CLEARANCE_MM,
                 "mm",
             );
             let speed = &mut setup.speed_mm_s;
             number(
                 text!("paint-program-speed"),
                 speed,
-                ProgramSetup::SPEED,
+                ranges::SPEED_MM_S,
                 "mm/s",
             );
             let approach = &mut setup.approach_mm;
-            number(
-                text!("paint-approach"),
-                approach,
-                ProgramSetup::APPROACH,
-                "mm",
-            );
+            number(text!("paint-approach"), approach, ranges::APPROACH_MM, "mm");
             let blend = &mut setup.blend_mm;
-            number(text!("paint-blend"), blend, ProgramSetup::BLEND, "mm");
+            number(text!("paint-blend"), blend, ranges::BLEND_MM, "mm");
             let tilt = &mut setup.max_tilt_deg;
-            number(text!("paint-max-tilt"), tilt, ProgramSetup::MAX_TILT, "°");
+            number(text!("paint-max-tilt"), tilt, ranges::MAX_TILT_DEG, "°");
         });
     if setup != session.program {
         actions.push(PaintAction::SetUp(setup));
@@ -204,9 +202,16 @@ fn field(ui: &mut Ui, label: &str, text: &mut String, example: &str) -> egui::Re
         .labelled_by(name.id)
 }
 
-/// Draws in one line how much of the path the arm reaches; nothing if unknown.
+/// Draws in one line how much of the path the arm reaches, or that it is not checked without an arm; nothing while it is
+/// being checked.
 pub(super) fn verdict(ui: &mut Ui, paint: &PaintState, session: &Session) {
     let theme = Theme::of(ui);
+    if session.program.arm.is_none() && session.robot.is_some() {
+        if let Some(words) = not_checked(&Unchecked::of_arm(None)) {
+            note(ui, &words, theme.warning);
+        }
+        return;
+    }
     let Some(Ok(reach)) = paint.reach(session) else {
         return;
     };
@@ -226,6 +231,9 @@ pub(super) fn verdict(ui: &mut Ui, paint: &PaintState, session: &Session) {
 fn reasons(ui: &mut Ui, reach: &Reach, setup: &ProgramSetup, actions: &mut Vec<PaintAction>) {
     let theme = Theme::of(ui);
     collisions_ui(ui, reach);
+    if let Some(words) = not_checked(&reach.unchecked) {
+        note(ui, &words, theme.warning);
+    }
     if let Some(range) = reach.rail_range {
         let [from, to] = range.map(|at| format!("{:.0}", 1000.0 * at));
         let words = text!("paint-rail-moves", from = from, to = to);
@@ -239,10 +247,6 @@ fn reasons(ui: &mut Ui, reach: &Reach, setup: &ProgramSetup, actions: &mut Vec<P
     let [slower, by_joints] = reach.check.changed_moves();
     if slower + by_joints > 0 {
         let words = text!("paint-changed-moves", slower = slower, joints = by_joints);
-        note(ui, &words, theme.weak_text);
-    }
-    if let Some(what) = reach.unchecked_accelerations {
-        let words = text!("paint-unchecked-accelerations", what = what);
         note(ui, &words, theme.weak_text);
     }
     if reach.check.num_reached() == reach.check.points.len() {
@@ -314,6 +318,9 @@ fn collisions_ui(ui: &mut Ui, reach: &Reach) {
     let value = match (count, reach.check.num_reached()) {
         (0, 0) => text!("paint-collisions-not-checked"),
         (0, num) if num < reach.check.points.len() => text!("paint-no-collisions-reached"),
+        (0, _) if reach.unchecked.contains(&Unchecked::Surroundings) => {
+            text!("paint-no-collisions-part")
+        }
         _ => text!("paint-num-collisions", count = count),
     };
     row(ui, &text!("paint-collisions"), &value);

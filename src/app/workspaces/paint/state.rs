@@ -67,7 +67,7 @@ pub struct PaintState {
     pub(super) reach_asked: Option<ReachRequest>,
     pub(super) reach_task: Task<Arc<Reach>>,
     /// Its result describes what was written.
-    pub(super) writing: Task<String>,
+    pub(super) writing: Task<Notice>,
     dialog: FileDialog<PaintFile>,
 }
 
@@ -338,7 +338,8 @@ impl PaintState {
         };
         let title = text!("shell-writing", file = file_name(&file));
         self.writing.start(title, move |_| {
-            Ok(work::write(&file, &planned.part, &planned.path)?)
+            let written = work::write(&file, &planned.part, &planned.path)?;
+            Ok(Notice::done(written))
         });
     }
 
