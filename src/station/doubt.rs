@@ -48,6 +48,9 @@ pub enum Currency {
 /// Why a robot must not act on a result. `Display` states what is wrong, `Advice` what to do.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Doubt {
+    /// A person has reported that the part is another one, or none. Only the window knows that.
+    #[error("the part was reported as wrong")]
+    ReportedWrong,
     /// The source gives no more frames.
     #[error("the source was lost, so what hangs there now is not known")]
     SourceLost,
@@ -87,6 +90,7 @@ impl Doubt {
     /// A word that stays the same in later versions.
     pub fn kind(&self) -> &'static str {
         match self {
+            Self::ReportedWrong => "reported_wrong",
             Self::SourceLost => "source_lost",
             Self::Moving => "moving",
             Self::Superseded => "superseded",
@@ -111,6 +115,7 @@ impl Advice for ClockAhead {
 impl Advice for Doubt {
     fn advice(&self) -> String {
         match self {
+            Self::ReportedWrong => "Check which part hangs there, and capture it again".into(),
             Self::SourceLost => "Connect the source again, and capture the part again".into(),
             Self::Moving => "Wait until the part hangs still".into(),
             Self::Superseded | Self::NotAccepted | Self::Old => {

@@ -10,7 +10,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use egui::Role;
+use egui::{Key, Role};
 use egui_kittest::{Harness, kittest::Queryable as _};
 use jiff::{SignedDuration, Timestamp};
 use partsight::{
@@ -119,6 +119,7 @@ fn on_at(at: &str) -> AnswerSetup {
     AnswerSetup {
         is_on: true,
         at: at.parse().expect("an address"),
+        convention: Convention::Kuka,
         ..AnswerSetup::default()
     }
 }
@@ -191,7 +192,6 @@ impl Robot {
 fn a_robot_is_told_the_pose_that_the_window_shows_and_the_history_keeps_it() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut harness = open_with(USUAL, options(folder.path()));
-    act(&mut harness, Action::UseConvention(Convention::Kuka));
     let at = turn_on(&mut harness);
     assert!(at.ip().is_loopback(), "{at}");
     assert!(harness.state().state().session.is_live());
@@ -250,7 +250,6 @@ fn a_robot_is_told_the_pose_that_the_window_shows_and_the_history_keeps_it() {
 fn without_live_a_trigger_is_answered_with_what_to_do_and_with_it_again_with_a_pose() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut harness = open_with(USUAL, options(folder.path()));
-    act(&mut harness, Action::UseConvention(Convention::Kuka));
     let at = turn_on(&mut harness);
     let mut robot = Robot::connect(at);
     toggle(&mut harness);
@@ -372,6 +371,66 @@ fn turn_to_page(harness: &mut WindowHarness) {
     dialog.page = RobotPage::Answer;
     let turned = RobotAction::Edit(Box::new(dialog));
     cause(harness, Action::Robot(turned));
+}
+
+#[test]
+fn what_robots_are_answered_in_changes_on_its_page_alone_after_a_question_and_with_another_boot() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open_with(USUAL, options(folder.path()));
+    let at = turn_on(&mut harness);
+    wait_until(&mut harness, |state| state.session.live.status.is_some());
+    let mut robot = Robot::connect(at);
+    let before = robot.ask("TRIGGER");
+    assert_eq!([&*before[1], &*before[2]], ["accepted", "1"], "{before:?}");
+
+    // What the card shows is another matter, and K is no key.
+    cause(&mut harness, Action::UseConvention(Convention::Fanuc));
+    harness.key_press(Key::K);
+    harness.run_steps(4);
+    let session = &harness.state().state().session;
+    let conventions = [session.convention, session.answering.convention];
+    assert_eq!(conventions, [Convention::Fanuc, Convention::Kuka]);
+    let last = robot.ask("LAST");
+    assert_eq!(
+        [&last[2..4], &last[12..18]],
+        [&before[2..4], &before[12..18]]
+    );
+
+    turn_to_page(&mut harness);
+    let choose = |harness: &mut WindowHarness| {
+        let dialog = harness.state().robot().dialog().expect("open").clone();
+        let chosen = RobotDialog {
+            answered_in: Convention::Fanuc,
+            address: "0".into(),
+            ..dialog
+        };
+        cause(harness, Action::Robot(RobotAction::Edit(Box::new(chosen))));
+        harness.get_by_label("Use it").click();
+        harness.run_steps(4);
+        assert!(says(harness, "Robots are being answered"));
+    };
+    let answered_in =
+        |harness: &WindowHarness| harness.state().state().session.answering.convention;
+    choose(&mut harness);
+    harness.get_by_label("Leave them as they are").click();
+    harness.run_steps(4);
+    assert!(!says(&harness, "Robots are being answered"));
+    assert_eq!(answered_in(&harness), Convention::Kuka);
+    assert_eq!(robot.ask("LAST")[3], before[3], "the same server");
+    choose(&mut harness);
+    harness.get_by_label("Change them").click();
+    harness.run_steps(4);
+    assert_eq!(answered_in(&harness), Convention::Fanuc);
+    wait_for(&mut harness, |window| {
+        window.robot().answering().status().is_none()
+    });
+    let at = listening(&mut harness);
+    let mut rest = String::new();
+    assert_eq!(robot.0.read_line(&mut rest).expect("closed"), 0);
+    let mut robot = Robot::connect(at);
+    let last = robot.ask("LAST");
+    assert_eq!([&*last[1], &*last[2]], ["none", "0"], "{last:?}");
+    assert_ne!(last[3], before[3], "another boot");
 }
 
 #[test]
@@ -505,7 +564,7 @@ fn a_trigger_before_or_after_the_verdict_counts_is_no_other_part() {
     let of_trigger = history_of(&harness).row(0).map(|row| row.number);
 
     sees(&mut harness, &wire, [0.0; 22]);
-    harness.get_by_label("Accepted");
+    harness.get_by_label("Recognised");
     wait_for_rows(&mut harness, 2, 1);
     let of_live = history_of(&harness).row(0).map(|row| row.number);
     assert!(of_live > of_trigger, "the verdict of many frames stands");
@@ -531,7 +590,7 @@ fn triggers_of_two_parts_one_after_the_other_and_of_one_that_swings_through_are_
         sees(&mut harness, &wire, COMING);
         trigger(&mut harness, &wire, at, SWINGING);
         sees(&mut harness, &wire, [0.0; 22]);
-        harness.get_by_label("Accepted");
+        harness.get_by_label("Recognised");
         wait_for_rows(&mut harness, num_parts, 1);
         sees(&mut harness, &wire, GOING);
     }
@@ -553,7 +612,7 @@ fn what_robots_were_answered_is_kept_when_the_server_ends_or_the_window_before_l
     ask_while(&mut harness, &wire, at, SWINGING);
     turn_off(&mut harness);
     sees(&mut harness, &wire, [0.0; 22]);
-    harness.get_by_label("Accepted");
+    harness.get_by_label("Recognised");
     wait_for_rows(&mut harness, 2, 1);
 
     sees(&mut harness, &wire, GOING);
@@ -598,7 +657,7 @@ fn a_part_that_was_reported_as_wrong_has_no_pose_until_it_has_left_or_the_report
     let (mut harness, wire) = wired(folder.path());
     let at = turn_on(&mut harness);
     sees(&mut harness, &wire, [0.0; 22]);
-    harness.get_by_label("Accepted");
+    harness.get_by_label("Recognised");
     trigger(&mut harness, &wire, at, [0.0; 2]);
     // With the first frame of the window.
     wait_for_rows(&mut harness, 2, 1);

@@ -202,7 +202,7 @@ fn a_captured_part_is_corrected_named_saved_and_recognised_by_its_new_name() {
     assert!(harness.query_by_label("Use the inspected scene").is_none());
     press(&mut harness, "Saved: see it in Inspect");
     harness.get_by_label("Front door, right");
-    harness.get_by_label("Accepted");
+    harness.get_by_label("Recognised");
 }
 
 #[test]

@@ -440,7 +440,7 @@ fn a_history_that_cannot_be_written_is_said_and_inspections_go_on() {
     let taken = folder.path().join("taken");
     fs::write(&taken, "a file").expect("written");
     let mut harness = open_with(USUAL, keeping(&taken));
-    harness.get_by_label("Accepted");
+    harness.get_by_label("Recognised");
     for _ in 0..2 {
         harness.key_press(Key::Space);
         settle(&mut harness);
@@ -583,7 +583,7 @@ fn the_report_of_an_inspection_is_written_and_a_bad_folder_is_a_notice() {
     fs::write(&taken, "a file").expect("written");
     choose_in_inspect(&mut harness, InspectFile::Report, taken);
     harness.get_by_label_contains("cannot make the report's folder");
-    harness.get_by_label("Accepted");
+    harness.get_by_label("Recognised");
 }
 
 #[test]
@@ -629,7 +629,7 @@ fn broken_settings_are_set_aside_with_a_notice() {
     let harness = open_with(USUAL, remembering(&path));
     harness.get_by_label_contains("are not used");
     harness.get_by_label_contains("were moved to");
-    harness.get_by_label("Accepted");
+    harness.get_by_label("Recognised");
     let aside = folder.path().join("settings.broken-1.toml");
     assert_eq!(fs::read_to_string(aside).expect("kept"), "theme = \"lig");
 }

@@ -18,6 +18,7 @@ use partsight::{
         shell::{
             action::Action,
             notice::Notice,
+            robot::RobotAction,
             session::{ThemeChoice, WorkspaceKind},
         },
     },
@@ -29,6 +30,7 @@ use partsight::{
 
 use crate::kit::facing_part;
 
+use super::robot::save_calibration;
 use super::set_up::{
     SMALL, USUAL, WindowHarness, act, drop_file, inspect_of, open, open_with, plain_options, settle,
 };
@@ -42,7 +44,7 @@ fn generation(harness: &WindowHarness) -> u64 {
 fn it_opens_with_a_first_frame_inspected() {
     let harness = open();
     harness.get_by_label("Front door, left");
-    harness.get_by_label("Accepted");
+    harness.get_by_label("Recognised");
     harness.get_by_label("Simulated frame 1");
     assert!(harness.state().state().notices.is_empty());
 }
@@ -69,7 +71,7 @@ fn a_capture_named_at_the_start_is_shown_with_its_result_whatever_was_in_front()
     save_cloud(&path, &facing_part(PartKind::Fender, Side::Left, 5).cloud).expect("written");
     let harness = open(Some(path));
     assert_eq!(front(&harness), WorkspaceKind::Inspect);
-    harness.get_by_label("Accepted");
+    harness.get_by_label("Recognised");
 }
 
 #[test]
@@ -104,7 +106,7 @@ fn a_broken_file_is_a_notice_and_the_window_goes_on() {
     let mut harness = open();
     drop_file(&mut harness, &path);
     assert_eq!(harness.state().state().notices.len(), 1);
-    harness.get_by_label("Accepted");
+    harness.get_by_label("Recognised");
     harness.get_by_label("Dismiss").click();
     harness.run_steps(2);
     assert!(harness.query_by_label("Dismiss").is_none());
@@ -208,12 +210,23 @@ fn the_pose_is_shown_in_the_robots_numbers_that_were_chosen() {
         harness.get_by_label(value.name);
         harness.get_by_label_contains(&value.rounded());
     }
+    // No key changes it by mistake.
     harness.key_press(Key::K);
     harness.run_steps(4);
-    harness.get_by_label("Convention: ABB q1 q2 q3 q4");
+    harness.get_by_label("Convention: FANUC W P R");
+    // The camera's frame is for reading.
     harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::C);
     harness.run_steps(4);
-    harness.get_by_label("Copied camera_from_part in the convention ABB q1 q2 q3 q4");
+    assert!(harness.query_by_label_contains("Copied").is_none());
+    harness.get_by_label_contains("Not calibrated: the robot gets no pose");
+    let folder = tempfile::tempdir().expect("a folder");
+    let cell = folder.path().join("cell.toml");
+    save_calibration(&cell);
+    act(&mut harness, Action::Robot(RobotAction::Load(cell)));
+    harness.get_by_label_contains("The robot's base frame, by Cell 2");
+    harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::C);
+    harness.run_steps(4);
+    harness.get_by_label("Copied robot_from_part in the convention FANUC W P R");
 }
 
 #[test]
@@ -342,7 +355,7 @@ fn the_verdict_stays_in_sight_and_large_however_far_the_card_is_scrolled() {
         .expect("a result");
     let title = shown.inspected.figures.candidates[0].title.clone();
     let name = harness.get_by_label(&title).rect();
-    let word = harness.get_by_label("Accepted").rect();
+    let word = harness.get_by_label("Recognised").rect();
     let scrolled = harness.get_by_label("Offset from standard position").rect();
     assert!(
         scrolled.max.y < word.max.y,

@@ -1,6 +1,7 @@
 //! Following a source, with a camera that gives a frame when the test asks for one, independent of any clock.
 
 use std::{
+    path::Path,
     sync::{
         Arc, Mutex,
         mpsc::{Receiver, RecvTimeoutError, Sender, channel},
@@ -35,9 +36,10 @@ use crate::kit::{HangingPart, facing_part};
 
 use super::{
     operator::{open_operators, pass_time, scan, wait_for_serial},
+    robot::save_calibration,
     set_up::{
-        SMALL, USUAL, WindowHarness, act, history_of, open, open_with, plain_options, settle,
-        wait_for, wait_until,
+        SMALL, USUAL, WindowHarness, act, history_of, is_recognised, open, open_with,
+        plain_options, settle, wait_for, wait_until,
     },
 };
 
@@ -59,6 +61,7 @@ pub(crate) enum Step {
 
 /// The camera, with its end of the channel.
 struct Wired {
+    is_simulated: bool,
     steps: Arc<Mutex<Receiver<Step>>>,
     number: u64,
     fender: HangingPart,
@@ -70,7 +73,7 @@ impl DepthSource for Wired {
     }
 
     fn is_simulated(&self) -> bool {
-        true
+        self.is_simulated
     }
 
     fn next(&mut self, wait: Duration) -> Result<NextCapture, CaptureError> {
@@ -101,7 +104,7 @@ impl Wired {
             taken_at: Timestamp::UNIX_EPOCH + at,
             arrived: Instant::now(),
             image: Image::Depth(self.fender.frame(noise, &aside)),
-            is_simulated: true,
+            is_simulated: self.is_simulated,
             truth: None,
             robot_from_flange: None,
             warnings: Vec::new(),
@@ -117,10 +120,28 @@ fn wired() -> (WindowHarness, Wire) {
 
 /// The options of such a window, and the channel.
 pub(crate) fn wired_options() -> (WindowOptions, Wire) {
+    options_of(true)
+}
+
+/// As [`wired_options`], with the calibration of a cell in this folder, and a camera that passes for a real one: a robot may act
+/// on what it sees.
+pub(crate) fn robot_options(folder: &Path) -> (WindowOptions, Wire) {
+    let (options, wire) = options_of(false);
+    let cell = folder.join("cell.toml");
+    save_calibration(&cell);
+    let options = WindowOptions {
+        cell: Some(cell),
+        ..options
+    };
+    (options, wire)
+}
+
+fn options_of(is_simulated: bool) -> (WindowOptions, Wire) {
     let (sender, steps) = channel();
     let steps = Arc::new(Mutex::new(steps));
     let camera = Camera::opened_by(move |_| {
         Ok(Box::new(Wired {
+            is_simulated,
             steps: Arc::clone(&steps),
             number: 0,
             fender: HangingPart::new(PartKind::Fender, 3),
@@ -173,13 +194,13 @@ fn a_part_counts_once_it_hangs_still_and_no_longer_when_it_moves() {
     assert!(harness.state().state().session.is_live());
     sees(&mut harness, &wire, [0.0; 4]);
     assert!(says(&harness, "Live · looking") && says(&harness, "Not accepted yet"));
-    assert!(harness.query_by_label("Accepted").is_none());
+    assert!(!is_recognised(&harness));
     assert!(says(&harness, "Wired frame 4, simulated"));
 
     sees(&mut harness, &wire, [0.0; 12]);
     assert!(says(&harness, "Live · steady for"), "no longer looked at");
     assert!(says(&harness, "frames agree"));
-    harness.get_by_label("Accepted");
+    harness.get_by_label("Recognised");
     harness.get_by_label("Fender, left");
     // A verdict that counts is one inspection in the history, however many frames it rests on.
     let history = history_of(&harness);
@@ -194,7 +215,7 @@ fn a_part_counts_once_it_hangs_still_and_no_longer_when_it_moves() {
 
     sees(&mut harness, &wire, [0.03, 0.06]);
     assert!(says(&harness, "Live · moving") && says(&harness, "Moving"));
-    assert!(harness.query_by_label("Accepted").is_none());
+    assert!(!is_recognised(&harness));
     // A robot that reads the pose on the clipboard must find none that counts.
     let shown = harness
         .state()
@@ -207,7 +228,7 @@ fn a_part_counts_once_it_hangs_still_and_no_longer_when_it_moves() {
 
     // It hangs still again in another place: another verdict on the same part, which counts once.
     sees(&mut harness, &wire, [0.06; 22]);
-    harness.get_by_label("Accepted");
+    harness.get_by_label("Recognised");
     settle_history(&mut harness);
     let history = history_of(&harness);
     assert_eq!(history.num_rows(), 2);
@@ -235,7 +256,7 @@ fn two_parts_one_after_the_other_are_two_rows_and_one_that_swings_through_is_one
     for _ in 0..2 {
         sees(&mut harness, &wire, coming);
         sees(&mut harness, &wire, [0.0; 22]);
-        harness.get_by_label("Accepted");
+        harness.get_by_label("Recognised");
         sees(&mut harness, &wire, [-0.5, -1.2, -2.0, -2.0, -2.0, -2.0]);
     }
     settle_history(&mut harness);
@@ -326,7 +347,7 @@ fn a_capture_during_live_is_an_inspection_of_the_part_that_hangs_there() {
     act_live(&mut harness, Action::Role(RoleAction::Switch));
     toggle(&mut harness);
     sees(&mut harness, &wire, [0.0; 22]);
-    harness.get_by_label("OK");
+    harness.get_by_label("Recognised");
     scan(&mut harness, "4712");
     scan(&mut harness, "4713");
     capture(&mut harness, &wire);
@@ -414,7 +435,7 @@ fn a_lost_source_is_a_notice_until_it_comes_back_by_itself() {
     let (mut harness, wire) = wired();
     toggle(&mut harness);
     sees(&mut harness, &wire, [0.0; 16]);
-    harness.get_by_label("Accepted");
+    harness.get_by_label("Recognised");
     wire.send(Step::Unplugged).expect("the camera is open");
     let is_lost = |state: &State| {
         let status = state.session.live.status.as_ref();
@@ -577,16 +598,16 @@ fn another_source_is_followed_at_once_and_changed_parameters_count_anew() {
     let (mut harness, wire) = wired();
     toggle(&mut harness);
     sees(&mut harness, &wire, [0.0; 16]);
-    harness.get_by_label("Accepted");
+    harness.get_by_label("Recognised");
     act_live(&mut harness, Action::Live(LiveAction::Average(4)));
     // Wait, because the former follower would take an earlier frame.
     wait_until(&mut harness, |state| state.session.live.status.is_some());
     sees(&mut harness, &wire, [0.0]);
-    assert!(harness.query_by_label("Accepted").is_none());
+    assert!(!is_recognised(&harness));
     assert_eq!(num_inspected(harness.state().state()), 1);
     sees(&mut harness, &wire, [0.0; 15]);
     assert!(says(&harness, "depth of 4"));
-    harness.get_by_label("Accepted");
+    harness.get_by_label("Recognised");
 
     let choice = CellChoice::Part(PartKind::Grille, Side::Left);
     act_live(&mut harness, Action::UseCell(choice));
@@ -604,7 +625,7 @@ fn a_recording_is_made_and_plays_as_what_it_was() {
     wait_until(&mut harness, |state| state.session.live.status.is_some());
     sees(&mut harness, &wire, [0.0; 22]);
     assert!(says(&harness, "Stop recording · 22 frames"));
-    harness.get_by_label("Accepted");
+    harness.get_by_label("Recognised");
     harness.get_by_label_contains("Stop recording").click();
     harness.run_steps(4);
     assert!(harness.state().state().session.live.recording.is_none());
@@ -626,7 +647,7 @@ fn a_recording_is_made_and_plays_as_what_it_was() {
     // Step by step: each capture is the next frame.
     act(&mut harness, Action::Live(LiveAction::Use(spec)));
     assert!(says(&harness, "wired frame 1") || says(&harness, "Wired frame 1"));
-    harness.get_by_label("Accepted");
+    harness.get_by_label("Recognised");
     harness.get_by_label("Capture").click();
     settle(&mut harness);
     assert!(says(&harness, "Wired frame 2, simulated"));

@@ -31,11 +31,11 @@ use partsight::{
 use crate::kit::{facing_part, history_entry, open_history, scene_of};
 
 use super::{
-    live::{Step, sees, toggle, wired_options},
+    live::{Step, robot_options, sees, toggle, wired_options},
     robot::save_calibration,
     set_up::{
-        SMALL, USUAL, WindowHarness, act, act_in, drop_file, history_of, open, open_with,
-        plain_options, press, settle, wait_for, wait_until, watch_folder,
+        SMALL, USUAL, WindowHarness, act, act_in, drop_file, history_of, is_recognised, open,
+        open_with, plain_options, press, settle, wait_for, wait_until, watch_folder,
     },
 };
 
@@ -66,9 +66,10 @@ fn the_operator_sees_part_verdict_and_next_step_and_no_figures() {
     let names = harness.query_all_by_label("Front door, left");
     let heights: Vec<f32> = names.map(|node| node.rect().height()).collect();
     assert!(heights.iter().any(|height| *height > 60.0), "{heights:?}");
-    assert!(harness.get_by_label("OK").rect().height() > 40.0);
+    assert!(harness.get_by_label("Recognised").rect().height() > 40.0);
     harness.get_by_label("Next");
-    harness.get_by_label("Ask the engineer to choose a camera: this frame is simulated");
+    harness.get_by_label("Simulated: no camera was read");
+    harness.get_by_label("Ask the engineer to choose a camera");
     harness.get_by_label("3-D view of the scene");
     let figures = [
         "rms",
@@ -119,7 +120,7 @@ fn the_list_of_keys_has_only_those_that_act_in_the_operators_view() {
 #[test]
 fn a_good_part_carries_no_warning_in_either_view() {
     let mut harness = open();
-    harness.get_by_label("Accepted");
+    harness.get_by_label("Recognised");
     assert!(!shows(&harness, "the pose to the path"));
     harness.key_press(Key::N);
     harness.run_steps(2);
@@ -185,7 +186,7 @@ fn the_parts_of_this_shift_are_counted_and_what_is_only_tried_is_not() {
     harness.get_by_label("7 of 7 entries");
     harness.get_by_label("Inspect").click();
     harness.run_steps(4);
-    harness.get_by_label("OK");
+    harness.get_by_label("Recognised");
 }
 
 #[test]
@@ -252,7 +253,7 @@ fn the_view_is_remembered_without_a_pin_too() {
     drop(harness);
     let harness = open_with(USUAL, options());
     assert_eq!(harness.state().state().session.role, UserRole::Operator);
-    harness.get_by_label("OK");
+    harness.get_by_label("Recognised");
 }
 
 #[test]
@@ -268,12 +269,12 @@ fn without_a_result_the_operator_is_told_what_to_do() {
 
     // The last part was accepted; this capture fails.
     let mut harness = open_operators(plain_options());
-    harness.get_by_label("OK");
+    harness.get_by_label("Recognised");
     let broken = folder.path().join("broken.pcd");
     std::fs::write(&broken, "no cloud").expect("written");
     drop_file(&mut harness, &broken);
     harness.get_by_label("No result");
-    assert!(harness.query_by_label("OK").is_none());
+    assert!(!is_recognised(&harness));
     harness.key_press(Key::T);
     harness.run_steps(2);
     harness.get_by_label("No result");
@@ -281,18 +282,20 @@ fn without_a_result_the_operator_is_told_what_to_do() {
 
 #[test]
 fn what_is_followed_is_good_only_while_its_verdict_counts() {
-    let (options, wire) = wired_options();
+    let folder = tempfile::tempdir().expect("a folder");
+    let (options, wire) = robot_options(folder.path());
     let mut harness = open_operators(options);
     toggle(&mut harness);
     sees(&mut harness, &wire, [0.0; 4]);
     harness.get_by_label("Looking");
-    assert!(harness.query_by_label("OK").is_none());
+    assert!(!is_recognised(&harness));
     sees(&mut harness, &wire, [0.0; 12]);
     harness.get_by_label("OK");
+    harness.get_by_label("Start the robot");
     assert!(shows(&harness, "Live · steady"));
     sees(&mut harness, &wire, [0.03, 0.06]);
     harness.get_by_label("Moving");
-    assert!(harness.query_by_label("OK").is_none());
+    assert!(!is_recognised(&harness));
     wire.send(Step::Unplugged).expect("the camera is open");
     wait_until(&mut harness, |state| {
         let status = state.session.live.status.as_ref();
@@ -314,42 +317,85 @@ fn a_source_that_has_delivered_nothing_has_no_verdict() {
     let mut harness = open_operators(options);
     toggle(&mut harness);
     sees(&mut harness, &wire, [0.0; 22]);
-    harness.get_by_label("OK");
+    harness.get_by_label("Recognised");
     watch_folder(&mut harness, folder.path());
     harness.run_steps(2);
     harness.get_by_label("Waiting for a new file");
     harness.get_by_label("Save a capture to the folder: it is inspected automatically");
-    assert!(harness.query_by_label("OK").is_none());
+    assert!(!is_recognised(&harness));
     // Nor has it one when nobody waits any longer.
     toggle(&mut harness);
     settle(&mut harness);
     harness.get_by_label("Press Live or Capture for the current part");
-    assert!(harness.query_by_label("OK").is_none());
+    assert!(!is_recognised(&harness));
 }
 
 #[test]
 fn an_ok_of_live_is_gone_once_live_is_off_until_the_next_capture() {
-    let (options, wire) = wired_options();
+    let folder = tempfile::tempdir().expect("a folder");
+    let (options, wire) = robot_options(folder.path());
     let mut harness = open_operators(options);
     toggle(&mut harness);
     sees(&mut harness, &wire, [0.0; 22]);
     harness.get_by_label("OK");
+    // The engineer reads the same, and may give it to a robot.
+    let switch = |harness: &mut WindowHarness, action| {
+        let context = harness.ctx.clone();
+        harness.state_mut().act(Action::Role(action), &context);
+        harness.run_steps(4);
+    };
+    switch(&mut harness, RoleAction::Switch);
+    harness.get_by_label("Switch").click();
+    harness.run_steps(4);
+    harness.get_by_label("Accepted");
+    harness.get_by_label("robot_from_part");
+    let can_copy = |harness: &WindowHarness| {
+        let copy = harness.get_by_label("Copy pose");
+        !copy.accesskit_node().is_disabled()
+    };
+    assert!(can_copy(&harness));
+    switch(&mut harness, RoleAction::Switch);
     toggle(&mut harness);
     settle(&mut harness);
-    assert!(harness.query_by_label("OK").is_none());
+    assert!(!is_recognised(&harness));
     harness.get_by_label("No verdict");
     harness.get_by_label("The last verdict no longer counts");
     harness.get_by_label("Press Live or Capture for the current part");
-    // The engineer still looks at it.
+    // The engineer still looks at it, but nothing is given to a robot.
     act(&mut harness, Action::Role(RoleAction::Switch));
     press(&mut harness, "Switch");
-    harness.get_by_label("Accepted");
+    assert!(harness.query_by_label("Accepted").is_none());
+    harness.get_by_label("Recognised");
+    harness.get_by_label("Another part may hang there by now");
+    harness.get_by_label("Press Live or Capture for the current part");
+    assert!(harness.query_by_label("robot_from_part").is_none());
+    harness.get_by_label("camera_from_part");
+    assert!(!can_copy(&harness));
+    harness.key_press_modifiers(egui::Modifiers::COMMAND | egui::Modifiers::SHIFT, Key::C);
+    harness.run_steps(4);
+    assert!(!shows(&harness, "Copied"));
     assert!(!shows(&harness, "Previous result"));
     act(&mut harness, Action::Role(RoleAction::Switch));
     let door = CellChoice::Part(PartKind::FrontDoor, Side::Left);
     act(&mut harness, Action::UseCell(door));
-    harness.get_by_label("OK");
+    harness.get_by_label("Recognised");
     assert!(!shows(&harness, "no longer counts"));
+}
+
+#[test]
+fn without_a_calibration_the_operator_is_not_told_to_start_the_robot() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (options, wire) = robot_options(folder.path());
+    let mut harness = open_operators(WindowOptions {
+        cell: None,
+        ..options
+    });
+    toggle(&mut harness);
+    sees(&mut harness, &wire, [0.0; 22]);
+    harness.get_by_label("Recognised");
+    harness.get_by_label("Not calibrated: the robot gets no pose");
+    harness.get_by_label("Do not start the robot: call the engineer to calibrate the cell");
+    assert!(harness.query_by_label("OK").is_none());
 }
 
 #[test]
@@ -410,7 +456,7 @@ fn a_file_that_is_opened_again_is_no_other_part_unless_it_was_written_since() {
     assert_eq!(num_parts(&harness), 1);
     drop(harness);
     let harness = start();
-    harness.get_by_label("OK");
+    harness.get_by_label("Recognised");
     assert_eq!(num_parts(&harness), 1);
     drop(harness);
     // The rewritten file shows another part, also while the window is open.
@@ -476,7 +522,7 @@ fn a_serial_number_scanned_after_the_verdict_is_of_the_part_that_hangs_there_and
     let waiting = |harness: &WindowHarness| harness.state().state().session.trace.get().serial;
     toggle(&mut harness);
     sees(&mut harness, &wire, [0.0; 22]);
-    harness.get_by_label("OK");
+    harness.get_by_label("Recognised");
     scan(&mut harness, "LATE77");
     assert!(shows(&harness, "Serial number LATE77 → Fender, left, "));
     assert!(shows(&harness, "· LATE77"), "in the banner");
@@ -548,7 +594,7 @@ fn a_scan_answers_no_question_and_its_number_is_not_lost() {
 #[test]
 fn a_part_that_is_labelled_as_another_one_is_no_longer_ok() {
     let mut harness = open_operators(plain_options());
-    harness.get_by_label("OK");
+    harness.get_by_label("Recognised");
     press(&mut harness, "Wrong part?");
     harness.get_by_label("Choose the actual part");
     press(&mut harness, "Actual part · Not set ▼");
@@ -567,7 +613,7 @@ fn a_part_that_is_labelled_as_another_one_is_no_longer_ok() {
     press(&mut harness, "Switch");
     harness.get_by_label("Reported as wrong");
     harness.get_by_label("Actual part: Not enrolled");
-    assert!(harness.query_by_label("Accepted").is_none());
+    assert!(!is_recognised(&harness));
 }
 
 #[test]
@@ -686,7 +732,7 @@ fn a_file_that_was_opened_in_enrol_is_not_the_source_of_the_verdict_on_the_scree
     let source = harness.state().state().session.source.clone();
     assert_eq!(source, Source::default());
     act(&mut harness, Action::Role(RoleAction::Switch));
-    harness.get_by_label("OK");
+    harness.get_by_label("Recognised");
     assert!(!shows(&harness, "other.pcd") && !shows(&harness, "gone.pcd"));
 }
 

@@ -163,6 +163,14 @@ impl egui::DroppedFile for Dropped {
     }
 }
 
+/// True if either view calls the part recognised, whether or not a robot may act on it.
+pub(crate) fn is_recognised(harness: &WindowHarness) -> bool {
+    let words = ["OK", "Accepted", "Recognised"];
+    words
+        .iter()
+        .any(|word| harness.query_by_label(word).is_some())
+}
+
 /// Drops a file onto the window.
 pub(crate) fn drop_file(harness: &mut WindowHarness, path: &Path) {
     let dropped = Arc::new(Dropped(path.to_owned()));

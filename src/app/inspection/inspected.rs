@@ -1,6 +1,9 @@
 //! Inspects a scene or a scan and prepares what the panels draw, in a task.
 
-use std::{sync::Arc, time::Instant};
+use std::{
+    sync::Arc,
+    time::{Instant, SystemTime},
+};
 
 use jiff::Timestamp;
 use nalgebra::Point3;
@@ -40,7 +43,6 @@ use crate::{
         scene::SceneCloud,
         stand_off::{StandOff, StandOffError, stand_off},
     },
-    station::Currency,
 };
 
 /// Something to inspect or enrol.
@@ -77,6 +79,8 @@ pub struct Inspected {
     pub origin: Origin,
     /// When it was inspected.
     pub at: Timestamp,
+    /// When the scene was captured.
+    pub captured_at: SystemTime,
     /// The inspected scene.
     pub scene: Arc<SceneCloud>,
     /// The recipe used.
@@ -132,16 +136,6 @@ impl Inspected {
     pub(in crate::app) fn is_open(&self) -> bool {
         let followed = self.followed.as_ref();
         followed.is_some_and(|followed| followed.standing.counted().is_none())
-    }
-
-    /// When it was captured, as far as the inspection alone shows.
-    pub(in crate::app) fn captured(&self) -> Currency {
-        match &self.origin {
-            Origin::File { path, .. } => Currency::File(path.clone()),
-            Origin::Simulated { .. } | Origin::Scan { .. } | Origin::Frame { .. } => {
-                Currency::CapturedAt(self.at.into())
-            }
-        }
     }
 
     /// Returns what to inspect for the same inspection again: all shots of a scan, else the scene.
@@ -392,6 +386,7 @@ impl FinishedInspection {
             None => entry,
         };
         Inspected {
+            captured_at: origin.captured_at(),
             origin,
             at,
             scene,

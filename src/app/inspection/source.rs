@@ -1,6 +1,10 @@
 //! Sources of scenes: the simulated cell, files, and cameras.
 
-use std::{path::PathBuf, sync::Arc};
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+    time::SystemTime,
+};
 
 use super::{
     camera::{Camera, CameraError},
@@ -187,6 +191,27 @@ impl Origin {
             | Self::Scan { is_simulated, .. }
             | Self::Frame { is_simulated, .. } => *is_simulated,
         }
+    }
+
+    /// When a scene of this origin that was just taken was captured: for files when they were last written, the earliest if
+    /// there are several, and the beginning of time if that is not known; else now.
+    pub(in crate::app) fn captured_at(&self) -> SystemTime {
+        let written = |path: &Path| path.metadata().and_then(|meta| meta.modified()).ok();
+        let all = match self {
+            Self::Simulated { .. } | Self::Frame { .. } => return SystemTime::now(),
+            Self::File { path, .. } => written(path),
+            Self::Scan { files, .. } => {
+                let added = files.added.iter().map(|(frame, _)| frame);
+                let times: Vec<_> = files
+                    .frames
+                    .iter()
+                    .chain(added)
+                    .map(|path| written(path))
+                    .collect();
+                times.into_iter().min().flatten()
+            }
+        };
+        all.unwrap_or(SystemTime::UNIX_EPOCH)
     }
 
     /// Returns a source that gives the same scene again, by simulating the same frame or reading the files again. `None` for a

@@ -52,6 +52,10 @@ pub(in crate::app) fn calibration_name(name: &str) -> String {
 /// Explains why a robot must not act on a result, and what to do.
 pub(in crate::app) fn doubt(doubt: &Doubt) -> [String; 2] {
     match doubt {
+        Doubt::ReportedWrong => [
+            text!("operator-reported-wrong"),
+            text!("robot-doubt-capture-again"),
+        ],
         Doubt::SourceLost => [
             text!("robot-doubt-source-lost"),
             text!("robot-doubt-source-lost-advice"),

@@ -72,7 +72,7 @@ pub enum Action {
     CloseAnyway,
     /// Keep the window open.
     StayOpen,
-    /// Give poses to the robot in this convention.
+    /// Show, copy and write poses in this convention.
     UseConvention(Convention),
     /// An action on the followed source.
     Live(LiveAction),

@@ -525,8 +525,15 @@ pub(in crate::app) fn show_made(state: &mut State, inspected: Arc<Inspected>) ->
     show(state, inspected)
 }
 
-fn show(state: &mut State, inspected: Arc<Inspected>) -> Event {
+fn show(state: &mut State, mut inspected: Arc<Inspected>) -> Event {
     state.inspector.former_source = None;
+    // Inspected again, a scene is no newer than it was.
+    if let Some(former) = &state.session.shown
+        && Arc::ptr_eq(&former.inspected.scene, &inspected.scene)
+        && let Some(again) = Arc::get_mut(&mut inspected)
+    {
+        again.captured_at = former.inspected.captured_at;
+    }
     if let ReinspectionPurpose::New | ReinspectionPurpose::Past = state.inspector.purpose {
         remove_notices(state, NoticeTopic::Scene);
         remove_notices(state, NoticeTopic::Following);

@@ -44,7 +44,7 @@ pub enum Message {
     UseCalibration(RememberedCell, Option<Arc<RobotFrame>>),
     /// Answer robots with these settings.
     UseAnswering(AnswerSetup),
-    /// Give poses to the robot in this convention.
+    /// Show, copy and write poses in this convention.
     UseConvention(Convention),
     /// Write robot programs for this arm and gun.
     UseProgramSetup(ProgramSetup),

@@ -29,6 +29,7 @@ pub mod settings;
 pub(in crate::app) mod settings_file;
 pub mod shift;
 mod source_menu;
+mod standing;
 pub mod state;
 pub(in crate::app) mod top_bar;
 pub(in crate::app) mod truth_menu;

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     current_trace::CurrentTrace,
-    live::{LiveState, SourceState},
+    live::LiveState,
     message::ReinspectionPurpose,
     program_setup::ProgramSetup,
     robot::AnswerSetup,
@@ -30,6 +30,7 @@ use crate::{
     pipeline::NamedRecipe,
     robot::{Convention, RobotFrame},
     stages::scene::EmptyCell,
+    station::Currency,
 };
 
 /// State shared by the workspaces.
@@ -55,7 +56,7 @@ pub struct Session {
     pub chosen_library: Option<PathBuf>,
     /// The recipe for inspections.
     pub recipe: Arc<NamedRecipe>,
-    /// The convention of poses for the robot.
+    /// The convention in which poses are shown, copied and written; [`AnswerSetup`] has that of the answers to robots.
     pub convention: Convention,
     /// The arm and the gun of robot programs.
     pub program: ProgramSetup,
@@ -143,20 +144,15 @@ impl Session {
     /// nor once it is outdated, nor that of Live once Live is off, nor while another inspection runs or after one has failed. In
     /// the history it is the newest one.
     pub(in crate::app) fn current_result(&self) -> Option<&Inspected> {
-        let inspected = &**self.latest(|shown| !shown.is_past && !shown.is_outdated)?;
-        let has_come = if self.is_live() {
-            self.live.status.as_ref().is_some_and(|status| {
-                status.source == SourceState::Running && status.num_inspected > 0
-            })
-        } else {
-            !self.is_after_live()
+        let inspected = &**self.latest(|_| true)?;
+        let counts = match self.currency(inspected) {
+            Currency::Current | Currency::CapturedAt(_) | Currency::File(_) => !inspected.is_open(),
+            Currency::Moving | Currency::SourceLost | Currency::Superseded => false,
         };
         // An empty cell that is followed is not recorded.
         let is_recorded = inspected.followed.is_none()
             || inspected.entry.record.summary.verdict != StoredVerdict::NoPart;
-        let counts = !inspected.is_open() && is_recorded;
-        let is_newest = self.inspecting.is_none() && self.failed.is_none();
-        (has_come && counts && is_newest).then_some(inspected)
+        (counts && is_recorded).then_some(inspected)
     }
 
     /// The robot frame of an inspection: from the scan itself, else from the calibration of the cell.

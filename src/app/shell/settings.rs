@@ -53,7 +53,7 @@ pub struct Settings {
     /// The language chosen in the window; `None` for the system's.
     #[serde(deserialize_with = "language")]
     pub language: Option<Language>,
-    /// The convention of poses for the robot.
+    /// The convention in which poses are shown, copied and written.
     pub convention: Convention,
     /// The arm and the gun of robot programs.
     pub program: ProgramSetup,
@@ -413,6 +413,7 @@ mod tests {
                 is_on: true,
                 at: "eki=192.168.1.10:54600".parse().expect("an address"),
                 pose: PoseKind::RobotOffset,
+                convention: Convention::Doosan,
             },
             ..Settings::default()
         }

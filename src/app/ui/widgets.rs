@@ -20,6 +20,8 @@ use super::theme::{ROUNDING, Theme, font, space};
 pub(in crate::app) enum Mark {
     /// A tick.
     Good,
+    /// A tick without its colour: recognised, but a robot must not act on it.
+    Known,
     /// A cross.
     Bad,
     /// An exclamation mark.
@@ -42,13 +44,13 @@ pub(in crate::app) fn mark(
         Mark::Good => theme.accepted,
         Mark::Bad => theme.rejected,
         Mark::Look => theme.warning,
-        Mark::Open | Mark::Runs => theme.weak_text,
+        Mark::Known | Mark::Open | Mark::Runs => theme.weak_text,
     };
     painter.circle_filled(centre, radius, fill);
     let at = |x: f32, y: f32| centre + vec2(x, y) * radius;
     let stroke = Stroke::new(radius * 0.24, theme.panel);
     match mark {
-        Mark::Good => {
+        Mark::Good | Mark::Known => {
             painter.line(
                 vec![at(-0.45, 0.02), at(-0.12, 0.36), at(0.46, -0.34)],
                 stroke,

@@ -161,7 +161,7 @@ pub struct RobotBlock {
     /// Where the camera stands in the robot's base frame; null without a calibration.
     pub robot_from_camera: Option<TransformBlock>,
     /// Why the two below are null; null if they are not.
-    pub unavailable: Option<&'static str>,
+    pub unavailable: Option<String>,
     /// The pose in the robot's base frame.
     pub robot_from_part: Option<TransformBlock>,
     /// What moves a path that was taught in the robot's base frame with the part at its standard position.
@@ -323,7 +323,7 @@ impl RobotBlock {
                     convention,
                 )
             }),
-            unavailable,
+            unavailable: unavailable.map(str::to_owned),
             robot_from_part: usable.map(|(pose, robot)| {
                 TransformBlock::of(
                     [

@@ -209,7 +209,7 @@ fn columns(report: &PoseReport) -> Vec<(String, String)> {
         values(&robot.robot_offset),
     );
     add("calibration", word(robot.calibration.as_deref()));
-    add("robot_unavailable", word(robot.unavailable));
+    add("robot_unavailable", word(robot.unavailable.as_deref()));
     add("rms_m", number(pose.map(|pose| pose.fit.rms_m)));
     add("overlap", number(pose.map(|pose| pose.fit.overlap)));
     let bounds = pose.and_then(|pose| pose.bounds.as_ref());

@@ -240,6 +240,18 @@ impl PoseReport {
         self
     }
 
+    /// Leaves out the poses in the robot's base frame, if there is a reason against moving by them.
+    #[must_use]
+    pub fn withheld(mut self, why: Option<&str>) -> Self {
+        let robot = &mut self.robot;
+        if let (Some(why), None) = (why, &robot.unavailable) {
+            robot.unavailable = Some(why.to_owned());
+            robot.robot_from_part = None;
+            robot.robot_offset = None;
+        }
+        self
+    }
+
     /// Returns the report as indented JSON with a final line end.
     pub fn to_json(&self) -> String {
         let mut json =

@@ -223,6 +223,24 @@ fn what_is_refused_leaves_no_number_for_a_robot() {
 }
 
 #[test]
+fn with_a_reason_against_it_the_report_has_no_pose_for_a_robot() {
+    let robot = robot();
+    let report = || door().report(Some(&robot), Convention::Abb);
+    assert!(json(&report().withheld(None))["robot"]["robot_from_part"].is_object());
+    let why = "another part may hang there by now";
+    let withheld = json(&report().withheld(Some(why)));
+    assert_eq!(withheld["robot"]["unavailable"], why);
+    for null in ["robot_from_part", "robot_offset"] {
+        assert!(withheld["robot"][null].is_null(), "{null}");
+    }
+    assert!(withheld["pose"].is_object());
+    // A reason that the report has anyway stays.
+    let uncalibrated = door().report(None, Convention::Abb);
+    let why = uncalibrated.robot.unavailable.clone();
+    assert_eq!(uncalibrated.withheld(Some("old")).robot.unavailable, why);
+}
+
+#[test]
 fn without_a_calibration_or_a_part_the_report_says_so() {
     let uncalibrated = json(&door().report(None, Convention::Abb));
     assert!(uncalibrated["pose"].is_object());

@@ -346,6 +346,7 @@ impl<'a> LiveSession<'a> {
         };
         let watching = SilentContext(self.context);
         let mut inspected = inspect(&request, self.library_cache, &watching)?;
+        inspected.captured_at = before.captured_at;
         let summary = &mut inspected.entry.record.summary;
         summary.source = self.request.spec.to_string();
         summary.hung = before.hung().clone();

@@ -14,12 +14,13 @@ use crate::{
         shell::session::Session,
         ui::{
             theme::space,
-            widgets::{self, Mark, heading, line_mark, row, text_button},
+            widgets::{self, Mark, drop_down, heading, line_mark, row, text_button},
         },
         user_error::UserError,
     },
     error::Advice as _,
-    serve::{ClientEvent, ClientNews, ListenAddress, Listener, PoseKind, Protocol, parse_address},
+    robot::Convention,
+    serve::{ClientEvent, ClientNews, ListenAddress, PoseKind, Protocol, parse_address},
 };
 
 /// Width of a bar, logical pixels, below which the chip is only its sign; the second while the bar also shows running work.
@@ -53,24 +54,31 @@ pub(super) fn ui(
     ui.label(says.weak());
     ui.add_space(space::SMALL);
     fields(ui, dialog);
-    let typed = typed(session, dialog);
-    match &typed {
-        Ok(listener) => {
-            let poses = convention_title(listener.convention);
-            row(ui, &text!("robot-poses-as"), &poses);
-            if listener.doubt().is_some() {
-                let open = UserError {
-                    what: text!("robot-open-to-network", at = listener.at.to_string()),
-                    advice: text!("robot-open-to-network-advice"),
-                };
-                told(ui, Mark::Look, &open);
-            }
+    let typed = typed(dialog);
+    let listener = typed.as_ref().map(|setup| (setup, setup.listener()));
+    match &listener {
+        Ok((_, Ok(listener))) if listener.doubt().is_some() => {
+            let open = UserError {
+                what: text!("robot-open-to-network", at = listener.at.to_string()),
+                advice: text!("robot-open-to-network-advice"),
+            };
+            told(ui, Mark::Look, &open);
+        }
+        Ok((_, Ok(_))) => {}
+        Ok((_, Err(error))) => {
+            let trouble = UserError {
+                what: error.to_string(),
+                advice: text!("robot-other-convention"),
+            };
+            told(ui, Mark::Bad, &trouble);
         }
         Err(trouble) => told(ui, Mark::Bad, trouble),
     }
     ui.add_space(space::SMALL);
-    let at = typed.ok().map(|listener| listener.at);
-    buttons(ui, session, at, dialog.pose, caused);
+    let wanted = listener
+        .ok()
+        .and_then(|(setup, listener)| listener.is_ok().then_some(*setup));
+    buttons(ui, session, wanted, dialog, caused);
     state(ui, robot, session);
     numbers(ui, session);
 }
@@ -97,10 +105,28 @@ fn fields(ui: &mut Ui, dialog: &mut RobotDialog) {
             choice(ui, &mut dialog.pose, pose, text);
         }
     });
+    ui.horizontal(|ui| {
+        ui.label(text!("robot-poses-as"));
+        match dialog.protocol.own_convention() {
+            Some(own) => {
+                ui.label(convention_title(own));
+            }
+            None => {
+                let title = convention_title(dialog.answered_in);
+                let label = text!("robot-answered-in", convention = &title);
+                drop_down(ui, &label, &title, 240.0, |ui| {
+                    for other in Convention::ALL {
+                        let title = convention_title(other);
+                        ui.selectable_value(&mut dialog.answered_in, other, title);
+                    }
+                });
+            }
+        }
+    });
 }
 
-/// Returns the listener for the typed address.
-fn typed(session: &Session, dialog: &RobotDialog) -> Result<Listener, UserError> {
+/// Returns the settings as they were typed and chosen, with answering on.
+fn typed(dialog: &RobotDialog) -> Result<AnswerSetup, UserError> {
     let text = dialog.address.trim();
     let address = parse_address(text).map_err(|_no_address| UserError {
         what: text!("robot-no-address", text = text),
@@ -110,25 +136,32 @@ fn typed(session: &Session, dialog: &RobotDialog) -> Result<Listener, UserError>
         protocol: dialog.protocol,
         address,
     };
-    Listener::new(at, Some(session.convention)).map_err(|error| UserError {
-        what: error.to_string(),
-        advice: text!("robot-other-convention"),
+    Ok(AnswerSetup {
+        is_on: true,
+        at,
+        pose: dialog.pose,
+        convention: dialog.answered_in,
     })
 }
 
 fn buttons(
     ui: &mut Ui,
     session: &Session,
-    at: Option<ListenAddress>,
-    pose: PoseKind,
+    wanted: Option<AnswerSetup>,
+    dialog: &mut RobotDialog,
     caused: &mut Vec<RobotAction>,
 ) {
     let now = session.answering;
-    let wanted = at.map(|at| AnswerSetup {
-        is_on: true,
-        at,
-        pose,
-    });
+    let changed = wanted.filter(|setup| now.is_on && *setup != now);
+    let changes_poses = changed.is_some_and(|setup| setup.changes_poses(&now));
+    dialog.is_changing &= changes_poses;
+    if dialog.is_changing {
+        let asked = UserError {
+            what: text!("robot-change-poses"),
+            advice: text!("robot-change-poses-advice"),
+        };
+        told(ui, Mark::Look, &asked);
+    }
     let mut act = |setup| caused.push(RobotAction::Answer(setup));
     ui.horizontal(|ui| {
         if !now.is_on {
@@ -139,10 +172,29 @@ fn buttons(
             }
             return;
         }
-        if let Some(setup) = wanted.filter(|setup| *setup != now)
-            && widgets::default_button(ui, &text!("robot-use-it"), true)
-        {
-            act(setup);
+        match changed {
+            Some(setup) if dialog.is_changing => {
+                if text_button(ui, &text!("robot-change-poses-do")).clicked() {
+                    dialog.is_changing = false;
+                    act(setup);
+                }
+                if widgets::default_button(ui, &text!("robot-change-poses-not"), true) {
+                    dialog.is_changing = false;
+                    dialog.protocol = now.at.protocol;
+                    dialog.pose = now.pose;
+                    dialog.answered_in = now.convention;
+                }
+            }
+            Some(setup) => {
+                if widgets::default_button(ui, &text!("robot-use-it"), true) {
+                    if changes_poses {
+                        dialog.is_changing = true;
+                    } else {
+                        act(setup);
+                    }
+                }
+            }
+            None => {}
         }
         if text_button(ui, &text!("robot-turn-off")).clicked() {
             act(AnswerSetup {
@@ -170,7 +222,7 @@ fn state(ui: &mut Ui, robot: &RobotCell, session: &Session) {
     let advice = match sign {
         Mark::Look if session.source.followed().is_none() => text!("live-cannot-advice"),
         Mark::Look => text!("robot-answers-without-frames-advice"),
-        Mark::Good | Mark::Bad | Mark::Open | Mark::Runs => String::new(),
+        Mark::Good | Mark::Known | Mark::Bad | Mark::Open | Mark::Runs => String::new(),
     };
     match answering.trouble() {
         Some(trouble) => told(ui, Mark::Bad, trouble),

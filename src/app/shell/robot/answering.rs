@@ -30,8 +30,8 @@ use crate::{
         user_error::UserError,
     },
     error::lock,
-    robot::RobotFrame,
-    serve::{ListenAddress, Listener, PoseKind, Protocol},
+    robot::{Convention, RobotFrame},
+    serve::{ListenAddress, ListenError, Listener, PoseKind, Protocol},
 };
 
 /// The default port, as in `partsight serve`.
@@ -49,6 +49,21 @@ pub struct AnswerSetup {
     pub at: ListenAddress,
     /// Which pose the robots get.
     pub pose: PoseKind,
+    /// The convention of the poses, where the protocol does not fix it.
+    pub convention: Convention,
+}
+
+impl AnswerSetup {
+    /// Where a server with these settings listens, and in which convention it answers.
+    pub fn listener(&self) -> Result<Listener, ListenError> {
+        Listener::new(self.at, Some(self.convention))
+    }
+
+    /// True if robots would read other numbers from these settings than from `other`.
+    pub(super) fn changes_poses(&self, other: &Self) -> bool {
+        let convention = |setup: &Self| setup.listener().ok().map(|listener| listener.convention);
+        self.pose != other.pose || convention(self) != convention(other)
+    }
 }
 
 impl Default for AnswerSetup {
@@ -60,6 +75,7 @@ impl Default for AnswerSetup {
                 address: ([127, 0, 0, 1], PORT).into(),
             },
             pose: PoseKind::default(),
+            convention: Convention::default(),
         }
     }
 }
@@ -87,11 +103,17 @@ struct Failure {
 #[derive(Debug)]
 struct AnsweringRun {
     listener: Listener,
+    pose: PoseKind,
     inputs: Arc<Mutex<AnswerInputs>>,
     is_ending: Arc<AtomicBool>,
 }
 
 impl AnsweringRun {
+    /// True if it listens there, its answers have this meaning, and it goes on.
+    fn answers_as(&self, listener: Listener, pose: PoseKind) -> bool {
+        self.listener == listener && self.pose == pose && !self.is_ending()
+    }
+
     fn is_ending(&self) -> bool {
         self.is_ending.load(Ordering::Relaxed)
     }
@@ -165,10 +187,11 @@ impl Answering {
             self.forget_failure(cx);
         }
         match &self.run {
-            Some(run) if run.listener == listener && !run.is_ending() => {
+            Some(run) if run.answers_as(listener, cx.session.answering.pose) => {
                 *lock(&run.inputs) = AnswerInputs::of(cx.session, robot);
             }
-            // The server first finishes the pending answers; a new one starts once it has ended.
+            // The server first finishes the pending answers; a new one starts once it has ended. Where it listens and what its
+            // numbers mean never changes while it runs: a client sees another one by its boot number.
             Some(_) => self.end(),
             None => {
                 let failed = self.failed.as_ref();
@@ -220,6 +243,7 @@ impl Answering {
             });
         self.run = Some(AnsweringRun {
             listener,
+            pose: cx.session.answering.pose,
             inputs,
             is_ending,
         });
@@ -242,6 +266,6 @@ impl Answering {
 fn wanted(session: &Session) -> Option<(Listener, Arc<RobotFrame>)> {
     let setup = session.answering;
     let robot = session.robot.as_ref().filter(|_| setup.is_on)?;
-    let listener = Listener::new(setup.at, Some(session.convention)).ok()?;
+    let listener = setup.listener().ok()?;
     Some((listener, Arc::clone(robot)))
 }

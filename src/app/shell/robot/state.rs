@@ -118,13 +118,22 @@ pub struct RobotDialog {
     pub address: String,
     /// Which pose the robots get.
     pub pose: PoseKind,
+    /// The convention that robots are answered in.
+    pub answered_in: Convention,
+    /// True while the user is asked whether robots shall get other numbers from now on.
+    pub is_changing: bool,
     /// The last error.
     pub trouble: Option<UserError>,
 }
 
 impl RobotDialog {
     fn new(session: &Session) -> Self {
-        let AnswerSetup { at, pose, .. } = session.answering;
+        let AnswerSetup {
+            at,
+            pose,
+            convention,
+            ..
+        } = session.answering;
         // Show only the port if the address is the default one on this computer.
         let port = at.address.port().to_string();
         let address = match parse_address(&port) {
@@ -148,6 +157,8 @@ impl RobotDialog {
             protocol: at.protocol,
             address,
             pose,
+            answered_in: convention,
+            is_changing: false,
             trouble: None,
         }
     }
@@ -453,6 +464,7 @@ impl RobotCell {
         if known.page != edited.page {
             edited.is_confirming = false;
             edited.is_replacing = false;
+            edited.is_changing = false;
             if edited.page == RobotPage::Check {
                 self.checks.read();
             }

@@ -29,10 +29,8 @@ pub enum InspectAction {
     Enlarge(Option<StagePanel>),
     /// Compare contour and signature with the part at this index of the ranking.
     Candidate(usize),
-    /// Show robot poses in this convention.
+    /// Show, copy and write poses in this convention.
     UseConvention(Convention),
-    /// Switch to the next convention.
-    NextConvention,
     /// Copy the pose to the clipboard, in the chosen convention.
     CopyPose,
     /// Go to Compare, to see why it was recognised as this part.

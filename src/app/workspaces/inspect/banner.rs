@@ -4,6 +4,7 @@ use egui::Color32;
 
 use super::{
     headline::Headline,
+    hold::{Hold, inspect_current},
     operator_words::{in_short, next_step, next_without_part, no_part_in_short},
 };
 use crate::{
@@ -12,7 +13,7 @@ use crate::{
         language::text,
         shell::{
             live::SourceState,
-            session::{Session, Source},
+            session::{Session, Source, UserRole},
         },
         ui::{
             theme::Theme,
@@ -22,14 +23,16 @@ use crate::{
     capture::SourceSpec,
     history::StoredVerdict,
     pipeline::{Unrecognisable, Verdict},
-    stages::pose::PoseEstimate,
+    station::Currency,
 };
 
 /// State that the banner shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Tone {
-    /// An accepted part.
+    /// An accepted part that a robot may act on.
     Ok,
+    /// An accepted part that no robot may act on.
+    Recognised,
     /// A part that is not accepted.
     NotOk,
     /// There is no verdict, or not yet.
@@ -42,6 +45,7 @@ impl Tone {
     pub(super) fn word(self) -> String {
         match self {
             Self::Ok => text!("operator-ok"),
+            Self::Recognised => text!("inspect-recognised"),
             Self::NotOk => text!("operator-not-ok"),
             Self::Open | Self::Trouble => String::new(),
         }
@@ -50,6 +54,7 @@ impl Tone {
     pub(super) fn mark(self) -> Mark {
         match self {
             Self::Ok => Mark::Good,
+            Self::Recognised => Mark::Known,
             Self::NotOk => Mark::Bad,
             Self::Open => Mark::Open,
             Self::Trouble => Mark::Look,
@@ -60,6 +65,7 @@ impl Tone {
     pub(super) fn colours(self, theme: &Theme) -> [Color32; 2] {
         match self {
             Self::Ok => [theme.accepted, theme.accepted_back],
+            Self::Recognised => [theme.text, theme.panel],
             Self::NotOk => [theme.rejected, theme.rejected_back],
             Self::Open => [theme.weak_text, theme.panel],
             Self::Trouble => [theme.warning, theme.panel],
@@ -144,10 +150,10 @@ impl Banner {
         }
         // What is shown may be of another source, or from before this one was followed. After Live, the line may have gone on;
         // a frame without a verdict already says that Live was stopped.
-        let is_after_live = session.is_after_live();
         let shown = session.shown.as_ref().filter(|shown| {
-            let is_of_live = is_after_live && !shown.is_past && !shown.inspected.is_open();
-            !shown.is_outdated && !is_of_live
+            let is_current = session.currency(&shown.inspected) != Currency::Superseded;
+            let says_itself = shown.is_past || shown.inspected.is_open();
+            is_current || says_itself && !shown.is_outdated
         });
         let Some(shown) = shown else {
             return Self::without_current(session);
@@ -244,12 +250,11 @@ impl Banner {
             return Self::new(Tone::NotOk, title, text!("operator-reported-wrong"), next);
         }
         if is_accepted {
-            let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
-            let next = if inspected.origin.is_simulated() {
-                text!("operator-simulated-next")
-            } else if pose.is_some_and(PoseEstimate::is_ambiguous) {
-                text!("operator-ambiguous-next")
-            } else if matches!(inspected.origin, Origin::File { .. }) {
+            if let Some(hold) = Hold::of(session, inspected, UserRole::Operator) {
+                return Self::new(Tone::Recognised, title, hold.reason, hold.advice);
+            }
+            let is_file = matches!(inspected.origin, Origin::File { .. } | Origin::Scan { .. });
+            let next = if is_file {
                 text!("operator-file-next")
             } else if caution(inspected, Tone::Ok).is_empty() {
                 text!("operator-start-robot")
@@ -292,20 +297,12 @@ impl Banner {
     }
 }
 
-/// Says how the part that hangs there now is inspected.
-fn inspect_current(source: &Source) -> String {
-    match source.followed() {
-        Some(_) => text!("operator-follow-current"),
-        None => text!("operator-capture-current"),
-    }
-}
-
 /// Says that some of a part is outside the picture, or that an accepted one may be another model.
 fn caution(inspected: &Inspected, tone: Tone) -> String {
     let is_cut = inspected.inspection.touches_edge() && inspected.scan.is_none();
     match tone {
         Tone::NotOk if is_cut => text!("operator-reaches-edge"),
-        Tone::Ok => {
+        Tone::Ok | Tone::Recognised => {
             let is_approximate = inspected.inspection.verdict.is_approximate();
             let cautions = [
                 is_cut.then(|| text!("operator-reaches-edge-ok")),
@@ -343,10 +340,12 @@ mod tests {
             },
             user_error::UserError,
         },
+        geometry::rigid::RigidTransform,
         pipeline::{
             Rejection,
             live::{LiveVerdict, MotionState},
         },
+        robot::RobotFrame,
     };
 
     fn showing(inspected: Inspected, is_past: bool) -> Session {
@@ -358,6 +357,10 @@ mod tests {
                 session: None,
                 is_outdated: false,
             }),
+            robot: Some(Arc::new(RobotFrame {
+                robot_from_camera: RigidTransform::identity(),
+                name: "cell 1".into(),
+            })),
             ..Session::default()
         }
     }
@@ -373,6 +376,7 @@ mod tests {
             if let Ok(part) = &mut inspected.inspection.segmentation.part {
                 part.touches_edge = true;
             }
+            inspected.origin = camera();
         };
         let cut: fn(&mut Inspected) = |inspected| {
             if let Some(Ok(pose)) = &mut inspected.inspection.pose
@@ -425,7 +429,9 @@ mod tests {
     #[test]
     fn an_acceptance_by_live_does_not_stand_once_live_is_off() {
         let banner = |is_live: bool, is_past: bool| {
-            let mut session = showing(inspected_cell(CellChoice::InTurn, 1), is_past);
+            let mut inspected = inspected_cell(CellChoice::InTurn, 1);
+            inspected.origin = camera();
+            let mut session = showing(inspected, is_past);
             session.live.is_on = is_live;
             session.live.status = is_live.then(|| status(SourceState::Running));
             if let Some(shown) = &mut session.shown {
@@ -515,7 +521,7 @@ mod tests {
             standing: LiveVerdict::Open,
             rates: [None; 2],
             latency: None,
-            num_inspected: 0,
+            num_inspected: 1,
             num_dropped: 0,
             num_averaged: 1,
             recorded: None,

@@ -8,6 +8,7 @@ use egui::{
 use super::{
     action::{InspectAction, InspectFile},
     headline::{self, Headline},
+    hold::{self, Hold},
     robot_numbers, stand_off,
 };
 use crate::{
@@ -68,7 +69,11 @@ pub(super) fn ui(
         .resizable(false)
         .show_separator_line(false)
         .frame(Frame::new())
-        .show(ui, |ui| action_buttons(ui, pose_to_copy, actions));
+        .show(ui, |ui| {
+            let copying = pose_to_copy.map(|_| Hold::robot_of_files(session, inspected).err());
+            action_buttons(ui, copying, actions);
+        });
+    hold::look_again(ui);
     // Lines of text need less height than controls.
     ui.spacing_mut().interact_size.y = 20.0;
     ui.spacing_mut().item_spacing.y = 3.0;
@@ -106,8 +111,9 @@ pub(super) fn ui(
     });
 }
 
-/// Draws the buttons for what can be done with the result.
-fn action_buttons(ui: &mut Ui, pose: Option<&PoseEstimate>, actions: &mut Vec<InspectAction>) {
+/// Draws the buttons for what can be done with the result. `copying` is `None` without a pose to copy, and holds why it must not
+/// be copied.
+fn action_buttons(ui: &mut Ui, copying: Option<Option<Hold>>, actions: &mut Vec<InspectAction>) {
     /// Left and right of a button's text, logical pixels.
     const PADDING: f32 = 4.0;
     let theme = Theme::of(ui);
@@ -128,7 +134,8 @@ fn action_buttons(ui: &mut Ui, pose: Option<&PoseEstimate>, actions: &mut Vec<In
             InspectAction::CopyPose,
         ),
     ];
-    let num = if pose.is_some() { 3 } else { 2 };
+    let num = if copying.is_some() { 3 } else { 2 };
+    let hold = copying.flatten();
     ui.with_layout(Layout::bottom_up(Align::Min), |ui| {
         ui.horizontal(|ui| {
             ui.spacing_mut().button_padding.x = PADDING;
@@ -151,9 +158,17 @@ fn action_buttons(ui: &mut Ui, pose: Option<&PoseEstimate>, actions: &mut Vec<In
             for ((label, says, action), width) in ways.into_iter().zip(widths) {
                 let text = RichText::new(label).small();
                 let size = vec2(width + spare, space::TARGET);
-                let button = ui.add_sized(size, Button::new(text).truncate());
+                let hold = hold
+                    .as_ref()
+                    .filter(|_| matches!(action, InspectAction::CopyPose));
+                let button = ui.add_enabled_ui(hold.is_none(), |ui| {
+                    ui.add_sized(size, Button::new(text).truncate())
+                });
+                let button = button.inner;
                 focus_ring(ui, button.rect, &button);
-                if button.on_hover_text(says).clicked() {
+                let why_not = hold.map_or_else(String::new, Hold::in_words);
+                let button = button.on_hover_text(says).on_disabled_hover_text(why_not);
+                if button.clicked() {
                     actions.push(action);
                 }
             }
@@ -196,8 +211,10 @@ fn score(ui: &mut Ui, inspected: &Inspected, headline: &Headline) {
     let bar = Rect::from_min_max(rect.min + vec2(0.0, 2.0), rect.max - vec2(0.0, 2.0));
     painter.rect_filled(bar, ROUNDING, theme.track);
     let width = bar.width() * score.clamp(0.0, 1.0) as f32;
-    let fill = if headline.is_accepted && headline.actual.is_none() {
+    let fill = if headline.is_go {
         theme.accepted
+    } else if headline.is_accepted && headline.actual.is_none() {
+        theme.text
     } else if headline.is_open {
         theme.warning
     } else {

@@ -4,6 +4,7 @@ use egui::{Button, Response, RichText, Ui, Vec2};
 
 use super::{
     action::{InspectAction, InspectFile},
+    hold::Hold,
     state::{InspectState, ViewPart},
     view::SceneView,
 };
@@ -63,11 +64,14 @@ pub(super) fn ui(
         }
         ui.separator();
         let export = Button::new(text!("inspect-export-path"));
-        let can_export = figure.spray.is_some()
-            && session.robot_of(inspected).is_some()
-            && session.shift.reported_as(inspected).is_none();
-        let export = ui.add_enabled(can_export, export);
-        let export = export.on_disabled_hover_text(text!("inspect-export-path-says"));
+        let why_not = if figure.spray.is_some() {
+            let hold = Hold::robot_of_files(session, inspected).err();
+            hold.map(|hold| hold.in_words())
+        } else {
+            Some(text!("inspect-export-path-says"))
+        };
+        let export = ui.add_enabled(why_not.is_none(), export);
+        let export = export.on_disabled_hover_text(why_not.unwrap_or_default());
         if export.clicked() {
             actions.push(InspectAction::Ask(InspectFile::SprayPath));
             ui.close();

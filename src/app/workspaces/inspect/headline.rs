@@ -2,9 +2,10 @@
 
 use egui::{FontId, RichText, Ui};
 
+use super::hold::Hold;
 use crate::{
     app::{
-        inspection::inspected::{Inspected, LiveFrameContext},
+        inspection::inspected::Inspected,
         language::{
             results::{
                 accepted_or_not, is_recognised, rejection, rejection_advice, unrecognisable,
@@ -19,6 +20,7 @@ use crate::{
         },
     },
     pipeline::{Rejection, Verdict, is_like, live::MotionState},
+    station::Currency,
 };
 
 /// Texts of the headline.
@@ -28,13 +30,15 @@ pub(super) struct Headline {
     /// The nearest part, where none is accepted.
     nearest: Option<String>,
     pub(super) is_accepted: bool,
+    /// True if a robot may act on it: only then it is green.
+    pub(super) is_go: bool,
     /// True if it is too early for a verdict.
     pub(super) is_open: bool,
     /// True if nothing hangs there: an empty cell is not a bad part.
     is_no_part: bool,
     /// Title of what really hung there, if the acceptance was reported as wrong.
     pub(super) actual: Option<String>,
-    /// Why it is not accepted, and what to do.
+    /// Why it is not accepted, or why no robot may act on it, and what to do.
     pub(super) complaint: Option<(String, String)>,
 }
 
@@ -43,19 +47,29 @@ impl Headline {
         let verdict = Self::of_verdict(inspected, session);
         let actual = session.shift.reported_as(inspected);
         let actual = actual.filter(|_| verdict.is_accepted);
+        let Some(truth) = actual else {
+            return verdict;
+        };
         Self {
-            actual: actual.map(|truth| truth_title(Some(truth), &inspected.library)),
+            actual: Some(truth_title(Some(truth), &inspected.library)),
+            // What really hung there says it.
+            complaint: None,
             ..verdict
         }
     }
 
     fn of_verdict(inspected: &Inspected, session: &Session) -> Self {
-        if let Some(followed) = &inspected.followed
-            && inspected.is_open()
-        {
-            let shown = session.shown.as_ref();
-            let is_live = session.is_live() && shown.is_none_or(|shown| !shown.is_outdated);
-            return Self::not_yet(inspected, followed, is_live);
+        if let Some(followed) = &inspected.followed {
+            let is_moving = session.currency(inspected) == Currency::Moving;
+            if is_moving || inspected.is_open() {
+                // What moves now may have hung still in the frame that is shown.
+                let status = session.live.status.as_ref().filter(|_| is_moving);
+                let stillness = match status.and_then(|status| status.stillness) {
+                    Some(MotionState::Steady { .. }) | None => followed.stillness,
+                    Some(now) => now,
+                };
+                return Self::not_yet(inspected, stillness, is_moving);
+            }
         }
         let verdict = &inspected.inspection.verdict;
         let (certainty, rejected) = match verdict {
@@ -77,9 +91,17 @@ impl Headline {
         let best = inspected.figures.candidates.first();
         let nearest = inspected.part_title().unwrap_or_default().to_owned();
         let Some(reason) = rejected else {
+            let hold = Hold::of(session, inspected, session.role);
+            let is_go = hold.is_none();
+            // The card already says above why it is old.
+            let is_said =
+                session.is_old() || session.shown.as_ref().is_some_and(|shown| shown.is_past);
+            let complaint = hold.filter(|_| !is_said);
             return Self {
                 title: nearest,
                 is_accepted: true,
+                is_go,
+                complaint: complaint.map(|hold| (hold.reason, hold.advice)),
                 ..Self::default()
             };
         };
@@ -114,8 +136,8 @@ impl Headline {
     }
 
     /// Headline of a frame whose verdict does not count.
-    fn not_yet(inspected: &Inspected, followed: &LiveFrameContext, is_live: bool) -> Self {
-        let (title, why, advice) = match followed.stillness {
+    fn not_yet(inspected: &Inspected, stillness: MotionState, is_live: bool) -> Self {
+        let (title, why, advice) = match stillness {
             MotionState::Moving if !is_live => (
                 text!("inspect-no-verdict"),
                 text!("inspect-stopped-moving"),
@@ -164,8 +186,10 @@ pub(super) fn ui(ui: &mut Ui, headline: &Headline) {
     let (sign, word, colour) = if headline.actual.is_some() {
         let word = text!("operator-reported-wrong");
         (Mark::Bad, word, theme.rejected)
-    } else if headline.is_accepted {
+    } else if headline.is_go {
         (Mark::Good, accepted_or_not(true), theme.accepted)
+    } else if headline.is_accepted {
+        (Mark::Known, text!("inspect-recognised"), theme.text)
     } else if headline.is_open {
         (Mark::Look, text!("inspect-not-accepted-yet"), theme.warning)
     } else {
@@ -213,7 +237,10 @@ fn fitting_font(ui: &Ui, name: &str, fonts: &[FontId], max_lines: usize) -> Font
 mod tests {
     use super::*;
     use crate::{
-        app::inspection::{inspected::inspected_cell, source::CellChoice},
+        app::inspection::{
+            inspected::{LiveFrameContext, inspected_cell},
+            source::CellChoice,
+        },
         library::Truth,
         pipeline::live::LiveVerdict,
     };

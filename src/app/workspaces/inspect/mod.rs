@@ -1,10 +1,13 @@
 //! Inspect, the operator's workspace: the view, the verdict and the stages.
 
 mod action;
+#[cfg(test)]
+mod agreement;
 mod banner;
 mod card;
 mod controls;
 mod headline;
+mod hold;
 mod operator;
 mod operator_words;
 mod plots;
@@ -50,7 +53,7 @@ const CARD: [f32; 2] = [340.0, 300.0];
 const STRIP: [f32; 2] = [196.0, 164.0];
 
 /// The shortcuts of this workspace.
-const SHORTCUTS: [Shortcut<InspectAction>; 7] = [
+const SHORTCUTS: [Shortcut<InspectAction>; 6] = [
     Shortcut {
         modifiers: Modifiers::COMMAND.plus(Modifiers::SHIFT),
         key: Key::Z,
@@ -85,13 +88,6 @@ const SHORTCUTS: [Shortcut<InspectAction>; 7] = [
         keys: || keys("N"),
         does: || text!("inspect-does-nozzle"),
         action: || InspectAction::Toggle(ViewPart::NozzleWorst),
-    },
-    Shortcut {
-        modifiers: Modifiers::NONE,
-        key: Key::K,
-        keys: || keys("K"),
-        does: || text!("inspect-does-convention"),
-        action: || InspectAction::NextConvention,
     },
     Shortcut {
         modifiers: Modifiers::COMMAND.plus(Modifiers::SHIFT),

@@ -7,7 +7,10 @@ use egui::{
     RichText, Role, ScrollArea, Sense, Ui, Vec2, WidgetInfo, style::ScrollStyle, vec2,
 };
 
-use super::banner::{Banner, Tone};
+use super::{
+    banner::{Banner, Tone},
+    hold,
+};
 use crate::{
     app::{
         language::{history::recognised_part, results::stored_verdict, text},
@@ -43,6 +46,7 @@ pub(super) fn ui(ui: &mut Ui, session: &Session, picture: impl FnOnce(&mut Ui)) 
     let banner = Banner::of(session);
     let size = ui.available_size();
     let [_, back] = banner.tone.colours(theme);
+    hold::look_again(ui);
     let is_low = usize::from(size.y <= 700.0);
     Panel::top("banner")
         .exact_size(BANNER[is_low])
@@ -139,7 +143,7 @@ fn banner_ui(ui: &mut Ui, banner: &Banner) {
         0.0,
         match banner.tone {
             Tone::Ok | Tone::NotOk => colour,
-            Tone::Open | Tone::Trouble => theme.edge,
+            Tone::Recognised | Tone::Open | Tone::Trouble => theme.edge,
         },
     );
 }

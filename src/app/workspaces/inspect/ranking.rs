@@ -132,10 +132,12 @@ impl Pictures<'_> {
             self.theme.weak_text.gamma_multiply(0.6)
         } else if self.inspected.is_open() {
             self.theme.warning
+        } else if self.session.is_go(self.inspected) {
+            self.theme.accepted
         } else if self.inspected.inspection.verdict.is_accepted()
             && self.session.shift.reported_as(self.inspected).is_none()
         {
-            self.theme.accepted
+            self.theme.text
         } else {
             self.theme.rejected
         }
@@ -171,7 +173,8 @@ mod tests {
     };
 
     #[test]
-    fn the_bar_of_the_best_part_is_red_only_once_a_verdict_counts() {
+    fn the_bar_of_the_best_part_is_red_only_once_a_verdict_counts_and_never_green_without_a_robot()
+    {
         let theme = Theme::of(&egui::Context::default());
         let state = InspectState::new(&TaskRunner::without_threads());
         let mut session = Session::default();
@@ -187,7 +190,8 @@ mod tests {
             pictures.bar_fill(0)
         };
         let mut inspected = inspected_cell(CellChoice::InTurn, 1);
-        assert_eq!(fill(&inspected, &session), theme.accepted);
+        // Simulated, and not calibrated.
+        assert_eq!(fill(&inspected, &session), theme.text);
         session.shift.labelled = Some((inspected.hung().clone(), Truth::NotEnrolled));
         assert_eq!(fill(&inspected, &session), theme.rejected);
         session.shift.labelled = None;

@@ -2,7 +2,7 @@
 
 use egui::{Align, Layout, RichText, Ui};
 
-use super::action::InspectAction;
+use super::{action::InspectAction, hold::Hold};
 use crate::{
     app::{
         inspection::inspected::Inspected,
@@ -31,24 +31,26 @@ pub(super) struct NumberedPose {
     pub(super) pose: RobotPose,
 }
 
-/// Returns the pose in the robot's frame if the cell is calibrated, else in the camera's; `None` unless accepted, or if a
-/// person has reported that it is another part.
+/// Returns the pose in the robot's frame if a robot may act on it, else in the camera's, to be read only; `None` unless
+/// accepted, or if a person has reported that it is another part.
 pub(super) fn numbered(session: &Session, inspected: &Inspected) -> Option<NumberedPose> {
     if session.shift.reported_as(inspected).is_some() {
         return None;
     }
     let camera_from_part = accepted_pose(inspected)?;
-    let (name, frame, transform) = match session.robot_of(inspected) {
-        Some(robot) => (
+    let (name, frame, transform) = match Hold::robot_of_files(session, inspected) {
+        Ok(robot) => (
             "robot_from_part",
             text!("inspect-robot-frame", name = calibration_name(&robot.name)),
             robot.robot_from_part(&camera_from_part),
         ),
-        None => (
-            "camera_from_part",
-            text!("inspect-camera-frame"),
-            camera_from_part,
-        ),
+        Err(_) => {
+            let frame = match session.robot_of(inspected) {
+                Some(_) => text!("inspect-camera-frame-only"),
+                None => text!("inspect-camera-frame"),
+            };
+            ("camera_from_part", frame, camera_from_part)
+        }
     };
     Some(NumberedPose {
         name,
@@ -103,7 +105,7 @@ pub(super) fn ui(
     let small = |text: &str| RichText::new(text.to_owned()).small().weak();
     ui.label(RichText::new(*name).font(font::body_strong()));
     // Warn: numbers in the wrong frame move a robot to the wrong place.
-    let colour = if session.robot_of(inspected).is_some() {
+    let colour = if *name == "robot_from_part" {
         theme.weak_text
     } else {
         theme.warning
@@ -158,7 +160,10 @@ mod tests {
 
     use super::*;
     use crate::{
-        app::inspection::{inspected::inspected_cell, source::CellChoice},
+        app::{
+            inspection::{inspected::inspected_cell, source::CellChoice},
+            shell::session::Shown,
+        },
         geometry::rigid::from_euler_zyx,
         pipeline::Verdict,
         robot::RobotFrame,
@@ -166,11 +171,23 @@ mod tests {
 
     #[test]
     fn what_is_copied_says_which_pose_it_is_and_reads_back() {
-        let mut inspected = inspected_cell(CellChoice::InTurn, 1);
         let mut session = Session {
             convention: Convention::Fanuc,
             ..Session::default()
         };
+        let show = |session: &mut Session, inspected| {
+            session.shown = Some(Shown {
+                generation: 1,
+                inspected: Arc::new(inspected),
+                is_past: false,
+                session: None,
+                is_outdated: false,
+            });
+        };
+        show(&mut session, inspected_cell(CellChoice::InTurn, 1));
+        let shown =
+            |session: &Session| Arc::clone(&session.shown.as_ref().expect("shown").inspected);
+        let inspected = shown(&session);
         let camera_from_part = accepted_pose(&inspected).expect("accepted");
         let robot = RobotFrame {
             robot_from_camera: from_euler_zyx([-2.2, 0.1, -1.6, 1.5, -0.2, 2.0]),
@@ -205,9 +222,11 @@ mod tests {
         assert!(numbered(&session, &inspected).is_none());
         session.shift.labelled = None;
         // Nor has one that is not accepted.
-        if let Verdict::Part { rejected, part, .. } = &mut inspected.inspection.verdict {
+        let mut refused = inspected_cell(CellChoice::InTurn, 1);
+        if let Verdict::Part { rejected, part, .. } = &mut refused.inspection.verdict {
             *rejected = Some(crate::pipeline::Rejection::NotSteady { part: part.clone() });
         }
-        assert!(numbered(&session, &inspected).is_none());
+        show(&mut session, refused);
+        assert!(numbered(&session, &shown(&session)).is_none());
     }
 }

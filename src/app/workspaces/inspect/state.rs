@@ -4,6 +4,7 @@ use std::{collections::BTreeSet, path::PathBuf, sync::Arc};
 
 use super::{
     action::{InspectAction, InspectFile},
+    hold::Hold,
     robot_numbers::{clipboard_text, numbered},
 };
 use crate::{
@@ -29,7 +30,6 @@ use crate::{
         user_error::UserError,
     },
     history::Traceability,
-    robot::Convention,
 };
 
 /// An addition to the points of the view.
@@ -156,6 +156,12 @@ impl InspectState {
         self.writing.running()
     }
 
+    /// Runs the writing that waits; false if there is none.
+    #[cfg(test)]
+    pub(super) fn run_waiting(&mut self) -> bool {
+        self.writing.run_waiting()
+    }
+
     /// True if a picture of the view is requested.
     pub fn wants_picture(&self) -> bool {
         self.picture_to.is_some() || self.report_to.is_some()
@@ -174,13 +180,6 @@ impl InspectState {
             InspectAction::Candidate(place) => self.candidate = place,
             InspectAction::UseConvention(convention) => {
                 cx.send(Message::UseConvention(convention));
-            }
-            InspectAction::NextConvention => {
-                let all = Convention::ALL;
-                let now = cx.session.convention;
-                let place = all.iter().position(|known| *known == now);
-                let next = all[place.map_or(0, |place| (place + 1) % all.len())];
-                cx.send(Message::UseConvention(next));
             }
             InspectAction::CopyPose => copy_pose(cx),
             InspectAction::Compare => cx.send(Message::GoTo(WorkspaceKind::Compare)),
@@ -344,11 +343,14 @@ impl InspectState {
         let convention = cx.session.convention;
         let trace = cx.session.trace.of_part(&inspected);
         let actual = cx.session.shift.reported_as(&inspected).cloned();
+        let doubts = cx.session.robot_doubts(&inspected);
+        let doubt = doubts.first().map(ToString::to_string);
         self.writing
             .start(text!("inspect-writing-report"), move |_| {
                 let robot = robot.as_deref();
                 let report = report_files::report_of(&inspected, &trace, robot, convention)
-                    .reported_as(actual.as_ref());
+                    .reported_as(actual.as_ref())
+                    .withheld(doubt.as_deref());
                 let written = report_files::report(&folder, &inspected, &report, shot.as_ref())?;
                 Ok(Notice::done(written))
             });
@@ -360,17 +362,22 @@ impl InspectState {
             return;
         };
         let inspected = Arc::clone(&shown.inspected);
-        let Some(robot) = cx.session.robot_of(&inspected).cloned() else {
-            return;
-        };
-        // It may have been reported while the file was being chosen.
-        let is_reported = cx.session.shift.reported_as(&inspected).is_some();
-        if inspected.spray.is_none() || is_reported {
+        if inspected.spray.is_none() {
             return;
         }
-        let currency = inspected.captured();
+        let currency = cx.session.currency(&inspected);
+        // The part may have left while the file was being chosen.
+        let robot = Hold::robot_of_files(cx.session, &inspected).map(Arc::clone);
         let (convention, setup) = (cx.session.convention, cx.session.program.clone());
         self.writing.start(text!("inspect-writing-path"), move |_| {
+            let robot = match robot {
+                Ok(robot) => robot,
+                Err(hold) => {
+                    // The file of an earlier part must not remain.
+                    report_files::remove_earlier(&path)?;
+                    return Err(UserError::from(hold).into());
+                }
+            };
             let target = setup.target();
             let written =
                 report_files::spray_path(&path, &inspected, &currency, &robot, convention, target)?;
@@ -395,11 +402,11 @@ fn copy_pose(cx: &mut ShellContext<'_>) {
     let Some(shown) = &cx.session.shown else {
         return;
     };
+    if let Err(hold) = Hold::robot_of_files(cx.session, &shown.inspected) {
+        return cx.notify(UserError::from(hold));
+    }
     let Some(numbered) = numbered(cx.session, &shown.inspected) else {
-        return cx.notify(Notice::look(
-            text!("inspect-no-pose-to-copy"),
-            text!("inspect-no-pose-advice"),
-        ));
+        return;
     };
     let title = convention_title(numbered.pose.convention);
     let what = text!(
@@ -418,6 +425,7 @@ mod tests {
         inspection::{inspected::inspected_cell, scan_choice::ScanFiles, source::CellChoice},
         shell::{context::TestShell, session::Shown},
     };
+    use crate::{geometry::rigid::RigidTransform, robot::RobotFrame};
 
     #[test]
     fn what_is_shown_is_hidden_and_shown_again() {
@@ -496,7 +504,7 @@ mod tests {
     }
 
     #[test]
-    fn the_pose_of_an_accepted_part_is_copied() {
+    fn the_pose_of_an_accepted_part_is_copied_once_the_cell_is_calibrated() {
         let mut shell = TestShell::default();
         let mut state = InspectState::new(&TaskRunner::without_threads());
         state.apply(InspectAction::CopyPose, &mut shell.context());
@@ -509,6 +517,13 @@ mod tests {
             session: None,
             is_outdated: false,
         });
+        state.apply(InspectAction::CopyPose, &mut shell.context());
+        assert_eq!(shell.notices(), ["Not calibrated: the robot gets no pose"]);
+        shell.messages.clear();
+        shell.session.robot = Some(Arc::new(RobotFrame {
+            robot_from_camera: RigidTransform::identity(),
+            name: "cell 1".into(),
+        }));
         state.apply(InspectAction::CopyPose, &mut shell.context());
         assert!(matches!(
             &shell.messages[..],

@@ -54,7 +54,7 @@ fn robot(sheet: &mut Sheet<'_>, report: &PoseReport, pose: &PoseBlock, area: Are
         sheet.text(&text, [area.left + area.width, y], style, Anchor::Right);
     }
     y += 6.0;
-    if let Some(why) = robot.unavailable {
+    if let Some(why) = &robot.unavailable {
         // Before the numbers, where it cannot be overlooked.
         let text = format!("In the camera's frame, not in the robot's: {why}.");
         let at = [area.left, y + 7.0];
