@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use jiff::Timestamp;
 
 use super::{
     Outcome,
@@ -281,7 +280,7 @@ impl ProgramFile {
             calibration: &frame.name,
             is_simulated: subject.is_simulated,
             doubts: &doubts,
-            at: Timestamp::now(),
+            at: crate::clock::now(),
         };
         let num_parts = program.save(&self.file, self.format).advised()?;
         console.note(&format_args!(

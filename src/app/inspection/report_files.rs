@@ -6,7 +6,6 @@ use std::{
 };
 
 use image::{DynamicImage, ImageFormat};
-use jiff::Timestamp;
 use nalgebra::Point3;
 
 use super::{inspected::Inspected, source::Origin};
@@ -214,7 +213,7 @@ pub(in crate::app) fn program(
         calibration: &robot.name,
         is_simulated: subject.is_simulated,
         doubts: &[],
-        at: Timestamp::now(),
+        at: crate::clock::now(),
     };
     let saved = program.save(path, format);
     let num_parts = saved.map_err(|error| UserError::of(&error))?;

@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use jiff::Timestamp;
 
 use crate::{
     cli::{
@@ -207,7 +206,7 @@ impl SprayFile {
             is_stored,
             is_simulated: *is_simulated,
             doubts: &doubts,
-            at: Timestamp::now(),
+            at: crate::clock::now(),
         };
         export.save(&self.file).advised()?;
         console.note(&format_args!(
