@@ -45,6 +45,8 @@ pub mod cases;
 #[doc(hidden)]
 pub mod cli;
 #[doc(hidden)]
+pub mod clock;
+#[doc(hidden)]
 pub mod error;
 #[doc(hidden)]
 pub mod files;

@@ -273,7 +273,7 @@ impl Window {
         }
     }
 
-    /// True if nothing would be lost or the user has agreed; otherwise asks the user.
+    /// True if nothing would be lost and no robot is answered, or the user has agreed; otherwise asks the user.
     fn may_close(&mut self) -> bool {
         if self.state.closing == Closing::Confirmed {
             return true;
@@ -281,11 +281,20 @@ impl Window {
         let all = self.workspaces.iter();
         let mut lost: Vec<String> = all.filter_map(|workspace| workspace.unsaved()).collect();
         lost.extend(self.not_written());
+        let is_unsaved = !lost.is_empty();
+        let answering = self.robot.answering().status();
+        lost.extend(answering.map(|status| {
+            let at = status.at.address.to_string();
+            text!("shell-robots-without-answer", at = at)
+        }));
         let may_close = lost.is_empty();
         self.state.closing = if may_close {
             Closing::No
         } else {
-            Closing::Asked(lost.join("\n"))
+            Closing::Asked {
+                what: lost.join("\n"),
+                is_unsaved,
+            }
         };
         may_close
     }
@@ -513,7 +522,7 @@ impl Window {
         let is_own = state.is_help_open
             || state.session.live.setup.is_some()
             || state.roles.asked.is_some()
-            || matches!(state.closing, Closing::Asked(_))
+            || matches!(state.closing, Closing::Asked { .. })
             || self.robot.dialog().is_some();
         let is_beneath =
             |memory: &egui::Memory| !memory.is_above_modal_layer(LayerId::background());

@@ -134,7 +134,7 @@ pub fn history_times(num_rows: usize) -> Result<Vec<HistoryTime>, HistoryError> 
     };
     let mut ms = Vec::new();
     for i in 0..NUM_WRITTEN {
-        let entry = entry(num_rows + i, Timestamp::now(), &recipe, Some(&scene));
+        let entry = entry(num_rows + i, crate::clock::now(), &recipe, Some(&scene));
         let begun = Instant::now();
         history.add(&entry, &all)?;
         ms.push(begun.elapsed().as_secs_f64() * 1e3);

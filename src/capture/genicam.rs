@@ -213,7 +213,7 @@ impl Genicam {
     fn captured(&self, name: String, frame: &Frame<'_>, image: Image) -> Captured {
         let taken_at = Timestamp::from_nanosecond(i128::from(frame.received_at()));
         Captured {
-            taken_at: taken_at.unwrap_or_else(|_| Timestamp::now()),
+            taken_at: taken_at.unwrap_or_else(|_| crate::clock::now()),
             warnings: self.warnings.clone(),
             ..Captured::now(self.num_frames, name, image)
         }

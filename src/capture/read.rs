@@ -9,6 +9,7 @@ use super::{
     source::Image,
 };
 use crate::{
+    clock,
     files::{self, FileContent, FileError, file_name},
     geometry::cloud::PointCloud,
 };
@@ -62,5 +63,5 @@ pub(super) fn image_of(
 /// The time of a file's last modification, if the system knows it.
 pub(super) fn written_at(path: &Path) -> Option<Timestamp> {
     let modified = fs::metadata(path).and_then(|file| file.modified()).ok()?;
-    Timestamp::try_from(modified).ok()
+    Some(clock::timestamp(modified))
 }

@@ -74,7 +74,7 @@ impl Captured {
         Self {
             number,
             name,
-            taken_at: Timestamp::now(),
+            taken_at: crate::clock::now(),
             arrived: Instant::now(),
             is_simulated: image.is_simulated(),
             image,

@@ -15,15 +15,13 @@ use super::{
 use crate::{
     files::{
         FileError, disk, in_counting_order, lock_exclusively, new_folder, open_regular,
-        parse_versioned, read_bytes, sync_folder, user_data, words_of, write_file,
+        parse_versioned, read_bytes, replace_file, sync_folder, user_data, words_of, write_file,
     },
     history::{FrameRecord, read_frame_by, write_frame},
     stages::scene::SceneCloud,
 };
 
 const META: &str = "case.toml";
-/// A new `case.toml` until it is complete.
-const NEW_META: &str = ".case.toml";
 /// The name of the scene's file, without its ending.
 const SCENE: &str = "scene";
 const NEW_PREFIX: &str = ".new-";
@@ -152,12 +150,7 @@ impl CaseFolder {
         meta.schema_version = SCHEMA_VERSION;
         let written = || -> io::Result<()> {
             let text = toml::to_string(&meta).map_err(io::Error::other)?;
-            self.writing(|| {
-                let new = folder.join(NEW_META);
-                write_file(&new, text.as_bytes())?;
-                disk::rename(&new, folder.join(META))?;
-                sync_folder(&folder)
-            })
+            self.writing(|| replace_file(&folder.join(META), text.as_bytes()))
         };
         written().map_err(|source| self.unwritable(source))?;
         Ok(before)

@@ -7,7 +7,6 @@ mod show;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand, ValueEnum};
-use jiff::Timestamp;
 
 use super::{
     Outcome,
@@ -118,7 +117,7 @@ impl CalibrationOutput {
             notes: self.notes.clone(),
             camera,
             origin,
-            made_at: Timestamp::now(),
+            made_at: crate::clock::now(),
         }
     }
 }

@@ -3,7 +3,7 @@
 use std::{ops::ControlFlow, path::PathBuf};
 
 use clap::{Args, Subcommand};
-use jiff::{Timestamp, tz::TimeZone};
+use jiff::tz::TimeZone;
 use serde::Serialize;
 
 use super::{
@@ -148,7 +148,8 @@ fn baseline(
         shift: Metres::from_mm(args.max_shift),
         turn: Radians::from_degrees(args.max_turn),
     };
-    let baseline = CellBaseline::new(&views, limits, is_simulated, Timestamp::now()).advised()?;
+    let baseline =
+        CellBaseline::new(&views, limits, is_simulated, crate::clock::now()).advised()?;
     folder.save(&baseline).advised()?;
     let simulated = if is_simulated { "simulated " } else { "" };
     let frames = if views.len() == 1 { "frame" } else { "frames" };
@@ -177,7 +178,7 @@ fn check(
     let baseline = folder.baseline().advised()?;
     let taken = views(&args.views, console)?;
     let check = baseline
-        .check(&taken.views, taken.is_simulated, Timestamp::now())
+        .check(&taken.views, taken.is_simulated, crate::clock::now())
         .advised()?;
     if args.json {
         console.line(&json_line(&check)?);

@@ -176,7 +176,7 @@ fn about(args: &EnrolArgs, from: &Path, simulated: bool) -> anyhow::Result<PartD
         notes: args.notes.clone(),
         from: file_name.to_string_lossy().into_owned(),
         // Whole seconds are enough for people.
-        at: jiff::Timestamp::from_second(jiff::Timestamp::now().as_second())?,
+        at: jiff::Timestamp::from_second(crate::clock::now().as_second())?,
         simulated: args.simulated || simulated,
     })
 }

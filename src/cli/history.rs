@@ -472,7 +472,7 @@ fn keep(history: &mut History, asked: &KeepArgs, console: &mut Console) -> anyho
     .clamped();
     if rule != before {
         history.set_retention(&rule).advised()?;
-        let swept = history.sweep(&rule, Timestamp::now()).advised()?;
+        let swept = history.sweep(&rule, crate::clock::now()).advised()?;
         if swept.num_frames > 0 {
             console.note(&format_args!("{} frames were removed", swept.num_frames));
         }

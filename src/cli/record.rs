@@ -3,7 +3,6 @@
 use std::{collections::BTreeMap, path::PathBuf, sync::Arc};
 
 use clap::Args;
-use jiff::Timestamp;
 
 use super::console::Console;
 #[cfg(feature = "plant")]
@@ -121,7 +120,7 @@ impl HistoryRecorder {
         };
         let picture = segmentation_picture(scene, &inspection.segmentation);
         let about = InspectionContext {
-            at: Timestamp::now(),
+            at: crate::clock::now(),
             scene: taken.scene.to_owned(),
             source: taken.source.to_owned(),
             is_simulated: taken.is_simulated,

@@ -6,7 +6,6 @@ use std::{
 };
 
 use clap::{Args, ValueEnum};
-use jiff::Timestamp;
 
 use super::{
     LibraryChoice, Outcome,
@@ -228,7 +227,7 @@ impl Reporter<'_> {
                 stand_off(reference, &pose.camera_from_part(), &self.recipe.stand_off)
             });
         PoseReport::of(&ReportSubject {
-            inspected_at: Timestamp::now(),
+            inspected_at: crate::clock::now(),
             scene: name,
             source: None,
             seen_by: if self.args.simulated || scene.cloud.is_simulated {

@@ -12,6 +12,7 @@ pub(crate) fn words_of(error: &io::Error) -> String {
         io::ErrorKind::AlreadyExists => "a file of that name is there".into(),
         io::ErrorKind::ReadOnlyFilesystem => "the disk is write-protected".into(),
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => "the disk is full".into(),
+        io::ErrorKind::FileTooLarge => "the file would be larger than this system allows".into(),
         _ => innermost(error),
     }
 }
@@ -32,6 +33,10 @@ pub(crate) fn advice_on(error: &io::Error) -> &'static str {
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
             "Make room on the disk, or choose another one"
         }
+        io::ErrorKind::FileTooLarge => {
+            "Raise the limit on the size of files (`ulimit -f`), or choose another disk"
+        }
+        io::ErrorKind::InvalidInput => "Move what is there away, or choose another path",
         _ if error.raw_os_error() == Some(IO_ERROR) => {
             "Check the disk and its connection, or write to another disk"
         }
@@ -64,6 +69,9 @@ mod tests {
         let full = io::Error::from(io::ErrorKind::StorageFull);
         assert_eq!(words_of(&full), "the disk is full");
         assert!(advice_on(&full).contains("room"));
+        let too_large = io::Error::from(io::ErrorKind::FileTooLarge);
+        assert!(words_of(&too_large).contains("larger"));
+        assert!(advice_on(&too_large).contains("ulimit"));
         let other = io::Error::other("the stick was pulled out");
         assert_eq!(words_of(&other), "the stick was pulled out");
     }

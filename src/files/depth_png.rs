@@ -27,7 +27,7 @@ use super::disk;
 use super::error::FileError;
 use super::open::described;
 use super::source::{Source, read_limited};
-use super::write::write_atomically;
+use super::write::{replace_file, write_atomically};
 use crate::error::guarded;
 use crate::geometry::depth_frame::{DepthFrame, Intrinsics};
 
@@ -70,10 +70,9 @@ pub fn write_depth_png(path: &Path, frame: &DepthFrame) -> Result<(), FileError>
 
 /// Writes the camera of one depth image, or of all in a folder, as JSON.
 pub(crate) fn write_camera(path: &Path, camera: &DepthCamera) -> Result<(), FileError> {
-    write_atomically(path, |writer| {
-        serde_json::to_writer_pretty(&mut *writer, camera)?;
-        writer.write_all(b"\n")
-    })
+    let written = serde_json::to_vec_pretty(camera).map_err(io::Error::from);
+    let written = written.and_then(|json| replace_file(path, &[&json[..], b"\n"].concat()));
+    written.map_err(|source| FileError::writing(path, source))
 }
 
 /// Writes the depths of a frame as a 16-bit PNG, without its camera.

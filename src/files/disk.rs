@@ -65,12 +65,9 @@ pub(crate) fn open(options: &OpenOptions, path: &Path) -> io::Result<File> {
     options.open(path)
 }
 
-/// Creates a file, or empties an existing one.
-pub(crate) fn create(path: &Path) -> io::Result<File> {
-    open(
-        File::options().write(true).create(true).truncate(true),
-        path,
-    )
+/// Creates a file; fails if there is one.
+pub(crate) fn create_new(path: &Path) -> io::Result<File> {
+    open(File::options().write(true).create_new(true), path)
 }
 
 pub(crate) fn write_all(file: &mut impl Write, bytes: &[u8]) -> io::Result<()> {

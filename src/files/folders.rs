@@ -64,9 +64,10 @@ pub(crate) fn new_folder(parent: &Path, prefix: &str) -> io::Result<tempfile::Te
     disk::temporary_folder(&builder, parent)
 }
 
-/// Writes and syncs a new file in place, for folders that are renamed once complete.
+/// Writes and syncs a new file, for folders that are renamed once complete. Fails if a file of that name is there: a failed
+/// write would have destroyed it.
 pub(crate) fn write_file(path: &Path, content: &[u8]) -> io::Result<()> {
-    let mut file = disk::create(path)?;
+    let mut file = disk::create_new(path)?;
     disk::write_all(&mut file, content)?;
     disk::sync_all(&file)
 }
@@ -78,4 +79,19 @@ pub(crate) fn sync_folder(folder: &Path) -> io::Result<()> {
         disk::sync_all(&File::open(folder)?)?;
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_new_file_never_takes_the_place_of_another() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("spray-0badcafe.csv");
+        write_file(&path, b"the only copy").unwrap();
+        let error = write_file(&path, b"the").unwrap_err();
+        assert_eq!(error.kind(), io::ErrorKind::AlreadyExists);
+        assert_eq!(std::fs::read(&path).unwrap(), b"the only copy");
+    }
 }

@@ -69,10 +69,10 @@ pub use self::open::{FileContent, FileWarning, file_of, open, open_bytes};
 pub use self::pcd::write_pcd;
 pub use self::ply::{write_ply, write_ply_with};
 pub(crate) use self::source::{
-    lock_exclusively, open_lock, open_regular, read_bytes, read_limited, shortened,
+    lock_exclusively, open_lock, open_regular, read_bytes, read_limited, refuse_special, shortened,
 };
 pub(crate) use self::text::{parse_versioned, read_text, toml_problem, visible};
-pub(crate) use self::write::write_text;
+pub(crate) use self::write::{replace_file, write_text};
 pub use self::write::{save_cloud, write_atomically};
 pub use self::xyz::write_xyz;
 

@@ -28,11 +28,14 @@ pub(crate) fn open_regular(path: &Path) -> io::Result<File> {
     Ok(file)
 }
 
+/// Refuses anything but a regular file, before another reader or writer opens it. Nothing at all is fine.
+pub(crate) fn refuse_special(path: &Path) -> io::Result<()> {
+    fs::metadata(path).map_or(Ok(()), |found| refuse_all_but_files(&found))
+}
+
 /// Opens the lock file of the writers, and creates it if it is missing; refuses anything but a regular file.
 pub(crate) fn open_lock(path: &Path) -> io::Result<File> {
-    if let Ok(found) = fs::metadata(path) {
-        refuse_all_but_files(&found)?;
-    }
+    refuse_special(path)?;
     disk::open(File::options().create(true).append(true), path)
 }
 

@@ -28,7 +28,7 @@ pub fn write_atomically(
         write_directly(path, fill)
     } else {
         let target = path.is_symlink().then(|| path.canonicalize().ok());
-        replace_file(target.flatten().as_deref().unwrap_or(path), fill)
+        write_beside(target.flatten().as_deref().unwrap_or(path), fill)
     };
     written.map_err(|error| FileError::writing(path, error))
 }
@@ -44,7 +44,14 @@ fn write_directly(
     writer.flush()
 }
 
-fn replace_file(
+/// Writes a file of one of the program's own folders as [`write_atomically`] does, but replaces a link, pipe or device of
+/// that name: nothing else belongs there.
+pub(crate) fn replace_file(path: &Path, content: &[u8]) -> io::Result<()> {
+    write_beside(path, |writer| writer.write_all(content))
+}
+
+/// Fills a temporary file in the same folder, syncs it and renames it.
+fn write_beside(
     path: &Path,
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> io::Result<()> {

@@ -15,8 +15,6 @@ use std::{
     time::{Duration, Instant},
 };
 
-use jiff::Timestamp;
-
 use super::{
     entry::{NewEntry, Summary},
     error::HistoryError,
@@ -354,7 +352,7 @@ impl HistoryBuffer {
             return;
         };
         // A failed sweep is tried again later; it must not stop the writing.
-        if let Ok(swept) = history.sweep(&retention, Timestamp::now())
+        if let Ok(swept) = history.sweep(&retention, crate::clock::now())
             && swept != PruneResult::default()
         {
             self.tell(HistoryEvent::Swept(swept));

@@ -185,7 +185,7 @@ impl Advice for HistoryError {
                 "Inspect something first, or name the folder with --history".into()
             }
             Self::Database { source, .. } if is_disk_error(source) => {
-                "Make room on the disk, or check whether it still works; the history stays as it is".into()
+                "Make room on the disk, check whether it still works, and raise a limit on the size of files (`ulimit -f`), if there is one; the history stays as it is".into()
             }
             Self::Database { .. } => {
                 "Try again; if it happens again, move the file away: a new one is then started".into()

@@ -26,7 +26,7 @@ use crate::{
     files::{
         DepthCamera, FileContent, FileError, StoredOrientation, advice_on, crc32,
         depth_png::{FOLDER_CAMERA, read_depths, write_camera, write_depths},
-        disk, open_bytes, read_bytes, words_of, write_atomically, write_pcd,
+        disk, open_bytes, read_bytes, replace_file, words_of, write_pcd,
     },
     geometry::{
         cloud::{Grid, PointCloud},
@@ -166,7 +166,7 @@ pub fn write_as(folder: &Path, stem: &str, scene: &SceneCloud) -> Result<FrameRe
         None => write_pcd(&mut content, cloud),
     };
     packed.map_err(|error| FrameError::io(&path, error))?;
-    write_atomically(&path, |writer| writer.write_all(&content))?;
+    replace_file(&path, &content).map_err(|source| FileError::writing(&path, source))?;
     let empty_cell = scene.empty_cell.as_deref();
     let empty_cell = empty_cell
         .map(|cell| write_cell(folder, cell))
@@ -264,10 +264,9 @@ fn write_cell(folder: &Path, cell: &EmptyCell) -> Result<(String, u32), FrameErr
     let checksum = crc32(&content);
     let file = format!("empty-cell-{checksum:08x}.pcd");
     let path = folder.join(&file);
-    // The name contains the checksum.
-    let is_there = fs::metadata(&path).is_ok_and(|found| found.len() == content.len() as u64);
-    if !is_there {
-        write_atomically(&path, |writer| writer.write_all(&content))?;
+    // The name contains the checksum, but the file may have been damaged since: all frames to come depend on it.
+    if read_bytes(&path).ok().as_ref() != Some(&content) {
+        replace_file(&path, &content).map_err(|source| FileError::writing(&path, source))?;
     }
     Ok((file, checksum))
 }
@@ -423,6 +422,39 @@ mod tests {
         assert_same(&scene, &read(folder.path(), &record).expect("read"));
         let opened = crate::files::open(&folder.path().join(&record.file)).expect("opened");
         assert!(matches!(opened, FileContent::Depth(_)));
+    }
+
+    #[test]
+    fn a_damaged_empty_cell_is_written_again_with_the_next_frame() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut scene = captured();
+        scene.empty_cell = Some(Arc::new(EmptyCell::of(&scene).expect("a picture")));
+        let write = || write(folder.path(), &scene, Timestamp::UNIX_EPOCH).expect("written");
+        let first = write().expect("kept");
+        let cell = folder
+            .path()
+            .join(first.empty_cell.as_deref().expect("kept"));
+        let num_bytes = fs::metadata(&cell).expect("there").len();
+        // The power failed before its content was on the disk.
+        fs::write(&cell, vec![0; num_bytes as usize]).expect("written");
+        assert!(read(folder.path(), &first).is_err());
+        let second = write().expect("kept");
+        for record in [first, second] {
+            assert_same(&scene, &read(folder.path(), &record).expect("read"));
+        }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_pipe_in_place_of_a_file_beside_the_frames_is_replaced() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let pipe = folder.path().join(FOLDER_CAMERA);
+        let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+        assert!(made.is_ok_and(|made| made.success()), "mkfifo");
+        let record = write(folder.path(), &captured(), Timestamp::UNIX_EPOCH).expect("written");
+        assert!(pipe.is_file());
+        let record = record.expect("kept");
+        assert_same(&captured(), &read(folder.path(), &record).expect("read"));
     }
 
     #[test]

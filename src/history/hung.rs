@@ -5,7 +5,6 @@ use std::{
     sync::atomic::{AtomicU32, Ordering},
 };
 
-use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 use super::entry::NewEntry;
@@ -24,7 +23,7 @@ impl HungId {
     #[expect(clippy::new_without_default, reason = "each is another")]
     pub fn new() -> Self {
         let number = COUNT.fetch_add(1, Ordering::Relaxed);
-        let at = Timestamp::now().as_microsecond();
+        let at = crate::clock::now().as_microsecond();
         Self(format!("{at}-{}-{number}", std::process::id()))
     }
 }

@@ -20,7 +20,7 @@ use std::{
 
 use rusqlite::{Connection, OpenFlags, config::DbConfig};
 
-use crate::files::{disk, open_lock, open_regular, user_data};
+use crate::files::{disk, open_lock, open_regular, refuse_special, user_data};
 
 use super::{
     error::HistoryError,
@@ -80,6 +80,7 @@ impl History {
     pub fn open(folder: &Path) -> Result<OpenedHistory, HistoryError> {
         disk::create_dir_all(folder).map_err(|error| HistoryError::io(folder, error))?;
         let path = folder.join(FILE);
+        refuse_pipes(&path)?;
         refuse_foreign(&path)?;
         let mut set_aside = set_aside_frames(&path)?;
         if let Some(_alone) = Lock::alone(folder)? {
@@ -134,6 +135,7 @@ impl History {
     /// write-protected. Creates nothing.
     pub fn open_to_read(folder: &Path) -> Result<OpenedHistory, HistoryError> {
         let path = folder.join(FILE);
+        refuse_pipes(&path)?;
         if !path.is_file() {
             return Err(HistoryError::NotFound { path });
         }
@@ -153,10 +155,10 @@ impl History {
     /// If `error` is one that forbids writing, opens the history as far as that works without writing. The flag is true
     /// if the log of the last writes is missing from it.
     pub(super) fn only_read(folder: &Path, error: &HistoryError) -> Option<(Self, bool)> {
-        if !error.forbids_writing() {
+        let path = folder.join(FILE);
+        if !error.forbids_writing() || refuse_pipes(&path).is_err() {
             return None;
         }
-        let path = folder.join(FILE);
         let read = |how: &str| -> rusqlite::Result<Option<Self>> {
             let flags = OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_URI;
             let file = Connection::open_with_flags(address(&path, how), flags)?;
@@ -321,13 +323,21 @@ fn refuse_foreign(path: &Path) -> Result<(), HistoryError> {
     }
 }
 
+/// Refuses a pipe, a device or a folder in place of the database or of a file that `SQLite` opens beside it: it would wait
+/// for a writer to the pipe.
+fn refuse_pipes(path: &Path) -> Result<(), HistoryError> {
+    for ending in ["", "-wal", "-shm", "-journal"] {
+        let path = with_ending(path, ending);
+        refuse_special(&path).map_err(|error| HistoryError::io(&path, error))?;
+    }
+    Ok(())
+}
+
 /// Opens the file read-only and ignores its log; creates no other file. `None` if the file is missing.
 fn open_without_log(path: &Path) -> Result<Option<Connection>, HistoryError> {
     match fs::metadata(path) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
-        Ok(file) if file.is_file() => {}
-        // This fails before it opens anything.
-        _ => drop(open_regular(path).map_err(|error| HistoryError::io(path, error))?),
+        found => drop(found.map_err(|error| HistoryError::io(path, error))?),
     }
     let flags = OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_URI;
     let file = Connection::open_with_flags(address(path, "immutable=1"), flags);

@@ -11,7 +11,7 @@ use super::{
     part::{Part, PartMeta, cloud_bytes},
 };
 
-use crate::files::{disk, open_regular, sync_folder, write_file};
+use crate::files::{open_regular, replace_file, sync_folder, write_file};
 
 /// File names within a part's folder.
 pub(super) const META: &str = "part.toml";
@@ -111,8 +111,5 @@ pub(super) fn copy_files(from: &Path, to: &Path) -> io::Result<()> {
 
 /// Replaces `part.toml` atomically.
 pub(super) fn rewrite_meta(folder: &Path, meta: &PartMeta) -> io::Result<()> {
-    let beside = folder.join(format!(".{META}.new"));
-    write_file(&beside, meta_text(meta)?.as_bytes())?;
-    disk::rename(&beside, folder.join(META))?;
-    sync_folder(folder)
+    replace_file(&folder.join(META), meta_text(meta)?.as_bytes())
 }

@@ -16,7 +16,7 @@ use std::{
 use serde::{Deserialize, Serialize};
 
 use super::{error::LibraryError, name::PartName, store::LibraryFolder};
-use crate::files::{FileError, disk, read_limited, sync_folder, write_file};
+use crate::files::{FileError, read_limited, replace_file};
 
 /// Name of the file.
 const NUMBERS: &str = "numbers.toml";
@@ -119,10 +119,7 @@ impl PartNumbers {
     /// Replaces the file in this folder atomically. In a library only under its lock.
     pub fn write(&self, folder: &Path) -> io::Result<()> {
         let lines = toml::to_string(self).map_err(io::Error::other)?;
-        let beside = folder.join(format!(".{NUMBERS}.new"));
-        write_file(&beside, [HEAD, &lines].concat().as_bytes())?;
-        disk::rename(&beside, folder.join(NUMBERS))?;
-        sync_folder(folder)
+        replace_file(&folder.join(NUMBERS), [HEAD, &lines].concat().as_bytes())
     }
 
     /// Gives the next numbers to those of these parts that have none.

@@ -1,7 +1,8 @@
 //! Storage of spray paths in a library.
 //!
 //! The file of a path is named after its checksum, which `part.toml` contains: a new path is written next to the old
-//! one and becomes valid when `part.toml` names it; then the old one is deleted. At any moment one of them is complete.
+//! one and becomes valid when `part.toml` names it; then the old one is deleted. At any moment one of them is complete. A
+//! path that is stored again has the same name, so that its file is replaced as a whole.
 
 use std::{fs, io, path::Path};
 
@@ -13,7 +14,7 @@ use super::{
     spray_path::{MAX_BYTES, SprayPath, SprayPathError},
     store::LibraryFolder,
 };
-use crate::files::{disk, read_text, sync_folder, write_file};
+use crate::files::{disk, read_text, replace_file, sync_folder};
 
 impl LibraryFolder {
     /// Reads the stored spray path of a part; `None` if none is stored.
@@ -51,7 +52,7 @@ impl LibraryFolder {
         let check = check.map(|(path, text)| FileCheck::of(text.as_bytes(), path.points().len()));
         let file_name = check.as_ref().and_then(FileCheck::spray_file_name);
         if let (Some(text), Some(file_name)) = (&text, &file_name) {
-            write_file(&folder.join(file_name), text.as_bytes())?;
+            replace_file(&folder.join(file_name), text.as_bytes())?;
         }
         rewrite_meta(
             &folder,
@@ -107,7 +108,11 @@ mod tests {
     use nalgebra::{Point3, Vector3};
 
     use super::*;
-    use crate::library::{PartNaming, PathPoint, place::open_library, shipped::write_shipped};
+    use crate::library::{
+        PartNaming, PathPoint,
+        place::open_library,
+        shipped::{shipped_files, write_shipped},
+    };
 
     fn path(x: f64) -> SprayPath {
         let point = PathPoint {
@@ -159,6 +164,80 @@ mod tests {
             library.set_spray_path(&name("no_such"), None),
             Err(LibraryError::NoSuchPart { .. })
         ));
+    }
+
+    #[test]
+    fn a_path_that_is_stored_again_mends_its_damaged_file() {
+        let (folder, library) = library();
+        let fender = name("fender");
+        let store = || library.set_spray_path(&fender, Some(&path(0.1)));
+        store().expect("stored");
+        let files = fs::read_dir(folder.path().join("fender")).expect("listed");
+        let mut files = files.map(|found| found.expect("an entry").path());
+        let file = files.find(|file| file.extension().is_some_and(|ending| ending == "csv"));
+        let file = file.expect("a path");
+        fs::write(&file, "x,y,z").expect("written");
+        assert!(library.spray_path("fender").is_err());
+        store().expect("stored");
+        assert_eq!(library.spray_path("fender").expect("read"), Some(path(0.1)));
+    }
+
+    /// Makes each call of a change fail in turn; the fender's path must be the old or the new one.
+    #[cfg(unix)]
+    fn fails_at_every_call(
+        test: &str,
+        change: &dyn Fn(&LibraryFolder) -> Result<(), LibraryError>,
+    ) {
+        use crate::files::disk::faults::{Writer, told};
+
+        let open = |folder: &Path| LibraryFolder::open(folder).expect("a library");
+        Writer {
+            test,
+            prepare: &|folder| {
+                let to = folder.join("fender");
+                fs::create_dir(&to).expect("made");
+                for (file, content) in shipped_files("fender").expect("shipped") {
+                    fs::write(to.join(file), content).expect("written");
+                }
+                let stored = open(folder).set_spray_path(&name("fender"), Some(&path(0.1)));
+                stored.expect("stored");
+            },
+            write: &|folder| change(&open(folder)).map_err(|error| told(&error)),
+            state: &|folder| {
+                let library = open(folder);
+                let stored = library.spray_path("fender").expect("read").expect("a path");
+                let words = library.words(&name("fender")).expect("read");
+                format!("{} from {}", words.title, stored.points()[0].nozzle.x)
+            },
+            between: &[],
+        }
+        .fails_at_every_call();
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn whichever_call_fails_a_path_is_the_old_or_the_new() {
+        fails_at_every_call(
+            "library::spray_store::tests::whichever_call_fails_a_path_is_the_old_or_the_new",
+            &|library| library.set_spray_path(&name("fender"), Some(&path(0.25))),
+        );
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn whichever_call_fails_a_path_that_is_stored_again_is_there() {
+        fails_at_every_call(
+            "library::spray_store::tests::whichever_call_fails_a_path_that_is_stored_again_is_there",
+            &|library| {
+                library.set_spray_path(&name("fender"), Some(&path(0.1)))?;
+                // A change that shows.
+                let words = PartNaming {
+                    title: "Left fender".into(),
+                    ..library.words(&name("fender"))?
+                };
+                library.rename(&name("fender"), &words).map(|_| ())
+            },
+        );
     }
 
     #[test]

@@ -48,7 +48,7 @@ impl LibraryFolder {
 pub(super) fn move_in(library: &Path, folder: &Path, name: &str) -> io::Result<PathBuf> {
     let trash = library.join(TRASH);
     disk::create_dir_all(&trash)?;
-    let now = jiff::Timestamp::now().strftime("%Y%m%dT%H%M%SZ");
+    let now = crate::clock::now().strftime("%Y%m%dT%H%M%SZ");
     let place = (1..=9999)
         .map(|n| match n {
             1 => trash.join(format!("{name}-{now}")),

@@ -10,7 +10,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use jiff::{SignedDuration, Timestamp};
+use jiff::SignedDuration;
 use thiserror::Error;
 
 use super::{
@@ -23,6 +23,7 @@ use crate::{
         BackpressurePolicy, CaptureError, Captured, Feed, FeedItem, FeedState, FeedStatus,
         SourceSpec,
     },
+    clock,
     error::{Advice, lock},
 };
 
@@ -81,7 +82,7 @@ impl NewFrame {
             Self::SecondArrived | Self::SecondReplayed => captured.arrived,
             // Never later than it was first seen, even if the file's clock is fast.
             Self::WrittenAfter => {
-                let age = Timestamp::now().duration_since(captured.taken_at);
+                let age = clock::now().duration_since(captured.taken_at);
                 let age = Duration::try_from(age).unwrap_or_default();
                 let written = Instant::now().checked_sub(age);
                 written.map_or(captured.arrived, |at| at.min(captured.arrived))
@@ -103,7 +104,7 @@ impl NewFrame {
         if self != Self::WrittenAfter || !is_dated_after(captured, asked) {
             return None;
         }
-        let age = Timestamp::now().duration_since(captured.taken_at);
+        let age = clock::now().duration_since(captured.taken_at);
         let here = captured.arrived.elapsed();
         let here = SignedDuration::try_from(here).unwrap_or(SignedDuration::MAX);
         let ahead = Duration::try_from(here.saturating_sub(age)).ok();
@@ -111,9 +112,9 @@ impl NewFrame {
     }
 }
 
-/// True if a file was written after the trigger, by the clock of its disk.
+/// True if a file was written after the trigger, by the clock of its disk; beyond the last time, nobody can tell.
 fn is_dated_after(captured: &Captured, asked: &Asked) -> bool {
-    captured.taken_at >= asked.by_clock
+    captured.taken_at >= asked.by_clock && asked.by_clock < clock::LAST
 }
 
 /// Why a trigger got no frame.
@@ -337,6 +338,8 @@ mod tests {
         sync::atomic::{AtomicBool, AtomicUsize, Ordering},
     };
 
+    use jiff::Timestamp;
+
     use super::*;
     use crate::{
         capture::{DepthSource, NextCapture, SkippedCapture},
@@ -521,7 +524,7 @@ mod tests {
         let why = why.expect_err("nobody knows when it was written");
         assert_eq!(why.reason(), "clock_ahead");
         assert!(why.to_string().contains("5.0 s ahead"), "{why}");
-        let file = captured(1, Timestamp::now() + ahead);
+        let file = captured(1, clock::now() + ahead);
         assert_eq!(NewFrame::WrittenAfter.captured_at(&file), file.arrived);
         // A file that waited in the feed was written before the trigger, even if its clock is fast.
         assert!(!NewFrame::WrittenAfter.is_new(&file, &Asked::now(), 0));
@@ -567,7 +570,7 @@ mod tests {
             ("watch:scans", false),
         ] {
             let rule = NewFrame::of_source(&source.parse().expect("a source"));
-            let mut frame = captured(1, Timestamp::now());
+            let mut frame = captured(1, clock::now());
             assert_eq!(rule.origin_of(&frame).is_simulated, marked, "{source}");
             frame.is_simulated = true;
             assert!(rule.origin_of(&frame).is_simulated, "{source}");

@@ -2,8 +2,6 @@
 
 use std::time::{Duration, Instant};
 
-use jiff::Timestamp;
-
 use super::{
     answer::{Answer, CameraStatus, Found, Inspected, Request, Situation},
     server::boot_number,
@@ -63,7 +61,7 @@ impl InspectionRecorder {
     /// Starts the numbering. An accepted pose from a frame older than `max_age` is stale.
     pub fn new(max_age: Duration) -> Self {
         Self {
-            boot: boot_number(Timestamp::now()),
+            boot: boot_number(crate::clock::now()),
             max_age,
             last: Inspected::default(),
         }

@@ -66,7 +66,7 @@ impl Asked {
     pub fn now() -> Self {
         Self {
             at: Instant::now(),
-            by_clock: Timestamp::now(),
+            by_clock: crate::clock::now(),
         }
     }
 }
@@ -311,7 +311,7 @@ impl Server {
         let mut server = Self {
             shared: Arc::new(Shared {
                 settings,
-                boot: boot_number(Timestamp::now()),
+                boot: boot_number(crate::clock::now()),
                 is_stopping: AtomicBool::new(false),
                 num_clients: AtomicUsize::new(0),
                 silent: Mutex::default(),

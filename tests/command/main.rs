@@ -20,4 +20,5 @@ mod scan;
 mod serve;
 mod simulate;
 mod sources;
+mod system;
 mod workplace;

@@ -19,6 +19,7 @@ use partsight::{
         inspection::camera::Camera,
         shell::{
             action::{Action, DialogRequest},
+            closing::Closing,
             robot::{AnswerSetup, RobotAction, RobotDialog, RobotPage},
             roles::RoleAction,
         },
@@ -445,6 +446,41 @@ fn turned_off_the_port_is_closed_and_robots_are_let_go() {
     assert_eq!(robot.0.read_line(&mut rest).expect("closed"), 0);
     TcpListener::bind(at).expect("nobody listens there any more");
     assert!(!says(&harness, "Answers robots"));
+}
+
+#[test]
+fn a_window_that_answers_robots_asks_before_it_closes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open_with(USUAL, options(folder.path()));
+    let at = turn_on(&mut harness);
+    let is_asking = |harness: &WindowHarness| says(harness, "Stop answering robots?");
+    let click = |harness: &mut WindowHarness, label: &str| {
+        harness.get_by_label(label).click();
+        harness.run_steps(4);
+    };
+    cause(&mut harness, Action::Quit);
+    assert!(is_asking(&harness));
+    assert!(says(
+        &harness,
+        &format!("Robots that ask at {at} get no answer")
+    ));
+    click(&mut harness, "Keep the window open");
+    assert!(!is_asking(&harness));
+    assert_eq!(Robot::connect(at).ask("TRIGGER")[1], "accepted");
+    // The button of the window's frame.
+    let root = harness.input_mut().viewports.entry(egui::ViewportId::ROOT);
+    root.or_default().events.push(egui::ViewportEvent::Close);
+    harness.run_steps(4);
+    assert!(is_asking(&harness));
+    click(&mut harness, "Close and stop answering");
+    assert_eq!(harness.state().state().closing, Closing::Confirmed);
+    drop(harness);
+
+    let mut harness = open_with(USUAL, options(folder.path()));
+    listening(&mut harness);
+    turn_off(&mut harness);
+    cause(&mut harness, Action::Quit);
+    assert!(!is_asking(&harness));
 }
 
 #[test]

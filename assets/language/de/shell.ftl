@@ -204,6 +204,9 @@ shell-not-written = { $num ->
     }: Der Verlauf ist nicht beschreibbar
 shell-keep-open = Fenster offen lassen
 shell-close-anyway = Ohne Speichern schließen
+shell-stop-answering = Robotern nicht mehr antworten?
+shell-robots-without-answer = Roboter, die unter { $at } anfragen, erhalten keine Antwort, solange das Fenster geschlossen ist
+shell-close-and-stop-answering = Schließen und nicht mehr antworten
 
 ## Shortcuts
 

@@ -204,6 +204,9 @@ shell-not-written = { $num ->
     }: the history cannot be written
 shell-keep-open = Keep the window open
 shell-close-anyway = Close without saving
+shell-stop-answering = Stop answering robots?
+shell-robots-without-answer = Robots that ask at { $at } get no answer while the window is closed
+shell-close-and-stop-answering = Close and stop answering
 
 ## Shortcuts
 

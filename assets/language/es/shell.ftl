@@ -204,6 +204,9 @@ shell-not-written = { $num ->
     }: no se puede escribir el historial
 shell-keep-open = Mantener la ventana abierta
 shell-close-anyway = Cerrar sin guardar
+shell-stop-answering = ¿Dejar de responder a los robots?
+shell-robots-without-answer = Los robots que preguntan en { $at } no reciben respuesta mientras la ventana esté cerrada
+shell-close-and-stop-answering = Cerrar y dejar de responder
 
 ## Shortcuts
 

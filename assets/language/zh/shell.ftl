@@ -188,6 +188,9 @@ shell-close-without-saving = 不保存就关闭？
 shell-not-written = { $num } 次检测仅在内存中：无法写入历史
 shell-keep-open = 保持窗口打开
 shell-close-anyway = 不保存并关闭
+shell-stop-answering = 停止应答机器人？
+shell-robots-without-answer = 窗口关闭期间，向 { $at } 发出请求的机器人得不到应答
+shell-close-and-stop-answering = 关闭并停止应答
 
 ## Shortcuts
 

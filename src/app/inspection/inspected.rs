@@ -363,7 +363,7 @@ impl FinishedInspection {
             fused: found.fused,
             robot: found.robot,
         });
-        let at = Timestamp::now();
+        let at = crate::clock::now();
         let title = origin.title();
         let about = InspectionContext {
             at,

@@ -5,8 +5,6 @@ use std::{
     sync::{Arc, Mutex, MutexGuard},
 };
 
-use jiff::{Timestamp, tz::TimeZone};
-
 use crate::capture::{CaptureError, Captured, FeedStatus, Recorder, SourceSpec};
 use crate::error::lock;
 
@@ -81,6 +79,6 @@ impl SharedRecording {
 
 /// Returns a folder name that sorts by time and is unique.
 fn name() -> String {
-    let now = Timestamp::now().to_zoned(TimeZone::system());
+    let now = crate::clock::zoned_now();
     now.strftime("recording %Y-%m-%d %H.%M.%S.%3f").to_string()
 }

@@ -2,10 +2,9 @@
 
 use std::fs;
 
-use jiff::Timestamp;
-
 use super::{inspected::Inspected, source::Origin};
 use crate::{
+    clock,
     files::file_of,
     history::{Filter, HistoryBuffer, Summary},
 };
@@ -25,7 +24,7 @@ pub(in crate::app) fn seen_before(
     let written = fs::metadata(file_of(path))
         .and_then(|file| file.modified())
         .ok()?;
-    let written = Timestamp::try_from(written).ok()?;
+    let written = clock::timestamp(written);
     let now = &inspected.entry.record.summary;
     let filter = Filter {
         since: Some(written),

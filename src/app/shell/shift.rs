@@ -174,7 +174,7 @@ pub(in crate::app) fn update(state: &mut State, history: &Arc<HistoryBuffer>, ct
     if state.session.source.followed().is_some() {
         state.shift_watch.source = Some(state.session.source.clone());
     }
-    let now = Zoned::now();
+    let now = crate::clock::zoned_now();
     let [Some(since), end] = state.session.shift_starts.around(&now) else {
         return;
     };
@@ -351,7 +351,7 @@ mod tests {
         state.session.role = UserRole::Operator;
         let (history, ctx) = (Arc::new(HistoryBuffer::new(None)), egui::Context::default());
         let mut entry = history_entry(1, StoredVerdict::Accepted, "fender");
-        entry.record.summary.at = Timestamp::now();
+        entry.record.summary.at = crate::clock::now();
         history.add(1, entry, Instant::now());
         let cell = state.session.source.clone();
         for source in [cell.clone(), Source::File("/data/door.pcd".into())] {

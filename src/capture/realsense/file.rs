@@ -70,34 +70,55 @@ fn db3_size(head: &[u8]) -> Option<u64> {
     (size > 0).then_some(size)
 }
 
+/// Least size of a record's header: its field `op`, one byte, with name and length.
+const MIN_HEADER: u64 = 8;
+/// Least size of a record: that header and no data, each after its size.
+const MIN_RECORD: u64 = 4 + MIN_HEADER + 4;
+
 /// Follows the records of the index; true if the last ends with the file.
+///
+/// Each is at least as long as its shortest header, so that a damaged index takes no longer than reading it.
 fn bag_ends_with_its_index(
-    file: &mut (impl Read + Seek),
+    file: &mut BufReader<impl Read + Seek>,
     head: &[u8],
     num_bytes: u64,
 ) -> io::Result<bool> {
     let index = bag_field(head, b"index_pos=").map(u64::from_le_bytes);
     let num_connections = bag_field(head, b"conn_count=").map(u32::from_le_bytes);
     let num_chunks = bag_field(head, b"chunk_count=").map(u32::from_le_bytes);
-    let (Some(mut at), Some(num_connections), Some(num_chunks)) =
+    let (Some(index), Some(num_connections), Some(num_chunks)) =
         (index, num_connections, num_chunks)
     else {
         return Ok(false);
     };
-    if at == 0 {
+    let num_records = u64::from(num_connections) + u64::from(num_chunks);
+    // A file that was never closed has no index.
+    let Some(mut left) = num_bytes.checked_sub(index).filter(|_| index > 0) else {
+        return Ok(false);
+    };
+    if left / MIN_RECORD < num_records {
         return Ok(false);
     }
-    // Each record is a header, then data.
-    for _ in 0..2 * (u64::from(num_connections) + u64::from(num_chunks)) {
-        if at.saturating_add(4) > num_bytes {
-            return Ok(false);
+    file.seek(SeekFrom::Start(index))?;
+    for _ in 0..num_records {
+        // Each record is a header, then data.
+        for least in [MIN_HEADER, 0] {
+            if left < 4 {
+                return Ok(false);
+            }
+            let mut size = [0; 4];
+            file.read_exact(&mut size)?;
+            let size = u32::from_le_bytes(size);
+            let rest = left.checked_sub(4 + u64::from(size));
+            let Some(rest) = rest.filter(|_| u64::from(size) >= least) else {
+                return Ok(false);
+            };
+            left = rest;
+            // Unlike `seek`, this keeps what was read ahead.
+            file.seek_relative(i64::from(size))?;
         }
-        let mut size = [0; 4];
-        file.seek(SeekFrom::Start(at))?;
-        file.read_exact(&mut size)?;
-        at += 4 + u64::from(u32::from_le_bytes(size));
     }
-    Ok(at == num_bytes)
+    Ok(left == 0)
 }
 
 /// Returns the value of a field of the first record.
@@ -150,6 +171,71 @@ mod tests {
         bytes[DB3_PAGE_SIZE..DB3_PAGE_SIZE + 2].copy_from_slice(&512_u16.to_be_bytes());
         bytes[DB3_NUM_PAGES..DB3_NUM_PAGES + 4].copy_from_slice(&3_u32.to_be_bytes());
         bytes
+    }
+
+    /// Counts the bytes that are read.
+    struct Counted<'a, R>(R, &'a std::cell::Cell<u64>);
+
+    impl<R: Read> Read for Counted<'_, R> {
+        fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+            let num = self.0.read(bytes)?;
+            self.1.set(self.1.get() + num as u64);
+            Ok(num)
+        }
+    }
+
+    impl<R: Seek> Seek for Counted<'_, R> {
+        fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+            self.0.seek(to)
+        }
+    }
+
+    #[test]
+    fn an_index_of_any_content_is_read_at_most_once() {
+        const SIZE: usize = 1 << 20;
+        let first = |num_chunks: u32| {
+            let header = [
+                field("chunk_count", &num_chunks.to_le_bytes()),
+                field("conn_count", &0_u32.to_le_bytes()),
+                field("index_pos", &100_u64.to_le_bytes()),
+                field("op", &[3]),
+            ];
+            [BAG_MARK, &record(&header.concat(), b"")].concat()
+        };
+        let smallest = record(&field("op", &[6]), b"");
+        let num_smallest = (SIZE - 100) / smallest.len();
+        // Zeros, as in a sparse file; the smallest records; larger ones; and counts that do not fit.
+        for (content, num_chunks, is_whole, max_read) in [
+            (vec![0], 1 << 16, false, 16_384),
+            (vec![0], u32::MAX, false, 0),
+            (smallest.clone(), num_smallest as u32, true, SIZE),
+            (smallest, u32::MAX, false, 0),
+            (record(&field("op", &[6]), &[1; 9000]), 100, false, SIZE),
+        ] {
+            let mut bytes = first(num_chunks);
+            bytes.resize(100, 0);
+            let index = content.iter().cycle().take(SIZE - 100);
+            bytes.extend(index);
+            bytes.truncate(100 + (SIZE - 100) / content.len() * content.len());
+            let num_read = std::cell::Cell::new(0);
+            let file = Counted(io::Cursor::new(&bytes), &num_read);
+            let ends = bag_ends_with_its_index(
+                &mut BufReader::new(file),
+                &bytes[..HEAD],
+                bytes.len() as u64,
+            );
+            assert_eq!(
+                ends.unwrap(),
+                is_whole,
+                "{num_chunks} of {} bytes",
+                content.len()
+            );
+            assert!(
+                num_read.get() <= max_read as u64,
+                "{} bytes",
+                num_read.get()
+            );
+        }
     }
 
     #[test]

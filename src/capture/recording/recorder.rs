@@ -6,7 +6,6 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use jiff::Timestamp;
 use serde::Serialize;
 
 use super::manifest::{FrameLine, Header, MANIFEST, VERSION};
@@ -51,7 +50,7 @@ impl Recorder {
             title: title.to_owned(),
             source: source.to_owned(),
             simulated: is_simulated,
-            started_at: Timestamp::now(),
+            started_at: crate::clock::now(),
         };
         let begun = || -> io::Result<Option<Self>> {
             disk::create_dir_all(folder)?;
@@ -148,6 +147,10 @@ impl Recorder {
                 other => io::Error::other(other),
             })?;
             self.camera.get_or_insert(camera);
+        }
+        if path.exists() {
+            // It failed before and could not be removed.
+            disk::remove_file(&path)?;
         }
         write_file(&path, &content)?;
         self.append(&FrameLine {

@@ -1,10 +1,6 @@
 //! Lists the files in a watched folder.
 
-use std::{
-    fs, io,
-    path::{Path, PathBuf},
-    time::{Instant, SystemTime},
-};
+use std::{ffi::OsString, fs, io, path::Path, time::SystemTime};
 
 use crate::{
     capture::{error::CaptureError, read::may_be_capture},
@@ -20,34 +16,21 @@ pub(super) struct FileStamp {
     camera: Option<(SystemTime, u64)>,
 }
 
-/// Lists the files that may be captures, each with the time when its stamp was read: a look at a slow share takes seconds.
-pub(super) fn look(folder: &Path) -> Result<Vec<(PathBuf, FileStamp, Instant)>, CaptureError> {
-    let looked = || -> io::Result<Vec<(PathBuf, FileStamp, Instant)>> {
-        let mut found = Vec::new();
+/// Lists the names of files that may be captures.
+pub(super) fn list(folder: &Path) -> Result<Vec<OsString>, CaptureError> {
+    let listed = || -> io::Result<Vec<OsString>> {
+        let mut names = Vec::new();
         for entry in fs::read_dir(folder)? {
-            let path = entry?.path();
-            if !may_be_capture(&path) {
-                continue;
-            }
-            // Skip files that have disappeared since they were listed.
-            if let Some((modified, bytes)) = size_and_time(&path) {
-                let seen_at = Instant::now();
-                let is_image = path
-                    .extension()
-                    .is_some_and(|e| e.eq_ignore_ascii_case("png"));
-                let camera = is_image.then(|| size_and_time(&intrinsics_path(&path)));
-                let camera = camera.flatten();
-                let seen = FileStamp {
-                    modified,
-                    bytes,
-                    camera,
-                };
-                found.push((path, seen, seen_at));
+            let entry = entry?;
+            let name = entry.file_name();
+            let is_folder = || entry.file_type().is_ok_and(|kind| kind.is_dir());
+            if may_be_capture(Path::new(&name)) && !is_folder() {
+                names.push(name);
             }
         }
-        Ok(found)
+        Ok(names)
     };
-    looked().map_err(|source| {
+    listed().map_err(|source| {
         let path = folder.to_owned();
         match source.kind() {
             io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => CaptureError::FolderGone {
@@ -56,6 +39,19 @@ pub(super) fn look(folder: &Path) -> Result<Vec<(PathBuf, FileStamp, Instant)>, 
             },
             _ => CaptureError::FolderUnreadable { path, source },
         }
+    })
+}
+
+/// Time and size of a file and, for a depth image, of its camera; `None` if it is not a regular file.
+pub(super) fn stamp(path: &Path) -> Option<FileStamp> {
+    let (modified, bytes) = size_and_time(path)?;
+    let ending = path.extension();
+    let is_image = ending.is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
+    let camera = is_image.then(|| size_and_time(&intrinsics_path(path)));
+    Some(FileStamp {
+        modified,
+        bytes,
+        camera: camera.flatten(),
     })
 }
 

@@ -212,6 +212,43 @@ fn a_renamed_file_and_one_that_is_written_again_are_new() {
 }
 
 #[test]
+fn beside_many_old_files_a_new_one_is_found_at_once_and_a_rewritten_one_in_its_turn() {
+    const NUM_OLD: usize = 2 * MAX_RECHECKED + 500;
+    let mut bench = Bench::new(WatchedFrom::Now);
+    let made = bench.folder.path().join("made.xyz");
+    let write = |path: &Path, num: usize| {
+        fs::write(&made, "0 0 1\n".repeat(num)).unwrap();
+        fs::copy(&made, path).unwrap();
+    };
+    for number in 0..NUM_OLD {
+        fs::write(bench.path(&format!("old-{number}.xyz")), "0 0 1\n").unwrap();
+    }
+    assert_eq!(bench.source.look().unwrap(), NUM_OLD);
+    for number in 0..3 {
+        write(&bench.path(&format!("new-{number}.xyz")), 1);
+        assert_eq!(bench.looks(2), [format!("new-{number}.xyz")]);
+        let num_read = bench.source.look().unwrap();
+        assert!(num_read <= MAX_RECHECKED, "{num_read}");
+    }
+    // The first time it waits for its turn, from then on it is looked at every time.
+    let rewritten = bench.path("old-1700.xyz");
+    write(&rewritten, 2);
+    assert_eq!(bench.looks(5), ["old-1700.xyz"]);
+    for num in 3..6 {
+        write(&rewritten, num);
+        assert_eq!(bench.looks(3), ["old-1700.xyz"]);
+    }
+    // A file that was away is another.
+    for number in 0..3 {
+        let name = format!("old-{number}.xyz");
+        fs::remove_file(bench.path(&name)).unwrap();
+        assert!(bench.look().is_empty());
+        write(&bench.path(&name), 2);
+        assert_eq!(bench.looks(3), [name]);
+    }
+}
+
+#[test]
 fn what_lay_there_before_is_taken_only_if_wanted() {
     for (from, expected) in [
         (WatchedFrom::Now, &[][..]),

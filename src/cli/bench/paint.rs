@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use jiff::Timestamp;
 use serde::Serialize;
 
 use super::{BenchArgs, write_json};
@@ -85,7 +84,7 @@ fn enrolled(file: &Path) -> anyhow::Result<Reference> {
         title: String::new(),
         notes: String::new(),
         from: file.display().to_string(),
-        at: Timestamp::now(),
+        at: crate::clock::now(),
         simulated: false,
     };
     let found = enrol_captured(&scene, &about, &EnrolParams::default());

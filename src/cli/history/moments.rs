@@ -4,12 +4,12 @@ use jiff::{Span, Timestamp, Zoned, civil, tz::TimeZone};
 
 /// Parses the beginning of a range.
 pub(super) fn parse_since(text: &str) -> Result<Timestamp, String> {
-    parse(text, &Zoned::now()).map(|[first, _]| first)
+    parse(text, &crate::clock::zoned_now()).map(|[first, _]| first)
 }
 
 /// Parses the end of a range: the end of the day, or just after the given time.
 pub(super) fn parse_until(text: &str) -> Result<Timestamp, String> {
-    parse(text, &Zoned::now()).map(|[_, end]| end)
+    parse(text, &crate::clock::zoned_now()).map(|[_, end]| end)
 }
 
 /// Returns the first time that is meant, and the first one after it that is not.
@@ -37,7 +37,8 @@ fn parse(text: &str, now: &Zoned) -> Result<[Timestamp; 2], String> {
         "expected a day (2026-11-20), a moment (2026-11-20T14:00), today, or days back (7d)"
             .to_owned()
     })?;
-    Ok([moment, moment + jiff::SignedDuration::from_micros(1)])
+    let next = moment.checked_add(jiff::SignedDuration::from_micros(1));
+    Ok([moment, next.unwrap_or(moment)])
 }
 
 fn of_day(day: civil::Date, zone: &TimeZone) -> Option<[Timestamp; 2]> {
@@ -81,7 +82,7 @@ mod tests {
 
     #[test]
     fn nonsense_is_refused_with_what_is_expected() {
-        let now = Zoned::now();
+        let now = crate::clock::zoned_now();
         for text in ["", "yesterday", "xd", "2026-13-01", "-3d"] {
             let refused = parse(text, &now).expect_err(text);
             assert!(refused.contains("2026-11-20"), "{refused}");

@@ -240,3 +240,30 @@ fn looking_makes_nothing() {
     );
     assert_eq!(fs::read_dir(folder.path()).expect("listed").count(), 0);
 }
+
+#[cfg(unix)]
+#[test]
+fn a_pipe_or_a_device_in_place_of_the_file_or_of_one_beside_it_is_refused_at_once() {
+    for ending in ["", "-wal", "-shm", "-journal"] {
+        for is_pipe in [true, false] {
+            let folder = closed(1);
+            let path = with_ending(&folder.path().join(FILE), ending);
+            let _ = fs::remove_file(&path);
+            if is_pipe {
+                let made = std::process::Command::new("mkfifo").arg(&path).status();
+                assert!(made.is_ok_and(|made| made.success()), "mkfifo");
+            } else {
+                std::os::unix::fs::symlink("/dev/zero", &path).expect("made");
+            }
+            let before = fs::read_dir(folder.path()).expect("listed").count();
+            for open in [History::open, History::open_to_read] {
+                let refused = open(folder.path()).expect_err("refused");
+                let text = refused.to_string();
+                assert!(text.starts_with(&*path.to_string_lossy()), "{text}");
+                assert!(text.contains("not a regular file"), "{text}");
+                assert!(refused.advice().contains("Move"), "{}", refused.advice());
+            }
+            assert_eq!(fs::read_dir(folder.path()).expect("listed").count(), before);
+        }
+    }
+}

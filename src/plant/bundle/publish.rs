@@ -1,7 +1,5 @@
 //! Makes the library as it is the next version.
 
-use jiff::Timestamp;
-
 use super::{
     BundleCheck, MAX_BUNDLE_BYTES, Manifest, SigningKey,
     archive::{files_in, pack, unpack},
@@ -64,7 +62,7 @@ pub fn publish(
     let version = newest.unwrap_or(0).saturating_add(1);
     store.check_conditional_put()?;
     store.put_bundle(&check.sha256, bundle)?;
-    let now = Timestamp::now();
+    let now = crate::clock::now();
     let manifest = Manifest::new(version, now, parts.len(), check, note, numbers);
     if store.put_manifest(version, &manifest.signed(key))? {
         Ok(manifest)

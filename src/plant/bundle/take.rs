@@ -140,7 +140,7 @@ pub fn take(
             schema: SCHEMA,
             store: store.address().to_string(),
             key: trusted.to_base64(),
-            taken_at: Timestamp::now(),
+            taken_at: crate::clock::now(),
             manifest: manifest.clone(),
             parts: parts.map(|part| (part.meta.name, part.digest)).collect(),
         };

@@ -41,7 +41,7 @@ use super::{
     routes::{Api, HEALTH},
     tls::Tls,
 };
-use crate::{error::lock, serve::ClientNews};
+use crate::{clock, error::lock, serve::ClientNews};
 
 /// Maximum size of a request head, bytes, and of a connection's read buffer; hyper's minimum is 8 KiB.
 const MAX_HEAD_BYTES: usize = 16 * 1024;
@@ -126,6 +126,8 @@ impl Service {
         });
         let mut connection = http1::Builder::new()
             .timer(TokioTimer::new())
+            // Beyond the year 9999 there is no date to send.
+            .auto_date_header(clock::now() < clock::LAST)
             // Runs from the previous answer, and thus also limits how long a connection may be idle.
             .header_read_timeout(request_timeout)
             .max_buf_size(MAX_HEAD_BYTES)

@@ -141,7 +141,7 @@ impl MqttLink {
             schema: MESSAGE_SCHEMA,
             program: format!("Partsight {}", env!("CARGO_PKG_VERSION")),
             boot: subject.boot,
-            since: Timestamp::now(),
+            since: crate::clock::now(),
             online: true,
             camera: Some(CameraStatus::default()),
             library: subject.library.clone(),
@@ -177,7 +177,7 @@ impl MqttLink {
 
     /// Queues an inspection for publication.
     pub fn inspected(&self, record: InspectionRecord) {
-        let inspected_at = Timestamp::now();
+        let inspected_at = crate::clock::now();
         let age = record.answer().age_ms;
         let age = age.map(|age| SignedDuration::from_millis(age.into()));
         let waiting = Waiting {

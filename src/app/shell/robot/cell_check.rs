@@ -7,7 +7,7 @@ use std::{
     sync::Arc,
 };
 
-use jiff::{Timestamp, Zoned, tz::TimeZone};
+use jiff::{Timestamp, tz::TimeZone};
 
 use crate::{
     app::{
@@ -218,7 +218,7 @@ impl CellChecks {
         if self.folder.is_none() || self.task.running().is_some() {
             return;
         }
-        let [since, _] = session.shift_starts.around(&Zoned::now());
+        let [since, _] = session.shift_starts.around(&crate::clock::zoned_now());
         let since = since.map(|since| since.timestamp());
         if self.shift != since {
             self.shift = since;
@@ -398,7 +398,12 @@ fn take_baseline(
     context: &TaskContext<CheckAnswer>,
 ) -> Result<CheckAnswer, TaskError> {
     let (taken, notices) = look.views(context)?;
-    let baseline = CellBaseline::new(&taken.views, limits, taken.is_simulated, Timestamp::now());
+    let baseline = CellBaseline::new(
+        &taken.views,
+        limits,
+        taken.is_simulated,
+        crate::clock::now(),
+    );
     let baseline = baseline.map_err(|error| in_words(&error))?;
     // A cancelled run saves nothing.
     context.check()?;
@@ -420,7 +425,7 @@ fn check(
         error => UserError::of(&error),
     })?;
     let (taken, notices) = look.views(context)?;
-    let made = baseline.check(&taken.views, taken.is_simulated, Timestamp::now());
+    let made = baseline.check(&taken.views, taken.is_simulated, crate::clock::now());
     let made = made.map_err(|error| in_words(&error))?;
     context.check()?;
     // Show the check even if it cannot be added to the list.

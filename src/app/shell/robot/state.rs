@@ -2,8 +2,6 @@
 
 use std::{path::PathBuf, sync::Arc};
 
-use jiff::Timestamp;
-
 use super::{
     answering::{AnswerSetup, Answering},
     cell_check::{CellChecks, CheckAction},
@@ -503,7 +501,7 @@ impl RobotCell {
             notes: String::new(),
             camera,
             origin,
-            made_at: Timestamp::now(),
+            made_at: crate::clock::now(),
         };
         self.save(path, calibration);
     }
@@ -573,6 +571,8 @@ impl RobotCell {
 #[cfg(test)]
 mod tests {
     use std::{fmt::Write as _, fs, path::Path};
+
+    use jiff::Timestamp;
 
     use super::*;
     use crate::{

@@ -1,6 +1,5 @@
 //! The PIN as it is stored: not readable at a glance, but no stronger than that.
 
-use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 /// Minimum number of digits.
@@ -22,7 +21,7 @@ pub struct Pin {
 impl Pin {
     /// Makes a PIN of these digits.
     pub fn of(digits: &str) -> Self {
-        let salt = Timestamp::now().subsec_nanosecond().unsigned_abs();
+        let salt = crate::clock::now().subsec_nanosecond().unsigned_abs();
         Self {
             salt,
             check: check(salt, digits),

@@ -2,8 +2,6 @@
 
 use std::sync::Arc;
 
-use jiff::Timestamp;
-
 use super::{state::CompareState, work::CaseEdit};
 use crate::{
     app::{
@@ -45,7 +43,7 @@ impl CompareState {
         };
         cx.send(Message::RemoveNotices(NoticeTopic::Case));
         let about = CaseDescription {
-            kept_at: Timestamp::now(),
+            kept_at: crate::clock::now(),
             remark: self.remark.trim().to_owned(),
             // Found by the recipe on trial, which may not be that of the inspection.
             found: study.found.clone(),

@@ -273,6 +273,6 @@ fn run_cases(
         let run = so_far(&results, &troubles, None);
         context.partial(CompareResult::Ran(run));
     }
-    let run = so_far(&results, &troubles, Some(Timestamp::now()));
+    let run = so_far(&results, &troubles, Some(crate::clock::now()));
     Ok(CompareResult::Ran(run))
 }

@@ -188,7 +188,7 @@ fn enrol(
     selection: &Selection,
     params: &EnrolParams,
 ) -> Result<Enrolled, EnrolError> {
-    let now = Timestamp::now();
+    let now = crate::clock::now();
     let about = PartDescription {
         name: PartName::new("part").expect("a name"),
         title: String::new(),

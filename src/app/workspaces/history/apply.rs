@@ -2,8 +2,6 @@
 
 use std::{ops::Range, path::PathBuf, sync::Arc};
 
-use jiff::Zoned;
-
 use super::{
     export, filter::ListFilter, state::HistoryState, statistics::StatisticsView,
     work::HistoryResult,
@@ -341,7 +339,7 @@ impl HistoryState {
     /// Writes the listed inspections to the chosen path.
     fn export(&mut self, file: HistoryFile, path: PathBuf, cx: &ShellContext<'_>) {
         let title = text!("shell-writing", file = file_name(&path));
-        let filter = self.filter.at(&Zoned::now());
+        let filter = self.filter.at(&crate::clock::zoned_now());
         let keeper = Arc::clone(cx.services.library_cache.history());
         self.exporting.start(title, move |_| {
             let written = export::write(&filter, file, &path, &keeper)?;

@@ -189,7 +189,7 @@ mod tests {
                 verdict,
                 ..ListFilter::default()
             };
-            let found = filter.at(&Zoned::now());
+            let found = filter.at(&crate::clock::zoned_now());
             (found.verdict, found.is_accepted)
         };
         assert_eq!(filter(None), (None, None));
@@ -208,7 +208,7 @@ mod tests {
                 text: text.into(),
                 ..ListFilter::default()
             };
-            filter.at(&Zoned::now())
+            filter.at(&crate::clock::zoned_now())
         };
         // Without words, it matches everything as quickly as before.
         assert_eq!(filter("  ").shown, Vec::<[String; 2]>::new());

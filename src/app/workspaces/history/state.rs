@@ -15,7 +15,6 @@ use super::{
     statistics::{self, Statistics, StatisticsView, most_accepted},
     work::{self, HistoryQuery, HistoryResult, OpenedInspection, former_title},
 };
-use jiff::Zoned;
 
 use crate::{
     app::{
@@ -429,7 +428,7 @@ impl HistoryState {
         let libraries = cx.services.library_cache.clone();
         self.counting
             .start(text!("shell-counting-parts"), move |_| {
-                let now = Zoned::now();
+                let now = crate::clock::zoned_now();
                 let mut counted = filter.at(&now);
                 let outcomes = work::outcomes(&mut counted, &keeper);
                 let (outcomes, num_left_out) = outcomes.map_err(|error| UserError::of(&error))?;

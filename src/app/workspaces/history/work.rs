@@ -3,7 +3,6 @@
 use std::{collections::BTreeMap, ops::Range, path::PathBuf, sync::Arc};
 
 use image::{DynamicImage, RgbImage};
-use jiff::Zoned;
 
 use super::filter::ListFilter;
 use crate::history::{
@@ -64,7 +63,7 @@ pub(super) fn look(
     request: &HistoryQuery,
     history: &HistoryBuffer,
 ) -> Result<HistoryResult, HistoryError> {
-    let filter = request.filter.at(&Zoned::now());
+    let filter = request.filter.at(&crate::clock::zoned_now());
     let rows = &request.rows;
     let page = history.page(&filter, rows.start, rows.len())?;
     let selected = match &request.part {

@@ -352,7 +352,7 @@ mod tests {
     #[test]
     fn two_of_the_last_parts_stay_visible_with_the_ends_of_their_titles_below_a_long_advice() {
         let mut session = Session::default();
-        session.shift.since = Some(jiff::Zoned::now());
+        session.shift.since = Some(crate::clock::zoned_now());
         for serial in ["S-1", "S-2"] {
             let mut row = inspected_cell(CellChoice::InTurn, 1).entry.record.summary;
             row.trace.serial = serial.into();

@@ -453,7 +453,7 @@ impl AnsweringSession<'_> {
         } = last;
         let picture = segmentation_picture(&scene, &inspection.segmentation);
         let about = InspectionContext {
-            at: Timestamp::now(),
+            at: crate::clock::now(),
             scene: origin.title(),
             source,
             is_simulated: origin.is_simulated(),
