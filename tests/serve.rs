@@ -253,6 +253,20 @@ impl Robot {
         self.told()
     }
 
+    /// Asks for a point of the path of the inspection with this number.
+    fn ask_path_of(&mut self, sequence: u32, point: u32) -> Told {
+        let bytes = match self.protocol.as_str() {
+            "ascii" | "urscript" => format!("PATH {point} {sequence}\n").into_bytes(),
+            "eki" => format!(
+                "<Robot><Request>PATH</Request><Point>{point}</Point><Sequence>{sequence}</Sequence></Robot>"
+            )
+            .into_bytes(),
+            protocol => frame(protocol, "PATH", &[point, sequence]),
+        };
+        self.send(&bytes);
+        self.told()
+    }
+
     fn told(&mut self) -> Told {
         if self.protocol.starts_with("binary") {
             let mut frame = [0; 256];
@@ -303,35 +317,40 @@ fn request(protocol: &str, word: &str, point: u32) -> Vec<u8> {
         "eki" => {
             format!("<Robot><Request>{word}</Request><Point>{point}</Point></Robot>").into_bytes()
         }
-        _ => {
-            let words = ["TRIGGER", "STATUS", "LAST", "PATH"];
-            let code = place_of(word, &words) + 1;
-            let mut frame = b"PSRQ".to_vec();
-            let is_big = protocol == "binary-be";
-            let mut put = |value: u32, num_bytes: usize| {
-                let little = value.to_le_bytes();
-                let bytes = little[..num_bytes].iter();
-                if is_big {
-                    frame.extend(bytes.rev());
-                } else {
-                    frame.extend(bytes);
-                }
-            };
-            put(1, 2);
-            put(20, 2);
-            put(code, 2);
-            put(0, 2);
-            put(point, 4);
-            let checksum = crc32(&frame);
-            let checksum = if is_big {
-                checksum.to_be_bytes()
-            } else {
-                checksum.to_le_bytes()
-            };
-            frame.extend(checksum);
-            frame
-        }
+        _ => frame(protocol, word, &[point]),
     }
+}
+
+/// A request as a binary frame with these numbers.
+fn frame(protocol: &str, word: &str, numbers: &[u32]) -> Vec<u8> {
+    let words = ["TRIGGER", "STATUS", "LAST", "PATH"];
+    let code = place_of(word, &words) + 1;
+    let mut frame = b"PSRQ".to_vec();
+    let is_big = protocol == "binary-be";
+    let mut put = |value: u32, num_bytes: usize| {
+        let little = value.to_le_bytes();
+        let bytes = little[..num_bytes].iter();
+        if is_big {
+            frame.extend(bytes.rev());
+        } else {
+            frame.extend(bytes);
+        }
+    };
+    put(1, 2);
+    put(16 + 4 * numbers.len() as u32, 2);
+    put(code, 2);
+    put(0, 2);
+    for number in numbers {
+        put(*number, 4);
+    }
+    let checksum = crc32(&frame);
+    let checksum = if is_big {
+        checksum.to_be_bytes()
+    } else {
+        checksum.to_le_bytes()
+    };
+    frame.extend(checksum);
+    frame
 }
 
 fn told_in_frame(frame: &[u8; 256], is_big: bool) -> Told {
@@ -909,8 +928,8 @@ fn whichever_side_starts_again_the_other_goes_on() {
     let told = robot.ask("TRIGGER");
     // The robot restarts before it has read the answer.
     robot.send(b"TRIGGER\n");
-    drop(robot);
     wait_until(|| service.num_inspected.load(Ordering::SeqCst) == 2);
+    drop(robot);
     let mut robot = service.robot(0);
     let last = robot.ask("LAST");
     assert_eq!(last.boot, told.boot);
@@ -950,4 +969,88 @@ fn who_waits_when_the_service_ends_is_told_so() {
     let _ = second.stream.read_line(&mut line);
     assert!(line.is_empty() || line.contains(";stopping;"), "{line}");
     service.end();
+}
+
+#[test]
+fn a_client_reads_the_path_of_its_own_trigger_or_of_one_that_it_names() {
+    // The path of each inspection is another one.
+    let find = |number| {
+        let mut found = accepted(number);
+        found.path[0].robot_from_nozzle =
+            RigidTransform::translation(f64::from(number) / 100.0, 0.25, 1.5);
+        found
+    };
+    let service = Service::start(&ALL, ServerSettings::default(), find);
+    let assert_of = |told: &Told, sequence: u32| {
+        assert_eq!((told.verdict, told.sequence), (1, sequence), "{told:?}");
+        assert_at(told, [f64::from(sequence) * 10.0, 250.0, 1500.0]);
+    };
+    for place in 0..ALL.len() {
+        let [mut first, mut second, mut third] = [0; 3].map(|_| service.robot(place));
+        let own = first.ask("TRIGGER").sequence;
+        let others = second.ask("TRIGGER").sequence;
+        assert_eq!(others, own + 1);
+        assert_of(&first.ask_point("PATH", 1), own);
+        assert_of(&second.ask_point("PATH", 1), others);
+        assert_of(&first.ask_path_of(others, 1), others);
+        // One that has not triggered, or that has connected again, has to say which one it means.
+        for point in [0, 1] {
+            let told = third.ask_point("PATH", point);
+            assert_eq!((told.verdict, told.sequence), (7, 0), "{told:?}");
+            assert_no_numbers(&told);
+            if third.protocol != "urscript" {
+                assert_eq!((&*told.reason, &*told.part), ("no_trigger", ""));
+            }
+        }
+        drop(first);
+        assert_of(&third.ask_path_of(own, 1), own);
+        assert_eq!(third.ask_path_of(own, 0).points, 2);
+        let never = third.ask_path_of(1000, 1);
+        assert_eq!(never.verdict, 7, "{never:?}");
+        assert_no_numbers(&never);
+        if third.protocol != "urscript" {
+            assert_eq!(never.reason, "no_such_inspection");
+        }
+        // The connection stays open, and the next trigger's path is another one.
+        let next = third.ask("TRIGGER").sequence;
+        assert_of(&third.ask_point("PATH", 1), next);
+        assert_of(&second.ask_point("PATH", 1), others);
+    }
+}
+
+#[test]
+fn triggers_of_clients_that_have_gone_are_not_inspected() {
+    let (begun, has_begun) = mpsc::channel();
+    let (go_on, may_go_on) = mpsc::channel::<()>();
+    let find = move |number| {
+        begun.send(number).expect("awaited");
+        may_go_on.recv().expect("released");
+        accepted(number)
+    };
+    let service = Service::start(&ALL, ServerSettings::default(), find);
+    let [mut first, mut second, mut half] = [0; 3].map(|place| service.robot(place));
+    first.send(b"TRIGGER\n");
+    assert_eq!(has_begun.recv_timeout(PATIENCE), Ok(1));
+    for i in 0..10 {
+        let mut gone = service.robot(i % ALL.len());
+        let bytes = request(&gone.protocol, "TRIGGER", 0);
+        gone.send(&bytes);
+    }
+    // It has ended its side only, and learns why it gets no pose.
+    half.send(b"TRIGGER\n");
+    let ended = half.stream.get_ref().shutdown(std::net::Shutdown::Write);
+    ended.expect("shut down");
+    second.send(b"TRIGGER\n");
+    for _ in 0..2 {
+        go_on.send(()).expect("awaited");
+    }
+    assert_eq!(first.told().sequence, 1);
+    assert_eq!(second.told().sequence, 2);
+    let told = half.told();
+    assert_eq!((told.verdict, &*told.reason), (5, "withdrawn"), "{told:?}");
+    assert_no_numbers(&told);
+    let mut last = service.robot(0);
+    go_on.send(()).expect("awaited");
+    assert_eq!(last.ask("TRIGGER").sequence, 3);
+    assert_eq!(service.num_inspected.load(Ordering::SeqCst), 3);
 }

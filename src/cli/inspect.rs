@@ -64,6 +64,7 @@ Exit codes: 0 every input accepted, 1 something was not accepted, 2 something co
 If the library is empty or cannot be loaded, nothing is inspected: one error, no line of JSON, exit code 2.
 With --source: follows a camera, a recording or a folder until it ends, until --frames were inspected, or until Ctrl-C.
 A live camera gives its newest frame, and those in between are dropped; every frame of a recording or folder is inspected.
+A frame of a part that moves is not accepted.
 Exit codes as with files; 1 also if no frame came. Possible sources: partsight capture --help
 With --scan: one verdict on all frames together; partsight help scan explains how to give their poses. camera_from_part
 is then the pose in the camera's frame of the first used shot, and base_from_part the pose in the robot's base frame.

@@ -11,6 +11,7 @@ use std::{
 use anyhow::Context as _;
 
 /// Whether Ctrl-C was pressed.
+#[derive(Clone)]
 pub(super) struct Interrupt {
     came: Arc<AtomicBool>,
 }

@@ -60,7 +60,9 @@ Protocols, each on its own port; docs/guide/robots_that_ask.md describes them in
   eki                  XML for KUKA's option package Ethernet KRL; poses as kuka
   urscript             lists of numbers for Universal Robots; poses as universal-robots
 Requests: TRIGGER inspects a frame captured from then on, LAST repeats that answer, STATUS gives the state of the camera,
-and PATH the points of the part's spray path, for where the part hangs now.
+and PATH the points of the spray path of the part that the same client triggered, for where it hangs.
+A part that moves is refused with the reason moving: the scene must have been still for 0.9 s, and a second frame, 150 ms
+later, must show the part in the same place.
 Every answer has a verdict, the age of its frame and a sequence number. Poses are given only for an accepted part whose
 frame is not older than --max-age. Triggers are answered in the order in which they come, each with a frame of its own.
 Poses are in the robot's base frame, so a calibration is needed: partsight calibrate --help

@@ -1,6 +1,9 @@
 //! Requests that a client may send, and the answers to them.
 
-use std::time::{Duration, Instant};
+use std::{
+    sync::OnceLock,
+    time::{Duration, Instant},
+};
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -19,8 +22,13 @@ pub enum Request {
     Status,
     /// Send the last inspection again.
     Last,
-    /// Send a point of the part's spray path, moved by the last pose: its number from 1, or 0 for the number of points.
-    Path(u32),
+    /// Send a point of the part's spray path, moved by the pose of an inspection.
+    Path {
+        /// The point's number from 1, or 0 for the number of points.
+        point: u32,
+        /// The inspection's sequence number; `None` for that of the client's own last trigger.
+        sequence: Option<u32>,
+    },
 }
 
 impl Request {
@@ -30,13 +38,17 @@ impl Request {
             Self::Trigger => ("TRIGGER", 1),
             Self::Status => ("STATUS", 2),
             Self::Last => ("LAST", 3),
-            Self::Path(_) => ("PATH", 4),
+            Self::Path { .. } => ("PATH", 4),
         }
     }
 
-    /// Finds a request by its word, ignoring case; `point` is the point of a path request.
-    pub(super) fn of_name(word: &str, point: u32) -> Option<Self> {
-        let all = [Self::Trigger, Self::Status, Self::Last, Self::Path(point)];
+    /// Finds a request by its word, ignoring case; a path request is one for the number of points.
+    pub(super) fn of_name(word: &str) -> Option<Self> {
+        let path = Self::Path {
+            point: 0,
+            sequence: None,
+        };
+        let all = [Self::Trigger, Self::Status, Self::Last, path];
         let mut all = all.into_iter();
         all.find(|request| request.name().0.eq_ignore_ascii_case(word))
     }
@@ -159,6 +171,33 @@ impl Trouble {
         )
     }
 
+    /// The robot's frame or the kind of pose was changed.
+    pub(super) fn numbers_changed() -> Self {
+        Self::new(
+            "numbers_changed",
+            "the calibration, or which pose is sent, has changed since",
+            "Check that the program expects these poses, and TRIGGER again",
+        )
+    }
+
+    /// The client asks for the path of its own trigger, but has none.
+    pub(super) fn no_trigger() -> Self {
+        Self::new(
+            "no_trigger",
+            "this client has not triggered, so no path is its own",
+            "TRIGGER on this connection, or give the sequence number of the trigger's answer, as in PATH 1 41",
+        )
+    }
+
+    /// The inspection is not kept any more, or never was.
+    pub(super) fn no_such_inspection(sequence: u32) -> Self {
+        Self::new(
+            "no_such_inspection",
+            &format!("inspection {sequence} is not kept"),
+            "TRIGGER again, and give the sequence number of its answer",
+        )
+    }
+
     /// The maximum number of clients is connected.
     pub(super) fn full(max_clients: usize) -> Self {
         Self::new(
@@ -200,7 +239,7 @@ pub struct Found {
     pub part: String,
     /// Number of the reference in whose coordinates the pose is; 0 if it has none.
     pub number: u32,
-    /// Any of [`Answer::APPROXIMATE`] and [`Answer::SIMULATED`].
+    /// Any of [`Answer::APPROXIMATE`], [`Answer::SIMULATED`] and [`Answer::MOTION_UNCHECKED`].
     pub marks: u16,
     /// The pose in the robot's base frame. Sent only while the verdict is accepted.
     pub pose: Option<RigidTransform>,
@@ -225,7 +264,7 @@ impl Found {
     /// Refuses a part that was accepted, and withholds its pose and its path.
     pub fn refuse(&mut self, trouble: Trouble) {
         self.verdict = VerdictCode::Refused;
-        self.marks &= !Answer::APPROXIMATE;
+        self.marks &= !Answer::OF_ACCEPTED;
         self.pose = None;
         self.path.clear();
         self.trouble = trouble;
@@ -236,25 +275,34 @@ impl Found {
 /// numbers exactly.
 pub const MAX_COUNT: u32 = (1 << 24) - 1;
 
-/// An inspection with its sequence number.
+/// An inspection with its numbers.
 #[derive(Debug, Default)]
 pub(super) struct Inspected {
     /// From 1; 0 before the first one.
     pub(super) sequence: u32,
+    /// The boot number when it was made.
+    pub(super) boot: u32,
     pub(super) found: Found,
+    /// Why its pose and its path may not be sent any more, if it was accepted.
+    pub(super) revoked: OnceLock<Trouble>,
 }
 
 impl Inspected {
-    /// The next inspection's number.
-    pub(super) fn next_sequence(&self) -> u32 {
-        self.sequence % MAX_COUNT + 1
+    /// The verdict as it holds now, with the reason if it differs from the original.
+    fn judged(&self, age: Option<Duration>, max_age: Duration) -> (VerdictCode, Trouble) {
+        match self.revoked.get() {
+            Some(trouble) if self.found.verdict == VerdictCode::Accepted => {
+                (VerdictCode::Refused, trouble.clone())
+            }
+            _ => judged(&self.found, age, max_age),
+        }
     }
 }
 
 /// What an answer depends on besides the inspection.
 #[derive(Clone, Debug)]
 pub(super) struct Situation {
-    /// The boot number of this start, 1..=[`MAX_COUNT`].
+    /// The present boot number, 1..=[`MAX_COUNT`].
     pub(super) boot: u32,
     /// Maximum age of a frame before it is stale.
     pub(super) max_age: Duration,
@@ -271,7 +319,7 @@ pub struct Answer {
     pub verdict: VerdictCode,
     /// Sequence number of the inspection, 1..=[`MAX_COUNT`]; 0 if there was none.
     pub sequence: u32,
-    /// Boot number of this start of the server, 1..=[`MAX_COUNT`].
+    /// Boot number of this start of the server, 1..=[`MAX_COUNT`]; another one once the meaning of its poses has changed.
     pub boot: u32,
     /// Age of the frame, at most [`MAX_COUNT`] milliseconds; none without a frame.
     pub age_ms: Option<u32>,
@@ -306,6 +354,11 @@ impl Answer {
     pub const GUN_ON: u16 = 8;
     /// Flag of a point of the path: distance and angle to the surface seen by the camera are within the band.
     pub const IN_BAND: u16 = 16;
+    /// Flag: the source has no second frame, so whether the part hung still was not checked.
+    pub const MOTION_UNCHECKED: u16 = 32;
+
+    /// Flags that only an accepted part has.
+    const OF_ACCEPTED: u16 = Self::APPROXIMATE | Self::MOTION_UNCHECKED;
 
     /// All flags that are set, with [`Answer::POSE`] if there is a pose.
     pub fn flags(&self) -> u16 {
@@ -331,23 +384,28 @@ impl Answer {
         }
     }
 
-    /// Answers a request from the last inspection.
-    pub(super) fn of(request: Request, last: &Inspected, at: &Situation) -> Self {
-        let found = &last.found;
+    /// Answers a request from an inspection.
+    pub(super) fn of(request: Request, inspected: &Inspected, at: &Situation) -> Self {
+        let found = &inspected.found;
         let age = found
             .captured
             .map(|captured| at.now.saturating_duration_since(captured));
-        let (verdict, trouble) = judged(found, age, at.max_age);
+        let (verdict, trouble) = inspected.judged(age, at.max_age);
+        let marks = match verdict {
+            VerdictCode::Refused => found.marks & !Self::OF_ACCEPTED,
+            _ => found.marks,
+        };
         let mut answer = Self {
             request: Some(request),
             verdict,
-            sequence: last.sequence,
-            boot: at.boot,
+            sequence: inspected.sequence,
+            // Its numbers have the meaning that they had then.
+            boot: inspected.boot,
             age_ms: age.map(in_milliseconds),
             camera: at.camera.state,
             part: found.part.clone(),
             number: found.number,
-            marks: found.marks,
+            marks,
             trouble,
             ..Self::default()
         };
@@ -359,8 +417,8 @@ impl Answer {
             answer.points = u32::try_from(found.path.len()).unwrap_or(u32::MAX);
             match request {
                 Request::Trigger | Request::Last => answer.pose = found.pose,
-                Request::Status | Request::Path(0) => {}
-                Request::Path(point) => answer.take_point(point, &found.path),
+                Request::Status | Request::Path { point: 0, .. } => {}
+                Request::Path { point, .. } => answer.take_point(point, &found.path),
             }
         }
         answer
@@ -456,19 +514,35 @@ mod tests {
         }
     }
 
+    const fn path(point: u32) -> Request {
+        Request::Path {
+            point,
+            sequence: None,
+        }
+    }
+
     const ALL: [Request; 6] = [
         Request::Trigger,
         Request::Status,
         Request::Last,
-        Request::Path(0),
-        Request::Path(1),
-        Request::Path(2),
+        path(0),
+        path(1),
+        path(2),
     ];
+
+    fn inspected(sequence: u32, found: Found) -> Inspected {
+        Inspected {
+            sequence,
+            boot: 7,
+            found,
+            ..Inspected::default()
+        }
+    }
 
     #[test]
     fn numbers_go_out_with_an_accepted_verdict_only() {
         let start = Instant::now();
-        let inspected = |found| Inspected { sequence: 5, found };
+        let inspected = |found| inspected(5, found);
         let at = situation(start + Duration::from_millis(1500));
         for verdict in [
             VerdictCode::None,
@@ -491,12 +565,12 @@ mod tests {
         let last = inspected(found(start));
         for request in ALL {
             let answer = Answer::of(request, &last, &at);
-            let has_pose = !matches!(request, Request::Status | Request::Path(0 | 2));
+            let has_pose = request != Request::Status && request != path(0) && request != path(2);
             assert_eq!(answer.pose.is_some(), has_pose, "{request:?}");
             assert_eq!(answer.age_ms, Some(1500));
             assert_eq!((answer.sequence, answer.boot), (5, 7));
         }
-        let step = Answer::of(Request::Path(1), &last, &at);
+        let step = Answer::of(path(1), &last, &at);
         assert_eq!(
             (step.point, step.points, step.speed_mm_s),
             (1, 1, Some(250.0))
@@ -505,7 +579,7 @@ mod tests {
             step.flags(),
             Answer::POSE | Answer::SIMULATED | Answer::GUN_ON
         );
-        let beyond = Answer::of(Request::Path(2), &last, &at);
+        let beyond = Answer::of(path(2), &last, &at);
         assert_eq!(beyond.verdict, VerdictCode::BadRequest);
         assert_eq!(beyond.trouble.reason, "no_such_point");
     }
@@ -513,10 +587,7 @@ mod tests {
     #[test]
     fn what_was_accepted_becomes_stale_and_loses_its_numbers() {
         let start = Instant::now();
-        let last = Inspected {
-            sequence: 1,
-            found: found(start),
-        };
+        let last = inspected(1, found(start));
         let fresh = situation(start + Duration::from_secs(10));
         assert!(Answer::of(Request::Last, &last, &fresh).pose.is_some());
         let late = situation(start + Duration::from_millis(10_001));
@@ -553,10 +624,7 @@ mod tests {
                 ..found(start)
             },
         ] {
-            let last = Inspected {
-                sequence: 1,
-                found: wrong,
-            };
+            let last = inspected(1, wrong);
             for request in ALL {
                 let answer = Answer::of(request, &last, &situation(start));
                 assert_eq!(answer.verdict, VerdictCode::Refused);
@@ -588,15 +656,27 @@ mod tests {
     }
 
     #[test]
-    fn sequence_numbers_go_on_from_one_and_never_reach_zero() {
-        let inspected = |sequence| Inspected {
-            sequence,
-            found: Found::default(),
-        };
-        assert_eq!(inspected(0).next_sequence(), 1);
-        assert_eq!(inspected(41).next_sequence(), 42);
-        assert_eq!(inspected(MAX_COUNT - 1).next_sequence(), MAX_COUNT);
-        assert_eq!(inspected(MAX_COUNT).next_sequence(), 1);
+    fn an_age_is_never_longer_than_the_longest_number() {
         assert_eq!(in_milliseconds(Duration::MAX), MAX_COUNT);
+    }
+
+    #[test]
+    fn what_is_revoked_is_refused_with_the_boot_number_of_its_numbers() {
+        let now = Instant::now();
+        let mut wrong = found(now);
+        wrong.marks |= Answer::APPROXIMATE | Answer::MOTION_UNCHECKED;
+        let last = inspected(5, wrong);
+        last.revoked.set(Trouble::reported_wrong()).expect("once");
+        let at = Situation {
+            boot: 8,
+            ..situation(now)
+        };
+        for request in ALL {
+            let answer = Answer::of(request, &last, &at);
+            assert_eq!(answer.verdict, VerdictCode::Refused, "{request:?}");
+            assert_eq!((answer.pose, answer.points), (None, 0));
+            assert_eq!((answer.flags(), answer.boot), (Answer::SIMULATED, 7));
+            assert_eq!(answer.trouble.reason, "reported_wrong");
+        }
     }
 }

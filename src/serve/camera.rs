@@ -4,18 +4,23 @@
 //! that arrives just after a trigger may have been exposed before it. From a camera, the second frame to arrive is
 //! therefore used: it was exposed after the first one. This costs one more frame, 33 ms with a Kinect. From a watched
 //! folder, a file is used that was first seen after the trigger and, by its time of modification, written after it.
+//!
+//! An accepted part is then looked for again in a later frame, unless the scene has moved already (`motion.rs`): one that
+//! moves is refused.
 
 use std::{
     sync::{Arc, Mutex},
     time::{Duration, Instant},
 };
 
-use jiff::SignedDuration;
+use jiff::{SignedDuration, Timestamp};
+use nalgebra::Point3;
 use thiserror::Error;
 
 use super::{
     answer::{CameraState, CameraStatus, Trouble},
     finder::FrameOrigin,
+    motion::{MotionWatch, time_of},
     server::Asked,
 };
 use crate::{
@@ -25,7 +30,15 @@ use crate::{
     },
     clock,
     error::{Advice, lock},
+    pipeline::{
+        Inspection,
+        live::{MotionState, SteadyParams, refuse_moving, refuse_unless_again},
+    },
 };
+
+/// Least time between the two frames that must agree, if the scene was still until the first one. A part that begins to
+/// move at 0.1 m/s² or more has then come further than its pose may be off, unless it was hardly off in the first one.
+const APART: Duration = Duration::from_millis(150);
 
 /// How often a waiting trigger checks whether the service is ending.
 const TURN: Duration = Duration::from_millis(100);
@@ -45,6 +58,8 @@ pub struct Camera {
 struct Opened {
     feed: Arc<Feed>,
     rule: NewFrame,
+    /// `None` for a source that does not show motion.
+    motion: Option<Arc<MotionWatch>>,
 }
 
 /// How a frame is known to have been captured after a trigger.
@@ -54,6 +69,8 @@ pub enum NewFrame {
     SecondArrived,
     /// It is the second frame to be replayed after the trigger. It was captured earlier, so its answer is marked.
     SecondReplayed,
+    /// The same, of a folder of independent captures, which do not show whether a part moves.
+    SecondOfMany,
     /// Its file was first seen after the trigger, and was written after it by the wall clock.
     WrittenAfter,
 }
@@ -63,23 +80,32 @@ impl NewFrame {
     pub fn of_source(spec: &SourceSpec) -> Self {
         match spec {
             SourceSpec::Watched(_) => Self::WrittenAfter,
+            _ if !spec.is_followed() => Self::SecondOfMany,
             _ if spec.is_replayed() => Self::SecondReplayed,
             _ => Self::SecondArrived,
         }
+    }
+
+    /// True if successive frames show whether the part moves. One file written for each trigger does not.
+    fn shows_motion(self) -> bool {
+        matches!(self, Self::SecondArrived | Self::SecondReplayed)
     }
 
     /// The frame's time of capture, and whether its answer is marked.
     pub fn origin_of(self, captured: &Captured) -> FrameOrigin {
         FrameOrigin {
             captured: self.captured_at(captured),
-            is_simulated: captured.is_simulated || self == Self::SecondReplayed,
+            at: time_of(captured),
+            is_simulated: captured.is_simulated
+                || matches!(self, Self::SecondReplayed | Self::SecondOfMany),
+            is_motion_checked: self.shows_motion(),
         }
     }
 
     /// The time of capture, from which the frame's age is computed; of a replayed frame, when it was replayed.
     fn captured_at(self, captured: &Captured) -> Instant {
         match self {
-            Self::SecondArrived | Self::SecondReplayed => captured.arrived,
+            Self::SecondArrived | Self::SecondReplayed | Self::SecondOfMany => captured.arrived,
             // Never later than it was first seen, even if the file's clock is fast.
             Self::WrittenAfter => {
                 let age = clock::now().duration_since(captured.taken_at);
@@ -93,7 +119,7 @@ impl NewFrame {
     /// Whether a frame was captured after the trigger; it is the `num_arrived`-th to arrive since.
     fn is_new(self, captured: &Captured, asked: &Asked, num_arrived: usize) -> bool {
         match self {
-            Self::SecondArrived | Self::SecondReplayed => num_arrived >= 2,
+            Self::SecondArrived | Self::SecondReplayed | Self::SecondOfMany => num_arrived >= 2,
             Self::WrittenAfter => captured.arrived > asked.at && is_dated_after(captured, asked),
         }
     }
@@ -160,6 +186,9 @@ pub enum NoFrame {
     /// The service is ending.
     #[error("the service is stopping")]
     Stopping,
+    /// Nobody waits for the frame any more.
+    #[error("the client closed the connection before it was its turn")]
+    Withdrawn,
 }
 
 impl NoFrame {
@@ -173,6 +202,7 @@ impl NoFrame {
             Self::Unreadable { .. } => "unreadable",
             Self::ClockAhead { .. } => "clock_ahead",
             Self::Stopping => "stopping",
+            Self::Withdrawn => "withdrawn",
         }
     }
 }
@@ -193,6 +223,10 @@ impl Advice for NoFrame {
                     .into()
             }
             Self::Stopping => "Connect again once the service is running".into(),
+            Self::Withdrawn => {
+                "TRIGGER again, and keep the connection open, for sending too, until the answer has come"
+                    .into()
+            }
         }
     }
 }
@@ -233,8 +267,12 @@ impl Camera {
     ) -> Result<Self, CaptureError> {
         let start = move || -> Result<Opened, CaptureError> {
             let (feed, rule) = start()?;
-            let feed = Arc::new(feed);
-            Ok(Opened { feed, rule })
+            let motion = rule.shows_motion().then(|| MotionWatch::start(&feed));
+            Ok(Opened {
+                motion: motion.transpose()?.map(Arc::new),
+                feed: Arc::new(feed),
+                rule,
+            })
         };
         let opened = Mutex::new(start()?);
         Ok(Self {
@@ -271,43 +309,66 @@ impl Camera {
         is_ending: impl Fn() -> bool,
     ) -> Result<Captured, NoFrame> {
         self.restart_if_over()?;
-        let Opened { feed, rule } = self.opened();
-        let until = Instant::now() + at_most;
+        let opened = self.opened();
         let mut num_arrived = 0;
-        let mut unreadable = None;
-        while !is_ending() {
-            // Read the status first, so that frames delivered just before the end are still taken.
-            let status = feed.status();
-            match feed.wait(TURN) {
-                Some(FeedItem::Captured(captured)) => {
-                    num_arrived += usize::from(captured.arrived > asked.at);
-                    if let Some(ahead) = rule.clock_ahead(&captured, asked) {
-                        let name = captured.name;
-                        unreadable = Some(NoFrame::ClockAhead { name, ahead });
-                    } else if rule.is_new(&captured, asked, num_arrived) {
-                        return Ok(captured);
-                    }
-                }
-                Some(FeedItem::Skipped(skipped)) => {
-                    unreadable = Some(NoFrame::Unreadable {
-                        name: skipped.name,
-                        error: skipped.error,
-                    });
-                }
-                None => match status.state {
-                    FeedState::Lost { error } => return Err(NoFrame::Lost { error }),
-                    FeedState::Failed(error) => return Err(NoFrame::Failed { error }),
-                    FeedState::Ended | FeedState::Stopped => {
-                        return Err(unreadable.unwrap_or(NoFrame::Ended));
-                    }
-                    FeedState::Opening | FeedState::Running => {}
-                },
+        opened.wait(at_most, is_ending, |captured| {
+            num_arrived += usize::from(captured.arrived > asked.at);
+            if let Some(ahead) = opened.rule.clock_ahead(captured, asked) {
+                let name = captured.name.clone();
+                return Err(NoFrame::ClockAhead { name, ahead });
             }
-            if Instant::now() >= until {
-                return Err(unreadable.unwrap_or(NoFrame::Late { waited: at_most }));
-            }
+            Ok(opened.rule.is_new(captured, asked, num_arrived))
+        })
+    }
+
+    /// Refuses an accepted part that moves. `origin` is that of the inspected frame. If the scene was still until then, a
+    /// frame at least 150 ms later must show the part in the same place; if that is not known, because the source has just
+    /// begun or is slow, one at least 900 ms later. `again` inspects that frame, `middle` is the middle of the part, part
+    /// space, metres. If the source does not show it, or ends before, `origin` says so. An error leaves the part unchecked
+    /// and must be answered instead of it.
+    pub fn refuse_if_moving(
+        &self,
+        origin: &mut FrameOrigin,
+        inspection: &mut Inspection,
+        middle: Option<Point3<f64>>,
+        at_most: Duration,
+        is_ending: impl Fn() -> bool,
+        again: impl FnOnce(Captured) -> Inspection,
+    ) -> Result<(), NoFrame> {
+        let opened = self.opened();
+        let Some(motion) = opened.motion.as_ref().filter(|_| origin.is_motion_checked) else {
+            return Ok(());
+        };
+        if !inspection.verdict.is_accepted() {
+            return Ok(());
         }
-        Err(NoFrame::Stopping)
+        let apart = match motion.state_at(origin.at) {
+            MotionState::Moving => {
+                refuse_moving(inspection);
+                return Ok(());
+            }
+            MotionState::Steady { .. } => APART,
+            MotionState::Watching => SteadyParams::default().settle,
+        };
+        let later = opened.wait(at_most, is_ending, |captured| {
+            Ok(time_of(captured) >= origin.at + apart)
+        });
+        let later = match later {
+            // The file ends here.
+            Err(NoFrame::Ended) if opened.rule == NewFrame::SecondReplayed => {
+                origin.is_motion_checked = false;
+                return Ok(());
+            }
+            later => later?,
+        };
+        let at = time_of(&later);
+        let again = again(later);
+        if motion.state_at(at) == MotionState::Moving {
+            refuse_moving(inspection);
+        } else {
+            refuse_unless_again(inspection, &again, middle);
+        }
+        Ok(())
     }
 
     /// The frame's time of capture, and whether its answer is marked.
@@ -331,6 +392,48 @@ impl Camera {
     }
 }
 
+impl Opened {
+    /// Waits for a frame that is wanted. An error about a frame is returned if no other comes in time.
+    fn wait(
+        &self,
+        at_most: Duration,
+        is_ending: impl Fn() -> bool,
+        mut is_wanted: impl FnMut(&Captured) -> Result<bool, NoFrame>,
+    ) -> Result<Captured, NoFrame> {
+        let until = Instant::now() + at_most;
+        let mut unreadable = None;
+        while !is_ending() {
+            // Read the status first, so that frames delivered just before the end are still taken.
+            let status = self.feed.status();
+            match self.feed.wait(TURN) {
+                Some(FeedItem::Captured(captured)) => match is_wanted(&captured) {
+                    Ok(true) => return Ok(captured),
+                    Ok(false) => {}
+                    Err(why) => unreadable = Some(why),
+                },
+                Some(FeedItem::Skipped(skipped)) => {
+                    unreadable = Some(NoFrame::Unreadable {
+                        name: skipped.name,
+                        error: skipped.error,
+                    });
+                }
+                None => match status.state {
+                    FeedState::Lost { error } => return Err(NoFrame::Lost { error }),
+                    FeedState::Failed(error) => return Err(NoFrame::Failed { error }),
+                    FeedState::Ended | FeedState::Stopped => {
+                        return Err(unreadable.unwrap_or(NoFrame::Ended));
+                    }
+                    FeedState::Opening | FeedState::Running => {}
+                },
+            }
+            if Instant::now() >= until {
+                return Err(unreadable.unwrap_or(NoFrame::Late { waited: at_most }));
+            }
+        }
+        Err(NoFrame::Stopping)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use std::{
@@ -342,8 +445,13 @@ mod tests {
 
     use super::*;
     use crate::{
-        capture::{DepthSource, NextCapture, SkippedCapture},
-        kit::captured,
+        capture::{
+            CellScene, DepthSource, NextCapture, SimulatedCell, SimulatedSpec, SkippedCapture,
+        },
+        geometry::rigid::RigidTransform,
+        kit::{captured, shipped_library},
+        pipeline::{Recipe, Unwatched, run},
+        stages::{reference::Reference, scene::scene_from_image},
     };
 
     /// Long enough for a busy machine; normally what is waited for comes at once.
@@ -596,5 +704,145 @@ mod tests {
         assert!(why.to_string().contains("broken.pcd"), "{why}");
         let why = camera.frame_after(&Asked::now(), PATIENCE, || true);
         assert_eq!(why.expect_err("ending").reason(), "stopping");
+    }
+
+    /// Frames per second of the line.
+    const RATE: f64 = 30.0;
+    /// Seconds from one of its parts to the next.
+    const EVERY: f64 = 5.0;
+
+    /// The simulated line as a camera that is read as fast as it is asked, 30 frames a second by its own clock.
+    struct Line {
+        cell: SimulatedCell,
+        number: u64,
+    }
+
+    impl Line {
+        fn new() -> Self {
+            let spec = SimulatedSpec {
+                scene: CellScene::Line { every: EVERY },
+                frames_per_second: RATE,
+                ..SimulatedSpec::default()
+            };
+            Self {
+                cell: SimulatedCell::new(spec),
+                number: 0,
+            }
+        }
+    }
+
+    impl DepthSource for Line {
+        fn title(&self) -> String {
+            "line".into()
+        }
+
+        fn is_simulated(&self) -> bool {
+            true
+        }
+
+        fn next(&mut self, _: Duration) -> Result<NextCapture, CaptureError> {
+            self.number += 1;
+            let since = SignedDuration::from_secs_f64((self.number - 1) as f64 / RATE);
+            let (image, truth) = self.cell.frame(self.number);
+            Ok(NextCapture::Captured(Captured {
+                image,
+                truth: Some(Arc::new(truth)),
+                ..captured(self.number, Timestamp::UNIX_EPOCH + since)
+            }))
+        }
+    }
+
+    /// How far the part has moved at this point between two poses, metres.
+    fn moved(from: &RigidTransform, to: &RigidTransform, at: Point3<f64>) -> f64 {
+        (to * from.inverse() * at - at).norm()
+    }
+
+    #[test]
+    fn a_part_that_swings_in_or_leaves_is_never_accepted_off_its_place_and_once_it_rests_it_is() {
+        let start = || {
+            let open = || Ok(Box::new(Line::new()) as Box<dyn DepthSource>);
+            let feed = Feed::start_with(open, BackpressurePolicy::Every, || ());
+            feed.map(|feed| (feed, NewFrame::SecondArrived))
+        };
+        let camera = Camera::start_with(start).expect("started");
+        let (library, recipe) = (shipped_library(), Recipe::default());
+        let inspect = |captured: Captured| {
+            let scene = scene_from_image(captured.image);
+            run(&scene, &library, &recipe, &Unwatched).expect("not cancelled")
+        };
+        let mut resting = Line::new().cell;
+        let mut rest_of = |visit: u64| {
+            let number = ((visit as f64 * EVERY + 3.0) * RATE) as u64 + 1;
+            resting.frame(number).1.camera_from_part
+        };
+        let opened = camera.opened();
+        let watch = opened.motion.as_ref().expect("watched");
+        let (mut num_accepted, mut num_moving) = ([0; 2], 0);
+        // Every half second of two parts.
+        for trigger in 0..20 {
+            let due = Duration::from_millis(500 * trigger);
+            let passing = opened.wait(
+                PATIENCE,
+                || false,
+                |captured| {
+                    let at = time_of(captured);
+                    // Nothing outruns the watch, as it would not at 30 frames a second.
+                    watch.state_at(at);
+                    Ok(at >= due)
+                },
+            );
+            passing.expect("a frame");
+            let frame = camera.frame_after(&Asked::now(), PATIENCE, || false);
+            let frame = frame.expect("a frame");
+            let mut origin = camera.origin_of(&frame);
+            let truth = Arc::clone(frame.truth.as_ref().expect("known"));
+            let mut inspection = inspect(frame);
+            let was_accepted = inspection.verdict.is_accepted();
+            let middle = inspection.best_reference(&library);
+            let middle = middle.and_then(Reference::middle);
+            let checked = camera.refuse_if_moving(
+                &mut origin,
+                &mut inspection,
+                middle,
+                PATIENCE,
+                || false,
+                inspect,
+            );
+            checked.expect("a second frame");
+            assert!(origin.is_motion_checked);
+            num_moving += usize::from(was_accepted && !inspection.verdict.is_accepted());
+            if !inspection.verdict.is_accepted() {
+                continue;
+            }
+            let visit = (origin.at.as_secs_f64() / EVERY) as u64;
+            let pose = inspection.found_pose().expect("accepted");
+            let at = pose.camera_from_part() * middle.expect("points");
+            let off = moved(&rest_of(visit), &truth.camera_from_part, at);
+            let bound = pose.bounds().expect("bounds").shift;
+            assert!(
+                off <= bound.0,
+                "{off} m off at {:?}, beyond {bound}",
+                origin.at
+            );
+            num_accepted[visit as usize] += 1;
+        }
+        assert!(num_moving >= 3, "{num_moving}");
+        assert!(num_accepted.iter().all(|num| *num >= 2), "{num_accepted:?}");
+    }
+
+    #[test]
+    fn a_file_for_each_trigger_and_independent_captures_are_not_checked() {
+        for (source, is_checked) in [
+            ("simulated", true),
+            ("kinect", true),
+            ("openni,pace=as-taken:monday.oni", true),
+            ("watch:scans", false),
+            // No recording is there: a folder of captures.
+            ("recording:monday", false),
+        ] {
+            let rule = NewFrame::of_source(&source.parse().expect("a source"));
+            let origin = rule.origin_of(&captured(1, Timestamp::now()));
+            assert_eq!(origin.is_motion_checked, is_checked, "{source}");
+        }
     }
 }

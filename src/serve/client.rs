@@ -8,7 +8,7 @@ use std::{
 };
 
 use super::{
-    answer::{Answer, Trouble, VerdictCode},
+    answer::{Answer, Inspected, Trouble, VerdictCode},
     listen::Listener,
     protocol::bad_request::BadRequest,
     server::{ClientNews, Job, LINGER, Shared, WRITE_TIMEOUT, answer_to},
@@ -68,6 +68,8 @@ impl Client {
         // When the pending incomplete request began.
         let mut begun: Option<Instant> = None;
         let mut is_silent = true;
+        // What this client's last trigger led to.
+        let mut own: Option<Arc<Inspected>> = None;
         while !self.shared.is_stopping() {
             let parsed = self.listener.at.protocol.parse(&bytes);
             if parsed.used > 0 {
@@ -80,7 +82,10 @@ impl Client {
                         self.shared.forget_silent(&self.stream);
                         is_silent = false;
                     }
-                    let answer = answer_to(request, &self.shared, &self.jobs);
+                    let stream = Arc::clone(&self.stream);
+                    let is_withdrawn = move || is_closed(&stream);
+                    let answer =
+                        answer_to(request, &self.shared, &self.jobs, &mut own, is_withdrawn);
                     self.send(&answer)?;
                     last_answer = Instant::now();
                     continue;
@@ -137,6 +142,20 @@ impl Client {
         }
         Ok(())
     }
+}
+
+/// True if the other side has closed its connection and all that it sent was read. Must not be called while another thread
+/// reads or writes: it makes the socket non-blocking for a moment.
+fn is_closed(stream: &TcpStream) -> bool {
+    let peeked = stream
+        .set_nonblocking(true)
+        .and_then(|()| stream.peek(&mut [0]));
+    let is_closed = match peeked {
+        Ok(num) => num == 0,
+        Err(error) => !is_passing(&error),
+    };
+    // Also if it is closed: a client that has only ended its side can still read why it gets no pose.
+    stream.set_nonblocking(false).is_err() || is_closed
 }
 
 /// True if the error only means that nothing has arrived yet.

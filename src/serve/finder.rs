@@ -1,6 +1,6 @@
 //! Converts an inspection into a robot's result: a pose in its base frame, or why there is none.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -9,7 +9,7 @@ use super::answer::{Answer, Found, PathStep, Trouble, VerdictCode};
 use crate::{
     geometry::rigid::RigidTransform,
     library::SprayPath,
-    pipeline::{Inspection, Recipe, Verdict},
+    pipeline::{Inspection, Recipe, RefusalKind, Verdict},
     robot::{
         RobotFrame,
         spray::{BandStatus, carry},
@@ -44,9 +44,16 @@ pub struct NumberedPart {
 pub struct FrameOrigin {
     /// When it was captured or, if it is replayed, when it was replayed.
     pub captured: Instant,
+    /// The camera's time of it, from any origin: that by which motion is judged.
+    pub at: Duration,
     /// True if the frame is simulated or replayed: [`Answer::SIMULATED`].
     pub is_simulated: bool,
+    /// False if the source does not show whether the part hung still: [`Answer::MOTION_UNCHECKED`].
+    pub is_motion_checked: bool,
 }
+
+/// The reason word of a part that moves: shorter than its [`RefusalKind`], for programs that compare it.
+const MOVING: &str = "moving";
 
 /// Converts inspections into results for clients.
 #[derive(Clone, Debug)]
@@ -82,7 +89,11 @@ impl PartFinder {
                 Verdict::Part { .. } => VerdictCode::Refused,
                 Verdict::NoPart(_) => VerdictCode::NoPart,
             };
-            found.trouble = Trouble::new(why.kind().to_string(), &what, &advice);
+            let reason = match why.kind() {
+                RefusalKind::NotSteady => MOVING.to_owned(),
+                kind => kind.to_string(),
+            };
+            found.trouble = Trouble::new(reason, &what, &advice);
             return found;
         }
         let pose = inspection.found_pose();
@@ -98,6 +109,9 @@ impl PartFinder {
         found.verdict = VerdictCode::Accepted;
         if verdict.is_approximate() {
             found.marks |= Answer::APPROXIMATE;
+        }
+        if !origin.is_motion_checked {
+            found.marks |= Answer::MOTION_UNCHECKED;
         }
         if let Some(pose) = pose {
             let camera_from_part = pose.camera_from_part();
@@ -146,7 +160,7 @@ mod tests {
         geometry::rigid::from_euler_zyx,
         kit::{facing_part, shipped_library},
         library::{Library, PathPoint},
-        pipeline::{Unwatched, run},
+        pipeline::{Unwatched, live::refuse_moving, run},
         simulate::{PartKind, Side},
         stages::scene::SceneCloud,
         units::Metres,
@@ -181,7 +195,9 @@ mod tests {
     fn origin() -> FrameOrigin {
         FrameOrigin {
             captured: Instant::now(),
+            at: Duration::ZERO,
             is_simulated: true,
+            is_motion_checked: true,
         }
     }
 
@@ -255,6 +271,28 @@ mod tests {
     }
 
     #[test]
+    fn a_part_that_moves_is_refused_and_one_that_may_move_is_marked() {
+        let library = shipped_library();
+        let recipe = Recipe::default();
+        let scene = facing_part(PartKind::Fender, Side::Left, 5);
+        let mut inspection = run(&scene, &library, &recipe, &Unwatched).expect("run");
+        let finder = finder(&library, PoseKind::default());
+        let unknown = FrameOrigin {
+            is_motion_checked: false,
+            ..origin()
+        };
+        let found = finder.found(&inspection, &recipe, unknown);
+        assert_eq!(found.verdict, VerdictCode::Accepted);
+        assert_eq!(found.marks, Answer::SIMULATED | Answer::MOTION_UNCHECKED);
+        refuse_moving(&mut inspection);
+        let found = finder.found(&inspection, &recipe, origin());
+        assert_eq!(found.verdict, VerdictCode::Refused);
+        assert_eq!((found.pose, found.path.len()), (None, 0));
+        assert_eq!(found.trouble.reason, "moving");
+        assert_eq!((&*found.part, found.marks), ("fender", Answer::SIMULATED));
+    }
+
+    #[test]
     fn a_simulated_part_marks_the_answer_only_if_it_is_named() {
         let library = shipped_library();
         let mut finder = finder(&library, PoseKind::default());
@@ -262,8 +300,8 @@ mod tests {
             part.is_simulated = true;
         }
         let seen = FrameOrigin {
-            captured: Instant::now(),
             is_simulated: false,
+            ..origin()
         };
         let scene = facing_part(PartKind::Fender, Side::Left, 5);
         for (unknown_below, marks) in [(0.0, Answer::SIMULATED), (1.1, 0)] {

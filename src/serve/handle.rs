@@ -9,7 +9,7 @@ use serde_json::{Map, Value};
 
 use super::{
     answer::{Answer, LibraryStatus, PathStep, Request, Trouble, VerdictCode},
-    server::{ClientNews, ClientSlot, Job, ServerSettings, Shared, answer_to},
+    server::{ClientNews, ClientSlot, Job, ServerSettings, Shared, answer_to, path_of},
     tally::Tally,
 };
 use crate::error::lock;
@@ -30,9 +30,9 @@ impl ServerHandle {
         self.shared.settings
     }
 
-    /// The boot number of this start.
+    /// The present boot number.
     pub fn boot(&self) -> u32 {
-        self.shared.boot
+        lock(&self.shared.inspections).boot()
     }
 
     /// True once the service is ending.
@@ -57,22 +57,46 @@ impl ServerHandle {
         Answer::turned_away(VerdictCode::Full, trouble, &self.shared.situation())
     }
 
-    /// Answers a request; for a trigger it blocks until the inspection is done.
-    pub fn answer(&self, request: Request) -> Answer {
-        answer_to(request, &self.shared, &self.jobs)
+    /// Answers a request of a client that is known by no connection; for a trigger it blocks until the inspection is done. A
+    /// trigger whose client is gone before its turn, so that `is_withdrawn` returns true, is not inspected.
+    pub fn answer(
+        &self,
+        request: Request,
+        is_withdrawn: impl Fn() -> bool + Send + 'static,
+    ) -> Answer {
+        answer_to(request, &self.shared, &self.jobs, &mut None, is_withdrawn)
     }
 
-    /// Refuses the last inspection from now on, if it was accepted: its pose and its path do not go out any more.
-    pub fn refuse_last(&self, trouble: Trouble) {
-        self.shared.refuse_last(trouble);
+    /// The state of the camera, and the last verdict without its numbers.
+    pub fn status(&self) -> Answer {
+        self.answer(Request::Status, || false)
     }
 
-    /// The last inspection and its whole path, which is empty unless the pose may be used.
-    pub fn path(&self) -> (Answer, Vec<PathStep>) {
-        let last = self.shared.last();
-        let answer = Answer::of(Request::Last, &last, &self.shared.situation());
+    /// Refuses the last inspection from now on, and those before it, if they were accepted: their poses and paths do not go
+    /// out any more.
+    pub fn refuse_last(&self, trouble: &Trouble) {
+        lock(&self.shared.inspections).revoke(trouble);
+    }
+
+    /// Draws a new boot number and drops the inspections so far. Call it whenever the same numbers come to mean another pose:
+    /// another calibration, convention or kind of pose.
+    pub fn renew(&self) {
+        lock(&self.shared.inspections).renew();
+    }
+
+    /// The inspection with this sequence number and its whole path, which is empty unless the pose may be used.
+    pub fn path(&self, sequence: u32) -> (Answer, Vec<PathStep>) {
+        let at = self.shared.situation();
+        let inspected = match path_of(Some(sequence), None, &self.shared) {
+            Ok(inspected) => inspected,
+            Err(trouble) => {
+                let refused = Answer::turned_away(VerdictCode::BadRequest, trouble, &at);
+                return (refused, Vec::new());
+            }
+        };
+        let answer = Answer::of(Request::Last, &inspected, &at);
         let path = match answer.verdict {
-            VerdictCode::Accepted => last.found.path.clone(),
+            VerdictCode::Accepted => inspected.found.path.clone(),
             _ => Vec::new(),
         };
         (answer, path)

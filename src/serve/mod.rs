@@ -10,10 +10,11 @@
 //! client's next request is read only after its answer is sent, so the queue is never longer than the number of clients.
 //! Each trigger gets a frame of its own, captured after the trigger arrived ([`Camera`]).
 //!
-//! Two rules in `answer.rs` keep a robot from moving to a wrong pose: numbers are sent only with the verdict *accepted*,
-//! and an accepted pose older than the limit becomes *stale*. Every answer carries a sequence number, which counts the
-//! inspections since the start, and the boot number of this start, so that a client that reconnects can tell which
-//! inspection it sees.
+//! Three rules keep a robot from moving to a wrong pose: numbers are sent only with the verdict *accepted*, an accepted pose
+//! older than the limit becomes *stale* (`answer.rs`), and a part that moves is refused (`motion.rs`). Every answer carries
+//! a sequence number, which counts the inspections since the start, and the boot number of this start, so that a client
+//! that reconnects can tell which inspection it sees. The path of an inspection goes to the client that triggered it, or
+//! to one that names its sequence number (`inspections.rs`).
 //!
 //! Connections are neither encrypted nor authenticated: use a network of the cell's own. Other protocols (`plant`) go
 //! through a [`ServerHandle`].
@@ -23,7 +24,9 @@ mod camera;
 mod client;
 mod finder;
 mod handle;
+mod inspections;
 mod listen;
+mod motion;
 mod protocol;
 mod record;
 mod server;

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use super::{
     answer::{Answer, CameraStatus, Found, Inspected, Request, Situation},
-    server::boot_number,
+    inspections::Inspections,
 };
 
 /// An inspection, kept for receivers other than the client that triggered it. Its verdict is judged again at each access,
@@ -32,7 +32,9 @@ impl InspectionRecord {
         Self {
             inspected: Inspected {
                 sequence: answer.sequence,
+                boot: answer.boot,
                 found,
+                ..Inspected::default()
             },
             at,
         }
@@ -52,39 +54,34 @@ impl InspectionRecord {
 /// Makes records without a server, numbered as a server would.
 #[derive(Debug)]
 pub struct InspectionRecorder {
-    boot: u32,
+    inspections: Inspections,
     max_age: Duration,
-    last: Inspected,
 }
 
 impl InspectionRecorder {
     /// Starts the numbering. An accepted pose from a frame older than `max_age` is stale.
     pub fn new(max_age: Duration) -> Self {
         Self {
-            boot: boot_number(crate::clock::now()),
+            inspections: Inspections::start(),
             max_age,
-            last: Inspected::default(),
         }
     }
 
     /// The boot number of this start, 1..=[`MAX_COUNT`](super::MAX_COUNT).
     pub fn boot(&self) -> u32 {
-        self.boot
+        self.inspections.boot()
     }
 
     /// Records the next inspection with the camera's present status.
     pub fn record(&mut self, found: Found, camera: CameraStatus) -> InspectionRecord {
-        self.last = Inspected {
-            sequence: self.last.next_sequence(),
-            found,
-        };
+        let inspected = self.inspections.add(found);
         let at = Situation {
-            boot: self.boot,
+            boot: self.boot(),
             max_age: self.max_age,
             camera,
             now: Instant::now(),
         };
-        InspectionRecord::of(&self.last, at)
+        InspectionRecord::of(&inspected, at)
     }
 }
 
@@ -111,6 +108,8 @@ mod tests {
                 }],
                 ..Found::default()
             },
+            boot: 7,
+            ..Inspected::default()
         }
     }
 

@@ -3,7 +3,6 @@
 use std::{
     collections::VecDeque,
     fmt,
-    hash::{BuildHasher as _, RandomState},
     io::{self, Write as _},
     net::{Shutdown, SocketAddr, TcpListener, TcpStream},
     ops::ControlFlow,
@@ -21,12 +20,13 @@ use thiserror::Error;
 
 use super::{
     answer::{
-        Answer, CameraStatus, Found, Inspected, LibraryStatus, MAX_COUNT, Request, Situation,
-        Trouble, VerdictCode, judged,
+        Answer, CameraStatus, Found, Inspected, LibraryStatus, Request, Situation, Trouble,
+        VerdictCode, judged,
     },
     camera::NoFrame,
     client::Client,
     handle::ServerHandle,
+    inspections::Inspections,
     listen::{ListenAddress, Listener},
     protocol::bad_request::BadRequest,
     record::InspectionRecord,
@@ -188,12 +188,11 @@ impl Advice for ServeError {
 /// State shared by all threads of a server.
 pub(super) struct Shared {
     pub(super) settings: ServerSettings,
-    pub(super) boot: u32,
     is_stopping: AtomicBool,
     num_clients: AtomicUsize,
     /// Connections without a request so far, and since when, the oldest first.
     silent: Mutex<VecDeque<(Instant, Arc<TcpStream>)>>,
-    last: Mutex<Arc<Inspected>>,
+    pub(super) inspections: Mutex<Inspections>,
     pub(super) tally: Mutex<Tally>,
     pub(super) library: Mutex<Option<LibraryStatus>>,
     camera: Box<dyn Fn() -> CameraStatus + Send + Sync>,
@@ -223,25 +222,12 @@ impl Shared {
     }
 
     pub(super) fn last(&self) -> Arc<Inspected> {
-        Arc::clone(&lock(&self.last))
-    }
-
-    /// Refuses the last inspection from now on, if it was accepted.
-    pub(super) fn refuse_last(&self, trouble: Trouble) {
-        let mut last = lock(&self.last);
-        if last.found.verdict == VerdictCode::Accepted {
-            let mut found = last.found.clone();
-            found.refuse(trouble);
-            *last = Arc::new(Inspected {
-                sequence: last.sequence,
-                found,
-            });
-        }
+        lock(&self.inspections).last()
     }
 
     pub(super) fn situation(&self) -> Situation {
         Situation {
-            boot: self.boot,
+            boot: lock(&self.inspections).boot(),
             max_age: self.settings.max_age,
             camera: (self.camera)(),
             now: Instant::now(),
@@ -282,8 +268,10 @@ impl Drop for ClientSlot {
 
 /// A trigger that waits for its inspection.
 pub(super) struct Job {
-    pub(super) asked: Asked,
-    pub(super) reply: SyncSender<Arc<Inspected>>,
+    asked: Asked,
+    /// True once the client has closed its connection: nobody reads the answer.
+    is_withdrawn: Box<dyn Fn() -> bool + Send>,
+    reply: SyncSender<Result<Arc<Inspected>, NoFrame>>,
 }
 
 /// A listening server. Dropping it disconnects its clients and joins its threads.
@@ -311,11 +299,10 @@ impl Server {
         let mut server = Self {
             shared: Arc::new(Shared {
                 settings,
-                boot: boot_number(crate::clock::now()),
                 is_stopping: AtomicBool::new(false),
                 num_clients: AtomicUsize::new(0),
                 silent: Mutex::default(),
-                last: Mutex::default(),
+                inspections: Mutex::new(Inspections::start()),
                 tally: Mutex::default(),
                 library: Mutex::default(),
                 camera: Box::new(camera),
@@ -342,9 +329,9 @@ impl Server {
         &self.addresses
     }
 
-    /// The boot number of this start, 1..=[`MAX_COUNT`].
+    /// The present boot number, 1..=[`MAX_COUNT`](super::MAX_COUNT).
     pub fn boot(&self) -> u32 {
-        self.shared.boot
+        lock(&self.shared.inspections).boot()
     }
 
     /// Returns a handle by which other protocols query the server.
@@ -372,18 +359,19 @@ impl Server {
     }
 
     fn inspect(&self, job: &Job, inspector: &mut dyn Inspector) {
+        // Or clients that give up would hold up those that wait.
+        if (job.is_withdrawn)() {
+            let _ = job.reply.send(Err(NoFrame::Withdrawn));
+            return;
+        }
         let found = guarded(|| inspector.inspect(&job.asked));
         let found = found.unwrap_or_else(|fault| Found::error(Trouble::of("fault", &fault)));
         let age = found.captured.map(|captured| captured.elapsed());
         let (verdict, _) = judged(&found, age, self.shared.settings.max_age);
         lock(&self.shared.tally).add(verdict, job.asked.at.elapsed());
-        let inspected = Arc::new(Inspected {
-            sequence: self.shared.last().next_sequence(),
-            found,
-        });
-        *lock(&self.shared.last) = Arc::clone(&inspected);
+        let inspected = lock(&self.shared.inspections).add(found);
         // Keep it as the last inspection even if the client has disconnected.
-        let _ = job.reply.send(Arc::clone(&inspected));
+        let _ = job.reply.send(Ok(Arc::clone(&inspected)));
         // `situation` calls the camera's callback; if that panics, lose one record and not the service.
         if let Ok(record) = guarded(|| InspectionRecord::of(&inspected, self.shared.situation())) {
             inspector.recorded(record);
@@ -430,13 +418,6 @@ pub(crate) fn bound(
         option,
         source,
     })
-}
-
-/// The boot number of a start. Time alone would give cells that start together the same number, so it is hashed with keys that
-/// the system draws at random: two starts have the same number once in 16 million.
-pub(super) fn boot_number(now: Timestamp) -> u32 {
-    let hash = RandomState::new().hash_one(now.as_nanosecond());
-    u32::try_from(hash % u64::from(MAX_COUNT)).unwrap_or(0) + 1
 }
 
 /// Accepts connections until the server stops, then joins their threads.
@@ -499,38 +480,68 @@ fn turn_away(mut stream: &TcpStream, listener: Listener, shared: &Shared) {
     drop(told);
 }
 
-/// Answers a client's request; for a trigger it blocks until the inspection is done.
-pub(super) fn answer_to(request: Request, shared: &Shared, jobs: &SyncSender<Job>) -> Answer {
+/// Answers a client's request; for a trigger it blocks until the inspection is done. `own` is the inspection of the client's last
+/// trigger; `is_withdrawn` returns true once the client does not wait for an answer any more.
+pub(super) fn answer_to(
+    request: Request,
+    shared: &Shared,
+    jobs: &SyncSender<Job>,
+    own: &mut Option<Arc<Inspected>>,
+    is_withdrawn: impl Fn() -> bool + Send + 'static,
+) -> Answer {
     let inspected = match request {
-        Request::Trigger => triggered(jobs),
-        Request::Status | Request::Last | Request::Path(_) => Ok(shared.last()),
+        Request::Trigger => {
+            let triggered = triggered(jobs, Box::new(is_withdrawn));
+            *own = triggered.as_ref().ok().map(Arc::clone);
+            triggered.map_err(|why| (VerdictCode::Error, Trouble::of(why.reason(), &why)))
+        }
+        Request::Status | Request::Last => Ok(shared.last()),
+        Request::Path { sequence, .. } => {
+            let known = path_of(sequence, own.as_ref(), shared);
+            known.map_err(|trouble| (VerdictCode::BadRequest, trouble))
+        }
     };
     let at = shared.situation();
     match inspected {
         Ok(inspected) => Answer::of(request, &inspected, &at),
-        Err(why) => Answer {
+        Err((verdict, trouble)) => Answer {
             request: Some(request),
-            ..Answer::turned_away(VerdictCode::Error, Trouble::of(why.reason(), &why), &at)
+            ..Answer::turned_away(verdict, trouble, &at)
         },
     }
 }
 
+/// The inspection whose path a client gets: its own, or the one that it names. Never the last one of any other client.
+pub(super) fn path_of(
+    sequence: Option<u32>,
+    own: Option<&Arc<Inspected>>,
+    shared: &Shared,
+) -> Result<Arc<Inspected>, Trouble> {
+    let Some(sequence) = sequence else {
+        return own.map(Arc::clone).ok_or_else(Trouble::no_trigger);
+    };
+    let known = lock(&shared.inspections).find(sequence);
+    known.ok_or_else(|| Trouble::no_such_inspection(sequence))
+}
+
 /// Requests an inspection of a frame captured from now on, and waits for it.
-fn triggered(jobs: &SyncSender<Job>) -> Result<Arc<Inspected>, NoFrame> {
+fn triggered(
+    jobs: &SyncSender<Job>,
+    is_withdrawn: Box<dyn Fn() -> bool + Send>,
+) -> Result<Arc<Inspected>, NoFrame> {
     let (reply, inspected) = mpsc::sync_channel(1);
     let job = Job {
         asked: Asked::now(),
+        is_withdrawn,
         reply,
     };
     // Both fail once the service ends.
     jobs.send(job).ok().ok_or(NoFrame::Stopping)?;
-    inspected.recv().ok().ok_or(NoFrame::Stopping)
+    inspected.recv().ok().ok_or(NoFrame::Stopping)?
 }
 
 #[cfg(test)]
 mod tests {
-    use std::collections::BTreeSet;
-
     use super::*;
     use crate::{
         geometry::rigid::RigidTransform,
@@ -547,44 +558,49 @@ mod tests {
             marks: Answer::GUN_ON,
             speed: None,
         };
-        *lock(&server.shared.last) = Arc::new(Inspected {
-            sequence: 5,
-            found: Found {
-                verdict: VerdictCode::Accepted,
-                captured: Some(Instant::now()),
-                part: "fender".into(),
-                marks: Answer::APPROXIMATE | Answer::SIMULATED,
-                pose: Some(RigidTransform::identity()),
-                path: vec![step],
-                ..Found::default()
-            },
+        let own = lock(&server.shared.inspections).add(Found {
+            verdict: VerdictCode::Accepted,
+            captured: Some(Instant::now()),
+            part: "fender".into(),
+            marks: Answer::APPROXIMATE | Answer::SIMULATED,
+            pose: Some(RigidTransform::identity()),
+            path: vec![step],
+            ..Found::default()
         });
+        let path = |sequence| Request::Path { point: 1, sequence };
         let handle = server.handle();
-        for request in [Request::Last, Request::Path(1)] {
-            assert!(handle.answer(request).pose.is_some(), "{request:?}");
+        let answer = |request| {
+            let mut own = Some(Arc::clone(&own));
+            answer_to(request, &server.shared, &server.hand_over, &mut own, || {
+                false
+            })
+        };
+        let with_numbers = [Request::Last, path(None), path(Some(1))];
+        for request in with_numbers {
+            assert!(answer(request).pose.is_some(), "{request:?}");
         }
-        handle.refuse_last(Trouble::reported_wrong());
-        for request in [Request::Last, Request::Path(1), Request::Status] {
-            let answer = handle.answer(request);
+        handle.refuse_last(&Trouble::reported_wrong());
+        for request in with_numbers.into_iter().chain([Request::Status]) {
+            let answer = answer(request);
             assert_eq!(answer.verdict, VerdictCode::Refused, "{request:?}");
             assert_eq!((answer.pose, answer.points), (None, 0));
             assert_eq!(answer.flags(), Answer::SIMULATED);
-            assert_eq!((answer.sequence, &*answer.part), (5, "fender"));
+            assert_eq!((answer.sequence, &*answer.part), (1, "fender"));
             assert_eq!(answer.trouble.reason, "reported_wrong");
         }
-    }
-
-    #[test]
-    fn starts_at_the_same_moment_have_different_numbers_that_are_never_zero() {
-        let now = Timestamp::from_second(1_800_000_000).expect("a time");
-        let numbers: BTreeSet<u32> = (0..1000).map(|_| boot_number(now)).collect();
-        // Of a thousand out of 16 million, hardly ever are two the same.
-        assert!(numbers.len() > 990, "{}", numbers.len());
-        assert!(
-            numbers
-                .iter()
-                .all(|number| (1..=MAX_COUNT).contains(number))
+        let boot = handle.boot();
+        handle.renew();
+        assert_ne!(handle.boot(), boot);
+        let last = answer(Request::Last);
+        assert_eq!(
+            (last.verdict, last.boot),
+            (VerdictCode::None, handle.boot())
         );
+        let before = answer(path(None));
+        assert_eq!((before.verdict, before.boot), (VerdictCode::Refused, boot));
+        let named = answer(path(Some(1)));
+        assert_eq!(named.trouble.reason, "no_such_inspection");
+        assert_eq!((named.sequence, named.pose), (0, None));
     }
 
     #[test]

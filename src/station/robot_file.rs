@@ -287,7 +287,7 @@ impl RobotFile<'_> {
                     is_simulated: self.is_simulated,
                     doubts: &doubts,
                     unchecked: &unchecked,
-                    at: Timestamp::now(),
+                    at: crate::clock::now(),
                 };
                 export.save(self.file)?;
                 Ok(0)
@@ -308,7 +308,7 @@ impl RobotFile<'_> {
                     is_simulated: self.is_simulated,
                     doubts: &doubts,
                     unchecked: &unchecked,
-                    at: Timestamp::now(),
+                    at: crate::clock::now(),
                 };
                 Ok(program.save(self.file, format)?)
             }

@@ -14,7 +14,7 @@ use super::{Service, accepted, client::Reply, http_settings, patient, refused, s
 const READ: [&str; 7] = [
     "/v1/status",
     "/v1/last",
-    "/v1/path",
+    "/v1/path?sequence=1",
     "/v1/report",
     "/v1/healthz",
     "/v1/metrics",
@@ -97,7 +97,7 @@ fn every_path_answers_about_the_last_inspection() {
     let status = client.get("/v1/status").json();
     assert_known(&status, "accepted", 1);
     assert_eq!(status["pose"], Value::Null);
-    let path = client.get("/v1/path").json();
+    let path = client.get("/v1/path?sequence=1").json();
     assert_known(&path, "accepted", 1);
     assert_eq!(path["pose"], triggered["pose"]);
     let expected = json!([
@@ -133,7 +133,12 @@ fn a_refused_part_and_a_stale_pose_have_no_numbers() {
     ] {
         let mut client = service.client();
         let mut answers = vec![client.trigger().json()];
-        let paths = ["/v1/last", "/v1/status", "/v1/path", "/v1/report"];
+        let paths = [
+            "/v1/last",
+            "/v1/status",
+            "/v1/path?sequence=1",
+            "/v1/report",
+        ];
         answers.extend(paths.map(|path| client.get(path).json()));
         for answer in &answers {
             assert_known(answer, verdict, 1);
@@ -268,6 +273,7 @@ fn metrics_count_verdicts_and_waiting_times() {
 
 /// Checks an answer against its description.
 fn assert_described(reply: &Reply, method: &str, path: &str, document: &Value) {
+    let (path, _) = path.split_once('?').unwrap_or((path, ""));
     let operation = &document["paths"][path][method.to_lowercase()];
     let response = &operation["responses"][reply.status.to_string()];
     let media = reply.field("content-type");
@@ -341,7 +347,7 @@ fn an_answer_that_is_changed_does_not_fit_the_description() {
     let document = client.get("/v1/openapi.json").json();
     let schema = json!({ "$ref": "#/components/schemas/PathBody" });
     client.trigger();
-    let path = client.get("/v1/path").json();
+    let path = client.get("/v1/path?sequence=1").json();
     assert_eq!(schema::check(&path, &schema, &document), Ok(()));
     let changed = |place: &str, value: Value| {
         let mut path = path.clone();
@@ -366,6 +372,32 @@ fn an_answer_that_is_changed_does_not_fit_the_description() {
     let mut more = path.clone();
     more["extra"] = json!(1);
     assert!(schema::check(&more, &schema, &document).is_err());
+}
+
+#[test]
+fn a_path_is_that_of_the_trigger_that_the_client_names() {
+    let service = Service::start(accepted);
+    let [mut client, mut other] = [0; 2].map(|_| service.client());
+    let own = client.trigger().json()["sequence"].clone();
+    other.trigger();
+    let path = client.get(&format!("/v1/path?sequence={own}"));
+    assert_known(&path.json(), "accepted", 1);
+    assert_eq!(path.json()["path"].as_array().map(Vec::len), Some(2));
+    for (query, status, reason) in [
+        ("", 400, "no_trigger"),
+        ("?sequence=", 400, "no_trigger"),
+        ("?sequence=x", 400, "no_trigger"),
+        ("?sequence=3", 404, "no_such_inspection"),
+    ] {
+        let reply = client.get(&format!("/v1/path{query}"));
+        let answer = reply.json();
+        assert_known(&answer, "bad_request", 0);
+        assert_eq!(
+            (reply.status, &answer["trouble"]["reason"], &answer["pose"]),
+            (status, &json!(reason), &Value::Null),
+            "{query}"
+        );
+    }
 }
 
 #[test]

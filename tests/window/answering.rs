@@ -30,7 +30,7 @@ use partsight::{
     history::{Filter, HistoryBuffer, StoredVerdict},
     library::{LibraryFolder, PartName, Truth},
     robot::Convention,
-    serve::VerdictCode,
+    serve::{PoseKind, VerdictCode},
     simulate::{PartKind, SensorNoise},
 };
 
@@ -293,6 +293,49 @@ fn another_library_is_the_one_that_robots_are_answered_by() {
 }
 
 #[test]
+fn another_convention_or_another_pose_changes_the_boot_number_and_ends_earlier_poses() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open_with(USUAL, options(folder.path()));
+    act(&mut harness, Action::UseConvention(Convention::Kuka));
+    let at = turn_on(&mut harness);
+    wait_until(&mut harness, |state| state.session.live.status.is_some());
+    let mut robot = Robot::connect(at);
+    let told = robot.ask("TRIGGER");
+    assert_eq!(told[1], "accepted", "{told:?}");
+
+    // The same server and connection.
+    let setup = harness.state().state().session.answering;
+    let offset = AnswerSetup {
+        pose: PoseKind::RobotOffset,
+        ..setup
+    };
+    answer(&mut harness, offset);
+    let until = Instant::now() + PATIENCE;
+    let mut last = robot.ask("LAST");
+    while last[3] == told[3] && Instant::now() < until {
+        harness.run_steps(1);
+        last = robot.ask("LAST");
+    }
+    assert_ne!(last[3], told[3], "another boot number");
+    assert_eq!([&*last[1], &*last[12]], ["none", ""], "{last:?}");
+    let again = robot.ask("TRIGGER");
+    assert_eq!([&again[1], &again[3]], ["accepted", &last[3]], "{again:?}");
+
+    // Another server, which lets its clients go.
+    cause(&mut harness, Action::UseConvention(Convention::Fanuc));
+    let mut rest = String::new();
+    let until = Instant::now() + PATIENCE;
+    robot.0.get_ref().set_nonblocking(true).expect("set");
+    while robot.0.read_line(&mut rest).is_err() && Instant::now() < until {
+        harness.run_steps(1);
+    }
+    assert_eq!(rest, "");
+    let at = listening(&mut harness);
+    let last = Robot::connect(at).ask("LAST");
+    assert!(last[1] == "none" && last[3] != again[3], "{last:?}");
+}
+
+#[test]
 fn a_port_in_use_is_said_with_what_to_do_and_tried_again_until_it_is_free() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut harness = open_with(USUAL, options(folder.path()));
@@ -532,7 +575,7 @@ fn nobody_is_answered_without_a_calibration_or_at_no_address() {
     harness.get_by_label_contains("is open to the network without encryption");
 }
 
-/// Where a part that swings is seen, metres beside its place: no verdict on it counts.
+/// Where a part that swings is seen, metres beside its place: no verdict on it counts, and robots get no pose of it.
 const SWINGING: [f64; 2] = [0.0, 0.06];
 /// Where one is seen that comes, and one that goes.
 const COMING: [f64; 3] = [2.0, 1.2, 0.5];
@@ -565,10 +608,17 @@ fn told_while(
     asking.join().expect("no panic")
 }
 
-/// The same; the part is accepted.
+/// The same; the part is accepted, unless it swings.
 fn ask_while(harness: &mut WindowHarness, wire: &Sender<Step>, at: SocketAddr, places: [f64; 2]) {
     let told = told_while(harness, wire, at, places);
-    assert_eq!([&*told[1], &*told[6]], ["accepted", "fender"], "{told:?}");
+    let expected = if places == SWINGING {
+        ["refused", "moving"]
+    } else {
+        ["accepted", ""]
+    };
+    let reason = told.len().checked_sub(2).map_or("", |place| &told[place]);
+    assert_eq!([&*told[1], reason], expected, "{told:?}");
+    assert_eq!(told[6], "fender", "{told:?}");
 }
 
 /// The same; then Live has seen what the robot was answered by.
@@ -634,10 +684,10 @@ fn triggers_of_two_parts_one_after_the_other_and_of_one_that_swings_through_are_
     trigger(&mut harness, &wire, at, SWINGING);
     sees(&mut harness, &wire, GOING);
     sees(&mut harness, &wire, [-2.0; 2]);
-    // Live has accepted nothing; the robot may have acted on what it was answered.
+    // Neither Live nor a robot's trigger has accepted it.
     wait_for_rows(&mut harness, 4, 1);
     let newest = history_of(&harness).row(0).expect("kept");
-    assert_eq!(newest.verdict, StoredVerdict::Accepted);
+    assert_eq!(newest.verdict, StoredVerdict::Rejected);
 }
 
 #[test]
@@ -660,7 +710,7 @@ fn what_robots_were_answered_is_kept_when_the_server_ends_or_the_window_before_l
     let page = history.page(&Filter::default(), 0, 10).expect("readable");
     assert_eq!((page.num_all, page.rows.len()), (3, 3));
     let newest = &page.rows[0];
-    assert_eq!(newest.verdict, StoredVerdict::Accepted);
+    assert_eq!(newest.verdict, StoredVerdict::Rejected);
     assert_eq!(newest.part.as_deref(), Some("fender"));
 }
 

@@ -174,6 +174,7 @@ robot-last-trigger = letzter Trigger
 robot-no-trigger = noch keiner
 robot-answer-number = Nr. { $number }
 robot-answer-age = Bild { $age } ms alt
+robot-answer-motion-unchecked = nicht geprüft, ob sich das Teil bewegt
 robot-part-numbers = Nummern der Teile
 robot-numbers-not-stored = Nummern von Teilen können nicht gespeichert werden und ändern sich, wenn ein Teil hinzukommt oder wegfällt: { $reason }
 

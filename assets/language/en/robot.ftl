@@ -174,6 +174,7 @@ robot-last-trigger = last trigger
 robot-no-trigger = none yet
 robot-answer-number = no. { $number }
 robot-answer-age = frame { $age } ms old
+robot-answer-motion-unchecked = not checked whether the part moves
 robot-part-numbers = Numbers of the parts
 robot-numbers-not-stored = Numbers of parts cannot be stored, and change when a part is added or removed: { $reason }
 

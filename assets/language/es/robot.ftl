@@ -174,6 +174,7 @@ robot-last-trigger = último trigger
 robot-no-trigger = ninguno aún
 robot-answer-number = n.º { $number }
 robot-answer-age = imagen de hace { $age } ms
+robot-answer-motion-unchecked = no se ha comprobado si la pieza se mueve
 robot-part-numbers = Números de las piezas
 robot-numbers-not-stored = Los números de las piezas no se pueden guardar y cambian al añadir o quitar una pieza: { $reason }
 

@@ -166,6 +166,7 @@ robot-last-trigger = 最近一次触发
 robot-no-trigger = 尚无
 robot-answer-number = 第 { $number } 次
 robot-answer-age = 帧龄 { $age } ms
+robot-answer-motion-unchecked = 未检查零件是否移动
 robot-part-numbers = 零件编号
 robot-numbers-not-stored = 零件编号无法保存，添加或移除零件时编号会改变：{ $reason }
 

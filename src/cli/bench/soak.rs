@@ -187,14 +187,7 @@ impl Follower<'_> {
         scene.set_known_view(self.followed.known_view());
         let scene = Arc::new(scene);
         let library = &self.load.library;
-        let inspection = pipeline::run(&scene, library, &self.recipe, &Unwatched)?;
-        self.num_accepted += u64::from(inspection.verdict.is_accepted());
-        let line_of = |inspection: &Inspection| {
-            let line = InspectionLine::of(&captured.name, inspection);
-            line.by(&self.recipe).to_json()
-        };
-        // Nobody prints it here, but making it is part of the work.
-        drop(line_of(&inspection));
+        let mut inspection = pipeline::run(&scene, library, &self.recipe, &Unwatched)?;
         let frame = FollowedFrame {
             scene: &scene,
             taken_at: captured.taken_at,
@@ -203,14 +196,24 @@ impl Follower<'_> {
                 .and_then(Reference::middle),
             accept: &self.recipe.accept,
         };
+        self.followed.look(&frame, &mut inspection);
+        self.num_accepted += u64::from(inspection.verdict.is_accepted());
+        let line_of = |inspection: &Inspection| {
+            let line = InspectionLine::of(&captured.name, inspection);
+            line.by(&self.recipe).to_json()
+        };
+        // Nobody prints it here, but making it is part of the work.
+        drop(line_of(&inspection));
         let taken = SceneOrigin {
             scene: &captured.name,
             source: "simulated",
             is_simulated: true,
         };
-        let entries = self.followed.take(&frame, inspection, |inspection, hung| {
-            (self.recording).entry(taken, &scene, inspection, &line_of(inspection), hung)
-        });
+        let entries = self
+            .followed
+            .take(&frame, inspection, |inspection, hung, _| {
+                (self.recording).entry(taken, &scene, inspection, &line_of(inspection), hung)
+            });
         let latency = arrived.elapsed();
         for entry in entries.into_iter().flatten() {
             self.num_in_history += 1;

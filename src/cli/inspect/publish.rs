@@ -117,9 +117,16 @@ impl Publisher {
         self.origin = Some(self.new_frame.origin_of(captured));
     }
 
-    /// Returns the result of inspecting that frame.
-    pub(super) fn found(&self, inspection: &Inspection, recipe: &Recipe) -> Option<Found> {
-        let origin = self.origin?;
+    /// Returns the result of inspecting that frame. `is_still`: frames of the source, if it shows motion at all, have shown
+    /// that the part hung still.
+    pub(super) fn found(
+        &self,
+        inspection: &Inspection,
+        recipe: &Recipe,
+        is_still: bool,
+    ) -> Option<Found> {
+        let mut origin = self.origin?;
+        origin.is_motion_checked &= is_still;
         Some(self.finder.found(inspection, recipe, origin))
     }
 

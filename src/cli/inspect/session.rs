@@ -144,7 +144,17 @@ impl InspectSession {
             scene.set_known_view(followed.known_view());
         }
         let scene = Arc::new(scene);
-        let inspection = pipeline::run(&scene, library, recipe, &Unwatched)?;
+        let mut inspection = pipeline::run(&scene, library, recipe, &Unwatched)?;
+        let middle = inspection.best_reference(library);
+        let frame = capture.map(|capture| FollowedFrame {
+            scene: &scene,
+            taken_at: capture.taken_at,
+            middle: middle.and_then(Reference::middle),
+            accept: &recipe.accept,
+        });
+        if let (Some(followed), Some(frame)) = (&mut *followed, &frame) {
+            followed.look(frame, &mut inspection);
+        }
         mirrored.add(&inspection.verdict);
         let file_says_simulated = capture.is_none() && scene.cloud.is_simulated;
         let taken = SceneOrigin {
@@ -182,22 +192,19 @@ impl InspectSession {
         let is_kept = recording.is_some();
         #[cfg(feature = "plant")]
         let is_kept = is_kept || publisher.is_some();
-        let kept = |inspection: &Inspection, hung: HungId| KeptInspection {
-            entry: recording.as_ref().map(|recording| {
-                recording.entry(taken, &scene, inspection, &line_of(inspection), hung)
-            }),
-            #[cfg(feature = "plant")]
-            found: (publisher.as_ref()).and_then(|publisher| publisher.found(inspection, recipe)),
+        let kept = |inspection: &Inspection, hung: HungId, is_still: bool| {
+            #[cfg(not(feature = "plant"))]
+            let _ = is_still;
+            KeptInspection {
+                entry: recording.as_ref().map(|recording| {
+                    recording.entry(taken, &scene, inspection, &line_of(inspection), hung)
+                }),
+                #[cfg(feature = "plant")]
+                found: (publisher.as_ref())
+                    .and_then(|publisher| publisher.found(inspection, recipe, is_still)),
+            }
         };
-        if let (true, Some(followed), Some(capture)) = (is_kept, followed, capture) {
-            let frame = FollowedFrame {
-                scene: &scene,
-                taken_at: capture.taken_at,
-                middle: inspection
-                    .best_reference(library)
-                    .and_then(Reference::middle),
-                accept: &recipe.accept,
-            };
+        if let (true, Some(followed), Some(frame)) = (is_kept, followed, frame) {
             let kept = followed.take(&frame, inspection, kept);
             for kept in kept.into_iter().flatten() {
                 self.keep(kept, console);
@@ -207,7 +214,7 @@ impl InspectSession {
             return Ok(outcome);
         }
         if is_kept {
-            let kept = kept(&inspection, HungId::new());
+            let kept = kept(&inspection, HungId::new(), true);
             self.keep(kept, console);
         }
         let seen = spray::SprayResult {

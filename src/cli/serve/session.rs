@@ -12,7 +12,7 @@ use super::{
     take::{LibraryTaker, TakenLibrary},
 };
 use crate::{
-    capture::{CaptureWarning, Captured, FeedState},
+    capture::{CaptureWarning, Captured, FeedState, Image},
     cli::{
         Outcome,
         console::{Console, advised_error},
@@ -27,11 +27,12 @@ use crate::{
     pipeline::{self, Inspection, MirrorTally, NamedRecipe, Unwatched},
     report::{CaptureLine, InspectionLine},
     serve::{
-        Asked, Camera, ClientEvent, ClientNews, Found, InspectionRecord, Inspector, PartFinder,
-        Trouble, VerdictCode,
+        Asked, Camera, ClientEvent, ClientNews, Found, InspectionRecord, Inspector, NoFrame,
+        PartFinder, Trouble, VerdictCode,
     },
     stages::{
         field_of_view::FieldOfView,
+        reference::Reference,
         scene::{EmptyCell, SceneCloud, scene_from_image},
     },
 };
@@ -94,24 +95,36 @@ impl Inspector for ServeSession<'_> {
         let captured = (self.camera).frame_after(asked, self.frame_timeout, || interrupt.came());
         let captured = match captured {
             Ok(captured) => captured,
-            Err(why) => {
-                self.console
-                    .advise(&format_args!("error: {why}"), &why.advice());
-                return Found::error(Trouble::of(why.reason(), &why));
-            }
+            Err(why) => return self.without_frame(&why),
         };
         self.warn_of(&captured);
-        let origin = self.camera.origin_of(&captured);
+        let mut origin = self.camera.origin_of(&captured);
         let num_dropped = self.camera.feed_status().num_dropped;
-        let line = CaptureLine::of(&self.source, &captured, num_dropped);
+        let source = self.source.clone();
+        let line = CaptureLine::of(&source, &captured, num_dropped);
         let name = captured.name;
-        let mut scene = scene_from_image(captured.image);
-        before(&mut scene, self.empty_cell.as_ref(), &name, self.console);
-        scene.set_known_view(self.known_view.clone());
-        self.known_view = FieldOfView::remembered(self.known_view.take(), scene.field_of_view());
-        let scene = Arc::new(scene);
-        let inspection =
+        let scene = self.scene_of(captured.image, &name);
+        let mut inspection =
             pipeline::run(&scene, &self.library, &self.recipe, &Unwatched).expect("not cancelled");
+        let middle = inspection.best_reference(&self.library);
+        let middle = middle.and_then(Reference::middle);
+        let (camera, interrupt) = (Arc::clone(&self.camera), self.interrupt.clone());
+        let frame_timeout = self.frame_timeout;
+        let is_ending = || interrupt.came();
+        let again = |later: Captured| {
+            let scene = self.scene_of(later.image, &later.name);
+            pipeline::run(&scene, &self.library, &self.recipe, &Unwatched).expect("not cancelled")
+        };
+        if let Err(why) = camera.refuse_if_moving(
+            &mut origin,
+            &mut inspection,
+            middle,
+            frame_timeout,
+            is_ending,
+            again,
+        ) {
+            return self.without_frame(&why);
+        }
         let mut found = self.finder.found(&inspection, &self.recipe, origin);
         let line = InspectionLine::of(&name, &inspection)
             .by(&self.recipe)
@@ -179,6 +192,22 @@ impl Inspector for ServeSession<'_> {
 }
 
 impl ServeSession<'_> {
+    /// The result of a trigger after which nothing can be inspected; shows why.
+    fn without_frame(&self, why: &NoFrame) -> Found {
+        self.console
+            .advise(&format_args!("error: {why}"), &why.advice());
+        Found::error(Trouble::of(why.reason(), why))
+    }
+
+    /// The scene to inspect of an image.
+    fn scene_of(&mut self, image: Image, name: &str) -> Arc<SceneCloud> {
+        let mut scene = scene_from_image(image);
+        before(&mut scene, self.empty_cell.as_ref(), name, self.console);
+        scene.set_known_view(self.known_view.clone());
+        self.known_view = FieldOfView::remembered(self.known_view.take(), scene.field_of_view());
+        Arc::new(scene)
+    }
+
     fn warn_of(&mut self, captured: &Captured) {
         for warning in &captured.warnings {
             if warning.is_about_source() {

@@ -13,6 +13,7 @@ mod consensus;
 mod hung;
 mod mean_pose;
 mod steady;
+mod two_frames;
 
 use std::{sync::Arc, time::Duration};
 
@@ -24,6 +25,7 @@ pub use self::{
     hung::{FrameRole, HungFrame, HungParts, Left},
     mean_pose::{MeanPose, PoseTolerance, mean_pose},
     steady::{MotionDetector, MotionState, SteadyParams},
+    two_frames::{refuse_moving, refuse_unless_again},
 };
 use super::{AcceptParams, Inspection, Rejection, Verdict};
 use crate::stages::{field_of_view::FieldOfView, scene::SceneCloud};

@@ -17,7 +17,7 @@ pub(super) struct AnswerBody {
     verdict: VerdictCode,
     /// The number of the inspection, 1 to 16777215; 0 if there was none.
     sequence: u32,
-    /// The number of this start of the server, 1 to 16777215.
+    /// The number of this start of the server, 1 to 16777215; another one once its poses mean something else.
     boot: u32,
     /// Milliseconds since the frame was captured, at most 16777215; null without a frame.
     age_ms: Option<u32>,
@@ -31,6 +31,8 @@ pub(super) struct AnswerBody {
     approximate: bool,
     /// The scene is simulated or replayed, or no camera saw the part when it was enrolled.
     simulated: bool,
+    /// It was checked that the part hung still, or there is no pose; false if the source does not show it.
+    motion_checked: bool,
     /// How many points the part's spray path has; 0 without a pose.
     points: u32,
     /// The pose in the robot's base frame; null unless the part was accepted and the frame is fresh.
@@ -61,6 +63,7 @@ impl AnswerBody {
             number: (answer.number > 0).then_some(answer.number),
             approximate: has(Answer::APPROXIMATE),
             simulated: has(Answer::SIMULATED),
+            motion_checked: !has(Answer::MOTION_UNCHECKED),
             points: answer.points,
             pose: answer.pose.map(|pose| PoseBody {
                 in_convention: convention.write(&pose),

@@ -46,6 +46,23 @@ pub(super) fn document(has_tokens: bool) -> Value {
         &answer,
         &[&refused[..], &[StatusCode::SERVICE_UNAVAILABLE]].concat(),
     );
+    let mut path = operation(
+        "The inspection with this sequence number, with every point of the part's spray path",
+        JSON,
+        &path,
+        &[
+            &refused[..],
+            &[StatusCode::BAD_REQUEST, StatusCode::NOT_FOUND],
+        ]
+        .concat(),
+    );
+    path["parameters"] = json!([{
+        "name": "sequence",
+        "in": "query",
+        "required": true,
+        "description": "Of the answer to the client's trigger",
+        "schema": { "type": "integer", "minimum": 1 },
+    }]);
     let mut health = operation(
         "Whether the service answers; needs no token",
         JSON,
@@ -70,7 +87,7 @@ pub(super) fn document(has_tokens: bool) -> Value {
             "/v1/trigger": { "post": trigger },
             "/v1/status": get("How camera and library are, and the last verdict without its numbers", JSON, &status),
             "/v1/last": get("The last inspection again", JSON, &answer),
-            "/v1/path": get("The last inspection with every point of the part's spray path", JSON, &path),
+            "/v1/path": { "get": path },
             "/v1/report": get("The last inspection with its line of JSON", JSON, &report),
             "/v1/healthz": { "get": health },
             "/v1/metrics": get("Counts and states for Prometheus", metrics::MEDIA_TYPE, &text),

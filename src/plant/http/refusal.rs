@@ -19,6 +19,8 @@ pub(super) enum Refusal {
     NoSuchPath,
     #[error("the path does not support this method")]
     WrongMethod,
+    #[error("the request does not say whose path is wanted")]
+    NoSequence,
     #[error("the request was not complete after {seconds} s")]
     Incomplete { seconds: u64 },
     #[error("the body is longer than {} bytes", MAX_BODY_BYTES)]
@@ -33,6 +35,7 @@ impl Refusal {
             Self::WebPage => "web_page",
             Self::NoSuchPath => "unknown_request",
             Self::WrongMethod => "wrong_method",
+            Self::NoSequence => "no_trigger",
             Self::Incomplete { .. } => "incomplete",
             Self::TooLong => "too_long",
         }
@@ -44,6 +47,7 @@ impl Refusal {
             Self::WebPage => StatusCode::FORBIDDEN,
             Self::NoSuchPath => StatusCode::NOT_FOUND,
             Self::WrongMethod => StatusCode::METHOD_NOT_ALLOWED,
+            Self::NoSequence => StatusCode::BAD_REQUEST,
             Self::Incomplete { .. } => StatusCode::REQUEST_TIMEOUT,
             Self::TooLong => StatusCode::PAYLOAD_TOO_LARGE,
         }
@@ -61,6 +65,9 @@ impl Advice for Refusal {
             }
             Self::NoSuchPath => "GET /v1/openapi.json lists the paths".into(),
             Self::WrongMethod => "POST /v1/trigger, and GET the other paths".into(),
+            Self::NoSequence => {
+                "Give the sequence number of your trigger's answer: GET /v1/path?sequence=41".into()
+            }
             Self::Incomplete { .. } => "Send the complete request, with its body".into(),
             Self::TooLong => "Send no body".into(),
         }

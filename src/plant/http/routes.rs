@@ -6,7 +6,7 @@ use axum::{
     Router,
     extract::State,
     http::{
-        HeaderValue, StatusCode,
+        HeaderValue, StatusCode, Uri,
         header::{CACHE_CONTROL, CONTENT_TYPE, WWW_AUTHENTICATE},
     },
     response::{IntoResponse as _, Response},
@@ -106,20 +106,27 @@ async fn trigger(State(api): State<Arc<Api>>) -> Response {
     let Some(slot) = api.server.slot() else {
         return api.answered(|api| api.triggered(&api.server.full()));
     };
-    // The inspection continues if the client hangs up, and holds its place until it is done.
+    // If the client hangs up, this future is dropped. An inspection that has begun continues, and holds its place until it is
+    // done.
+    let waits = Arc::new(());
+    let waiting = Arc::downgrade(&waits);
     let work = spawn_blocking(move || {
-        let response = api.answered(|api| api.triggered(&api.server.answer(Request::Trigger)));
+        let is_withdrawn = move || waiting.strong_count() == 0;
+        let response =
+            api.answered(|api| api.triggered(&api.server.answer(Request::Trigger, is_withdrawn)));
         drop(slot);
         response
     });
     // It fails only if the runtime is shutting down.
     let ending = StatusCode::SERVICE_UNAVAILABLE;
-    work.await.unwrap_or_else(|_| ending.into_response())
+    let response = work.await.unwrap_or_else(|_| ending.into_response());
+    drop(waits);
+    response
 }
 
 async fn status(State(api): State<Arc<Api>>) -> Response {
     api.answered(|api| {
-        let answer = api.server.answer(Request::Status);
+        let answer = api.server.status();
         let body = StatusBody {
             answer: AnswerBody::of(&answer, api.convention),
             library: api.server.library(),
@@ -129,12 +136,27 @@ async fn status(State(api): State<Arc<Api>>) -> Response {
 }
 
 async fn last(State(api): State<Arc<Api>>) -> Response {
-    api.answered(|api| api.ok(&api.server.answer(Request::Last)))
+    api.answered(|api| api.ok(&api.server.answer(Request::Last, || false)))
 }
 
-async fn path(State(api): State<Arc<Api>>) -> Response {
+/// The sequence number in the query of a request, if there is one.
+fn sequence_in(uri: &Uri) -> Option<u32> {
+    let mut pairs = uri.query()?.split('&');
+    let number = pairs.find_map(|pair| pair.strip_prefix("sequence="))?;
+    number.parse().ok()
+}
+
+async fn path(State(api): State<Arc<Api>>, uri: Uri) -> Response {
+    let sequence = sequence_in(&uri);
     api.answered(|api| {
-        let (answer, path) = api.server.path();
+        let Some(sequence) = sequence else {
+            return api.refuse(Refusal::NoSequence);
+        };
+        let (answer, path) = api.server.path(sequence);
+        if answer.verdict == VerdictCode::BadRequest {
+            let body = AnswerBody::of(&answer, api.convention);
+            return json(StatusCode::NOT_FOUND, &body);
+        }
         json(
             StatusCode::OK,
             &PathBody::of(&answer, &path, api.convention),
@@ -154,7 +176,7 @@ async fn health(State(api): State<Arc<Api>>) -> Response {
     api.answered(|api| {
         let body = HealthBody {
             boot: api.server.boot(),
-            camera: api.server.answer(Request::Status).camera,
+            camera: api.server.status().camera,
         };
         json(StatusCode::OK, &body)
     })
@@ -162,7 +184,7 @@ async fn health(State(api): State<Arc<Api>>) -> Response {
 
 async fn metrics(State(api): State<Arc<Api>>) -> Response {
     api.answered(|api| {
-        let status = api.server.answer(Request::Status);
+        let status = api.server.status();
         let server = &api.server;
         let text = metrics::text(
             &server.tally(),

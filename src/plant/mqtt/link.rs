@@ -405,6 +405,7 @@ impl Shared {
             verdict: answer.verdict,
             simulated: has(Answer::SIMULATED),
             approximate: has(Answer::APPROXIMATE),
+            motion_checked: !has(Answer::MOTION_UNCHECKED),
             number: (answer.number > 0).then_some(answer.number),
             pose: answer.pose.map(|pose| PoseMessage {
                 transform: kind,

@@ -83,6 +83,8 @@ pub struct InspectionMessage {
     pub simulated: bool,
     /// True if the part may be another model; its pose is only about right.
     pub approximate: bool,
+    /// True if it was checked that the part hung still, or there is no pose; false if the source does not show it.
+    pub motion_checked: bool,
     /// The pose in the robot's base frame; null unless the verdict is `accepted`.
     pub pose: Option<PoseMessage>,
     /// Why there is no pose; null with one.
@@ -189,6 +191,7 @@ mod tests {
             part: Some("fender".into()),
             number: Some(3),
             simulated: true,
+            motion_checked: true,
             approximate: false,
             pose: Some(PoseMessage {
                 transform: PoseKind::RobotFromPart,

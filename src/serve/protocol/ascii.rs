@@ -131,7 +131,10 @@ mod tests {
     fn a_point_of_the_path_has_its_number_and_its_speed() {
         let (answer, _) = accepted();
         let answer = Answer {
-            request: Some(Request::Path(2)),
+            request: Some(Request::Path {
+                point: 2,
+                sequence: None,
+            }),
             point: 2,
             points: 9,
             speed_mm_s: Some(250.0),

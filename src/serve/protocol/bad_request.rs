@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use super::{
     ByteOrder,
-    binary::{REQUEST_BYTES, VERSION},
+    binary::{PATH_REQUEST_BYTES, REQUEST_BYTES, VERSION},
     plain,
 };
 use crate::error::Advice;
@@ -32,7 +32,7 @@ pub enum BadRequest {
         found: String,
     },
     /// The text after `PATH` is not a number.
-    #[error("not the number of a point: {found:?}")]
+    #[error("not the number of a point or of an inspection: {found:?}")]
     NoPoint {
         /// The text found, in printable characters.
         found: String,
@@ -49,7 +49,9 @@ pub enum BadRequest {
         order: ByteOrder,
     },
     /// The frame's length field is not the length of a request.
-    #[error("the frame gives its length as {found} bytes, expected {REQUEST_BYTES}")]
+    #[error(
+        "the frame gives its length as {found} bytes, expected {REQUEST_BYTES} or {PATH_REQUEST_BYTES}"
+    )]
     Length {
         /// The length found.
         found: u16,
@@ -116,7 +118,7 @@ impl Advice for BadRequest {
                 "Send TRIGGER, STATUS, LAST or PATH, in the protocol of this port".into()
             }
             Self::Incomplete { .. } => "Send the complete request, with its terminator".into(),
-            Self::NoPoint { .. } => "Send PATH, or PATH and the number of a point from 1".into(),
+            Self::NoPoint { .. } => "Send PATH, or PATH and the number of a point from 1, and behind it, if need be, the sequence number of a trigger's answer".into(),
             Self::Magic => "Begin the frame with the bytes 50 53 52 51".into(),
             Self::Version { found, order } => {
                 let other = match order {

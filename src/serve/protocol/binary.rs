@@ -7,11 +7,12 @@
 //! | --- | --- | --- |
 //! | 0 | 4 | `PSRQ` |
 //! | 4 | 2 | version, 1 |
-//! | 6 | 2 | length, 20 |
+//! | 6 | 2 | length, 20; or 24 with a sequence number |
 //! | 8 | 2 | 1 trigger, 2 status, 3 last, 4 path |
 //! | 10 | 2 | reserved, 0 |
 //! | 12 | 4 | path: number of the point from 1, or 0 |
-//! | 16 | 4 | checksum |
+//! | 16 | 4 | only in a frame of 24 bytes: sequence number of the inspection whose path is wanted, or 0 |
+//! | 16 or 20 | 4 | checksum |
 //!
 //! | answer: from | bytes | |
 //! | --- | --- | --- |
@@ -37,7 +38,7 @@
 //! | 200 | 52 | message, cut off |
 //! | 252 | 4 | checksum |
 
-use super::{ByteOrder, Parsed, bad_request::BadRequest};
+use super::{ByteOrder, Parsed, bad_request::BadRequest, line::path_request};
 use crate::{
     files::crc32,
     robot::Convention,
@@ -48,6 +49,8 @@ use crate::{
 pub(super) const VERSION: u16 = 1;
 /// Length of a request, bytes.
 pub const REQUEST_BYTES: usize = 20;
+/// Length of a request that names an inspection, bytes.
+pub(super) const PATH_REQUEST_BYTES: usize = REQUEST_BYTES + 4;
 /// Length of an answer, bytes.
 pub const ANSWER_BYTES: usize = 256;
 /// Maximum number of a pose's reals.
@@ -62,32 +65,49 @@ pub(super) fn parse(bytes: &[u8], order: ByteOrder) -> Parsed {
     if bytes[..begun] != REQUEST_MAGIC[..begun] {
         return Parsed::bad(BadRequest::Magic);
     }
-    match bytes.first_chunk() {
-        Some(frame) => Parsed::read(REQUEST_BYTES, request_in(frame, order)),
+    let Some(begin) = bytes.first_chunk::<REQUEST_BYTES>() else {
+        return Parsed::skipped(0);
+    };
+    let num_bytes = match length_in(begin, order) {
+        Ok(num_bytes) => num_bytes,
+        Err(why) => return Parsed::bad(why),
+    };
+    match bytes.get(..num_bytes) {
+        Some(frame) => Parsed::read(num_bytes, request_in(frame, order)),
         None => Parsed::skipped(0),
     }
 }
 
-fn request_in(frame: &[u8; REQUEST_BYTES], order: ByteOrder) -> Result<Request, BadRequest> {
-    let short = |at| u16_of(frame, at, order);
-    let found = short(4);
+/// The length of a request by its first bytes.
+fn length_in(begin: &[u8], order: ByteOrder) -> Result<usize, BadRequest> {
+    let found = u16_of(begin, 4, order);
     if found != VERSION {
         return Err(BadRequest::Version { found, order });
     }
-    let found = short(6);
-    if usize::from(found) != REQUEST_BYTES {
-        return Err(BadRequest::Length { found });
+    let found = u16_of(begin, 6, order);
+    match usize::from(found) {
+        num_bytes @ (REQUEST_BYTES | PATH_REQUEST_BYTES) => Ok(num_bytes),
+        _ => Err(BadRequest::Length { found }),
     }
-    let expected = crc32(&frame[..REQUEST_BYTES - CHECKSUM_BYTES]);
-    let found = u32_of(frame, REQUEST_BYTES - CHECKSUM_BYTES, order);
+}
+
+fn request_in(frame: &[u8], order: ByteOrder) -> Result<Request, BadRequest> {
+    let end = frame.len() - CHECKSUM_BYTES;
+    let expected = crc32(&frame[..end]);
+    let found = u32_of(frame, end, order);
     if found != expected {
         return Err(BadRequest::Checksum { found, expected });
     }
-    match short(8) {
+    let sequence = if frame.len() == PATH_REQUEST_BYTES {
+        u32_of(frame, 16, order)
+    } else {
+        0
+    };
+    match u16_of(frame, 8, order) {
         1 => Ok(Request::Trigger),
         2 => Ok(Request::Status),
         3 => Ok(Request::Last),
-        4 => Ok(Request::Path(u32_of(frame, 12, order))),
+        4 => Ok(path_request(u32_of(frame, 12, order), sequence)),
         other => Err(BadRequest::unknown(other.to_string().as_bytes())),
     }
 }
@@ -184,14 +204,19 @@ pub fn request(request: Request, order: ByteOrder) -> Vec<u8> {
         bytes: REQUEST_MAGIC.to_vec(),
         order,
     };
+    let (point, sequence) = match request {
+        Request::Path { point, sequence } => (point, sequence),
+        _ => (0, None),
+    };
+    let num_bytes = sequence.map_or(REQUEST_BYTES, |_| PATH_REQUEST_BYTES);
     frame.short(VERSION);
-    frame.short(REQUEST_BYTES as u16);
+    frame.short(num_bytes as u16);
     frame.short(request.name().1);
     frame.zeros(2);
-    frame.long(match request {
-        Request::Path(point) => point,
-        _ => 0,
-    });
+    frame.long(point);
+    if let Some(sequence) = sequence {
+        frame.long(sequence);
+    }
     let checksum = crc32(&frame.bytes);
     frame.long(checksum);
     frame.bytes
@@ -227,12 +252,21 @@ mod tests {
                 Request::Trigger,
                 Request::Status,
                 Request::Last,
-                Request::Path(0),
-                Request::Path(70_000),
+                path_request(0, 0),
+                path_request(70_000, 0),
+                path_request(70_000, 16_777_215),
             ] {
                 let frame = request(wanted, order);
-                assert_eq!(frame.len(), REQUEST_BYTES);
-                assert_eq!(parse(&frame, order), Parsed::read(20, Ok(wanted)));
+                let num_bytes = match wanted {
+                    Request::Path {
+                        sequence: Some(_), ..
+                    } => 24,
+                    _ => 20,
+                };
+                assert_eq!(frame.len(), num_bytes);
+                assert_eq!(parse(&frame, order), Parsed::read(num_bytes, Ok(wanted)));
+                let short = parse(&frame[..num_bytes - 1], order);
+                assert_eq!(short, Parsed::skipped(0));
             }
         }
         // As in the guide.
@@ -249,7 +283,7 @@ mod tests {
             read.expect_err("refused").reason()
         };
         for order in ORDERS {
-            let whole = request(Request::Path(3), order);
+            let whole = request(path_request(3, 0), order);
             let other = ORDERS[usize::from(order == ByteOrder::Little)];
             assert_eq!(reason(&whole, other), "version");
             // Each byte counts.
@@ -289,7 +323,7 @@ mod tests {
     fn an_answer_has_its_fields_where_the_guide_says() {
         let pose = from_euler_zyx([0.4, -0.2, 1.3, 1.2005, -0.4, 1.9]);
         let answer = Answer {
-            request: Some(Request::Path(2)),
+            request: Some(path_request(2, 0)),
             verdict: VerdictCode::Accepted,
             point: 2,
             points: 9,

@@ -10,7 +10,12 @@
 //! or references. The pose is an element of EKI's type FRAME; without a pose it is missing.
 
 use super::{
-    MAX_MESSAGE, Parsed, ascii::name_of, bad_request::BadRequest, is_filler, line::named, plain,
+    MAX_MESSAGE, Parsed,
+    ascii::name_of,
+    bad_request::BadRequest,
+    is_filler,
+    line::{named, path_request},
+    plain,
 };
 use crate::{
     robot::Convention,
@@ -55,11 +60,15 @@ fn request(bytes: &[u8]) -> Result<Request, BadRequest> {
         .and_then(|text| text.strip_suffix("</Robot>"))
         .ok_or_else(wrong)?;
     let word = content_of(inner, "Request").ok_or_else(wrong)?;
-    let point = content_of(inner, "Point").unwrap_or_default();
-    // EKI sends a point with every request; only a path request uses it.
-    let is_path = word.eq_ignore_ascii_case(name_of(Request::Path(0)));
-    let point = Some(point.as_bytes()).filter(|point| is_path && !point.is_empty());
-    named(word.as_bytes(), point).ok_or_else(|| BadRequest::unknown(word.as_bytes()))?
+    // EKI sends every element with every request; only a path request uses the numbers.
+    let path = path_request(0, 0);
+    let is_path = word.eq_ignore_ascii_case(name_of(path));
+    let number = |tag| {
+        let number = content_of(inner, tag).map(str::as_bytes);
+        number.filter(|number| is_path && !number.is_empty())
+    };
+    let (point, sequence) = (number("Point"), number("Sequence"));
+    named(word.as_bytes(), point, sequence).ok_or_else(|| BadRequest::unknown(word.as_bytes()))?
 }
 
 /// Returns the trimmed text between an element's tags.
@@ -133,9 +142,21 @@ mod tests {
             ),
             (
                 "<Robot><Point>4</Point><Request>PATH</Request></Robot>",
-                Request::Path(4),
+                path_request(4, 0),
             ),
-            ("<Robot><Request>PATH</Request></Robot>", Request::Path(0)),
+            (
+                "<Robot><Request>PATH</Request><Point>4</Point><Sequence>41</Sequence></Robot>",
+                path_request(4, 41),
+            ),
+            (
+                "<Robot><Request>PATH</Request><Point>4</Point><Sequence>0</Sequence></Robot>",
+                path_request(4, 0),
+            ),
+            (
+                "<Robot><Request>LAST</Request><Point>0</Point><Sequence>0</Sequence></Robot>",
+                Request::Last,
+            ),
+            ("<Robot><Request>PATH</Request></Robot>", path_request(0, 0)),
             ("<Robot><Request>LAST</Request></Robot>", Request::Last),
             (
                 "\r\n<?xml version=\"1.0\"?>\r\n<Robot>\r\n  <Request> STATUS </Request>\r\n  <Point>7</Point>\r\n</Robot>",
@@ -162,6 +183,10 @@ mod tests {
             ("<Robot><Request></Request></Robot>", "unknown_request"),
             (
                 "<Robot><Request>PATH</Request><Point>-3</Point></Robot>",
+                "no_point",
+            ),
+            (
+                "<Robot><Request>PATH</Request><Point>3</Point><Sequence>x</Sequence></Robot>",
                 "no_point",
             ),
             ("<?xml <Robot><Request>LAST</Request></Robot>", "not_xml"),

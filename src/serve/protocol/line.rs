@@ -1,4 +1,4 @@
-//! A request as a line of text: `TRIGGER`, `STATUS`, `LAST`, `PATH` or `PATH 3`.
+//! A request as a line of text: `TRIGGER`, `STATUS`, `LAST`, `PATH`, `PATH 3` or, of the inspection number 41, `PATH 3 41`.
 //!
 //! A line ends with LF, CR or both. Case does not matter. Empty lines, and blanks and zeros around a request, are ignored.
 
@@ -26,29 +26,50 @@ fn request(line: &[u8]) -> Result<Request, BadRequest> {
     let mut words = line
         .split(|&byte| is_filler(byte) || byte == b';')
         .filter(|word| !word.is_empty());
-    let (word, number) = (words.next().unwrap_or_default(), words.next());
+    let (word, point, sequence) = (words.next().unwrap_or_default(), words.next(), words.next());
     if words.next().is_some() {
         return Err(BadRequest::unknown(line));
     }
-    named(word, number).ok_or_else(|| BadRequest::unknown(line))?
+    named(word, point, sequence).ok_or_else(|| BadRequest::unknown(line))?
 }
 
-/// Finds a request by its word and the number after it; `None` if the word is no request or takes no number.
-pub(super) fn named(word: &[u8], number: Option<&[u8]>) -> Option<Result<Request, BadRequest>> {
+/// Finds a request by its word and the numbers after it; `None` if the word is no request or takes no numbers.
+pub(super) fn named(
+    word: &[u8],
+    point: Option<&[u8]>,
+    sequence: Option<&[u8]>,
+) -> Option<Result<Request, BadRequest>> {
     let word = std::str::from_utf8(word).ok()?;
-    let request = Request::of_name(word, 0)?;
-    let Some(number) = number else {
+    let request = Request::of_name(word)?;
+    if point.is_none() && sequence.is_none() {
         return Some(Ok(request));
-    };
-    if !matches!(request, Request::Path(_)) {
+    }
+    if !matches!(request, Request::Path { .. }) {
         return None;
     }
-    let text = std::str::from_utf8(number).ok();
-    let point = text.and_then(|text| text.parse().ok());
-    Some(match point {
-        Some(point) => Ok(Request::Path(point)),
-        None => Err(BadRequest::no_point(number)),
-    })
+    let path = number(point).and_then(|point| {
+        let sequence = number(sequence)?;
+        Ok(path_request(point, sequence))
+    });
+    Some(path)
+}
+
+/// A request for a point of a path; the sequence number 0 stands for the client's own last trigger.
+pub(super) fn path_request(point: u32, sequence: u32) -> Request {
+    Request::Path {
+        point,
+        sequence: (sequence > 0).then_some(sequence),
+    }
+}
+
+/// Reads a number; 0 if there is none.
+fn number(text: Option<&[u8]>) -> Result<u32, BadRequest> {
+    let Some(text) = text else {
+        return Ok(0);
+    };
+    let number = std::str::from_utf8(text).ok();
+    let number = number.and_then(|text| text.parse().ok());
+    number.ok_or_else(|| BadRequest::no_point(text))
 }
 
 #[cfg(test)]
@@ -69,9 +90,12 @@ mod tests {
             ("TRIGGER\n", Request::Trigger),
             ("status\r", Request::Status),
             ("Last\n", Request::Last),
-            ("PATH\n", Request::Path(0)),
-            ("PATH 12\n", Request::Path(12)),
-            ("PATH;7\n", Request::Path(7)),
+            ("PATH\n", path_request(0, 0)),
+            ("PATH 12\n", path_request(12, 0)),
+            ("PATH 12 41\n", path_request(12, 41)),
+            ("path;0;41\n", path_request(0, 41)),
+            ("PATH 12 0\n", path_request(12, 0)),
+            ("PATH;7\n", path_request(7, 0)),
             ("\r\n \0\0TRIGGER \0\n", Request::Trigger),
         ] {
             assert_eq!(only(text), Ok(request), "{text:?}");
@@ -98,8 +122,10 @@ mod tests {
         for (text, reason) in [
             ("START\n", "unknown_request"),
             ("TRIGGER 1\n", "unknown_request"),
-            ("PATH 1 2\n", "unknown_request"),
+            ("PATH 1 2 3\n", "unknown_request"),
+            ("LAST 1 2\n", "unknown_request"),
             ("PATH -1\n", "no_point"),
+            ("PATH 1 x\n", "no_point"),
             ("PATH 99999999999\n", "no_point"),
             ("GET / HTTP/1.1\r", "unknown_request"),
             ("\u{e4}\u{1b}[2J\n", "unknown_request"),

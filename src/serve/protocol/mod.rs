@@ -3,7 +3,7 @@
 //! | protocol | request | answer | pose |
 //! | --- | --- | --- | --- |
 //! | [`Ascii`](Protocol::Ascii) | a line | a line of fields | any convention |
-//! | [`Binary`](Protocol::Binary) | 20 bytes | 256 bytes | conventions of up to seven numbers |
+//! | [`Binary`](Protocol::Binary) | 20 or 24 bytes | 256 bytes | conventions of up to seven numbers |
 //! | [`Eki`](Protocol::Eki) | an XML element | an XML element | KUKA |
 //! | [`UrScript`](Protocol::UrScript) | a line | a list of numbers in parentheses | Universal Robots |
 //!
@@ -247,12 +247,14 @@ mod tests {
         /// A request that comes in pieces is read as if it came whole.
         #[test]
         fn a_request_in_pieces_is_read_when_it_is_whole(cut in 0_usize..100) {
+            let wanted = Request::Path { point: 3, sequence: Some(41) };
+            let element = b"<Robot><Request>PATH</Request><Point>3</Point><Sequence>41</Sequence></Robot>";
             let requests: [(Protocol, Vec<u8>); 5] = [
-                (Protocol::Ascii, b"PATH 3\r\n".to_vec()),
-                (Protocol::UrScript, b"path 3\n".to_vec()),
-                (Protocol::Eki, b"<Robot><Request>PATH</Request><Point>3</Point></Robot>".to_vec()),
-                (Protocol::Binary(ByteOrder::Little), binary::request(Request::Path(3), ByteOrder::Little)),
-                (Protocol::Binary(ByteOrder::Big), binary::request(Request::Path(3), ByteOrder::Big)),
+                (Protocol::Ascii, b"PATH 3 41\r\n".to_vec()),
+                (Protocol::UrScript, b"path 3 41\n".to_vec()),
+                (Protocol::Eki, element.to_vec()),
+                (Protocol::Binary(ByteOrder::Little), binary::request(wanted, ByteOrder::Little)),
+                (Protocol::Binary(ByteOrder::Big), binary::request(wanted, ByteOrder::Big)),
             ];
             for (protocol, bytes) in requests {
                 let cut = cut % bytes.len();
@@ -263,7 +265,7 @@ mod tests {
                 }
                 prop_assert_eq!(begun.request, None, "{} of {}", cut, protocol.name());
                 let whole = protocol.parse(&bytes);
-                prop_assert_eq!(whole.request, Some(Ok(Request::Path(3))));
+                prop_assert_eq!(whole.request, Some(Ok(wanted)));
             }
         }
     }

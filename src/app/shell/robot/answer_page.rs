@@ -20,7 +20,9 @@ use crate::{
     },
     error::Advice as _,
     robot::Convention,
-    serve::{ClientEvent, ClientNews, ListenAddress, PoseKind, Protocol, parse_address},
+    serve::{
+        Answer, ClientEvent, ClientNews, ListenAddress, Listener, PoseKind, Protocol, parse_address,
+    },
 };
 
 /// Width of a bar, logical pixels, below which the chip is only its sign; the second while the bar also shows running work.
@@ -290,7 +292,9 @@ fn in_words(last: &LastAnswer) -> String {
     let age = answer
         .age_ms
         .map(|age| text!("robot-answer-age", age = age));
-    let all = [Some(at), Some(verdict), part, Some(number), age];
+    let is_unchecked = answer.flags() & Answer::MOTION_UNCHECKED != 0;
+    let unchecked = is_unchecked.then(|| text!("robot-answer-motion-unchecked"));
+    let all = [Some(at), Some(verdict), unchecked, part, Some(number), age];
     let all: Vec<String> = all.into_iter().flatten().collect();
     all.join(" · ")
 }

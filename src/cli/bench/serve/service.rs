@@ -80,7 +80,9 @@ impl Inspections {
         let frame = Arc::clone(&lock(&self.frame));
         let origin = FrameOrigin {
             captured: Instant::now(),
+            at: Duration::ZERO,
             is_simulated: true,
+            is_motion_checked: true,
         };
         let scene = scene_from_frame(&frame);
         let recipe = &self.recipe;

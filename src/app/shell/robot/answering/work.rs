@@ -25,7 +25,7 @@ use crate::{
         task::{TaskContext, TaskError},
         user_error::UserError,
     },
-    capture::{CaptureError, Feed, SourceSpec},
+    capture::{self, CaptureError, Feed, SourceSpec},
     error::{Advice as _, guarded, lock},
     history::{HungId, InspectionContext, NewEntry, Traceability, Writer},
     library::{GivenNumbers, LibraryPlace, PartNumbers},
@@ -37,7 +37,10 @@ use crate::{
         ListenAddress, Listener, NewFrame, NumberedPart, PartFinder, PoseKind, ServeError, Server,
         ServerHandle, ServerSettings, Trouble, VerdictCode,
     },
-    stages::scene::{EmptyCell, SceneCloud},
+    stages::{
+        reference::Reference,
+        scene::{EmptyCell, SceneCloud},
+    },
 };
 
 /// How long a trigger waits for its frame, as in `partsight serve`.
@@ -283,7 +286,7 @@ impl Inspector for AnsweringSession<'_> {
             Ok(captured) => captured,
             Err(why) => return Found::error(Trouble::of(why.reason(), &why)),
         };
-        let origin = self.camera.origin_of(&captured);
+        let mut origin = self.camera.origin_of(&captured);
         let source = inputs.followed.as_ref();
         let source = source.map_or_else(String::new, ToString::to_string);
         // At once: by the end of the inspection another part may hang there.
@@ -293,23 +296,28 @@ impl Inspector for AnsweringSession<'_> {
         drop(parts);
         let num_dropped = self.camera.feed_status().num_dropped;
         let capture = CaptureLine::of(&source, &captured, num_dropped);
-        let Captured {
-            mut scene,
-            origin: seen,
-            ..
-        } = captured.into();
-        if let Some(cell) = &inputs.empty_cell {
-            Arc::make_mut(&mut scene).empty_cell = Some(Arc::clone(cell));
-        }
-        if let Some(spec) = &inputs.followed {
-            self.library_cache.camera().share_view(spec, &mut scene);
-        }
+        let (scene, seen) = self.scene_of(captured, &inputs);
         let loaded = self.library_cache.get();
         self.know(&loaded, &inputs);
         let recipe = &inputs.recipe;
         let fitted = loaded.fitting(recipe, &Unwatched);
         let fitted = fitted.expect("not cancelled");
-        let inspection = pipeline::run(&scene, &fitted, recipe, &Unwatched).expect("not cancelled");
+        let inspected = |scene: &SceneCloud| {
+            pipeline::run(scene, &fitted, recipe, &Unwatched).expect("not cancelled")
+        };
+        let mut inspection = inspected(&scene);
+        let middle = inspection.best_reference(&fitted);
+        let middle = middle.and_then(Reference::middle);
+        if let Err(why) = self.camera.refuse_if_moving(
+            &mut origin,
+            &mut inspection,
+            middle,
+            FRAME_TIMEOUT,
+            || self.is_ending(),
+            |later| inspected(&self.scene_of(later, &inputs).0),
+        ) {
+            return Found::error(Trouble::of(why.reason(), &why));
+        }
         let mut found = self.finder.found(&inspection, recipe, origin);
         let mut answered = AnsweredPart {
             name: found.part.clone(),
@@ -365,7 +373,7 @@ impl Inspector for AnsweringSession<'_> {
         let parts = self.parts;
         if self.part.take_if(|part| part.is_reported(parts)).is_some() {
             // Or LAST and PATH would still give its pose.
-            self.handle.refuse_last(Trouble::reported_wrong());
+            self.handle.refuse_last(&Trouble::reported_wrong());
         }
         let loaded = self.library_cache.get();
         if loaded.shown.unloaded.is_none() {
@@ -399,10 +407,32 @@ impl AnsweringSession<'_> {
         inputs
     }
 
-    /// Updates the finder with the library, the calibration and the kind of pose.
+    /// The scene to inspect of a frame, and where it comes from.
+    fn scene_of(
+        &self,
+        captured: capture::Captured,
+        inputs: &AnswerInputs,
+    ) -> (Arc<SceneCloud>, Origin) {
+        let Captured {
+            mut scene, origin, ..
+        } = captured.into();
+        if let Some(cell) = &inputs.empty_cell {
+            Arc::make_mut(&mut scene).empty_cell = Some(Arc::clone(cell));
+        }
+        if let Some(spec) = &inputs.followed {
+            self.library_cache.camera().share_view(spec, &mut scene);
+        }
+        (scene, origin)
+    }
+
+    /// Updates the finder with the library, the calibration and the kind of pose. If poses mean something else than before,
+    /// robots learn it from the boot number; another convention starts another server.
     fn know(&mut self, loaded: &Arc<LoadedLibrary>, inputs: &AnswerInputs) {
-        self.finder.robot.clone_from(&inputs.robot);
-        self.finder.kind = inputs.pose;
+        if self.finder.robot != *inputs.robot || self.finder.kind != inputs.pose {
+            self.finder.robot.clone_from(&inputs.robot);
+            self.finder.kind = inputs.pose;
+            self.handle.renew();
+        }
         let is_it = |known: &Arc<LoadedLibrary>| Arc::ptr_eq(known, loaded);
         if !self.library.as_ref().is_some_and(is_it) {
             self.library = Some(Arc::clone(loaded));
