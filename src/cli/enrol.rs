@@ -7,7 +7,7 @@ use clap::Args;
 use super::{
     LibraryChoice, Outcome,
     console::{Advised as _, Console, advised_error},
-    input::{ImportChoice, warn_of},
+    input::{ImportChoice, parse_side, warn_of},
     library::seen_from,
     recipe::RecipeSource,
     scan::{PosesChoice, open_scan},
@@ -17,9 +17,9 @@ use crate::{
     files::{self, FileContent},
     geometry::cloud::Grid,
     library::{
-        EnrolError, EnrolParams, Enrolled, LibraryError, LibraryFolder, MAX_TITLE, PartDescription,
-        PartName, SharedTitle, enrol_captured, enrol_mesh, enrol_scan, enrol_surface, enrol_whole,
-        likenesses, surfaces_to_enrol,
+        EnrolError, EnrolParams, EnrolWarning, Enrolled, LibraryError, LibraryFolder, MAX_TITLE,
+        PartDescription, PartName, SharedTitle, Side, enrol_captured, enrol_mesh, enrol_scan,
+        enrol_surface, enrol_whole, likenesses, surfaces_to_enrol,
     },
     scan::part::background_sign,
     stages::{
@@ -78,6 +78,10 @@ pub(super) struct EnrolArgs {
     /// Anything worth remembering
     #[arg(long, value_name = "TEXT", default_value = "")]
     notes: String,
+    /// Side of a part known all around that is painted, as seen by a camera in front of it: front, back, left, right, top
+    /// or bottom; default: its outside, if that is clear
+    #[arg(long, value_name = "SIDE", value_parser = parse_side)]
+    side: Option<Side>,
     /// Mark the part as simulated; files of partsight simulate are marked already
     #[arg(long)]
     simulated: bool,
@@ -90,6 +94,11 @@ pub(super) fn run(mut args: EnrolArgs, console: &mut Console) -> anyhow::Result<
     let (mut enrolled, scene) = enrolled_from(args, console)?;
     enrolled.part.meta.part = of;
     enrolled.reference.name = enrolled.part.meta.part_name().to_string();
+    if args.side.is_some() {
+        let is_open = |warning: &EnrolWarning| !matches!(warning, EnrolWarning::SideUnclear { .. });
+        enrolled.part.meta.side = args.side;
+        enrolled.warnings.retain(is_open);
+    }
     for warning in &enrolled.warnings {
         console.warn(warning, warning);
     }
@@ -107,6 +116,9 @@ pub(super) fn run(mut args: EnrolArgs, console: &mut Console) -> anyhow::Result<
         part.signature.perimeter_m * 1000.0,
         part.signature.openings_m.len(),
     ));
+    if let Some(side) = part.meta.side {
+        console.line(&format_args!("  painted from       the {}", side.name()));
+    }
     console.line(&format_args!(
         "  stored in          {}",
         saved.folder.display()

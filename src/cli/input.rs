@@ -22,7 +22,7 @@ use crate::{
         import::{ImportOptions, LengthUnit, UpAxis},
     },
     geometry::cloud::PointCloud,
-    library::{LibraryFolder, PartName},
+    library::{LibraryFolder, PartName, Side},
     robot::{Convention, WrittenPose, parse_nozzle, parse_written_pose},
     stages::scene::{EmptyCell, EmptyCellError, SceneCloud, cloud_of, scene_from_image},
 };
@@ -176,6 +176,12 @@ pub(super) fn parse_robot_pose(text: &str) -> Result<WrittenPose, String> {
 /// Parses the pose of a nozzle on the flange for clap.
 pub(super) fn parse_nozzle_pose(text: &str) -> Result<WrittenPose, String> {
     parse_nozzle(text).map_err(|error| with_advice(&error))
+}
+
+/// Parses the name of a part's side for clap.
+pub(super) fn parse_side(name: &str) -> Result<Side, String> {
+    let names = || Side::ALL.map(Side::name).join(", ");
+    Side::named(name).ok_or_else(|| format!("expected one of {}", names()))
 }
 
 /// Parses the name of a convention for clap.

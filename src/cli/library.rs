@@ -203,6 +203,9 @@ fn show(choice: &LibraryChoice, name: &PartName, console: &mut Console) -> anyho
     );
     row("points", reference.cloud.points.len().to_string());
     row("seen from", seen_from(meta.coverage).to_owned());
+    if let Some(side) = meta.side {
+        row("painted from", format!("the {}", side.name()));
+    }
     if let Some(view) = reference.views.first() {
         let outline = view.signature.perimeter;
         row(

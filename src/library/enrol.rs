@@ -10,7 +10,7 @@ mod problem;
 mod scan;
 
 use jiff::Timestamp;
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 
 use self::{
     cloud::{
@@ -30,6 +30,7 @@ use super::{
         EnrolMethod, Enrolment, FileCheck, PLAIN_VERSION, Part, PartMeta, SCANNED_VERSION,
         StoredSignature,
     },
+    side::outer_side,
     thumbnail,
 };
 use crate::{
@@ -308,6 +309,18 @@ fn assemble(
         StoredSignature::of(&reference, &params.reference).ok_or(ReferenceError::NoOutline {
             num_points: reference.cloud.points.len(),
         })?;
+    let mut warnings: Vec<EnrolWarning> = pose_warning(&reference, source.coverage)
+        .into_iter()
+        .collect();
+    let mut side = None;
+    if source.coverage == Coverage::AllAround {
+        let points: Vec<Point3<f64>> = cloud.points.iter().map(|p| p.cast()).collect();
+        let normals: Vec<Vector3<f64>> = cloud.normals.iter().flatten().map(|n| n.cast()).collect();
+        match outer_side(&points, &normals) {
+            Ok(outer) => side = Some(outer),
+            Err(sides) => warnings.push(EnrolWarning::SideUnclear { sides }),
+        }
+    }
     let part = Part {
         meta: PartMeta {
             schema_version: match source.coverage {
@@ -330,6 +343,7 @@ fn assemble(
                 num_shots: source.num_shots,
                 voxel_mm: source.voxel.map(|v| (v.mm() * 100.0).round() / 100.0),
             },
+            side,
             spray: None,
         },
         thumbnail: thumbnail::render(&reference, source.coverage),
@@ -338,9 +352,7 @@ fn assemble(
     };
     Ok(Enrolled {
         part,
-        warnings: pose_warning(&reference, source.coverage)
-            .into_iter()
-            .collect(),
+        warnings,
         reference,
         seen: None,
     })

@@ -31,6 +31,7 @@ mod references;
 mod replace_all;
 mod shared_title;
 mod shipped;
+mod side;
 mod similarity;
 mod spray_path;
 mod spray_store;
@@ -59,6 +60,7 @@ pub use self::{
     problem::{EntryError, EntryIssue, EntryProblem, EntryWarning},
     shared_title::SharedTitle,
     shipped::{EnrolledAt, shipped_enrolled_at, shipped_files},
+    side::{Side, outer_side},
     similarity::{Similarity, likenesses, most_similar},
     spray_path::{
         MAX_PATH_POINTS, MAX_SPEED, PathLineProblem, PathPoint, SprayPath, SprayPathError,

@@ -5,7 +5,7 @@ use jiff::Timestamp;
 use nalgebra::Point2;
 use serde::{Deserialize, Serialize};
 
-use super::{entry::SPRAY_PREFIX, name::PartName};
+use super::{entry::SPRAY_PREFIX, name::PartName, side::Side};
 use crate::{
     files::{crc32, write_ply},
     geometry::{cloud::PointCloud, rigid::row_major},
@@ -59,6 +59,9 @@ pub struct PartMeta {
     /// True if the data do not come from a real camera.
     #[serde(default)]
     pub simulated: bool,
+    /// The side that it is painted from; `None` if it was seen from that side alone, or the side is still to be chosen.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub side: Option<Side>,
     /// Size and checksum of the cloud.
     pub cloud: FileCheck,
     /// Where the field of view of its capture cut the part off; nothing if the file has no such entry.

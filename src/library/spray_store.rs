@@ -11,6 +11,7 @@ use super::{
     error::LibraryError,
     name::PartName,
     part::{FileCheck, PartMeta},
+    side::Side,
     spray_path::{MAX_BYTES, SprayPath, SprayPathError},
     store::LibraryFolder,
 };
@@ -33,6 +34,21 @@ impl LibraryFolder {
         self.writing(|| {
             self.finish_interrupted_write()?;
             self.write_spray_path(name, path)
+        })?
+    }
+
+    /// Sets the side that a part is painted from.
+    pub fn set_side(&self, name: &PartName, side: Side) -> Result<(), LibraryError> {
+        self.entry(name.as_str())?;
+        self.writing(|| {
+            self.finish_interrupted_write()?;
+            let meta = match self.entry_with_meta(name.as_str()) {
+                Ok((_, meta)) => meta,
+                Err(error) => return Ok(Err(error)),
+            };
+            let side = Some(side);
+            rewrite_meta(&self.path().join(name.as_str()), &PartMeta { side, ..meta })?;
+            Ok(Ok(()))
         })?
     }
 

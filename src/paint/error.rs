@@ -1,6 +1,9 @@
 //! Errors of planning a path or computing a film.
 
-use crate::{error::Advice, library::MAX_PATH_POINTS};
+use crate::{
+    error::Advice,
+    library::{MAX_PATH_POINTS, Side},
+};
 
 /// Why a path cannot be planned, or a film not be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -29,6 +32,12 @@ pub enum PaintError {
     /// The normals cancel out, so there is no side to be painted.
     #[error("the surface has no side that faces one way: it is folded or closed")]
     Folded,
+    /// A part that is known all around may be painted from either side.
+    #[error("it is not clear which side of the part is the outside")]
+    SideUnclear {
+        /// The two sides of its thinnest extent.
+        sides: [Side; 2],
+    },
     /// A parameter of the coat is out of its range.
     #[error("the coat's {name} is {value}, with which no path can be planned")]
     BadCoat {
@@ -41,11 +50,8 @@ pub enum PaintError {
     #[error("no row lies over the surface")]
     NoRows,
     /// The path has more points than can be stored.
-    #[error("the path would have {found} points, but at most {MAX_PATH_POINTS} are stored")]
-    TooLong {
-        /// Number of points.
-        found: usize,
-    },
+    #[error("the path would have more than {MAX_PATH_POINTS} points, the most that are stored")]
+    TooLong,
     /// A keep-out region, or area to be painted, encloses nothing.
     #[error("a keep-out region is empty: {what}")]
     BadRegion {
@@ -70,13 +76,17 @@ impl Advice for PaintError {
                 "Check the unit the part was enrolled in, for example partsight enrol part.stl --units mm".into()
             }
             Self::Folded => "Enrol the side to be painted from one capture in front of it".into(),
+            Self::SideUnclear { sides } => {
+                let [one, other] = sides.map(Side::name);
+                format!("Give the side to be painted: --side {one} or --side {other}")
+            }
             Self::BadCoat { name, .. } => {
                 format!("Give {name} a value within the range that docs/guide/paint.md lists")
             }
             Self::NoRows => {
                 "Make the keep-out regions smaller, or adapt the overrun and the row spacing to the part".into()
             }
-            Self::TooLong { .. } => "Raise point_spacing or spacing: --set point_spacing=50".into(),
+            Self::TooLong => "Raise point_spacing or spacing: --set point_spacing=50".into(),
             Self::BadRegion { .. } => {
                 "Give a sphere a radius above 0, a polygon three corners that are not on one line".into()
             }

@@ -277,6 +277,8 @@ struct Jet<'a> {
     surface: &'a PaintSurface,
     coat: &'a Coat,
     tree: KdTree,
+    /// Corners of a box around the surface.
+    corners: [Point3<f64>; 8],
 }
 
 impl<'a> Jet<'a> {
@@ -285,6 +287,7 @@ impl<'a> Jet<'a> {
             surface,
             coat,
             tree: tree_of(&surface.points),
+            corners: corners_of(surface),
         }
     }
 
@@ -305,19 +308,22 @@ impl<'a> Jet<'a> {
             surface,
             coat,
             tree,
+            corners,
         } = self;
         let spread = coat.gun.spread();
-        // At twice the stand-off the jet is thin, and the surface there is another part.
-        let reach = 2.0 * coat.stand_off;
-        let aim = step.nozzle + step.axes[2] * coat.stand_off;
-        let radius = reach
-            .min(coat.stand_off * spread[0].max(0.5) * 1.5)
-            .max(coat.stand_off * spread[0]);
+        // Paint flies on until it meets the surface, however far the path is from it.
+        let depths = corners.map(|corner| step.axes[2].dot(&(corner - step.nozzle)));
+        let depth = depths.into_iter().fold(0.0, f64::max);
         // Discs beside the jet may reach into it.
         let beside = DISC * surface.spacing;
+        // The smallest ball around the jet down to that depth: through the mouth if the jet is narrow.
+        let slope = spread[0].max(spread[1]);
+        let middle = depth * (0.5 * (1.0 + slope * slope)).min(1.0);
+        let radius = middle.max(depth * slope) + beside;
+        let ball = step.nozzle + step.axes[2] * middle;
         let in_jet = |v: &Vector3<f64>| Vector3::from(step.axes.map(|axis| axis.dot(v)));
         seen.clear();
-        tree.within(&aim.cast(), radius as f32, |found| {
+        tree.within(&ball.cast(), radius as f32, |found| {
             let at = in_jet(&(surface.points[found.index] - step.nozzle));
             if at.z > 0.0 && (0..2).all(|axis| at[axis].abs() <= spread[axis] * at.z + beside) {
                 seen.push(Seen {
@@ -336,6 +342,24 @@ impl<'a> Jet<'a> {
             }
         }
     }
+}
+
+/// Corners of the box around a surface along its side and its longest axis.
+fn corners_of(surface: &PaintSurface) -> [Point3<f64>; 8] {
+    let third = surface.side.cross(&surface.longest);
+    let axes = [surface.side, surface.longest, third];
+    let ranges = axes.map(|axis| {
+        let each = surface.points.iter();
+        let each = each.map(|point| axis.dot(&(point - surface.middle)));
+        each.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| {
+            [low.min(at), high.max(at)]
+        })
+    });
+    std::array::from_fn(|corner| {
+        let each = axes.iter().zip(ranges).enumerate();
+        let shifts = each.map(|(axis, (along, range))| along * range[(corner >> axis) & 1]);
+        surface.middle + shifts.sum::<Vector3<f64>>()
+    })
 }
 
 impl FilmFigures {

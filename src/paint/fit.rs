@@ -35,6 +35,9 @@ const LEAST_SAMPLES: usize = 8;
 const LEAST_INSIDE: usize = 3;
 /// Most places of a stripe; more are probably something else.
 const MOST_SAMPLES: usize = 10_000;
+/// Largest offset and thickness of a table, metres: more is in another unit.
+const MOST_OFFSET: f64 = 10.0;
+const MOST_THICKNESS: f64 = 0.01;
 /// Largest file that is read, bytes.
 const MAX_BYTES: u64 = 1 << 20;
 /// Noise may be below zero by at most this share of the thickest place.
@@ -91,6 +94,24 @@ pub enum StripeError {
         /// The line, from 1.
         line: usize,
     },
+    /// An offset or a thickness of a line is none that can be measured.
+    #[error(
+        "{}, line {line}: {value} is no {what}, expected {low:.0} to {high:.0}", path.display()
+    )]
+    Impossible {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: usize,
+        /// Name and unit of the value.
+        what: &'static str,
+        /// The value.
+        value: f64,
+        /// Least value.
+        low: f64,
+        /// Greatest value.
+        high: f64,
+    },
     /// The stripe has too few or too many places.
     #[error("the stripe has {found} places, expected {LEAST_SAMPLES} to {MOST_SAMPLES}")]
     Count {
@@ -145,6 +166,9 @@ impl Advice for StripeError {
                 "Begin the file with a line offset_mm,thickness_um, then write one place per line".into()
             }
             Self::NoNumbers { .. } => "Correct the line; nothing was written".into(),
+            Self::Impossible { .. } => {
+                "Correct the line; if the gauge shows less than 0 on the bare plate, zero it there and measure again".into()
+            }
             Self::Count { .. } => {
                 "Measure every 5 to 20 mm across the stripe, from bare metal to bare metal".into()
             }
@@ -184,6 +208,26 @@ pub fn read_stripe(path: &Path) -> Result<Vec<StripeSample>, StripeError> {
             path: path.to_owned(),
             line,
         })?;
+        // NaN is in no range.
+        for (what, value, [low, high]) in [
+            (
+                "offset in mm",
+                offset,
+                [-1e3 * MOST_OFFSET, 1e3 * MOST_OFFSET],
+            ),
+            ("thickness in µm", thickness, [0.0, 1e6 * MOST_THICKNESS]),
+        ] {
+            if !(low..=high).contains(&value) {
+                return Err(StripeError::Impossible {
+                    path: path.to_owned(),
+                    line,
+                    what,
+                    value,
+                    low,
+                    high,
+                });
+            }
+        }
         samples.push(StripeSample {
             offset: offset / 1e3,
             thickness: thickness / 1e6,

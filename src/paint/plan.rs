@@ -62,9 +62,7 @@ pub(super) fn planned(
     }
     let points = keep_clear(points, surface, coat);
     if points.len() > MAX_PATH_POINTS {
-        return Err(PaintError::TooLong {
-            found: points.len(),
-        });
+        return Err(PaintError::TooLong);
     }
     if points.is_empty() {
         return Err(PaintError::NoRows);
@@ -117,7 +115,7 @@ fn laid(
         let points = path_of_row(&map, &row, coat, &surface.side, towards);
         found += points.len();
         if found > MAX_PATH_POINTS {
-            return Err(PaintError::TooLong { found });
+            return Err(PaintError::TooLong);
         }
         all.push(points);
     }

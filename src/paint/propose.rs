@@ -146,7 +146,7 @@ mod tests {
         let load = folder.load(&ReferenceParams::default()).expect("loaded");
         assert_eq!(load.parts.len(), 8);
         for (reference, part) in load.library.references.iter().zip(&load.parts) {
-            let surface = PaintSurface::of(reference, part.coverage).expect("a surface");
+            let surface = PaintSurface::of(reference, part.coverage, part.side).expect("a surface");
             let found = propose(&surface, &Coat::default(), &[]).expect(&reference.name);
             let film = &found.film.figures;
             // Ribs of the grille have flanks that neighbouring ribs hide even from the leaned gun.

@@ -1,8 +1,8 @@
 //! The surface to be painted: points, normals and the area that each point stands for.
 //!
 //! A part is painted from one direction, the *side*: the mean normal of what was seen or, if the part is known all
-//! around, the front along its thinnest extent. Only points that face the side are painted in one go; a part enrolled
-//! from one view has no others.
+//! around, its outside along its thinnest extent ([`outer_side`]), unless a person chose another. Only points that face
+//! the side are painted in one go; a part enrolled from one view has no others.
 
 use std::collections::BTreeMap;
 
@@ -14,6 +14,7 @@ use crate::{
         nearest::{KdTree, median_spacing},
         principal::principal_axes,
     },
+    library::{Side, outer_side},
     stages::reference::{Coverage, Reference},
 };
 
@@ -25,6 +26,11 @@ const LEAST_EXTENT: f64 = 0.03;
 const MOST_EXTENT: f64 = 10.0;
 /// Least cosine between the side and the normal of a point that belongs to it: 80°.
 const LEAST_FACING: f64 = 0.17;
+/// Least cosine between a chosen side and the part's thinnest extent for the part to be painted along that extent: 60°.
+/// The nearest side of any direction is within 55°.
+const LEAST_ALONG: f64 = 0.5;
+/// An open sheet has less than this share of its points on one side.
+const LEAST_SHARE: f64 = 0.05;
 /// Radius over which normals are averaged, in spacings of the points.
 const SMOOTHED_OVER: f64 = 2.5;
 
@@ -50,20 +56,25 @@ pub struct PaintSurface {
 }
 
 impl PaintSurface {
-    /// The surface of an enrolled part.
-    pub fn of(reference: &Reference, coverage: Coverage) -> Result<Self, PaintError> {
+    /// The surface of an enrolled part, seen from a chosen side or from its own.
+    pub fn of(
+        reference: &Reference,
+        coverage: Coverage,
+        side: Option<Side>,
+    ) -> Result<Self, PaintError> {
         let cloud = &reference.cloud;
         let normals = cloud.normals.as_ref().ok_or(PaintError::NoNormals)?;
         let points: Vec<Point3<f64>> = cloud.points.iter().map(|p| p.cast()).collect();
         let normals: Vec<Vector3<f64>> = normals.iter().map(|n| n.cast()).collect();
-        Self::new(&points, &normals, coverage)
+        Self::new(&points, &normals, coverage, side)
     }
 
-    /// The side to be painted of points with outward unit normals.
+    /// The side to be painted of points with outward unit normals; the part's own side if none is chosen.
     pub fn new(
         points: &[Point3<f64>],
         normals: &[Vector3<f64>],
         coverage: Coverage,
+        side: Option<Side>,
     ) -> Result<Self, PaintError> {
         let num_bad = points
             .iter()
@@ -81,7 +92,14 @@ impl PaintSurface {
         let axes = axes.ok_or(PaintError::TooFew {
             found: points.len(),
         })?;
-        let side = side_of(normals, &axes.axes.column(2).into_owned(), coverage)?;
+        let thinnest = axes.axes.column(2).into_owned();
+        let side = side_of((points, normals), &thinnest, coverage, side)?;
+        let turned: Vec<Vector3<f64>>;
+        let mut normals = normals;
+        if coverage == Coverage::AllAround && are_turned(points, normals, &axes.mean, &side) {
+            turned = normals.iter().map(|n| -n).collect();
+            normals = &turned;
+        }
         let chosen: Vec<usize> = (0..points.len())
             .filter(|i| normals[*i].dot(&side) > LEAST_FACING)
             .collect();
@@ -113,14 +131,24 @@ impl PaintSurface {
     }
 
     /// Describes what of the part is painted, for people.
-    pub fn scope(&self) -> &'static str {
+    pub fn scope(&self) -> String {
         match self.coverage {
-            Coverage::OneSide => "only the side that the camera saw when the part was enrolled",
-            Coverage::AllAround => "the front; the part is known all around",
+            Coverage::OneSide => {
+                "only the side that the camera saw when the part was enrolled".into()
+            }
+            Coverage::AllAround => format!(
+                "the {} of the part, which is known all around",
+                self.painted_side().name()
+            ),
             Coverage::SeveralSides => {
-                "what faces one side of the part, which was enrolled from several"
+                "what faces one side of the part, which was enrolled from several".into()
             }
         }
+    }
+
+    /// The side of the part as it was enrolled that is nearest to the painted one.
+    pub fn painted_side(&self) -> Side {
+        Side::nearest(&self.side)
     }
 }
 
@@ -156,22 +184,55 @@ fn check_size(points: &[Point3<f64>]) -> Result<(), PaintError> {
     Ok(())
 }
 
-/// The direction from which the part is painted.
+/// The direction from which the part is painted: along its thinnest extent or what was seen, if the chosen side is about
+/// there.
 fn side_of(
-    normals: &[Vector3<f64>],
+    (points, normals): (&[Point3<f64>], &[Vector3<f64>]),
     thinnest: &Vector3<f64>,
     coverage: Coverage,
+    side: Option<Side>,
 ) -> Result<Vector3<f64>, PaintError> {
-    if coverage == Coverage::AllAround {
-        // Parts are enrolled with their outside towards the camera, which looks along z.
-        return Ok(thinnest * if thinnest.z > 0.0 { -1.0 } else { 1.0 });
+    let is_closed = coverage == Coverage::AllAround;
+    let axis = if is_closed {
+        *thinnest
+    } else {
+        let mean: Vector3<f64> = normals.iter().sum::<Vector3<f64>>() / normals.len() as f64;
+        // Normals that cancel out mean a folded surface, or one seen from all around.
+        if mean.norm() < 0.2 {
+            return Err(PaintError::Folded);
+        }
+        mean.normalize()
+    };
+    let direction = match side {
+        Some(side) => side.direction(),
+        None if is_closed => outer_side(points, normals)
+            .map_err(|sides| PaintError::SideUnclear { sides })?
+            .direction(),
+        None => return Ok(axis),
+    };
+    let along = direction.dot(&axis);
+    Ok(match along {
+        _ if along >= LEAST_ALONG => axis,
+        _ if is_closed && along <= -LEAST_ALONG => -axis,
+        _ => direction,
+    })
+}
+
+/// True if the normals of a part that is known all around point into it, or those of an open sheet away from its side.
+fn are_turned(
+    points: &[Point3<f64>],
+    normals: &[Vector3<f64>],
+    middle: &Point3<f64>,
+    side: &Vector3<f64>,
+) -> bool {
+    let facing = normals.iter().filter(|n| n.dot(side) > 0.0).count();
+    let facing = facing as f64 / normals.len().max(1) as f64;
+    if !(LEAST_SHARE..=1.0 - LEAST_SHARE).contains(&facing) {
+        return facing < LEAST_SHARE;
     }
-    let mean: Vector3<f64> = normals.iter().sum::<Vector3<f64>>() / normals.len() as f64;
-    // Normals that cancel out mean a folded surface, or one seen from all around.
-    if mean.norm() < 0.2 {
-        return Err(PaintError::Folded);
-    }
-    Ok(mean.normalize())
+    // Three times the volume, over the area of a point (divergence theorem).
+    let all = points.iter().zip(normals);
+    all.map(|(p, n)| n.dot(&(p - middle))).sum::<f64>() < 0.0
 }
 
 /// The area of a point, the same for all since they are evenly spaced. In the plane perpendicular to the side, the area
@@ -235,7 +296,7 @@ pub(super) mod tests {
         let each =
             (0..columns * rows).map(|i| at(share(i % columns, columns), share(i / columns, rows)));
         let (points, normals): (Vec<_>, Vec<_>) = each.unzip();
-        PaintSurface::new(&points, &normals, coverage).expect("a surface")
+        PaintSurface::new(&points, &normals, coverage, None).expect("a surface")
     }
 
     /// A plate around the origin that faces z, with points every 10 mm.
@@ -260,7 +321,7 @@ pub(super) mod tests {
     #[test]
     fn what_cannot_be_painted_is_refused_by_name() {
         let new = |points: &[Point3<f64>], normals: &[Vector3<f64>]| {
-            PaintSurface::new(points, normals, Coverage::OneSide).expect_err("refused")
+            PaintSurface::new(points, normals, Coverage::OneSide, None).expect_err("refused")
         };
         let surface = plate(0.5, 0.5);
         let (points, mut normals) = (surface.points.clone(), surface.normals.clone());

@@ -1,7 +1,9 @@
 //! Moves with the gun off, kept clear of the part.
 //!
-//! Rows and rings keep their stand-off, but the straight moves between them may not, around a bend or from one raster
-//! to the next. Each is sampled, and lifted along the side where the surface is too near. The distance to the nearest
+//! Rows and rings keep their stand-off along the smoothed surface, but ribs may rise above it, and the straight moves
+//! between rows may come nearer, around a bend or from one raster to the next. Points and moves with the gun off are
+//! lifted along the side where the surface is too near, except that a way may begin or end at a stroke that is itself
+//! nearer. The distance to the nearest
 //! point grows by no more than the nozzle moves, so lifting repeatedly by the missing distance ends at the least lift
 //! that is clear. Lifted points that a straight move does not need are removed again.
 //!
@@ -20,6 +22,8 @@ use crate::{geometry::nearest::KdTree, library::PathPoint};
 pub(super) const CLEAR: f64 = 0.65;
 /// Distance of the samples of a move, as a share of the stand-off.
 const STEP: f64 = 0.1;
+/// Distance gained from the surface per distance from the end of a stroke that is nearer to it.
+const RISE: f64 = 0.5;
 /// Most rounds of lifting: lifted moves may come too near elsewhere, fewer each time.
 const MOST_ROUNDS: usize = 6;
 /// Least increase of a lift, metres.
@@ -39,7 +43,11 @@ struct Stop {
     is_inserted: bool,
 }
 
-/// Inserts points where a move with the gun off comes too near to the surface.
+/// A place where a way with the gun off begins or ends, and its distance from the surface.
+type End = (Point3<f64>, f64);
+
+/// Inserts and lifts points where a way with the gun off comes too near to the surface. The first and the last point
+/// stay where they are, as do those at which the gun is switched.
 pub(super) fn keep_clear(
     points: Vec<PathPoint>,
     surface: &PaintSurface,
@@ -73,40 +81,75 @@ impl Clearance {
         found.map_or(f64::INFINITY, |found| f64::from(found.distance_sq).sqrt())
     }
 
-    /// Distance to be kept at `p` on a move between `ends`, which may themselves be nearer, as in a corner to be
+    /// For each stop the nearest ends of ways with the gun off before and behind it; the stop itself if it is one.
+    fn ends_of(&self, stops: &[Stop]) -> Vec<[End; 2]> {
+        let is_sprayed = |i: usize| stops[i].point.is_gun_on;
+        let own = (0..stops.len()).map(|i| {
+            let is_end = i == 0 || i + 1 == stops.len() || is_sprayed(i) || is_sprayed(i - 1);
+            let at = stops[i].point.nozzle;
+            is_end.then(|| (at, self.distance(&at)))
+        });
+        let mut before: Vec<Option<End>> = own.collect();
+        let mut behind = before.clone();
+        for i in 1..before.len() {
+            before[i] = before[i].or(before[i - 1]);
+        }
+        for i in (1..behind.len()).rev() {
+            behind[i - 1] = behind[i - 1].or(behind[i]);
+        }
+        // The first and the last stop are ends, so that none is without.
+        let both = before.into_iter().zip(behind);
+        both.filter_map(|(before, behind)| Some([before?, behind?]))
+            .collect()
+    }
+
+    /// Distance to be kept at `p` on a way between `ends`, which may themselves be nearer, as in a corner to be
     /// sprayed.
-    fn wanted(&self, p: &Point3<f64>, ends: [(Point3<f64>, f64); 2]) -> f64 {
-        let near = ends.map(|(end, distance)| distance + 0.5 * (p - end).norm());
+    fn wanted(&self, p: &Point3<f64>, ends: &[End; 2]) -> f64 {
+        let near = ends.map(|(end, distance)| distance + RISE * (p - end).norm());
         near.into_iter().fold(self.kept, f64::min)
     }
 
+    /// The least lift with which a place is clear, metres.
+    fn lift(&self, start: &Point3<f64>, ends: &[End; 2]) -> f64 {
+        let mut lift = 0.0;
+        loop {
+            let p = start + self.side * lift;
+            let missing = self.wanted(&p, ends) - self.distance(&p);
+            if missing <= 1e-6 {
+                return lift;
+            }
+            lift += missing.max(LEAST_LIFT);
+        }
+    }
+
     /// Shares of the way between two points that are too near, each with the lift that it needs.
-    fn too_near(&self, a: &Point3<f64>, b: &Point3<f64>) -> Vec<(f64, f64)> {
-        let ends = [a, b].map(|end| (*end, self.distance(end)));
+    fn too_near(&self, a: &Point3<f64>, b: &Point3<f64>, ends: &[End; 2]) -> Vec<(f64, f64)> {
         let num = ((b - a).norm() / self.step).ceil() as usize;
         let samples = (1..num).filter_map(|k| {
             let share = k as f64 / num as f64;
-            let start = a + (b - a) * share;
-            let mut lift = 0.0;
-            loop {
-                let p = start + self.side * lift;
-                let missing = self.wanted(&p, ends) - self.distance(&p);
-                if missing <= 1e-6 {
-                    break;
-                }
-                lift += missing.max(LEAST_LIFT);
-            }
+            let lift = self.lift(&(a + (b - a) * share), ends);
             (lift > 0.0).then_some((share, lift))
         });
         samples.collect()
     }
 
     fn lifted(&self, stops: Vec<Stop>, coat: &Coat) -> Vec<Stop> {
+        let ends = self.ends_of(&stops);
         let mut all: Vec<Stop> = Vec::with_capacity(stops.len());
-        for next in stops {
+        for (i, mut next) in stops.into_iter().enumerate() {
+            let [before, behind] = ends[i];
+            if before != behind {
+                let lift = self.lift(&next.point.nozzle, &ends[i]);
+                if lift > 0.0 {
+                    next.point.nozzle += self.side * lift;
+                    next.point.stand_off = None;
+                }
+            }
             if let Some(last) = all.last().filter(|last| !last.point.is_gun_on) {
                 let (a, b) = (last.point, next.point);
-                for (share, lift) in self.too_near(&a.nozzle, &b.nozzle) {
+                let ends = [ends[i - 1][0], behind];
+                for (share, lift) in self.too_near(&a.nozzle, &b.nozzle, &ends) {
                     let jet = a.direction.lerp(&b.direction, share);
                     let direction = Unit::try_new(jet, 1e-3).unwrap_or(a.direction);
                     // A fan stays perpendicular to the jet, which turns on the way.
@@ -132,12 +175,13 @@ impl Clearance {
     }
 
     fn without_needless(&self, stops: &[Stop]) -> Vec<PathPoint> {
+        let ends = self.ends_of(stops);
         let mut all: Vec<PathPoint> = Vec::with_capacity(stops.len());
         for (i, stop) in stops.iter().enumerate() {
             if stop.is_inserted
                 && let (Some(before), Some(after)) = (all.last(), stops.get(i + 1))
                 && self
-                    .too_near(&before.nozzle, &after.point.nozzle)
+                    .too_near(&before.nozzle, &after.point.nozzle, &ends[i])
                     .is_empty()
             {
                 continue;

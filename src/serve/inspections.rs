@@ -27,7 +27,7 @@ impl Inspections {
     /// Starts the numbering, with a new boot number.
     pub(super) fn start() -> Self {
         Self {
-            boot: boot_number(Timestamp::now()),
+            boot: boot_number(crate::clock::now()),
             sequence: 0,
             kept: VecDeque::new(),
         }
@@ -91,7 +91,7 @@ impl Inspections {
         self.kept.clear();
         let before = self.boot;
         while self.boot == before {
-            self.boot = boot_number(Timestamp::now());
+            self.boot = boot_number(crate::clock::now());
         }
     }
 }

@@ -152,6 +152,14 @@ fn what_is_no_stripe_is_refused_with_advice() {
     for (text, wanted) in [
         ("x,y\n1,2\n", "offset_mm and thickness_um"),
         ("offset_mm,thickness_um\n1,2\n3\n", "line 3"),
+        (
+            "offset_mm,thickness_um\n1,2\n3,-0.5\n",
+            "line 3: -0.5 is no thickness in µm, expected 0 to 10000",
+        ),
+        ("offset_mm,thickness_um\n1,2\n3,1e9\n", "is no thickness"),
+        ("offset_mm,thickness_um\n1,2\nnan,4\n", "line 3"),
+        ("offset_mm,thickness_um\n1,NaN\n3,4\n", "line 2"),
+        ("offset_mm,thickness_um\n-20000,2\n3,4\n", "is no offset"),
         ("offset_mm,thickness_um\n1,2\n3,4\n", "2 places"),
     ] {
         shop.write("stripe.csv", text);

@@ -4,7 +4,7 @@
 use super::results::{free_motion, unrecognisable, unrecognisable_advice};
 use crate::{
     error::Advice as _,
-    library::{BadName, EnrolError, EnrolWarning, PartName},
+    library::{BadName, EnrolError, EnrolWarning, PartName, Side},
     pipeline::Unrecognisable,
     stages::{reference::ReferenceError, segment::BackgroundSign},
 };
@@ -76,10 +76,26 @@ pub(in crate::app) fn enrol_warning(warning: &EnrolWarning) -> [String; 2] {
             text!("enrol-warning-symmetric", degrees = *degrees),
             text!("enrol-warning-symmetric-advice"),
         ],
+        EnrolWarning::SideUnclear { .. } => [
+            text!("enrol-warning-side"),
+            text!("enrol-warning-side-advice"),
+        ],
         EnrolWarning::GoesOnUnseen { percent } => [
             text!("enrol-warning-unseen", percent = *percent),
             text!("enrol-warning-unseen-advice"),
         ],
+    }
+}
+
+/// States the side that a part is painted from.
+pub(in crate::app) fn painted_from(side: Side) -> String {
+    match side {
+        Side::Front => text!("enrol-painted-from-front"),
+        Side::Back => text!("enrol-painted-from-back"),
+        Side::Left => text!("enrol-painted-from-left"),
+        Side::Right => text!("enrol-painted-from-right"),
+        Side::Top => text!("enrol-painted-from-top"),
+        Side::Bottom => text!("enrol-painted-from-bottom"),
     }
 }
 
@@ -175,6 +191,11 @@ mod tests {
         all
     }
 
+    /// Its advice names an option of the command line.
+    const UNCLEAR: EnrolWarning = EnrolWarning::SideUnclear {
+        sides: [Side::Top, Side::Bottom],
+    };
+
     fn errors() -> Vec<EnrolError> {
         vec![
             EnrolError::NoPart(NoPart::TooFewPoints {
@@ -214,13 +235,16 @@ mod tests {
         let [what, advice] = enrol_error(&in_scan);
         assert_eq!(what, in_scan.to_string());
         assert!(!advice.contains("partsight"), "{advice}");
+        let [what, advice] = enrol_warning(&UNCLEAR);
+        assert_eq!(what, UNCLEAR.to_string());
+        assert!(!advice.contains("--"), "{advice}");
     }
 
     #[test]
     fn every_other_language_says_it_in_its_own_words() {
         let said = || {
             let names = bad_names().into_iter().map(|error| bad_name(&error));
-            let warnings = warnings().into_iter();
+            let warnings = warnings().into_iter().chain([UNCLEAR]);
             let warnings = warnings.map(|warning| enrol_warning(&warning));
             let errors = errors().into_iter().map(|error| enrol_error(&error));
             let all = names.chain(warnings).chain(errors).flatten();

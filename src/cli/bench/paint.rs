@@ -13,7 +13,7 @@ use crate::{
         input::open_scene,
     },
     files::disk,
-    library::{EnrolParams, PartDescription, PartName, enrol_captured},
+    library::{EnrolParams, PartDescription, PartName, Side, enrol_captured},
     paint::{Coat, CoatFolder, PaintSurface},
     report::{FilmPicture, film_picture, write_png},
     stages::reference::{Coverage, Reference, ReferenceParams},
@@ -36,21 +36,16 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
         None => Coat::default(),
     };
     let load = (args.library).load_some(&ReferenceParams::default(), console)?;
-    let coverages = load.parts.iter().map(|part| part.coverage);
-    let mut subjects: Vec<(Reference, Coverage)> = load
-        .library
-        .references
-        .iter()
-        .cloned()
-        .zip(coverages)
-        .collect();
+    let sides = load.parts.iter().map(|part| (part.coverage, part.side));
+    let mut subjects: Vec<(Reference, (Coverage, Option<Side>))> =
+        load.library.references.iter().cloned().zip(sides).collect();
     for file in &args.files {
-        subjects.push((enrolled(file)?, Coverage::OneSide));
+        subjects.push((enrolled(file)?, (Coverage::OneSide, None)));
     }
     console.start_progress(subjects.len());
     let mut parts = Vec::new();
-    for (reference, coverage) in &subjects {
-        let surface = PaintSurface::of(reference, *coverage).advised()?;
+    for (reference, (coverage, side)) in &subjects {
+        let surface = PaintSurface::of(reference, *coverage, *side).advised()?;
         parts.push(paint_part(reference, surface, &coat).advised()?);
         console.done();
     }

@@ -10,11 +10,12 @@ use crate::{
     cli::{
         LibraryChoice, Outcome,
         console::{Advised as _, Console, advised_error},
+        input::parse_side,
         read_part,
         recipe::parse_setting,
     },
     files::write_text,
-    library::{PartName, SprayPath, StoredPart},
+    library::{PartName, Side, SprayPath, StoredPart},
     paint::{Coat, CoatFolder, Film, KeepOut, PaintSurface, plan, propose, simulate},
     pipeline::parameters::Setting,
     report::SCHEMA,
@@ -34,6 +35,10 @@ pub(super) struct PlanArgs {
     /// Keep the paint out of a sphere, part frame, mm: "X Y Z RADIUS"; may be given several times
     #[arg(long, value_name = "SPHERE", value_parser = parse_sphere, allow_hyphen_values = true)]
     keep_out: Vec<KeepOut>,
+    /// Side of the part to paint, as seen by a camera in front of it: front, back, left, right, top or bottom; stored
+    /// with --store. Default: the one stored with the part, else the only one seen, or the outside
+    #[arg(long, value_name = "SIDE", value_parser = parse_side)]
+    side: Option<Side>,
     /// Write the path as a table, as library path reads it
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -52,6 +57,9 @@ pub(super) struct SimulateArgs {
     part: PartName,
     #[command(flatten)]
     coat: CoatChoice,
+    /// Side of the part to paint, as in path plan
+    #[arg(long, value_name = "SIDE", value_parser = parse_side)]
+    side: Option<Side>,
     /// File of the path; default: the path stored with the part
     #[arg(long, value_name = "FILE")]
     path: Option<PathBuf>,
@@ -110,7 +118,7 @@ pub(super) fn run_plan(
     let name = &args.part;
     let coat = args.coat.open()?;
     let part = read_part(&choice.open(console)?, name)?;
-    let surface = surface_of(&part)?;
+    let surface = surface_of(&part, args.side)?;
     let (coat, path, film) = if args.propose {
         let found = propose(&surface, &coat, &args.keep_out).advised()?;
         (found.coat, found.path, found.film)
@@ -126,6 +134,9 @@ pub(super) fn run_plan(
     }
     if args.store {
         let folder = choice.open_to_change()?;
+        if let Some(side) = args.side {
+            folder.set_side(name, side).advised()?;
+        }
         folder.set_spray_path(name, Some(&path)).advised()?;
     }
     if !args.json {
@@ -188,15 +199,18 @@ pub(super) fn run_simulate(
             format!("Plan one: partsight path plan {name} --coat primer --store"),
         ));
     };
-    let surface = surface_of(&part)?;
+    let surface = surface_of(&part, args.side)?;
     let film = simulate(&surface, &path, &coat, &[]).advised()?;
     Ok(show(
         name, &surface, &coat, &path, &film, args.json, console,
     ))
 }
 
-fn surface_of(part: &StoredPart) -> anyhow::Result<PaintSurface> {
-    PaintSurface::of(&part.reference, part.meta.coverage).advised()
+fn surface_of(part: &StoredPart, side: Option<Side>) -> anyhow::Result<PaintSurface> {
+    let StoredPart {
+        reference, meta, ..
+    } = part;
+    PaintSurface::of(reference, meta.coverage, side.or(meta.side)).advised()
 }
 
 fn show(
@@ -231,6 +245,7 @@ fn show(
             "landed": takes.landed,
             "time_s": takes.time,
             "length_m": takes.length,
+            "side": surface.painted_side().name(),
         }));
     } else {
         console.line(&format_args!(

@@ -2,6 +2,7 @@
 
 use crate::{
     error::Advice,
+    library::Side,
     stages::{
         pose::FreeMotion,
         reference::ReferenceError,
@@ -54,6 +55,12 @@ pub enum EnrolWarning {
         /// Angle between the two poses, rounded.
         degrees: u16,
     },
+    /// The part is as open from both sides, or bulges against the winding of an open sheet.
+    #[error("it is not clear which side of the part is the outside")]
+    SideUnclear {
+        /// The two sides of its thinnest extent.
+        sides: [Side; 2],
+    },
     /// The surface of a scan continues beyond the view of every frame.
     #[error(
         "{percent} % of the scanned surface's outline is where the view of every frame ends: the part may continue \
@@ -82,6 +89,10 @@ impl Advice for EnrolWarning {
             }
             Self::Symmetric { .. } => {
                 "Paint it with a path that suits both poses, or hang it so that it cannot be turned"
+            }
+            Self::SideUnclear { sides } => {
+                let [one, other] = sides.map(Side::name);
+                return format!("Give the side to be painted: --side {one} or --side {other}");
             }
             Self::GoesOnUnseen { .. } => {
                 "Add frames that show the missing sides, then enrol it again"

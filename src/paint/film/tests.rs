@@ -1,7 +1,7 @@
 use super::*;
 use crate::{
     paint::{
-        plan,
+        Profile, plan,
         surface::tests::{grid, plate},
     },
     stages::reference::Coverage,
@@ -180,7 +180,7 @@ fn a_part_that_hangs_elsewhere_gets_the_same_film_from_its_carried_path() {
             }
         }
         let normals = vec![Vector3::z(); points.len()];
-        PaintSurface::new(&points, &normals, Coverage::OneSide).expect("a surface")
+        PaintSurface::new(&points, &normals, Coverage::OneSide, None).expect("a surface")
     };
     let coat = Coat::default();
     let path = flat_stripes((-4..=4).map(|k| 0.0731 * f64::from(k)), &coat);
@@ -227,7 +227,7 @@ fn a_shelf_before_a_wall_takes_the_paint_that_the_wall_does_not_get() {
             }
         }
         let normals = vec![Vector3::z(); points.len()];
-        PaintSurface::new(&points, &normals, Coverage::OneSide).expect("a surface")
+        PaintSurface::new(&points, &normals, Coverage::OneSide, None).expect("a surface")
     };
     let levels = (-3..=3).map(|k| f64::from(k) * coat.spacing);
     let path = flat_stripes(levels, &Coat { speed: 0.4, ..coat });
@@ -263,5 +263,44 @@ fn a_shelf_before_a_wall_takes_the_paint_that_the_wall_does_not_get() {
             assert_eq!(shadowed.is_reachable[i], expected, "{p}");
         }
         assert!(in_between[i], "{p}");
+    }
+}
+
+#[test]
+fn paint_that_flies_farther_than_the_coat_plans_still_lands() {
+    for profile in [Profile::Gaussian, Profile::Beta] {
+        let mut coat = Coat::default();
+        coat.gun.profile = profile;
+        let surface = plate(0.4, 0.4);
+        let rows = flat_stripes((-16..=16).map(|k| f64::from(k) * coat.spacing), &coat);
+        for (distance, is_known) in [(0.15, true), (0.25, true), (0.275, true), (0.3, false)] {
+            let mut points = rows.points().to_vec();
+            for point in &mut points {
+                point.nozzle.z = distance;
+                point.stand_off = is_known.then_some(Metres(distance));
+            }
+            let path = SprayPath::new(points).expect("points");
+            let film = simulate(&surface, &path, &coat, &[]).expect("simulated");
+            // The rows reach beyond the plate, so that volume is preserved; wider jets leave no more ripple.
+            let mean = film.figures.mean / coat.flat_thickness();
+            assert!((mean - 1.0).abs() < 0.02, "{profile:?} {distance}: {mean}");
+            let least = film.figures.min / coat.flat_thickness();
+            assert!(least > 0.9, "{profile:?} {distance}: {least}");
+        }
+        // One stripe over a plate at twice the stand-off: its middle, from the integral of the jet's density.
+        let mut points = flat_stripes(std::iter::once(0.0), &coat).points().to_vec();
+        for point in &mut points {
+            point.nozzle.z = 0.3;
+        }
+        let path = SprayPath::new(points).expect("points");
+        let film = simulate(&surface, &path, &coat, &[]).expect("simulated");
+        let step = 1e-5;
+        let density = (-40_000..40_000).map(|k| coat.gun.density(0.0, f64::from(k) * step) * step);
+        let middle = coat.gun.film_rate() / coat.speed * density.sum::<f64>() / 2.0;
+        let found = film.thickness.iter().copied().fold(0.0, f64::max);
+        assert!(
+            (found / middle - 1.0).abs() < 0.01,
+            "{profile:?}: {found} {middle}"
+        );
     }
 }

@@ -11,6 +11,9 @@
 //! so a move of the rail between two points that begins or ends at a standstill also needs at least the acceleration
 //! that brings it there in time ([`least_acceleration`]), even if it begins a window early and ends a window late.
 //!
+//! With the gun off, the moves before and behind a point that needs too much are slowed, the faster one first, until it
+//! needs no more than allowed.
+//!
 //! No window extends past the ends of the path, past a point where the arm stops, past a turn on the spot, for which it
 //! takes its time, or past a point that cannot be reached from the one before.
 //!
@@ -24,7 +27,7 @@ use super::{
     chain::move_time,
     kinematics::Joints,
     problem::PointProblem,
-    way::{WayEnd, apart},
+    way::{SLOWEST, Way, WayEnd, apart},
 };
 
 /// Seconds; a corner at 200 mm/s takes as long if the controller rounds it by 5 mm on both sides.
@@ -35,6 +38,87 @@ const TURN: f64 = 0.01;
 const EXACT: f64 = 1e-6;
 /// Shorter moves of the rail count as standing still, metres.
 const STILL: f64 = 1e-6;
+/// Most rounds of slowing moves: each slows those around a corner, then those before and behind them.
+const MOST_ROUNDS: usize = 60;
+/// Least factor by which a move is slowed in a round.
+const LEAST_SLOWING: f64 = 1.03;
+
+/// Slows moves with the gun off where a joint or the rail cannot accelerate as much as needed, then marks the points
+/// around which it still cannot.
+pub(super) fn keep_accelerations(
+    placed: &PlacedArm,
+    points: &[ArmPoint],
+    checked: &mut [PointCheck],
+) {
+    let mut passed = as_passed(points, checked);
+    for _ in 0..MOST_ROUNDS {
+        let found = problems_of(placed, &passed, checked);
+        if !slow_down(&passed, checked, &found) {
+            break;
+        }
+        passed = as_passed(points, checked);
+    }
+    check_accelerations(placed, &passed, checked);
+}
+
+/// Returns the points with the speeds and stops of the moves found.
+fn as_passed(points: &[ArmPoint], checked: &[PointCheck]) -> Vec<ArmPoint> {
+    let mut passed = points.to_vec();
+    for (i, point) in checked.iter().enumerate().skip(1) {
+        match point.way {
+            Way::Planned => {}
+            Way::Slower(speed) => passed[i - 1].speed = speed,
+            Way::Joints => {
+                passed[i - 1].is_stop = true;
+                passed[i].is_stop = true;
+            }
+        }
+    }
+    passed
+}
+
+/// Slows the moves with the gun off before and behind points with these problems; returns false if none can be slower.
+fn slow_down(
+    passed: &[ArmPoint],
+    checked: &mut [PointCheck],
+    found: &[Option<PointProblem>],
+) -> bool {
+    let mut speeds: Vec<f64> = passed.iter().map(|point| point.speed).collect();
+    for (here, problem) in found.iter().enumerate() {
+        let Some(
+            PointProblem::JointAcceleration {
+                acceleration,
+                limit,
+                ..
+            }
+            | PointProblem::RailAcceleration {
+                acceleration,
+                limit,
+            },
+        ) = problem
+        else {
+            continue;
+        };
+        let moves = here.saturating_sub(1)..(here + 1).min(passed.len() - 1);
+        let fastest = passed[moves.clone()].iter().map(|from| from.speed);
+        let fastest = fastest.fold(0.0, f64::max);
+        let slowed = fastest / (acceleration / limit).max(LEAST_SLOWING);
+        for from in moves.filter(|from| !passed[*from].is_gun_on) {
+            speeds[from] = speeds[from].min(slowed.max(SLOWEST));
+        }
+    }
+    let mut is_slower = false;
+    for (from, speed) in speeds.into_iter().enumerate() {
+        if speed < passed[from].speed
+            && let Some(to) = checked.get_mut(from + 1)
+            && to.way != Way::Joints
+        {
+            to.way = Way::Slower(speed);
+            is_slower = true;
+        }
+    }
+    is_slower
+}
 
 /// Marks the points of a checked path around which a joint or the rail cannot accelerate as much as needed. An earlier
 /// problem of a point is kept, unless it is a singularity nearby.
@@ -43,12 +127,27 @@ pub(super) fn check_accelerations(
     points: &[ArmPoint],
     checked: &mut [PointCheck],
 ) {
+    let found = problems_of(placed, points, checked);
+    for (point, problem) in checked.iter_mut().zip(found) {
+        let is_open = matches!(point.problem, None | Some(PointProblem::NearSingularity(_)));
+        if is_open && problem.is_some() {
+            point.problem = problem;
+        }
+    }
+}
+
+/// The problem of acceleration around each point, if any.
+fn problems_of(
+    placed: &PlacedArm,
+    points: &[ArmPoint],
+    checked: &[PointCheck],
+) -> Vec<Option<PointProblem>> {
+    let mut found: Vec<Option<PointProblem>> = vec![None; checked.len()];
     let moving = placed.arm.moving_rail();
     let is_rail = moving.is_some_and(|(rail, _)| rail.acceleration.is_some());
     if placed.arm.accelerations.is_none() && !is_rail {
-        return;
+        return found;
     }
-    let mut found: Vec<Option<PointProblem>> = vec![None; checked.len()];
     let mut begin = 0;
     while begin < checked.len() {
         let run = Run::new(placed, &points[begin..], &checked[begin..]);
@@ -63,12 +162,7 @@ pub(super) fn check_accelerations(
             last + 1
         };
     }
-    for (point, problem) in checked.iter_mut().zip(found) {
-        let is_open = matches!(point.problem, None | Some(PointProblem::NearSingularity(_)));
-        if is_open && problem.is_some() {
-            point.problem = problem;
-        }
-    }
+    found
 }
 
 /// Points that are passed one after the other without a stop.

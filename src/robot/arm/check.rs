@@ -4,7 +4,7 @@ use nalgebra::Translation3;
 
 use super::{
     ArmError, NotReached, PlacedArm,
-    acceleration::check_accelerations,
+    acceleration::keep_accelerations,
     chain::{
         Candidate, UPRIGHT, angle_of, candidates_of, free_chain, is_free, nozzle_at, test_all,
         tilts_up_to, turns_of,
@@ -377,24 +377,8 @@ fn check_chosen(
             problem: problem.or(singular.map(PointProblem::NearSingularity)),
         });
     }
-    check_accelerations(placed, &as_passed(points, &checked), &mut checked);
+    keep_accelerations(placed, points, &mut checked);
     Ok(checked)
-}
-
-/// Returns the points with the speeds and stops of the moves found.
-fn as_passed(points: &[ArmPoint], checked: &[PointCheck]) -> Vec<ArmPoint> {
-    let mut passed = points.to_vec();
-    for (i, point) in checked.iter().enumerate().skip(1) {
-        match point.way {
-            Way::Planned => {}
-            Way::Slower(speed) => passed[i - 1].speed = speed,
-            Way::Joints => {
-                passed[i - 1].is_stop = true;
-                passed[i].is_stop = true;
-            }
-        }
-    }
-    passed
 }
 
 /// Returns why a point has no candidate.

@@ -10,8 +10,18 @@ use crate::geometry::rigid::RigidTransform;
 
 /// Maximum step in which straight moves are checked, metres and radians.
 const STEP: [f64; 2] = [0.05, 0.175];
+/// Turn of a joint, radians, over which its speed counts as even: near a singularity a joint follows an arc tangent,
+/// which is nowhere half a percent steeper than on average over so little.
+const EVEN_TURN: f64 = 0.2;
+/// Most halvings of a step: 50 mm become 0.05 mm.
+const MOST_HALVINGS: u32 = 10;
+/// The greatest speed of a joint is found to this share.
+const PEAK_EXACT: f64 = 0.05;
 /// Differences of joints up to this are ignored, radians.
 const SAME: f64 = 1e-4;
+
+/// The times of a run are sums, which are not exact.
+const EXACT: f64 = 1e-6;
 
 /// Lowest speed at which the arm moves between strokes, m/s.
 pub(super) const SLOWEST: f64 = 0.01;
@@ -161,9 +171,97 @@ pub(super) fn way_problem(
         if k == num as usize {
             trouble = trouble.or_else(|| arrival_problem(&solver, start, end, &at));
         }
+        if let Some(seconds) = allowed.filter(|_| trouble.is_none()) {
+            let step = Step {
+                shares: [(k - 1) as f64 / num, share],
+                joints: [at, near],
+                seconds,
+            };
+            trouble = peak_problem(placed, [start, end], step);
+        }
         at = near;
     }
     trouble
+}
+
+/// A step of a straight move.
+struct Step {
+    /// Where it begins and ends, as shares of the move.
+    shares: [f64; 2],
+    /// The solutions there.
+    joints: [Joints; 2],
+    seconds: f64,
+}
+
+/// Returns the problem of the joint that is fastest in proportion to its top speed anywhere within a step. The step is
+/// halved until the joints turn evenly, or no joint can be faster than the fastest one found and its top speed: within a
+/// half, a speed may change by as much as it differs from that of the other half.
+fn peak_problem(
+    placed: &PlacedArm,
+    [start, end]: [&WayEnd; 2],
+    step: Step,
+) -> Option<PointProblem> {
+    let mut worst = (1.0, None);
+    let mut left = vec![(step, MOST_HALVINGS)];
+    while let Some((step, num_halvings)) = left.pop() {
+        let Step {
+            shares,
+            joints: [from, to],
+            seconds,
+        } = step;
+        let share = f64::midpoint(shares[0], shares[1]);
+        let near = std::array::from_fn(|i| f64::midpoint(from[i], to[i]));
+        let solver = Solver::new(placed, start.rail_towards(end, share));
+        let Some(middle) = nearest(&solver, &start.nozzle_towards(end, share), &near) else {
+            return Some(PointProblem::OutOfReach);
+        };
+        if let Some((joint, angle)) = outside(&solver, &middle) {
+            let joint = joint + 1;
+            return Some(PointProblem::JointLimit { joint, angle });
+        }
+        let half = 0.5 * seconds;
+        let mut is_settled = true;
+        for i in 0..6 {
+            let turns = [middle[i] - from[i], to[i] - middle[i]].map(f64::abs);
+            let [most, least] = [turns[0].max(turns[1]), turns[0].min(turns[1])];
+            let top = placed.arm.speeds[i];
+            if most >= SAME && most / half > worst.0 * top * (1.0 + EXACT) {
+                let kept = [&from, &middle, &to].map(|at| placed.arm.configuration(at));
+                let problem = if kept[0] == kept[1] && kept[1] == kept[2] {
+                    PointProblem::TooFast {
+                        joint: i + 1,
+                        speed: most / half,
+                    }
+                } else {
+                    PointProblem::ConfigurationChange
+                };
+                worst = (most / half / top, Some(problem));
+            }
+            // The two halves may turn a joint in opposite directions.
+            let change = (to[i] - 2.0 * middle[i] + from[i]).abs().max(most - least);
+            let bound = (most + change) / half / top;
+            let enough = worst.0
+                * if worst.1.is_some() {
+                    1.0 + PEAK_EXACT
+                } else {
+                    1.0
+                };
+            is_settled &= most <= EVEN_TURN && (bound <= enough || most < SAME);
+        }
+        if !is_settled && num_halvings > 0 {
+            let step = |shares, joints| Step {
+                shares,
+                joints,
+                seconds: half,
+            };
+            let halves = [
+                step([share, shares[1]], [middle, to]),
+                step([shares[0], share], [from, middle]),
+            ];
+            left.extend(halves.map(|step| (step, num_halvings - 1)));
+        }
+    }
+    worst.1
 }
 
 /// Largest difference of a joint, radians.
@@ -209,8 +307,6 @@ fn arrival_problem(
 
 /// Checks that the rail can ride this far in `allowed` seconds; unlimited if `None`.
 fn rail_problem(arm: &Arm, ride: f64, allowed: Option<f64>) -> Option<PointProblem> {
-    /// The times of a run are sums, which are not exact.
-    const EXACT: f64 = 1e-6;
     let (_, fastest) = arm.moving_rail()?;
     let speed = ride / allowed?;
     (speed > fastest * (1.0 + EXACT)).then_some(PointProblem::RailTooFast { speed })

@@ -110,7 +110,7 @@ fn a_planned_path_aims_at_its_part_and_one_of_another_part_or_frame_does_not() {
         found.expect("shipped")
     };
     let planned = |name: &str, coat: &Coat| {
-        let surface = PaintSurface::of(part(name), Coverage::OneSide).expect("a surface");
+        let surface = PaintSurface::of(part(name), Coverage::OneSide, None).expect("a surface");
         plan(&surface, coat, &[]).expect("planned")
     };
     // Of the shipped parts, these have the fewest points that aim at them: far beyond the edges, along the outlines of

@@ -14,7 +14,7 @@ use super::{
 use crate::{
     app::{
         language::{
-            enrolment::{enrol_error, enrol_warning},
+            enrolment::{enrol_error, enrol_warning, painted_from},
             keys, text,
         },
         shell::session::Session,
@@ -162,6 +162,9 @@ fn stored(
             let openings = part.signature.openings_m.len();
             small(ui, text!("enrol-openings", count = openings));
             small(ui, seen_from(part.meta.coverage));
+            if let Some(side) = part.meta.side {
+                small(ui, painted_from(side));
+            }
         } else if is_working {
             small(ui, text!("enrol-examining"));
         }

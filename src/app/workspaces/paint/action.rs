@@ -13,7 +13,7 @@ use crate::{
         },
         ui::parameter_control::ParameterChange,
     },
-    library::PartName,
+    library::{PartName, Side},
     paint::{KeepOut, PathEdit},
 };
 
@@ -22,6 +22,8 @@ use crate::{
 pub enum PaintAction {
     /// Paint this enrolled part.
     ChoosePart(PartName),
+    /// Paint the part from this side from now on.
+    ChooseSide(Side),
     /// Use the coat of this name.
     ChooseCoat(String),
     /// Change the parameter with this key.

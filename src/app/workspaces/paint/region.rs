@@ -147,7 +147,7 @@ mod tests {
             .map(|(x, y)| Point3::new(f64::from(x) / 100.0 - 0.5, f64::from(y) / 100.0 - 0.3, 2.0))
             .collect();
         let normals = vec![-Vector3::z(); points.len()];
-        PaintSurface::new(&points, &normals, Coverage::OneSide).expect("a surface")
+        PaintSurface::new(&points, &normals, Coverage::OneSide, None).expect("a surface")
     }
 
     const SIZE: Vec2 = Vec2::new(800.0, 600.0);

@@ -14,7 +14,7 @@ use super::{
 };
 use crate::{
     app::{
-        language::{parameters, text, within_sentence},
+        language::{enrolment::painted_from, parameters, text, within_sentence},
         shell::session::Session,
         ui::{
             parameter_control::{self, fold},
@@ -23,6 +23,7 @@ use crate::{
             widgets::{grouped, heading, line_edit, menu_list, row, shortened, text_button},
         },
     },
+    library::Side,
     paint::{Coat, CoatGroup, FilmFigures},
     pipeline::parameters::{Parameters as _, Place},
     stages::reference::Coverage,
@@ -113,6 +114,11 @@ fn head(ui: &mut Ui, paint: &PaintState, session: &Session, actions: &mut Vec<Pa
         ui.add(Label::new(text).wrap());
         return;
     }
+    if let Some(part) = paint.enrolled(session)
+        && part.coverage == Coverage::AllAround
+    {
+        side_menu(ui, part.side, paint, actions);
+    }
     if let Some(failed) = &paint.failed {
         let text = RichText::new(&failed.what).color(theme.rejected);
         ui.add(Label::new(text).wrap());
@@ -163,6 +169,28 @@ fn head(ui: &mut Ui, paint: &PaintState, session: &Session, actions: &mut Vec<Pa
         RichText::new(scope).weak()
     };
     ui.add(Label::new(note.small()).wrap());
+}
+
+/// Draws the side that a part known all around is painted from, as a menu of all sides.
+fn side_menu(
+    ui: &mut Ui,
+    stored: Option<Side>,
+    paint: &PaintState,
+    actions: &mut Vec<PaintAction>,
+) {
+    let planned = paint.planned.as_ref();
+    let shown = stored.or_else(|| Some(planned?.surface.painted_side()));
+    let label = shown.map_or_else(|| text!("paint-side-none"), painted_from);
+    let text = RichText::new(format!("{label} ▼"));
+    menu(ui, text, &label, text!("paint-side-hint"), |ui| {
+        for side in Side::ALL {
+            let is_chosen = Some(side) == shown;
+            if ui.selectable_label(is_chosen, painted_from(side)).clicked() {
+                actions.push(PaintAction::ChooseSide(side));
+                ui.close();
+            }
+        }
+    });
 }
 
 /// Draws the coat: its name and every parameter.

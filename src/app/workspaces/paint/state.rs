@@ -26,7 +26,7 @@ use crate::{
         ui::scrubber::Playback,
         user_error::UserError,
     },
-    library::{PartMeta, PartName, SprayPath},
+    library::{PartMeta, PartName, Side, SprayPath},
     paint::{BUILT_IN_COATS, CoatFolder, built_in_coat},
     pipeline::Verdict,
 };
@@ -243,6 +243,7 @@ impl PaintState {
     fn carry_out(&mut self, action: PaintAction, cx: &mut ShellContext<'_>) {
         match action {
             PaintAction::ChoosePart(part) => self.choose_part(part, cx),
+            PaintAction::ChooseSide(side) => self.choose_side(side, cx),
             PaintAction::ChooseCoat(name) => self.choose_coat(&name, cx),
             PaintAction::Change(key, change) => self.change_parameter(key, change, cx),
             PaintAction::ResetCoat => self.change(|design| design.coat = design.kept.recipe),
@@ -332,6 +333,19 @@ impl PaintState {
         });
     }
 
+    /// Stores the side that the part is painted from with it; corrections by hand belong to a path over another side.
+    fn choose_side(&mut self, side: Side, cx: &ShellContext<'_>) {
+        let part = self.part(cx.session).cloned();
+        let Some(part) = part.filter(|_| !self.is_storing()) else {
+            return;
+        };
+        self.change(|design| design.edits.clear());
+        let library_cache = cx.services.library_cache.clone();
+        self.storing.start(text!("paint-storing-side"), move |_| {
+            Ok(work::choose_side(&part, side, &library_cache)?)
+        });
+    }
+
     fn write_table(&mut self, file: PathBuf) {
         let Some(planned) = self.planned.clone() else {
             return;
@@ -351,6 +365,7 @@ impl PaintState {
             part: part.name.clone(),
             cloud: part.cloud.clone(),
             library: library.identity.clone(),
+            side: part.side,
             stored: part.spray.clone(),
             coat: self.design.coat,
             regions: self.design.regions.clone(),
@@ -437,6 +452,10 @@ impl PaintState {
                     self.asked = self.request(cx.session);
                     self.show(planned);
                 }
+            }
+            PaintResult::SideChosen(library) => {
+                let saved = None;
+                cx.send(Message::LibraryChanged { library, saved });
             }
             PaintResult::Stored {
                 part,

@@ -14,8 +14,10 @@ use crate::{
         user_error::UserError,
     },
     files::write_text,
-    library::{FileCheck, PartName, SprayPath},
-    paint::{Coat, Film, KeepOut, PaintSurface, PathEdit, edited, plan, propose, simulate},
+    library::{FileCheck, PartMeta, PartName, Side, SprayPath},
+    paint::{
+        Coat, Film, KeepOut, PaintError, PaintSurface, PathEdit, edited, plan, propose, simulate,
+    },
     stages::reference::Reference,
 };
 
@@ -27,6 +29,8 @@ pub(super) struct Request {
     pub(super) cloud: FileCheck,
     /// The library of the part.
     pub(super) library: String,
+    /// The side that it is painted from, if it is stored with the part.
+    pub(super) side: Option<Side>,
     /// The path stored with the part.
     pub(super) stored: Option<FileCheck>,
     pub(super) coat: Coat,
@@ -67,6 +71,8 @@ pub(super) enum PaintResult {
     Planned(Arc<Planned>),
     /// A path and its film for a coat whose spacing and speed were found.
     Proposed(Arc<Planned>),
+    /// The side that a part is painted from was stored with it.
+    SideChosen(Arc<LibraryView>),
     /// A path was stored with a part or removed; holds the former path.
     Stored {
         part: PartName,
@@ -99,8 +105,14 @@ pub(super) fn planned(
     let loaded = library_cache.get();
     let (place, reference) = enrolled(&loaded, &request.part)?;
     let (coat, regions) = (&request.coat, &request.regions);
-    let coverage = loaded.shown.parts[place].coverage;
-    let surface = PaintSurface::of(reference, coverage).map_err(|error| UserError::of(&error))?;
+    let PartMeta { coverage, side, .. } = loaded.shown.parts[place];
+    let surface = PaintSurface::of(reference, coverage, side).map_err(|error| match error {
+        PaintError::SideUnclear { .. } => UserError {
+            what: text!("paint-side-unclear"),
+            advice: text!("paint-side-unclear-advice"),
+        },
+        error => UserError::of(&error),
+    })?;
     context.check()?;
     let stored = loaded.shown.spray_paths.get(place).and_then(Option::as_ref);
     let failed = |error| UserError::of(&error);
@@ -232,6 +244,23 @@ pub(super) fn store(
         num_points: path.map(|path| path.points().len()),
         library: Arc::clone(&library.shown),
     })
+}
+
+/// Stores the side that a part is painted from with it, and reloads the library.
+pub(super) fn choose_side(
+    part: &PartName,
+    side: Side,
+    library_cache: &LibraryCache,
+) -> Result<PaintResult, UserError> {
+    let folder = library_cache.get();
+    let folder = folder.folder_to_change()?;
+    folder
+        .set_side(part, side)
+        .map_err(|error| UserError::of(&error))?;
+    let library = library_cache
+        .reload()
+        .map_err(|error| UserError::of(&error))?;
+    Ok(PaintResult::SideChosen(Arc::clone(&library.shown)))
 }
 
 /// Writes a path as a table, atomically; describes what was written.

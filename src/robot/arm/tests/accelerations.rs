@@ -154,6 +154,35 @@ fn a_corner_in_which_the_arm_stops_needs_no_acceleration() {
 }
 
 #[test]
+fn between_two_rows_the_arm_slows_down_for_the_corners_and_along_the_rows_it_does_not() {
+    let mut placed = facing("irb2600");
+    let worst = change_in_corner(&placed).into_iter().fold(0.0, f64::max) / WINDOW;
+    placed.arm.accelerations = Some([0.4 * worst; 6]);
+    let rows = [[-0.2, 0.0], [0.05, 0.0], [0.05, 0.07], [-0.2, 0.07]];
+    // Points 33 and 83 ms apart.
+    for step in [0.01, 0.025] {
+        let mut points = polygon(&placed, &rows, step, 0.3);
+        assert!(check(&placed, &points).num_reached() < points.len());
+        let origin = points[0].robot_from_nozzle.translation.vector;
+        for point in &mut points {
+            // Leads of 50 mm.
+            let at = point.robot_from_nozzle.translation.vector - origin;
+            point.is_gun_on = at.y < 0.199;
+        }
+        let found = check(&placed, &points);
+        let none = accelerations(&found);
+        assert!(none.is_empty(), "{step}: {none:?}");
+        assert!(found.changed_moves()[0] >= 2, "{:?}", found.changed_moves());
+        for (pair, point) in found.points.windows(2).zip(&points) {
+            let Way::Slower(speed) = pair[1].way else {
+                continue;
+            };
+            assert!(!point.is_gun_on && (0.02..0.3).contains(&speed), "{speed}");
+        }
+    }
+}
+
+#[test]
 fn points_that_are_close_together_or_at_one_place_are_no_jerk() {
     let mut placed = facing("gp25");
     // Every joint turns evenly over tenths of a second.
