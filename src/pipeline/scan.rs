@@ -3,7 +3,8 @@
 //! Each frame is inspected by itself. The poses found are transformed to the base frame, refined to the points and
 //! edges of the part from all frames, and checked against all frames: a point of the reference is present if any
 //! frame sees it, missing if a frame looks through it and none sees it, hidden or outside only if it is so for all.
-//! Score and verdict follow from this evidence as for a single frame.
+//! Score and verdict follow from this evidence as for a single frame. The pose's bounds include how far the robot's poses of
+//! the frames disagree.
 
 use nalgebra::{Point3, Vector3};
 use rand::{SeedableRng as _, seq::SliceRandom as _};
@@ -91,10 +92,15 @@ pub fn run_scan(
         }
         entries.extend(entry_of(scan, &frames, (index, reference), &part, recipe));
     }
+    let apart = scan.cloud.middle_of_part();
+    let apart = apart.map(|middle| scan.disagreement(&middle));
     // A stable sort: equal scores keep the library's order.
     entries.sort_by(|a, b| b.score.total_cmp(&a.score));
     for entry in &mut entries {
         if let Some(pose) = &mut entry.pose {
+            // The part is no better placed in the base frame than the robot's poses agree.
+            let bounds = pose.uncertainty.zip(apart.as_ref());
+            pose.uncertainty = bounds.map(|(bounds, apart)| bounds.widened(apart));
             pose.target_from_source *= base_from_first;
             for step in &mut pose.iterations {
                 step.target_from_source *= base_from_first;

@@ -1,12 +1,12 @@
 //! Why frames cannot be assembled into a scan, and what to do about it.
 
-use crate::error::Advice;
+use crate::{error::Advice, units::Metres};
 
 /// The most shots of a scan: the set of shots that saw a point is kept in 64 bits.
 pub(super) const MAX_SHOTS: usize = 64;
 
 /// Why frames cannot be assembled into a scan.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ScanError {
     /// There is one frame, or none.
     #[error("a scan needs at least 2 frames, found {found}")]
@@ -45,6 +45,35 @@ pub enum ScanError {
         found: usize,
         /// Their names.
         names: Vec<String>,
+    },
+    /// Too few of the frames fit together to tell which of the poses are wrong.
+    #[error(
+        "the frames contradict one another: {} fit together, but {} do not fit them, and it needs two thirds of the frames \
+         to tell which are wrong",
+        agree.join(", "),
+        others.join(", ")
+    )]
+    NoMajority {
+        /// Names of the frames that fit together.
+        agree: Vec<String>,
+        /// Names of the others.
+        others: Vec<String>,
+    },
+    /// Two frames contradict each other, and no other frame tells which of them is wrong.
+    #[error(
+        "{} and {} contradict each other: one looks past {:.1} % of what both should see{}",
+        names[0],
+        names[1],
+        share * 100.0,
+        apart.map_or_else(String::new, |apart| format!("; they fit together if one is moved by {apart}"))
+    )]
+    Contradiction {
+        /// The two frames.
+        names: [String; 2],
+        /// Share of what both see that one of them looks past, 0..1.
+        share: f64,
+        /// Distance by which moving one of them resolves it, if that was found.
+        apart: Option<Metres>,
     },
     /// No two frames see the same surface.
     #[error(
@@ -91,6 +120,12 @@ impl Advice for ScanError {
             }
             Self::NothingAgrees { .. } => {
                 "Check that each pose belongs to its frame, that they are poses of the camera in metres (for poses of the flange give base_from_flange), and that the part stood still".into()
+            }
+            Self::NoMajority { .. } => {
+                "Check that each pose belongs to its frame and that all frames show the same part, which stood still; leave the wrong frames out, or capture them again".into()
+            }
+            Self::Contradiction { .. } => {
+                "Check that each pose belongs to its frame and that nothing moved between the frames; leave the wrong frame out, or add one that shows the same edges and so tells which it is".into()
             }
             Self::NothingOverlaps { .. } => {
                 "Check that each pose belongs to its frame and is a pose of the camera in metres, or add frames between these that show surface of both".into()

@@ -38,6 +38,17 @@ impl FusedCloud {
         self.kept(&self.is_part)
     }
 
+    /// Returns the mean of the part's points; `None` if there is no part.
+    #[must_use]
+    pub fn middle_of_part(&self) -> Option<Point3<f64>> {
+        let points = self.cloud.points.iter().zip(&self.is_part);
+        let of_part = points.filter(|(_, is)| **is).map(|(p, _)| p.coords.cast());
+        let (sum, num) = of_part.fold((Vector3::zeros(), 0_usize), |(sum, num), p| {
+            (sum + p, num + 1)
+        });
+        (num > 0).then(|| Point3::from(sum / num as f64))
+    }
+
     /// Returns the cubes of 1 cm that hold points of the part.
     pub(super) fn part_cells(&self) -> PartCells {
         let points = self.cloud.points.iter().zip(&self.is_part);

@@ -7,8 +7,9 @@
 //!
 //! 1. [`surface`]: computes normals and noise of every reading, and sets readings at depth discontinuities apart.
 //! 2. [`register`]: refines the poses of all shots together by point-to-plane ICP, softly held at the robot's poses.
-//! 3. [`suspects`]: excludes a shot that contradicts the others, or overlaps none of them; the rest is refined again. Smaller
-//!    contradictions, and those of two shots of which either may be wrong, give a warning.
+//! 3. [`suspects`]: excludes a shot that contradicts the others, or overlaps none of them; the rest is refined again. If fewer
+//!    than two thirds of the shots agree, or either of two may be wrong, the scan is refused. Smaller contradictions give a
+//!    warning.
 //! 4. [`fuse`]: averages the readings by their noise, and drops points that other shots look through.
 //! 5. [`part`]: the shots' segmentations vote on every point; the connected piece with the most votes is the part.
 //!
@@ -32,13 +33,15 @@ pub mod visibility;
 
 use std::sync::Arc;
 
+use nalgebra::Point3;
+
 use crate::{
-    geometry::rigid::{PoseDelta, RigidTransform},
+    geometry::rigid::{PoseDelta, RigidTransform, pose_error},
     stages::{
         scene::SceneCloud,
         segment::{SegmentParams, Segmentation},
     },
-    units::Metres,
+    units::{Metres, Radians},
 };
 
 pub use self::{
@@ -169,10 +172,38 @@ impl Scan {
         self.shots.iter().map(given).collect()
     }
 
+    /// Returns how far the robot's poses of the shots that were used move what is at this point of the base frame, at most.
+    /// The refined poses are their mean, so none of them alone is more certain.
+    pub fn disagreement(&self, at: &Point3<f64>) -> PoseDelta {
+        let none = PoseDelta {
+            rotation: Radians(0.0),
+            shift: Metres(0.0),
+        };
+        self.used().fold(none, |most, (_, shot)| {
+            let own = pose_error(
+                &shot.given_from_refined(),
+                &RigidTransform::identity(),
+                at,
+            );
+            PoseDelta {
+                rotation: Radians(own.rotation.0.max(most.rotation.0)),
+                shift: Metres(own.shift.0.max(most.shift.0)),
+            }
+        })
+    }
+
     /// Returns the shots that were used, each with its index among all.
     pub fn used(&self) -> impl Iterator<Item = (usize, &ScannedShot)> {
         let all = self.shots.iter().enumerate();
         all.filter(|(_, shot)| shot.excluded.is_none())
+    }
+}
+
+impl ScannedShot {
+    /// Returns the motion, in the base frame, from where the refined pose puts what the shot sees to where the robot's pose
+    /// puts it.
+    fn given_from_refined(&self) -> RigidTransform {
+        self.given * self.base_from_camera.inverse()
     }
 }
 

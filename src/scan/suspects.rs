@@ -1,9 +1,9 @@
 //! Finds the shot that does not fit: its pose is wrong, or the part stood elsewhere when it was taken.
 //!
-//! Limit: where two shots contradict each other and no third contradicts one of them, either may be wrong.
+//! Where two shots contradict each other and no third contradicts one of them, either may be wrong, and the scan is refused.
 
 use super::{
-    ScanParams, ScannedShot,
+    ScanError, ScanParams, ScannedShot,
     free_space::{CommonView, better_pose, common_views},
     pairs::{ProjectedReading, Reach, meet},
     register::{middle_of, samples_of},
@@ -118,21 +118,17 @@ pub enum Doubt {
         /// Share of its common readings that agrees, 0..1.
         share: f64,
     },
-    /// Two shots contradict each other, and either may be wrong.
+    /// The shots fit together, but not at the robot's poses.
     #[error(
-        "{} and {} contradict each other: one looks past {:.1} % of what both should see{}",
+        "the poses contradict one another: {} and {} fit together only if one is moved by {apart}",
         names[0],
-        names[1],
-        share * 100.0,
-        apart.map_or_else(String::new, |apart| format!("; they fit together if one is moved by {apart}"))
+        names[1]
     )]
-    Contradiction {
-        /// The two shots.
+    PosesApart {
+        /// The two shots whose poses disagree most.
         names: [String; 2],
-        /// Share of what both see that one of them looks past, 0..1.
-        share: f64,
-        /// Distance by which moving one of them resolves it, if that was found.
-        apart: Option<Metres>,
+        /// How far apart their poses put the part.
+        apart: Metres,
     },
 }
 
@@ -142,9 +138,9 @@ impl crate::error::Advice for Doubt {
             Self::PoorAgreement { .. } => {
                 "Check that each pose belongs to its frame and that nothing moved between the frames".into()
             }
-            Self::Contradiction { .. } => {
-                "Check that each pose belongs to its frame and that nothing moved between the frames; another frame that shows \
-                 the same edges tells which one is wrong"
+            Self::PosesApart { .. } => {
+                "Check that each pose belongs to its frame, that the arm was at rest and that its calibration still holds; the \
+                 part's place in the robot's base frame is only as certain as the poses agree"
                     .into()
             }
         }
@@ -183,11 +179,16 @@ const REACH: Reach = Reach {
     sigmas: 4.0,
 };
 
-/// Returns the shot that fits worst, and why, as an error. If all fit, returns the doubt that deserves a warning.
-pub(super) fn check(
-    shots: &[&ScannedShot],
-    params: &ScanParams,
-) -> Result<Option<Doubt>, (usize, Excluded)> {
+/// What [`check`] finds.
+pub(super) enum Finding {
+    /// All shots fit; the doubt deserves a warning.
+    Fit(Option<Doubt>),
+    /// This shot fits worst, and why.
+    Misfit(usize, Excluded),
+}
+
+/// Returns the shot that fits worst, if one does not fit. It is an error if either of two may be wrong.
+pub(super) fn check(shots: &[&ScannedShot], params: &ScanParams) -> Result<Finding, ScanError> {
     let n = shots.len();
     let num_workers = params.register.num_workers;
     let limits = &params.suspect;
@@ -238,13 +239,16 @@ pub(super) fn check(
     });
     let worst = judged.reduce(|a, b| if b.1.0 > a.1.0 { b } else { a });
     if let Some((which, (_, why))) = worst {
-        return Err((which, part_moved(shots, which).unwrap_or(why)));
+        let why = part_moved(shots, which).unwrap_or(why);
+        return Ok(Finding::Misfit(which, why));
     }
     let views = common_views(shots, num_workers);
     if let Some(which) = apart_from_most(n, &views) {
-        return Err((which, Excluded::OverlapsNone));
+        return Ok(Finding::Misfit(which, Excluded::OverlapsNone));
     }
-    let doubt = contradiction(shots, &views, params)?;
+    if let Some((which, why)) = contradiction(shots, &views, params)? {
+        return Ok(Finding::Misfit(which, why));
+    }
     let shares = (0..n).filter_map(|i| Some((i, of_shot(i, 0)?)));
     let least = shares.reduce(|a, b| if b.1 < a.1 { b } else { a });
     let poor = least.filter(|(_, share)| *share < LEAST_AGREEING);
@@ -252,7 +256,7 @@ pub(super) fn check(
         name: shots[i].name.clone(),
         share,
     });
-    Ok(doubt.or(poor))
+    Ok(Finding::Fit(poor))
 }
 
 /// Returns the last shot that is not linked by overlaps with most of the others; `None` if all are linked.
@@ -273,12 +277,12 @@ fn apart_from_most(n: usize, views: &[CommonView]) -> Option<usize> {
     group.iter().rposition(|&of| of != largest)
 }
 
-/// Returns the shot that more of the others contradict than any other, as an error; a doubt if either of two may be wrong.
+/// Returns the shot that more of the others contradict than any other; an error if either of two may be wrong.
 fn contradiction(
     shots: &[&ScannedShot],
     views: &[CommonView],
     params: &ScanParams,
-) -> Result<Option<Doubt>, (usize, Excluded)> {
+) -> Result<Option<(usize, Excluded)>, ScanError> {
     let contradictions = || views.iter().filter(|view| view.is_contradiction());
     let worst = contradictions().max_by(|a, b| a.violated().total_cmp(&b.violated()));
     let Some(worst) = worst else { return Ok(None) };
@@ -304,13 +308,13 @@ fn contradiction(
             Some(moved) => Excluded::WrongPose { moved },
             None => Excluded::LookedPast { share },
         };
-        return Err((wrong, why));
+        return Ok(Some((wrong, why)));
     }
-    Ok(Some(Doubt::Contradiction {
+    Err(ScanError::Contradiction {
         names: worst.shots.map(|i| shots[i].name.clone()),
         share,
         apart: moved(worst.shots[1]).map(|moved| moved.shift),
-    }))
+    })
 }
 
 /// Returns [`Excluded::PartMoved`] if the shot's cell fits the other shots better at the robot's pose than at the refined

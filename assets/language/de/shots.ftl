@@ -53,9 +53,8 @@ shots-overlaps-none-advice = Prüfen, ob diese Pose zu diesem Bild gehört, oder
 shots-part-moved-advice = Das Bild bei stillstehendem Teil erneut aufnehmen
 shots-poor-agreement = die Aufnahmen passen vielleicht nicht zusammen: Von dem, was { $shot } und die anderen Aufnahmen gemeinsam sehen, stimmen { $share } % nicht überein
 shots-poor-agreement-advice = Prüfen, ob jede Pose zu ihrem Bild gehört und sich zwischen den Aufnahmen nichts bewegt hat
-shots-contradiction = { $a } und { $b } widersprechen sich: Eine blickt an { $share } % dessen vorbei, was beide sehen müssten
-shots-contradiction-apart = { $a } und { $b } widersprechen sich: Eine blickt an { $share } % dessen vorbei, was beide sehen müssten; sie passen zusammen, wenn eine um { $apart } verschoben wird
-shots-contradiction-advice = Prüfen, ob jede Pose zu ihrem Bild gehört und sich zwischen den Aufnahmen nichts bewegt hat; eine weitere Aufnahme derselben Kanten zeigt, welche falsch ist
+shots-poses-apart = die Posen widersprechen einander: { $a } und { $b } passen nur zusammen, wenn eine um { $apart } verschoben wird
+shots-poses-apart-advice = Prüfen, ob jede Pose zu ihrem Bild gehört, der Arm stillstand und seine Kalibrierung noch stimmt
 
 ## Files
 

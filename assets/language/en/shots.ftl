@@ -53,9 +53,8 @@ shots-overlaps-none-advice = Check that this pose belongs to this frame, or add 
 shots-part-moved-advice = Capture the frame again while the part stands still
 shots-poor-agreement = the shots may not fit together: of what { $shot } and the other shots see together, { $share } % disagrees
 shots-poor-agreement-advice = Check that each pose belongs to its frame and that nothing moved between the shots
-shots-contradiction = { $a } and { $b } contradict each other: one looks past { $share } % of what both should see
-shots-contradiction-apart = { $a } and { $b } contradict each other: one looks past { $share } % of what both should see; they fit together if one is moved by { $apart }
-shots-contradiction-advice = Check that each pose belongs to its frame and that nothing moved between the shots; another shot that shows the same edges tells which one is wrong
+shots-poses-apart = the poses contradict one another: { $a } and { $b } fit together only if one is moved by { $apart }
+shots-poses-apart-advice = Check that each pose belongs to its frame, that the arm was at rest and that its calibration still holds
 
 ## Files
 

@@ -53,9 +53,8 @@ shots-overlaps-none-advice = Comprobar que esta pose corresponde a esta imagen, 
 shots-part-moved-advice = Volver a capturar la imagen con la pieza inmóvil
 shots-poor-agreement = es posible que las tomas no encajen: de lo que { $shot } y las demás tomas ven en común, no concuerda el { $share } %
 shots-poor-agreement-advice = Comprobar que cada pose corresponde a su imagen y que nada se movió entre las tomas
-shots-contradiction = { $a } y { $b } se contradicen: una ve más allá del { $share } % de lo que ambas deberían ver
-shots-contradiction-apart = { $a } y { $b } se contradicen: una ve más allá del { $share } % de lo que ambas deberían ver; encajan si una se desplaza { $apart }
-shots-contradiction-advice = Comprobar que cada pose corresponde a su imagen y que nada se movió entre las tomas; otra toma que muestre los mismos bordes indica cuál es errónea
+shots-poses-apart = las poses se contradicen: { $a } y { $b } solo encajan si una se desplaza { $apart }
+shots-poses-apart-advice = Comprobar que cada pose corresponde a su imagen, que el brazo estaba en reposo y que su calibración sigue siendo válida
 
 ## Files
 

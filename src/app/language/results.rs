@@ -523,29 +523,18 @@ pub(in crate::app) fn doubt(doubt: &Doubt) -> [String; 2] {
             ),
             text!("shots-poor-agreement-advice"),
         ],
-        Doubt::Contradiction {
+        Doubt::PosesApart {
             names: [a, b],
-            share,
             apart,
-        } => {
-            let share = fixed!(share * 100.0, 1);
-            let what = match apart {
-                Some(apart) => text!(
-                    "shots-contradiction-apart",
-                    a = a.as_str(),
-                    b = b.as_str(),
-                    share = share,
-                    apart = apart.to_string()
-                ),
-                None => text!(
-                    "shots-contradiction",
-                    a = a.as_str(),
-                    b = b.as_str(),
-                    share = share
-                ),
-            };
-            [what, text!("shots-contradiction-advice")]
-        }
+        } => [
+            text!(
+                "shots-poses-apart",
+                a = a.as_str(),
+                b = b.as_str(),
+                apart = apart.to_string()
+            ),
+            text!("shots-poses-apart-advice"),
+        ],
     }
 }
 

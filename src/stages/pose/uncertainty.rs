@@ -35,7 +35,7 @@ use super::{
     refine::{AlignmentSource, AlignmentTarget, Level, Search},
 };
 use crate::{
-    geometry::rigid::RigidTransform,
+    geometry::rigid::{PoseDelta, RigidTransform},
     units::{Metres, Radians},
 };
 
@@ -56,6 +56,16 @@ impl Uncertainty {
             shift: Metres(f64::INFINITY),
             turn: Radians(f64::INFINITY),
             freedom: Some(freedom),
+        }
+    }
+
+    /// Adds an independent error of the frame in which the pose is given.
+    #[must_use]
+    pub fn widened(self, by: &PoseDelta) -> Self {
+        Self {
+            shift: Metres(self.shift.0.hypot(by.shift.0)),
+            turn: Radians(self.turn.0.hypot(by.rotation.0)),
+            ..self
         }
     }
 
