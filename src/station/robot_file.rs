@@ -6,7 +6,6 @@
 
 use std::path::Path;
 
-use jiff::Timestamp;
 use nalgebra::Point3;
 
 use super::{Currency, Doubt, doubts};

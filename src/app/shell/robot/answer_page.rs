@@ -20,9 +20,7 @@ use crate::{
     },
     error::Advice as _,
     robot::Convention,
-    serve::{
-        Answer, ClientEvent, ClientNews, ListenAddress, Listener, PoseKind, Protocol, parse_address,
-    },
+    serve::{Answer, ClientEvent, ClientNews, ListenAddress, PoseKind, Protocol, parse_address},
 };
 
 /// Width of a bar, logical pixels, below which the chip is only its sign; the second while the bar also shows running work.
