@@ -14,6 +14,7 @@ use crate::{
     error::Advice as _,
     geometry::rigid::RigidTransform,
     library::{PartName, SprayPath},
+    paint::{Coat, WrittenFilm},
     robot::{
         RobotFrame, WrittenPose,
         arm::{Arm, ArmError, Obstacles, PathCheck, PlacedArm, Rail},
@@ -23,14 +24,14 @@ use crate::{
         },
         spray::{BandStatus, CarriedPath, MOST_TILT, OffThePart, off_the_part},
     },
-    stages::reference::Reference,
+    stages::reference::{Coverage, Reference},
     units::{Metres, Radians, counted},
 };
 
 /// Tool, gun and arm of a program; the command names its file `program`.
 #[derive(Debug, Args)]
 pub(super) struct ProgramOptions {
-    /// The tool on the controller: a number for KUKA, FANUC and Yaskawa, a name for ABB and Doosan
+    /// The tool on the controller: a number for KUKA, FANUC and Yaskawa, a name for Doosan and, without --nozzle, for ABB
     #[arg(long, value_name = "TOOL", requires = "program")]
     tool: Option<String>,
     /// Pose of the nozzle on the flange, with z in its direction: `kuka X Y Z A B C`, or the 16 numbers of a matrix
@@ -149,6 +150,7 @@ pub(super) struct ProgramFile {
 pub(super) struct ProgramSubject<'a> {
     pub(super) part: &'a PartName,
     pub(super) reference: &'a Reference,
+    pub(super) coverage: Coverage,
     /// The stored path, in part space.
     pub(super) path: &'a SprayPath,
     /// Name of the capture; `None` for the standard position.
@@ -256,10 +258,32 @@ impl ProgramFile {
             doubts.insert(0, off.to_string());
         }
         let points = program_points(carried, frame, reach.as_ref().map(|(_, reach)| reach));
+        let program = Program {
+            points: &points,
+            settings: &self.settings,
+            acceleration: Coat::acceleration_of(subject.path),
+            film: None,
+            reach: reach.as_ref(),
+            part: subject.part.as_str(),
+            scene: subject.scene,
+            robot_from_part,
+            calibration: &frame.name,
+            is_simulated: subject.is_simulated,
+            doubts: &[],
+            at: Timestamp::now(),
+        };
+        let (path, enrolled) = (subject.path, &subject.reference.cloud);
+        let film = WrittenFilm::of(&program, self.format, path, enrolled, subject.coverage);
+        let off_plan = film.as_ref().and_then(WrittenFilm::doubt);
+        let of_film = off_plan.filter(|_| doubts.is_empty());
+        doubts.extend(off_plan.map(|off_plan| off_plan.to_string()));
         if let (false, Some(doubt)) = (self.is_forced, doubts.first()) {
             console.note(&format_args!("no program was written: {doubt}"));
             let advice = advice_on_path(off.as_ref(), ahead.as_ref(), subject.part);
             let advice = advice.unwrap_or_else(|| {
+                if let Some(off_plan) = of_film {
+                    return off_plan.advice();
+                }
                 if subject.scene.is_some() {
                     return "Capture all of the part again, or move part or arm".to_owned();
                 }
@@ -271,17 +295,11 @@ impl ProgramFile {
             console.note(&format_args!("  to do: {advice}; --force writes it anyway"));
             return Ok(Outcome::NotAccepted);
         }
+        let film = film.as_ref().map(WrittenFilm::line);
         let program = Program {
-            points: &points,
-            settings: &self.settings,
-            reach: reach.as_ref(),
-            part: subject.part.as_str(),
-            scene: subject.scene,
-            robot_from_part,
-            calibration: &frame.name,
-            is_simulated: subject.is_simulated,
             doubts: &doubts,
-            at: Timestamp::now(),
+            film: film.as_deref(),
+            ..program
         };
         let num_parts = program.save(&self.file, self.format).advised()?;
         console.note(&format_args!(
@@ -290,6 +308,11 @@ impl ProgramFile {
             counted(points.len(), "point", "points"),
             self.format.title(),
             against_seen(carried)
+        ));
+        console.note(&format_args!(
+            "  film: {}",
+            film.as_deref()
+                .unwrap_or("not computed, because the path names no coat; plan it again to know")
         ));
         if num_parts > 0 {
             console.note(&format_args!(

@@ -12,5 +12,7 @@ program-off-part = Kein Programm geschrieben: Die Lackierbahn zielt nicht auf da
 program-off-part-advice = Prüfen, ob die Bahn zu diesem Teil gehört, oder in Lackieren eine neue planen und speichern
 program-not-reached = Kein Programm geschrieben: { $arm } erreicht { $missed } von { $all } Punkten nicht
 program-not-reached-advice = Das Teil oder den Fuß des Arms versetzen oder die Bahn ändern
+program-film-off-plan = Kein Programm geschrieben: Es brächte { $written } % der Fläche in { $tolerance } % um den Sollwert, im Mittel { $written_um } µm; geplant sind { $planned } % und { $planned_um } µm. Mit offener Pistole hielte es { $stops }-mal an
+program-film-off-plan-advice = Die Bahn ohne Züge entlang von Flanken planen (Neigung zu Flanken 0) oder das Programm für eine Steuerung schreiben, die die Pistole während der Bewegung schaltet
 program-written = { $path } geschrieben: { $count } Punkte als { $format }
 program-written-parts = { $path } und { $parts } Programme geschrieben, die es aufruft: { $count } Punkte als { $format }; die Steuerung braucht sie alle

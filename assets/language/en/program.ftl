@@ -12,5 +12,7 @@ program-off-part = No program was written: the spray path does not aim at the pa
 program-off-part-advice = Check that the path is that of this part, or plan and store a new one in Paint
 program-not-reached = No program was written: { $arm } misses { $missed } of { $all } points
 program-not-reached-advice = Move the part or the arm's base, or change the path
+program-film-off-plan = No program was written: it would bring { $written } % of the surface within { $tolerance } % of the target with { $written_um } µm on average, where { $planned } % and { $planned_um } µm were planned; with the gun open it would stop { $stops } times
+program-film-off-plan-advice = Plan the path without added strokes along flanks (Lean to flanks 0), or write it for a controller that switches the gun while the robot moves
 program-written = Wrote { $path }: { $count } points as { $format }
 program-written-parts = Wrote { $path } and { $parts } programs that it calls: { $count } points as { $format }; the controller needs all of them

@@ -12,5 +12,7 @@ program-off-part = No se escribió ningún programa: la trayectoria no apunta a 
 program-off-part-advice = Compruebe que la trayectoria es de esta pieza, o planifique y guarde otra en Pintar
 program-not-reached = No se escribió ningún programa: { $arm } no alcanza { $missed } de { $all } puntos
 program-not-reached-advice = Mueva la pieza o la base del brazo, o cambie la trayectoria
+program-film-off-plan = No se escribió ningún programa: dejaría el { $written } % de la superficie a menos del { $tolerance } % del objetivo, con { $written_um } µm de media; estaban previstos { $planned } % y { $planned_um } µm. Con la pistola abierta se detendría { $stops } veces
+program-film-off-plan-advice = Planifique la trayectoria sin pasadas por los flancos (Inclinación a flancos 0), o escríbala para un controlador que conmute la pistola en movimiento
 program-written = Escrito { $path }: { $count } puntos en { $format }
 program-written-parts = Escritos { $path } y { $parts } programas que llama: { $count } puntos en { $format }; el controlador los necesita todos

@@ -12,5 +12,7 @@ program-off-part = 未写出程序：喷涂轨迹未对准零件（喷枪打开�
 program-off-part-advice = 请检查轨迹是否属于此零件，或在“喷涂”中重新规划并保存
 program-not-reached = 未写出程序：{ $arm } 有 { $missed } 个点不可达，共 { $all } 个
 program-not-reached-advice = 请移动零件或机械臂底座，或修改轨迹
+program-film-off-plan = 未写出程序：该程序只会使 { $written } % 的表面处于目标的 { $tolerance } % 以内，平均 { $written_um } µm，而计划为 { $planned } % 和 { $planned_um } µm；喷枪打开时会停顿 { $stops } 次
+program-film-off-plan-advice = 请规划不含侧面行程的轨迹（侧面倾角设为 0），或为能在运动中开关喷枪的控制器写出程序
 program-written = 已写出 { $path }：{ $count } 个点，{ $format }
 program-written-parts = 已写出 { $path } 和 { $parts } 个子程序：{ $count } 个点，{ $format }；控制器需要所有文件

@@ -7,7 +7,6 @@ use std::{
 
 use image::{DynamicImage, ImageFormat};
 use jiff::Timestamp;
-use nalgebra::Point3;
 
 use super::{inspected::Inspected, source::Origin};
 use crate::{
@@ -17,8 +16,10 @@ use crate::{
         user_error::UserError,
     },
     files::{file_name, write_atomically},
-    geometry::rigid::RigidTransform,
+    geometry::{cloud::PointCloud, rigid::RigidTransform},
     history::Traceability,
+    library::SprayPath,
+    paint::{Coat, FilmOffPlan, WrittenFilm},
     report::{
         InspectionLine, ReportError, ReportFolder,
         pose_report::{PdfPictures, PoseReport, ReportSubject, SeenBy, append_csv, pose_pdf},
@@ -33,7 +34,7 @@ use crate::{
         },
         spray::{CarriedPath, OffThePart, SprayExport, remove_previous_export},
     },
-    stages::pose::PoseEstimate,
+    stages::{pose::PoseEstimate, reference::Coverage},
 };
 
 /// Writes a picture of a 3-D view as PNG; returns a message about it.
@@ -103,10 +104,15 @@ pub(in crate::app) fn spray_path(
         remove_previous_export(path).map_err(|error| UserError::of(&error))?;
         return Err(UserError { what, advice });
     }
-    if let (Ok(_), Some(pose)) = (ProgramFormat::of(path), pose) {
+    let stored =
+        first.and_then(|first| inspected.library.spray_paths.get(first.reference)?.as_ref());
+    let stored = stored.map(|stored| &stored.path);
+    if let (Ok(_), Some(pose), Some(stored)) = (ProgramFormat::of(path), pose, stored) {
         let subject = ProgramSubject {
             part: part.name.as_str(),
-            part_points: &inspected.part_points,
+            part_cloud: &inspected.part_cloud,
+            coverage: part.coverage,
+            path: stored,
             off,
             scene: Some(&scene_name(&inspected.origin).display().to_string()),
             camera_from_part: pose.camera_from_part(),
@@ -156,8 +162,11 @@ pub(in crate::app) struct ProgramTarget {
 /// The part that a program is for.
 pub(in crate::app) struct ProgramSubject<'a> {
     pub part: &'a str,
-    /// Points that it was enrolled with, part frame.
-    pub part_points: &'a [Point3<f32>],
+    /// Cloud that it was enrolled with, part frame.
+    pub part_cloud: &'a PointCloud,
+    pub coverage: Coverage,
+    /// The path, in part space.
+    pub path: &'a SprayPath,
     /// Whether its path does not aim at it.
     pub off: Option<OffThePart>,
     /// Name of the scene; `None` for the standard position.
@@ -167,8 +176,8 @@ pub(in crate::app) struct ProgramSubject<'a> {
 }
 
 /// Writes a carried path as a program for the robot's controller, in the language given by the file's ending; returns a
-/// message about it. First removes an earlier program of that name; writes nothing if the path does not aim at the part, or if the
-/// arm cannot run it without a collision.
+/// message about it. First removes an earlier program of that name; writes nothing if the path does not aim at the part, if the
+/// arm cannot run it without a collision, or if the program would leave another film than planned.
 pub(in crate::app) fn program(
     path: &Path,
     carried: &CarriedPath,
@@ -192,7 +201,7 @@ pub(in crate::app) fn program(
     let robot_from_part = robot.robot_from_part(&subject.camera_from_part);
     let reach = match arm.clone() {
         Some(arm) => {
-            let arm = arm.with_part(subject.part_points, &robot_from_part);
+            let arm = arm.with_part(&subject.part_cloud.points, &robot_from_part);
             let reach = check_reach(&arm, carried, robot, settings);
             Some((arm, reach.map_err(|error| UserError::of(&error))?))
         }
@@ -204,9 +213,11 @@ pub(in crate::app) fn program(
         return Err(error);
     }
     let points = program_points(carried, robot, reach.as_ref().map(|(_, reach)| reach));
-    let program = Program {
+    let mut program = Program {
         points: &points,
         settings,
+        acceleration: Coat::acceleration_of(subject.path),
+        film: None,
         reach: reach.as_ref(),
         part: subject.part,
         scene: subject.scene,
@@ -216,6 +227,13 @@ pub(in crate::app) fn program(
         doubts: &[],
         at: Timestamp::now(),
     };
+    let enrolled = subject.part_cloud;
+    let film = WrittenFilm::of(&program, format, subject.path, enrolled, subject.coverage);
+    if let Some(off_plan) = film.as_ref().and_then(WrittenFilm::doubt) {
+        return Err(film_off_plan(&off_plan));
+    }
+    let film = film.as_ref().map(WrittenFilm::line);
+    program.film = film.as_deref();
     let saved = program.save(path, format);
     let num_parts = saved.map_err(|error| UserError::of(&error))?;
     Ok(if num_parts > 0 {
@@ -248,6 +266,24 @@ pub(in crate::app) fn not_reached(arm: &str, check: &PathCheck) -> Option<UserEr
         ),
         advice: text!("program-not-reached-advice"),
     })
+}
+
+/// The refusal to write a program that leaves another film than planned.
+fn film_off_plan(off_plan: &FilmOffPlan) -> UserError {
+    let [planned, written] = off_plan.within.map(|share| format!("{:.1}", 100.0 * share));
+    let [planned_um, written_um] = off_plan.mean.map(|mean| format!("{:.1}", 1e6 * mean));
+    UserError {
+        what: text!(
+            "program-film-off-plan",
+            written = written,
+            written_um = written_um,
+            planned = planned,
+            planned_um = planned_um,
+            tolerance = format!("{:.0}", 100.0 * off_plan.tolerance),
+            stops = off_plan.num_stops
+        ),
+        advice: text!("program-film-off-plan-advice"),
+    }
 }
 
 /// Makes the pose report of the shown inspection.

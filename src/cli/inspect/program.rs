@@ -17,6 +17,7 @@ use crate::{
         program::{ProgramFormat, remove_previous_program},
         spray::carry,
     },
+    stages::reference::Coverage,
 };
 
 /// Whether and how a program is written.
@@ -25,7 +26,7 @@ pub(super) struct ProgramChoice {
     /// Write the part's stored spray path as a program for the robot's controller, named like the file: .src, .ls,
     /// .mod, .script, .jbi or .drl. Needs a calibration and one file. Nothing is written if the part is not accepted, if
     /// another pose fits nearly as well, if the capture is older than 10 minutes or dated later than now, if the path does
-    /// not aim at the part, or if --arm does not reach every point
+    /// not aim at the part, if --arm does not reach every point, or if the program would leave a worse film than planned
     #[arg(long, value_name = "FILE", group = "robot_file")]
     program: Option<PathBuf>,
     /// Language of the program, if the file's ending does not give it: krl, ls, rapid, urscript, jbi or drl
@@ -41,6 +42,8 @@ pub(super) struct CapturedProgram {
     place: LibraryPlace,
     /// Name of each reference of the library, and whether it is simulated.
     parts: Vec<(PartName, bool)>,
+    /// Sides of each reference that were enrolled.
+    coverages: Vec<Coverage>,
 }
 
 impl ProgramChoice {
@@ -78,6 +81,7 @@ impl ProgramChoice {
             file: self.options.open(file, self.robot_program_format)?,
             place,
             parts: names_of(load),
+            coverages: load.parts.iter().map(|meta| meta.coverage).collect(),
         }))
     }
 }
@@ -121,6 +125,7 @@ impl CapturedProgram {
         let subject = ProgramSubject {
             part: name,
             reference: &seen.library.references[first.reference],
+            coverage: self.coverages[first.reference],
             path: &path,
             scene: Some(seen.scene),
             camera_from_part,

@@ -75,6 +75,7 @@ pub(super) fn run(
     let subject = ProgramSubject {
         part: name,
         reference: &part.reference,
+        coverage: part.meta.coverage,
         path: &path,
         scene: None,
         camera_from_part: standard,

@@ -29,7 +29,7 @@ use crate::{
         ui::viewport::{Line, LineSet, Role},
         user_error::UserError,
     },
-    geometry::rigid::RigidTransform,
+    geometry::{cloud::PointCloud, rigid::RigidTransform},
     robot::{
         RobotFrame,
         arm::{
@@ -39,7 +39,7 @@ use crate::{
         program::{arm_points, check_reach},
         spray::{CarriedPath, OffThePart, carry, off_the_part},
     },
-    stages::stand_off::StandOffParams,
+    stages::{reference::Coverage, stand_off::StandOffParams},
 };
 
 /// Input of a reach check.
@@ -212,7 +212,8 @@ impl PaintState {
 /// A path in its part's standard position.
 struct StandardPath {
     carried: CarriedPath,
-    part_points: Vec<Point3<f32>>,
+    part_cloud: PointCloud,
+    coverage: Coverage,
     off: Option<OffThePart>,
     is_simulated: bool,
 }
@@ -231,7 +232,8 @@ fn in_standard_position(
     );
     Ok(StandardPath {
         carried,
-        part_points: reference.cloud.points.clone(),
+        part_cloud: reference.cloud.clone(),
+        coverage: loaded.shown.parts[place].coverage,
         off: off_the_part(&planned.path, reference),
         is_simulated: loaded.shown.parts[place].simulated,
     })
@@ -258,7 +260,7 @@ fn found(
     let path = in_standard_position(planned, library_cache)?;
     context.check()?;
     let robot_from_part = request.robot.robot_from_part(&RigidTransform::identity());
-    let arm = arm.with_part(&path.part_points, &robot_from_part);
+    let arm = arm.with_part(&path.part_cloud.points, &robot_from_part);
     let points = arm_points(&path.carried, &request.robot, settings.speed);
     let params = settings.check_params();
     let failed = |error: ArmError| match error {
@@ -339,7 +341,9 @@ pub(super) fn write_program(
     let path = in_standard_position(planned, library_cache)?;
     let subject = ProgramSubject {
         part: planned.part.as_str(),
-        part_points: &path.part_points,
+        part_cloud: &path.part_cloud,
+        coverage: path.coverage,
+        path: &planned.path,
         off: path.off,
         scene: None,
         camera_from_part: RigidTransform::identity(),
