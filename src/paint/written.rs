@@ -21,8 +21,8 @@ use crate::{
 
 /// Least share of the reachable surface within the tolerance for a film to be good.
 pub const LEAST_WITHIN: f64 = 0.9;
-/// Loss of that share against the path which is no reason for a doubt, if the path itself is below the limit.
-const MOST_LOST: f64 = 0.01;
+/// Largest loss of that share which is no reason for a doubt about a program of a path that is below the limit itself.
+const MOST_LOST: f64 = 0.05;
 
 /// The films of a path and of a program of it.
 #[derive(Clone, Debug)]
@@ -78,10 +78,14 @@ impl WrittenFilm {
         format!("{written}; planned: {planned}")
     }
 
-    /// The reason against a program whose film is worse than planned and below the limit.
+    /// The reason against a program whose film is below the limit, or worse than planned if the path is below it.
     pub fn doubt(&self) -> Option<FilmOffPlan> {
         let [written, planned] = [&self.written, &self.planned].map(|film| &film.figures);
-        let least = LEAST_WITHIN.min(planned.within - MOST_LOST);
+        let least = if planned.within >= LEAST_WITHIN {
+            LEAST_WITHIN
+        } else {
+            planned.within - MOST_LOST
+        };
         (written.within < least).then(|| FilmOffPlan {
             within: [planned.within, written.within],
             mean: [planned.mean, written.mean],
