@@ -12,14 +12,14 @@ use super::{
 };
 use crate::{
     geometry::rigid::RigidTransform,
-    library::{PartName, SprayPath},
+    library::{PartName, Side, SprayPath},
     robot::{
         RobotFrame, WrittenPose,
         arm::{Arm, Obstacles, PlacedArm, Rail},
         program::{ProgramFormat, ProgramSettings, ranges},
         spray::{CarriedPath, off_the_part},
     },
-    stages::reference::Reference,
+    stages::reference::{Coverage, Reference},
     station::robot_file::{CapturedPart, RobotFile, RobotFileContent},
     units::{Metres, Radians},
 };
@@ -27,7 +27,7 @@ use crate::{
 /// Tool, gun and arm of a program; the command names its file `program`.
 #[derive(Debug, Args)]
 pub(super) struct ProgramOptions {
-    /// The tool on the controller: a number for KUKA, FANUC and Yaskawa, a name for ABB and Doosan
+    /// The tool on the controller: a number for KUKA, FANUC and Yaskawa, a name for Doosan and, without --nozzle, for ABB
     #[arg(long, value_name = "TOOL", requires = "program")]
     tool: Option<String>,
     /// Pose of the nozzle on the flange, with z in its direction: `kuka X Y Z A B C`, or the 16 numbers of a matrix
@@ -146,6 +146,9 @@ pub(super) struct ProgramFile {
 pub(super) struct ProgramSubject<'a> {
     pub(super) part: &'a PartName,
     pub(super) reference: &'a Reference,
+    pub(super) coverage: Coverage,
+    /// The side that it is painted from; `None` for its own.
+    pub(super) side: Option<Side>,
     /// The stored path, in part space.
     pub(super) path: &'a SprayPath,
     /// The capture; `None` for the standard position.
@@ -223,7 +226,10 @@ impl ProgramFile {
             carried,
             frame,
             part: subject.part.as_str(),
-            part_points: &subject.reference.cloud.points,
+            part_cloud: &subject.reference.cloud,
+            coverage: subject.coverage,
+            side: subject.side,
+            path: subject.path,
             off: off_the_part(subject.path, subject.reference),
             capture: subject.capture,
             camera_from_part: subject.camera_from_part,

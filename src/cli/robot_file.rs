@@ -41,6 +41,9 @@ pub(super) fn write(
             written.num_called
         ));
     }
+    if let Some(film) = &written.film {
+        console.note(&format_args!("  film: {film}"));
+    }
     for doubt in &written.doubts {
         console.note(&format_args!("warning: written by --force: {doubt}"));
     }

@@ -15,7 +15,7 @@
 //! the segment from this point to the next: `gun_on` (1 or 0; 1 without such a column) and `speed_mm_s` or `speed_m_s`.
 //! `fan_x`, `fan_y` and `fan_z` point along the long side of a flat jet. Other columns are ignored. Part space is that
 //! of the reference cloud: the camera frame at enrolment (x right, y down, z forward). A line `# part: NAME` says which
-//! part the path is for.
+//! part the path is for, and a line `# coat: {…}` has the coat of a planned path as JSON.
 
 mod error;
 #[cfg(test)]
@@ -54,6 +54,8 @@ pub struct PathPoint {
 #[derive(Clone, Debug, PartialEq)]
 pub struct SprayPath {
     points: Vec<PathPoint>,
+    /// The coat that it was planned with, as JSON.
+    coat: Option<String>,
 }
 
 /// Maximum number of points, more than any path over one part has.
@@ -71,6 +73,8 @@ pub const MAX_SPEED: f64 = 5.0;
 
 /// Begins the line that names the part of a path.
 const PART_LINE: &str = "# part: ";
+/// Begins the line with the coat of a path.
+const COAT_LINE: &str = "# coat: ";
 
 /// Content of a column.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -88,7 +92,18 @@ enum Column {
 impl SprayPath {
     /// Creates a path of these points; `None` if there are none.
     pub fn new(points: Vec<PathPoint>) -> Option<Self> {
-        (!points.is_empty()).then_some(Self { points })
+        (!points.is_empty()).then_some(Self { points, coat: None })
+    }
+
+    /// Sets the coat that it was planned with: JSON in one line.
+    #[must_use]
+    pub fn with_coat(self, coat: Option<String>) -> Self {
+        Self { coat, ..self }
+    }
+
+    /// Returns the coat that it was planned with, as JSON.
+    pub fn coat(&self) -> Option<&str> {
+        self.coat.as_deref()
     }
 
     /// Returns the points in order.
@@ -173,9 +188,11 @@ impl SprayPath {
             }
             points.push(point);
         }
-        Self::new(points).ok_or_else(|| SprayPathError::NoPoints {
+        let coat = text.lines().find_map(|line| line.strip_prefix(COAT_LINE));
+        let read = Self::new(points).ok_or_else(|| SprayPathError::NoPoints {
             path: path.to_owned(),
-        })
+        })?;
+        Ok(read.with_coat(coat.map(|coat| coat.trim_end().to_owned())))
     }
 
     /// Like [`Self::to_text`], for a file of its own: names the part.
@@ -185,7 +202,9 @@ impl SprayPath {
 
     /// Writes the table that is stored; reading it gives the same path, to a micrometre.
     pub fn to_text(&self) -> String {
-        let mut text = String::from(
+        let coat = self.coat.as_ref();
+        let mut text = coat.map_or_else(String::new, |coat| format!("{COAT_LINE}{coat}\n"));
+        text.push_str(
             "# Partsight spray path, in the frame of the part's reference cloud: positions of the nozzle, and the direction in which it points.\n\
              nozzle_x_mm,nozzle_y_mm,nozzle_z_mm,direction_x,direction_y,direction_z,stand_off_mm,gun_on,speed_mm_s,fan_x,fan_y,fan_z\n",
         );

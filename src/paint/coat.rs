@@ -11,7 +11,10 @@ use std::f64::consts::FRAC_PI_4;
 use serde::{Deserialize, Serialize};
 
 use super::error::PaintError;
-use crate::pipeline::parameters::{Kind, Parameters as _};
+use crate::{
+    library::SprayPath,
+    pipeline::parameters::{Kind, Parameters as _},
+};
 
 pub use self::{
     folder::{BUILT_IN_COATS, CoatError, CoatFolder, built_in_coat},
@@ -156,6 +159,24 @@ impl Default for Coat {
 }
 
 impl Coat {
+    /// The coat that a path was planned with; none if the path names none, or one that is out of range.
+    pub fn of_path(path: &SprayPath) -> Option<Self> {
+        let coat: Self = serde_json::from_str(path.coat()?).ok()?;
+        coat.check().ok()?;
+        Some(coat)
+    }
+
+    /// Names the coat in a path planned with it.
+    pub(super) fn name_in(&self, path: SprayPath) -> SprayPath {
+        path.with_coat(serde_json::to_string(self).ok())
+    }
+
+    /// Acceleration that a path was planned for, m/s²; none if it is unknown, or if the speed was planned constant.
+    pub fn acceleration_of(path: &SprayPath) -> Option<f64> {
+        let acceleration = Self::of_path(path)?.acceleration;
+        (acceleration > 0.0).then_some(acceleration)
+    }
+
     /// Refuses a coat with a parameter out of its range; files and settings are checked when they are read.
     pub(super) fn check(&self) -> Result<(), PaintError> {
         for parameter in Self::ALL {
@@ -187,5 +208,50 @@ impl Coat {
     /// Overlap of two neighbouring rows, as a share of the pattern's width.
     pub fn overlap(&self) -> f64 {
         1.0 - self.spacing / (self.gun.width * self.stand_off / self.gun.distance)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Point3, Vector3};
+
+    use super::*;
+    use crate::{
+        paint::{PathEdit, edited, plan, surface::tests::grid},
+        stages::reference::Coverage,
+    };
+
+    #[test]
+    fn a_planned_path_names_its_coat_and_keeps_it_when_it_is_edited() {
+        let surface = grid(41, 41, Coverage::OneSide, |i, j| {
+            (Point3::new(0.4 * i, 0.4 * j, 0.0), Vector3::z())
+        });
+        let coat = Coat {
+            acceleration: 2.5,
+            ..Coat::default()
+        };
+        let path = plan(&surface, &coat, &[]).expect("planned");
+        assert_eq!(Coat::of_path(&path), Some(coat));
+        assert_eq!(Coat::acceleration_of(&path), Some(2.5));
+        let shift = PathEdit::Stroke {
+            stroke: 0,
+            by: Vector3::new(0.01, 0.0, 0.0),
+        };
+        let moved = edited(path.clone(), &[shift], coat.stand_off);
+        assert_eq!(Coat::of_path(&moved), Some(coat));
+        // A coat out of range, or a line that a spreadsheet changed, is none.
+        for broken in ["{\"speed\":-1.0}", "{\"speed\""] {
+            let path = path.clone().with_coat(Some(broken.into()));
+            assert_eq!(Coat::of_path(&path), None);
+        }
+        let constant = plan(
+            &surface,
+            &Coat {
+                acceleration: 0.0,
+                ..coat
+            },
+            &[],
+        );
+        assert_eq!(Coat::acceleration_of(&constant.expect("planned")), None);
     }
 }

@@ -60,7 +60,8 @@ pub fn edited(path: SprayPath, edits: &[PathEdit], stand_off: f64) -> SprayPath 
             }
         }
     }
-    SprayPath::new(points).unwrap_or(path)
+    let coat = path.coat().map(str::to_owned);
+    SprayPath::new(points).map_or(path, |edited| edited.with_coat(coat))
 }
 
 /// The points of a stroke, and the nearer halves of the ways with the gun off on both sides.

@@ -3,6 +3,7 @@
 //! ```text
 //! Reference ─► PaintSurface ─┬─► plan (Coat) ─► SprayPath ─► simulate (Coat) ─► Film
 //!                            └───────────────────────────────────┘
+//! SprayPath ─► Program (`robot::program`) ─► WrittenFilm
 //! ```
 //!
 //! Everything is in part space, metres and radians, and nothing is random: the same part and coat give bit-identical
@@ -25,6 +26,7 @@ mod rows;
 mod shadow;
 mod surface;
 mod travel;
+mod written;
 
 pub use self::{
     coat::{
@@ -39,4 +41,5 @@ pub use self::{
     propose::{Proposal, best_speed, propose},
     region::KeepOut,
     surface::PaintSurface,
+    written::{FilmOffPlan, LEAST_WITHIN, WrittenFilm},
 };

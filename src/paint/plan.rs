@@ -36,7 +36,8 @@ pub fn plan(
     coat: &Coat,
     keep_outs: &[KeepOut],
 ) -> Result<SprayPath, PaintError> {
-    planned(surface, coat, keep_outs, Speed::Given(coat.speed)).map(|(path, _)| path)
+    let (path, _) = planned(surface, coat, keep_outs, Speed::Given(coat.speed))?;
+    Ok(coat.name_in(path))
 }
 
 /// Plans the path of a coat at this speed, which it also returns.

@@ -52,6 +52,7 @@ pub fn propose(
         };
         let (path, speed) = planned(surface, &spaced, keep_outs, Speed::ToTarget)?;
         let coat = Coat { speed, ..spaced };
+        let path = coat.name_in(path);
         let film = simulate(surface, &path, &coat, keep_outs)?;
         let within = film.figures.within;
         if best

@@ -11,6 +11,7 @@ use nalgebra::{Point3, Vector3};
 use super::error::PaintError;
 use crate::{
     geometry::{
+        cloud::PointCloud,
         nearest::{KdTree, median_spacing},
         principal::principal_axes,
     },
@@ -62,7 +63,15 @@ impl PaintSurface {
         coverage: Coverage,
         side: Option<Side>,
     ) -> Result<Self, PaintError> {
-        let cloud = &reference.cloud;
+        Self::of_cloud(&reference.cloud, coverage, side)
+    }
+
+    /// The surface of a part that was enrolled with this cloud.
+    pub fn of_cloud(
+        cloud: &PointCloud,
+        coverage: Coverage,
+        side: Option<Side>,
+    ) -> Result<Self, PaintError> {
         let normals = cloud.normals.as_ref().ok_or(PaintError::NoNormals)?;
         let points: Vec<Point3<f64>> = cloud.points.iter().map(|p| p.cast()).collect();
         let normals: Vec<Vector3<f64>> = normals.iter().map(|n| n.cast()).collect();

@@ -8,6 +8,7 @@ use std::{
 use crate::{
     error::Advice,
     files::file_of,
+    paint::FilmOffPlan,
     pipeline::Inspection,
     robot::{RobotFrame, arm::NotReached, spray::OffThePart},
     stages::pose::PoseEstimate,
@@ -84,6 +85,9 @@ pub enum Doubt {
     /// The arm does not reach the path, or collides on it.
     #[error(transparent)]
     NotReached(NotReached),
+    /// A program would leave another film than planned.
+    #[error(transparent)]
+    FilmOffPlan(FilmOffPlan),
 }
 
 impl Doubt {
@@ -102,6 +106,7 @@ impl Doubt {
             Self::Ambiguous => "ambiguous_pose",
             Self::OffThePart(_) => "off_the_part",
             Self::NotReached(_) => "not_reached",
+            Self::FilmOffPlan(_) => "film_off_plan",
         }
     }
 }
@@ -131,6 +136,7 @@ impl Advice for Doubt {
             }
             Self::OffThePart(off) => off.advice(),
             Self::NotReached(missed) => missed.advice(),
+            Self::FilmOffPlan(off_plan) => off_plan.advice(),
         }
     }
 }

@@ -6,24 +6,24 @@
 
 use std::path::Path;
 
-use nalgebra::Point3;
-
 use super::{Currency, Doubt, doubts};
 use crate::{
     error::Advice,
     files::FileError,
-    geometry::rigid::RigidTransform,
+    geometry::{cloud::PointCloud, rigid::RigidTransform},
+    library::{Side, SprayPath},
+    paint::{Coat, WrittenFilm},
     pipeline::Inspection,
     robot::{
         Convention, RobotFrame,
         arm::{ArmError, PathCheck, PlacedArm},
         program::{
-            Program, ProgramError, ProgramFormat, ProgramSettings, check_reach, program_points,
-            remove_previous_program,
+            Program, ProgramError, ProgramFormat, ProgramPoint, ProgramSettings, check_reach,
+            program_points, remove_previous_program,
         },
         spray::{BandStatus, CarriedPath, OffThePart, SprayExport, remove_previous_export},
     },
-    stages::stand_off::StandOffParams,
+    stages::{reference::Coverage, stand_off::StandOffParams},
     units::counted,
 };
 
@@ -40,8 +40,14 @@ pub struct RobotFile<'a> {
     pub frame: &'a RobotFrame,
     /// Name of the part.
     pub part: &'a str,
-    /// Points that the part was enrolled with, part frame.
-    pub part_points: &'a [Point3<f32>],
+    /// Cloud that the part was enrolled with, part frame.
+    pub part_cloud: &'a PointCloud,
+    /// The sides of the part that were enrolled.
+    pub coverage: Coverage,
+    /// The side that the part is painted from; none for its own.
+    pub side: Option<Side>,
+    /// The path, part frame.
+    pub path: &'a SprayPath,
     /// Whether the path does not aim at the part.
     pub off: Option<OffThePart>,
     /// The capture that shows the part; none for its standard position.
@@ -95,6 +101,8 @@ pub struct WrittenRobotFile {
     pub num_called: usize,
     /// Doubts despite which it was written.
     pub doubts: Vec<Doubt>,
+    /// Figures of a program's film and of the planned one; none for poses, or if the path names no coat.
+    pub film: Option<String>,
     /// What was not checked.
     pub unchecked: Vec<Unchecked>,
 }
@@ -136,6 +144,9 @@ pub enum Unchecked {
     /// No boxes and no floor of the cell are known.
     #[error("collisions with anything but part and arm, such as the part's stand")]
     Surroundings,
+    /// The coat of a program's path is not known.
+    #[error("the film that the program leaves, because the path names no coat")]
+    Film,
     /// Limits that the arm's file lacks: `joints`, `rail` or `joints and rail`.
     #[error("accelerations of {0}, whose limits are not known")]
     Accelerations(&'static str),
@@ -158,6 +169,7 @@ impl Advice for Unchecked {
             Self::Surroundings => {
                 "Describe the boxes and the floor of the cell in a file, or watch the robot's first run at low speed".into()
             }
+            Self::Film => "Plan the path again, so that it names its coat".into(),
             Self::Accelerations(_) => "Add the limits to the arm's file".into(),
             Self::NotSeen { .. } => {
                 "Capture the part so that the camera sees more of it, or scan it, if the path should aim at it there".into()
@@ -202,15 +214,29 @@ impl RobotFile<'_> {
     pub fn write(&self) -> Result<WrittenRobotFile, RobotFileError> {
         remove_previous(self.file)?;
         let reach = self.reach()?;
-        let doubts = self.doubts(reach.as_ref());
+        let points = program_points(
+            self.carried,
+            self.frame,
+            reach.as_ref().map(|(_, check)| check),
+        );
+        let film = self.film(&points, reach.as_ref());
+        let doubts = self.doubts(reach.as_ref(), film.as_ref());
         if !self.is_forced && !doubts.is_empty() {
             return Err(RobotFileError::Doubts(doubts));
         }
-        let unchecked = self.unchecked();
-        let num_called = self.save(reach.as_ref(), &doubts, &unchecked)?;
+        let unchecked = self.unchecked(film.as_ref());
+        let film = film.as_ref().map(WrittenFilm::line);
+        let num_called = self.save(
+            &points,
+            reach.as_ref(),
+            film.as_deref(),
+            &doubts,
+            &unchecked,
+        )?;
         Ok(WrittenRobotFile {
             num_called,
             doubts,
+            film,
             unchecked,
         })
     }
@@ -226,14 +252,66 @@ impl RobotFile<'_> {
             return Ok(None);
         };
         let robot_from_part = self.frame.robot_from_part(&self.camera_from_part);
-        let arm = arm.clone().with_part(self.part_points, &robot_from_part);
+        let arm = arm
+            .clone()
+            .with_part(&self.part_cloud.points, &robot_from_part);
         let check = check_reach(&arm, self.carried, self.frame, settings)?;
         Ok(Some((arm, check)))
     }
 
+    /// The film that a program leaves; `None` for poses, and if the path names no coat.
+    fn film(
+        &self,
+        points: &[ProgramPoint],
+        reach: Option<&(PlacedArm, PathCheck)>,
+    ) -> Option<WrittenFilm> {
+        let RobotFileContent::Program {
+            format, settings, ..
+        } = self.content
+        else {
+            return None;
+        };
+        WrittenFilm::of(
+            &self.program(settings, points, reach),
+            format,
+            self.path,
+            self.part_cloud,
+            self.coverage,
+            self.side,
+        )
+    }
+
+    /// The program, without its doubts and figures.
+    fn program<'p>(
+        &'p self,
+        settings: &'p ProgramSettings,
+        points: &'p [ProgramPoint],
+        reach: Option<&'p (PlacedArm, PathCheck)>,
+    ) -> Program<'p> {
+        Program {
+            points,
+            settings,
+            acceleration: Coat::acceleration_of(self.path),
+            film: None,
+            reach,
+            part: self.part,
+            scene: self.capture.map(|capture| capture.scene),
+            robot_from_part: self.frame.robot_from_part(&self.camera_from_part),
+            calibration: &self.frame.name,
+            is_simulated: self.is_simulated,
+            doubts: &[],
+            unchecked: &[],
+            at: crate::clock::now(),
+        }
+    }
+
     /// All doubts. That the path does not aim at the part comes first: neither another capture nor another place of the
     /// arm helps against it.
-    fn doubts(&self, reach: Option<&(PlacedArm, PathCheck)>) -> Vec<Doubt> {
+    fn doubts(
+        &self,
+        reach: Option<&(PlacedArm, PathCheck)>,
+        film: Option<&WrittenFilm>,
+    ) -> Vec<Doubt> {
         let of_capture = self
             .capture
             .iter()
@@ -243,15 +321,19 @@ impl RobotFile<'_> {
         off.into_iter()
             .chain(of_capture)
             .chain(missed.map(Doubt::NotReached))
+            .chain(film.and_then(WrittenFilm::doubt).map(Doubt::FilmOffPlan))
             .collect()
     }
 
-    fn unchecked(&self) -> Vec<Unchecked> {
-        let arm = match self.content {
-            RobotFileContent::Poses { .. } => None,
-            RobotFileContent::Program { arm, .. } => arm,
+    fn unchecked(&self, film: Option<&WrittenFilm>) -> Vec<Unchecked> {
+        let (arm, is_program) = match self.content {
+            RobotFileContent::Poses { .. } => (None, false),
+            RobotFileContent::Program { arm, .. } => (arm, true),
         };
         let mut unchecked = Unchecked::of_arm(arm);
+        if is_program && film.is_none() {
+            unchecked.push(Unchecked::Film);
+        }
         // In the standard position, nothing was to be seen.
         if self.capture.is_some() {
             unchecked.extend(Unchecked::of_points(self.carried));
@@ -262,7 +344,9 @@ impl RobotFile<'_> {
     /// Writes the file; returns the number of programs that it calls.
     fn save(
         &self,
+        points: &[ProgramPoint],
         reach: Option<&(PlacedArm, PathCheck)>,
+        film: Option<&str>,
         doubts: &[Doubt],
         unchecked: &[Unchecked],
     ) -> Result<usize, RobotFileError> {
@@ -294,20 +378,11 @@ impl RobotFile<'_> {
             RobotFileContent::Program {
                 format, settings, ..
             } => {
-                let points =
-                    program_points(self.carried, self.frame, reach.map(|(_, check)| check));
                 let program = Program {
-                    points: &points,
-                    settings,
-                    reach,
-                    part: self.part,
-                    scene,
-                    robot_from_part: self.frame.robot_from_part(&self.camera_from_part),
-                    calibration: &self.frame.name,
-                    is_simulated: self.is_simulated,
+                    film,
                     doubts: &doubts,
                     unchecked: &unchecked,
-                    at: crate::clock::now(),
+                    ..self.program(settings, points, reach)
                 };
                 Ok(program.save(self.file, format)?)
             }
@@ -334,6 +409,7 @@ mod tests {
 
     /// A fender that was found, and the default point of its path.
     struct Bench {
+        path: SprayPath,
         library: Library,
         inspection: Inspection,
         carried: CarriedPath,
@@ -349,11 +425,13 @@ mod tests {
             let inspection = run(&scene, &library, &Recipe::default(), &Unwatched).expect("run");
             let params = StandOffParams::default();
             let path = default_path(inspection.best_reference(&library).expect("one"), &params);
+            let path = path.expect("a path");
             let pose = inspection.found_pose().expect("a pose");
             let seen = inspection.segmentation.part.as_ref().expect("a part");
             let hangs = pose.camera_from_part();
             Self {
-                carried: carry(&path.expect("a path"), &hangs, &seen.cloud, &params),
+                carried: carry(&path, &hangs, &seen.cloud, &params),
+                path,
                 library,
                 inspection,
                 frame: RobotFrame {
@@ -387,7 +465,10 @@ mod tests {
                 carried: &self.carried,
                 frame: &self.frame,
                 part: "fender",
-                part_points: &best.expect("one").cloud.points,
+                part_cloud: &best.expect("one").cloud,
+                coverage: Coverage::OneSide,
+                side: None,
+                path: &self.path,
                 off: None,
                 capture: Some(CapturedPart {
                     scene: "fender.pcd",
@@ -478,7 +559,11 @@ mod tests {
                 num: 1,
                 num_points: 3,
             };
-            assert_eq!(written.unchecked, [Unchecked::Arm, not_seen]);
+            let mut expected = vec![Unchecked::Arm, not_seen];
+            if ProgramFormat::of(&path).is_ok() {
+                expected.insert(1, Unchecked::Film);
+            }
+            assert_eq!(written.unchecked, expected);
             for unchecked in &written.unchecked {
                 let words = unchecked.to_string();
                 assert!(contains(&path, &words), "{name}: {words}");

@@ -236,3 +236,34 @@ fn the_stored_path_is_exported_to_each_controller_unless_the_arm_does_not_reach_
     assert!(ran.err.contains("path plan grille"), "{}", ran.err);
     assert!(!shop.path("paint.src").exists());
 }
+
+#[test]
+fn a_program_that_would_leave_a_worse_film_than_planned_is_refused_unless_forced() {
+    let shop = Workplace::new();
+    let plan = ["path", "plan", "grille", "--coat", "primer"];
+    shop.coded(0, &[&plan[..], &["--propose", "--store"]].concat());
+    let cell = "kuka 1200 -400 1900 86 -5 120";
+    shop.coded(0, &["calibrate", "set", cell, "--mount", "eye-to-hand"]);
+    let export = ["path", "export", "grille", "-o"];
+    let ran = shop.coded(0, &[&export[..], &["paint.script"]].concat());
+    assert!(ran.err.contains("film: "), "{}", ran.err);
+    let text = shop.read("paint.script");
+    assert!(text.contains("a=4.000") && text.contains("film: "));
+    // Doosan's robots stop at every switch of the gun.
+    let ran = shop.coded(1, &[&export[..], &["paint.drl"]].concat());
+    for wanted in ["the program would bring", "were planned", "--force"] {
+        assert!(ran.err.contains(wanted), "{wanted}: {}", ran.err);
+    }
+    assert!(!shop.path("paint.drl").exists());
+    shop.coded(0, &[&export[..], &["paint.drl", "--force"]].concat());
+    assert!(
+        shop.read("paint.drl")
+            .contains("FORCED: the program would bring")
+    );
+    // A program does not ignore a tool.
+    let ran = shop.coded(
+        2,
+        &[&export[..], &["paint.script", "--tool", "gun"]].concat(),
+    );
+    assert!(ran.err.contains("does not use the tool"), "{}", ran.err);
+}

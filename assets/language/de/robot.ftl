@@ -238,11 +238,14 @@ robot-doubt-too-near = die Lackierbahn zielt nicht auf das Teil (bei { $near } v
 robot-doubt-off-part-advice = Prüfen, ob die Bahn zu diesem Teil gehört, oder in Lackieren eine neue planen und speichern
 robot-doubt-not-reached = { $arm } erreicht { $missed } von { $all } Punkten nicht
 robot-doubt-not-reached-advice = Das Teil oder den Fuß des Arms versetzen oder die Bahn ändern
+robot-doubt-film-off-plan = Das Programm brächte { $written } % der Fläche in { $tolerance } % um den Sollwert, im Mittel { $written_um } µm; geplant sind { $planned } % und { $planned_um } µm. Mit offener Pistole hielte es { $stops }-mal an
+robot-doubt-film-off-plan-advice = Die Bahn ohne Züge entlang von Flanken planen (Neigung zu Flanken 0) oder das Programm für eine Steuerung schreiben, die die Pistole während der Bewegung schaltet
 
 ## Was nicht geprüft wurde
 robot-not-checked = Nicht geprüft: { $what }
 robot-unchecked-arm = Reichweite und Kollisionen
 robot-unchecked-surroundings = Kollisionen mit anderem als Teil und Arm, etwa mit der Halterung des Teils
+robot-unchecked-film = die Schicht, die das Programm aufträgt, weil die Bahn keine Lackschicht nennt
 robot-unchecked-accelerations =
     { $what ->
         [joints] Beschleunigungen der Gelenke

@@ -238,11 +238,14 @@ robot-doubt-too-near = the spray path does not aim at the part (at { $near } of 
 robot-doubt-off-part-advice = Check that the path is that of this part, or plan and store a new one in Paint
 robot-doubt-not-reached = { $arm } misses { $missed } of { $all } points
 robot-doubt-not-reached-advice = Move the part or the arm's base, or change the path
+robot-doubt-film-off-plan = The program would bring { $written } % of the surface within { $tolerance } % of the target with { $written_um } µm on average, where { $planned } % and { $planned_um } µm were planned; with the gun open it would stop { $stops } times
+robot-doubt-film-off-plan-advice = Plan the path without added strokes along flanks (Lean to flanks 0), or write it for a controller that switches the gun while the robot moves
 
 ## What was not checked
 robot-not-checked = Not checked: { $what }
 robot-unchecked-arm = reach and collisions
 robot-unchecked-surroundings = collisions with anything but part and arm, such as the part's stand
+robot-unchecked-film = the film that the program leaves, because the path names no coat
 robot-unchecked-accelerations =
     { $what ->
         [joints] accelerations of the joints

@@ -238,11 +238,14 @@ robot-doubt-too-near = la trayectoria no apunta a la pieza (en { $near } de { $a
 robot-doubt-off-part-advice = Compruebe que la trayectoria es de esta pieza, o planifique y guarde otra en Pintar
 robot-doubt-not-reached = { $arm } no alcanza { $missed } de { $all } puntos
 robot-doubt-not-reached-advice = Mueva la pieza o la base del brazo, o cambie la trayectoria
+robot-doubt-film-off-plan = El programa dejaría el { $written } % de la superficie a menos del { $tolerance } % del objetivo, con { $written_um } µm de media; estaban previstos { $planned } % y { $planned_um } µm. Con la pistola abierta se detendría { $stops } veces
+robot-doubt-film-off-plan-advice = Planifique la trayectoria sin pasadas por los flancos (Inclinación a flancos 0), o escríbala para un controlador que conmute la pistola en movimiento
 
 ## Lo que no se comprobó
 robot-not-checked = Sin comprobar: { $what }
 robot-unchecked-arm = alcance y colisiones
 robot-unchecked-surroundings = colisiones con algo que no sea la pieza o el brazo, como el soporte de la pieza
+robot-unchecked-film = la película que deja el programa, porque la trayectoria no nombra ninguna capa
 robot-unchecked-accelerations =
     { $what ->
         [joints] aceleraciones de las articulaciones

@@ -227,11 +227,14 @@ robot-doubt-too-near = 喷涂轨迹未对准零件（喷枪打开的 { $all } �
 robot-doubt-off-part-advice = 请检查轨迹是否属于此零件，或在“喷涂”中重新规划并保存
 robot-doubt-not-reached = { $arm } 有 { $missed } 个点不可达，共 { $all } 个
 robot-doubt-not-reached-advice = 请移动零件或机械臂底座，或修改轨迹
+robot-doubt-film-off-plan = 该程序只会使 { $written } % 的表面处于目标的 { $tolerance } % 以内，平均 { $written_um } µm，而计划为 { $planned } % 和 { $planned_um } µm；喷枪打开时会停顿 { $stops } 次
+robot-doubt-film-off-plan-advice = 请规划不含侧面行程的轨迹（侧面倾角设为 0），或为能在运动中开关喷枪的控制器写出程序
 
 ## 未检查的内容
 robot-not-checked = 未检查：{ $what }
 robot-unchecked-arm = 可达范围和碰撞
 robot-unchecked-surroundings = 与零件和机械臂以外物体（如零件支架）的碰撞
+robot-unchecked-film = 程序形成的漆膜，因为轨迹未注明涂层
 robot-unchecked-accelerations =
     { $what ->
         [joints] 关节加速度

@@ -99,8 +99,8 @@ pub struct Inspected {
     pub stand_off: Option<Result<StandOff, StandOffError>>,
     /// The part's stored spray path, carried to the found pose; `None` if none is stored or the verdict is not accepted.
     pub spray: Option<CarriedPath>,
-    /// Points that the part of the spray path was enrolled with, part frame, metres; empty without a path.
-    pub part_points: Vec<Point3<f32>>,
+    /// Cloud that the part of the spray path was enrolled with, part frame, metres; empty without a path.
+    pub part_cloud: PointCloud,
     /// Whether the spray path does not aim at that part.
     pub off_the_part: Option<OffThePart>,
     /// Data of the 3-D view.
@@ -398,7 +398,7 @@ impl FinishedInspection {
             middle,
             stand_off,
             spray,
-            part_points: carried_onto.map_or_else(Vec::new, |best| best.cloud.points.clone()),
+            part_cloud: carried_onto.map_or_else(PointCloud::default, |best| best.cloud.clone()),
             off_the_part: path.and_then(|path| path.off),
             view,
             followed,

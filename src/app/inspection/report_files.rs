@@ -93,7 +93,11 @@ pub(in crate::app) fn spray_path(
     let first = inspected.inspection.ranking.entries.first();
     let part = first.and_then(|first| inspected.library.parts.get(first.reference));
     let pose = inspected.inspection.found_pose();
-    let (Some(carried), Some(part), Some(pose)) = (&inspected.spray, part, pose) else {
+    let stored =
+        first.and_then(|first| inspected.library.spray_paths.get(first.reference)?.as_ref());
+    let (Some(carried), Some(part), Some(pose), Some(stored)) =
+        (&inspected.spray, part, pose, stored)
+    else {
         return Err(UserError {
             what: text!("inspect-no-spray-path"),
             advice: text!("inspect-no-spray-path-advice"),
@@ -116,7 +120,10 @@ pub(in crate::app) fn spray_path(
         carried,
         frame: robot,
         part: part.name.as_str(),
-        part_points: &inspected.part_points,
+        part_cloud: &inspected.part_cloud,
+        coverage: part.coverage,
+        side: part.side,
+        path: &stored.path,
         off: inspected.off_the_part,
         capture: Some(CapturedPart {
             scene: &scene_name(&inspected.origin).display().to_string(),

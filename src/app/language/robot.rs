@@ -117,6 +117,22 @@ pub(in crate::app) fn doubt(doubt: &Doubt) -> [String; 2] {
             ),
             text!("robot-doubt-not-reached-advice"),
         ],
+        Doubt::FilmOffPlan(off_plan) => {
+            let [planned, written] = off_plan.within.map(|share| format!("{:.1}", 100.0 * share));
+            let [planned_um, written_um] = off_plan.mean.map(|mean| format!("{:.1}", 1e6 * mean));
+            [
+                text!(
+                    "robot-doubt-film-off-plan",
+                    written = written,
+                    written_um = written_um,
+                    planned = planned,
+                    planned_um = planned_um,
+                    tolerance = format!("{:.0}", 100.0 * off_plan.tolerance),
+                    stops = off_plan.num_stops
+                ),
+                text!("robot-doubt-film-off-plan-advice"),
+            ]
+        }
     }
 }
 
@@ -125,6 +141,7 @@ pub(in crate::app) fn not_checked(unchecked: &[Unchecked]) -> Option<String> {
     let words = unchecked.iter().map(|unchecked| match unchecked {
         Unchecked::Arm => text!("robot-unchecked-arm"),
         Unchecked::Surroundings => text!("robot-unchecked-surroundings"),
+        Unchecked::Film => text!("robot-unchecked-film"),
         Unchecked::Accelerations(what) => {
             text!("robot-unchecked-accelerations", what = *what)
         }
@@ -286,6 +303,7 @@ mod tests {
         for unchecked in [
             Unchecked::Arm,
             Unchecked::Surroundings,
+            Unchecked::Film,
             Unchecked::NotSeen {
                 num: 426,
                 num_points: 660,

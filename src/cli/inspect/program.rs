@@ -4,14 +4,14 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::spray::{SprayResult, check_placed_part, names_of};
+use super::spray::{SprayResult, check_placed_part};
 use crate::{
     cli::{
         Outcome,
         console::{Advised as _, Console, advised_error, store_a_path},
         program::{ProgramFile, ProgramOptions, ProgramSubject, parse_format},
     },
-    library::{LibraryLoad, LibraryPlace, PartName},
+    library::{LibraryLoad, LibraryPlace, PartMeta},
     robot::{RobotFrame, program::ProgramFormat, spray::carry},
     station::{
         Currency,
@@ -25,7 +25,7 @@ pub(super) struct ProgramChoice {
     /// Write the part's stored spray path as a program for the robot's controller, named like the file: .src, .ls,
     /// .mod, .script, .jbi or .drl. Needs a calibration and one file. Nothing is written if the part is not accepted, if
     /// another pose fits nearly as well, if the capture is older than 10 minutes or dated later than now, if the path does
-    /// not aim at the part, or if --arm does not reach every point
+    /// not aim at the part, if --arm does not reach every point, or if the program would leave a worse film than planned
     #[arg(long, value_name = "FILE", group = "robot_file")]
     program: Option<PathBuf>,
     /// Language of the program, if the file's ending does not give it: krl, ls, rapid, urscript, jbi or drl
@@ -39,8 +39,8 @@ pub(super) struct ProgramChoice {
 pub(super) struct CapturedProgram {
     file: ProgramFile,
     place: LibraryPlace,
-    /// Name of each reference of the library, and whether it is simulated.
-    parts: Vec<(PartName, bool)>,
+    /// Every reference of the library.
+    parts: Vec<PartMeta>,
 }
 
 impl ProgramChoice {
@@ -77,7 +77,7 @@ impl ProgramChoice {
         Ok(Some(CapturedProgram {
             file: self.options.open(file, self.robot_program_format)?,
             place,
-            parts: names_of(load),
+            parts: load.parts.clone(),
         }))
     }
 }
@@ -98,7 +98,8 @@ impl CapturedProgram {
             console.note(&"no program was written: no part was found with a pose");
             return Ok(Outcome::NotAccepted);
         };
-        let (name, is_simulated) = &self.parts[first.reference];
+        let meta = &self.parts[first.reference];
+        let name = &meta.name;
         let Some(path) = self.place.spray_path(name.as_str()).advised()? else {
             // A part that was only the nearest need not have a path.
             if !inspection.verdict.is_accepted() {
@@ -116,6 +117,8 @@ impl CapturedProgram {
         let subject = ProgramSubject {
             part: name,
             reference: &seen.library.references[first.reference],
+            coverage: meta.coverage,
+            side: meta.side,
             path: &path,
             capture: Some(CapturedPart {
                 scene: seen.scene,
@@ -123,7 +126,7 @@ impl CapturedProgram {
                 currency: &currency,
             }),
             camera_from_part,
-            is_simulated: *is_simulated || seen.is_simulated,
+            is_simulated: meta.simulated || seen.is_simulated,
         };
         self.file.write(&carried, &subject, frame, console)
     }

@@ -11,7 +11,7 @@ use crate::{
         input::parse_convention,
         robot_file,
     },
-    library::{Library, LibraryLoad, LibraryPlace, PartName},
+    library::{Library, LibraryLoad, LibraryPlace, PartMeta},
     pipeline::Inspection,
     robot::{
         Convention, RobotFrame,
@@ -42,8 +42,8 @@ pub(super) struct SprayFile {
     file: PathBuf,
     convention: Convention,
     place: LibraryPlace,
-    /// Name of each reference of the library, and whether it is simulated.
-    parts: Vec<(PartName, bool)>,
+    /// Every reference of the library.
+    parts: Vec<PartMeta>,
     is_forced: bool,
 }
 
@@ -88,7 +88,7 @@ impl SprayChoice {
             file: file.clone(),
             convention: self.spray_as,
             place,
-            parts: names_of(load),
+            parts: load.parts.clone(),
             is_forced,
         }))
     }
@@ -121,14 +121,6 @@ pub(super) fn check_placed_part(
     Ok(())
 }
 
-/// Returns the name of each reference of the library, and whether it is simulated.
-pub(super) fn names_of(load: &LibraryLoad) -> Vec<(PartName, bool)> {
-    let parts = load.parts.iter();
-    parts
-        .map(|meta| (meta.name.clone(), meta.simulated))
-        .collect()
-}
-
 impl SprayFile {
     /// Carries the path and writes it, unless there is a reason against it.
     pub(super) fn write(
@@ -152,7 +144,8 @@ impl SprayFile {
             return Ok(Outcome::NotAccepted);
         };
         let reference = &library.references[first.reference];
-        let (name, is_part_simulated) = &self.parts[first.reference];
+        let meta = &self.parts[first.reference];
+        let name = &meta.name;
         let stored = self.place.spray_path(name.as_str()).advised()?;
         if let (None, Some(other)) = (&stored, inspection.other_reference()) {
             let part = &first.part;
@@ -182,7 +175,10 @@ impl SprayFile {
             carried: &carried,
             frame,
             part: name.as_str(),
-            part_points: &reference.cloud.points,
+            part_cloud: &reference.cloud,
+            coverage: meta.coverage,
+            side: meta.side,
+            path: &path,
             off: off_the_part(&path, reference),
             capture: Some(CapturedPart {
                 scene,
@@ -191,7 +187,7 @@ impl SprayFile {
             }),
             camera_from_part,
             is_stored,
-            is_simulated: *is_part_simulated || is_simulated,
+            is_simulated: meta.simulated || is_simulated,
             is_forced: self.is_forced,
         };
         if robot_file::write(&file, console)?.is_none() {

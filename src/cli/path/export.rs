@@ -73,6 +73,8 @@ pub(super) fn run(
     let subject = ProgramSubject {
         part: name,
         reference: &part.reference,
+        coverage: part.meta.coverage,
+        side: part.meta.side,
         path: &path,
         capture: None,
         camera_from_part: standard,

@@ -16,7 +16,7 @@ use crate::{
     },
     files::write_text,
     library::{PartName, Side, SprayPath, StoredPart},
-    paint::{Coat, CoatFolder, Film, KeepOut, PaintSurface, plan, propose, simulate},
+    paint::{Coat, CoatFolder, Film, KeepOut, LEAST_WITHIN, PaintSurface, plan, propose, simulate},
     pipeline::parameters::Setting,
     report::SCHEMA,
     units::counted,
@@ -106,9 +106,6 @@ fn parse_sphere(text: &str) -> Result<KeepOut, String> {
         radius: *radius,
     })
 }
-
-/// Smallest share of the reachable surface within the tolerance for exit code 0.
-const GOOD_ENOUGH: f64 = 0.9;
 
 pub(super) fn run_plan(
     choice: &LibraryChoice,
@@ -268,5 +265,5 @@ fn show(
             100.0 * figures.reachable
         ));
     }
-    Outcome::accepted_if(figures.within >= GOOD_ENOUGH)
+    Outcome::accepted_if(figures.within >= LEAST_WITHIN)
 }

@@ -182,3 +182,19 @@ fn a_path_that_names_another_part_is_refused() {
     // Most tables name no part.
     assert_eq!(read(text, &hood).expect("a path"), path);
 }
+
+#[test]
+fn the_coat_of_a_planned_path_stays_with_it() {
+    let text = "x_m,y_m,z_m,normal_x,normal_y,normal_z\n0.1,0.2,1.3,0,0,-1\n";
+    let path = parse(text).expect("a path");
+    assert_eq!(path.coat(), None);
+    assert!(!path.to_text().contains("# coat"));
+    let path = path.with_coat(Some("{\"speed\":0.4}".into()));
+    let fender = PartName::new("fender").expect("a name");
+    for text in [path.to_text(), path.to_text_of(&fender)] {
+        let again = parse(&text).expect("its own text");
+        assert_eq!(again.coat(), Some("{\"speed\":0.4}"), "{text}");
+    }
+    let crlf = path.to_text().replace('\n', "\r\n");
+    assert_eq!(parse(&crlf).expect("read").coat(), path.coat());
+}

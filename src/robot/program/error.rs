@@ -72,6 +72,14 @@ pub enum ProgramError {
         /// The tool given.
         tool: String,
     },
+    /// A tool was given, but the program sets the nozzle's pose as its tool, or uses the active one.
+    #[error("a program in {} does not use the tool {tool:?}: it uses the pose of the nozzle{}", format.title(), if *format == ProgramFormat::UrScript { ", or the active TCP" } else { "" })]
+    UnusedTool {
+        /// The language.
+        format: ProgramFormat,
+        /// The tool given.
+        tool: String,
+    },
     /// The arm moves along a rail, but the language has no axis for it.
     #[error("{} has no axis for the arm's rail", format.title())]
     Rail {
@@ -137,6 +145,12 @@ impl Advice for ProgramError {
                 Some(most) => format!("Give a number from 1 to {most} with --tool"),
                 None => "Give the tool's name on the controller with --tool: letters, digits and _, a letter first".into(),
             },
+            Self::UnusedTool { format: ProgramFormat::UrScript, .. } => {
+                "Leave out the tool (--tool). Give the nozzle's pose (--nozzle), or activate the TCP on the controller".into()
+            }
+            Self::UnusedTool { .. } => {
+                "Leave out the tool (--tool), or the nozzle's pose (--nozzle) to use the controller's tool".into()
+            }
             Self::Output { format, .. } => {
                 let [low, high] = format.outputs();
                 format!("Give a number from {low} to {high} with --gun-output")

@@ -117,6 +117,21 @@ impl ProgramFormat {
         }
     }
 
+    /// Largest blend radius at a point where the gun switches, metres; 0 if the robot has to stop there.
+    pub(super) fn switching_blend(self) -> f64 {
+        match self {
+            // The gun switches where the blend begins.
+            Self::UrScript => 0.005,
+            Self::Drl => 0.0,
+            _ => f64::INFINITY,
+        }
+    }
+
+    /// Where within a blend the gun switches: 0 at its beginning, 0.5 in its middle.
+    pub(super) fn switches_at(self) -> f64 {
+        if self == Self::UrScript { 0.0 } else { 0.5 }
+    }
+
     /// First and last number of its digital outputs.
     pub(super) fn outputs(self) -> [u16; 2] {
         match self {

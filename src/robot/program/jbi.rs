@@ -49,31 +49,40 @@ pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], na
         &["///ATTR SC,RW,RJ", "////FRAME BASE"],
         header,
     );
-    lines.instruct(format!("DOUT OT#({output}) OFF"));
+    let gun = |is_on: bool| {
+        let state = if is_on { "ON" } else { "OFF" };
+        format!("DOUT OT#({output}) {state}")
+    };
+    lines.instruct(gun(false));
+    // The gun switches as the next move begins: NWAIT runs the instructions up to the next move during this one.
+    let (mut switches, mut is_during) = (None, false);
     for (i, step) in steps.iter().enumerate() {
         let rail = step.rail.map(|_| format!(" BC{i:05}"));
         let place = format!("C{i:05}{}", rail.unwrap_or_default());
-        match step.motion {
-            Motion::Joints => {
+        let motion = match step.motion {
+            Motion::Joints(_) => {
                 let share = text::fixed(JOINT_SPEED * 100.0, 2);
-                lines.instruct(format!("MOVJ {place} VJ={share} PL=0"));
+                format!("MOVJ {place} VJ={share} PL=0")
             }
             Motion::Line(line) => {
                 let speed = text::fixed(line.speed * 1000.0, 1);
-                let end = if line.blend_unless_gun() > 0.0 {
-                    ""
-                } else {
-                    " PL=0"
-                };
-                lines.instruct(format!("MOVL {place} V={speed}{end}"));
-                if let Some(is_on) = line.gun {
-                    let state = if is_on { "ON" } else { "OFF" };
-                    lines.instruct(format!("DOUT OT#({output}) {state}"));
-                }
+                let end = if line.blend > 0.0 { "" } else { " PL=0" };
+                format!("MOVL {place} V={speed}{end}")
             }
+        };
+        let switched = std::mem::replace(&mut switches, step.gun());
+        is_during = switched.is_some();
+        if let Some(is_on) = switched {
+            lines.instruct(format!("{motion} NWAIT"));
+            lines.instruct(gun(is_on));
+        } else {
+            lines.instruct(motion);
         }
     }
-    lines.instruct(format!("DOUT OT#({output}) OFF"));
+    if is_during {
+        lines.instruct("CWAIT");
+    }
+    lines.instruct(gun(false));
     lines.instruct("END");
     lines
 }

@@ -31,18 +31,25 @@ pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], na
     if let Some(tool) = &settings.flange_from_nozzle {
         lines.add(format!("$TOOL={}", frame(tool, None, None)));
     }
+    if let Some(acceleration) = program.acceleration {
+        lines.add(format!("$ACC.CP={}", text::fixed(acceleration, 3)));
+    }
     lines.add(format!("$APO.CDIS={}", text::fixed(settings.blend.mm(), 3)));
     lines.add(format!("$OUT[{output}]=FALSE"));
     let mut current = None;
     for step in steps {
         match step.motion {
             // The configuration is only given here: linear moves keep the status and take the nearest turn.
-            Motion::Joints => {
+            Motion::Joints(gun) => {
                 let to = frame(&step.to, step.configuration.as_deref(), step.rail);
                 lines.instruct(format!("PTP {to}"));
                 if step.rail.is_some() {
                     // BAS (#VEL_PTP) also slows the rail, and linear moves would wait for it.
                     lines.instruct("$VEL_EXTAX[1]=100");
+                }
+                if let Some(is_on) = gun {
+                    let state = if is_on { "TRUE" } else { "FALSE" };
+                    lines.instruct(format!("$OUT[{output}]={state}"));
                 }
             }
             Motion::Line(line) => {

@@ -30,23 +30,21 @@ pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], na
     let mut points = Lines::default();
     for (i, step) in steps.iter().enumerate() {
         let number = i + 1;
+        // TIME BEFORE switches where the move ends, without a stop.
+        let gun = step.gun().map(|is_on| {
+            let state = if is_on { "ON" } else { "OFF" };
+            format!(" TB   0.00sec,DO[{output}]={state}")
+        });
+        let gun = gun.unwrap_or_default();
         match step.motion {
-            Motion::Joints => add(
+            Motion::Joints(_) => add(
                 "J ",
-                &format!("P[{number}] {:.0}% FINE", JOINT_SPEED * 100.0),
+                &format!("P[{number}] {:.0}% FINE{gun}", JOINT_SPEED * 100.0),
             ),
             Motion::Line(line) => {
                 let speed = text::fixed((line.speed * 1000.0).max(1.0), 0);
-                let end = if line.blend_unless_gun() > 0.0 {
-                    "CNT100"
-                } else {
-                    "FINE"
-                };
-                add("L ", &format!("P[{number}] {speed}mm/sec {end}"));
-                if let Some(is_on) = line.gun {
-                    let state = if is_on { "ON" } else { "OFF" };
-                    add("  ", &format!("DO[{output}]={state}"));
-                }
+                let end = if line.blend > 0.0 { "CNT100" } else { "FINE" };
+                add("L ", &format!("P[{number}] {speed}mm/sec {end}{gun}"));
             }
         }
         let numbers = text::numbers(ProgramFormat::Ls, &step.to);

@@ -1,19 +1,24 @@
 //! Programs for a robot's controller: the part's spray path as linear moves with speed, blending and gun.
 //!
-//! | format | pose | speed | blending | gun | source |
-//! | --- | --- | --- | --- | --- | --- |
-//! | KUKA KRL | X Y Z A B C | `$VEL.CP`, m/s | `C_DIS`, `$APO.CDIS` | `TRIGGER … DO $OUT` | KUKA, *System Software 8.3, Operating and Programming Instructions for System Integrators* and *System Variables* |
-//! | FANUC LS | X Y Z W P R | whole mm/sec | `CNT100` | `DO` | FANUC, *R-30iB Operator's Manual (Basic Operation)* |
-//! | ABB RAPID | pos, orient | speeddata, mm/s | zonedata | `MoveLDO` | ABB, *RAPID Instructions, Functions and Data types* |
-//! | `URScript` | p[…] | m/s | `r` | `set_standard_digital_out` | Universal Robots, *Script Manual* |
-//! | Yaskawa JBI | X Y Z Rx Ry Rz, RECTAN in BASE | `V`, mm/s | none but at `PL=0` | `DOUT OT#` | Yaskawa, *DX100 Options: Instructions for Data Transmission*, job data format |
-//! | Doosan DRL | posx | `vel`, mm/s | `radius` | `set_digital_output` | Doosan, *Programming Manual*, motion and I/O |
+//! | format | pose | speed | acceleration | blending | gun | source |
+//! | --- | --- | --- | --- | --- | --- | --- |
+//! | KUKA KRL | X Y Z A B C | `$VEL.CP`, m/s | `$ACC.CP` | `C_DIS`, `$APO.CDIS` | `TRIGGER … DO $OUT` | KUKA, *System Software 8.3, Operating and Programming Instructions for System Integrators* and *System Variables* |
+//! | FANUC LS | X Y Z W P R | whole mm/sec | the arm's | `CNT100` | `TB 0.00sec,DO` | FANUC, *R-30iB Operator's Manual (Basic Operation)*, also "TIME BEFORE/AFTER" |
+//! | ABB RAPID | pos, orient | speeddata, mm/s | `PathAccLim` | zonedata | `MoveLDO` | ABB, *RAPID Instructions, Functions and Data types* |
+//! | `URScript` | p[…] | m/s | `a` | `r` | `set_standard_digital_out` | Universal Robots, *Script Manual*, and *User Manual*, "Blending" |
+//! | Yaskawa JBI | X Y Z Rx Ry Rz, RECTAN in BASE | `V`, mm/s | the arm's | none but at `PL=0` | `DOUT OT#`, `NWAIT` | Yaskawa, *DX100 Options: Instructions for Data Transmission*, job data format, and *Instructions for INFORM Language*, "NWAIT" |
+//! | Doosan DRL | posx | `vel`, mm/s | `acc` | `radius` | `set_digital_output` | Doosan, *Programming Manual*, motion and I/O |
 //!
 //! Every program does the same: gun off; a joint move to the approach point, which is behind the first point along the
-//! nozzle; the path; gun off; a linear move away. A point's gun state and speed apply on the way to the next point. KRL
-//! and RAPID switch the gun while the robot moves. The others stop at a point where the gun changes, because they run
-//! outputs ahead of a blended move. All poses are `robot_from_nozzle` in the frame of the calibration: the robot's base
-//! frame, unless the arm was checked with its base elsewhere.
+//! nozzle; the path; gun off; a linear move away. A point's gun state and speed apply on the way to the next point. All
+//! poses are `robot_from_nozzle` in the frame of the calibration: the robot's base frame, unless the arm was checked with
+//! its base elsewhere.
+//!
+//! The gun switches while the robot moves: in the middle of the blend at the point (KRL, RAPID), where the move to it ends
+//! (LS, a time before its end of 0 s), or as the next move begins (JBI, `NWAIT` runs instructions during a move). A
+//! Universal Robots' controller runs what follows a blended move as it enters the blend, so blends are at most 5 mm
+//! there. DRL runs outputs ahead of a blended move, at a moment that could not be established: the robot stops at the
+//! point. The film of the program follows from [`Program::motion`].
 //!
 //! If an arm was checked to reach the path, and the controller is of the arm's maker, the points also name the
 //! configuration that was checked, so that the controller takes no other (`configuration`).
@@ -26,8 +31,8 @@
 //! program. Their names contain a checksum of the whole: on a controller that still has parts of an earlier path, or
 //! lacks some, the call fails, so no robot follows one path with the end of another.
 //!
-//! Known limits: nothing here was tried on a controller. Acceleration is the controller's default. If the configuration
-//! is not known, `CONFIG` of LS and `RCONF` of JBI name the usual one (no flip, elbow up, front), and the other
+//! Known limits: nothing here was tried on a controller. LS and JBI state accelerations only as shares of the arm's. If
+//! the configuration is not known, `CONFIG` of LS and `RCONF` of JBI name the usual one (no flip, elbow up, front), and the other
 //! programs leave it to the controller.
 
 mod configuration;
@@ -36,6 +41,7 @@ mod format;
 mod jbi;
 mod krl;
 mod ls;
+mod motion;
 mod prepare;
 pub mod ranges;
 mod rapid;
@@ -59,6 +65,7 @@ use crate::{
 pub use self::{
     error::ProgramError,
     format::{PROGRAM_ENDINGS, ProgramFormat},
+    motion::MotionPiece,
     prepare::{arm_points, check_reach, program_points},
     save::{ProgramTexts, remove_previous_program},
 };
@@ -77,7 +84,8 @@ pub struct ProgramPoint {
 /// Settings of the cell and of the moves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ProgramSettings {
-    /// The tool on the controller: a number for KRL, LS and JBI, a name for RAPID and DRL. Default: 1, or `tool1`.
+    /// The tool on the controller: a number for KRL, LS and JBI, a name for RAPID and DRL; none for `URScript`, and for
+    /// RAPID with the nozzle's pose. Default: 1, or `tool1`.
     pub tool: Option<String>,
     /// Pose of the nozzle on the flange. KRL, RAPID and `URScript` set it; otherwise the controller's tool applies.
     pub flange_from_nozzle: Option<RigidTransform>,
@@ -112,6 +120,8 @@ impl Default for ProgramSettings {
 
 /// Joint speed of the first move, as a share of the maximum.
 const JOINT_SPEED: f64 = 0.1;
+/// Acceleration of linear moves where the path has none, m/s²: the default of `URScript`, which is low for any arm.
+const ACCELERATION: f64 = 1.2;
 
 /// A path to be written as a program, and the content of its header.
 #[derive(Clone, Debug)]
@@ -120,6 +130,10 @@ pub struct Program<'a> {
     pub points: &'a [ProgramPoint],
     /// The settings.
     pub settings: &'a ProgramSettings,
+    /// Acceleration that the path was planned for, m/s²; none if unknown.
+    pub acceleration: Option<f64>,
+    /// The film that the program leaves, in words; none if unknown.
+    pub film: Option<&'a str>,
     /// The arm, and the result of its check; none if no arm was checked.
     pub reach: Option<&'a (PlacedArm, PathCheck)>,
     /// Name of the part.
@@ -144,6 +158,11 @@ pub struct Program<'a> {
 const MARK: &str = "Partsight robot program";
 
 impl Program<'_> {
+    /// Acceleration of linear moves, m/s².
+    fn line_acceleration(&self) -> f64 {
+        self.acceleration.unwrap_or(ACCELERATION)
+    }
+
     fn check(&self, format: ProgramFormat, name: &str) -> Result<(), ProgramError> {
         let most = format.longest_name();
         if name.len() > most || !text::is_identifier(name) {
@@ -189,6 +208,20 @@ impl Program<'_> {
         if !is_tool {
             return Err(ProgramError::Tool { format, tool });
         }
+        let has_own_tool = match format {
+            ProgramFormat::UrScript => true,
+            ProgramFormat::Rapid => settings.flange_from_nozzle.is_some(),
+            _ => false,
+        };
+        if has_own_tool && settings.tool.is_some() {
+            return Err(ProgramError::UnusedTool { format, tool });
+        }
+        self.check_path(format)
+    }
+
+    /// Checks the points, apart from the settings that only the text contains.
+    fn check_path(&self, format: ProgramFormat) -> Result<(), ProgramError> {
+        let settings = self.settings;
         if self.points.is_empty() {
             return Err(ProgramError::NoPoints);
         }
@@ -343,6 +376,10 @@ impl Program<'_> {
             counted(self.points.len(), "point", "points"),
             self.settings.gun_output
         ));
+        lines.push(match self.film {
+            Some(film) => format!("film: {film}"),
+            None => "film: not computed, because the path names no coat".into(),
+        });
         lines.push("Begin where the arm reaches the first pose freely.".into());
         lines
     }

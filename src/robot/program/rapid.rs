@@ -12,6 +12,8 @@ const WIDTH: usize = 78;
 const OWN_TOOL: &str = "tPartsight";
 /// Speed of linear external axes in v1000, mm/s; used if no rail moves.
 const RAIL_SPEED: f64 = 5000.0;
+/// Least limit that `PathAccLim` takes, m/s².
+const LEAST_ACCELERATION: f64 = 0.1;
 
 pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], name: &str) -> Lines {
     let settings = program.settings;
@@ -42,6 +44,12 @@ pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], na
         "    ConfJ\\Off;"
     });
     lines.add("    ConfL\\Off;");
+    if let Some(acceleration) = program.acceleration {
+        let limit = text::fixed(acceleration.max(LEAST_ACCELERATION), 3);
+        lines.add(format!(
+            "    PathAccLim TRUE\\AccMax:={limit},TRUE\\DecelMax:={limit};"
+        ));
+    }
     lines.add(format!("    SetDO {signal},0;"));
     // The rail keeps to its top speed even where the nozzle hardly moves.
     let rail_speed = program
@@ -52,10 +60,15 @@ pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], na
     let slow = format!("[100,50,{},100]", text::fixed(JOINT_SPEED * rail_speed, 3));
     for step in steps {
         match step.motion {
-            Motion::Joints => lines.instruct(format!(
-                "    MoveJ {},{slow},fine,{tool}\\WObj:=wobj0;",
-                target(step)
-            )),
+            Motion::Joints(gun) => {
+                lines.instruct(format!(
+                    "    MoveJ {},{slow},fine,{tool}\\WObj:=wobj0;",
+                    target(step)
+                ));
+                if let Some(is_on) = gun {
+                    lines.instruct(format!("    SetDO {signal},{};", u8::from(is_on)));
+                }
+            }
             Motion::Line(line) => {
                 let speed = text::fixed(line.speed * 1000.0, 3);
                 let zone = zone(line.blend);

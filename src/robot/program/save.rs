@@ -107,7 +107,7 @@ impl Program<'_> {
     /// Returns the program's text, split into several programs if one would be too long.
     pub fn texts(&self, format: ProgramFormat, name: &str) -> Result<ProgramTexts, ProgramError> {
         self.check(format, name)?;
-        let mut steps = steps::steps_of(self, format);
+        let mut steps = self.steps(format);
         let header = self.header(format, &steps);
         let whole = self.write(format, &steps, &header, name);
         let is_too_long = |most: &usize| whole.num_instructions() > *most;
@@ -127,12 +127,14 @@ impl Program<'_> {
         };
         // With larger numbers than there will be, so that no header is longer.
         let empty = self.write(format, &[], &header_of(most, most), name);
-        let most = most.saturating_sub(empty.num_instructions());
-        let ranges = steps::split(&mut steps, most).map_err(|found| ProgramError::TooMany {
-            format,
-            found,
-            most,
-        })?;
+        // A job of JBI may have to wait for its last move.
+        let most = most.saturating_sub(empty.num_instructions() + 1);
+        let ranges =
+            steps::split(&mut steps, format, most).map_err(|found| ProgramError::TooMany {
+                format,
+                found,
+                most,
+            })?;
         let names: Vec<String> = (1..=ranges.len()).map(called).collect();
         let longest = names.last().map_or(0, String::len);
         if longest > format.longest_name() {

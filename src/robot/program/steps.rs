@@ -25,8 +25,8 @@ pub(super) struct Step {
 /// Kind of move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Motion {
-    /// Joint move, slow, with the gun off.
-    Joints,
+    /// Joint move, slow, with the gun off; gun state from its end on, if it changes there.
+    Joints(Option<bool>),
     /// Linear move.
     Line(Line),
 }
@@ -42,24 +42,18 @@ pub(super) struct Line {
     pub(super) gun: Option<bool>,
 }
 
-impl Line {
-    /// The blend for controllers that would switch the gun before a blended point.
-    pub(super) fn blend_unless_gun(&self) -> f64 {
-        if self.gun.is_some() { 0.0 } else { self.blend }
-    }
-}
-
 impl Step {
-    fn gun(&self) -> Option<bool> {
+    /// Gun state from its end on, if it changes there.
+    pub(super) fn gun(&self) -> Option<bool> {
         match self.motion {
-            Motion::Joints => None,
+            Motion::Joints(gun) => gun,
             Motion::Line(line) => line.gun,
         }
     }
 
-    /// Instructions on a controller that switches the gun after a move.
-    fn num_instructions(&self) -> usize {
-        1 + usize::from(self.gun().is_some())
+    /// Instructions of the step: a move of LS also switches the gun, JBI has an instruction for it.
+    fn num_instructions(&self, format: ProgramFormat) -> usize {
+        1 + usize::from(self.gun().is_some() && format != ProgramFormat::Ls)
     }
 }
 
@@ -98,7 +92,7 @@ pub(super) fn steps_of(program: &Program<'_>, format: ProgramFormat) -> Vec<Step
         to: behind(first, begin),
         configuration: stands(begin),
         rail: rail(begin),
-        motion: Motion::Joints,
+        motion: Motion::Joints(None),
     }];
     let way = |point: Option<&PointCheck>| point.map_or(Way::Planned, |point| point.way);
     let mut is_on = false;
@@ -116,14 +110,20 @@ pub(super) fn steps_of(program: &Program<'_>, format: ProgramFormat) -> Vec<Step
             _ => 0.0,
         };
         let is_joint_move_next = way(at(i + 1)) == Way::Joints;
+        let gun = (wanted != is_on).then_some(wanted);
+        let most = if gun.is_some() {
+            format.switching_blend()
+        } else {
+            f64::INFINITY
+        };
         let line = Line {
             speed,
             blend: if is_joint_move_next {
                 0.0
             } else {
-                settings.blend.0.min(BLEND_SHARE * neighbours)
+                settings.blend.0.min(BLEND_SHARE * neighbours).min(most)
             },
-            gun: (wanted != is_on).then_some(wanted),
+            gun,
         };
         steps.push(Step {
             to: point.robot_from_nozzle,
@@ -132,7 +132,7 @@ pub(super) fn steps_of(program: &Program<'_>, format: ProgramFormat) -> Vec<Step
             motion: match way(at(i)) {
                 Way::Planned => Motion::Line(line),
                 Way::Slower(speed) => Motion::Line(Line { speed, ..line }),
-                Way::Joints => Motion::Joints,
+                Way::Joints => Motion::Joints(gun),
             },
         });
         is_on = wanted;
@@ -157,7 +157,11 @@ pub(super) fn steps_of(program: &Program<'_>, format: ProgramFormat) -> Vec<Step
 
 /// Cuts the steps where the gun is off into parts of at most `most` instructions; the robot stops there. Fails with the
 /// number of instructions if there are more between two such places.
-pub(super) fn split(steps: &mut [Step], most: usize) -> Result<Vec<Range<usize>>, usize> {
+pub(super) fn split(
+    steps: &mut [Step],
+    format: ProgramFormat,
+    most: usize,
+) -> Result<Vec<Range<usize>>, usize> {
     let mut parts: Vec<Range<usize>> = Vec::new();
     let (mut used, mut is_on) = (0, false);
     let strokes = steps.split_inclusive(|step| {
@@ -165,7 +169,10 @@ pub(super) fn split(steps: &mut [Step], most: usize) -> Result<Vec<Range<usize>>
         !is_on
     });
     for stroke in strokes {
-        let needed: usize = stroke.iter().map(Step::num_instructions).sum();
+        let needed: usize = stroke
+            .iter()
+            .map(|step| step.num_instructions(format))
+            .sum();
         if needed > most {
             return Err(needed);
         }

@@ -1,4 +1,6 @@
 mod configurations;
+mod film;
+mod motion;
 mod parse;
 mod rail;
 
@@ -54,6 +56,8 @@ fn program<'a>(points: &'a [ProgramPoint], settings: &'a ProgramSettings) -> Pro
     Program {
         points,
         settings,
+        acceleration: None,
+        film: None,
         reach: None,
         part: "Tür_links",
         scene: Some("door; \"x\".pcd"),
@@ -120,11 +124,12 @@ fn every_format_reads_back_to_the_path() {
                 }
                 assert_eq!(found.is_gun_on, *is_on, "{format:?} {seed}");
             }
-            // On controllers that run outputs ahead of a blended move, the robot stops before it switches.
-            let is_ahead = !matches!(format, ProgramFormat::Krl | ProgramFormat::Rapid);
+            // Where it is not known when a blended move switches an output, the robot stops before.
             for pair in read.moves.windows(2) {
                 let changes = pair[0].is_gun_on != pair[1].is_gun_on;
-                assert!(!(changes && is_ahead) || pair[0].is_exact);
+                let is_doosan = format == ProgramFormat::Drl;
+                assert!(!(changes && is_doosan) || pair[0].is_exact);
+                assert!(pair[0].switches_before <= 0.005, "{format:?} {seed}");
             }
             assert!(read.moves[0].is_exact && read.moves[read.moves.len() - 1].is_exact);
         }
@@ -190,7 +195,7 @@ fn a_header_says_part_pose_time_and_that_nothing_was_seen() {
 }
 
 #[test]
-fn corners_are_blended_where_the_gun_does_not_change() {
+fn corners_are_blended_also_where_the_gun_changes_except_by_doosan() {
     let settings = ProgramSettings::default();
     let points = row();
     for format in ProgramFormat::ALL {
@@ -200,10 +205,8 @@ fn corners_are_blended_where_the_gun_does_not_change() {
             .collect();
         // Approach, five points, away; the gun opens at the second point and closes at the fourth.
         let expected = match format {
-            ProgramFormat::Krl | ProgramFormat::Rapid => {
-                [true, true, false, false, false, true, true]
-            }
-            _ => [true, true, true, false, true, true, true],
+            ProgramFormat::Drl => [true, true, true, false, true, true, true],
+            _ => [true, true, false, false, false, true, true],
         };
         assert_eq!(exact, expected, "{format:?}");
         let none = ProgramSettings {
@@ -250,6 +253,69 @@ fn a_given_tool_is_set_where_the_controller_can() {
             "{format:?}: {}",
             text(format)
         );
+    }
+}
+
+#[test]
+fn a_tool_that_the_program_would_not_use_is_refused() {
+    let points = row();
+    let settings = ProgramSettings {
+        tool: Some("gun".into()),
+        ..ProgramSettings::default()
+    };
+    let with_nozzle = ProgramSettings {
+        flange_from_nozzle: Some(from_euler_zyx([0.0, 0.0, 0.0, 0.0, 0.01, 0.25])),
+        ..settings.clone()
+    };
+    for (format, settings, is_refused) in [
+        (ProgramFormat::UrScript, &settings, true),
+        (ProgramFormat::UrScript, &with_nozzle, true),
+        (ProgramFormat::Rapid, &settings, false),
+        (ProgramFormat::Rapid, &with_nozzle, true),
+        (ProgramFormat::Drl, &with_nozzle, false),
+    ] {
+        match program(&points, settings).texts(format, "paint") {
+            Ok(texts) => {
+                assert!(!is_refused, "{format:?}");
+                assert_eq!(parse::read(format, &texts.main).tool, "gun");
+            }
+            Err(error) => {
+                assert!(is_refused, "{format:?} {error}");
+                assert!(
+                    error.to_string().contains("does not use the tool \"gun\""),
+                    "{error}"
+                );
+                assert!(error.advice().contains("--tool"), "{}", error.advice());
+            }
+        }
+    }
+    let numbered = ProgramSettings {
+        tool: Some("3".into()),
+        ..with_nozzle
+    };
+    let text = text_of(&program(&points, &numbered), ProgramFormat::Krl);
+    assert_eq!(parse::read(ProgramFormat::Krl, &text).tool, "3");
+}
+
+#[test]
+fn the_acceleration_of_the_path_is_that_of_every_program_that_can_state_one() {
+    let points = row();
+    let settings = ProgramSettings::default();
+    for (acceleration, standard) in [(None, [None, Some(1.2)]), (Some(4.0), [Some(4.0); 2])] {
+        let program = Program {
+            acceleration,
+            ..program(&points, &settings)
+        };
+        for format in ProgramFormat::ALL {
+            let expected = match format {
+                ProgramFormat::Krl | ProgramFormat::Rapid => standard[0],
+                ProgramFormat::UrScript | ProgramFormat::Drl => standard[1],
+                ProgramFormat::Ls | ProgramFormat::Jbi => None,
+            };
+            let moves = parse::read(format, &text_of(&program, format)).moves;
+            let of_lines: Vec<_> = moves[1..].iter().map(|found| found.acceleration).collect();
+            assert_eq!(of_lines, vec![expected; 6], "{format:?}");
+        }
     }
 }
 
@@ -576,6 +642,31 @@ fn moves_with_the_gun_off_are_slower_or_by_joints_as_they_were_checked() {
         "{:?}",
         read.comments
     );
+    // The gun also switches where a joint move ends.
+    let mut by_joints = reach.clone();
+    by_joints.1.points[1].way = Way::Joints;
+    let by_joints = Program {
+        reach: Some(&by_joints),
+        ..program.clone()
+    };
+    let text = text_of(&by_joints, ProgramFormat::Rapid);
+    let moves = parse::read(ProgramFormat::Rapid, &text).moves;
+    let found = moves
+        .iter()
+        .map(|step| (step.speed.is_none(), step.is_gun_on));
+    let found: Vec<(bool, bool)> = found.collect();
+    let (joint, line) = (true, false);
+    assert_eq!(
+        found[1..5],
+        [(line, false), (joint, false), (line, true), (line, true)]
+    );
+    let on = by_joints.motion(ProgramFormat::Rapid).expect("a motion");
+    let on: f64 = on
+        .iter()
+        .filter(|piece| piece.is_gun_on)
+        .map(MotionPiece::length)
+        .sum();
+    assert!((on - 0.2).abs() < 1e-9, "{on}");
     // Another maker's controller does not know the configuration.
     let error = program
         .texts(ProgramFormat::Krl, "paint")

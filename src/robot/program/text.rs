@@ -108,6 +108,7 @@ pub(super) fn comments(header: &[String], width: usize) -> Vec<String> {
 fn ascii_of(c: char) -> char {
     match c {
         '°' => 'd',
+        'µ' => 'u',
         ';' | '"' | '\'' | '{' | '}' => '_',
         c if c.is_ascii_graphic() || c == ' ' => c,
         c if c.is_whitespace() => ' ',

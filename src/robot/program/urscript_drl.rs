@@ -40,22 +40,23 @@ pub(super) fn write_urscript(
         lines.add(format!("  set_tcp({})", pose(tool)));
     }
     lines.add(gun(false));
+    let acceleration = text::fixed(program.line_acceleration(), 3);
     for step in steps {
         match step.motion {
-            Motion::Joints => {
+            Motion::Joints(_) => {
                 let speed = text::fixed(JOINT_SPEED * FASTEST_JOINT, 3);
                 lines.instruct(format!("  movej({}, a=0.5, v={speed})", pose(&step.to)));
             }
             Motion::Line(line) => {
                 lines.instruct(format!(
-                    "  movel({}, a=1.2, v={}, r={})",
+                    "  movel({}, a={acceleration}, v={}, r={})",
                     pose(&step.to),
                     text::fixed(line.speed, 6),
-                    text::fixed(line.blend_unless_gun(), 5)
+                    text::fixed(line.blend, 5)
                 ));
-                lines_gun(&mut lines, line.gun.map(gun));
             }
         }
+        lines_gun(&mut lines, step.gun().map(gun));
     }
     lines.add(gun(false));
     lines.add("end");
@@ -80,9 +81,10 @@ pub(super) fn write_drl(program: &Program<'_>, steps: &[Step], header: &[String]
     }
     lines.add(format!("set_tcp(\"{}\")", program.tool(ProgramFormat::Drl)));
     lines.add(gun(false));
+    let acceleration = text::fixed(1000.0 * program.line_acceleration(), 1);
     for step in steps {
         match step.motion {
-            Motion::Joints => {
+            Motion::Joints(_) => {
                 let speed = (JOINT_SPEED * FASTEST_JOINT).to_degrees();
                 lines.instruct(format!(
                     "movejx({}, vel={}, acc={}, ref=DR_BASE, sol=get_current_solution_space())",
@@ -93,14 +95,14 @@ pub(super) fn write_drl(program: &Program<'_>, steps: &[Step], header: &[String]
             }
             Motion::Line(line) => {
                 lines.instruct(format!(
-                    "movel({}, vel={}, acc=1000, radius={}, ref=DR_BASE)",
+                    "movel({}, vel={}, acc={acceleration}, radius={}, ref=DR_BASE)",
                     pose(&step.to),
                     text::fixed(line.speed * 1000.0, 3),
-                    text::fixed(line.blend_unless_gun() * 1000.0, 2)
+                    text::fixed(line.blend * 1000.0, 2)
                 ));
-                lines_gun(&mut lines, line.gun.map(gun));
             }
         }
+        lines_gun(&mut lines, step.gun().map(gun));
     }
     lines.add(gun(false));
     lines

@@ -30,7 +30,8 @@ use crate::{
         ui::viewport::{Line, LineSet, Role},
         user_error::UserError,
     },
-    geometry::rigid::RigidTransform,
+    geometry::{cloud::PointCloud, rigid::RigidTransform},
+    library::Side,
     robot::{
         RobotFrame,
         arm::{
@@ -40,7 +41,7 @@ use crate::{
         program::{ProgramFormat, arm_points, check_reach},
         spray::{CarriedPath, OffThePart, carry, off_the_part},
     },
-    stages::stand_off::StandOffParams,
+    stages::{reference::Coverage, stand_off::StandOffParams},
     station::robot_file::{RobotFile, Unchecked},
 };
 
@@ -209,7 +210,9 @@ impl PaintState {
 /// A path in its part's standard position.
 struct StandardPath {
     carried: CarriedPath,
-    part_points: Vec<Point3<f32>>,
+    part_cloud: PointCloud,
+    coverage: Coverage,
+    side: Option<Side>,
     off: Option<OffThePart>,
     is_simulated: bool,
 }
@@ -226,11 +229,14 @@ fn in_standard_position(
         &reference.cloud,
         &StandOffParams::default(),
     );
+    let part = &loaded.shown.parts[place];
     Ok(StandardPath {
         carried,
-        part_points: reference.cloud.points.clone(),
+        part_cloud: reference.cloud.clone(),
+        coverage: part.coverage,
+        side: part.side,
         off: off_the_part(&planned.path, reference),
-        is_simulated: loaded.shown.parts[place].simulated,
+        is_simulated: part.simulated,
     })
 }
 
@@ -255,7 +261,7 @@ fn found(
     let path = in_standard_position(planned, library_cache)?;
     context.check()?;
     let robot_from_part = request.robot.robot_from_part(&RigidTransform::identity());
-    let arm = arm.with_part(&path.part_points, &robot_from_part);
+    let arm = arm.with_part(&path.part_cloud.points, &robot_from_part);
     let points = arm_points(&path.carried, &request.robot, settings.speed);
     let params = settings.check_params();
     let failed = |error: ArmError| match error {
@@ -343,7 +349,10 @@ pub(super) fn write_program(
         carried: &path.carried,
         frame: robot,
         part: planned.part.as_str(),
-        part_points: &path.part_points,
+        part_cloud: &path.part_cloud,
+        coverage: path.coverage,
+        side: path.side,
+        path: &planned.path,
         off: path.off,
         capture: None,
         camera_from_part: RigidTransform::identity(),

@@ -24,15 +24,13 @@ use crate::{
         },
     },
     library::Side,
-    paint::{Coat, CoatGroup, FilmFigures},
+    paint::{Coat, CoatGroup, FilmFigures, LEAST_WITHIN},
     pipeline::parameters::{Parameters as _, Place},
     stages::reference::Coverage,
 };
 
 /// Characters of a part's title on its menu.
 pub(super) const TITLE: usize = 26;
-/// Share of the film within tolerance from which a path is good, as in `partsight path plan`.
-const GOOD: f64 = 0.9;
 
 /// Draws the panel.
 pub(super) fn ui(
@@ -137,7 +135,7 @@ fn head(ui: &mut Ui, paint: &PaintState, session: &Session, actions: &mut Vec<Pa
     };
     let is_old = paint.is_old(session);
     let (figures, coat) = (&planned.film.figures, &planned.coat);
-    let colour = if figures.within >= GOOD {
+    let colour = if figures.within >= LEAST_WITHIN {
         theme.accepted
     } else {
         theme.rejected

@@ -16,6 +16,10 @@ pub(super) struct Move {
     pub(super) is_gun_on: bool,
     /// True if the robot stops at the point, false if it may cut the corner.
     pub(super) is_exact: bool,
+    /// Acceleration, m/s²; none if the program states none, or for a joint move.
+    pub(super) acceleration: Option<f64>,
+    /// The gun switches this far before the end of the move instead of at it, metres.
+    pub(super) switches_before: f64,
     /// The configuration there, as written.
     pub(super) configuration: String,
     /// Position of the first external axis, metres; none if not written.
@@ -92,7 +96,7 @@ fn krl(text: &str) -> Read {
         let mm = [value("X "), value("Y "), value("Z ")];
         fixed_xyz(&mm, value("C "), value("B "), value("A "))
     };
-    let (mut speed, mut pending) = (f64::NAN, None);
+    let (mut speed, mut pending, mut acceleration) = (f64::NAN, None, None);
     for line in text.split("\r\n") {
         assert!(line.len() <= 140, "{line}");
         if let Some(comment) = line.strip_prefix("; ") {
@@ -103,6 +107,8 @@ fn krl(text: &str) -> Read {
             read.tool = rest.trim_end_matches(')').into();
         } else if let Some(rest) = line.strip_prefix("$VEL.CP=") {
             speed = rest.parse().expect("a speed");
+        } else if let Some(rest) = line.strip_prefix("$ACC.CP=") {
+            acceleration = Some(rest.parse().expect("an acceleration"));
         } else if let Some(rest) = line.strip_prefix("$OUT[") {
             read.output = rest.split(']').next().expect("a number").into();
             read.is_gun_on = rest.ends_with("=TRUE");
@@ -115,6 +121,8 @@ fn krl(text: &str) -> Read {
                 speed: line.starts_with("LIN").then_some(speed),
                 is_gun_on: read.is_gun_on,
                 is_exact: !line.ends_with("C_DIS"),
+                acceleration: acceleration.filter(|_| line.starts_with("LIN")),
+                switches_before: 0.0,
                 configuration: line
                     .split_once(",S ")
                     .map_or_else(String::new, |(_, rest)| {
@@ -179,14 +187,26 @@ fn ls(text: &str) -> Read {
                 .and_then(|head| head.split(' ').next_back());
             let is_line = rest.starts_with('L');
             let (to, configuration, rail) = place(between(rest, "P[", "]"));
+            let (termination, option) = rest.split_once(" TB ").unwrap_or((rest, ""));
+            assert!(termination.ends_with("FINE") || termination.ends_with("CNT100"));
             read.moves.push(Move {
                 to,
                 configuration,
                 rail,
                 speed: is_line.then(|| speed.expect("one").parse::<f64>().expect("mm/s") / 1000.0),
                 is_gun_on: read.is_gun_on,
-                is_exact: rest.ends_with("FINE"),
+                is_exact: termination.ends_with("FINE"),
+                acceleration: None,
+                switches_before: 0.0,
             });
+            // TIME BEFORE: the output is set this long before the move ends.
+            if !option.is_empty() {
+                let (time, output) = option.split_once("sec,DO[").expect("an output");
+                assert_eq!(time.trim().parse::<f64>(), Ok(0.0));
+                let (output, state) = output.split_once("]=").expect("a state");
+                assert_eq!(output, read.output);
+                read.is_gun_on = state == "ON";
+            }
         } else if let Some(called) = rest.strip_prefix("  CALL ") {
             read.calls.push(called.into());
         } else {
@@ -199,11 +219,16 @@ fn ls(text: &str) -> Read {
 
 fn rapid(text: &str) -> Read {
     let mut read = Read::default();
+    let mut acceleration = None;
     for line in text.lines().map(str::trim) {
         if let Some(comment) = line.strip_prefix("! ") {
             read.comments.push(comment.into());
         } else if let Some(name) = line.strip_prefix("MODULE ") {
             read.name = name.into();
+        } else if let Some(limits) = line.strip_prefix("PathAccLim TRUE\\AccMax:=") {
+            let (most, braking) = limits.split_once(",TRUE\\DecelMax:=").expect("two");
+            assert_eq!(braking.trim_end_matches(';'), most);
+            acceleration = Some(most.parse().expect("a limit"));
         } else if let Some(rest) = line.strip_prefix("SetDO doGun") {
             let (output, state) = rest.trim_end_matches(';').split_once(',').expect("two");
             read.output = output.into();
@@ -227,6 +252,8 @@ fn rapid(text: &str) -> Read {
                 speed: (!line.starts_with("MoveJ ")).then(|| numbers(speed)[0] / 1000.0),
                 is_gun_on: read.is_gun_on,
                 is_exact,
+                acceleration: acceleration.filter(|_| !line.starts_with("MoveJ ")),
+                switches_before: 0.0,
                 configuration: configuration.trim_end_matches(']').into(),
                 rail: (rail != "9E9").then(|| rail.parse::<f64>().expect("mm") / 1000.0),
             });
@@ -247,6 +274,7 @@ fn urscript(text: &str) -> Read {
         let turn = UnitQuaternion::from_scaled_axis(Vector3::new(n[3], n[4], n[5]));
         Isometry3::from_parts(Translation3::new(n[0], n[1], n[2]), turn)
     };
+    let mut blend = None;
     for line in text.lines().map(str::trim) {
         if let Some(comment) = line.strip_prefix("# ") {
             read.comments.push(comment.into());
@@ -256,16 +284,23 @@ fn urscript(text: &str) -> Read {
             let (output, state) = rest.split_once(", ").expect("two");
             read.output = output.into();
             read.is_gun_on = state == "True)";
+            // What follows a blended move runs as its blend begins.
+            if let Some((last, blend)) = read.moves.last_mut().zip(blend) {
+                last.switches_before = blend;
+            }
         } else if let Some(tool) = line.strip_prefix("set_tcp") {
             read.tool = tool.into();
         } else if line.starts_with("move") {
             let is_line = line.starts_with("movel(");
             let value = |name: &str| numbers(line.split_once(name).expect(name).1)[0];
+            blend = is_line.then(|| value(" r="));
             read.moves.push(Move {
                 to: pose(line),
                 speed: is_line.then(|| value(" v=")),
                 is_gun_on: read.is_gun_on,
                 is_exact: !is_line || value(" r=") == 0.0,
+                acceleration: is_line.then(|| value(" a=")),
+                switches_before: 0.0,
                 configuration: String::new(),
                 rail: None,
             });
@@ -279,6 +314,7 @@ fn jbi(text: &str) -> Read {
     let mut read = Read::default();
     let (mut places, mut rails) = (Vec::new(), Vec::new());
     let (mut num_places, mut configuration) = ([0, 0], String::new());
+    let (mut is_during, mut is_switched) = (false, false);
     for line in text.split("\r\n") {
         if let Some(name) = line.strip_prefix("//NAME ") {
             read.name = name.into();
@@ -291,6 +327,8 @@ fn jbi(text: &str) -> Read {
             configuration = numbers.into();
         } else if let Some(called) = line.strip_prefix("CALL JOB:") {
             read.calls.push(called.into());
+        } else if line == "CWAIT" {
+            is_during = false;
         } else if let Some(place) = line.strip_prefix('C') {
             let (number, numbers_of) = place.split_once('=').expect("a place");
             assert_eq!(number, format!("{:05}", places.len()));
@@ -307,6 +345,12 @@ fn jbi(text: &str) -> Read {
             let (output, state) = rest.split_once(") ").expect("two");
             read.output = output.into();
             read.is_gun_on = state == "ON";
+            // With NWAIT it runs as the last move begins, and only one fits there.
+            if let Some(last) = read.moves.last_mut().filter(|_| is_during) {
+                assert!(!is_switched, "{line}");
+                last.is_gun_on = read.is_gun_on;
+                is_switched = true;
+            }
         } else if line.starts_with("MOV") {
             let mut words = line.split(' ');
             let is_line = words.next() == Some("MOVL");
@@ -318,13 +362,22 @@ fn jbi(text: &str) -> Read {
                 speed = words.next().expect("a speed");
             }
             let (to, configuration) = places[number].clone();
+            let rest: Vec<&str> = words.collect();
+            assert!(matches!(
+                rest[..],
+                [] | ["PL=0"] | ["NWAIT"] | ["PL=0", "NWAIT"]
+            ));
+            is_during = rest.contains(&"NWAIT");
+            is_switched = false;
             read.moves.push(Move {
                 to,
                 configuration,
                 rail,
                 speed: is_line.then(|| speed[2..].parse::<f64>().expect("mm/s") / 1000.0),
                 is_gun_on: read.is_gun_on,
-                is_exact: words.next() == Some("PL=0"),
+                is_exact: rest.contains(&"PL=0"),
+                acceleration: None,
+                switches_before: 0.0,
             });
         }
     }
@@ -366,6 +419,8 @@ fn drl(text: &str) -> Read {
                 speed: is_line.then(|| value(" vel=") / 1000.0),
                 is_gun_on: read.is_gun_on,
                 is_exact: !is_line || value(" radius=") == 0.0,
+                acceleration: is_line.then(|| value(" acc=") / 1000.0),
+                switches_before: 0.0,
                 configuration: String::new(),
                 rail: None,
             });
