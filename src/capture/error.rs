@@ -256,7 +256,7 @@ pub enum CaptureWarning {
 impl CaptureWarning {
     /// True if it concerns the source and is thus the same for all its captures, so that showing it once is enough.
     pub fn is_about_source(&self) -> bool {
-        !matches!(self, Self::File(_))
+        !matches!(self, Self::File(warning) if !matches!(warning, FileWarning::Camera(_)))
     }
 }
 

@@ -167,7 +167,9 @@ impl Genicam {
         let name = CString::new(format.name()).unwrap_or_default();
         device.set(c"PixelFormat", &name).map_err(not_opened)?;
         let nodes = Scan3d::read(&device, format).map_err(not_opened)?;
-        let (decoder, warnings) = nodes.decoder(format, file)?;
+        let (decoder, mut warnings) = nodes.decoder(format, file)?;
+        let doubt = file.and_then(|camera| camera.intrinsics.doubt());
+        warnings.extend(doubt.map(|doubt| CaptureWarning::File(doubt.into())));
         if device.has(c"AcquisitionMode").map_err(not_opened)? {
             let set = device.set(c"AcquisitionMode", c"Continuous");
             set.map_err(not_opened)?;

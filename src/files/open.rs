@@ -10,7 +10,7 @@ use super::source::{Source, read_bytes};
 use super::{depth_png, gltf, obj, pcd, ply, stl, xyz};
 use crate::error::{Advice, guarded};
 use crate::geometry::cloud::{MAX_STRAY_SHARE, PointCloud};
-use crate::geometry::depth_frame::DepthFrame;
+use crate::geometry::depth_frame::{CameraDoubt, DepthFrame};
 use crate::geometry::mesh::TriangleMesh;
 use crate::geometry::pinhole_fit::fit_pinhole;
 use crate::units::Metres;
@@ -56,6 +56,9 @@ pub enum FileWarning {
     /// Rows and columns are not the picture of a pinhole camera at the origin.
     #[error("its rows and columns are not those of an undistorted camera at the origin")]
     NoPinholeCamera,
+    /// The camera is implausible.
+    #[error(transparent)]
+    Camera(#[from] CameraDoubt),
 }
 
 impl Advice for FileWarning {
@@ -73,6 +76,7 @@ impl Advice for FileWarning {
                 "For an inspection export the capture in the camera's own frame, x right, y down, z forward, with its distortion removed"
                     .into()
             }
+            Self::Camera(doubt) => doubt.advice(),
         }
     }
 }
@@ -105,11 +109,14 @@ fn warnings_of(cloud: &PointCloud) -> impl Iterator<Item = FileWarning> {
     // Only organised clouds are always captures; others may be in any space, for example references to be enrolled.
     let share = cloud.grid.map_or(0.0, |_| cloud.share_behind());
     let behind = (share > 0.0).then_some(FileWarning::BehindCamera { share });
-    let is_no_picture = cloud.grid.is_some_and(|grid| {
-        cloud.num_finite() >= MIN_READINGS && fit_pinhole(&cloud.points, grid).is_none()
+    let grid = cloud
+        .grid
+        .filter(|_| cloud.num_finite() >= MIN_READINGS && behind.is_none());
+    let camera = grid.and_then(|grid| match fit_pinhole(&cloud.points, grid) {
+        Some(camera) => camera.doubt().map(FileWarning::Camera),
+        None => Some(FileWarning::NoPinholeCamera),
     });
-    let no_camera = (behind.is_none() && is_no_picture).then_some(FileWarning::NoPinholeCamera);
-    surplus.into_iter().chain(behind).chain(no_camera)
+    surplus.into_iter().chain(behind).chain(camera)
 }
 
 impl FileContent {
@@ -144,8 +151,12 @@ impl FileContent {
             let extent = Metres(extent);
             warnings.push(FileWarning::TooSmall { extent });
         }
-        if let Self::Cloud(cloud) = self {
-            warnings.extend(warnings_of(cloud));
+        match self {
+            Self::Cloud(cloud) => warnings.extend(warnings_of(cloud)),
+            Self::Depth(frame) if frame.depth.len() >= MIN_READINGS => {
+                warnings.extend(frame.intrinsics.doubt().map(FileWarning::Camera));
+            }
+            Self::Depth(_) | Self::Mesh(_) => {}
         }
         warnings
     }

@@ -4,6 +4,7 @@ use nalgebra::Point3;
 use serde::{Deserialize, Serialize};
 
 use super::distortion::Distortion;
+use crate::{error::Advice, units::Radians};
 
 /// A pinhole camera with lens distortion, in pixels. Camera space is x right, y down, z forward.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -133,6 +134,98 @@ impl Intrinsics {
     }
 }
 
+/// Why the numbers of a camera are probably wrong.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum CameraDoubt {
+    /// The optical axis is far from the middle of the picture.
+    #[error(
+        "the camera's centre ({:.0}, {:.0}) lies {:.0} pixels from the middle of the picture", centre[0], centre[1], off
+    )]
+    OffCentre {
+        /// cx and cy, pixels.
+        centre: [f64; 2],
+        /// Distance from the middle of the picture, pixels.
+        off: f64,
+    },
+    /// The focal lengths differ as no camera's do.
+    #[error("the camera's focal lengths differ: fx = {fx:.1} and fy = {fy:.1} pixels")]
+    FocalLengthsDiffer {
+        /// Along the rows, pixels.
+        fx: f64,
+        /// Along the columns, pixels.
+        fy: f64,
+    },
+    /// No depth camera sees so much or so little.
+    #[error(
+        "the camera would see {:.0}° of its surroundings (fx = {fx:.1} pixels at {width} columns)",
+        field.degrees()
+    )]
+    FieldOfView {
+        /// Field of view along the longer side.
+        field: Radians,
+        /// Focal length along the rows, pixels.
+        fx: f64,
+        /// Columns of the picture.
+        width: usize,
+    },
+}
+
+impl Advice for CameraDoubt {
+    fn advice(&self) -> String {
+        match self {
+            Self::OffCentre { .. } => {
+                "Check cx and cy, and whether the picture was cut, mirrored or turned after they were measured: an error of 10 pixels moves a part by 2 cm"
+            }
+            Self::FocalLengthsDiffer { .. } => {
+                "Check fx and fy, and whether the picture was stretched: parts would have the wrong width or height"
+            }
+            Self::FieldOfView { .. } => {
+                "Check that fx and fy are in pixels of a picture of this size"
+            }
+        }
+        .into()
+    }
+}
+
+/// Largest distance of the optical axis from the middle, as a share of the picture's diagonal. Depth cameras come up to
+/// 0.053 (the narrow field of an Azure Kinect, which is cut out of a larger picture), most to 0.03.
+const MAX_OFF_CENTRE: f64 = 0.06;
+/// Largest ratio of the focal lengths: pixels of depth cameras are square.
+const MAX_FOCAL_RATIO: f64 = 1.05;
+/// Fields of view along the longer side: long lenses of structured-light cameras have 25°, the widest time-of-flight
+/// cameras 120°.
+const FIELDS_OF_VIEW: std::ops::RangeInclusive<f64> = 15.0..=130.0;
+
+impl Intrinsics {
+    /// Returns why the numbers are probably wrong, if they are. Numbers are never changed: an unusual camera works.
+    pub fn doubt(&self) -> Option<CameraDoubt> {
+        let Self {
+            width,
+            height,
+            fx,
+            fy,
+            cx,
+            cy,
+            ..
+        } = *self;
+        let sides = [width as f64, height as f64];
+        let off = (cx - (sides[0] - 1.0) / 2.0).hypot(cy - (sides[1] - 1.0) / 2.0);
+        if off > MAX_OFF_CENTRE * sides[0].hypot(sides[1]) {
+            return Some(CameraDoubt::OffCentre {
+                centre: [cx, cy],
+                off,
+            });
+        }
+        if fx.max(fy) > MAX_FOCAL_RATIO * fx.min(fy) {
+            return Some(CameraDoubt::FocalLengthsDiffer { fx, fy });
+        }
+        let half = (sides[0] / fx).max(sides[1] / fy) / 2.0;
+        let field = Radians(2.0 * half.atan());
+        let is_usual = FIELDS_OF_VIEW.contains(&field.degrees());
+        (!is_usual).then_some(CameraDoubt::FieldOfView { field, fx, width })
+    }
+}
+
 /// One depth image as the sensor delivers it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DepthFrame {
@@ -181,6 +274,77 @@ mod tests {
         assert!((across - (479.0 - v)).hypot(down - u) < 1e-9);
         let around = (0..4).fold(BENT, |camera, _| camera.turned_clockwise());
         assert_eq!(around, BENT);
+    }
+
+    #[test]
+    fn cameras_that_exist_are_not_doubted() {
+        // Kinect, booth camera, Azure Kinect (narrow and wide field), Femto Bolt, RealSense D435, L515, D405, Zivid 2,
+        // Kinect v2, Structure, a low-resolution time-of-flight camera.
+        for (width, height, fx, fy, cx, cy) in [
+            (640, 480, 525.0, 525.0, 319.5, 239.5),
+            (640, 480, 594.2, 591.0, 339.5, 242.7),
+            (640, 480, 468.3, 469.4, 327.5, 228.9),
+            (640, 576, 504.1, 504.2, 319.9, 330.6),
+            (512, 512, 252.4, 252.4, 257.3, 258.0),
+            (640, 576, 505.2, 505.1, 325.6, 331.9),
+            (848, 480, 423.4, 423.4, 421.9, 238.6),
+            (1024, 768, 731.3, 731.9, 506.5, 377.8),
+            (1280, 720, 649.6, 649.6, 644.1, 354.2),
+            (1944, 1200, 1776.5, 1776.6, 967.6, 601.2),
+            (512, 424, 365.5, 365.5, 254.9, 205.4),
+            (320, 240, 288.0, 288.0, 158.0, 121.0),
+            (224, 172, 210.4, 210.4, 114.7, 87.6),
+        ] {
+            let camera = Intrinsics {
+                width,
+                height,
+                fx,
+                fy,
+                cx,
+                cy,
+                distortion: Distortion::NONE,
+            };
+            assert_eq!(camera.doubt(), None, "{width} {fx}");
+            for side in 2..5 {
+                assert_eq!(camera.in_blocks(side).doubt(), None, "{width} in {side}");
+            }
+            assert_eq!(camera.turned_clockwise().mirrored().doubt(), None);
+        }
+    }
+
+    #[test]
+    fn cameras_that_cannot_be_are_doubted() {
+        let doubt = |change: fn(&mut Intrinsics)| {
+            let mut camera = Intrinsics::KINECT;
+            change(&mut camera);
+            camera.doubt()
+        };
+        for off_centre in [
+            doubt(|camera| camera.cx += 60.0),
+            doubt(|camera| camera.cy -= 60.0),
+            // The centre of a picture twice as large.
+            doubt(|camera| (camera.cx, camera.cy) = (639.5, 479.5)),
+        ] {
+            assert!(
+                matches!(off_centre, Some(CameraDoubt::OffCentre { .. })),
+                "{off_centre:?}"
+            );
+        }
+        let differ = doubt(|camera| camera.fy = 394.0);
+        assert!(matches!(
+            differ,
+            Some(CameraDoubt::FocalLengthsDiffer { .. })
+        ));
+        for field in [
+            // Millimetres instead of pixels, and a lens of a much larger picture.
+            doubt(|camera| (camera.fx, camera.fy) = (3.6, 3.6)),
+            doubt(|camera| (camera.fx, camera.fy) = (4200.0, 4200.0)),
+        ] {
+            assert!(
+                matches!(field, Some(CameraDoubt::FieldOfView { .. })),
+                "{field:?}"
+            );
+        }
     }
 
     #[test]

@@ -3,14 +3,22 @@
 //! Its pose comes from the inspection of a capture. The target's origin is in the middle of the part: the part's own
 //! origin is where the camera was at its enrolment, over a metre away, where a tenth of a degree moves it by two
 //! millimetres.
+//!
+//! Its pose is refined once more, by the edges whose side is out of sight: the whole outline moves with the view, which
+//! several captures together would take for an error of the depth.
 
-use nalgebra::Translation3;
+use nalgebra::{Translation3, Unit, Vector3};
 
 use crate::{
     error::Advice,
-    geometry::rigid::RigidTransform,
+    geometry::{principal::principal_axes, rigid::RigidTransform},
     library::Library,
     pipeline::{Inspection, Verdict},
+    stages::{
+        confirm::{ConfirmParams, Scene, by_hidden_sides},
+        rank::Query,
+        scene::SceneCloud,
+    },
 };
 
 /// The part in a capture, as a target.
@@ -22,6 +30,8 @@ pub struct ObservedTarget {
     pub reference: usize,
     /// From the target frame to the camera frame. Its origin is the middle of the reference, its axes are the part's.
     pub camera_from_target: RigidTransform,
+    /// Mean normal of the part's surface, target frame; its sign is arbitrary.
+    pub normal: Unit<Vector3<f64>>,
 }
 
 /// Why a capture shows no target.
@@ -44,8 +54,12 @@ impl Advice for NoTarget {
     }
 }
 
-/// Returns the part of an accepted inspection as a target.
-pub fn seen_part(inspection: &Inspection, library: &Library) -> Result<ObservedTarget, NoTarget> {
+/// Returns the part of an accepted inspection of this scene as a target.
+pub fn seen_part(
+    inspection: &Inspection,
+    scene: &SceneCloud,
+    library: &Library,
+) -> Result<ObservedTarget, NoTarget> {
     if let Some(why) = inspection.verdict.refusal() {
         let reason = why.to_string();
         return Err(NoTarget::NotAccepted { reason });
@@ -63,12 +77,34 @@ pub fn seen_part(inspection: &Inspection, library: &Library) -> Result<ObservedT
     let first = inspection.ranking.entries.first();
     let (pose, first) = pose.zip(first).ok_or(NoTarget::NoPose)?;
     let reference = library.references.get(first.reference);
-    let bounds = reference.and_then(|reference| reference.cloud.bounds());
-    let (low, high) = bounds.ok_or(NoTarget::NoPose)?;
+    let reference = reference.ok_or(NoTarget::NoPose)?;
+    let (low, high) = reference.cloud.bounds().ok_or(NoTarget::NoPose)?;
+    let points = reference.cloud.points.iter().map(|p| (p.cast(), 1.0));
+    let normal = principal_axes(points).ok_or(NoTarget::NoPose)?.axes;
     let middle = nalgebra::center(&low, &high).cast::<f64>();
+    let part_from_camera = surface_of(inspection, scene)
+        .and_then(|surface| {
+            let seed = ConfirmParams::default().seed;
+            by_hidden_sides(&surface, reference, &pose.target_from_source, seed)
+        })
+        .unwrap_or(pose.target_from_source);
     Ok(ObservedTarget {
         part: part.clone(),
         reference: first.reference,
-        camera_from_target: pose.camera_from_part() * Translation3::from(middle.coords),
+        camera_from_target: part_from_camera.inverse() * Translation3::from(middle.coords),
+        normal: Unit::new_normalize(normal.column(2).into_owned()),
+    })
+}
+
+/// The surface that was recognised.
+fn surface_of<'a>(inspection: &'a Inspection, scene: &'a SceneCloud) -> Option<Scene<'a>> {
+    Some(Scene {
+        scene,
+        part: inspection.segmentation.part.as_ref().ok()?,
+        query: Query {
+            plane: inspection.plane.as_ref()?,
+            contour: inspection.contour.as_ref()?,
+            signature: inspection.signature.as_ref()?,
+        },
     })
 }

@@ -9,6 +9,7 @@
 mod candidate;
 mod confirmed_match;
 mod evidence;
+mod hidden_sides;
 pub mod joint;
 mod local_normal;
 mod outline_ends;
@@ -20,6 +21,7 @@ use self::{candidate::ReferenceCandidate, evidence::most_score, prepared_scene::
 pub use self::{
     confirmed_match::{ConfirmedMatch, ConfirmedRanking},
     evidence::{Evidence, FEATURES, NUM_FEATURES, NUM_TYPE_FEATURES, TYPE_FEATURES},
+    hidden_sides::by_hidden_sides,
     prepared_scene::CUT_SHARE,
 };
 use crate::{

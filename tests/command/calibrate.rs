@@ -340,6 +340,12 @@ fn an_enrolled_part_on_the_flange_is_target_enough() {
         off.shift.mm() < 8.0 && off.rotation.degrees() < 0.6,
         "{off:?}"
     );
+    let bound = |name: &str| line[name].as_f64().expect("a bound");
+    assert!(
+        off.shift.0 < bound("shift_bound_m") && off.rotation.0 < bound("turn_bound_rad"),
+        "{off:?}, {line}"
+    );
+    assert!(bound("shift_bound_m") < 0.008, "{line}");
     assert!(
         shop.read("cell.toml")
             .contains("pairs_file = \"poses.csv\"")

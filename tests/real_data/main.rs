@@ -5,6 +5,7 @@
 
 mod booth;
 mod files;
+mod hand_eye;
 #[cfg(unix)]
 mod hostile;
 #[path = "../kit/mod.rs"]

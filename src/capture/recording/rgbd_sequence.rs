@@ -46,6 +46,8 @@ pub(super) fn frames(folder: &Path, camera: Option<&Path>) -> Result<Frames, Cap
             ASSUMED
         }
     };
+    let doubt = camera.intrinsics.doubt();
+    warnings.extend(doubt.map(|doubt| CaptureWarning::File(doubt.into())));
     let path = folder.join(LIST);
     let bytes = read_limited(&path, MAX_LIST_BYTES)?;
     let text = String::from_utf8_lossy(&bytes);

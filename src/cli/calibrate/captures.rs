@@ -16,7 +16,7 @@ use crate::{
     pipeline::{self, Recipe, Unwatched},
     robot::{
         Convention,
-        hand_eye::PosePair,
+        hand_eye::{PosePair, Target},
         pairs::{ArmPose, read_arm_poses},
         part_target::{ObservedTarget, seen_part},
     },
@@ -41,7 +41,7 @@ pub(super) fn pairs_of_captures(
     folder: &Path,
     targets: &TargetChoice,
     console: &mut Console,
-) -> anyhow::Result<Vec<PosePair>> {
+) -> anyhow::Result<(Vec<PosePair>, Target)> {
     let (poses, convention) = read_arm_poses(poses, convention).advised()?;
     let files = files_of(folder, &poses)?;
     let library = targets
@@ -60,7 +60,7 @@ pub(super) fn pairs_of_captures(
         let (scene, warnings) = open_scene(file).advised()?;
         warn_of(file, &warnings, console);
         let inspection = pipeline::run(&scene, &library, &Recipe::default(), &Unwatched)?;
-        match seen_part(&inspection, &library) {
+        match seen_part(&inspection, &scene, &library) {
             Ok(part) => {
                 let pair = PosePair {
                     name: match &pose.capture {
@@ -117,20 +117,23 @@ fn files_of(folder: &Path, poses: &[ArmPose]) -> anyhow::Result<Vec<PathBuf>> {
 }
 
 /// Returns the pairs of the reference that most captures show, since each reference has its own frame.
-fn of_one_part(seen: Vec<(PosePair, ObservedTarget)>, console: &Console) -> Vec<PosePair> {
+fn of_one_part(
+    seen: Vec<(PosePair, ObservedTarget)>,
+    console: &Console,
+) -> (Vec<PosePair>, Target) {
     let count = |reference: usize| {
         seen.iter()
             .filter(|(_, part)| part.reference == reference)
             .count()
     };
     let most = seen.iter().max_by_key(|(_, part)| count(part.reference));
-    let Some((reference, name)) = most.map(|(_, part)| (part.reference, part.part.clone())) else {
-        return Vec::new();
+    let Some(target) = most.map(|(_, part)| part.clone()) else {
+        return (Vec::new(), Target::Marker);
     };
-    console.note(&format_args!("The target is {name}"));
+    console.note(&format_args!("The target is {}", target.part));
     let mut pairs = Vec::new();
     for (pair, part) in seen {
-        if part.reference == reference {
+        if part.reference == target.reference {
             pairs.push(pair);
         } else {
             console.note(&format_args!(
@@ -139,5 +142,6 @@ fn of_one_part(seen: Vec<(PosePair, ObservedTarget)>, console: &Console) -> Vec<
             ));
         }
     }
-    pairs
+    let normal = target.normal;
+    (pairs, Target::Part { normal })
 }

@@ -22,7 +22,7 @@ use crate::{
     robot::{
         Convention,
         calibration::{CalibrationFit, CameraPlace, Origin},
-        hand_eye::{HandEye, Mount, PosePair, solve},
+        hand_eye::{HandEye, Mount, PosePair, Target, solve},
         pairs::{PairConventions, read_pairs},
     },
 };
@@ -47,8 +47,8 @@ With --captures the target is any enrolled part, fixed where a target would be: 
 each after the name of its capture in DIR (without names, in the order of the files).
 
 Take 8 to 15 pairs, the target in all parts of the picture, the flange turned about two different axes by 30 degrees and
-more. Exit codes: 0 written, 1 the poses do not determine the camera's place or do not agree (nothing is written without
---even-if-doubtful), 2 something could not be read.")]
+more; pairs that repeat a pose of the arm count as one. Exit codes: 0 written, 1 the poses do not determine the camera's
+place or do not agree (nothing is written without --even-if-doubtful), 2 something could not be read.")]
 pub(super) struct HandEyeArgs {
     /// Pairs of poses: CSV or JSON
     #[arg(value_name = "PAIRS")]
@@ -81,7 +81,7 @@ pub(super) struct HandEyeArgs {
 }
 
 pub(super) fn run(args: &HandEyeArgs, console: &mut Console) -> anyhow::Result<Outcome> {
-    let mut pairs = if let Some(folder) = &args.targets.captures {
+    let (mut pairs, target) = if let Some(folder) = &args.targets.captures {
         let convention = args.robot_convention;
         pairs_of_captures(&args.pairs, convention, folder, &args.targets, console)?
     } else {
@@ -96,10 +96,10 @@ pub(super) fn run(args: &HandEyeArgs, console: &mut Console) -> anyhow::Result<O
             read.robot.title(),
             read.camera.title()
         ));
-        read.pairs
+        (read.pairs, Target::Marker)
     };
     let left_out = leave_out(&mut pairs, &args.without)?;
-    let solved = solve(&pairs, args.mount.into()).advised()?;
+    let solved = solve(&pairs, args.mount.into(), target).advised()?;
     if args.json {
         console.line(&serde_json::to_string(&Line::of(&solved, args))?);
     } else {

@@ -3,7 +3,7 @@ use std::{fs, path::Path};
 use super::*;
 use crate::{
     geometry::rigid::from_euler_zyx,
-    robot::hand_eye::{PosePair, solve},
+    robot::hand_eye::{PosePair, Target, solve},
 };
 
 fn at() -> Timestamp {
@@ -123,7 +123,7 @@ fn a_hand_eye_calibration_keeps_its_figures_until_its_numbers_are_edited() {
         camera_from_target: from_euler_zyx(numbers),
     })
     .collect();
-    let solved = solve(&pairs, Mount::EyeToHand).expect("solved");
+    let solved = solve(&pairs, Mount::EyeToHand, Target::Marker).expect("solved");
     let written = CellCalibration {
         camera: CameraPlace::on(Mount::EyeToHand, solved.mount_from_camera),
         origin: Origin::HandEye(CalibrationFit::of(

@@ -57,12 +57,22 @@ pub enum HandEyeDoubt {
         then: PoseDelta,
     },
     /// Camera or target would be too far from the flange that it is mounted on.
-    #[error("{what} would sit {:.0} mm from the flange", distance.mm())]
+    #[error("{what} would sit {:.0} mm from the flange{}", distance.mm(), if_inverted(*inverted))]
     FarFromFlange {
         /// The camera, or the target.
         what: &'static str,
         /// Distance from the flange.
         distance: Metres,
+        /// The same if the poses of robot and camera were both inverted, where that is more plausible.
+        inverted: Option<Metres>,
+    },
+    /// The camera cannot have seen the target where it would be.
+    #[error("the target would lie behind the camera in {behind} of {found} pairs")]
+    BehindCamera {
+        /// Pairs whose target lies behind the camera.
+        behind: usize,
+        /// All pairs.
+        found: usize,
     },
     /// All turns are half turns about axes at right angles, which leaves several solutions.
     #[error(
@@ -116,9 +126,11 @@ pub enum HandEyeDoubt {
         span: Span,
     },
     /// Too few pairs for meaningful residuals.
-    #[error("with {found} pairs the residuals say little about how far off the result is")]
+    #[error(
+        "with {found} different pairs the residuals say little about how far off the result is"
+    )]
     FewPairs {
-        /// Pairs given.
+        /// Pairs from different poses of the arm.
         found: usize,
     },
 }
@@ -132,6 +144,7 @@ impl HandEyeDoubt {
             | Self::TurnsDisagree { .. }
             | Self::Mistaken { .. }
             | Self::FarFromFlange { .. }
+            | Self::BehindCamera { .. }
             | Self::SeveralAnswers
             | Self::Disagree { .. }
             | Self::SmallTurns { .. }
@@ -162,8 +175,17 @@ impl Advice for HandEyeDoubt {
                      where the camera sees the target"
                         .into()
                 }
+                LikelyMistake::BothInverted => {
+                    "Check that the robot's poses are robot_from_flange and the camera's camera_from_target".into()
+                }
                 LikelyMistake::AnglesSwapped => {
                     "Check the convention of the robot's poses: kuka, or fanuc or yaskawa".into()
+                }
+                LikelyMistake::RobotScalarMoved => {
+                    "Check the convention of the robot's poses: abb has the scalar first, quaternion-xyzw last".into()
+                }
+                LikelyMistake::CameraScalarMoved => {
+                    "Check the convention of the camera's poses: abb has the scalar first, quaternion-xyzw last".into()
                 }
                 LikelyMistake::CameraInMillimetres | LikelyMistake::CameraInMetres => {
                     "Check the unit of the camera's poses: name the convention that they are written in".into()
@@ -174,6 +196,9 @@ impl Advice for HandEyeDoubt {
             },
             Self::FarFromFlange { .. } => {
                 "Check that the robot's poses are robot_from_flange and the camera's camera_from_target, and not both the other way round, and that the unit of the lengths is right".into()
+            }
+            Self::BehindCamera { .. } => {
+                "Check that the camera's poses are camera_from_target, not the other way round, in a frame with x right, y down and z forward".into()
             }
             Self::SeveralAnswers => {
                 "Take some pairs with turns of 30° to 90° between them".into()
@@ -254,7 +279,7 @@ pub(super) fn doubts(
     doubts.extend(disagreement(mount, &poses, rms_of_most));
     doubts.extend(too_near(&poses));
     if !doubts.iter().any(HandEyeDoubt::is_grave) {
-        doubts.extend(far);
+        doubts.extend(far.or_else(|| behind_camera(&poses)));
     }
     if let Some(found) = suspects {
         let suspect = |(i, off): (usize, PoseDelta)| HandEyeDoubt::Suspect {
@@ -320,12 +345,52 @@ pub(super) fn farthest(poses: &[Poses]) -> [Metres; 2] {
     })
 }
 
+/// The end of the message about a thing far from the flange.
+fn if_inverted(inverted: Option<Metres>) -> String {
+    inverted.map_or_else(String::new, |near| {
+        format!(
+            ", but {:.0} mm from it if {}, which fits the pairs as well",
+            near.mm(),
+            LikelyMistake::BothInverted
+        )
+    })
+}
+
 /// Reports the camera or target on the flange, if it is implausibly far from it.
-pub(super) fn far_from_flange(mount: Mount, unknowns: &HandEyeSolution) -> Option<HandEyeDoubt> {
-    let (what, on_flange) = match mount {
-        Mount::EyeInHand => ("the camera", &unknowns.mount_from_camera),
-        Mount::EyeToHand => ("the target", &unknowns.anchor_from_target),
+///
+/// The equation Gᵢ X Bᵢ = Z is also Gᵢ⁻¹ Z Bᵢ⁻¹ = X: with the poses of robot *and* camera inverted, X and Z change
+/// places and every residual stays the same. So only the lengths show which way the poses go: what is on the flange
+/// lies nearer to it than the camera or the target in the cell to the robot's base. If the inverted poses put the
+/// target behind the camera, they are no explanation.
+pub(super) fn far_from_flange(
+    mount: Mount,
+    poses: &[Poses],
+    unknowns: &HandEyeSolution,
+) -> Option<HandEyeDoubt> {
+    let camera = unknowns.mount_from_camera.translation.vector.norm();
+    let target = unknowns.anchor_from_target.translation.vector.norm();
+    let (what, on_flange, in_cell) = match mount {
+        Mount::EyeInHand => ("the camera", camera, target),
+        Mount::EyeToHand => ("the target", target, camera),
     };
-    let distance = Metres(on_flange.translation.vector.norm());
-    (distance > FARTHEST_ON_FLANGE).then_some(HandEyeDoubt::FarFromFlange { what, distance })
+    let inverted: Vec<Poses> = poses
+        .iter()
+        .map(|[robot, camera]| [robot.inverse(), camera.inverse()])
+        .collect();
+    let inverted = (in_cell < on_flange && behind_camera(&inverted).is_none()).then_some(in_cell);
+    let is_far = on_flange > FARTHEST_ON_FLANGE.0 || inverted.is_some();
+    is_far.then_some(HandEyeDoubt::FarFromFlange {
+        what,
+        distance: Metres(on_flange),
+        inverted: inverted.map(Metres),
+    })
+}
+
+/// Reports that the target lies behind the camera in more pairs than can be slips.
+fn behind_camera(poses: &[Poses]) -> Option<HandEyeDoubt> {
+    let behind = poses
+        .iter()
+        .filter(|[_, camera]| camera.translation.z <= 0.0);
+    let (behind, found) = (behind.count(), poses.len());
+    (3 * behind > found).then_some(HandEyeDoubt::BehindCamera { behind, found })
 }

@@ -3,7 +3,7 @@
 //! The pairs only show by which factor the unit of the camera differs from that of the robot. Which of the two is wrong
 //! follows from the lengths: undoing the mistake must leave both as in a cell.
 
-use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
 
 use super::{
     Equation, Mount, Poses, closed_form,
@@ -41,11 +41,26 @@ pub enum LikelyMistake {
         "the camera sat on the other mount, or its poses went the other way (target_from_camera)"
     )]
     CameraInverted,
+    /// Robot and camera poses were both inverted: X and Z change places, and the pairs agree as well.
+    #[error(
+        "the poses of robot and camera both went the other way (flange_from_robot and target_from_camera)"
+    )]
+    BothInverted,
     /// The robot's angles about x and z were read for one another.
     #[error(
         "the first and the third angle of the robot's poses changed places: KUKA's A B C begin with the turn about z, FANUC's W P R and Yaskawa's Rx Ry Rz with that about x"
     )]
     AnglesSwapped,
+    /// The scalar of the robot's quaternions was read at the wrong end.
+    #[error(
+        "the scalar of the robot's quaternions stood at the other end: ABB's q1 q2 q3 q4 begin with it, quaternion-xyzw ends with it"
+    )]
+    RobotScalarMoved,
+    /// The same for the camera's quaternions.
+    #[error(
+        "the scalar of the camera's quaternions stood at the other end: ABB's q1 q2 q3 q4 begin with it, quaternion-xyzw ends with it"
+    )]
+    CameraScalarMoved,
     /// The camera's lengths were millimetres read as metres.
     #[error("the camera's lengths were a thousandth of what was read")]
     CameraInMillimetres,
@@ -72,13 +87,14 @@ pub(super) fn disagreement(mount: Mount, poses: &[Poses], rms: PoseDelta) -> Opt
         return Some(HandEyeDoubt::TurnsDisagree { apart });
     }
     let as_given = quality(&equations, rms);
-    let tried = LikelyMistake::ALL.iter().filter_map(|&mistake| {
-        let poses: Vec<Poses> = poses.iter().map(|pair| mistake.undone(pair)).collect();
+    let tried = UNDONE.iter().filter_map(|&(mistake, undone)| {
+        let poses: Vec<Poses> = poses.iter().map(undone).collect();
         if mistake.is_of_unit() && !is_of_a_cell(&poses) {
             return None;
         }
         let equations = equations_of(mount, poses.into_iter());
-        let fit = refine::refine(&equations, closed_form::solve(&equations)?.unknowns).unknowns;
+        let start = closed_form::solve(&equations)?.unknowns;
+        let fit = refine::refine(&equations, start).unknowns;
         let off: Vec<PoseDelta> = equations.iter().map(|e| e.off(&fit)).collect();
         let then = super::rms(&off);
         Some((quality(&equations, then), mistake, then))
@@ -127,44 +143,78 @@ fn is_of_a_cell(poses: &[Poses]) -> bool {
 }
 
 impl LikelyMistake {
-    const ALL: [Self; 7] = [
-        Self::RobotInverted,
-        Self::CameraInverted,
-        Self::AnglesSwapped,
-        Self::CameraInMillimetres,
-        Self::CameraInMetres,
-        Self::RobotInMillimetres,
-        Self::RobotInMetres,
-    ];
-
     fn is_of_unit(self) -> bool {
         match self {
-            Self::RobotInverted | Self::CameraInverted | Self::AnglesSwapped => false,
+            Self::RobotInverted
+            | Self::CameraInverted
+            | Self::BothInverted
+            | Self::AnglesSwapped
+            | Self::RobotScalarMoved
+            | Self::CameraScalarMoved => false,
             Self::CameraInMillimetres
             | Self::CameraInMetres
             | Self::RobotInMillimetres
             | Self::RobotInMetres => true,
         }
     }
+}
 
-    /// The poses of a pair as they were probably meant.
-    fn undone(self, [robot, camera]: &Poses) -> Poses {
-        let scaled = |pose: &RigidTransform, factor: f64| {
-            let shift = Translation3::from(pose.translation.vector * factor);
-            Isometry3::from_parts(shift, pose.rotation)
-        };
-        match self {
-            Self::RobotInverted => [robot.inverse(), *camera],
-            Self::CameraInverted => [*robot, camera.inverse()],
-            Self::AnglesSwapped => {
-                let (about_x, about_y, about_z) = robot.rotation.euler_angles();
-                let meant = UnitQuaternion::from_euler_angles(about_z, about_y, about_x);
-                [Isometry3::from_parts(robot.translation, meant), *camera]
-            }
-            Self::CameraInMillimetres => [*robot, scaled(camera, 0.001)],
-            Self::CameraInMetres => [*robot, scaled(camera, 1000.0)],
-            Self::RobotInMillimetres => [scaled(robot, 0.001), *camera],
-            Self::RobotInMetres => [scaled(robot, 1000.0), *camera],
-        }
-    }
+/// Mistakes that make the pairs disagree, each with the poses of a pair as they were probably meant.
+const UNDONE: [(LikelyMistake, fn(&Poses) -> Poses); 11] = [
+    (LikelyMistake::RobotInverted, |[robot, camera]| {
+        [robot.inverse(), *camera]
+    }),
+    (LikelyMistake::CameraInverted, |[robot, camera]| {
+        [*robot, camera.inverse()]
+    }),
+    (LikelyMistake::AnglesSwapped, |[robot, camera]| {
+        let (about_x, about_y, about_z) = robot.rotation.euler_angles();
+        let meant = UnitQuaternion::from_euler_angles(about_z, about_y, about_x);
+        [with_rotation(robot, meant), *camera]
+    }),
+    (LikelyMistake::RobotScalarMoved, |[robot, camera]| {
+        [with_rotation(robot, scalar_last(robot)), *camera]
+    }),
+    (LikelyMistake::RobotScalarMoved, |[robot, camera]| {
+        [with_rotation(robot, scalar_first(robot)), *camera]
+    }),
+    (LikelyMistake::CameraScalarMoved, |[robot, camera]| {
+        [*robot, with_rotation(camera, scalar_last(camera))]
+    }),
+    (LikelyMistake::CameraScalarMoved, |[robot, camera]| {
+        [*robot, with_rotation(camera, scalar_first(camera))]
+    }),
+    (LikelyMistake::CameraInMillimetres, |[robot, camera]| {
+        [*robot, scaled(camera, 0.001)]
+    }),
+    (LikelyMistake::CameraInMetres, |[robot, camera]| {
+        [*robot, scaled(camera, 1000.0)]
+    }),
+    (LikelyMistake::RobotInMillimetres, |[robot, camera]| {
+        [scaled(robot, 0.001), *camera]
+    }),
+    (LikelyMistake::RobotInMetres, |[robot, camera]| {
+        [scaled(robot, 1000.0), *camera]
+    }),
+];
+
+fn with_rotation(pose: &RigidTransform, rotation: UnitQuaternion<f64>) -> RigidTransform {
+    Isometry3::from_parts(pose.translation, rotation)
+}
+
+fn scaled(pose: &RigidTransform, factor: f64) -> RigidTransform {
+    let shift = Translation3::from(pose.translation.vector * factor);
+    Isometry3::from_parts(shift, pose.rotation)
+}
+
+/// The rotation of x y z w that were read as w x y z.
+fn scalar_last(pose: &RigidTransform) -> UnitQuaternion<f64> {
+    let read = pose.rotation;
+    UnitQuaternion::new_normalize(Quaternion::new(read.k, read.w, read.i, read.j))
+}
+
+/// The rotation of w x y z that were read as x y z w.
+fn scalar_first(pose: &RigidTransform) -> UnitQuaternion<f64> {
+    let read = pose.rotation;
+    UnitQuaternion::new_normalize(Quaternion::new(read.i, read.j, read.k, read.w))
 }

@@ -27,18 +27,19 @@
 //!
 //! Known limits: an error common to all pairs, such as a wrong scale of the camera or a wrongly measured tool, shows in
 //! the residuals only as far as X and Z cannot absorb it, and is not in the bounds. If the poses of robot *and* camera
-//! are inverted, X and Z change places and fit as well; then one of them lies far from the flange.
+//! are inverted, X and Z change places and fit as well; only their lengths show it.
 
 mod closed_form;
 mod doubt;
 mod mistake;
 mod refine;
+mod repeats;
 mod span;
 mod suspects;
 #[cfg(test)]
 mod tests;
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Unit, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::{
@@ -104,6 +105,18 @@ pub struct PosePair {
     pub camera_from_target: RigidTransform,
 }
 
+/// What the camera measured the poses of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Target {
+    /// A marker or a checkerboard: errors are alike in all directions.
+    Marker,
+    /// An enrolled part, measured by its surface and its outline.
+    Part {
+        /// The surface's mean normal, target frame; its sign is arbitrary.
+        normal: Unit<Vector3<f64>>,
+    },
+}
+
 /// Fewest pairs that determine X.
 pub const LEAST_PAIRS: usize = 3;
 /// Most pairs accepted; nobody takes as many.
@@ -113,9 +126,9 @@ pub const MOST_PAIRS: usize = 1000;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum HandEyeError {
     /// Too few pairs.
-    #[error("{found} pairs of robot and camera poses, at least {LEAST_PAIRS} are needed")]
+    #[error("{found} different pairs of robot and camera poses, at least {LEAST_PAIRS} are needed")]
     TooFewPairs {
-        /// Pairs given.
+        /// Pairs from different poses of the arm.
         found: usize,
     },
     /// Too many pairs.
@@ -164,7 +177,7 @@ pub struct PairResidual {
 pub struct Residuals {
     /// One per pair, in the order given.
     pub pairs: Vec<PairResidual>,
-    /// Root mean square over all pairs.
+    /// Root mean square over all pairs; pairs that repeat a pose of the arm count as one.
     pub rms: PoseDelta,
     /// Index of the pair with the largest shift.
     pub worst: usize,
@@ -261,18 +274,29 @@ struct HandEyeSolution {
 
 /// Computes where the camera sits from at least [`LEAST_PAIRS`] pairs.
 ///
-/// Pairs that do not span enough, or contradict each other, give a result with [`HandEye::doubts`].
-pub fn solve(pairs: &[PosePair], mount: Mount) -> Result<HandEye, HandEyeError> {
+/// Pairs that do not span enough, or contradict each other, give a result with [`HandEye::doubts`]. Pairs that repeat a
+/// pose of the arm count as one.
+pub fn solve(pairs: &[PosePair], mount: Mount, target: Target) -> Result<HandEye, HandEyeError> {
     check(pairs)?;
-    let equations = equations_of(mount, pairs.iter().map(PosePair::poses));
+    let different = repeats::different(pairs);
+    if different.len() < LEAST_PAIRS {
+        let found = different.len();
+        return Err(HandEyeError::TooFewPairs { found });
+    }
+    let poses: Vec<Poses> = different.iter().map(PosePair::poses).collect();
+    let equations = equations_of(mount, poses.iter().copied());
     let start = closed_form::solve(&equations).ok_or(HandEyeError::Unsolvable)?;
     let refined = refine::refine(&equations, start.unknowns);
     let unknowns = refined.unknowns;
-    let residuals = residuals(pairs, &equations, &unknowns);
-    let span = Span::of(pairs);
-    let bounds = refined.bounds(&equations);
-    let far = doubt::far_from_flange(mount, &unknowns);
-    let doubts = doubt::doubts(pairs, mount, &residuals, &span, bounds, start.lead, far);
+    let off: Vec<PoseDelta> = equations.iter().map(|e| e.off(&unknowns)).collect();
+    let all = equations_of(mount, pairs.iter().map(PosePair::poses));
+    let residuals = residuals(pairs, &all, &unknowns, rms(&off));
+    let span = Span::of(&different);
+    let bounds = refined.bounds(&equations, target);
+    let far = doubt::far_from_flange(mount, &poses, &unknowns);
+    let doubts = doubt::doubts(
+        &different, mount, &residuals, &span, bounds, start.lead, far,
+    );
     Ok(HandEye {
         mount,
         mount_from_camera: unknowns.mount_from_camera,
@@ -286,9 +310,6 @@ pub fn solve(pairs: &[PosePair], mount: Mount) -> Result<HandEye, HandEyeError> 
 
 fn check(pairs: &[PosePair]) -> Result<(), HandEyeError> {
     let found = pairs.len();
-    if found < LEAST_PAIRS {
-        return Err(HandEyeError::TooFewPairs { found });
-    }
     if found > MOST_PAIRS {
         return Err(HandEyeError::TooManyPairs { found });
     }
@@ -302,13 +323,18 @@ fn check(pairs: &[PosePair]) -> Result<(), HandEyeError> {
     })
 }
 
-fn residuals(pairs: &[PosePair], equations: &[Equation], unknowns: &HandEyeSolution) -> Residuals {
+fn residuals(
+    pairs: &[PosePair],
+    equations: &[Equation],
+    unknowns: &HandEyeSolution,
+    rms: PoseDelta,
+) -> Residuals {
     let off: Vec<PoseDelta> = equations.iter().map(|e| e.off(unknowns)).collect();
     let worst = (0..off.len())
         .max_by(|&a, &b| off[a].shift.0.total_cmp(&off[b].shift.0))
         .unwrap_or(0);
     Residuals {
-        rms: rms(&off),
+        rms,
         worst,
         pairs: pairs
             .iter()

@@ -4,12 +4,16 @@
 //! scatter. The scatter is estimated from the residuals if there are enough pairs. X and Z are changed on their right,
 //! so a change of X is one in the camera frame.
 //!
+//! The outline of a part moves with the view, along the surface and in proportion to its turn, because the sides of nearer
+//! edges come into sight and fewer readings are lost there. All captures share this error, so no residual shows it: X and
+//! Z absorb it as depth. Its effect on X is added to the bounds.
+//!
 //! Sources: K. Levenberg, "A method for the solution of certain non-linear problems in least squares", Quarterly of
 //! Applied Mathematics 2, 1944; D. W. Marquardt, SIAM Journal 11(2), 1963.
 
 use nalgebra::{Isometry3, Matrix3, SMatrix, SVector, Translation3, UnitQuaternion, Vector3};
 
-use super::{CalibrationBounds, Equation, HandEyeSolution, rms};
+use super::{CalibrationBounds, Equation, HandEyeSolution, Target, rms};
 use crate::units::{Metres, Radians};
 
 /// Turn and shift of X, then of Z.
@@ -31,6 +35,10 @@ const COMMON_LEVER: f64 = 0.57;
 const LEVERS: std::ops::RangeInclusive<f64> = 0.05..=5.0;
 /// A direction is unconstrained if its eigenvalue of the information is below this share of the largest.
 const HELD: f64 = 1e-10;
+
+/// An outline moves with the view by less than this in 95 of 100 cases, metres for a whole unit of the surface's normal
+/// across the view: measured on the eight simulated parts, without noise and with a Kinect's.
+const OUTLINE_SHIFT: f64 = 0.0025;
 
 /// The result of a refinement.
 pub(super) struct Refined {
@@ -188,7 +196,7 @@ impl Refined {
     ///
     /// The covariance is that of least squares. Its scale comes from the residuals, so few pairs give wide bounds
     /// (quantile of F instead of the normal distribution).
-    pub(super) fn bounds(&self, equations: &[Equation]) -> CalibrationBounds {
+    pub(super) fn bounds(&self, equations: &[Equation], target: Target) -> CalibrationBounds {
         let Self { unknowns, lever } = self;
         let num = equations.len() as f64;
         let freedom = 6.0 * num - 12.0;
@@ -218,10 +226,36 @@ impl Refined {
             let largest = covariance.symmetric_eigenvalues().max();
             (largest.max(0.0) * within_sq).sqrt()
         };
+        let by_outline: SVector<f64, 6> = match target {
+            Target::Marker => SVector::zeros(),
+            Target::Part { normal } => {
+                let pull = self.pull_of_outline(equations, &normal);
+                (covariance * pull).fixed_rows::<6>(0) * OUTLINE_SHIFT
+            }
+        };
+        let turned = by_outline.fixed_rows::<3>(0).norm();
         CalibrationBounds {
-            shift: Metres(longest(shift)),
-            turn: Radians(longest(turn)),
+            shift: Metres(longest(shift).hypot((shift_of * by_outline).norm())),
+            turn: Radians(longest(turn).hypot(turned)),
         }
+    }
+
+    /// `Jᵀr` of an outline that moves by a metre for a whole unit of the normal across the view.
+    fn pull_of_outline(&self, equations: &[Equation], normal: &Vector3<f64>) -> NewtonStep {
+        let Self { unknowns, lever } = self;
+        let pulls = equations.iter().map(|equation| {
+            let seen = &equation.camera_from_target;
+            let ray = seen.rotation.inverse() * seen.translation.vector;
+            let ray = ray.try_normalize(0.0).unwrap_or_default();
+            // Away from the camera, whichever way the normal points.
+            let along = normal.dot(&ray);
+            let shift = (normal - ray * along) * along.signum();
+            let (error, _) = residual(equation, unknowns, *lever);
+            let mut moved = SVector::<f64, 6>::zeros();
+            moved.fixed_rows_mut::<3>(3).copy_from(&(shift / *lever));
+            jacobian(equation, &error, *lever).transpose() * moved
+        });
+        pulls.sum()
     }
 }
 

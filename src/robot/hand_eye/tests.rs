@@ -7,6 +7,11 @@ use rand_pcg::Pcg64;
 use super::*;
 use crate::geometry::rigid::from_euler_zyx;
 
+/// Most pairs here are of a marker.
+fn solve(pairs: &[PosePair], mount: Mount) -> Result<HandEye, HandEyeError> {
+    super::solve(pairs, mount, Target::Marker)
+}
+
 /// Standard deviations of the camera's error per axis, metres and radians.
 #[derive(Clone, Copy)]
 struct Noise {
@@ -211,6 +216,51 @@ fn bounds_hold_in_at_least_95_of_100_cells() {
         );
         // Bounds must not hold merely by being far too wide.
         assert!(looseness < 12.0, "{num_pairs} pairs: {looseness}");
+    }
+}
+
+/// Pairs of a part whose outline moves with the view by this many metres for a whole unit.
+fn pairs_of_part(cell: &TrueCell, outline: f64, random: &mut Pcg64) -> Vec<PosePair> {
+    let mut pairs = cell.pairs(12, 0.6, EXACT, random);
+    for pair in &mut pairs {
+        let seen = pair.camera_from_target;
+        let (normal, ray) = (
+            seen.rotation * Vector3::z(),
+            seen.translation.vector.normalize(),
+        );
+        let (along, across) = (normals(random, 0.7e-3), self::normal(random) * 0.15e-3);
+        let shift = (normal - ray * normal.dot(&ray)) * outline + along
+            - normal * (normal.dot(&along) - across);
+        let turn = UnitQuaternion::from_scaled_axis(normals(random, 1e-3));
+        pair.camera_from_target = Isometry3::from_parts(
+            Translation3::from(seen.translation.vector + shift),
+            turn * seen.rotation,
+        );
+    }
+    pairs
+}
+
+#[test]
+fn an_outline_that_moves_with_the_view_is_in_the_bounds() {
+    let part = Target::Part {
+        normal: Vector3::z_axis(),
+    };
+    for outline in [0.0, 0.001, 0.002] {
+        let (mut num, mut held, mut held_as_marker) = (0, [0, 0], 0);
+        over_cells(100, |cell, random| {
+            let pairs = pairs_of_part(&cell, outline, random);
+            let found = super::solve(&pairs, cell.mount, part).expect("solved");
+            let off = cell.off(&found);
+            num += 1;
+            held[0] += usize::from(off.shift <= found.bounds.shift);
+            held[1] += usize::from(off.rotation <= found.bounds.turn);
+            let as_marker = solve(&pairs, cell.mount).expect("solved");
+            held_as_marker += usize::from(off.shift <= as_marker.bounds.shift);
+            assert!(found.bounds.shift.mm() < 8.0, "{:?}", found.bounds);
+        });
+        println!("{outline}: {held:?} of {num} held, {held_as_marker} as a marker");
+        // 95 of 100, less two standard deviations for 200 cells.
+        assert!(held.iter().all(|held| *held >= 184), "{outline}: {held:?}");
     }
 }
 

@@ -191,7 +191,7 @@ fn num_pairs(scene: &Scene<'_>, least_score: f64) -> usize {
 }
 
 /// Thins part and edges at random, so that any first n of them are spread over the part.
-fn thinned_source(scene: &Scene<'_>, outline: &Outline, seed: u64) -> AlignmentSource {
+pub(super) fn thinned_source(scene: &Scene<'_>, outline: &Outline, seed: u64) -> AlignmentSource {
     let mut rng = Pcg64::seed_from_u64(seed);
     let points = &scene.part.cloud.points;
     let wanted = THIRD[2].num_surface;

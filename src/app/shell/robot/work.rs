@@ -7,7 +7,7 @@ use crate::{
     robot::{
         Convention, RobotFrame,
         calibration::{CellCalibration, ReadCalibration},
-        hand_eye::{HandEye, Mount, solve},
+        hand_eye::{HandEye, Mount, Target, solve},
         pairs::{PairConventions, read_pairs},
     },
 };
@@ -83,7 +83,7 @@ pub(super) fn solve_pairs(
     let names = read.pairs.iter().map(|pair| pair.name.clone()).collect();
     let mut pairs = read.pairs;
     pairs.retain(|pair| !left_out.contains(&pair.name));
-    let solved = solve(&pairs, mount).map_err(|error| UserError::of(&error))?;
+    let solved = solve(&pairs, mount, Target::Marker).map_err(|error| UserError::of(&error))?;
     Ok(RobotResult::Solved(Arc::new(SolvedPairs {
         path,
         names,

@@ -210,6 +210,150 @@ fn both_poses_the_wrong_way_round_put_something_far_from_the_flange() {
     });
 }
 
+/// Cells whose lengths are those of small arms: what is on the flange is near it, what is in the cell within reach. The
+/// target's z axis points away from the camera, or towards it.
+fn small_cells(num: u64, mut check: impl FnMut(&TrueCell, Vec<PosePair>)) {
+    over_cells(num, |mut cell, random| {
+        let mut pose = |from: f64, to: f64| {
+            let shift = normals(random, 1.0).normalize() * random.random_range(from..to);
+            Isometry3::from_parts(Translation3::from(shift), any_rotation(random, 3.1))
+        };
+        let (near, far) = (pose(0.05, 0.25), pose(0.35, 1.15));
+        [cell.mount_from_camera, cell.anchor_from_target] = match cell.mount {
+            Mount::EyeInHand => [near, far],
+            Mount::EyeToHand => [far, near],
+        };
+        let towards = if random.random() {
+            0.0
+        } else {
+            std::f64::consts::PI
+        };
+        let pairs = (0..10).map(|number| {
+            let [x, y] = [0.12, 0.1].map(|most| random.random_range(-most..most));
+            let shift = Translation3::new(x, y, random.random_range(0.4..0.7));
+            let turn = any_rotation(random, 0.7)
+                * from_euler_zyx([towards, 0.0, 0.0, 0.0, 0.0, 0.0]).rotation;
+            let seen = Isometry3::from_parts(shift, turn);
+            let mut pair = cell.pair(number, seen);
+            pair.camera_from_target = with_noise(&seen, noise(0.3, 0.1), random);
+            pair
+        });
+        let pairs = pairs.collect();
+        check(&cell, pairs);
+    });
+}
+
+#[test]
+fn both_poses_the_wrong_way_round_are_named_and_sound_ones_are_not_refused() {
+    let (mut named, mut refused, mut num) = (0, 0, 0);
+    small_cells(40, |cell, mut pairs| {
+        let found = solve(&pairs, cell.mount).expect("solved");
+        refused += usize::from(!found.is_usable());
+        for pair in &mut pairs {
+            pair.robot_from_flange.inverse_mut();
+            pair.camera_from_target.inverse_mut();
+        }
+        let found = solve(&pairs, cell.mount).expect("solved");
+        assert!(!found.is_usable());
+        let doubt = found.doubts[0].to_string();
+        named += usize::from(doubt.contains("both went the other way"));
+        num += 1;
+    });
+    assert_eq!([num, named, refused], [80, 80, 0]);
+}
+
+#[test]
+fn a_target_behind_the_camera_is_refused() {
+    small_cells(10, |cell, mut pairs| {
+        // The frame of a camera that looks along -z, as in computer graphics: the pairs agree.
+        let turned = from_euler_zyx([std::f64::consts::PI, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        for pair in &mut pairs {
+            pair.camera_from_target = turned * pair.camera_from_target;
+        }
+        let found = solve(&pairs, cell.mount).expect("solved");
+        let (behind, of_all) = (10, 10);
+        let expected = HandEyeDoubt::BehindCamera {
+            behind,
+            found: of_all,
+        };
+        assert_eq!(found.doubts.first(), Some(&expected));
+    });
+}
+
+#[test]
+fn quaternions_with_the_scalar_at_the_other_end_are_named() {
+    let moved = |pose: &mut RigidTransform, scalar_was_last: bool| {
+        let written = pose.rotation;
+        let read = if scalar_was_last {
+            nalgebra::Quaternion::new(written.i, written.j, written.k, written.w)
+        } else {
+            nalgebra::Quaternion::new(written.k, written.w, written.i, written.j)
+        };
+        pose.rotation = UnitQuaternion::new_normalize(read);
+    };
+    over_cells(20, |cell, random| {
+        for (is_of_robot, scalar_was_last) in
+            [(true, true), (true, false), (false, true), (false, false)]
+        {
+            let mut pairs = cell.pairs(10, 0.7, noise(0.5, 0.1), random);
+            for pair in &mut pairs {
+                let pose = if is_of_robot {
+                    &mut pair.robot_from_flange
+                } else {
+                    &mut pair.camera_from_target
+                };
+                moved(pose, scalar_was_last);
+            }
+            let found = solve(&pairs, cell.mount).expect("a result");
+            let expected = if is_of_robot {
+                LikelyMistake::RobotScalarMoved
+            } else {
+                LikelyMistake::CameraScalarMoved
+            };
+            assert!(
+                matches!(found.doubts[0], HandEyeDoubt::Mistaken { mistake, .. } if mistake == expected),
+                "{expected:?}: {:?}",
+                found.doubts
+            );
+        }
+    });
+}
+
+#[test]
+fn repeated_pairs_count_once() {
+    over_cells(20, |cell, random| {
+        for num in [3, 8] {
+            let once = cell.pairs(num, 0.7, noise(0.5, 0.1), random);
+            let of_once = solve(&once, cell.mount).expect("solved");
+            let thrice = [&once[..], &once[..], &once[..]].concat();
+            let found = solve(&thrice, cell.mount).expect("solved");
+            let in_words = |solved: &HandEye| -> Vec<String> {
+                solved.doubts.iter().map(ToString::to_string).collect()
+            };
+            assert_eq!(in_words(&found), in_words(&of_once));
+            assert!((found.bounds.shift.0 - of_once.bounds.shift.0).abs() < 1e-9);
+            assert_eq!(found.residuals.pairs.len(), 3 * num);
+            // Several captures without a movement are no more poses of the arm either.
+            let mut captured = thrice;
+            for pair in &mut captured {
+                pair.camera_from_target =
+                    with_noise(&pair.camera_from_target, noise(0.3, 0.1), random);
+            }
+            let found = solve(&captured, cell.mount).expect("solved");
+            let is_few =
+                |doubt: &HandEyeDoubt| matches!(doubt, HandEyeDoubt::FewPairs { found: 3 });
+            assert_eq!(found.doubts.iter().any(is_few), num == 3);
+        }
+    });
+    let cell = TrueCell::any(Mount::EyeInHand, &mut Pcg64::seed_from_u64(1));
+    let mut random = Pcg64::seed_from_u64(2);
+    let two = cell.pairs(2, 0.7, EXACT, &mut random);
+    assert_eq!(
+        solve(&[&two[..], &two[..]].concat(), cell.mount),
+        Err(HandEyeError::TooFewPairs { found: 2 })
+    );
+}
+
 #[test]
 fn lengths_in_another_unit_are_told() {
     over_cells(20, |cell, random| {
