@@ -9,6 +9,7 @@ mod files;
 mod hostile;
 #[path = "../kit/mod.rs"]
 mod kit;
+mod mesh_side;
 mod registration;
 mod scan;
 mod scenes;
