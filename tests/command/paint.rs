@@ -267,3 +267,60 @@ fn a_program_that_would_leave_a_worse_film_than_planned_is_refused_unless_forced
     );
     assert!(ran.err.contains("does not use the tool"), "{}", ran.err);
 }
+
+/// A closed box of 800 by 500 by 20 mm above the origin, z up.
+fn plate() -> String {
+    let mut text = String::new();
+    for [x, y, z] in [0, 1, 2, 3, 4, 5, 6, 7].map(|i| [i & 1, (i >> 1) & 1, i >> 2]) {
+        let [x, y, z] = [0.8 * f64::from(x), 0.5 * f64::from(y), 0.02 * f64::from(z)];
+        writeln!(text, "v {x} {y} {z}").expect("written");
+    }
+    // Corners by their binary number, outwards.
+    for face in [
+        "1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6",
+    ] {
+        writeln!(text, "f {face}").expect("written");
+    }
+    text
+}
+
+#[test]
+fn a_part_whose_outside_is_not_clear_is_planned_from_the_side_that_a_person_gives() {
+    let shop = Workplace::new();
+    shop.write("plate.obj", &plate());
+    let enrol = ["enrol", "plate.obj", "--name", "plate", "--up", "z"];
+    let ran = shop.coded(0, &enrol);
+    assert!(
+        ran.err.contains("not clear which side") && ran.err.contains("--side top"),
+        "{}",
+        ran.err
+    );
+    let plan = ["path", "plan", "plate", "--coat", "primer", "--propose"];
+    let ran = shop.coded(2, &plan);
+    assert!(ran.err.contains("--side top"), "{}", ran.err);
+    let json = [&plan[..], &["--json"]].concat();
+    // For one plan alone, then for good.
+    for (given, stored) in [
+        (&["--side", "top"][..], None),
+        (&["--side", "bottom", "--store"], Some("bottom")),
+    ] {
+        let planned = shop.coded(0, &[&json[..], given].concat()).json();
+        assert_eq!(planned["side"], given[1]);
+        assert_eq!(shop.run(&json).code == 0, stored.is_some());
+    }
+    assert_eq!(shop.coded(0, &json).json()["side"], "bottom");
+    let simulate = ["path", "simulate", "plate", "--coat", "primer", "--json"];
+    assert_eq!(shop.run(&simulate).json()["side"], "bottom");
+    let ran = shop.coded(0, &["library", "show", "plate"]);
+    assert!(ran.out.contains("the bottom"), "{}", ran.out);
+    // Given when it is enrolled, nothing is unclear.
+    let ran = shop.coded(0, &[&enrol[..], &["--side", "top"]].concat());
+    assert!(
+        ran.out.contains("the top") && !ran.err.contains("side"),
+        "{}",
+        ran.err
+    );
+    assert_eq!(shop.coded(0, &json).json()["side"], "top");
+    let ran = shop.coded(2, &[&enrol[..], &["--side", "up"]].concat());
+    assert!(ran.err.contains("front, back, left"), "{}", ran.err);
+}

@@ -10,6 +10,7 @@ mod hand_eye;
 mod hostile;
 #[path = "../kit/mod.rs"]
 mod kit;
+mod mesh_side;
 mod registration;
 mod scan;
 mod scenes;

@@ -139,7 +139,14 @@ fn painted(name: &str) -> Painted {
     ];
     let stated = kinds.map(|format| {
         let enrolled = &reference.cloud;
-        let film = WrittenFilm::of(&program, format, &planned.path, enrolled, meta.coverage, meta.side);
+        let film = WrittenFilm::of(
+            &program,
+            format,
+            &planned.path,
+            enrolled,
+            meta.coverage,
+            meta.side,
+        );
         film.expect("a film")
     });
     Painted {
