@@ -138,7 +138,7 @@ pub enum Unchecked {
     #[error("collisions with anything but part and arm, such as the part's stand")]
     Surroundings,
     /// Limits that the arm's file lacks: `joints`, `rail` or `joints and rail`.
-    #[error("accelerations of {0}")]
+    #[error("accelerations of {0}, whose limits are not known")]
     Accelerations(&'static str),
     /// Points in front of which the camera saw no surface.
     #[error("the stand-off at {num} of {}, where the camera saw no surface", counted(*num_points, "point", "points"))]

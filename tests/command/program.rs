@@ -264,7 +264,7 @@ fn accelerations_are_checked_where_their_limits_are_known() {
         shop.coded(code, &[&check[..], &nozzle, more].concat())
     };
     let ran = check(0, "irb4600", &[]);
-    let unchecked = "not checked: the acceleration of its joints";
+    let unchecked = "not checked: accelerations of joints";
     assert!(ran.out.contains(unchecked), "{}", ran.out);
     let line = check(0, "irb4600", &["--json"]).json();
     assert_eq!(line["unchecked_accelerations"], "joints");
@@ -283,9 +283,17 @@ fn accelerations_are_checked_where_their_limits_are_known() {
     };
     arm(50_000);
     let ran = check(0, "arm.toml", &[]);
-    assert!(!ran.out.contains("not checked"), "{}", ran.out);
+    assert!(!ran.out.contains("not checked: acc"), "{}", ran.out);
+    let alone = "collisions with anything but part and arm";
+    let unchecked = format!("not checked: {alone}");
+    assert!(ran.out.contains(&unchecked), "{}", ran.out);
     let line = check(0, "arm.toml", &["--json"]).json();
     assert!(line["unchecked_accelerations"].is_null(), "{line}");
+    let unchecked = line["not_checked"][0].as_str();
+    assert!(
+        unchecked.is_some_and(|words| words.starts_with(alone)),
+        "{line}"
+    );
     // At the first and the last point the arm stops: only the corner needs acceleration.
     arm(10);
     let ran = check(1, "arm.toml", &[]);

@@ -344,7 +344,7 @@ fn load(given: Option<&Path>) -> Result<LoadedLibrary, LibraryError> {
                 if path.as_ref().is_some_and(|path| path.off.is_some()) {
                     troubles.push(UserError {
                         what: text!("shell-path-off-part", part = part.shown_title()),
-                        advice: text!("program-off-part-advice"),
+                        advice: text!("robot-doubt-off-part-advice"),
                     });
                 }
                 path

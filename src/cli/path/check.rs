@@ -28,6 +28,7 @@ use crate::{
         spray::carry,
     },
     stages::stand_off::StandOffParams,
+    station::robot_file::Unchecked,
     units::{Metres, counted},
 };
 
@@ -132,6 +133,8 @@ pub(super) fn run(
                 "problem_kind": point.problem.as_ref().map(PointProblem::kind),
             })
         });
+        let unchecked = Unchecked::of_arm(Some(&placed)).into_iter();
+        let unchecked: Vec<String> = unchecked.map(|unchecked| unchecked.to_string()).collect();
         let line = json!({
             "schema": SCHEMA,
             "part": name.as_str(),
@@ -140,6 +143,7 @@ pub(super) fn run(
             "num_reached": num,
             "num_collisions": found.num_collisions(),
             "unchecked_accelerations": placed.arm.unchecked_accelerations(),
+            "not_checked": unchecked,
             "base_shift_mm": base.map(|place| place.shift.map(|x| 1000.0 * x)),
             "rail_mm": rail.map(|place| 1000.0 * place.shift[0]),
             "rail_range_mm": range,
@@ -193,10 +197,8 @@ fn show(placed: &PlacedArm, found: &PathCheck, console: &mut Console) {
     if let Some(line) = changed_moves_line(found.changed_moves()) {
         console.line(&format_args!("  {line}"));
     }
-    if let Some(what) = placed.arm.unchecked_accelerations() {
-        console.line(&format_args!(
-            "  not checked: the acceleration of its {what}, whose limits are not known"
-        ));
+    for unchecked in Unchecked::of_arm(Some(placed)) {
+        console.line(&format_args!("  not checked: {unchecked}"));
     }
     for line in problem_lines(&found.points) {
         console.line(&format_args!("  {line}"));
