@@ -56,7 +56,7 @@ fn the_language_is_the_systems_until_one_is_chosen_and_is_remembered() {
     press(&mut harness, "Deutsch");
     // The change is immediate, with the same result in front.
     harness.get_by_label("Aufnehmen");
-    harness.get_by_label("Akzeptiert");
+    harness.get_by_label("Erkannt");
     harness.get_by_label("Simuliertes Bild 1");
     harness.key_press(egui::Key::Space);
     settle(&mut harness);
