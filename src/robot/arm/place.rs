@@ -28,8 +28,9 @@ pub struct PlaceSuggestion {
 const NUM_SAMPLES: usize = 60;
 /// Turns of the nozzle that are tried at each sample.
 const NUM_TURNS: usize = 8;
-/// Number of best places that are checked in full.
-const NUM_CHECKED: usize = 3;
+/// Most places that are checked in full, the best first, until one reaches every point: a joint may be too fast between
+/// points that are all reached.
+const NUM_CHECKED: usize = 8;
 
 /// Tries the base up to a metre away along x and y and half a metre up or down, in steps of 200 and 250 mm. Returns the
 /// place that reaches most points, if it reaches more than `num_reached`. `progress` receives the number of places
@@ -151,6 +152,9 @@ impl Search<'_> {
             let num_reached = check.num_reached();
             if num_reached > found.map_or(self.num_reached, |found| found.num_reached) {
                 found = Some(PlaceSuggestion { shift, num_reached });
+            }
+            if num_reached == self.points.len() {
+                break;
             }
         }
         Ok(found)
