@@ -276,12 +276,7 @@ pub(super) fn doubts(
     // At most one pair in three can be a slip; more suspects mean a mistake in all pairs.
     let suspects = suspects.filter(|found| 3 * found.pairs.len() <= equations.len());
     let rms_of_most = suspects.as_ref().map_or(residuals.rms, |found| found.rms);
-    let disagreement = disagreement(mount, &poses, rms_of_most);
-    if matches!(disagreement, Some(HandEyeDoubt::Mistaken { .. })) {
-        // The lead is that of misread poses.
-        doubts.retain(|doubt| *doubt != HandEyeDoubt::SeveralAnswers);
-    }
-    doubts.extend(disagreement);
+    doubts.extend(disagreement(mount, &poses, rms_of_most));
     doubts.extend(too_near(&poses));
     if !doubts.iter().any(HandEyeDoubt::is_grave) {
         doubts.extend(far.or_else(|| behind_camera(&poses)));
