@@ -180,11 +180,7 @@ impl Scan {
             shift: Metres(0.0),
         };
         self.used().fold(none, |most, (_, shot)| {
-            let own = pose_error(
-                &shot.given_from_refined(),
-                &RigidTransform::identity(),
-                at,
-            );
+            let own = pose_error(&shot.given_from_refined(), &RigidTransform::identity(), at);
             PoseDelta {
                 rotation: Radians(own.rotation.0.max(most.rotation.0)),
                 shift: Metres(own.shift.0.max(most.shift.0)),
