@@ -372,3 +372,68 @@ fn evidence(
     };
     (evidence, sight)
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use nalgebra::Translation3;
+
+    use super::*;
+    use crate::{
+        geometry::rigid::pose_error,
+        kit::shipped_library,
+        pipeline::{Rejection, Unwatched},
+        scan::{ScanParams, Shot, Unwatched as UnwatchedScan, assemble},
+        simulate::{PartKind, ScanSetup, Side, SimulatedObject, SimulatedScan},
+        stages::scene::scene_from_frame,
+        units::Radians,
+    };
+
+    #[test]
+    fn a_drift_of_the_poses_is_in_the_bounds() {
+        let simulated = SimulatedScan::new(ScanSetup {
+            subject: SimulatedObject::Part {
+                kind: PartKind::FrontDoor,
+                side: Side::Left,
+                model_seed: 0,
+            },
+            num_shots: 3,
+            place_error: Metres(0.0),
+            turn_error: Radians(0.0),
+            noise: 1.0,
+            seed: 4,
+        });
+        let frames = simulated.shots();
+        let library = shipped_library();
+        let inspected = |drift_mm: f64| {
+            let shots = frames.iter().enumerate().map(|(k, shot)| Shot {
+                name: format!("shot {k}"),
+                scene: Arc::new(scene_from_frame(&shot.frame)),
+                base_from_camera: Translation3::new(0.0, 0.0, 1e-3 * drift_mm * k as f64)
+                    * shot.base_from_camera,
+            });
+            let shots: Vec<Shot> = shots.collect();
+            let scan = assemble(&shots, &ScanParams::default(), &UnwatchedScan).expect("a scan");
+            run_scan(&scan, &library, &Recipe::default(), &Unwatched).expect("not cancelled")
+        };
+        let (right, drifted) = (inspected(0.0), inspected(12.0));
+        assert!(right.inspection.verdict.is_accepted());
+        let bound = |found: &ScanInspection| {
+            let pose = found.inspection.found_pose().expect("a pose");
+            pose.bounds().expect("bounds").shift.mm()
+        };
+        assert!(bound(&right) < 5.0, "{}", bound(&right));
+        let pose = |found: &ScanInspection| found.base_from_part.expect("a pose");
+        let middle = Point3::new(0.0, 0.0, 1.3);
+        let off = pose_error(&pose(&right), &pose(&drifted), &middle)
+            .shift
+            .mm();
+        // The refined poses are the mean of 0, 12 and 24 mm.
+        assert!((10.0..14.0).contains(&off), "{off}");
+        // Beside the poses, noise moves the result by half a millimetre.
+        assert!(bound(&drifted) + 0.5 >= off, "{} {off}", bound(&drifted));
+        let why = drifted.inspection.verdict.rejected();
+        assert!(matches!(why, Some(Rejection::Uncertain { .. })), "{why:?}");
+    }
+}

@@ -126,6 +126,66 @@ fn a_shot_whose_pose_is_wrong_is_named_and_left_out() {
     }
 }
 
+/// Asserts that a scan is refused because its frames contradict one another.
+fn assert_contradictory(shots: &[Shot]) {
+    use crate::error::Advice as _;
+
+    let found = assemble(shots, &ScanParams::default(), &Unwatched);
+    let Err(refused) = found else {
+        let fates = found.expect("a scan").shots.into_iter();
+        panic!(
+            "{:?}",
+            fates.map(|s| (s.moved, s.excluded)).collect::<Vec<_>>()
+        );
+    };
+    let advice = refused.advice();
+    assert!(
+        advice.contains("each pose belongs to its frame"),
+        "{refused}"
+    );
+}
+
+#[test]
+fn of_two_halves_that_contradict_each_other_neither_is_used() {
+    for (seed, shift) in [(5, [0.0, 0.06, 0.0]), (6, [-0.06, 0.0, 0.0])] {
+        let (mut shots, _) = shots_of(&simulated(PartKind::Fender, 4, seed));
+        for shot in shots.iter_mut().step_by(2) {
+            shot.base_from_camera.translation.vector += Vector3::from(shift);
+        }
+        assert_contradictory(&shots);
+    }
+}
+
+#[test]
+fn shots_of_two_parts_half_of_each_are_no_scan() {
+    let (mut shots, _) = shots_of(&simulated(PartKind::FrontDoor, 4, 8));
+    let (others, _) = shots_of(&simulated(PartKind::TrunkLid, 4, 8));
+    for k in [1, 3] {
+        shots[k] = others[k].clone();
+    }
+    assert_contradictory(&shots);
+}
+
+#[test]
+fn a_drift_of_the_poses_is_how_much_they_disagree() {
+    let simulated = simulated(PartKind::FrontDoor, 4, 9);
+    let (mut shots, truth) = shots_of(&simulated);
+    for (k, (shot, truth)) in shots.iter_mut().zip(&truth).enumerate() {
+        shot.base_from_camera = Translation3::new(0.0, 0.0, 0.01 * k as f64) * truth;
+    }
+    let scan = put_together(&shots);
+    assert_eq!(scan.used().count(), 4);
+    let middle = scan.cloud.middle_of_part().expect("a part");
+    // The first is 15 mm off the mean of 0, 10, 20 and 30 mm.
+    let found = scan.disagreement(&middle);
+    assert!((13.0..17.0).contains(&found.shift.mm()), "{found:?}");
+    let Some(Doubt::PosesApart { names, apart }) = scan.doubt else {
+        panic!("{:?}", scan.doubt);
+    };
+    assert_eq!(names, ["shot 0", "shot 3"]);
+    assert!((22.0..31.0).contains(&apart.mm()), "{apart}");
+}
+
 /// A frame of a flat plate before a wall and beside a flat pillar, taken from `at` along the wall.
 fn plate_from(at: f64) -> Shot {
     let camera = Intrinsics::KINECT;
@@ -161,10 +221,9 @@ fn a_pose_that_slides_a_flat_part_along_itself_is_found() {
     let near_8_cm = |found: Metres| (55.0..105.0).contains(&found.mm());
     shots[1].base_from_camera.translation.vector.y += 0.08;
     // Of two shots, either may be wrong.
-    let scan = put_together(&shots[..2]);
-    assert_eq!(scan.used().count(), 2);
-    let Some(Doubt::Contradiction { names, apart, .. }) = scan.doubt else {
-        panic!("{:?}", scan.doubt);
+    let refused = assemble(&shots[..2], &ScanParams::default(), &Unwatched).expect_err("a tie");
+    let ScanError::Contradiction { names, apart, .. } = refused else {
+        panic!("{refused}");
     };
     assert_eq!(names, ["from 0", "from 0.15"]);
     assert!(apart.is_some_and(near_8_cm), "{apart:?}");

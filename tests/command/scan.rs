@@ -115,6 +115,30 @@ fn a_frame_with_a_wrong_pose_is_named_and_left_out() {
 }
 
 #[test]
+fn two_halves_that_contradict_each_other_are_refused_by_every_command_that_takes_a_scan() {
+    let place = with_scan("4");
+    change_poses(&place, |poses| {
+        for frame in ["frame-02.png", "frame-04.png"] {
+            let pose = pose_of(poses, frame);
+            pose[3] = json!(pose[3].as_f64().expect("a number") + 0.06);
+        }
+    });
+    let scan = ["--scan", "frames"];
+    for args in [
+        ["scan", "frames", "--out", "all.ply"].to_vec(),
+        [&["inspect"], &scan[..]].concat(),
+        [&["enrol", "--name", "two", "--library", "parts"], &scan[..]].concat(),
+    ] {
+        let ran = place.coded(2, &args);
+        assert!(
+            ran.err.contains("each pose belongs to its frame"),
+            "{}",
+            ran.err
+        );
+    }
+}
+
+#[test]
 fn inverted_poses_are_refused_by_every_command_that_takes_a_scan() {
     let place = with_scan("3");
     change_poses(&place, |poses| {

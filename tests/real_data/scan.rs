@@ -8,8 +8,7 @@ use partsight::{
     geometry::{nearest::KdTree, rigid::RigidTransform},
     robot::frame_poses::{FramePose, read_frame_poses},
     scan::{
-        Doubt, Excluded, Scan, ScanError, ScanParams, Shot, ShotSurface, Unwatched, assemble,
-        surface::Use,
+        Excluded, Scan, ScanError, ScanParams, Shot, ShotSurface, Unwatched, assemble, surface::Use,
     },
     stages::scene::scene_from_frame,
 };
@@ -18,7 +17,11 @@ use crate::data_folder;
 
 fn shots(folder: &Path, series: &str, num: usize) -> Vec<Shot> {
     let names: Vec<String> = (0..num).map(|k| format!("{series}_{k:02}.png")).collect();
-    let poses = read_frame_poses(&folder.join("truth.json"), &names).expect("poses");
+    shots_named(folder, &folder.join("truth.json"), &names)
+}
+
+fn shots_named(folder: &Path, poses: &Path, names: &[String]) -> Vec<Shot> {
+    let poses = read_frame_poses(poses, names).expect("poses");
     let shot = |(name, pose): (&String, FramePose)| {
         let Ok(FileContent::Depth(frame)) = open(&folder.join(name)) else {
             panic!("{name}: no depth image");
@@ -118,7 +121,7 @@ fn the_frames_of_a_fender_and_of_a_door_agree_after_refinement() {
 }
 
 #[test]
-fn two_frames_of_which_one_pose_is_10_cm_off_get_a_warning_and_right_ones_get_none() {
+fn two_frames_of_which_one_pose_is_10_cm_off_are_refused_and_right_ones_get_no_warning() {
     let Some(data) = data_folder() else { return };
     let shots = shots(&data.join("booth"), "left2", 8);
     let put_together = |shots: &[Shot]| assemble(shots, &ScanParams::default(), &Unwatched);
@@ -128,14 +131,32 @@ fn two_frames_of_which_one_pose_is_10_cm_off_get_a_warning_and_right_ones_get_no
     }
     let mut pair = shots[1..3].to_vec();
     pair[1].base_from_camera.translation.vector.x += 0.1;
-    let scan = put_together(&pair).expect("a scan");
-    assert_eq!(scan.used().count(), 2);
-    let Some(Doubt::Contradiction { names, apart, .. }) = scan.doubt else {
-        panic!("{:?}", scan.doubt);
+    let refused = put_together(&pair).expect_err("either may be wrong");
+    let ScanError::Contradiction { names, apart, .. } = refused else {
+        panic!("{refused}");
     };
     assert_eq!(names, ["left2_01.png", "left2_02.png"]);
     let apart = apart.expect("a better pose").mm();
     assert!((70.0..130.0).contains(&apart), "{apart} mm");
+}
+
+#[test]
+fn half_of_the_poses_30_mm_off_are_refused_and_the_right_ones_accepted() {
+    let Some(data) = data_folder() else { return };
+    let case = data.join("reported/scan_tie");
+    let names: Vec<String> = (1..=4).map(|k| format!("frame-{k:02}.png")).collect();
+    let put_together = |poses: &str| {
+        let shots = shots_named(&case.join("s"), &case.join(poses), &names);
+        assemble(&shots, &ScanParams::default(), &Unwatched)
+    };
+    let right = put_together("s/poses.json").expect("a scan");
+    assert_eq!((right.used().count(), right.doubt), (4, None));
+    let refused = put_together("poses_every_second_30mm.json").expect_err("a tie");
+    let ScanError::NoMajority { agree, others } = refused else {
+        panic!("{refused}");
+    };
+    assert_eq!(agree, ["frame-02.png", "frame-04.png"]);
+    assert_eq!(others, ["frame-01.png", "frame-03.png"]);
 }
 
 #[test]
