@@ -6,7 +6,6 @@ use std::{
     sync::{Arc, Mutex, MutexGuard, PoisonError},
 };
 
-use jiff::Timestamp;
 use numpy::PyArrayDyn;
 use partsight::{
     EnrolParams, LibraryError, LibraryFolder, LibraryLoad, PartDescription, PartName,
@@ -187,7 +186,7 @@ impl Library {
             title: title.to_owned(),
             notes: notes.to_owned(),
             from: scene.name.clone(),
-            at: Timestamp::now(),
+            at: partsight::clock::now(),
             simulated: scene.scene.cloud.is_simulated,
         };
         let params = EnrolParams {

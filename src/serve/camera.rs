@@ -841,7 +841,7 @@ mod tests {
             ("recording:monday", false),
         ] {
             let rule = NewFrame::of_source(&source.parse().expect("a source"));
-            let origin = rule.origin_of(&captured(1, Timestamp::now()));
+            let origin = rule.origin_of(&captured(1, clock::now()));
             assert_eq!(origin.is_motion_checked, is_checked, "{source}");
         }
     }

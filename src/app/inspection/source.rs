@@ -20,7 +20,7 @@ use crate::{
     },
     capture::{self, CaptureWarning, CellScene, Image, SimulatedSpec, SourceSpec},
     error::Advice,
-    files::{self, FileContent, FileError},
+    files::{self, FileContent, FileError, file_of},
     history::{FrameError, FrameRecord, read_frame},
     simulate::{
         CellSetup, ObjectKind, PartKind, PartPose, PoseRange, Side, SimulatedObject, frame,
@@ -196,7 +196,12 @@ impl Origin {
     /// When a scene of this origin that was just taken was captured: for files when they were last written, the earliest if
     /// there are several, and the beginning of time if that is not known; else now.
     pub(in crate::app) fn captured_at(&self) -> SystemTime {
-        let written = |path: &Path| path.metadata().and_then(|meta| meta.modified()).ok();
+        let written = |path: &Path| {
+            file_of(path)
+                .metadata()
+                .and_then(|meta| meta.modified())
+                .ok()
+        };
         let all = match self {
             Self::Simulated { .. } | Self::Frame { .. } => return SystemTime::now(),
             Self::File { path, .. } => written(path),

@@ -6,7 +6,7 @@ use jiff::{Timestamp, tz::TimeZone};
 use super::{
     answering::{AnswerSetup, AnsweringStatus, LastAnswer},
     dialog::{choice, told},
-    state::{RobotAction, RobotCell, RobotDialog},
+    state::{RobotAction, RobotCell, RobotDialog, RobotQuestion},
 };
 use crate::{
     app::{
@@ -154,8 +154,12 @@ fn buttons(
     let now = session.answering;
     let changed = wanted.filter(|setup| now.is_on && *setup != now);
     let changes_poses = changed.is_some_and(|setup| setup.changes_poses(&now));
-    dialog.is_changing &= changes_poses;
-    if dialog.is_changing {
+    let is_changing = dialog.question == Some(RobotQuestion::ChangeAnswers);
+    if is_changing && !changes_poses {
+        dialog.question = None;
+    }
+    let is_changing = is_changing && changes_poses;
+    if is_changing {
         let asked = UserError {
             what: text!("robot-change-poses"),
             advice: text!("robot-change-poses-advice"),
@@ -173,13 +177,13 @@ fn buttons(
             return;
         }
         match changed {
-            Some(setup) if dialog.is_changing => {
+            Some(setup) if is_changing => {
                 if text_button(ui, &text!("robot-change-poses-do")).clicked() {
-                    dialog.is_changing = false;
+                    dialog.question = None;
                     act(setup);
                 }
                 if widgets::default_button(ui, &text!("robot-change-poses-not"), true) {
-                    dialog.is_changing = false;
+                    dialog.question = None;
                     dialog.protocol = now.at.protocol;
                     dialog.pose = now.pose;
                     dialog.answered_in = now.convention;
@@ -188,7 +192,7 @@ fn buttons(
             Some(setup) => {
                 if widgets::default_button(ui, &text!("robot-use-it"), true) {
                     if changes_poses {
-                        dialog.is_changing = true;
+                        dialog.question = Some(RobotQuestion::ChangeAnswers);
                     } else {
                         act(setup);
                     }

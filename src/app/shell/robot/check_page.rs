@@ -6,7 +6,7 @@ use jiff::{Timestamp, Zoned, tz::TimeZone};
 use super::{
     cell_check::{CellChecks, CheckAction, CheckFolderContent, marked, no_baseline, shown_time},
     dialog::told,
-    state::{RobotAction, RobotCell, RobotDialog, RobotFile},
+    state::{RobotAction, RobotCell, RobotDialog, RobotFile, RobotQuestion},
 };
 use crate::{
     app::{
@@ -63,7 +63,7 @@ pub(super) fn ui(
     let source = source_menu::now(&session.source);
     row(ui, &text!("robot-frames-from"), &source);
     ui.add_space(space::SMALL);
-    if dialog.is_replacing {
+    if dialog.question == Some(RobotQuestion::ReplaceBaseline) {
         question(ui, dialog, caused);
     } else {
         limits(ui, &mut dialog.limits);
@@ -181,7 +181,7 @@ fn question(ui: &mut Ui, dialog: &mut RobotDialog, caused: &mut Vec<RobotAction>
     ui.label(text!("robot-replace-says"));
     ui.horizontal(|ui| {
         if widgets::default_button(ui, &text!("robot-keep-baseline"), true) {
-            dialog.is_replacing = false;
+            dialog.question = None;
         }
         if text_button(ui, &text!("robot-replace-baseline")).clicked() {
             caused.push(RobotAction::Check(CheckAction::TakeBaseline));

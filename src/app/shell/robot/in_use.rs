@@ -4,7 +4,7 @@ use egui::{RichText, Ui};
 
 use super::{
     dialog::told,
-    state::{RobotAction, RobotCell, RobotDialog, RobotFile, edited},
+    state::{RobotAction, RobotCell, RobotDialog, RobotFile, RobotQuestion, edited},
 };
 use crate::{
     app::{
@@ -81,7 +81,7 @@ pub(super) fn ui(
 
 /// Draws the button that confirms edited numbers, or the question before.
 fn confirm(ui: &mut Ui, dialog: &mut RobotDialog, caused: &mut Vec<RobotAction>) {
-    if !dialog.is_confirming {
+    if dialog.question != Some(RobotQuestion::ConfirmEdited) {
         if text_button(ui, &text!("robot-confirm")).clicked() {
             caused.push(RobotAction::Confirm);
         }
@@ -90,7 +90,7 @@ fn confirm(ui: &mut Ui, dialog: &mut RobotDialog, caused: &mut Vec<RobotAction>)
     ui.label(text!("robot-confirm-says"));
     ui.horizontal(|ui| {
         if default_button(ui, &text!("robot-confirm-not"), true) {
-            dialog.is_confirming = false;
+            dialog.question = None;
         }
         if text_button(ui, &text!("robot-confirm-right")).clicked() {
             caused.push(RobotAction::Confirm);

@@ -81,6 +81,17 @@ impl RobotPage {
     }
 }
 
+/// A question of the dialog to which a second press of the same button says yes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RobotQuestion {
+    /// Whether edited numbers are right.
+    ConfirmEdited,
+    /// Whether to replace the baseline.
+    ReplaceBaseline,
+    /// Whether robots shall get other numbers from now on.
+    ChangeAnswers,
+}
+
 /// The contents of the dialog.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RobotDialog {
@@ -106,10 +117,8 @@ pub struct RobotDialog {
     pub insists: bool,
     /// Limits for the next baseline of the cell.
     pub limits: CellLimits,
-    /// True while the user is asked whether edited numbers are right.
-    pub is_confirming: bool,
-    /// True while the user is asked whether to replace the baseline.
-    pub is_replacing: bool,
+    /// The question that waits for an answer.
+    pub question: Option<RobotQuestion>,
     /// Protocol of the server.
     pub protocol: Protocol,
     /// Port, or address and port, of the server, as typed.
@@ -118,8 +127,6 @@ pub struct RobotDialog {
     pub pose: PoseKind,
     /// The convention that robots are answered in.
     pub answered_in: Convention,
-    /// True while the user is asked whether robots shall get other numbers from now on.
-    pub is_changing: bool,
     /// The last error.
     pub trouble: Option<UserError>,
 }
@@ -150,13 +157,11 @@ impl RobotDialog {
             solved: None,
             insists: false,
             limits: CellLimits::default(),
-            is_confirming: false,
-            is_replacing: false,
+            question: None,
             protocol: at.protocol,
             address,
             pose,
             answered_in: convention,
-            is_changing: false,
             trouble: None,
         }
     }
@@ -393,8 +398,9 @@ impl RobotCell {
                 let Some(dialog) = &mut self.dialog else {
                     return Ok(());
                 };
-                let is_asked = self.checks.content().has_baseline && !dialog.is_replacing;
-                dialog.is_replacing = is_asked;
+                let is_asked = self.checks.content().has_baseline
+                    && dialog.question != Some(RobotQuestion::ReplaceBaseline);
+                dialog.question = is_asked.then_some(RobotQuestion::ReplaceBaseline);
                 if is_asked {
                     return Ok(());
                 }
@@ -427,8 +433,10 @@ impl RobotCell {
         let (Some(dialog), Some(in_use)) = (&mut self.dialog, &self.in_use) else {
             return;
         };
-        dialog.is_confirming = !dialog.is_confirming && in_use.is_edited;
-        if !dialog.is_confirming && in_use.is_edited {
+        let is_confirmed = dialog.question == Some(RobotQuestion::ConfirmEdited);
+        dialog.question =
+            (!is_confirmed && in_use.is_edited).then_some(RobotQuestion::ConfirmEdited);
+        if is_confirmed && in_use.is_edited {
             let path = in_use.path.clone();
             let job = |_: &_| Ok(work::confirm(path)?);
             self.task.start(text!("robot-saving"), job);
@@ -460,9 +468,7 @@ impl RobotCell {
             edited.insists = false;
         }
         if known.page != edited.page {
-            edited.is_confirming = false;
-            edited.is_replacing = false;
-            edited.is_changing = false;
+            edited.question = None;
             if edited.page == RobotPage::Check {
                 self.checks.read();
             }
@@ -551,7 +557,7 @@ impl RobotCell {
                 match &mut self.dialog {
                     Some(dialog) => {
                         dialog.page = RobotPage::InUse;
-                        dialog.is_confirming = false;
+                        dialog.question = None;
                         dialog.trouble = None;
                     }
                     None if is_edited => cx.notify(edited()),
@@ -724,7 +730,10 @@ mod tests {
         assert!(bench.shell.session.robot.is_none() && bench.robot.in_use.is_some());
         bench.apply(RobotAction::Toggle);
         bench.apply(RobotAction::Confirm);
-        assert!(bench.dialog().is_confirming && !bench.work(), "asked first");
+        assert!(
+            bench.dialog().question.is_some() && !bench.work(),
+            "asked first"
+        );
         assert_eq!(fs::read_to_string(&path).expect("read"), digit);
         bench.apply(RobotAction::Confirm);
         assert!(bench.work());
@@ -733,7 +742,7 @@ mod tests {
         assert!(CellCalibration::load(&path).is_ok());
         // Nothing is left to confirm.
         bench.apply(RobotAction::Confirm);
-        assert!(!bench.work() && !bench.dialog().is_confirming);
+        assert!(!bench.work() && bench.dialog().question.is_none());
     }
 
     /// Writes pairs of a fixed camera that sees a target on the flange.

@@ -172,16 +172,16 @@ fn a_baseline_is_replaced_only_by_who_says_so() {
     assert_eq!(found, Some(CellFinding::InPlace), "within 30 mm");
     // The first press only asks; turning the page withdraws the question.
     assert!(!bench.check(CheckAction::TakeBaseline));
-    assert!(bench.dialog().is_replacing);
+    assert!(bench.dialog().question.is_some());
     bench.edit(|dialog| dialog.page = RobotPage::InUse);
-    assert!(!bench.dialog().is_replacing);
+    assert!(bench.dialog().question.is_none());
     bench.edit(|dialog| dialog.page = RobotPage::Check);
     assert!(bench.work());
     let known = bench.checks().content().baseline.clone().expect("kept");
     assert_eq!(known.made_at, first.made_at);
     assert!(!bench.check(CheckAction::TakeBaseline));
     assert!(bench.check(CheckAction::TakeBaseline));
-    assert!(!bench.dialog().is_replacing);
+    assert!(bench.dialog().question.is_none());
     let second = bench.checks().content().baseline.clone().expect("taken");
     assert!(second.made_at > first.made_at);
     // A check against another baseline does not count for this one.
