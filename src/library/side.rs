@@ -2,10 +2,10 @@
 //!
 //! A part that is known all around, such as a mesh, is painted from one side of its thinnest extent. Outer panels bulge
 //! outwards, and their flanges, ribs and linings are behind them, so more of the rays that come in evenly from all
-//! directions on one side reach the outside than the inside. A ray is hidden if it comes in below the horizon of the
-//! surface, as over terrain: R. Yokoyama, M. Shirasawa, R. J. Pike, "Visualizing Topography by Openness",
-//! Photogrammetric Engineering & Remote Sensing 68(3), 2002. Heights suffice for this, so neither the winding of the
-//! triangles nor the thickness of the sheet matters. An open sheet has normals on one side only; they must agree.
+//! directions above a place reach it outside than inside. A ray is hidden if it comes in above the surface's own slope
+//! and below its horizon, as over terrain: R. Yokoyama, M. Shirasawa, R. J. Pike, "Visualizing Topography by Openness",
+//! Photogrammetric Engineering & Remote Sensing 68(3), 2002. Heights and slopes suffice for this, so neither the winding of
+//! the triangles nor the thickness of the sheet matters. An open sheet has normals on one side only; they must agree.
 //!
 //! Known limits: flat sheets, and parts that are as open from both sides, have no outside; a liner, whose hollow side is
 //! painted, is taken for a panel unless it is an open sheet.
@@ -92,6 +92,8 @@ const LEAST_CELL: f64 = 1.5;
 const NUM_TURNS: usize = 16;
 /// Nearest cells that count for a horizon, in cells: nearer ones differ by where their points are.
 const LEAST_STEP: f64 = 2.0;
+/// Least cosine between the side and the normal of a cell whose rays are counted; 80°, steeper slopes are uncertain.
+const LEAST_UPRIGHT: f64 = 0.17;
 /// Least difference of the shares of hidden rays by which one side is the outside.
 const LEAST_DIFFERENCE: f64 = 0.004;
 /// A side has no surface of its own if less than this share of the points faces it.
@@ -106,8 +108,10 @@ pub fn outer_side(points: &[Point3<f64>], normals: &[Vector3<f64>]) -> Result<Si
     let [u, v, thinnest] = [0, 1, 2].map(|axis| axes.axes.column(axis).into_owned());
     let sides = [thinnest, -thinnest].map(|axis| Side::nearest(&axis));
     let from = |axis: Vector3<f64>| {
-        let in_axes = |p: &Point3<f64>| [u, v, axis].map(|axis| axis.dot(&(p - axes.mean)));
-        hidden(&points.iter().map(in_axes).collect::<Vec<_>>())
+        let in_axes = |vector: Vector3<f64>| [u, v, axis].map(|along| along.dot(&vector));
+        let all = points.iter().zip(normals);
+        let all = all.map(|(p, n)| (in_axes(p - axes.mean), in_axes(*n)));
+        hidden(&all.collect::<Vec<_>>())
     };
     let difference = from(-thinnest) - from(thinnest);
     let facing = normals.iter().filter(|n| n.dot(&thinnest) > 0.0).count();
@@ -122,11 +126,12 @@ pub fn outer_side(points: &[Point3<f64>], normals: &[Vector3<f64>]) -> Result<Si
     Ok(sides[usize::from(difference < 0.0)])
 }
 
-/// The share of the rays from all directions above a surface that do not reach it; points with their heights as the third
-/// coordinate.
-fn hidden(points: &[[f64; 3]]) -> f64 {
+/// The share of the rays from all directions above a surface that do not reach it; points and normals with the height as
+/// the third coordinate.
+fn hidden(points: &[([f64; 3], [f64; 3])]) -> f64 {
     let bound = |axis: usize, pick: fn(f64, f64) -> f64| {
-        points.iter().map(|p| p[axis]).reduce(pick).unwrap_or(0.0)
+        let all = points.iter().map(|(p, _)| p[axis]);
+        all.reduce(pick).unwrap_or(0.0)
     };
     let low = [0, 1].map(|axis| bound(axis, f64::min));
     let extent = [0, 1].map(|axis| bound(axis, f64::max) - low[axis]);
@@ -136,32 +141,41 @@ fn hidden(points: &[[f64; 3]]) -> f64 {
         return 0.0;
     }
     let size = extent.map(|extent| (extent / cell) as usize + 1);
-    let mut heights: Vec<Option<f64>> = vec![None; size[0] * size[1]];
-    for p in points {
+    // The highest point of each cell, and its normal.
+    let mut tops: Vec<Option<(f64, [f64; 3])>> = vec![None; size[0] * size[1]];
+    for (p, normal) in points {
         let [column, row] = [0, 1].map(|axis| ((p[axis] - low[axis]) / cell) as usize);
-        let top = &mut heights[row * size[0] + column];
-        *top = Some(top.map_or(p[2], |top| top.max(p[2])));
+        let top = &mut tops[row * size[0] + column];
+        if top.is_none_or(|(height, _)| p[2] > height) {
+            *top = Some((p[2], *normal));
+        }
     }
     let at = |column: f64, row: f64| {
         let inside = |x: f64, axis: usize| (0.0..size[axis] as f64).contains(&x);
         let is_inside = inside(column, 0) && inside(row, 1);
-        is_inside.then(|| heights[row as usize * size[0] + column as usize])
+        is_inside.then(|| tops[row as usize * size[0] + column as usize])
     };
     let (mut sum, mut num) = (0.0, 0.0);
-    for (i, height) in heights.iter().enumerate() {
-        let Some(height) = height else { continue };
+    for (i, top) in tops.iter().enumerate() {
+        let Some((height, [nx, ny, nz])) = *top else {
+            continue;
+        };
+        if nz.abs() < LEAST_UPRIGHT {
+            continue;
+        }
         let [column, row] = [i % size[0], i / size[0]].map(|cell| cell as f64 + 0.5);
         for turn in 0..NUM_TURNS {
             let (sin, cos) = (TAU * turn as f64 / NUM_TURNS as f64).sin_cos();
-            let (mut steepest, mut step) = (0.0_f64, LEAST_STEP);
+            let slope = -(nx * cos + ny * sin) / nz;
+            let (mut steepest, mut step) = (slope, LEAST_STEP);
             while let Some(other) = at(column + step * cos, row + step * sin) {
-                if let Some(other) = other {
+                if let Some((other, _)) = other {
                     steepest = steepest.max((other - height) / (step * cell));
                 }
                 step += 1.0;
             }
             // Rays are even in the sine of their angle above the plane.
-            sum += steepest.atan().sin();
+            sum += steepest.atan().sin() - slope.atan().sin();
             num += 1.0;
         }
     }
@@ -187,7 +201,13 @@ mod tests {
                 (0..80).map(move |j| {
                     let (x, z) = (0.01 * f64::from(i) - 0.6, 0.01 * f64::from(j) - 0.4);
                     let at = Point3::new(x, below - height(x, z), z);
-                    (turn * at, turn * (Vector3::y() * facing))
+                    let step = 1e-4;
+                    let [dx, dz] = [
+                        (height(x + step, z) - height(x - step, z)) / (2.0 * step),
+                        (height(x, z + step) - height(x, z - step)) / (2.0 * step),
+                    ];
+                    let normal = Vector3::new(dx, 1.0, dz).normalize();
+                    (turn * at, turn * (normal * facing))
                 })
             })
         });
