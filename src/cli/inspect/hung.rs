@@ -154,7 +154,7 @@ mod tests {
             match seconds {
                 // It comes in, and then swings by less and less.
                 0.4..2.0 => assert!(!is_accepted, "after {seconds} s"),
-                3.8.. => assert!(is_accepted, "after {seconds} s"),
+                4.4.. => assert!(is_accepted, "after {seconds} s"),
                 _ => {}
             }
             let entries = followed.take(&frame, inspection, |inspection, _, is_still| {
