@@ -229,7 +229,7 @@ impl ProgramFile {
             part_cloud: &subject.reference.cloud,
             coverage: subject.coverage,
             side: subject.side,
-            path: subject.path,
+            path: Some(subject.path),
             off: off_the_part(subject.path, subject.reference),
             capture: subject.capture,
             camera_from_part: subject.camera_from_part,

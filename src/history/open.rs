@@ -337,7 +337,8 @@ fn refuse_pipes(path: &Path) -> Result<(), HistoryError> {
 fn open_without_log(path: &Path) -> Result<Option<Connection>, HistoryError> {
     match fs::metadata(path) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
-        found => drop(found.map_err(|error| HistoryError::io(path, error))?),
+        Err(error) => return Err(HistoryError::io(path, error)),
+        Ok(_) => {}
     }
     let flags = OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_URI;
     let file = Connection::open_with_flags(address(path, "immutable=1"), flags);

@@ -88,7 +88,7 @@ impl WrittenFilm {
         } else {
             planned.within - MOST_LOST
         };
-        (written.within < least).then(|| FilmOffPlan {
+        (written.within < least).then_some(FilmOffPlan {
             within: [planned.within, written.within],
             mean: [planned.mean, written.mean],
             tolerance: self.coat.tolerance,

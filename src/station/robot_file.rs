@@ -46,8 +46,8 @@ pub struct RobotFile<'a> {
     pub coverage: Coverage,
     /// The side that the part is painted from; none for its own.
     pub side: Option<Side>,
-    /// The path, part frame.
-    pub path: &'a SprayPath,
+    /// The path, part frame, of which a program's accelerations and film are computed; none if it is not known.
+    pub path: Option<&'a SprayPath>,
     /// Whether the path does not aim at the part.
     pub off: Option<OffThePart>,
     /// The capture that shows the part; none for its standard position.
@@ -274,7 +274,7 @@ impl RobotFile<'_> {
         WrittenFilm::of(
             &self.program(settings, points, reach),
             format,
-            self.path,
+            self.path?,
             self.part_cloud,
             self.coverage,
             self.side,
@@ -291,7 +291,7 @@ impl RobotFile<'_> {
         Program {
             points,
             settings,
-            acceleration: Coat::acceleration_of(self.path),
+            acceleration: self.path.and_then(Coat::acceleration_of),
             film: None,
             reach,
             part: self.part,
@@ -468,7 +468,7 @@ mod tests {
                 part_cloud: &best.expect("one").cloud,
                 coverage: Coverage::OneSide,
                 side: None,
-                path: &self.path,
+                path: Some(&self.path),
                 off: None,
                 capture: Some(CapturedPart {
                     scene: "fender.pcd",

@@ -238,7 +238,7 @@ fn read(
 ) -> Result<ShotChoice, FuseError> {
     let calibration = || {
         let path = request.calibration.as_deref();
-        Ok(path.map_or(Ok(None), CellCalibration::load_if_there)?)
+        path.map_or(Ok(None), CellCalibration::load_if_there)
     };
     let mut frames_of = |paths: &[PathBuf], poses: Option<&Path>| {
         let frames = read_frames(paths, &mut |news| {

@@ -95,9 +95,7 @@ pub(in crate::app) fn spray_path(
     let pose = inspected.inspection.found_pose();
     let stored =
         first.and_then(|first| inspected.library.spray_paths.get(first.reference)?.as_ref());
-    let (Some(carried), Some(part), Some(pose), Some(stored)) =
-        (&inspected.spray, part, pose, stored)
-    else {
+    let (Some(carried), Some(part), Some(pose)) = (&inspected.spray, part, pose) else {
         return Err(UserError {
             what: text!("inspect-no-spray-path"),
             advice: text!("inspect-no-spray-path-advice"),
@@ -123,7 +121,7 @@ pub(in crate::app) fn spray_path(
         part_cloud: &inspected.part_cloud,
         coverage: part.coverage,
         side: part.side,
-        path: &stored.path,
+        path: stored.map(|stored| &stored.path),
         off: inspected.off_the_part,
         capture: Some(CapturedPart {
             scene: &scene_name(&inspected.origin).display().to_string(),

@@ -287,7 +287,7 @@ mod tests {
 
     #[test]
     fn doubts_and_what_was_not_checked_read_as_in_the_commands() {
-        let ahead = Duration::from_secs(3600);
+        let ahead = Duration::from_hours(1);
         for kind in [
             Doubt::SourceLost,
             Doubt::Moving,

@@ -217,21 +217,33 @@ impl InspectSession {
             let kept = kept(&inspection, HungId::new(), true);
             self.keep(kept, console);
         }
+        let written = self.write_robot_file(&name, file_says_simulated, &inspection, console)?;
+        if written.is_none() {
+            self.write_report(path, &line, pictures)?;
+        }
+        // A refused part keeps its outcome even if its program was forced.
+        Ok(written.map_or(outcome, |written| outcome.max(written)))
+    }
+
+    /// Writes the path of a part for a robot; `None` if no such file is wanted.
+    fn write_robot_file(
+        &self,
+        scene: &str,
+        is_simulated: bool,
+        inspection: &Inspection,
+        console: &Console,
+    ) -> anyhow::Result<Option<Outcome>> {
         let seen = spray::SprayResult {
-            scene: &name,
-            is_simulated: file_says_simulated,
-            inspection: &inspection,
+            scene,
+            is_simulated,
+            inspection,
             library: &self.library,
             params: &self.recipe.stand_off,
         };
         Ok(match (&self.spray, &self.program, &self.robot) {
-            (Some(spray), _, Some(robot)) => outcome.max(spray.write(&seen, robot, console)?),
-            // A refused part keeps its outcome even if its program was forced.
-            (_, Some(program), Some(robot)) => outcome.max(program.write(&seen, robot, console)?),
-            _ => {
-                self.write_report(path, &line, pictures)?;
-                outcome
-            }
+            (Some(spray), _, Some(robot)) => Some(spray.write(&seen, robot, console)?),
+            (_, Some(program), Some(robot)) => Some(program.write(&seen, robot, console)?),
+            _ => None,
         })
     }
 

@@ -178,7 +178,7 @@ impl SprayFile {
             part_cloud: &reference.cloud,
             coverage: meta.coverage,
             side: meta.side,
-            path: &path,
+            path: Some(&path),
             off: off_the_part(&path, reference),
             capture: Some(CapturedPart {
                 scene,

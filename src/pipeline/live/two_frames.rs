@@ -73,16 +73,15 @@ fn is_near(a: &Inspection, b: &Inspection, middle: Point3<f64>) -> Option<bool> 
         return Some(a.found_pose().is_none() && b.found_pose().is_none());
     };
     let apart = pose_error(&of_a.camera_from_part(), &of_b.camera_from_part(), &middle);
-    let (shift, turn) = match [of_a, of_b].map(PoseEstimate::bounds) {
-        [Some(a), Some(b)] => (
+    let (shift, turn) = if let [Some(a), Some(b)] = [of_a, of_b].map(PoseEstimate::bounds) {
+        (
             Metres(a.shift.0.max(b.shift.0)),
             Radians(a.turn.0.max(b.turn.0)),
-        ),
+        )
+    } else {
         // A method that gives no bounds.
-        _ => {
-            let PoseTolerance { shift, turn } = ConsensusParams::default().tolerance;
-            (shift, turn)
-        }
+        let PoseTolerance { shift, turn } = ConsensusParams::default().tolerance;
+        (shift, turn)
     };
     Some(apart.shift <= shift && apart.rotation <= turn)
 }

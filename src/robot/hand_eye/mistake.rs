@@ -159,8 +159,11 @@ impl LikelyMistake {
     }
 }
 
+/// Takes a mistake back.
+type Undo = fn(&Poses) -> Poses;
+
 /// Mistakes that make the pairs disagree, each with the poses of a pair as they were probably meant.
-const UNDONE: [(LikelyMistake, fn(&Poses) -> Poses); 11] = [
+const UNDONE: [(LikelyMistake, Undo); 11] = [
     (LikelyMistake::RobotInverted, |[robot, camera]| {
         [robot.inverse(), *camera]
     }),

@@ -107,21 +107,18 @@ fn fields(ui: &mut Ui, dialog: &mut RobotDialog) {
     });
     ui.horizontal(|ui| {
         ui.label(text!("robot-poses-as"));
-        match dialog.protocol.own_convention() {
-            Some(own) => {
-                ui.label(convention_title(own));
-            }
-            None => {
-                let title = convention_title(dialog.answered_in);
-                let label = text!("robot-answered-in", convention = &title);
-                drop_down(ui, &label, &title, 240.0, |ui| {
-                    for other in Convention::ALL {
-                        let title = convention_title(other);
-                        ui.selectable_value(&mut dialog.answered_in, other, title);
-                    }
-                });
-            }
+        if let Some(own) = dialog.protocol.own_convention() {
+            ui.label(convention_title(own));
+            return;
         }
+        let title = convention_title(dialog.answered_in);
+        let label = text!("robot-answered-in", convention = &title);
+        drop_down(ui, &label, &title, 240.0, |ui| {
+            for other in Convention::ALL {
+                let title = convention_title(other);
+                ui.selectable_value(&mut dialog.answered_in, other, title);
+            }
+        });
     });
 }
 
@@ -189,16 +186,14 @@ fn buttons(
                     dialog.answered_in = now.convention;
                 }
             }
-            Some(setup) => {
-                if widgets::default_button(ui, &text!("robot-use-it"), true) {
-                    if changes_poses {
-                        dialog.question = Some(RobotQuestion::ChangeAnswers);
-                    } else {
-                        act(setup);
-                    }
+            Some(setup) if widgets::default_button(ui, &text!("robot-use-it"), true) => {
+                if changes_poses {
+                    dialog.question = Some(RobotQuestion::ChangeAnswers);
+                } else {
+                    act(setup);
                 }
             }
-            None => {}
+            _ => {}
         }
         if text_button(ui, &text!("robot-turn-off")).clicked() {
             act(AnswerSetup {

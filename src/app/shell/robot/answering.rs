@@ -103,15 +103,14 @@ struct Failure {
 #[derive(Debug)]
 struct AnsweringRun {
     listener: Listener,
-    pose: PoseKind,
     inputs: Arc<Mutex<AnswerInputs>>,
     is_ending: Arc<AtomicBool>,
 }
 
 impl AnsweringRun {
-    /// True if it listens there, its answers have this meaning, and it goes on.
-    fn answers_as(&self, listener: Listener, pose: PoseKind) -> bool {
-        self.listener == listener && self.pose == pose && !self.is_ending()
+    /// True if it listens there, in this convention, and goes on. Another kind of pose is taken as it runs.
+    fn answers_as(&self, listener: Listener) -> bool {
+        self.listener == listener && !self.is_ending()
     }
 
     fn is_ending(&self) -> bool {
@@ -187,7 +186,7 @@ impl Answering {
             self.forget_failure(cx);
         }
         match &self.run {
-            Some(run) if run.answers_as(listener, cx.session.answering.pose) => {
+            Some(run) if run.answers_as(listener) => {
                 *lock(&run.inputs) = AnswerInputs::of(cx.session, robot);
             }
             // The server first finishes the pending answers; a new one starts once it has ended. Where it listens and what its
@@ -243,7 +242,6 @@ impl Answering {
             });
         self.run = Some(AnsweringRun {
             listener,
-            pose: cx.session.answering.pose,
             inputs,
             is_ending,
         });

@@ -3,7 +3,7 @@
 use egui::Color32;
 
 use super::{
-    headline::Headline,
+    headline::{Headline, HeadlineState},
     hold::{Hold, inspect_current},
     operator_words::{in_short, next_step, next_without_part, no_part_in_short},
 };
@@ -238,8 +238,7 @@ impl Banner {
     fn of_result(inspected: &Inspected, session: &Session) -> Self {
         let Headline {
             title,
-            is_accepted,
-            is_open,
+            state,
             actual,
             complaint,
             ..
@@ -249,7 +248,7 @@ impl Banner {
             let next = text!("operator-reported-wrong-next");
             return Self::new(Tone::NotOk, title, text!("operator-reported-wrong"), next);
         }
-        if is_accepted {
+        if state.is_accepted() {
             if let Some(hold) = Hold::of(session, inspected, UserRole::Operator) {
                 return Self::new(Tone::Recognised, title, hold.reason, hold.advice);
             }
@@ -264,7 +263,7 @@ impl Banner {
             return Self::new(Tone::Ok, title, text!("operator-recognised"), next);
         }
         let (reason, advice) = complaint.unwrap_or_default();
-        if is_open {
+        if state == HeadlineState::Open {
             return Self::new(Tone::Open, title, sentence(&reason), advice);
         }
         let nearest = inspection.verdict.guess().map_or_else(

@@ -7,7 +7,7 @@ use egui::{
 
 use super::{
     action::{InspectAction, InspectFile},
-    headline::{self, Headline},
+    headline::{self, Headline, HeadlineState},
     hold::{self, Hold},
     robot_numbers, stand_off,
 };
@@ -70,7 +70,7 @@ pub(super) fn ui(
         .show_separator_line(false)
         .frame(Frame::new())
         .show(ui, |ui| {
-            let copying = pose_to_copy.map(|_| Hold::robot_of_files(session, inspected).err());
+            let copying = pose_to_copy.map(|_| Hold::robot_of_files(session, inspected).map(drop));
             action_buttons(ui, copying, actions);
         });
     hold::look_again(ui);
@@ -113,7 +113,11 @@ pub(super) fn ui(
 
 /// Draws the buttons for what can be done with the result. `copying` is `None` without a pose to copy, and holds why it must not
 /// be copied.
-fn action_buttons(ui: &mut Ui, copying: Option<Option<Hold>>, actions: &mut Vec<InspectAction>) {
+fn action_buttons(
+    ui: &mut Ui,
+    copying: Option<Result<(), Hold>>,
+    actions: &mut Vec<InspectAction>,
+) {
     /// Left and right of a button's text, logical pixels.
     const PADDING: f32 = 4.0;
     let theme = Theme::of(ui);
@@ -135,7 +139,7 @@ fn action_buttons(ui: &mut Ui, copying: Option<Option<Hold>>, actions: &mut Vec<
         ),
     ];
     let num = if copying.is_some() { 3 } else { 2 };
-    let hold = copying.flatten();
+    let hold = copying.and_then(Result::err);
     ui.with_layout(Layout::bottom_up(Align::Min), |ui| {
         ui.horizontal(|ui| {
             ui.spacing_mut().button_padding.x = PADDING;
@@ -183,7 +187,10 @@ fn as_part(ui: &mut Ui, inspected: &Inspected, headline: &Headline) {
         return;
     };
     let part = inspected.library.title_of(guess);
-    if !headline.is_accepted && !headline.is_open && !headline.title.contains(part) {
+    if !headline.state.is_accepted()
+        && headline.state != HeadlineState::Open
+        && !headline.title.contains(part)
+    {
         heading(ui, &text!("inspect-as-part", part = part));
     }
 }
@@ -211,14 +218,13 @@ fn score(ui: &mut Ui, inspected: &Inspected, headline: &Headline) {
     let bar = Rect::from_min_max(rect.min + vec2(0.0, 2.0), rect.max - vec2(0.0, 2.0));
     painter.rect_filled(bar, ROUNDING, theme.track);
     let width = bar.width() * score.clamp(0.0, 1.0) as f32;
-    let fill = if headline.is_go {
-        theme.accepted
-    } else if headline.is_accepted && headline.actual.is_none() {
-        theme.text
-    } else if headline.is_open {
-        theme.warning
-    } else {
-        theme.rejected
+    let fill = match headline.state {
+        HeadlineState::Go => theme.accepted,
+        HeadlineState::Recognised if headline.actual.is_none() => theme.text,
+        HeadlineState::Open => theme.warning,
+        HeadlineState::Recognised | HeadlineState::NoPart | HeadlineState::Refused => {
+            theme.rejected
+        }
     };
     painter.rect_filled(
         Rect::from_min_size(bar.min, vec2(width, bar.height())),

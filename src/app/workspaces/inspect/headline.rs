@@ -23,19 +23,35 @@ use crate::{
     station::Currency,
 };
 
+/// State that the headline shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum HeadlineState {
+    /// Accepted, and a robot may act on it: only this is green.
+    Go,
+    /// Accepted, but no robot may act on it.
+    Recognised,
+    /// Too early for a verdict.
+    Open,
+    /// Nothing hangs there: an empty cell is not a bad part.
+    NoPart,
+    /// Not accepted.
+    #[default]
+    Refused,
+}
+
+impl HeadlineState {
+    pub(super) fn is_accepted(self) -> bool {
+        matches!(self, Self::Go | Self::Recognised)
+    }
+}
+
 /// Texts of the headline.
 #[derive(Default)]
 pub(super) struct Headline {
     pub(super) title: String,
     /// The nearest part, where none is accepted.
     nearest: Option<String>,
-    pub(super) is_accepted: bool,
-    /// True if a robot may act on it: only then it is green.
-    pub(super) is_go: bool,
-    /// True if it is too early for a verdict.
-    pub(super) is_open: bool,
-    /// True if nothing hangs there: an empty cell is not a bad part.
-    is_no_part: bool,
+    pub(super) state: HeadlineState,
     /// Title of what really hung there, if the acceptance was reported as wrong.
     pub(super) actual: Option<String>,
     /// Why it is not accepted, or why no robot may act on it, and what to do.
@@ -46,7 +62,7 @@ impl Headline {
     pub(super) fn of(inspected: &Inspected, session: &Session) -> Self {
         let verdict = Self::of_verdict(inspected, session);
         let actual = session.shift.reported_as(inspected);
-        let actual = actual.filter(|_| verdict.is_accepted);
+        let actual = actual.filter(|_| verdict.state.is_accepted());
         let Some(truth) = actual else {
             return verdict;
         };
@@ -82,7 +98,7 @@ impl Headline {
             Verdict::NoPart(reason) => {
                 return Self {
                     title: text!("results-no-part"),
-                    is_no_part: true,
+                    state: HeadlineState::NoPart,
                     complaint: Some((unrecognisable(reason), unrecognisable_advice(reason))),
                     ..Self::default()
                 };
@@ -92,15 +108,17 @@ impl Headline {
         let nearest = inspected.part_title().unwrap_or_default().to_owned();
         let Some(reason) = rejected else {
             let hold = Hold::of(session, inspected, session.role);
-            let is_go = hold.is_none();
+            let state = match hold {
+                None => HeadlineState::Go,
+                Some(_) => HeadlineState::Recognised,
+            };
             // The card already says above why it is old.
             let is_said =
                 session.is_old() || session.shown.as_ref().is_some_and(|shown| shown.is_past);
             let complaint = hold.filter(|_| !is_said);
             return Self {
                 title: nearest,
-                is_accepted: true,
-                is_go,
+                state,
                 complaint: complaint.map(|hold| (hold.reason, hold.advice)),
                 ..Self::default()
             };
@@ -167,7 +185,7 @@ impl Headline {
         Self {
             title,
             nearest: inspected.part_title().map(str::to_owned),
-            is_open: true,
+            state: HeadlineState::Open,
             complaint: Some((why, advice)),
             ..Self::default()
         }
@@ -186,16 +204,17 @@ pub(super) fn ui(ui: &mut Ui, headline: &Headline) {
     let (sign, word, colour) = if headline.actual.is_some() {
         let word = text!("operator-reported-wrong");
         (Mark::Bad, word, theme.rejected)
-    } else if headline.is_go {
-        (Mark::Good, accepted_or_not(true), theme.accepted)
-    } else if headline.is_accepted {
-        (Mark::Known, text!("inspect-recognised"), theme.text)
-    } else if headline.is_open {
-        (Mark::Look, text!("inspect-not-accepted-yet"), theme.warning)
     } else {
-        (Mark::Bad, accepted_or_not(false), theme.rejected)
+        match headline.state {
+            HeadlineState::Go => (Mark::Good, accepted_or_not(true), theme.accepted),
+            HeadlineState::Recognised => (Mark::Known, text!("inspect-recognised"), theme.text),
+            HeadlineState::Open => (Mark::Look, text!("inspect-not-accepted-yet"), theme.warning),
+            HeadlineState::NoPart | HeadlineState::Refused => {
+                (Mark::Bad, accepted_or_not(false), theme.rejected)
+            }
+        }
     };
-    if !headline.is_no_part {
+    if headline.state != HeadlineState::NoPart {
         ui.horizontal(|ui| {
             line_mark(ui, 32.0, 14.0, sign);
             let fonts = [font::far_verdict(), font::far_reason()];
@@ -301,7 +320,8 @@ mod tests {
         let session = Session::default();
         for (choice, is_no_part) in [(CellChoice::Empty, true), (CellChoice::InTurn, false)] {
             let found = inspected_cell(choice, 1);
-            assert_eq!(Headline::of(&found, &session).is_no_part, is_no_part);
+            let state = Headline::of(&found, &session).state;
+            assert_eq!(state == HeadlineState::NoPart, is_no_part);
         }
     }
 
@@ -323,7 +343,7 @@ mod tests {
                 is_approximate: false,
             };
             let headline = Headline::of(&found, &session);
-            assert!(!headline.is_accepted && headline.complaint.is_some());
+            assert!(!headline.state.is_accepted() && headline.complaint.is_some());
             assert_eq!(headline.nearest.is_none(), is_recognised);
             let expected = if is_recognised {
                 title.as_str()

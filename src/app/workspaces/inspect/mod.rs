@@ -1,8 +1,6 @@
 //! Inspect, the operator's workspace: the view, the verdict and the stages.
 
 mod action;
-#[cfg(test)]
-mod agreement;
 mod banner;
 mod card;
 mod controls;
@@ -16,6 +14,8 @@ mod robot_numbers;
 mod stand_off;
 mod state;
 mod strip;
+#[cfg(test)]
+mod tests;
 mod view;
 
 use std::{path::Path, sync::Arc};

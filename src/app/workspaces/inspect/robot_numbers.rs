@@ -38,19 +38,18 @@ pub(super) fn numbered(session: &Session, inspected: &Inspected) -> Option<Numbe
         return None;
     }
     let camera_from_part = accepted_pose(inspected)?;
-    let (name, frame, transform) = match Hold::robot_of_files(session, inspected) {
-        Ok(robot) => (
+    let (name, frame, transform) = if let Ok(robot) = Hold::robot_of_files(session, inspected) {
+        (
             "robot_from_part",
             text!("inspect-robot-frame", name = calibration_name(&robot.name)),
             robot.robot_from_part(&camera_from_part),
-        ),
-        Err(_) => {
-            let frame = match session.robot_of(inspected) {
-                Some(_) => text!("inspect-camera-frame-only"),
-                None => text!("inspect-camera-frame"),
-            };
-            ("camera_from_part", frame, camera_from_part)
-        }
+        )
+    } else {
+        let frame = match session.robot_of(inspected) {
+            Some(_) => text!("inspect-camera-frame-only"),
+            None => text!("inspect-camera-frame"),
+        };
+        ("camera_from_part", frame, camera_from_part)
     };
     Some(NumberedPose {
         name,

@@ -352,7 +352,7 @@ pub(super) fn write_program(
         part_cloud: &path.part_cloud,
         coverage: path.coverage,
         side: path.side,
-        path: &planned.path,
+        path: Some(&planned.path),
         off: path.off,
         capture: None,
         camera_from_part: RigidTransform::identity(),

@@ -15,6 +15,10 @@ fn a_sequence_of_depth_images_is_read_with_its_times_and_its_camera() {
         intrinsics: Intrinsics {
             width: 3,
             height: 1,
+            fx: 3.0,
+            fy: 3.0,
+            cx: 1.0,
+            cy: 0.0,
             ..Intrinsics::KINECT
         },
         metres_per_unit: 0.0002,

@@ -114,11 +114,11 @@ fn the_search_counts_its_places_and_ends_when_it_is_cancelled() {
     });
     let points = row(&placed, 30, 0.4);
     let params = CheckParams::default();
-    // While places are compared, and in the first of the three full checks.
+    // While places are compared, and in the first of the full checks.
     for last in [0, 7, 605] {
         let seen = AtomicUsize::new(0);
         let progress = |done, total| {
-            assert_eq!(total, 11 * 11 * 5 + 3);
+            assert_eq!(total, 11 * 11 * 5 + 8);
             seen.store(done, Ordering::Relaxed);
         };
         let is_cancelled = || seen.load(Ordering::Relaxed) >= last;

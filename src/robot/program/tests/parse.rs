@@ -365,7 +365,7 @@ fn jbi(text: &str) -> Read {
             let rest: Vec<&str> = words.collect();
             assert!(matches!(
                 rest[..],
-                [] | ["PL=0"] | ["NWAIT"] | ["PL=0", "NWAIT"]
+                [] | ["PL=0" | "NWAIT"] | ["PL=0", "NWAIT"]
             ));
             is_during = rest.contains(&"NWAIT");
             is_switched = false;

@@ -10,7 +10,7 @@ use nalgebra::{Point3, Vector3};
 use super::{
     InspectAction, InspectFile, InspectState,
     banner::{Banner, Tone},
-    headline::Headline,
+    headline::{Headline, HeadlineState},
     hold::Hold,
     robot_numbers::numbered,
 };
@@ -56,7 +56,7 @@ const STATES: [State; 21] = [
         age(inspected, 11);
     }),
     ("captured in an hour", May::Wait, |_, inspected| {
-        inspected.captured_at = SystemTime::now() + Duration::from_secs(3600);
+        inspected.captured_at = SystemTime::now() + Duration::from_hours(1);
     }),
     ("hangs still", May::Act, |session, inspected| {
         follow(session, inspected, STEADY);
@@ -293,7 +293,11 @@ fn agree(shell: &mut TestShell, may: May, state: &str) {
     assert_eq!(is_start, is_go, "{state}: {banner:?}");
     assert!(!banner.next.is_empty(), "{state}: {banner:?}");
     // The engineer.
-    assert_eq!(Headline::of(&inspected, session).is_go, is_go, "{state}");
+    assert_eq!(
+        Headline::of(&inspected, session).state == HeadlineState::Go,
+        is_go,
+        "{state}"
+    );
     let pose = numbered(session, &inspected);
     let is_of_robot = pose.is_some_and(|pose| pose.name == "robot_from_part");
     assert_eq!(is_of_robot, has_numbers, "{state}");
@@ -337,7 +341,7 @@ fn a_part_that_moves_by_now_is_called_moving_though_its_last_verdict_was_accepte
     assert!(inspected.inspection.verdict.is_accepted());
     let headline = Headline::of(inspected, session);
     assert_eq!(
-        (headline.title.as_str(), headline.is_accepted),
+        (headline.title.as_str(), headline.state.is_accepted()),
         ("Moving", false)
     );
 }
