@@ -593,7 +593,7 @@ fn a_calibration_with_a_changed_digit_gives_no_pose_until_it_is_confirmed() {
         assert!(ran.out.is_empty(), "{}", ran.out);
     }
     assert!(!place.path("out.csv").exists());
-    let serve = ["serve", "--source", "simulated:fender"];
+    let serve = ["serve", "--source", "simulated:fender", "--as", "kuka"];
     for args in [&[][..], &named] {
         let ran = place.coded(2, &[&serve[..], args].concat());
         assert!(ran.err.contains(wanted), "{}", ran.err);
