@@ -134,6 +134,15 @@ fn listening(harness: &mut WindowHarness) -> SocketAddr {
     status.expect("it listens").at.address
 }
 
+/// Waits until the server listens at another address than this one, and returns it.
+fn listening_elsewhere(harness: &mut WindowHarness, before: SocketAddr) -> SocketAddr {
+    wait_for(harness, |window| {
+        let status = window.robot().answering().status();
+        status.is_some_and(|status| status.at.address != before)
+    });
+    listening(harness)
+}
+
 /// Turns on answering at any free port.
 fn turn_on(harness: &mut WindowHarness) -> SocketAddr {
     answer(harness, on_at("ascii=0"));
@@ -333,7 +342,7 @@ fn another_convention_or_another_pose_changes_the_boot_number_and_ends_earlier_p
         harness.run_steps(1);
     }
     assert_eq!(rest, "");
-    let at = listening(&mut harness);
+    let at = listening_elsewhere(&mut harness, at);
     let last = Robot::connect(at).ask("LAST");
     assert!(last[1] == "none" && last[3] != again[3], "{last:?}");
 }
@@ -468,11 +477,7 @@ fn what_robots_are_answered_in_changes_on_its_page_alone_after_a_question_and_wi
     harness.get_by_label("Change them").click();
     harness.run_steps(4);
     assert_eq!(answered_in(&harness), Convention::Fanuc);
-    wait_for(&mut harness, |window| {
-        let status = window.robot().answering().status();
-        status.is_some_and(|status| status.at.address != at)
-    });
-    let at = listening(&mut harness);
+    let at = listening_elsewhere(&mut harness, at);
     let mut rest = String::new();
     assert_eq!(robot.0.read_line(&mut rest).expect("closed"), 0);
     let mut robot = Robot::connect(at);
