@@ -69,7 +69,7 @@ pub fn assemble(
 
 /// Distance between the places at which two poses put the part that deserves a warning: a robot's typical errors, 3 mm and
 /// 0.3°, put it less far apart in 99 of 100 scans of 8 shots.
-const MOST_APART: Metres = Metres(0.021);
+const MOST_APART: Metres = Metres(0.023);
 
 /// Returns the two shots whose poses disagree most about where the part is, if they disagree more than a robot's do.
 fn poses_apart(scan: &Scan) -> Option<Doubt> {
