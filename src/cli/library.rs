@@ -15,11 +15,11 @@ use super::{
 };
 use crate::{
     library::{
-        EntryError, LibraryError, LibraryFolder, LibraryPlace, PartMeta, PartName, PartNaming,
-        PartNumbers, SharedTitle, StoredPart,
+        EntryError, LibraryError, LibraryFolder, LibraryListing, LibraryPlace, PartMeta, PartName,
+        PartNaming, PartNumbers, SharedTitle, StoredPart,
     },
-    stages::reference::{Coverage, Reference, ReferenceParams},
-    units::{Metres, counted},
+    stages::reference::{Coverage, ReferenceParams},
+    units::counted,
 };
 
 /// List, show, check, rename, remove and restore enrolled parts, and store their spray paths
@@ -117,18 +117,22 @@ pub(super) fn run(args: &LibraryArgs, console: &mut Console) -> anyhow::Result<O
 }
 
 fn list(choice: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outcome> {
-    let (place, load) = choice.load(&ReferenceParams::default(), console)?;
+    let place = choice.open(console)?;
+    let LibraryListing { parts, problems } = place.list().advised()?;
+    for problem in &problems {
+        console.warn(&format_args!("set aside {problem}"), problem);
+    }
     console.line(&format_args!(
         "{} ({}): {}",
         place.location(),
         place.describe(),
-        counted(load.parts.len(), "part", "parts")
+        counted(parts.len(), "part", "parts")
     ));
     #[cfg(feature = "plant")]
     if let Some(version) = taken_version(&place, console) {
         console.line(&format_args!("  {version}"));
     }
-    if load.parts.is_empty() {
+    if parts.is_empty() {
         let hint = place.folder().and_then(super::hint);
         let hint = hint.unwrap_or_else(|| "Enrol one: partsight enrol FILE --name NAME".into());
         console.note(&format_args!("  to do: {hint}"));
@@ -145,7 +149,7 @@ fn list(choice: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outcome
         "FROM",
     ]);
     let numbers = numbers_of(&place, console);
-    for (meta, reference) in load.parts.iter().zip(&load.library.references) {
+    for meta in &parts {
         let name = match meta.reference_of() {
             Some(part) => format!("{} (reference of {part})", meta.name),
             None => meta.name.to_string(),
@@ -154,8 +158,8 @@ fn list(choice: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outcome
             name,
             (numbers.of(&meta.name)).map_or_else(|| "-".into(), |number| number.to_string()),
             meta.title.clone(),
-            size_of(reference),
-            reference.cloud.points.len().to_string(),
+            meta.enrolled.size_mm.map_or_else(|| "-".into(), in_words),
+            meta.cloud.num_points.to_string(),
             seen_from(meta.coverage).to_owned(),
             meta.enrolled.at.strftime("%Y-%m-%d").to_string(),
             marked_simulated(&meta.enrolled.from, meta.simulated),
@@ -198,7 +202,9 @@ fn show(choice: &LibraryChoice, name: &PartName, console: &mut Console) -> anyho
         "size",
         format!(
             "{} mm, width x height x depth as enrolled",
-            size_of(&reference)
+            reference
+                .size()
+                .map_or_else(|| "-".into(), |sides| in_words(sides.map(|side| side.mm())))
         ),
     );
     row("points", reference.cloud.points.len().to_string());
@@ -213,7 +219,7 @@ fn show(choice: &LibraryChoice, name: &PartName, console: &mut Console) -> anyho
             format!(
                 "{:.0} mm long; openings: {}",
                 outline.mm(),
-                view.contour.openings.len()
+                view.contour().openings.len()
             ),
         );
         row("views", format!("{} prepared", reference.views.len()));
@@ -348,7 +354,7 @@ fn rename(
         None => {}
     }
     if let Some(title) = &title {
-        let parts = folder.load(&ReferenceParams::default()).advised()?.parts;
+        let parts = folder.list().advised()?.parts;
         let renamed = parts.iter().find(|part| part.name == words.name);
         let of = renamed.map_or(&words.name, PartMeta::part_name).as_str();
         if let Some(shared) = SharedTitle::among(title, words.name.as_str(), of, &parts) {
@@ -413,13 +419,6 @@ pub(super) fn seen_from(coverage: Coverage) -> &'static str {
 }
 
 /// Formats width, height and depth of the reference as enrolled, millimetres.
-fn size_of(reference: &Reference) -> String {
-    reference.cloud.bounds().map_or_else(
-        || "-".into(),
-        |(low, high)| {
-            let [x, y, z]: [f32; 3] = (high - low).into();
-            let mm = |metres: f32| Metres(f64::from(metres)).mm();
-            format!("{:.0} x {:.0} x {:.0}", mm(x), mm(y), mm(z))
-        },
-    )
+fn in_words([width, height, depth]: [f64; 3]) -> String {
+    format!("{width:.0} x {height:.0} x {depth:.0}")
 }

@@ -19,7 +19,7 @@ use super::{
 use crate::{
     files::{file_name, write_atomically, write_ply_with},
     robot::scan_frames::{FrameNews, read_frames, with_poses},
-    scan::{FusedCloud, Scan, ScanParams, Unwatched, assemble},
+    scan::{FusedCloud, Scan, ScanParams, Unwatched, assemble_all},
     stages::segment::SegmentParams,
 };
 
@@ -140,7 +140,7 @@ pub(super) fn open_scan(
         segment: segment.clone(),
         ..ScanParams::default()
     };
-    let scan = assemble(&shots.advised()?, &params, &Unwatched).advised()?;
+    let scan = assemble_all(shots.advised()?, &params, &Unwatched).advised()?;
     console.end_progress();
     for shot in &scan.shots {
         if let Some(why) = &shot.excluded {

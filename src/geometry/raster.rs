@@ -152,6 +152,57 @@ impl PackedImage {
     }
 }
 
+/// A binary image as the lengths of its runs of equal pixels, in a fraction of the memory.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RunLengthImage {
+    width: usize,
+    height: usize,
+    /// Alternately of unset and set pixels, row by row. A run of more than 65 535 is split by an empty one of the other kind.
+    runs: Box<[u16]>,
+}
+
+impl RunLengthImage {
+    /// Compresses an image.
+    pub fn new(image: &BinaryImage) -> Self {
+        let mut runs = Vec::new();
+        let mut is_set = false;
+        for run in image.pixels.chunk_by(|a, b| (*a != 0) == (*b != 0)) {
+            if (run[0] != 0) != is_set {
+                runs.push(0);
+            }
+            is_set = run[0] == 0;
+            let mut left = run.len();
+            while left > usize::from(u16::MAX) {
+                runs.extend([u16::MAX, 0]);
+                left -= usize::from(u16::MAX);
+            }
+            runs.push(left as u16);
+        }
+        Self {
+            width: image.width,
+            height: image.height,
+            runs: runs.into(),
+        }
+    }
+
+    /// Returns the size of the runs.
+    pub fn num_bytes(&self) -> usize {
+        size_of_val(&*self.runs)
+    }
+
+    /// Returns the image.
+    pub fn unpacked(&self) -> BinaryImage {
+        let runs = self.runs.iter().zip([0, 1].into_iter().cycle());
+        let pixels =
+            runs.flat_map(|(length, pixel)| std::iter::repeat_n(pixel, usize::from(*length)));
+        BinaryImage {
+            width: self.width,
+            height: self.height,
+            pixels: pixels.collect(),
+        }
+    }
+}
+
 /// Points of a plane, stored in blocks for vectorised code.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PointBlocks {
@@ -226,6 +277,18 @@ mod tests {
             let slow = slow_spread(&slow_spread(&image, radius as i64, true), radius as i64, false);
             image.close(radius);
             prop_assert_eq!(image, slow);
+        }
+
+        #[test]
+        fn a_compressed_image_unpacks_to_itself(
+            rows in 1_usize..500,
+            runs in prop::collection::vec((0_u8..2, 1_usize..200_000), 0..6),
+        ) {
+            let pixels = runs.iter().flat_map(|(pixel, num)| std::iter::repeat_n(*pixel, *num));
+            let mut pixels: Vec<u8> = pixels.collect();
+            pixels.truncate(pixels.len() / rows * rows);
+            let image = BinaryImage { width: pixels.len() / rows, height: rows, pixels };
+            prop_assert_eq!(RunLengthImage::new(&image).unpacked(), image);
         }
 
         #[test]

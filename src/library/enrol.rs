@@ -342,6 +342,7 @@ fn assemble(
                 num_points: source.num_points,
                 num_shots: source.num_shots,
                 voxel_mm: source.voxel.map(|v| (v.mm() * 100.0).round() / 100.0),
+                size_mm: reference.size().map(|side| side.map(|s| s.mm().round())),
             },
             side,
             spray: None,

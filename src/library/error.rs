@@ -2,7 +2,7 @@
 
 use std::{io, path::PathBuf};
 
-use super::{name::PartName, problem::EntryProblem};
+use super::{load::MAX_PARTS, name::PartName, problem::EntryProblem};
 use crate::{
     error::Advice,
     files::{advice_on, words_of},
@@ -46,6 +46,14 @@ pub enum LibraryError {
         path: PathBuf,
         /// The underlying error.
         source: io::Error,
+    },
+    /// There are more parts than fit into memory.
+    #[error("{}: the library has {found} parts, and at most {MAX_PARTS} can be used together", path.display())]
+    TooManyParts {
+        /// The library's folder.
+        path: PathBuf,
+        /// Number of parts.
+        found: usize,
     },
     /// There is no part with this name.
     #[error("{}: no part named {name}{}", path.display(), listed(available))]
@@ -137,6 +145,9 @@ impl Advice for LibraryError {
             Self::Unreadable { .. } => "Ask for access to this folder, or copy it elsewhere".into(),
             Self::Unwritable { source, .. } => {
                 format!("{}, or name another with --library", advice_on(source))
+            }
+            Self::TooManyParts { .. } => {
+                "Split it into several folders, and name the one that a line needs with --library".into()
             }
             Self::NoSuchPart { available, .. } if available.is_empty() => {
                 "Enrol a part first, in the Enrol workspace or with partsight enrol FILE --name NAME".into()

@@ -49,6 +49,15 @@ pub struct LibraryLoad {
     pub warnings: Vec<EntryWarning>,
 }
 
+/// Result of listing a library.
+#[derive(Debug, Default)]
+pub struct LibraryListing {
+    /// The `part.toml` of each part, sorted by name.
+    pub parts: Vec<PartMeta>,
+    /// The parts whose `part.toml` or cloud is missing or unreadable, with reasons.
+    pub problems: Vec<EntryProblem>,
+}
+
 /// A stored part, read and prepared.
 #[derive(Debug)]
 pub struct StoredPart {
@@ -62,6 +71,9 @@ pub struct StoredPart {
 
 /// Maximum size of a `part.toml` or `signature.json`, bytes.
 const MAX_TEXT: u64 = 8 << 20;
+
+/// The most parts of a library that are loaded together: they take about 4 GB of memory.
+pub(super) const MAX_PARTS: usize = 10_000;
 
 /// How often parts are loaded at most while writers change them.
 const MAX_LOADS: usize = 5;
@@ -79,6 +91,11 @@ impl LibraryFolder {
     /// Loads all parts. It is an error only if the folder cannot be listed; damaged parts are in `problems`.
     pub fn load(&self, params: &ReferenceParams) -> Result<LibraryLoad, LibraryError> {
         self.load_unchanged(|entries| load_entries(entries, CloudCheckLevel::Quick, params))
+    }
+
+    /// Lists all parts without reading their clouds.
+    pub fn list(&self) -> Result<LibraryListing, LibraryError> {
+        Ok(list_entries(&self.entries()?))
     }
 
     /// As [`Self::load`], and checks every file of every part against its cloud.
@@ -125,6 +142,12 @@ impl LibraryFolder {
     /// The folders of all parts, and when each was changed: a new part may take the place of one of the same name.
     fn dated_entries(&self) -> Result<(Vec<Entry>, Vec<Option<SystemTime>>), LibraryError> {
         let entries = self.entries()?;
+        if entries.len() > MAX_PARTS {
+            return Err(LibraryError::TooManyParts {
+                path: self.path().to_owned(),
+                found: entries.len(),
+            });
+        }
         let changed = |entry: &Entry| fs::metadata(&entry.path).and_then(|m| m.modified()).ok();
         let changed_at = entries.iter().map(changed).collect();
         Ok((entries, changed_at))
@@ -134,6 +157,28 @@ impl LibraryFolder {
 /// Loads the parts inside the program.
 pub(super) fn load_shipped(params: &ReferenceParams) -> LibraryLoad {
     load_entries(&shipped_entries(), CloudCheckLevel::Quick, params)
+}
+
+/// Lists the parts inside the program.
+pub(super) fn list_shipped() -> LibraryListing {
+    list_entries(&shipped_entries())
+}
+
+fn list_entries(entries: &[Entry]) -> LibraryListing {
+    let mut listing = LibraryListing::default();
+    for entry in entries {
+        let has_cloud = entry.shipped.is_some() || entry.path.join(CLOUD).is_file();
+        let missing = || EntryProblem {
+            entry: entry.name.clone(),
+            path: entry.path.clone(),
+            reason: EntryError::Missing { file: CLOUD },
+        };
+        match meta_of(entry).and_then(|meta| has_cloud.then_some(meta).ok_or_else(missing)) {
+            Ok(meta) => listing.parts.push(meta),
+            Err(problem) => listing.problems.push(problem),
+        }
+    }
+    listing
 }
 
 /// Loads one part inside the program; `None` if there is none with this name.
@@ -285,6 +330,10 @@ fn read_cloud(entry: &Entry, expected: &FileCheck) -> Result<PointCloud, EntryEr
         FileContent::Depth(_) => return Err(not_a_cloud("a depth image")),
     };
     let found = FileCheck::of(&bytes, cloud.points.len());
+    cloud.points.shrink_to_fit();
+    cloud.normals.iter_mut().for_each(Vec::shrink_to_fit);
+    // No stage uses them.
+    (cloud.colours, cloud.labels) = (None, None);
     if found != *expected {
         return Err(EntryError::ChangedCloud {
             found,
@@ -363,6 +412,27 @@ mod tests {
 
     fn quick(entries: &[Entry]) -> LibraryLoad {
         load_entries(entries, CloudCheckLevel::Quick, &ReferenceParams::default())
+    }
+
+    #[test]
+    fn listing_reads_no_clouds_and_finds_missing_ones() {
+        let (folder, library) = library();
+        // Whatever is in it, it is not read.
+        std::fs::write(folder.path().join("fender").join(CLOUD), "none").expect("written");
+        std::fs::remove_file(folder.path().join("grille").join(CLOUD)).expect("removed");
+        let LibraryListing { parts, problems } = library.list().expect("listed");
+        assert_eq!((parts.len(), problems.len()), (7, 1));
+        assert_eq!(problems[0].entry, "grille");
+        let load = library.load(&ReferenceParams::default()).expect("loaded");
+        let listed = list_shipped().parts;
+        for (meta, reference) in load.parts.iter().zip(&load.library.references) {
+            let size = reference
+                .size()
+                .map(|sides| sides.map(|side| side.mm().round()));
+            let listed = listed.iter().find(|listed| listed.name == meta.name);
+            let listed = listed.expect("shipped");
+            assert_eq!(listed.enrolled.size_mm, size, "{}", meta.name);
+        }
     }
 
     #[test]

@@ -49,7 +49,7 @@ pub use self::{
     },
     entry::is_part_file,
     error::LibraryError,
-    load::{LibraryLoad, StoredPart},
+    load::{LibraryListing, LibraryLoad, StoredPart},
     name::{BadName, PartName},
     numbers::{GivenNumbers, PartNumbers},
     part::{

@@ -166,6 +166,9 @@ pub struct Enrolment {
     /// Edge of the voxels used for thinning, millimetres; `None` if the cloud was not thinned.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub voxel_mm: Option<f64>,
+    /// Width, height and depth of the cloud in part space, millimetres; `None` in files of older versions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub size_mm: Option<[f64; 3]>,
 }
 
 /// The kind of data that a part was enrolled from.
@@ -245,24 +248,24 @@ impl StoredSignature {
     /// Computes the signature of a reference's standard view; `None` if the reference has no view.
     pub fn of(reference: &Reference, params: &ReferenceParams) -> Option<Self> {
         let view = reference.views.first()?;
+        let contour = view.contour();
         let xy = |p: &Point2<f64>| [rounded(p.x), rounded(p.y)];
         let all = |values: &[f64]| values.iter().copied().map(rounded).collect();
         let signature = &view.signature;
-        let literal = LiteralSignature::of(&view.contour.outline_pixels);
+        let literal = LiteralSignature::of(&contour.outline_pixels);
         Some(Self {
             schema_version: PLAIN_VERSION,
             project: params.project.clone(),
             contour: params.contour.clone(),
             signature: params.signature.clone(),
             plane_from_part: row_major(&view.plane_from_part),
-            outline_m: view.contour.outline.iter().map(xy).collect(),
-            openings_m: view
-                .contour
+            outline_m: contour.outline.iter().map(xy).collect(),
+            openings_m: contour
                 .openings
                 .iter()
                 .map(|opening| opening.iter().map(xy).collect())
                 .collect(),
-            area_m2: rounded(view.contour.area),
+            area_m2: rounded(contour.area),
             perimeter_m: rounded(signature.perimeter.0),
             centroid_m: xy(&signature.centroid),
             lengths_m: all(&signature.lengths()),

@@ -10,7 +10,7 @@ use image::RgbaImage;
 use super::{
     entry::{NEW_PREFIX, THUMBNAIL},
     error::LibraryError,
-    load::{LibraryLoad, StoredPart, load_shipped, read_shipped},
+    load::{LibraryListing, LibraryLoad, StoredPart, list_shipped, load_shipped, read_shipped},
     numbers::{GivenNumbers, PartNumbers},
     problem::EntryProblem,
     shipped::{shipped_entries, shipped_numbers, write_shipped},
@@ -62,6 +62,12 @@ impl LibraryPlace {
     pub fn load(&self, params: &ReferenceParams) -> Result<LibraryLoad, LibraryError> {
         self.folder()
             .map_or_else(|| Ok(load_shipped(params)), |folder| folder.load(params))
+    }
+
+    /// Lists all parts; see [`LibraryFolder::list`].
+    pub fn list(&self) -> Result<LibraryListing, LibraryError> {
+        self.folder()
+            .map_or_else(|| Ok(list_shipped()), LibraryFolder::list)
     }
 
     /// As [`Self::load`], and checks every file of every part against its cloud.

@@ -240,9 +240,10 @@ fn scores(reference: &Reference, coverage: Coverage, others: &[Reference]) -> Ve
     let Some(view) = reference.views.first() else {
         return vec![PairScore::default(); others.len()];
     };
+    let (plane, contour) = (view.plane(), view.contour());
     let query = Query {
-        plane: &view.plane,
-        contour: &view.contour,
+        plane: &plane,
+        contour: &contour,
         signature: &view.signature,
     };
     let ranking = rank(&query, others, &RankParams::default());

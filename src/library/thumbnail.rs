@@ -87,7 +87,7 @@ impl SplatBuffer {
         let per_metre = (room(SIZE[0]) / extent.x).min(room(SIZE[1]) / extent.y);
         let centre = (low + high) / 2.0;
         // Overlapping discs: each point covers about its share of the part's area.
-        let area_each = view.contour.area * num_sides(coverage) / turned.len() as f64;
+        let area_each = view.contour().area * num_sides(coverage) / turned.len() as f64;
         let radius = (1.1 * area_each.sqrt() * per_metre).clamp(1.0, 0.1 * HEIGHT as f64);
         let mut splats = Self {
             depths: vec![f64::INFINITY; WIDTH * HEIGHT],

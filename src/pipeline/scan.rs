@@ -47,8 +47,15 @@ pub struct ScanInspection {
     pub first: usize,
     /// Pose of the part in the robot's base frame.
     pub base_from_part: Option<RigidTransform>,
-    /// Each frame's own inspection, with the number of its shot.
-    pub frames: Vec<(usize, Inspection)>,
+}
+
+/// What is kept of a frame's own inspection.
+struct FrameFinding {
+    /// Number of its shot.
+    number: usize,
+    ranking: ConfirmedRanking,
+    /// Points of its outline on the part, base frame.
+    edges: Vec<Point3<f32>>,
 }
 
 /// Points of the part, approximately, that references are refined to.
@@ -67,13 +74,21 @@ pub fn run_scan(
     recipe: &Recipe,
     watch: &dyn ProgressObserver,
 ) -> Result<ScanInspection, Cancelled> {
-    let mut frames = Vec::new();
+    let part = scan.cloud.part().cloud.points;
+    let tree = KdTree::new(&part);
+    let (mut frames, mut of_first) = (Vec::new(), None);
     for (number, shot) in scan.used() {
-        frames.push((number, run(&shot.scene, library, recipe, watch)?));
+        let inspection = run(&shot.scene, library, recipe, watch)?;
+        frames.push(FrameFinding {
+            number,
+            ranking: inspection.ranking.clone(),
+            edges: edges_on_part(shot, &inspection, &tree),
+        });
+        of_first.get_or_insert((number, inspection));
     }
-    let (first, mut inspection) = frames.first().cloned().ok_or(Cancelled)?;
+    let (first, mut inspection) = of_first.ok_or(Cancelled)?;
     let base_from_first = scan.shots[first].base_from_camera;
-    let Some(part) = joint_part(scan, &frames, recipe) else {
+    let Some(part) = joint_part(scan, &part, &frames, recipe) else {
         if inspection.segmentation.part.is_ok() {
             inspection.verdict = Verdict::NoPart(Unrecognisable::from(nothing_in_common(recipe)));
             inspection.pose = None;
@@ -82,7 +97,6 @@ pub fn run_scan(
             inspection,
             first,
             base_from_part: None,
-            frames,
         });
     };
     let mut entries: Vec<ConfirmedMatch> = Vec::new();
@@ -127,7 +141,6 @@ pub fn run_scan(
         inspection,
         first,
         base_from_part,
-        frames,
     })
 }
 
@@ -140,10 +153,43 @@ fn nothing_in_common(recipe: &Recipe) -> NoPart {
     }
 }
 
+/// Points of a frame's outline on the fused part, base frame.
+fn edges_on_part(shot: &ScannedShot, inspection: &Inspection, tree: &KdTree) -> Vec<Point3<f32>> {
+    let (Ok(part), Some(plane), Some(contour), Some(signature)) = (
+        &inspection.segmentation.part,
+        &inspection.plane,
+        &inspection.contour,
+        &inspection.signature,
+    ) else {
+        return Vec::new();
+    };
+    let query = Query {
+        plane,
+        contour,
+        signature,
+    };
+    let own = own_outline(&Scene {
+        scene: &shot.scene,
+        part,
+        query,
+    });
+    let in_base = own
+        .points
+        .iter()
+        .map(|p| (shot.base_from_camera * p).cast::<f32>());
+    let of_part = in_base.filter(|p| tree.nearest(p, NEAR_PART * NEAR_PART).is_some());
+    let of_part: Vec<Point3<f32>> = of_part.collect();
+    let step = (of_part.len() / NUM_EDGES).max(1);
+    of_part.into_iter().step_by(step).collect()
+}
+
 /// The part as all frames see it; `None` if they see too little of it.
-fn joint_part(scan: &Scan, frames: &[(usize, Inspection)], recipe: &Recipe) -> Option<JointPart> {
-    let fused = scan.cloud.part();
-    let points = &fused.cloud.points;
+fn joint_part(
+    scan: &Scan,
+    points: &[Point3<f32>],
+    frames: &[FrameFinding],
+    recipe: &Recipe,
+) -> Option<JointPart> {
     if points.len() < 50 {
         return None;
     }
@@ -154,36 +200,8 @@ fn joint_part(scan: &Scan, frames: &[(usize, Inspection)], recipe: &Recipe) -> O
         .copied()
         .collect();
     surface.shuffle(&mut random);
-    let tree = KdTree::new(points);
-    let mut edges: Vec<Point3<f32>> = Vec::new();
-    for (number, inspection) in frames {
-        let shot = &scan.shots[*number];
-        let (Ok(part), Some(plane), Some(contour), Some(signature)) = (
-            &inspection.segmentation.part,
-            &inspection.plane,
-            &inspection.contour,
-            &inspection.signature,
-        ) else {
-            continue;
-        };
-        let query = Query {
-            plane,
-            contour,
-            signature,
-        };
-        let own = own_outline(&Scene {
-            scene: &shot.scene,
-            part,
-            query,
-        });
-        let in_base = own
-            .points
-            .iter()
-            .map(|p| (shot.base_from_camera * p).cast::<f32>());
-        let of_part = in_base.filter(|p| tree.nearest(p, NEAR_PART * NEAR_PART).is_some());
-        let of_part: Vec<Point3<f32>> = of_part.collect();
-        edges.extend(of_part.iter().step_by((of_part.len() / NUM_EDGES).max(1)));
-    }
+    let edges = frames.iter().flat_map(|frame| &frame.edges);
+    let mut edges: Vec<Point3<f32>> = edges.copied().collect();
     edges.shuffle(&mut random);
     Some(JointPart {
         source: AlignmentSource { surface, edges },
@@ -203,15 +221,15 @@ const MOST_OFF: f64 = 0.5;
 /// Checks one reference against all frames; `None` if no frame ranked it.
 fn entry_of(
     scan: &Scan,
-    frames: &[(usize, Inspection)],
+    frames: &[FrameFinding],
     (index, reference): (usize, &Reference),
     part: &JointPart,
     recipe: &Recipe,
 ) -> Option<ConfirmedMatch> {
     let mut best: Option<&ConfirmedMatch> = None;
     let mut starts: Vec<(RigidTransform, &PoseEstimate)> = Vec::new();
-    for (number, inspection) in frames {
-        let ranked = inspection.ranking.entries.iter().enumerate();
+    for frame in frames {
+        let ranked = frame.ranking.entries.iter().enumerate();
         let Some((rank, entry)) = ranked.into_iter().find(|(_, e)| e.reference == index) else {
             continue;
         };
@@ -219,13 +237,13 @@ fn entry_of(
             best = Some(entry);
         }
         if let Some(pose) = entry.pose.as_ref().filter(|_| rank < NUM_ENTRIES) {
-            let camera_from_base = scan.shots[*number].base_from_camera.inverse();
+            let camera_from_base = scan.shots[frame.number].base_from_camera.inverse();
             starts.push((pose.target_from_source * camera_from_base, pose));
         }
     }
     let best = best?;
-    let with_evidence = frames.iter().flat_map(|(_, inspection)| {
-        let entries = inspection.ranking.entries.iter();
+    let with_evidence = frames.iter().flat_map(|frame| {
+        let entries = frame.ranking.entries.iter();
         entries.filter(|entry| entry.reference == index)
     });
     let of_frame = with_evidence

@@ -144,12 +144,13 @@ impl<'a> View<'a> {
         reference: &Reference,
     ) -> (usize, usize) {
         let part_from_camera = pose.target_from_source.cast::<f32>();
+        let field = reference.field();
         let mut num_off = 0;
         for index in self.part {
             let Some(p) = self.scene.cloud.points.get(*index as usize) else {
                 continue;
             };
-            let nearest = reference.field.nearest(&(part_from_camera * p));
+            let nearest = field.nearest(&(part_from_camera * p));
             let off = nearest.map_or(f64::INFINITY, |n| f64::from(n.distance_sq).sqrt());
             let is_off = off > self.tolerance(f64::from(p.z));
             num_off += usize::from(is_off);

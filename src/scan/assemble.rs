@@ -32,6 +32,15 @@ pub fn assemble(
     params: &ScanParams,
     watch: &dyn ScanObserver,
 ) -> Result<Scan, ScanError> {
+    assemble_all(shots.to_vec(), params, watch)
+}
+
+/// As [`assemble`], of shots that the caller does not keep: their readings are not copied.
+pub fn assemble_all(
+    shots: Vec<Shot>,
+    params: &ScanParams,
+    watch: &dyn ScanObserver,
+) -> Result<Scan, ScanError> {
     let found = shots.len();
     if found < 2 {
         return Err(ScanError::TooFewShots { found });
@@ -39,7 +48,8 @@ pub fn assemble(
     if found > MAX_SHOTS {
         return Err(ScanError::TooManyShots { found });
     }
-    let shots = &with_common_view(shots);
+    let shots = with_common_view(shots);
+    let is_simulated = shots.iter().any(|shot| shot.scene.cloud.is_simulated);
     let num_workers = params.register.num_workers;
     let prepared = map_each(found, num_workers, |i| {
         if watch.is_cancelled() {
@@ -53,7 +63,7 @@ pub fn assemble(
     let doubt = align(&mut scanned, params, watch)?;
     go_on(watch, ScanStep::Fuse)?;
     let mut cloud = fused(&mut scanned, params);
-    cloud.cloud.is_simulated = shots.iter().any(|shot| shot.scene.cloud.is_simulated);
+    cloud.cloud.is_simulated = is_simulated;
     count_new(&cloud, &mut scanned);
     let (before, after) = agreement(&mut scanned, &cloud, num_workers);
     let mut scan = Scan {
@@ -94,10 +104,9 @@ fn poses_apart(scan: &Scan) -> Option<Doubt> {
 }
 
 /// Gives every shot the field of view that all of them together show, because one camera took them.
-fn with_common_view(shots: &[Shot]) -> Vec<Shot> {
+fn with_common_view(mut shots: Vec<Shot>) -> Vec<Shot> {
     let views = shots.iter().map(|shot| shot.scene.field_of_view());
     let common = views.fold(None, FieldOfView::remembered);
-    let mut shots = shots.to_vec();
     if common.is_some() {
         for shot in &mut shots {
             Arc::make_mut(&mut shot.scene).set_known_view(common.clone());

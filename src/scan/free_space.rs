@@ -104,7 +104,7 @@ fn seen_at(
     to: &ShotSurface,
     to_from: &RigidTransform,
 ) -> Option<Place> {
-    let at = to_from * from.points[i].cast::<f64>();
+    let at = to_from * from.points()[i].cast::<f64>();
     let normal = to_from.rotation * from.normals[i].cast::<f64>();
     if -normal.dot(&at.coords) < LEAST_FACING * at.coords.norm() {
         return None;
@@ -112,7 +112,7 @@ fn seen_at(
     let (column, row) = to.pixel(&at)?;
     let seen = to.reading(column, row)?;
     let noise = 3.0 * to.noise_at_1m.0 * at.z * at.z;
-    let behind = f64::from(to.points[seen].z) - at.z;
+    let behind = f64::from(to.points()[seen].z) - at.z;
     if behind.abs() < ON + noise {
         return Some(Place::Surface);
     }

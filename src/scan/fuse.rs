@@ -5,6 +5,8 @@
 //! two. A mean is dropped, as a flying pixel or something that moved, if the shots that look through it number more than half
 //! of those that see it.
 
+use std::collections::BTreeMap;
+
 use nalgebra::{Point3, Vector3};
 
 use super::{
@@ -121,6 +123,10 @@ const BACKGROUND_VOTE: i32 = -2;
 const REST_VOTE: i32 = -1;
 /// Voxels per job.
 const PIECE: usize = 4096;
+/// Readings that are fused at once, approximately; a reading takes up to 200 bytes meanwhile.
+const SLAB: usize = 300_000;
+/// Layers of voxels by which a point is drawn at most. One that is drawn further leaves a second point in its new voxel.
+const MOST_MOVED: u64 = 30;
 /// Bits of a voxel's index along each axis.
 const BITS: u32 = 21;
 
@@ -131,31 +137,44 @@ pub(super) fn fuse(
     voxel: Metres,
     num_workers: usize,
 ) -> FusedCloud {
-    let means = means_of_readings(shots, voxel);
-    let pieces = means.len().div_ceil(PIECE);
+    let per_metre = 1.0 / voxel.0;
     let cameras: Vec<RigidTransform> = shots
         .iter()
         .map(|(_, shot)| shot.base_from_camera.inverse())
         .collect();
-    let drawn = map_each(pieces, num_workers, |piece| {
-        let start = piece * PIECE;
-        let end = means.len().min(start + PIECE);
-        let kept = means[start..end].iter();
-        kept.filter_map(|mean| drawn_to_surface(mean, shots, &cameras))
-            .collect::<Vec<Voxel>>()
-    });
-    let drawn: Vec<Voxel> = drawn.into_iter().flatten().collect();
-    let merged = merged(&drawn, voxel);
-    FusedCloud {
-        cloud: PointCloud {
-            points: merged.iter().map(|v| v.point.cast()).collect(),
-            normals: Some(merged.iter().map(|v| v.normal.cast()).collect()),
-            ..PointCloud::default()
-        },
-        seen_by: merged.iter().map(|v| v.seen_by).collect(),
-        is_part: merged.iter().map(|v| v.votes > 0).collect(),
-        part_votes: merged.iter().map(|v| v.part_votes).collect(),
+    let (mut fused, mut normals) = (FusedCloud::default(), Vec::new());
+    let mut moved: Vec<Voxel> = Vec::new();
+    let slabs = slabs_of_readings(shots, per_metre);
+    let num_slabs = slabs.len();
+    for (number, (top, readings)) in slabs.into_iter().enumerate() {
+        let readings = by_voxel(shots, &readings, per_metre);
+        let starts: Vec<&[(u64, u32)]> = readings.chunk_by(|a, b| a.0 == b.0).collect();
+        let pieces: Vec<&[&[(u64, u32)]]> = starts.chunks(PIECE).collect();
+        let drawn = map_each(pieces.len(), num_workers, |piece| {
+            let means = pieces[piece]
+                .iter()
+                .map(|readings| mean_of(shots, readings));
+            means
+                .filter_map(|mean| drawn_to_surface(&mean, shots, &cameras))
+                .collect::<Vec<Voxel>>()
+        });
+        moved.extend(drawn.into_iter().flatten());
+        // Those near the top may be merged with some of the next slab.
+        let settled = |v: &Voxel| {
+            number + 1 == num_slabs || layer_of(voxel_of(&v.point, per_metre)) + MOST_MOVED < top
+        };
+        let (done, rest): (Vec<Voxel>, Vec<Voxel>) = moved.into_iter().partition(settled);
+        moved = rest;
+        for one in merged(&done, voxel) {
+            fused.cloud.points.push(one.point.cast());
+            normals.push(one.normal.cast());
+            fused.seen_by.push(one.seen_by);
+            fused.is_part.push(one.votes > 0);
+            fused.part_votes.push(one.part_votes);
+        }
     }
+    fused.cloud.normals = Some(normals);
+    fused
 }
 
 /// Returns the index of the voxel that contains a point.
@@ -168,43 +187,93 @@ fn voxel_of(point: &Point3<f64>, per_metre: f64) -> u64 {
     (along(point.z) << (2 * BITS)) | (along(point.y) << BITS) | along(point.x)
 }
 
-/// Returns the mean of each voxel's readings, ordered by voxel.
-fn means_of_readings(shots: &[(usize, &ScannedShot)], voxel: Metres) -> Vec<Voxel> {
-    let per_metre = 1.0 / voxel.0;
-    let mut readings: Vec<(u64, u32, u32)> = Vec::new();
+/// Returns the layer of a voxel, along z.
+fn layer_of(voxel: u64) -> u64 {
+    voxel >> (2 * BITS)
+}
+
+/// Bits of a reading's index within its shot; the bits above them number the shot.
+const READING_BITS: u32 = 26;
+
+/// Returns the shot and the index of a reading.
+fn shot_and_index(reading: u32) -> (usize, usize) {
+    let index = reading & ((1 << READING_BITS) - 1);
+    ((reading >> READING_BITS) as usize, index as usize)
+}
+
+/// Calls `visit` with each reading good enough for fusion, and its voxel.
+fn each_reading(shots: &[(usize, &ScannedShot)], per_metre: f64, mut visit: impl FnMut(u32, u64)) {
     for (k, (_, shot)) in shots.iter().enumerate() {
         for (i, used) in shot.surface.uses.iter().enumerate() {
             if *used != Use::None {
-                let at = shot.base_from_camera * shot.surface.points[i].cast::<f64>();
-                readings.push((voxel_of(&at, per_metre), k as u32, i as u32));
+                let at = shot.base_from_camera * shot.surface.points()[i].cast::<f64>();
+                let reading = ((k as u32) << READING_BITS) | i as u32;
+                visit(reading, voxel_of(&at, per_metre));
             }
         }
     }
-    // The indices of shot and reading make the order unique.
+}
+
+/// Divides the readings into slabs of whole layers from the bottom, so that few are fused at once. Returns the layer above
+/// each slab with the slab's readings.
+fn slabs_of_readings(shots: &[(usize, &ScannedShot)], per_metre: f64) -> Vec<(u64, Vec<u32>)> {
+    let mut layers: BTreeMap<u64, usize> = BTreeMap::new();
+    each_reading(shots, per_metre, |_, voxel| {
+        *layers.entry(layer_of(voxel)).or_default() += 1;
+    });
+    let mut slabs: Vec<(u64, usize)> = Vec::new();
+    for (layer, num) in layers {
+        match slabs.last_mut() {
+            Some((top, sum)) if *sum + num <= SLAB => (*top, *sum) = (layer + 1, *sum + num),
+            _ => slabs.push((layer + 1, num)),
+        }
+    }
+    let mut filled: Vec<(u64, Vec<u32>)> = slabs
+        .into_iter()
+        .map(|(top, num)| (top, Vec::with_capacity(num)))
+        .collect();
+    each_reading(shots, per_metre, |reading, voxel| {
+        let slab = filled.partition_point(|(top, _)| *top <= layer_of(voxel));
+        filled[slab].1.push(reading);
+    });
+    filled
+}
+
+/// Returns the readings with their voxels, ordered by voxel.
+fn by_voxel(shots: &[(usize, &ScannedShot)], readings: &[u32], per_metre: f64) -> Vec<(u64, u32)> {
+    let readings = readings.iter().map(|&reading| {
+        let (k, i) = shot_and_index(reading);
+        let shot = shots[k].1;
+        let at = shot.base_from_camera * shot.surface.points()[i].cast::<f64>();
+        (voxel_of(&at, per_metre), reading)
+    });
+    let mut readings: Vec<(u64, u32)> = readings.collect();
+    // The readings' numbers make the order unique.
     readings.sort_unstable();
     readings
-        .chunk_by(|a, b| a.0 == b.0)
-        .map(|readings| {
-            let (mut point, mut normal, mut weight) = (Vector3::zeros(), Vector3::zeros(), 0.0);
-            for &(_, k, i) in readings {
-                let ((_, shot), i) = (shots[k as usize], i as usize);
-                let one = 1.0 / shot.surface.sigma(i).powi(2);
-                let at = shot.base_from_camera * shot.surface.points[i].cast::<f64>();
-                let facing = shot.base_from_camera.rotation * shot.surface.normals[i].cast::<f64>();
-                point += at.coords * one;
-                normal += facing * one;
-                weight += one;
-            }
-            Voxel {
-                point: Point3::from(point / weight),
-                normal: normal.try_normalize(1e-12).unwrap_or(normal),
-                weight,
-                seen_by: 0,
-                votes: 0,
-                part_votes: 0,
-            }
-        })
-        .collect()
+}
+
+/// Returns the mean of the readings in one voxel.
+fn mean_of(shots: &[(usize, &ScannedShot)], readings: &[(u64, u32)]) -> Voxel {
+    let (mut point, mut normal, mut weight) = (Vector3::zeros(), Vector3::zeros(), 0.0);
+    for &(_, reading) in readings {
+        let (k, i) = shot_and_index(reading);
+        let shot = shots[k].1;
+        let one = 1.0 / shot.surface.sigma(i).powi(2);
+        let at = shot.base_from_camera * shot.surface.points()[i].cast::<f64>();
+        let facing = shot.base_from_camera.rotation * shot.surface.normals[i].cast::<f64>();
+        point += at.coords * one;
+        normal += facing * one;
+        weight += one;
+    }
+    Voxel {
+        point: Point3::from(point / weight),
+        normal: normal.try_normalize(1e-12).unwrap_or(normal),
+        weight,
+        seen_by: 0,
+        votes: 0,
+        part_votes: 0,
+    }
 }
 
 /// Returns the mean moved to the surface that the shots see there; `None` if too many of them look through it.
@@ -230,7 +299,7 @@ fn drawn_to_surface(
                 num_here += 1;
                 seen_by |= 1 << *number;
                 let weight = 1.0 / surface.sigma(i).powi(2);
-                off_sum += weight * normal.dot(&(surface.points[i].cast::<f64>() - at));
+                off_sum += weight * normal.dot(&(surface.points()[i].cast::<f64>() - at));
                 weight_sum += weight;
                 let labels = Some(&shot.segmentation.labels).filter(|_| shot.finds_part);
                 let label = labels.and_then(|labels| labels.get(i));

@@ -45,7 +45,7 @@ use crate::{
 };
 
 pub use self::{
-    assemble::assemble,
+    assemble::{assemble, assemble_all},
     error::ScanError,
     fuse::FusedCloud,
     overlap::{Agreement, Overlap},

@@ -69,7 +69,7 @@ pub(super) fn meet(
     base_from_to: &RigidTransform,
     reach: Reach,
 ) -> ProjectedReading {
-    let at = to_from * from.points[i].cast::<f64>();
+    let at = to_from * from.points()[i].cast::<f64>();
     let Some((column, row)) = to.pixel(&at) else {
         return ProjectedReading::Nothing;
     };
@@ -79,7 +79,7 @@ pub(super) fn meet(
     if to.uses[j] != Use::Surface {
         return ProjectedReading::Nothing;
     }
-    let seen = to.points[j].cast::<f64>();
+    let seen = to.points()[j].cast::<f64>();
     let normal = to.normals[j];
     let own = to_from.rotation * from.normals[i].cast::<f64>();
     let faces = own.cast::<f32>().dot(&normal) > SAME_FACING;

@@ -84,7 +84,7 @@ pub(super) fn middle_of(surface: &ShotSurface) -> Point3<f64> {
     let samples = samples_of(surface, NUM_AVERAGED);
     let sum: Vector3<f64> = samples
         .iter()
-        .map(|&i| surface.points[i as usize].coords.cast::<f64>())
+        .map(|&i| surface.points()[i as usize].coords.cast::<f64>())
         .sum();
     Point3::from(sum / samples.len().max(1) as f64)
 }

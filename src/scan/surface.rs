@@ -9,6 +9,8 @@
 //! which the surface is seen (C. V. Nguyen, S. Izadi and D. Lovell, "Modeling Kinect sensor noise for improved 3D
 //! reconstruction and tracking", 3DIMPVT 2012, also found growth towards grazing angles).
 
+use std::sync::Arc;
+
 use nalgebra::{Matrix3, Point3, Vector3};
 
 use crate::{
@@ -34,8 +36,7 @@ pub enum Use {
 pub struct ShotSurface {
     /// Size and optics of the picture.
     pub camera: Intrinsics,
-    /// The points, row by row; NaN where there is no reading.
-    pub points: Vec<Point3<f32>>,
+    scene: Arc<SceneCloud>,
     /// Unit normals towards the camera; zero where `uses` is none.
     pub normals: Vec<Vector3<f32>>,
     /// What each reading is good enough for.
@@ -68,7 +69,7 @@ const LEAST_COSINE_REGISTERED: f64 = 0.3;
 
 impl ShotSurface {
     /// Prepares a shot; `None` without rows and columns or without a camera.
-    pub fn of(scene: &SceneCloud) -> Option<Self> {
+    pub fn of(scene: &Arc<SceneCloud>) -> Option<Self> {
         let camera = scene.intrinsics?;
         let grid = scene.cloud.grid?;
         let points = &scene.cloud.points;
@@ -91,7 +92,7 @@ impl ShotSurface {
         }
         Some(Self {
             camera,
-            points: points.clone(),
+            scene: Arc::clone(scene),
             normals,
             num_surface: uses.iter().filter(|u| **u == Use::Surface).count(),
             uses,
@@ -100,9 +101,14 @@ impl ShotSurface {
         })
     }
 
+    /// Returns the points, row by row; NaN where there is no reading.
+    pub fn points(&self) -> &[Point3<f32>] {
+        &self.scene.cloud.points
+    }
+
     /// Returns the standard deviation of a reading along its surface's normal, in metres.
     pub fn sigma(&self, i: usize) -> f64 {
-        let p = &self.points[i];
+        let p = &self.points()[i];
         let z = f64::from(p.z);
         let cosine = f64::from(-self.normals[i].dot(&p.coords) / p.coords.norm());
         self.noise_at_1m.0.max(CALIBRATED) * z * z / cosine.max(0.1)
@@ -127,7 +133,7 @@ impl ShotSurface {
             return None;
         }
         let i = row as usize * self.camera.width + column as usize;
-        is_finite(&self.points[i]).then_some(i)
+        is_finite(&self.points()[i]).then_some(i)
     }
 }
 
@@ -224,7 +230,7 @@ mod tests {
     #[test]
     fn a_tilted_board_has_its_own_normal_and_its_rim_is_not_registered_with() {
         let (scene, normal) = board_before_wall();
-        let surface = ShotSurface::of(&scene).expect("a picture");
+        let surface = ShotSurface::of(&Arc::new(scene)).expect("a picture");
         let at = |column: usize, row: usize| row * 640 + column;
         let inside = at(320, 240);
         assert_eq!(surface.uses[inside], Use::Surface);
@@ -245,14 +251,14 @@ mod tests {
             let p = camera.point_at(199.0, f64::from(row), z);
             scene.cloud.points[row as usize * 640 + 199] = p.cast();
         }
-        let surface = ShotSurface::of(&scene).expect("a picture");
+        let surface = ShotSurface::of(&Arc::new(scene)).expect("a picture");
         assert!((150..330).all(|row| surface.uses[row * 640 + 199] == Use::None));
     }
 
     #[test]
     fn a_surface_seen_further_away_or_edge_on_is_less_certain() {
         let (scene, _) = board_before_wall();
-        let surface = ShotSurface::of(&scene).expect("a picture");
+        let surface = ShotSurface::of(&Arc::new(scene)).expect("a picture");
         let (board, wall) = (
             surface.sigma(240 * 640 + 320),
             surface.sigma(20 * 640 + 320),
@@ -262,6 +268,6 @@ mod tests {
 
     #[test]
     fn a_cloud_without_a_picture_has_no_surface() {
-        assert!(ShotSurface::of(&SceneCloud::default()).is_none());
+        assert!(ShotSurface::of(&Arc::default()).is_none());
     }
 }

@@ -53,7 +53,7 @@ pub fn visibility_at(
             let Some(i) = surface.reading(column + du, row + dv) else {
                 continue;
             };
-            let off = f64::from(surface.points[i].z) - at.z;
+            let off = f64::from(surface.points()[i].z) - at.z;
             if off > along_ray {
                 num_through += 1;
             } else if off < -along_ray {
@@ -94,7 +94,7 @@ pub(super) fn looks_past(surface: &ShotSurface, at: &Point3<f64>, aside: f64, be
     let Some((column, row)) = surface.pixel(at) else {
         return false;
     };
-    let is_behind = |i: usize| f64::from(surface.points[i].z) - at.z > beyond;
+    let is_behind = |i: usize| f64::from(surface.points()[i].z) - at.z > beyond;
     // The middle decides nearly always, with one look-up.
     if !surface.reading(column, row).is_some_and(is_behind) {
         return false;
@@ -116,6 +116,8 @@ pub(super) fn looks_past(surface: &ShotSurface, at: &Point3<f64>, aside: f64, be
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use super::*;
     use crate::{
         geometry::depth_frame::{DepthFrame, Intrinsics},
@@ -137,7 +139,7 @@ mod tests {
             depth: depth.collect(),
             is_simulated: true,
         };
-        let surface = ShotSurface::of(&scene_from_frame(&frame)).expect("a picture");
+        let surface = ShotSurface::of(&Arc::new(scene_from_frame(&frame))).expect("a picture");
         let past = |column: f64, z: f64| {
             looks_past(&surface, &camera.point_at(column, 240.0, z), 0.015, 0.06)
         };

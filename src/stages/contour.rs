@@ -59,6 +59,9 @@ pub struct Contour {
     pub openings: Vec<Vec<Point2<f64>>>,
     /// The outline's pixels (column, row) in the order followed, not re-oriented: the paper's contour.
     pub outline_pixels: Vec<[u32; 2]>,
+    /// Height of the surface at each point of the outline, then of each opening, metres above the plane; `None` where no
+    /// reading is within two pixels.
+    pub heights: Vec<Vec<Option<f32>>>,
     /// Area of the outline minus its openings, square metres.
     pub area: f64,
 }
@@ -112,11 +115,20 @@ pub fn find_contour(plane: &PlaneImage, params: &ContourParams) -> Result<Contou
         .filter(|(area, _)| *area >= params.min_opening_area)
         .collect();
     openings.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let area = outline_area - openings.iter().map(|o| o.0).sum::<f64>();
+    let outline = oriented(to_plane(&borders[index]), 1.0);
+    let openings: Vec<Vec<Point2<f64>>> = openings.into_iter().map(|o| o.1).collect();
+    let heights =
+        |border: &Vec<Point2<f64>>| border.iter().map(|p| height_near(plane, p)).collect();
     Ok(Contour {
-        outline: oriented(to_plane(&borders[index]), 1.0),
+        heights: std::iter::once(&outline)
+            .chain(&openings)
+            .map(heights)
+            .collect(),
+        outline,
+        openings,
         outline_pixels: borders[index].pixels.clone(),
-        area: outline_area - openings.iter().map(|o| o.0).sum::<f64>(),
-        openings: openings.into_iter().map(|o| o.1).collect(),
+        area,
     })
 }
 
@@ -128,21 +140,29 @@ fn oriented(mut corners: Vec<Point2<f64>>, sign: f64) -> Vec<Point2<f64>> {
 }
 
 impl Contour {
-    /// Returns outline and openings as points in plane space (z = height of the surface), where there is a reading
-    /// within two pixels.
-    pub fn lifted(&self, plane: &PlaneImage) -> Vec<Point3<f64>> {
-        std::iter::once(&self.outline)
-            .chain(&self.openings)
-            .flat_map(|border| lift_border(border, plane))
-            .collect()
+    /// Iterates over the outline and then the openings, each with the heights of its points.
+    pub fn borders(&self) -> impl Iterator<Item = Border<'_>> {
+        let all = std::iter::once(&self.outline).chain(&self.openings);
+        all.zip(&self.heights)
+            .map(|(points, heights)| Border { points, heights })
     }
+}
+
+/// A closed border of a contour.
+#[derive(Clone, Copy, Debug)]
+pub struct Border<'a> {
+    /// Its points in plane space, metres.
+    pub points: &'a [Point2<f64>],
+    /// Height of the surface at each of them, metres above the plane.
+    pub heights: &'a [Option<f32>],
 }
 
 /// Returns the points of one border on the surface: plane space, with the height of the nearest reading. Points
 /// without a reading nearby are left out.
-pub fn lift_border(border: &[Point2<f64>], plane: &PlaneImage) -> Vec<Point3<f64>> {
-    let lifted = |p: &Point2<f64>| height_near(plane, p).map(|z| Point3::new(p.x, p.y, z));
-    border.iter().filter_map(lifted).collect()
+pub fn lift_border(border: Border<'_>) -> Vec<Point3<f64>> {
+    let points = border.points.iter().zip(border.heights);
+    let lifted = |(p, z): (&Point2<f64>, &Option<f32>)| z.map(|z| Point3::new(p.x, p.y, z.into()));
+    points.filter_map(lifted).collect()
 }
 
 /// Number of points on either side that determine a border's direction: about 4 cm.
@@ -150,15 +170,12 @@ const TANGENT: usize = 9;
 
 /// Returns the points of one closed border on the surface, each with the unit vector along it: plane space. `None`
 /// where there is no reading nearby.
-pub fn lift_oriented(
-    border: &[Point2<f64>],
-    plane: &PlaneImage,
-) -> Vec<Option<(Point3<f64>, Vector3<f64>)>> {
-    let heights: Vec<Option<f64>> = border.iter().map(|p| height_near(plane, p)).collect();
-    let n = border.len();
+pub fn lift_oriented(border: Border<'_>) -> Vec<Option<(Point3<f64>, Vector3<f64>)>> {
+    let Border { points, heights } = border;
+    let n = points.len().min(heights.len());
     let oriented = |i: usize| {
         let height = heights[i]?;
-        let at = |i: usize| border[i].coords.push(heights[i].unwrap_or(height));
+        let at = |i: usize| points[i].coords.push(heights[i].unwrap_or(height).into());
         let (before, after) = ((i + n - TANGENT % n) % n, (i + TANGENT) % n);
         let along = (at(after) - at(before)).try_normalize(1e-9)?;
         Some((Point3::from(at(i)), along))
@@ -167,7 +184,7 @@ pub fn lift_oriented(
 }
 
 /// Returns the height of the reading nearest to a plane point, at most two pixels away along each axis.
-fn height_near(plane: &PlaneImage, point: &Point2<f64>) -> Option<f64> {
+fn height_near(plane: &PlaneImage, point: &Point2<f64>) -> Option<f32> {
     let (column, row) = plane.pixel_of(point);
     let (column, row) = (column.round() as i64, row.round() as i64);
     let reading = |du: i64, dv: i64| {
@@ -176,7 +193,7 @@ fn height_near(plane: &PlaneImage, point: &Point2<f64>) -> Option<f64> {
             .image
             .is_set(u, v)
             .then(|| plane.heights[v as usize * plane.image.width + u as usize])?;
-        height.is_finite().then_some(f64::from(height))
+        height.is_finite().then_some(height)
     };
     let around = || (-2..=2).flat_map(|dv| (-2..=2).map(move |du| (du, dv)));
     // A border's own pixels usually have a reading.

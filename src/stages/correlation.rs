@@ -32,6 +32,8 @@ impl RaySpectra {
             all.powers
                 .push(rays.iter().map(Vector2::norm_squared).sum());
         }
+        all.values.shrink_to_fit();
+        all.powers.shrink_to_fit();
         if all.num_rays > 0 {
             planned(&PLANNER, all.num_rays, FftDirection::Forward).process(&mut all.values);
         }

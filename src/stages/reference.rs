@@ -103,8 +103,8 @@ pub struct Reference {
     pub cloud: PointCloud,
     /// Search tree over `cloud`, built on first use: only the last steps of a pose search exactly.
     tree: OnceLock<KdTree>,
-    /// Nearest-point field around `cloud`.
-    pub field: NearestField,
+    /// Nearest-point field around `cloud`, built on first use.
+    field: OnceLock<NearestField>,
     /// Views from several sides; the first is the standard view.
     pub views: Vec<ReferenceView>,
     /// The views' signatures, transformed for the circular correlation.
@@ -138,6 +138,13 @@ impl Reference {
     pub fn middle(&self) -> Option<Point3<f64>> {
         let (low, high) = self.cloud.bounds()?;
         Some(nalgebra::center(&low, &high).cast())
+    }
+
+    /// Returns width, height and depth of the cloud in part space; `None` for a cloud without points.
+    pub fn size(&self) -> Option<[Metres; 3]> {
+        let (low, high) = self.cloud.bounds()?;
+        let sides: [f32; 3] = (high - low).into();
+        Some(sides.map(|side| Metres(side.into())))
     }
 
     /// Prepares a reference cloud (part space, with normals).
@@ -175,7 +182,7 @@ impl Reference {
             name: name.to_owned(),
             enrolled_as: name.to_owned(),
             tree: OnceLock::new(),
-            field: NearestField::new(&cloud.points, FIELD_CELL, FIELD_BAND),
+            field: OnceLock::new(),
             cloud,
             spectra: RaySpectra::default(),
             summaries: OnceLock::new(),
@@ -202,14 +209,12 @@ impl Reference {
 
     /// Returns the reference as a target for a pose, with the edges of one of its views; `None` for a flat shape.
     pub fn target(&self, view: usize) -> Option<AlignmentTarget<'_>> {
-        let Self {
-            cloud, tree, field, ..
-        } = self;
+        let Self { cloud, tree, .. } = self;
         let view = self.views.get(view)?;
         (!cloud.points.is_empty()).then_some(AlignmentTarget {
             cloud,
             tree,
-            field,
+            field: self.field(),
             edges: view.edges.get_or_init(|| {
                 let outline = self.outline_of(view);
                 let is_edge = |point: &&BorderPoint| {
@@ -224,10 +229,11 @@ impl Reference {
         })
     }
 
-    /// Builds the tree, auto-correlation and edges, which are otherwise built on first use, in a millisecond or two;
+    /// Builds the tree, nearest-point field, auto-correlation and edges, which are otherwise built on first use, in a millisecond or two;
     /// for measuring the time of an inspection without them.
     pub fn prefetch(&self) {
         self.tree();
+        self.field();
         self.literal();
         for view in 0..self.views.len() {
             self.target(view);
@@ -277,7 +283,7 @@ impl Reference {
             if self.cut.depth_inside(&at) < AT_CUT {
                 return None;
             }
-            let nearest = self.field.nearest(&at.cast());
+            let nearest = self.field().nearest(&at.cast());
             let normal = nearest.zip(self.cloud.normals.as_ref()).map_or_else(
                 || (view.viewpoint - at).normalize().cast(),
                 |(nearest, normals)| normals[nearest.index],
@@ -288,9 +294,10 @@ impl Reference {
                 normal,
             })
         };
-        let borders = std::iter::once(&view.contour.outline).chain(&view.contour.openings);
-        borders
-            .flat_map(|border| lift_oriented(border, &view.plane))
+        let contour = view.contour();
+        contour
+            .borders()
+            .flat_map(lift_oriented)
             .flatten()
             .filter_map(point)
             .collect()
@@ -301,12 +308,29 @@ impl Reference {
         self.tree.get_or_init(|| KdTree::new(&self.cloud.points))
     }
 
+    /// Returns the nearest-point field around the cloud.
+    pub fn field(&self) -> &NearestField {
+        let new = || NearestField::new(&self.cloud.points, FIELD_CELL, FIELD_BAND);
+        self.field.get_or_init(new)
+    }
+
+    /// Drops the cloud and all that is built from it, for references that are only ranked.
+    #[must_use]
+    pub fn without_cloud(self) -> Self {
+        Self {
+            cloud: PointCloud::default(),
+            tree: OnceLock::new(),
+            field: OnceLock::new(),
+            ..self
+        }
+    }
+
     /// Returns the views' summaries.
     pub fn summaries(&self) -> &[ShapeSummary] {
         self.summaries.get_or_init(|| {
             let views = self.views.iter();
             views
-                .map(|view| ShapeSummary::of(&view.plane, &view.signature))
+                .map(|view| ShapeSummary::of(&view.plane(), &view.signature))
                 .collect()
         })
     }
@@ -314,11 +338,9 @@ impl Reference {
     /// Returns the paper's auto-correlation of the standard view.
     pub fn literal(&self) -> &LiteralReference {
         self.literal.get_or_init(|| {
-            let pixels = self
-                .views
-                .first()
-                .map(|view| &view.contour.outline_pixels[..]);
-            LiteralReference::new(LiteralSignature::of(pixels.unwrap_or_default()))
+            let view = self.views.first();
+            let pixels = view.map_or_else(Vec::new, |view| view.contour().outline_pixels);
+            LiteralReference::new(LiteralSignature::of(&pixels))
         })
     }
 
@@ -340,8 +362,8 @@ impl Reference {
     /// Creates a reference from a flat shape, such as a silhouette: it can be ranked, but has no cloud for a pose.
     pub fn from_plane(
         name: &str,
-        plane: PlaneImage,
-        contour: Contour,
+        plane: &PlaneImage,
+        contour: &Contour,
         signature: FanSignature,
     ) -> Self {
         let cloud = PointCloud::default();

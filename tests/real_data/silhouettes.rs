@@ -114,7 +114,7 @@ fn described(plane: &PlaneImage) -> (Contour, FanSignature) {
 fn enrolled(shape: &Silhouette) -> Reference {
     let plane = drawn(shape, 0.0, 200);
     let (contour, signature) = described(&plane);
-    Reference::from_plane(&shape.class, plane, contour, signature)
+    Reference::from_plane(&shape.class, &plane, &contour, signature)
 }
 
 fn num_right(

@@ -38,9 +38,10 @@ pub(in crate::app) fn deviations_at(
     };
     // In f32, coordinates of about a metre keep micrometres: enough for a colour.
     let part_from_camera: Isometry3<f32> = pose.target_from_source.cast();
+    let field = reference.field();
     let deviation = |point: &Point3<f32>| {
         let point = part_from_camera * point;
-        let nearest = reference.field.nearest(&point)?;
+        let nearest = field.nearest(&point)?;
         let surface = reference.cloud.points.get(nearest.index)?;
         Some((point - surface).dot(normals.get(nearest.index)?))
     };

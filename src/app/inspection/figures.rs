@@ -303,7 +303,7 @@ impl RankedPartFigure {
         });
         let outline = placed.map_or_else(Vec::new, |(placement, view)| {
             let moved = view.scene_plane_from_view_plane(placement.turn, &scene.centroid);
-            closed(&view.contour.outline, &moved)
+            closed(&view.contour().outline, &moved)
         });
         Self {
             short_title: shortened(&title),

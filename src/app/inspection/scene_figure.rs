@@ -217,10 +217,10 @@ const BEFORE: f32 = 0.004;
 fn outline(view: &ReferenceView, camera_from_part: &RigidTransform) -> Option<LineSet> {
     let camera_from_plane: Isometry3<f32> =
         (camera_from_part * view.plane_from_part.inverse()).cast();
-    let borders = std::iter::once(&view.contour.outline).chain(&view.contour.openings);
+    let contour = view.contour();
     let mut lines = Vec::new();
-    for border in borders {
-        let lifted = lift_border(border, &view.plane);
+    for border in contour.borders() {
+        let lifted = lift_border(border);
         let corners = lifted.iter().map(|p| {
             let p = camera_from_plane * p.cast::<f32>();
             let p = Vec3::new(p.x, p.y, p.z);

@@ -11,7 +11,6 @@ use rand_pcg::Pcg64;
 use super::ScalingError;
 use crate::{
     bench::suites::enrol_part,
-    geometry::{cloud::PointCloud, nearest_field::NearestField, raster::BinaryImage},
     library::EnrolParams,
     pipeline::{Cancelled, ProgressObserver},
     simulate::{PartKind, Side},
@@ -38,7 +37,7 @@ pub(super) fn originals(
             }
             if originals.len() < most {
                 let enrolled = enrol_part(kind, Side::Left, model_seed, &EnrolParams::default())?;
-                originals.push(without_cloud(enrolled));
+                originals.push(enrolled.without_cloud());
             }
         }
     }
@@ -60,7 +59,7 @@ pub(super) fn nth_reference(originals: &[Reference], place: usize, matcher: Matc
             let views = original.views.iter().map(|view| perturb(view, &swing));
             copy = copy.with_views(views.collect());
             copy.summaries();
-            copy.views.iter_mut().for_each(without_pictures);
+            copy.views.iter_mut().for_each(ReferenceView::drop_shape);
         }
         Matcher::Paper => {
             let mut signature = original.literal().signature.clone();
@@ -110,20 +109,4 @@ fn perturb(view: &ReferenceView, swing: &ScaleCurve) -> ReferenceView {
         *ray *= swing.at(k, num);
     }
     view
-}
-
-/// Drops what ranking does not use: it lays the packed pixels over a scene, not the image.
-fn without_pictures(view: &mut ReferenceView) {
-    view.plane.image = BinaryImage::new(0, 0);
-    view.plane.heights = Vec::new();
-    view.contour.outline = Vec::new();
-    view.contour.openings = Vec::new();
-    view.contour.outline_pixels = Vec::new();
-}
-
-/// Keeps only what ranking uses: a cloud with its search trees takes megabytes.
-fn without_cloud(mut reference: Reference) -> Reference {
-    reference.cloud = PointCloud::default();
-    reference.field = NearestField::new(&reference.cloud.points, 1.0, 1.0);
-    reference
 }

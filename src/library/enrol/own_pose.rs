@@ -27,9 +27,10 @@ const LEAST_TURN: f64 = 10.0;
 pub(super) fn pose_warning(reference: &Reference, coverage: Coverage) -> Option<EnrolWarning> {
     let view = reference.views.first()?;
     let (_, seen) = seen_around(&reference.cloud, coverage).into_iter().next()?;
+    let (plane, contour) = (view.plane(), view.contour());
     let query = Query {
-        plane: &view.plane,
-        contour: &view.contour,
+        plane: &plane,
+        contour: &contour,
         signature: &view.signature,
     };
     let references = std::slice::from_ref(reference);

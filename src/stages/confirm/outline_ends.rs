@@ -40,7 +40,9 @@ pub(super) fn outline_of(scene: &Scene<'_>) -> Outline {
     let n = outline.len();
     let is_part = PartMask::new(scene);
     let mut own: Vec<(Point3<f64>, Vector3<f64>)> = Vec::with_capacity(n);
-    for (i, oriented) in lift_oriented(outline, query.plane).into_iter().enumerate() {
+    let mut borders = query.contour.borders();
+    let lifted = borders.next().map_or_else(Vec::new, lift_oriented);
+    for (i, oriented) in lifted.into_iter().enumerate() {
         let Some((lifted, along)) = oriented else {
             continue;
         };
@@ -64,8 +66,8 @@ pub(super) fn outline_of(scene: &Scene<'_>) -> Outline {
             own.push((lifted, along));
         }
     }
-    for opening in &query.contour.openings {
-        own.extend(lift_oriented(opening, query.plane).into_iter().flatten());
+    for opening in borders {
+        own.extend(lift_oriented(opening).into_iter().flatten());
     }
     let (own, along) = own.into_iter().unzip();
     Outline {

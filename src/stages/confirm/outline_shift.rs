@@ -247,6 +247,7 @@ mod tests {
             outline: flat(rim(1.0, 0.6)),
             openings: vec![flat(rim(0.4, 0.03))],
             outline_pixels: Vec::new(),
+            heights: Vec::new(),
             area: 0.588,
         };
         let slot = rim(0.4, 0.03).into_iter();

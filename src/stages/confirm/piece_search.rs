@@ -260,12 +260,13 @@ impl PreparedScene<'_> {
         let is_cut = !reference.cut.is_nothing();
         let is_beyond =
             |at: &Point3<f32>| is_cut && reference.cut.depth_inside(&at.cast()) < AT_CUT;
+        let field = reference.field();
         let (mut num, mut off) = (0_usize, 0.0_f32);
         for p in &piece.surface {
             let at = moved * p;
             if !is_beyond(&at) {
                 num += 1;
-                off += clipped(reference.field.distance_sq(&at));
+                off += clipped(field.distance_sq(&at));
             }
         }
         if num < LEAST_SHARED {
@@ -433,6 +434,7 @@ fn early_out_cost(
     const PER_POINT: f32 = 1.0 / NUM_TRIED as f32;
     let is_cut = !reference.cut.is_nothing();
     let is_beyond = |at: &Point3<f32>| is_cut && reference.cut.depth_inside(&at.cast()) < AT_CUT;
+    let field = reference.field();
     // Counted as floats: to convert whole numbers takes longer than to look a point up.
     let (mut num, mut num_off, mut sum) = (0.0_f32, 0.0_f32, 0.0_f32);
     for p in piece.surface.iter().take(NUM_TRIED) {
@@ -441,7 +443,7 @@ fn early_out_cost(
             continue;
         }
         num += 1.0;
-        let off = clipped(reference.field.distance_sq(&at));
+        let off = clipped(field.distance_sq(&at));
         num_off += if off < 1.0 { 0.0 } else { 1.0 };
         sum += off;
         if num_off > 1.0 + MOST_OFF * num || sum * PER_POINT > limit {

@@ -168,7 +168,7 @@ impl<'a> PreparedScene<'a> {
         let shift = outline_shift(
             source,
             &target,
-            &view.contour,
+            &view.contour(),
             &view.plane_from_part,
             pose,
             noise,

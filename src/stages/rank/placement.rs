@@ -221,8 +221,8 @@ fn overlap(
 ) -> f64 {
     // Map directly from the scene plane to pixels of the view: this dominates the cost of ranking.
     let view_plane_from_scene = scene_plane_from_view_plane.inverse();
+    let plane = seen.empty_plane();
     let pixel = |x: f64, y: f64| {
-        let plane = &seen.plane;
         let (column, row) = plane.pixel_of(&(view_plane_from_scene * Point2::new(x, y)));
         Vector2::new(column, row)
     };

@@ -41,7 +41,7 @@ impl<'a> ReferenceSurface<'a> {
             points: &reference.cloud.points,
             normals: reference.cloud.normals.as_ref()?,
             tree: reference.tree(),
-            field: Some(&reference.field),
+            field: Some(reference.field()),
         })
     }
 

@@ -161,7 +161,7 @@ impl Overlay {
             ((to - from).norm() > LEAST_JOIN).then(|| [plain(&from), plain(&to)])
         });
         let outline = closed(&query.contour.outline, &nalgebra::Isometry2::identity());
-        let reference = closed(&view.contour.outline, &moved);
+        let reference = closed(&view.contour().outline, &moved);
         let mut bounds = [[f32::INFINITY; 2], [f32::NEG_INFINITY; 2]];
         for point in outline.iter().chain(&reference) {
             for axis in 0..2 {
@@ -346,7 +346,7 @@ mod tests {
 
     fn enrolled(turn: f64) -> Reference {
         let (plane, contour, signature) = plate(turn);
-        Reference::from_plane("plate", plane, contour, signature)
+        Reference::from_plane("plate", &plane, &contour, signature)
     }
 
     fn compared(turn: f64, matcher: Matcher) -> OutlineComparison {
