@@ -32,60 +32,37 @@
 //! the algorithms build. Off by default: `plant`, HTTP and MQTT beside the protocols of the server, the history in PostgreSQL,
 //! and one library for many cells.
 
-#[cfg(feature = "window")]
-#[doc(hidden)]
-pub mod app;
-#[doc(hidden)]
-pub mod bench;
-#[doc(hidden)]
-pub mod capture;
-#[doc(hidden)]
-pub mod cases;
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;
+
+#[cfg(feature = "window")]
 #[doc(hidden)]
-pub mod clock;
+pub use app;
 #[doc(hidden)]
-pub mod error;
+pub use capture;
 #[doc(hidden)]
-pub mod files;
+pub use files;
 #[doc(hidden)]
-pub mod geometry;
+pub use geometry::{self, clock, error, units};
 #[doc(hidden)]
-pub mod history;
-#[doc(hidden)]
-pub mod library;
-#[doc(hidden)]
-pub mod paint;
-#[doc(hidden)]
-pub mod pipeline;
+pub use inspection::{library, pipeline};
 #[cfg(feature = "plant")]
 #[doc(hidden)]
-pub mod plant;
+pub use plant;
 #[doc(hidden)]
-pub mod report;
+pub use records::{cases, history, report};
 #[doc(hidden)]
-pub mod robot;
-#[doc(hidden)]
-pub mod scan;
+pub use robot::{self, paint};
 #[cfg(feature = "cli")]
 #[doc(hidden)]
-pub mod serve;
+pub use serve;
 #[doc(hidden)]
-pub mod simulate;
+pub use simulate;
 #[doc(hidden)]
-pub mod stages;
+pub use stages::{self, scan};
 #[doc(hidden)]
-pub mod station;
-#[doc(hidden)]
-pub mod units;
-
-#[cfg(test)]
-extern crate self as partsight;
-#[cfg(test)]
-#[path = "../tests/kit/mod.rs"]
-mod kit;
+pub use station;
 
 pub use self::{
     capture::{

@@ -10,17 +10,15 @@ use super::{
     console::{Advised as _, Console, Table, advised_error},
     input::{open_cloud, warn_of},
 };
-use crate::{
+use geometry::{
+    cloud::PointCloud,
     error::Advice as _,
-    geometry::{
-        cloud::PointCloud,
-        rigid::row_major,
-        written_pose::{GivenPose, parse_pose},
-    },
-    report::SCHEMA,
-    stages::pose::{CloudRole, PoseError, PoseEstimate, PoseMethod, PoseWarning, align},
+    rigid::row_major,
     units::Metres,
+    written_pose::{GivenPose, parse_pose},
 };
+use records::report::SCHEMA;
+use stages::pose::{CloudRole, PoseError, PoseEstimate, PoseMethod, PoseWarning, align};
 
 /// Align one cloud with another and print the rotation and translation
 #[derive(Debug, Args)]
@@ -214,13 +212,13 @@ fn show(pose: &PoseEstimate, time_ms: f64, console: &mut Console) {
             pose.iterations.len()
         ),
     );
-    table.show(console);
+    console.table(&table);
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kit::pose_errors;
+    use stages::fixtures::pose_errors;
 
     #[test]
     fn only_this_command_advises_a_start_by_its_option() {

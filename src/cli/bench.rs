@@ -32,7 +32,8 @@ use super::{
     console::{Console, advised_error},
     recipe::RecipeSource,
 };
-use crate::{bench::registration::Condition, stages::rank::Matcher};
+use bench::registration::Condition;
+use stages::rank::Matcher;
 
 /// Measure recognition, pose and speed on simulated frames with known truth
 #[derive(Debug, Args)]
@@ -107,7 +108,7 @@ pub(super) struct BenchArgs {
     #[arg(long, value_name = "PNG")]
     plot: Option<PathBuf>,
     /// For scaling: maximum number of references; ten thousand take less than 3 GB
-    #[arg(long, value_name = "N", default_value_t = crate::bench::scaling::MOST as u64, value_parser = clap::value_parser!(u64).range(8..=100_000))]
+    #[arg(long, value_name = "N", default_value_t = bench::scaling::MOST as u64, value_parser = clap::value_parser!(u64).range(8..=100_000))]
     most: u64,
     /// For paint: the coat, by name or file, instead of the default one
     #[arg(long, value_name = "NAME|FILE")]

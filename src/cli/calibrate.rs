@@ -13,7 +13,7 @@ use super::{
     console::{Advised as _, Console, advised_error},
     input::parse_robot_pose,
 };
-use crate::robot::{
+use robot::{
     RobotFrame, WrittenPose,
     calibration::{CalibrationError, CameraPlace, CellCalibration, Origin, default_path},
     hand_eye::Mount,
@@ -117,7 +117,7 @@ impl CalibrationOutput {
             notes: self.notes.clone(),
             camera,
             origin,
-            made_at: crate::clock::now(),
+            made_at: geometry::clock::now(),
         }
     }
 }

@@ -15,13 +15,10 @@ use super::{
     console::{Advised as _, Console, Table, advised_error},
     follow::{follow, parse_source},
 };
-use crate::{
-    capture::{
-        CaptureError, CaptureWarning, FeedItem, OpenNiError, RealsenseError, Recorder, SourceSpec,
-        list,
-    },
-    error::Advice as _,
+use capture::{
+    CaptureError, CaptureWarning, FeedItem, OpenNiError, RealsenseError, Recorder, SourceSpec, list,
 };
+use geometry::error::Advice as _;
 
 /// Record the frames of a camera, a folder or the simulated cell, to be replayed and inspected later
 #[derive(Debug, Args)]
@@ -190,7 +187,7 @@ fn show_list(console: &mut Console) -> Outcome {
             table.row([pattern.to_owned(), what.to_owned()]);
         }
     }
-    table.show(console);
+    console.table(&table);
     for listed in &found {
         if let Some(trouble) = &listed.trouble {
             console.advise(

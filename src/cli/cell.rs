@@ -13,18 +13,18 @@ use super::{
     input::{from_to, open_scene, warn_of, within},
     recipe::RecipeSource,
 };
-use crate::{
-    capture::{FeedItem, SourceSpec},
+use capture::{FeedItem, SourceSpec};
+use files::write_atomically;
+use geometry::{
     error::Advice as _,
-    files::write_atomically,
-    report::SCHEMA,
-    robot::cell_check::{
-        CellBaseline, CellCheck, CellCheckFolder, CellFinding, CellLimits, CellViews, MAX_FRAMES,
-        USUAL_FRAMES, write_csv,
-    },
-    stages::scene::{SceneCloud, scene_from_image},
     units::{Metres, Radians},
 };
+use records::report::SCHEMA;
+use robot::cell_check::{
+    CellBaseline, CellCheck, CellCheckFolder, CellFinding, CellLimits, CellViews, MAX_FRAMES,
+    USUAL_FRAMES, write_csv,
+};
+use stages::scene::{SceneCloud, scene_from_image};
 
 /// Check that camera and cell have not moved, with one part hung in the same place every day
 #[derive(Debug, Args)]
@@ -149,7 +149,7 @@ fn baseline(
         turn: Radians::from_degrees(args.max_turn),
     };
     let baseline =
-        CellBaseline::new(&views, limits, is_simulated, crate::clock::now()).advised()?;
+        CellBaseline::new(&views, limits, is_simulated, geometry::clock::now()).advised()?;
     folder.save(&baseline).advised()?;
     let simulated = if is_simulated { "simulated " } else { "" };
     let frames = if views.len() == 1 { "frame" } else { "frames" };
@@ -178,7 +178,7 @@ fn check(
     let baseline = folder.baseline().advised()?;
     let taken = views(&args.views, console)?;
     let check = baseline
-        .check(&taken.views, taken.is_simulated, crate::clock::now())
+        .check(&taken.views, taken.is_simulated, geometry::clock::now())
         .advised()?;
     if args.json {
         console.line(&json_line(&check)?);
@@ -288,7 +288,7 @@ fn list(
             format!("{:.1}", check.noise_ratio),
         ]);
     }
-    table.show(console);
+    console.table(&table);
     Ok(Outcome::Accepted)
 }
 

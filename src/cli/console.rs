@@ -8,11 +8,9 @@ use std::{
 
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 
-pub(super) use crate::report::TextTable as Table;
-use crate::{
-    error::Advice,
-    files::{advice_on, visible, words_of},
-};
+use files::{advice_on, visible, words_of};
+use geometry::error::Advice;
+pub(super) use records::report::TextTable as Table;
 
 /// Both outputs of a call. Control characters in files and their names are shown as text, so that the terminal does not
 /// interpret them.
@@ -282,10 +280,11 @@ pub(super) fn in_columns(numbers: &[f64]) -> String {
     cells.collect::<Vec<_>>().join(" ")
 }
 
-impl Table {
-    pub(super) fn show(&self, console: &mut Console) {
-        for line in self.lines() {
-            console.line(&line);
+impl Console {
+    /// Prints a table, line by line.
+    pub(super) fn table(&mut self, table: &Table) {
+        for line in table.lines() {
+            self.line(&line);
         }
     }
 }

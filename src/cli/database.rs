@@ -5,10 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::console::{Advised as _, Console, advised_error, with_advice};
-use crate::{
-    history::HistoryEvent,
-    plant::database::{CellName, DatabaseAccess, DatabaseAddress, HistorySender, SendNews},
-};
+use plant::database::{CellName, DatabaseAccess, DatabaseAddress, HistorySender, SendNews};
+use records::history::HistoryEvent;
 
 /// What lets the program in.
 #[derive(Clone, Debug, Args)]

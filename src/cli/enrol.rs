@@ -1,5 +1,6 @@
 //! `partsight enrol`: makes a reference from a file.
 
+use crate::cli::input::parse_name;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -12,20 +13,17 @@ use super::{
     recipe::RecipeSource,
     scan::{PosesChoice, open_scan},
 };
-use crate::{
-    error::Advice as _,
-    files::{self, FileContent},
-    geometry::cloud::Grid,
-    library::{
-        EnrolError, EnrolParams, EnrolWarning, Enrolled, LibraryError, LibraryFolder, MAX_TITLE,
-        PartDescription, PartName, SharedTitle, Side, enrol_captured, enrol_mesh, enrol_scan,
-        enrol_surface, enrol_whole, likenesses, surfaces_to_enrol,
-    },
+use files::{self, FileContent};
+use geometry::{cloud::Grid, error::Advice as _};
+use inspection::library::{
+    EnrolError, EnrolParams, EnrolWarning, Enrolled, LibraryError, LibraryFolder, MAX_TITLE,
+    PartDescription, PartName, SharedTitle, Side, enrol_captured, enrol_mesh, enrol_scan,
+    enrol_surface, enrol_whole, likenesses, surfaces_to_enrol,
+};
+use stages::{
+    reference::ReferenceParams,
     scan::part::background_sign,
-    stages::{
-        reference::ReferenceParams,
-        scene::{SceneCloud, scene_from_cloud, scene_from_frame},
-    },
+    scene::{SceneCloud, scene_from_cloud, scene_from_frame},
 };
 
 /// Enrol a part: make a reference from a captured scene, a cloud or a mesh
@@ -56,10 +54,10 @@ pub(super) struct EnrolArgs {
     #[command(flatten)]
     poses: PosesChoice,
     /// Name of the part: lowercase letters, digits, _ and -
-    #[arg(long)]
+    #[arg(long, value_parser = parse_name)]
     name: PartName,
     /// Enrol as one more reference of this part, such as another view or car model; verdicts name that part
-    #[arg(long = "as", value_name = "PART")]
+    #[arg(long = "as", value_name = "PART", value_parser = parse_name)]
     part: Option<PartName>,
     #[command(flatten)]
     library: LibraryChoice,
@@ -188,7 +186,7 @@ fn about(args: &EnrolArgs, from: &Path, simulated: bool) -> anyhow::Result<PartD
         notes: args.notes.clone(),
         from: file_name.to_string_lossy().into_owned(),
         // Whole seconds are enough for people.
-        at: jiff::Timestamp::from_second(crate::clock::now().as_second())?,
+        at: jiff::Timestamp::from_second(geometry::clock::now().as_second())?,
         simulated: args.simulated || simulated,
     })
 }

@@ -11,13 +11,13 @@ use super::{
     recipe::RecipeChoice,
     write_json,
 };
-use crate::{
-    bench::EvaluationReport,
+use bench::EvaluationReport;
+use geometry::parallel::num_cores;
+use records::{
     cases::{
         CaseChange, CaseFolder, CaseJudge, CaseOutcome, Changes, EarlierRun, Evaluation,
         FoundVerdict, RecipeRecord, evaluate,
     },
-    geometry::parallel::num_cores,
     report::{evaluation_picture, write_png},
 };
 

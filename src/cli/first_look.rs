@@ -5,11 +5,9 @@ use super::{
     console::{Console, Table},
     verdict::show_card,
 };
-use crate::{
-    pipeline::{self, Recipe, Unwatched},
-    simulate::{CellSetup, PartKind, PartPose, PoseRange, Side, frame},
-    stages::{reference::ReferenceParams, scene::scene_from_frame},
-};
+use inspection::pipeline::{self, Recipe, Unwatched};
+use simulate::{CellSetup, PartKind, PartPose, PoseRange, Side, frame};
+use stages::{reference::ReferenceParams, scene::scene_from_frame};
 
 /// Seed of the frame.
 const SEED: u64 = 1;
@@ -44,7 +42,7 @@ pub(super) fn run(library: &LibraryChoice, console: &mut Console) -> anyhow::Res
     ] {
         table.row([format!("  {command}"), what.to_owned()]);
     }
-    table.show(console);
+    console.table(&table);
     // This is only a demonstration: whatever the verdict, it succeeded.
     Ok(Outcome::Accepted)
 }

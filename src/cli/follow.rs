@@ -6,10 +6,8 @@ use super::{
     console::{Advised as _, Console, advised_error, with_advice},
     interrupt::Interrupt,
 };
-use crate::{
-    capture::{BackpressurePolicy, Feed, FeedItem, FeedState, FeedStatus, Pace, SourceSpec},
-    error::Advice as _,
-};
+use capture::{BackpressurePolicy, Feed, FeedItem, FeedState, FeedStatus, Pace, SourceSpec};
+use geometry::error::Advice as _;
 
 /// Interval between checks for Ctrl-C while nothing comes.
 const TURN: Duration = Duration::from_millis(100);

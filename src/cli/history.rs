@@ -21,14 +21,12 @@ use super::{
     console::{Advised as _, Console, Table, advised_error, marked_simulated},
     record::HistoryChoice,
 };
-use crate::{
-    history::{
-        ACCEPTED_KEPT, FILE, Filter, History, HistoryError, KeepFrames, Retention, StoredVerdict,
-        Summary, Traceability,
-    },
-    library::Truth,
-    stages::reference::ReferenceParams,
+use inspection::library::Truth;
+use records::history::{
+    ACCEPTED_KEPT, FILE, Filter, History, HistoryError, KeepFrames, Retention, StoredVerdict,
+    Summary, Traceability,
 };
+use stages::reference::ReferenceParams;
 
 /// List, show and export past inspections, made here or in the window
 #[derive(Debug, Args)]
@@ -319,7 +317,7 @@ fn open(folder: &Path, console: &Console) -> anyhow::Result<History> {
 
 fn opened(
     folder: &Path,
-    opened: Result<crate::history::OpenedHistory, HistoryError>,
+    opened: Result<records::history::OpenedHistory, HistoryError>,
     console: &Console,
 ) -> anyhow::Result<History> {
     let opened = opened.advised()?;
@@ -412,7 +410,7 @@ fn show_rows(rows: &[CellRow<'_>], asked: &ListArgs, console: &mut Console) {
         let cell = cell.map(str::to_owned).into_iter();
         table.row(cell.chain(cells(row)).chain(trace.into_iter().flatten()));
     }
-    table.show(console);
+    console.table(&table);
 }
 
 /// Notes how many rows are shown, how many match, and how many parts there are.
@@ -472,7 +470,7 @@ fn keep(history: &mut History, asked: &KeepArgs, console: &mut Console) -> anyho
     .clamped();
     if rule != before {
         history.set_retention(&rule).advised()?;
-        let swept = history.sweep(&rule, crate::clock::now()).advised()?;
+        let swept = history.sweep(&rule, geometry::clock::now()).advised()?;
         if swept.num_frames > 0 {
             console.note(&format_args!("{} frames were removed", swept.num_frames));
         }

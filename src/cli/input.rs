@@ -7,25 +7,19 @@ use std::{
     thread,
 };
 
-use clap::{
-    Args,
-    builder::{PossibleValuesParser, ValueParser, ValueParserFactory},
-};
+use clap::{Args, builder::PossibleValuesParser};
 
 use super::console::{Advised as _, Console, advised_error, with_advice};
-use crate::{
-    capture::Image,
-    cases::CaseFolder,
-    error::Advice,
-    files::{
-        self, DepthCamera, FileContent, FileError, FileWarning,
-        import::{ImportOptions, LengthUnit, UpAxis},
-    },
-    geometry::cloud::PointCloud,
-    library::{LibraryFolder, PartName, Side},
-    robot::{Convention, WrittenPose, parse_nozzle, parse_written_pose},
-    stages::scene::{EmptyCell, EmptyCellError, SceneCloud, cloud_of, scene_from_image},
+use capture::Image;
+use files::{
+    self, DepthCamera, FileContent, FileError, FileWarning,
+    import::{ImportOptions, LengthUnit, UpAxis},
 };
+use geometry::{cloud::PointCloud, error::Advice};
+use inspection::library::{LibraryFolder, PartName, Side};
+use records::cases::CaseFolder;
+use robot::{Convention, WrittenPose, parse_nozzle, parse_written_pose};
+use stages::scene::{EmptyCell, EmptyCellError, SceneCloud, cloud_of, scene_from_image};
 
 /// Why a command cannot use a file.
 #[derive(Debug, thiserror::Error)]
@@ -159,13 +153,9 @@ pub(super) fn open_scene(path: &Path) -> OpenedScene {
     Ok((scene, warnings))
 }
 
-/// Every name of a part or a recipe among the arguments is parsed like this, so that the error for a bad one states the rule.
-impl ValueParserFactory for PartName {
-    type Parser = ValueParser;
-
-    fn value_parser() -> ValueParser {
-        ValueParser::new(|name: &str| Self::new(name).map_err(|error| with_advice(&error)))
-    }
+/// Parses the name of a part or a recipe for clap: the error for a bad one states the rule.
+pub(super) fn parse_name(name: &str) -> Result<PartName, String> {
+    PartName::new(name).map_err(|error| with_advice(&error))
 }
 
 /// Parses a pose in a robot's convention for clap.

@@ -30,12 +30,10 @@ use super::{
 };
 #[cfg(feature = "plant")]
 use super::{database::HistoryToChoice, mqtt::MqttChoice, numbers::NumbersChoice};
-use crate::{
-    capture::{FeedItem, SourceSpec},
-    pipeline::MirrorTally,
-    report::{CaptureLine, ReportFolder},
-    stages::scene::scene_from_image,
-};
+use capture::{FeedItem, SourceSpec};
+use inspection::pipeline::MirrorTally;
+use records::report::{CaptureLine, ReportFolder};
+use stages::scene::scene_from_image;
 
 /// Recognise the part in captured scenes and say where it is
 #[derive(Debug, Args)]

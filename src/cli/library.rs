@@ -4,6 +4,7 @@
 mod bundle;
 mod spray_path;
 
+use crate::cli::input::parse_name;
 use clap::{Args, Subcommand};
 
 #[cfg(feature = "plant")]
@@ -13,14 +14,12 @@ use super::{
     console::{Advised as _, Console, Table, advised_error, marked_simulated},
     read_part,
 };
-use crate::{
-    library::{
-        EntryError, LibraryError, LibraryFolder, LibraryListing, LibraryPlace, PartMeta, PartName,
-        PartNaming, PartNumbers, SharedTitle, StoredPart,
-    },
-    stages::reference::{Coverage, ReferenceParams},
-    units::counted,
+use geometry::units::counted;
+use inspection::library::{
+    EntryError, LibraryError, LibraryFolder, LibraryListing, LibraryPlace, PartMeta, PartName,
+    PartNaming, PartNumbers, SharedTitle, StoredPart,
 };
+use stages::reference::{Coverage, ReferenceParams};
 
 /// List, show, check, rename, remove and restore enrolled parts, and store their spray paths
 #[derive(Debug, Args)]
@@ -49,6 +48,7 @@ enum LibraryCommand {
     /// Show everything about one part
     Show {
         /// Name of the part
+        #[arg(value_parser = parse_name)]
         name: PartName,
     },
     /// Check every file of every part; exit code 1 if something is damaged
@@ -58,11 +58,13 @@ enum LibraryCommand {
     /// Move a part to the library's .trash folder
     Remove {
         /// Name of the part
+        #[arg(value_parser = parse_name)]
         name: PartName,
     },
     /// Restore the part that was last removed or replaced under this name
     Restore {
         /// Name of the part
+        #[arg(value_parser = parse_name)]
         name: PartName,
     },
     Path(spray_path::PathArgs),
@@ -82,9 +84,10 @@ enum LibraryCommand {
 #[derive(Debug, Args)]
 struct RenameArgs {
     /// Name of the part
+    #[arg(value_parser = parse_name)]
     name: PartName,
     /// Its new name: lowercase letters, digits, _ and -
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", value_parser = parse_name)]
     to: Option<PartName>,
     /// Title shown to people; at most 80 characters
     #[arg(long, value_name = "TEXT", value_parser = super::enrol::parse_title)]
@@ -165,7 +168,7 @@ fn list(choice: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outcome
             marked_simulated(&meta.enrolled.from, meta.simulated),
         ]);
     }
-    table.show(console);
+    console.table(&table);
     Ok(Outcome::Accepted)
 }
 
@@ -250,7 +253,7 @@ fn show(choice: &LibraryChoice, name: &PartName, console: &mut Console) -> anyho
     if let Some(picture) = place.folder().and_then(|f| f.thumbnail(name.as_str())) {
         row("picture", picture.display().to_string());
     }
-    table.show(console);
+    console.table(&table);
     Ok(Outcome::Accepted)
 }
 

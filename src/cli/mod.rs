@@ -49,12 +49,12 @@ use serde::Serialize;
 
 use self::console::{Advised as _, Console, advised_error};
 #[cfg(feature = "window")]
-use crate::app;
-use crate::{
-    files::write_atomically,
-    library::{LibraryFolder, LibraryLoad, LibraryPlace, PartName, StoredPart, open_library},
-    stages::{pose::PoseMethod, reference::ReferenceParams},
+use app;
+use files::write_atomically;
+use inspection::library::{
+    LibraryFolder, LibraryLoad, LibraryPlace, PartName, StoredPart, open_library,
 };
+use stages::{pose::PoseMethod, reference::ReferenceParams};
 
 /// Recognises car body parts in depth-camera point clouds and says where they are.
 #[derive(Debug, Parser)]
@@ -236,12 +236,12 @@ fn window(
         library: library.library.clone(),
         settings: app::shell::settings::users_file(),
         // Without such a folder the window keeps the history in memory.
-        history: crate::history::users_folder().ok(),
-        recipes: crate::pipeline::RecipeFolder::of_user()
+        history: records::history::users_folder().ok(),
+        recipes: inspection::pipeline::RecipeFolder::of_user()
             .ok()
             .map(|folder| folder.path().to_owned()),
-        cell: crate::robot::calibration::default_path().ok(),
-        cell_checks: crate::robot::cell_check::CellCheckFolder::of_user()
+        cell: robot::calibration::default_path().ok(),
+        cell_checks: robot::cell_check::CellCheckFolder::of_user()
             .ok()
             .map(|folder| folder.path().to_owned()),
         scene,

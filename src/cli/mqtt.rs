@@ -5,15 +5,13 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::console::{Advised as _, Console, advised_error};
-use crate::{
-    history::Traceability,
-    library::LibraryLoad,
-    plant::mqtt::{
-        BrokerAccess, BrokerAddress, LibraryMessage, LinkNews, LinkSubject, MqttLink, PoseFormat,
-    },
-    robot::Convention,
-    serve::PoseKind,
+use inspection::library::LibraryLoad;
+use plant::mqtt::{
+    BrokerAccess, BrokerAddress, LibraryMessage, LinkNews, LinkSubject, MqttLink, PoseFormat,
 };
+use records::history::Traceability;
+use robot::Convention;
+use serve::PoseKind;
 
 /// Where verdicts and states are published.
 #[derive(Clone, Debug, Args)]

@@ -6,11 +6,9 @@ use super::{
     console::{Advised as _, Console, advised_error},
     input::parse_convention,
 };
-use crate::{
-    library::{GivenNumbers, LibraryLoad, LibraryPlace, PartNumbers},
-    robot::{Convention, spray::off_the_part},
-    serve::{NumberedPart, PoseKind},
-};
+use inspection::library::{GivenNumbers, LibraryLoad, LibraryPlace, PartNumbers};
+use robot::{Convention, spray::off_the_part};
+use serve::{NumberedPart, PoseKind};
 
 /// The numbers of poses and parts.
 #[derive(Debug, Args)]

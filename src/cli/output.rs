@@ -6,8 +6,8 @@ use super::{
     console::Console,
     verdict::{place_of, show_card},
 };
-use crate::{
-    files::visible,
+use files::visible;
+use inspection::{
     library::Library,
     pipeline::{Inspection, Verdict},
 };

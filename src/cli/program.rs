@@ -10,19 +10,19 @@ use super::{
     input::{parse_nozzle_pose, parse_robot_pose, within},
     robot_file,
 };
-use crate::{
-    geometry::rigid::RigidTransform,
-    library::{PartName, Side, SprayPath},
-    robot::{
-        RobotFrame, WrittenPose,
-        arm::{Arm, Obstacles, PlacedArm, Rail},
-        program::{ProgramFormat, ProgramSettings, ranges},
-        spray::{CarriedPath, off_the_part},
-    },
-    stages::reference::{Coverage, Reference},
-    station::robot_file::{CapturedPart, RobotFile, RobotFileContent},
+use geometry::{
+    rigid::RigidTransform,
     units::{Metres, Radians},
 };
+use inspection::library::{PartName, Side, SprayPath};
+use robot::{
+    RobotFrame, WrittenPose,
+    arm::{Arm, Obstacles, PlacedArm, Rail},
+    program::{ProgramFormat, ProgramSettings, ranges},
+    spray::{CarriedPath, off_the_part},
+};
+use stages::reference::{Coverage, Reference};
+use station::robot_file::{CapturedPart, RobotFile, RobotFileContent};
 
 /// Tool, gun and arm of a program; the command names its file `program`.
 #[derive(Debug, Args)]

@@ -5,14 +5,11 @@ use std::sync::Arc;
 use clap::{Args, ValueEnum};
 
 use super::console::{Advised as _, Console, advised_error, with_advice};
-use crate::{
-    pipeline::{
-        BUILT_IN, NamedRecipe, PoseChoice, Recipe, RecipeFile, RecipeFolder, RecipeLabel,
-        open_recipe,
-        parameters::{Parameters, Setting},
-    },
-    stages::{pose::PoseMethod, rank::Matcher},
+use inspection::pipeline::{
+    BUILT_IN, NamedRecipe, PoseChoice, Recipe, RecipeFile, RecipeFolder, RecipeLabel, open_recipe,
+    parameters::{Parameters, Setting},
 };
+use stages::{pose::PoseMethod, rank::Matcher};
 
 /// The recipe of an inspection.
 #[derive(Clone, Debug, Args)]

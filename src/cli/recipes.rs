@@ -1,5 +1,6 @@
 //! `partsight recipe`: manages recipes.
 
+use crate::cli::input::parse_name;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
@@ -10,13 +11,13 @@ use super::{
     console::{Advised as _, Console, Table, advised_error},
     recipe::{RecipeChoice, open_named},
 };
-use crate::{
+use geometry::units::counted;
+use inspection::{
     library::PartName,
     pipeline::{
         BUILT_IN, MAX_NOTES, Recipe, RecipeError, RecipeFile, RecipeFolder, Replace,
         parameters::{PARAMETERS, Parameter, num_changed},
     },
-    units::counted,
 };
 
 /// List, show, save, rename, remove, export and import recipes: named sets of parameters
@@ -66,18 +67,22 @@ enum RecipeCommand {
     /// Rename a recipe; if it is the default, it stays the default
     Rename {
         /// Name of the recipe
+        #[arg(value_parser = parse_name)]
         name: PartName,
         /// Its new name
+        #[arg(value_parser = parse_name)]
         to: PartName,
     },
     /// Remove a recipe
     Remove {
         /// Name of the recipe
+        #[arg(value_parser = parse_name)]
         name: PartName,
     },
     /// Show or choose the recipe that is used without --recipe
     Default {
         /// Name of the recipe
+        #[arg(value_parser = parse_name)]
         name: Option<PartName>,
     },
     /// Add a recipe file to your recipes
@@ -85,7 +90,7 @@ enum RecipeCommand {
         /// The file
         file: PathBuf,
         /// Name to save it under; default: the one in the file
-        #[arg(long)]
+        #[arg(long, value_parser = parse_name)]
         name: Option<PartName>,
         /// Replace a recipe of the same name
         #[arg(long)]
@@ -94,6 +99,7 @@ enum RecipeCommand {
     /// Write a recipe to a file, to take it along
     Export {
         /// Name of the recipe
+        #[arg(value_parser = parse_name)]
         name: PartName,
         /// The file
         file: PathBuf,
@@ -104,6 +110,7 @@ enum RecipeCommand {
 #[derive(Debug, Args)]
 struct SaveArgs {
     /// Name of the recipe: lowercase letters, digits, _ and -
+    #[arg(value_parser = parse_name)]
     name: PartName,
     #[command(flatten)]
     recipe: RecipeChoice,
@@ -190,7 +197,7 @@ fn list(json: bool, console: &mut Console) -> anyhow::Result<()> {
         ]);
     }
     if !json {
-        table.show(console);
+        console.table(&table);
     }
     Ok(())
 }
@@ -251,7 +258,7 @@ fn show(file: &RecipeFile, against: &RecipeFile, json: bool, console: &mut Conso
             change.against.clone(),
         ]);
     }
-    table.show(console);
+    console.table(&table);
 }
 
 /// Saves a recipe; if the name is taken, the error gives advice.

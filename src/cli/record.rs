@@ -10,18 +10,20 @@ use super::{
     console::Advised as _,
     database::{ChosenDatabase, end_sender, show_news},
 };
+use inspection::{
+    library::LibraryLoad,
+    pipeline::{Inspection, NamedRecipe},
+};
 #[cfg(feature = "plant")]
-use crate::plant::database::HistorySender;
-use crate::{
+use plant::database::HistorySender;
+use records::{
     history::{
         HistoryBuffer, HistoryError, HistoryEvent, HungId, InspectionContext, NewEntry,
         Traceability, Writer, users_folder,
     },
-    library::LibraryLoad,
-    pipeline::{Inspection, NamedRecipe},
     report::segmentation_picture,
-    stages::scene::SceneCloud,
 };
+use stages::scene::SceneCloud;
 
 /// Where the history is.
 #[derive(Clone, Debug, Args)]
@@ -120,7 +122,7 @@ impl HistoryRecorder {
         };
         let picture = segmentation_picture(scene, &inspection.segmentation);
         let about = InspectionContext {
-            at: crate::clock::now(),
+            at: geometry::clock::now(),
             scene: taken.scene.to_owned(),
             source: taken.source.to_owned(),
             is_simulated: taken.is_simulated,
@@ -272,7 +274,7 @@ mod tests {
     use std::{fs, time::Instant};
 
     use super::*;
-    use crate::{history::StoredVerdict, kit::history_entry};
+    use records::{fixtures::history_entry, history::StoredVerdict};
 
     #[test]
     fn inspections_that_were_dropped_because_too_many_waited_are_counted() {

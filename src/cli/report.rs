@@ -15,23 +15,25 @@ use super::{
     recipe::RecipeChoice,
     trace::TraceChoice,
 };
-#[cfg(feature = "plant")]
-use crate::plant::mqtt::messages_schema;
-use crate::{
-    history::Traceability,
+use inspection::{
     library::{LibraryLoad, PartMeta},
     pipeline::{self, Inspection, NamedRecipe, Unwatched},
+};
+#[cfg(feature = "plant")]
+use plant::mqtt::messages_schema;
+use records::{
+    history::Traceability,
     report::{
         ReportFolder,
         pose_report::{PdfPictures, PoseReport, ReportSubject, SeenBy, append_csv, pose_pdf},
         stage_pictures,
     },
-    robot::{Convention, RobotFrame},
-    stages::{
-        reference::Reference,
-        scene::{EmptyCell, SceneCloud},
-        stand_off::stand_off,
-    },
+};
+use robot::{Convention, RobotFrame};
+use stages::{
+    reference::Reference,
+    scene::{EmptyCell, SceneCloud},
+    stand_off::stand_off,
 };
 
 /// Write a pose report for captured scenes: which part it is, and its pose in the robot's convention
@@ -156,7 +158,7 @@ fn show_conventions(console: &mut Console) {
         let meaning = format!("{}: {}", convention.title(), convention.meaning());
         table.row([convention.name().to_owned(), meaning]);
     }
-    table.show(console);
+    console.table(&table);
 }
 
 /// State shared by all files of a call.
@@ -227,7 +229,7 @@ impl Reporter<'_> {
                 stand_off(reference, &pose.camera_from_part(), &self.recipe.stand_off)
             });
         PoseReport::of(&ReportSubject {
-            inspected_at: crate::clock::now(),
+            inspected_at: geometry::clock::now(),
             scene: name,
             source: None,
             seen_by: if self.args.simulated || scene.cloud.is_simulated {

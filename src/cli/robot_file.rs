@@ -1,14 +1,11 @@
 //! Writing a file for a robot, and what the commands print about it.
 
 use super::console::{Advised as _, Console};
-use crate::{
-    error::Advice as _,
-    robot::spray::{BandStatus, CarriedPath, MOST_TILT},
-    station::{
-        Doubt,
-        robot_file::{RobotFile, RobotFileContent, RobotFileError, WrittenRobotFile},
-    },
-    units::counted,
+use geometry::{error::Advice as _, units::counted};
+use robot::spray::{BandStatus, CarriedPath, MOST_TILT};
+use station::{
+    Doubt,
+    robot_file::{RobotFile, RobotFileContent, RobotFileError, WrittenRobotFile},
 };
 
 /// Writes the file and prints what it contains, which doubts it was written despite, and what was not checked. Returns

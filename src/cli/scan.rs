@@ -16,11 +16,11 @@ use super::{
     calibrate::scan_calibration,
     console::{Advised as _, Console, advised_error},
 };
-use crate::{
-    files::{file_name, write_atomically, write_ply_with},
-    robot::scan_frames::{FrameNews, read_frames, with_poses},
+use files::{file_name, write_atomically, write_ply_with};
+use robot::scan_frames::{FrameNews, read_frames, with_poses};
+use stages::{
     scan::{FusedCloud, Scan, ScanParams, Unwatched, assemble_all},
-    stages::segment::SegmentParams,
+    segment::SegmentParams,
 };
 
 /// Where the camera was for each frame of a scan.
@@ -182,7 +182,7 @@ fn halves(masks: &[u64]) -> [Vec<u32>; 2] {
     [0, 32].map(|shift| masks.iter().map(|mask| (mask >> shift) as u32).collect())
 }
 
-fn write(path: &Path, cloud: &FusedCloud) -> Result<(), crate::files::FileError> {
+fn write(path: &Path, cloud: &FusedCloud) -> Result<(), files::FileError> {
     let [low, high] = halves(&cloud.seen_by);
     let count = cloud.seen_by.iter().map(|mask| mask.count_ones());
     let properties = [

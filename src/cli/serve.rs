@@ -34,14 +34,11 @@ use super::{
 };
 #[cfg(feature = "plant")]
 use super::{database::HistoryToChoice, mqtt::MqttChoice};
-use crate::{
-    capture::{OpenNiSpec, Pace, RealsenseSpec, RecordingSpec, SourceSpec},
-    library::LibraryLoad,
-    pipeline::MirrorTally,
-    serve::{
-        Camera, ClientEvent, ListenAddress, Listener, NumberedPart, PartFinder, Protocol, Server,
-        ServerSettings,
-    },
+use capture::{OpenNiSpec, Pace, RealsenseSpec, RecordingSpec, SourceSpec};
+use inspection::{library::LibraryLoad, pipeline::MirrorTally};
+use serve::{
+    Camera, ClientEvent, ListenAddress, Listener, NumberedPart, PartFinder, Protocol, Server,
+    ServerSettings,
 };
 
 /// Answer robots and PLCs that ask over TCP for an inspection and a pose

@@ -13,15 +13,13 @@ use super::{
     input::within,
     write_json,
 };
-use crate::{
-    files::{depth_png::intrinsics_path, save_cloud, write_depth_png},
-    geometry::written_pose::{GivenPose, parse_pose},
-    simulate::{
-        CellSetup, Clutter, ObjectKind, PartKind, PartPose, PoseRange, Side, SimulatedFrame,
-        SimulatedObject, Stand, frame,
-    },
-    stages::scene::scene_from_frame,
+use files::{depth_png::intrinsics_path, save_cloud, write_depth_png};
+use geometry::written_pose::{GivenPose, parse_pose};
+use simulate::{
+    CellSetup, Clutter, ObjectKind, PartKind, PartPose, PoseRange, Side, SimulatedFrame,
+    SimulatedObject, Stand, frame,
 };
+use stages::scene::scene_from_frame;
 
 /// Take a frame of a simulated cell: one part in front of a wall and a floor, with a Kinect's noise
 #[derive(Debug, Args)]

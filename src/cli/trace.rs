@@ -3,7 +3,7 @@
 use clap::Args;
 
 use super::console::advised_error;
-use crate::history::Traceability;
+use records::history::Traceability;
 
 /// What an inspection is traced by.
 #[derive(Clone, Debug, Default, Args)]

@@ -1,14 +1,14 @@
 //! Verdicts for people: as a card or a row.
 
 use super::console::Console;
-use crate::{
-    files::visible,
+use files::visible;
+use geometry::units::Metres;
+use inspection::{
     library::Library,
     pipeline::{Inspection, Rejection, Verdict},
-    robot::RobotFrame,
-    stages::pose::{Stopped, Uncertainty},
-    units::Metres,
 };
+use robot::RobotFrame;
+use stages::pose::{Stopped, Uncertainty};
 
 /// Returns the part's position, the middle of its reference's extent (x, y, z in mm), and its rotation (rx, ry, rz in
 /// degrees).

@@ -7,13 +7,19 @@ mod cell;
 mod docs;
 mod errors_and_help;
 mod evaluate;
+mod examples;
+mod fuzz_targets;
 mod history;
 mod inspect;
+mod kill;
 #[path = "../kit/mod.rs"]
 mod kit;
 mod library;
+mod packaging;
 mod paint;
 mod program;
+#[cfg(all(feature = "window", target_os = "linux"))]
+mod real_window;
 mod recipe;
 mod report;
 mod scan;

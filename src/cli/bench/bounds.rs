@@ -5,18 +5,16 @@ use std::path::Path;
 use serde::Serialize;
 
 use super::{BenchArgs, NUM_POSES, write_results};
-use crate::{
-    bench::{
-        bounds::{BoundsCase, BoundsLibrary, PoseAgainstTruth, View, bounds_cases},
-        suites::MEASURING_SEED,
-    },
-    cli::{
-        Outcome,
-        console::{Advised as _, Console, Table, advised_error},
-    },
-    files::{FileContent, open},
-    geometry::{mesh::TriangleMesh, statistics::quantile},
+use crate::cli::{
+    Outcome,
+    console::{Advised as _, Console, Table, advised_error},
 };
+use bench::{
+    bounds::{BoundsCase, BoundsLibrary, PoseAgainstTruth, View, bounds_cases},
+    suites::MEASURING_SEED,
+};
+use files::{FileContent, open};
+use geometry::{mesh::TriangleMesh, statistics::quantile};
 
 #[derive(Debug, Serialize)]
 struct CaseLine {
@@ -120,7 +118,7 @@ fn show(library: &BoundsLibrary, cases: &[BoundsCase], console: &mut Console) {
         let cases: Vec<&BoundsCase> = cases.iter().filter(of_view).collect();
         table.row(row("all", view, &cases));
     }
-    table.show(console);
+    console.table(&table);
 }
 
 fn row(name: &str, view: View, cases: &[&BoundsCase]) -> [String; 12] {

@@ -4,15 +4,13 @@
 use serde::Serialize;
 
 use super::{BenchArgs, recognition::Frames, write_json};
-use crate::{
-    bench::{
-        calibration::{Model, Question, Sample, bands, samples},
-        suites::{Suite, SuiteResult, TUNING_SEED},
-    },
-    cli::{
-        Outcome,
-        console::{Console, Table},
-    },
+use crate::cli::{
+    Outcome,
+    console::{Console, Table},
+};
+use bench::{
+    calibration::{Model, Question, Sample, bands, samples},
+    suites::{Suite, SuiteResult, TUNING_SEED},
 };
 
 /// The file that `--json` writes.
@@ -102,7 +100,7 @@ fn fit(results: &[SuiteResult], question: Question, console: &mut Console) -> Mo
         is_on[i] = true;
         row(format!("{name} alone"), &is_on);
     }
-    table.show(console);
+    console.table(&table);
     let both: Vec<Sample> = odd.iter().chain(&even).copied().collect();
     let model = Model::fit(&both, question, &all);
     console.line(&"");
@@ -147,5 +145,5 @@ pub(super) fn show_bands(results: &[SuiteResult], console: &mut Console) {
             format!("{} ({share:.1} %)", band.num_right),
         ]);
     }
-    table.show(console);
+    console.table(&table);
 }

@@ -3,16 +3,13 @@
 
 use std::path::Path;
 
-use crate::{
-    bench::suites::{NearestMistake, Suite, SuiteCase},
-    cli::console::Advised as _,
-    library::Library,
-    pipeline::Inspection,
-    report::{
-        InspectionLine, Picture, ReportError, ReportFolder, runner_up_picture, stage_pictures,
-    },
-    stages::scene::SceneCloud,
+use crate::cli::console::Advised as _;
+use bench::suites::{NearestMistake, Suite, SuiteCase};
+use inspection::{library::Library, pipeline::Inspection};
+use records::report::{
+    InspectionLine, Picture, ReportError, ReportFolder, runner_up_picture, stage_pictures,
 };
+use stages::scene::SceneCloud;
 
 /// Collects the pictures while the suites run.
 pub(super) struct Pictures {

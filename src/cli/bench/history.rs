@@ -3,13 +3,11 @@
 use serde::Serialize;
 
 use super::{BenchArgs, write_json};
-use crate::{
-    bench::{HistoryTime, history_times},
-    cli::{
-        Outcome,
-        console::{Advised as _, Console, Table},
-    },
+use crate::cli::{
+    Outcome,
+    console::{Advised as _, Console, Table},
 };
+use bench::{HistoryTime, history_times};
 
 /// Number of rows of the history.
 const NUM_ROWS: usize = 100_000;
@@ -39,7 +37,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
             format!("{:.0} ms", time.budget_ms),
         ]);
     }
-    table.show(console);
+    console.table(&table);
     if let Some(path) = &args.json {
         let file = HistoryFile {
             schema: 1,

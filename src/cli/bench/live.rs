@@ -3,13 +3,11 @@
 use std::time::Duration;
 
 use super::{BenchArgs, write_results};
-use crate::{
-    app::headless::live_stretches,
-    cli::{
-        Outcome,
-        console::{Advised as _, Console, Table},
-    },
+use crate::cli::{
+    Outcome,
+    console::{Advised as _, Console, Table},
 };
+use app::headless::live_stretches;
 
 /// Duration of one line of the table.
 const STRETCH: Duration = Duration::from_secs(30);
@@ -55,7 +53,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
                 .map_or_else(|| "-".to_owned(), |mb| format!("{mb:.0} MB")),
         ]);
     }
-    table.show(console);
+    console.table(&table);
     if let Some(path) = &args.json {
         write_results(path, "stretches", &stretches)?;
     }

@@ -5,19 +5,17 @@ use std::path::Path;
 use serde::Serialize;
 
 use super::{BenchArgs, write_json};
-use crate::{
-    bench::paint::{PaintedPart, paint_part, seen_from_side},
-    cli::{
-        Outcome,
-        console::{Advised as _, Console, Table},
-        input::open_scene,
-    },
-    files::disk,
-    library::{EnrolParams, PartDescription, PartName, Side, enrol_captured},
-    paint::{Coat, CoatFolder, PaintSurface},
-    report::{FilmPicture, film_picture, write_png},
-    stages::reference::{Coverage, Reference, ReferenceParams},
+use crate::cli::{
+    Outcome,
+    console::{Advised as _, Console, Table},
+    input::open_scene,
 };
+use bench::paint::{PaintedPart, paint_part, seen_from_side};
+use files::disk;
+use inspection::library::{EnrolParams, PartDescription, PartName, Side, enrol_captured};
+use records::report::{FilmPicture, film_picture, write_png};
+use robot::paint::{Coat, CoatFolder, PaintSurface};
+use stages::reference::{Coverage, Reference, ReferenceParams};
 
 /// The file that `--json` writes.
 #[derive(Debug, Serialize)]
@@ -79,7 +77,7 @@ fn enrolled(file: &Path) -> anyhow::Result<Reference> {
         title: String::new(),
         notes: String::new(),
         from: file.display().to_string(),
-        at: crate::clock::now(),
+        at: geometry::clock::now(),
         simulated: false,
     };
     let found = enrol_captured(&scene, &about, &EnrolParams::default());
@@ -131,7 +129,7 @@ fn show(parts: &[PaintedPart], coat: &Coat, console: &mut Console) {
             ]);
         }
     }
-    table.show(console);
+    console.table(&table);
     console.line(&"");
     console.line(&"The planned path: carried to the part hung 15° and 10 cm off; with an error of the pose, the worst of three axes; with the nozzle tilted everywhere as far as a robot program may tilt it, the worst of four directions.");
     let mut table = Table::new(&[
@@ -154,7 +152,7 @@ fn show(parts: &[PaintedPart], coat: &Coat, console: &mut Console) {
             ]);
         }
     }
-    table.show(console);
+    console.table(&table);
 }
 
 fn draw(part: &PaintedPart, coat: &Coat, folder: &Path) -> anyhow::Result<()> {

@@ -7,23 +7,23 @@ use serde::Serialize;
 use super::{
     BenchArgs, calibration::show_bands, confusions::Pictures, systems::SystemsTable, write_json,
 };
-use crate::{
-    bench::{
-        suites::{
-            MEASURING_SEED, NearestMistake, Suite, SuiteCase, SuiteFigures, SuiteFrame,
-            SuiteLibraries, SuiteResult, run_suite,
-        },
-        systems::Systems,
+use crate::cli::{
+    Outcome,
+    console::{Advised as _, Console, Table},
+    recipe::show_recipe,
+};
+use bench::{
+    suites::{
+        MEASURING_SEED, NearestMistake, Suite, SuiteCase, SuiteFigures, SuiteFrame, SuiteLibraries,
+        SuiteResult, run_suite,
     },
-    cli::{
-        Outcome,
-        console::{Advised as _, Console, Table},
-        recipe::show_recipe,
-    },
+    systems::Systems,
+};
+use inspection::{
     library::EnrolParams,
     pipeline::{Inspection, Recipe, RecipeBlock, parameters::changed_settings},
-    stages::scene::SceneCloud,
 };
+use stages::scene::SceneCloud;
 
 /// The suites by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -278,7 +278,7 @@ fn show(results: &[SuiteResult], console: &mut Console) {
             error(0.95),
         ]);
     }
-    table.show(console);
+    console.table(&table);
     console.line(&"");
     show_bands(results, console);
     console.line(&"");
@@ -346,7 +346,7 @@ fn show_figures(figures: &[SuiteFigures], console: &mut Console) {
             ms(f.max_ms),
         ]);
     }
-    table.show(console);
+    console.table(&table);
 }
 
 /// Shows for each part the frame in which another part scored highest.
@@ -387,5 +387,5 @@ fn show_closest(closest: &[NearestMistake], console: &mut Console) {
             case.verdict(),
         ]);
     }
-    table.show(console);
+    console.table(&table);
 }

@@ -1,24 +1,21 @@
 //! `partsight bench registration`: poses of clouds that share no point.
 
-use clap::{ValueEnum, builder::PossibleValue};
 use serde::Serialize;
 
 use super::{BenchArgs, NUM_POSES, bounds::opened, write_json};
-use crate::{
-    bench::{
-        registration::{
-            Attempt, Condition, NUM_POINTS, Registration, RegistrationPart, RegistrationSetup,
-            ablation, register_all,
-        },
-        suites::MEASURING_SEED,
-    },
-    cli::{
-        Outcome,
-        console::{Console, Table},
-    },
-    geometry::statistics::quantile,
-    stages::pose::{AlignParams, PoseMethod},
+use crate::cli::{
+    Outcome,
+    console::{Console, Table},
 };
+use bench::{
+    registration::{
+        Attempt, Condition, NUM_POINTS, Registration, RegistrationPart, RegistrationSetup,
+        ablation, register_all,
+    },
+    suites::MEASURING_SEED,
+};
+use geometry::statistics::quantile;
+use stages::pose::{AlignParams, PoseMethod};
 
 /// The file that `--json` writes.
 #[derive(Debug, Serialize)]
@@ -50,29 +47,6 @@ struct Experiment {
     title: String,
     condition: Condition,
     methods: Vec<(String, AlignParams)>,
-}
-
-impl ValueEnum for Condition {
-    fn value_variants<'a>() -> &'a [Self] {
-        &Self::ALL
-    }
-
-    fn to_possible_value(&self) -> Option<PossibleValue> {
-        let (name, help) = match self {
-            Self::Whole => ("whole", "The whole part"),
-            Self::View => ("view", "One view with a Kinect's noise"),
-            Self::Hidden => ("hidden", "30 % hidden"),
-            Self::Noisy => ("noisy", "Three times the noise"),
-            Self::Stray => ("stray", "One point in ten anywhere"),
-            Self::Starts => ("starts", "From T1..T5 and random starts, with every method"),
-            Self::Resampled => (
-                "resampled",
-                "Both clouds sampled at random, few or many points",
-            ),
-            Self::Outside => ("outside", "Seen from outside, sampled likewise"),
-        };
-        Some(PossibleValue::new(name).help(help))
-    }
 }
 
 fn studies(chosen: &[Condition]) -> Vec<Experiment> {
@@ -190,7 +164,7 @@ fn show(done: &[(Experiment, Registration)], parts: &[RegistrationPart], console
                 time(0.95),
             ]);
         }
-        table.show(console);
+        console.table(&table);
         if study.methods.len() == 1 {
             by_part(registration, parts, console);
         }

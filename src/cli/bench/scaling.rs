@@ -3,16 +3,14 @@
 use anyhow::Context as _;
 
 use super::{BenchArgs, name_of, write_results};
-use crate::{
-    bench::scaling::{Scaling, scaling, sizes},
-    cli::{
-        Outcome,
-        console::{Advised as _, Console, Table},
-    },
-    pipeline::Unwatched,
-    report::{SizeCurve, curves_picture, stacked, write_png},
-    stages::rank::{Matcher, RankParams},
+use crate::cli::{
+    Outcome,
+    console::{Advised as _, Console, Table},
 };
+use bench::scaling::{Scaling, scaling, sizes};
+use inspection::pipeline::Unwatched;
+use records::report::{SizeCurve, curves_picture, stacked, write_png};
+use stages::rank::{Matcher, RankParams};
 
 pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     let most = args.most as usize;
@@ -71,7 +69,7 @@ fn show(scaling: &Scaling, console: &mut Console) {
         let first = row.num_references.to_string();
         table.row([first].into_iter().chain(times).chain([quickest]));
     }
-    table.show(console);
+    console.table(&table);
     for (workers, from) in scaling.workers.iter().zip(scaling.crossovers).skip(1) {
         let from = from.map_or_else(
             || "nowhere".into(),

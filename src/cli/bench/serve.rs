@@ -21,15 +21,13 @@ use self::{
     service::{Inspections, ServedProtocol, Service},
 };
 use super::{BenchArgs, write_json};
-use crate::{
-    bench::suites::{MEASURING_SEED, Suite},
-    cli::{
-        Outcome,
-        console::{Console, Table, advised_error},
-    },
-    geometry::statistics::quantile,
-    simulate::frame_of_mesh,
+use crate::cli::{
+    Outcome,
+    console::{Console, Table, advised_error},
 };
+use bench::suites::{MEASURING_SEED, Suite};
+use geometry::statistics::quantile;
+use simulate::frame_of_mesh;
 
 /// Default number of poses per part; each frame is triggered once in every protocol.
 const NUM_POSES: u64 = 25;
@@ -275,7 +273,7 @@ fn show_status(status: &[StatusTimes], console: &mut Console) {
         cells.extend(ratio_cells(&row.ratios));
         table.row(cells);
     }
-    table.show(console);
+    console.table(&table);
     console.line(
         &"Bytes of request and answer; bare: a thread that reads and writes as many, and does nothing else.",
     );
@@ -302,7 +300,7 @@ fn show_triggers(direct: &Times, triggers: &[TriggerTimes], console: &mut Consol
         cells.extend(ratio_cells(&row.ratios));
         table.row(cells);
     }
-    table.show(console);
+    console.table(&table);
     console.line(&format_args!(
         "{} inspections of simulated frames each, one at a time, also by several: they wait for each other.",
         direct.num

@@ -11,28 +11,30 @@ use jiff::{SignedDuration, Timestamp};
 use serde::Serialize;
 
 use super::{BenchArgs, write_json};
-use crate::{
-    bench::ProcessUsage,
-    capture::{
-        BackpressurePolicy, CaptureError, Captured, DepthSource, Feed, FeedItem, Image, NextCapture,
-    },
-    cli::{
-        Outcome,
-        console::{Advised as _, Console, Table, advised_error},
-        inspect::hung::{FollowedFrame, FollowedParts},
-        record::{HistoryChoice, HistoryRecorder, SceneOrigin},
-    },
-    geometry::{
-        depth_frame::{DepthFrame, Intrinsics},
-        statistics::quantile,
-    },
-    history::Traceability,
+use crate::cli::{
+    Outcome,
+    console::{Advised as _, Console, Table, advised_error},
+    inspect::hung::{FollowedFrame, FollowedParts},
+    record::{HistoryChoice, HistoryRecorder, SceneOrigin},
+};
+use bench::ProcessUsage;
+use capture::{
+    BackpressurePolicy, CaptureError, Captured, DepthSource, Feed, FeedItem, Image, NextCapture,
+};
+use geometry::{
+    depth_frame::{DepthFrame, Intrinsics},
+    statistics::quantile,
+};
+use inspection::{
     library::LibraryLoad,
     pipeline::{self, Inspection, NamedRecipe, Unwatched},
-    report::{InspectionLine, SizeCurve, curves_picture, write_png},
-    simulate::{CellSetup, PartKind, Side, SimulatedObject, frame},
-    stages::{reference::Reference, scene::scene_from_image},
 };
+use records::{
+    history::Traceability,
+    report::{InspectionLine, SizeCurve, curves_picture, write_png},
+};
+use simulate::{CellSetup, PartKind, Side, SimulatedObject, frame};
+use stages::{reference::Reference, scene::scene_from_image};
 
 /// Number of lines of the table.
 const NUM_STRETCHES: u64 = 20;
@@ -402,5 +404,5 @@ fn show(stretches: &[Stretch], console: &mut Console) {
             of(&|usage| usage.num_handles.to_string()),
         ]);
     }
-    table.show(console);
+    console.table(&table);
 }

@@ -7,17 +7,15 @@ use anyhow::Context as _;
 use serde::{Deserialize, Serialize};
 
 use super::{BenchArgs, recognition::Frames, write_json};
-use crate::{
-    bench::{SetTimes, StageTimes, stage_times, suites::Suite},
-    cli::{
-        Outcome,
-        console::{Advised as _, Console, Table, advised_error},
-        input::open_scene,
-    },
-    files::read_limited,
-    geometry::parallel::on_one_core,
-    pipeline::{Recipe, Timings, Unwatched, run as inspect},
+use crate::cli::{
+    Outcome,
+    console::{Advised as _, Console, Table, advised_error},
+    input::open_scene,
 };
+use bench::{SetTimes, StageTimes, stage_times, suites::Suite};
+use files::read_limited;
+use geometry::parallel::on_one_core;
+use inspection::pipeline::{Recipe, Timings, Unwatched, run as inspect};
 
 /// The file that `--json` writes.
 #[derive(Debug, Serialize)]
@@ -124,7 +122,7 @@ fn show(times: &[StageTimes], console: &mut Console) {
             format!("{:.1} ms", t.budget_ms),
         ]);
     }
-    table.show(console);
+    console.table(&table);
 }
 
 /// Shows the times of whole inspections and, given an earlier run, their ratios to it.
@@ -152,5 +150,5 @@ fn show_sets(sets: &[SetTimes], earlier: Option<&EarlierSpeed>, console: &mut Co
         }
         table.row(row);
     }
-    table.show(console);
+    console.table(&table);
 }

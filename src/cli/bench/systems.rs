@@ -2,18 +2,16 @@
 
 use serde::Serialize;
 
-use crate::{
-    bench::{
-        suites::Suite,
-        systems::{
-            PAPER_COLUMNS, PAPER_MEAN_OF_OTHERS, PAPER_MEAN_OF_OWN, PAPER_SECONDS, Preparation,
-            System, Systems, SystemsCase, paper_means,
-        },
+use crate::cli::console::{Console, Table};
+use bench::{
+    suites::Suite,
+    systems::{
+        PAPER_COLUMNS, PAPER_MEAN_OF_OTHERS, PAPER_MEAN_OF_OWN, PAPER_SECONDS, Preparation, System,
+        Systems, SystemsCase, paper_means,
     },
-    cli::console::{Console, Table},
-    geometry::statistics::quantile,
-    simulate::PartKind,
 };
+use geometry::statistics::quantile;
+use simulate::PartKind;
 
 /// Results of the systems, as `--json` writes them.
 #[derive(Debug, Serialize)]
@@ -151,7 +149,7 @@ impl SystemsTable {
             ];
             table.row(first.into_iter().chain(by_suite).chain(last));
         }
-        table.show(console);
+        console.table(&table);
         console.line(&"");
         show_paper(console);
     }
@@ -221,7 +219,7 @@ fn show_paper(console: &mut Console) {
     }
     let means = paper_means().map(|mean| format!("{mean:.3}"));
     table.row(std::iter::once("mean".to_owned()).chain(means));
-    table.show(console);
+    console.table(&table);
     console.line(&format_args!(
         "In its text: {PAPER_MEAN_OF_OTHERS} s for the four on average, {PAPER_MEAN_OF_OWN} s for its own."
     ));

@@ -6,19 +6,17 @@ use anyhow::Context as _;
 use serde::Serialize;
 
 use super::{BenchArgs, write_json};
-use crate::{
-    bench::table1::{Attempt, Row, table1},
-    cli::{
-        Outcome,
-        console::{Advised as _, Console, Table, advised_error},
-    },
-    files::write_text,
-    geometry::statistics::quantile,
-    library::Library,
-    stages::{
-        pose::{PoseMethod, displacements::DISPLACEMENTS},
-        reference::ReferenceParams,
-    },
+use crate::cli::{
+    Outcome,
+    console::{Advised as _, Console, Table, advised_error},
+};
+use bench::table1::{Attempt, Row, table1};
+use files::write_text;
+use geometry::statistics::quantile;
+use inspection::library::Library;
+use stages::{
+    pose::{PoseMethod, displacements::DISPLACEMENTS},
+    reference::ReferenceParams,
 };
 
 /// The file that `--json` writes.
@@ -134,7 +132,7 @@ fn show(rows: &[Row], console: &mut Console) {
         }
         table.row(cells);
     }
-    table.show(console);
+    console.table(&table);
     console.line(&"");
     let mut table = Table::new(&[
         "method",
@@ -160,7 +158,7 @@ fn show(rows: &[Row], console: &mut Console) {
             time(0.95),
         ]);
     }
-    table.show(console);
+    console.table(&table);
     let preparations = rows.iter().map(|row| row.preparation.as_secs_f64() * 1e3);
     if let Some(ms) = quantile(preparations, 0.5) {
         console.line(&format_args!(

@@ -1,13 +1,11 @@
 //! `partsight bench window`: processor time of a frame of the window.
 
 use super::{BenchArgs, write_results};
-use crate::{
-    app::{WindowOptions, headless::window_cost},
-    cli::{
-        Outcome,
-        console::{Advised as _, Console, Table},
-    },
+use crate::cli::{
+    Outcome,
+    console::{Advised as _, Console, Table},
 };
+use app::{WindowOptions, headless::window_cost};
 
 /// Number of frames measured of each kind.
 const NUM_FRAMES: usize = 120;
@@ -45,7 +43,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
                 .map_or_else(|| "-".to_owned(), |share| format!("{:.0} %", share * 100.0)),
         ]);
     }
-    table.show(console);
+    console.table(&table);
     if let Some(path) = &args.json {
         write_results(path, "window", &cost)?;
     }

@@ -4,24 +4,22 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::{
-    capture::may_be_capture,
-    cli::{
-        LibraryChoice,
-        console::{Advised as _, Console, advised_error},
-        input::{open_scene, warn_of},
-    },
-    error::Advice as _,
-    files::{file_name, in_counting_order},
-    pipeline::{self, Recipe, Unwatched},
-    robot::{
-        Convention,
-        hand_eye::{PosePair, Target},
-        pairs::{ArmPose, read_arm_poses},
-        part_target::{ObservedTarget, seen_part},
-    },
-    stages::reference::ReferenceParams,
+use crate::cli::{
+    LibraryChoice,
+    console::{Advised as _, Console, advised_error},
+    input::{open_scene, warn_of},
 };
+use capture::may_be_capture;
+use files::{file_name, in_counting_order};
+use geometry::error::Advice as _;
+use inspection::pipeline::{self, Recipe, Unwatched};
+use robot::{
+    Convention,
+    hand_eye::{PosePair, Target},
+    pairs::{ArmPose, read_arm_poses},
+    part_target::{ObservedTarget, seen_part},
+};
+use stages::reference::ReferenceParams;
 
 /// What the camera saw, where it is not in the file of pairs.
 #[derive(Debug, Args)]

@@ -11,20 +11,17 @@ use super::{
     keep,
     show::matrix,
 };
-use crate::{
-    cli::{
-        console::{Advised as _, Table, advised_error},
-        input::parse_convention,
-    },
-    error::Advice as _,
-    geometry::rigid::row_major,
-    report::SCHEMA,
-    robot::{
-        Convention,
-        calibration::{CalibrationFit, CameraPlace, Origin},
-        hand_eye::{HandEye, Mount, PosePair, Target, solve},
-        pairs::{PairConventions, read_pairs},
-    },
+use crate::cli::{
+    console::{Advised as _, Table, advised_error},
+    input::parse_convention,
+};
+use geometry::{error::Advice as _, rigid::row_major};
+use records::report::SCHEMA;
+use robot::{
+    Convention,
+    calibration::{CalibrationFit, CameraPlace, Origin},
+    hand_eye::{HandEye, Mount, PosePair, Target, solve},
+    pairs::{PairConventions, read_pairs},
 };
 
 /// Calculate the camera's pose from pairs of robot and camera poses
@@ -168,7 +165,7 @@ fn show(solved: &HandEye, console: &mut Console) {
         format!("{:.3}", residuals.rms.shift.mm()),
         format!("{:.4}", residuals.rms.rotation.degrees()),
     ]);
-    table.show(console);
+    console.table(&table);
     let span = &solved.span;
     let text = format!(
         "the flange turned by {:.0}° at most, about other axes than its main one by {:.0}° (rms); the target moved by \

@@ -6,17 +6,15 @@ use clap::Args;
 use serde::Serialize;
 
 use super::{Console, Outcome, path_of};
-use crate::{
-    cli::{
-        console::{Advised as _, in_columns},
-        input::parse_convention,
-    },
-    geometry::rigid::{RigidTransform, row_major},
-    report::SCHEMA,
-    robot::{
-        Convention,
-        calibration::{CalibrationError, CameraPlace, CellCalibration, Origin, ReadCalibration},
-    },
+use crate::cli::{
+    console::{Advised as _, in_columns},
+    input::parse_convention,
+};
+use geometry::rigid::{RigidTransform, row_major};
+use records::report::SCHEMA;
+use robot::{
+    Convention,
+    calibration::{CalibrationError, CameraPlace, CellCalibration, Origin, ReadCalibration},
 };
 
 /// Show the calibration: where the camera sits, and how that is known
@@ -45,7 +43,7 @@ struct Line<'a> {
     calibration: String,
     name: &'a str,
     identity: String,
-    mount: crate::robot::hand_eye::Mount,
+    mount: robot::hand_eye::Mount,
     robot_from_camera: Option<[f64; 16]>,
     flange_from_camera: Option<[f64; 16]>,
     robot_from_flange: Option<[f64; 16]>,

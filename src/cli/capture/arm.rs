@@ -9,15 +9,13 @@ use std::{
 
 use clap::Args;
 
-use crate::{
-    capture::Captured,
-    cli::{
-        console::{Advised as _, Console, advised_error},
-        input::parse_robot_pose,
-    },
-    geometry::rigid::RigidTransform,
-    robot::{WrittenPose, pairs::read_arm_poses, parse_written_pose},
+use crate::cli::{
+    console::{Advised as _, Console, advised_error},
+    input::parse_robot_pose,
 };
+use capture::Captured;
+use geometry::rigid::RigidTransform;
+use robot::{WrittenPose, pairs::read_arm_poses, parse_written_pose};
 
 /// Options about the arm that carries the camera.
 #[derive(Debug, Args)]

@@ -3,13 +3,13 @@
 use serde::Serialize;
 
 use super::ShowArgs;
-use crate::{
-    cli::console::{Advised as _, Console, Table, advised_error},
-    history::{Differences, History, InspectionSummary, ParameterChange, Record},
-    pipeline::{self, Unwatched, scan::run_scan},
+use crate::cli::console::{Advised as _, Console, Table, advised_error};
+use geometry::units::{Metres, Radians};
+use inspection::pipeline::{self, Unwatched, scan::run_scan};
+use records::history::{Differences, History, InspectionSummary, ParameterChange, Record};
+use stages::{
+    reference::Reference,
     scan::{ScanParams, assemble},
-    stages::reference::Reference,
-    units::{Metres, Radians},
 };
 
 pub(super) fn run(
@@ -124,7 +124,7 @@ pub(super) fn show(found: &Differences, names: [&str; 2], console: &mut Console)
         } = change;
         table.row([key.to_owned(), before, now, "changed".to_owned()]);
     }
-    table.show(console);
+    console.table(&table);
     if let Some(off) = pose {
         let (Metres(shift), Radians(turn)) = (off.shift, off.rotation);
         console.line(&format_args!(

@@ -1,13 +1,13 @@
 //! `partsight history export`: writes inspections as a table or as cases.
 
 use super::ExportArgs;
-use crate::{
+use crate::cli::{
+    Outcome,
+    console::{Advised as _, Console, advised_error},
+    input::open_case_folder,
+};
+use records::{
     cases::{PastCases, TruthFrom},
-    cli::{
-        Outcome,
-        console::{Advised as _, Console, advised_error},
-        input::open_case_folder,
-    },
     history::{History, write_table},
 };
 

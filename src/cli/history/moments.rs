@@ -4,12 +4,12 @@ use jiff::{Span, Timestamp, Zoned, civil, tz::TimeZone};
 
 /// Parses the beginning of a range.
 pub(super) fn parse_since(text: &str) -> Result<Timestamp, String> {
-    parse(text, &crate::clock::zoned_now()).map(|[first, _]| first)
+    parse(text, &geometry::clock::zoned_now()).map(|[first, _]| first)
 }
 
 /// Parses the end of a range: the end of the day, or just after the given time.
 pub(super) fn parse_until(text: &str) -> Result<Timestamp, String> {
-    parse(text, &crate::clock::zoned_now()).map(|[_, end]| end)
+    parse(text, &geometry::clock::zoned_now()).map(|[_, end]| end)
 }
 
 /// Returns the first time that is meant, and the first one after it that is not.
@@ -82,7 +82,7 @@ mod tests {
 
     #[test]
     fn nonsense_is_refused_with_what_is_expected() {
-        let now = crate::clock::zoned_now();
+        let now = geometry::clock::zoned_now();
         for text in ["", "yesterday", "xd", "2026-13-01", "-3d"] {
             let refused = parse(text, &now).expect_err(text);
             assert!(refused.contains("2026-11-20"), "{refused}");

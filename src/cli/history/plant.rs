@@ -7,15 +7,13 @@ use super::{
     show::{ReadFrom, card, record_line},
     show_rows,
 };
-use crate::{
-    cli::{
-        Outcome,
-        console::{Advised as _, Console, advised_error},
-        database::{DatabaseFiles, parse_cell},
-    },
-    history::{History, HistoryError, Record, write_cells_table},
-    plant::database::{BATCH, CellHistory, CellName, Database, TransferError},
+use crate::cli::{
+    Outcome,
+    console::{Advised as _, Console, advised_error},
+    database::{DatabaseFiles, parse_cell},
 };
+use plant::database::{BATCH, CellHistory, CellName, Database, TransferError};
+use records::history::{History, HistoryError, Record, write_cells_table};
 
 /// Which database is read instead of the history here.
 #[derive(Debug, Args)]

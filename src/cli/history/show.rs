@@ -6,17 +6,17 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::{ShowArgs, again, here};
-use crate::{
-    cli::{
-        Outcome,
-        console::{Advised as _, Console, Table, in_columns, marked_simulated},
-    },
-    history::{
-        Differences, FrameRecord, History, InspectionDetail, InspectionSummary, Record,
-        StoredRefusal, Summary, Traceability,
-    },
+use crate::cli::{
+    Outcome,
+    console::{Advised as _, Console, Table, in_columns, marked_simulated},
+};
+use inspection::{
     library::Truth,
     pipeline::{RefusalKind, is_like},
+};
+use records::history::{
+    Differences, FrameRecord, History, InspectionDetail, InspectionSummary, Record, StoredRefusal,
+    Summary, Traceability,
 };
 
 /// Version of the JSON lines.
@@ -239,7 +239,7 @@ fn shot_paths(from: ReadFrom<'_>, record: &Record) -> Vec<String> {
 
 /// Shows an inspection, and how the re-inspections below it differ.
 pub(super) fn card(from: ReadFrom<'_>, record: &Record, below: &[Record], console: &mut Console) {
-    record_table(from, record).show(console);
+    console.table(&record_table(from, record));
     let number = |record: &Record| format!("NUMBER {}", record.summary.number);
     for other in below {
         console.line(&"");

@@ -5,14 +5,12 @@ use std::{sync::Arc, time::Duration};
 use jiff::Timestamp;
 use nalgebra::Point3;
 
-use crate::{
-    history::{HungId, HungRows, NewEntry},
-    pipeline::{
-        AcceptParams, Inspection, Verdict,
-        live::{FrameRole, HungFrame, LiveParams, LiveTracker, MotionState, refuse_moving},
-    },
-    stages::{field_of_view::FieldOfView, scene::SceneCloud},
+use inspection::pipeline::{
+    AcceptParams, Inspection, Verdict,
+    live::{FrameRole, HungFrame, LiveParams, LiveTracker, MotionState, refuse_moving},
 };
+use records::history::{HungId, HungRows, NewEntry};
+use stages::{field_of_view::FieldOfView, scene::SceneCloud};
 
 /// Tells successive parts apart.
 pub(in crate::cli) struct FollowedParts<E = NewEntry> {
@@ -117,12 +115,12 @@ mod tests {
     use jiff::SignedDuration;
 
     use super::*;
-    use crate::{
-        capture::{CellScene, SimulatedCell, SimulatedSpec},
-        kit::shipped_library,
+    use capture::{CellScene, SimulatedCell, SimulatedSpec};
+    use inspection::{
+        fixtures::shipped_library,
         pipeline::{Recipe, Unwatched, run},
-        stages::scene::scene_from_image,
     };
+    use stages::scene::scene_from_image;
 
     #[test]
     fn a_frame_of_a_part_that_swings_in_is_refused_and_one_of_a_part_at_rest_is_not() {

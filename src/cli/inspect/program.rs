@@ -5,18 +5,16 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::spray::{SprayResult, check_placed_part};
-use crate::{
-    cli::{
-        Outcome,
-        console::{Advised as _, Console, advised_error, store_a_path},
-        program::{ProgramFile, ProgramOptions, ProgramSubject, parse_format},
-    },
-    library::{LibraryLoad, LibraryPlace, PartMeta},
-    robot::{RobotFrame, program::ProgramFormat, spray::carry},
-    station::{
-        Currency,
-        robot_file::{CapturedPart, remove_previous},
-    },
+use crate::cli::{
+    Outcome,
+    console::{Advised as _, Console, advised_error, store_a_path},
+    program::{ProgramFile, ProgramOptions, ProgramSubject, parse_format},
+};
+use inspection::library::{LibraryLoad, LibraryPlace, PartMeta};
+use robot::{RobotFrame, program::ProgramFormat, spray::carry};
+use station::{
+    Currency,
+    robot_file::{CapturedPart, remove_previous},
 };
 
 /// Whether and how a program is written.

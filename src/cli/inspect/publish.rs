@@ -1,22 +1,22 @@
 //! What `inspect --source --mqtt` publishes: the inspection of each part that the history keeps, and the camera's
 //! status.
 
-use crate::{
-    capture::{Captured, FeedState, SkippedCapture, SourceSpec},
-    cli::{
-        console::{Console, advised_error},
-        mqtt::{ChosenBroker, end_link, show_news},
-    },
-    error::Fault,
-    history::Traceability,
+use crate::cli::{
+    console::{Console, advised_error},
+    mqtt::{ChosenBroker, end_link, show_news},
+};
+use capture::{Captured, FeedState, SkippedCapture, SourceSpec};
+use geometry::error::Fault;
+use inspection::{
     library::{LibraryLoad, LibraryPlace},
     pipeline::{Inspection, Recipe},
-    plant::mqtt::MqttLink,
-    robot::RobotFrame,
-    serve::{
-        CameraStatus, Found, FrameOrigin, InspectionRecorder, NewFrame, NoFrame, PartFinder,
-        ServerSettings, Trouble,
-    },
+};
+use plant::mqtt::MqttLink;
+use records::history::Traceability;
+use robot::RobotFrame;
+use serve::{
+    CameraStatus, Found, FrameOrigin, InspectionRecorder, NewFrame, NoFrame, PartFinder,
+    ServerSettings, Trouble,
 };
 
 use super::InspectArgs;

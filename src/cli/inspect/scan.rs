@@ -1,25 +1,25 @@
 //! `partsight inspect --scan`: one verdict from several frames.
 
 use super::InspectArgs;
-use crate::{
-    cli::record::{HistoryRecorder, SceneOrigin},
-    cli::{
-        Outcome,
-        console::{Advised as _, Console},
-        recipe::show_recipe,
-        scan::open_scan,
-        verdict::{show_card, show_in_robot},
-    },
-    geometry::rigid::row_major,
-    history::HungId,
-    pipeline::{
-        Unwatched,
-        scan::{ScanInspection, run_scan},
-    },
-    report::{InspectionLine, ScanLine},
-    robot::RobotFrame,
-    scan::part::require_two_to_show_part,
+use crate::cli::{
+    Outcome,
+    console::{Advised as _, Console},
+    recipe::show_recipe,
+    record::{HistoryRecorder, SceneOrigin},
+    scan::open_scan,
+    verdict::{show_card, show_in_robot},
 };
+use geometry::rigid::row_major;
+use inspection::pipeline::{
+    Unwatched,
+    scan::{ScanInspection, run_scan},
+};
+use records::{
+    history::HungId,
+    report::{InspectionLine, ScanLine},
+};
+use robot::RobotFrame;
+use stages::scan::part::require_two_to_show_part;
 
 pub(super) fn inspect(args: &InspectArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     let recipe = args.recipe.recipe()?;

@@ -8,28 +8,30 @@ use super::{
     hung::{FollowedFrame, FollowedParts},
     program, spray,
 };
-#[cfg(feature = "plant")]
-use crate::serve::Found;
-use crate::{
-    cli::{
-        Outcome,
-        console::{Advised as _, Console, marked_simulated},
-        input::{OpenedScene, before, warn_of},
-        output::OutputFormat,
-        recipe::show_recipe,
-        record::{HistoryRecorder, SceneOrigin},
-        verdict::show_in_robot,
-    },
-    error::{Advice, guarded},
-    history::{HungId, NewEntry, Traceability},
+use crate::cli::{
+    Outcome,
+    console::{Advised as _, Console, marked_simulated},
+    input::{OpenedScene, before, warn_of},
+    output::OutputFormat,
+    recipe::show_recipe,
+    record::{HistoryRecorder, SceneOrigin},
+    verdict::show_in_robot,
+};
+use geometry::error::{Advice, guarded};
+use inspection::{
     library::Library,
     pipeline::{self, Inspection, MirrorTally, NamedRecipe, Unwatched},
+};
+use records::{
+    history::{HungId, NewEntry, Traceability},
     report::{CaptureLine, InspectionLine, Picture, ReportFolder, stage_pictures},
-    robot::RobotFrame,
-    stages::{
-        reference::Reference,
-        scene::{EmptyCell, SceneCloud},
-    },
+};
+use robot::RobotFrame;
+#[cfg(feature = "plant")]
+use serve::Found;
+use stages::{
+    reference::Reference,
+    scene::{EmptyCell, SceneCloud},
 };
 
 /// State shared by all files or frames of a call.

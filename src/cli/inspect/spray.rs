@@ -4,24 +4,24 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::{
-    cli::{
-        Outcome,
-        console::{Advised as _, Console, advised_error, store_a_path},
-        input::parse_convention,
-        robot_file,
-    },
+use crate::cli::{
+    Outcome,
+    console::{Advised as _, Console, advised_error, store_a_path},
+    input::parse_convention,
+    robot_file,
+};
+use inspection::{
     library::{Library, LibraryLoad, LibraryPlace, PartMeta},
     pipeline::Inspection,
-    robot::{
-        Convention, RobotFrame,
-        spray::{carry, default_path, off_the_part},
-    },
-    stages::stand_off::StandOffParams,
-    station::{
-        Currency,
-        robot_file::{CapturedPart, RobotFile, RobotFileContent, remove_previous},
-    },
+};
+use robot::{
+    Convention, RobotFrame,
+    spray::{carry, default_path, off_the_part},
+};
+use stages::stand_off::StandOffParams;
+use station::{
+    Currency,
+    robot_file::{CapturedPart, RobotFile, RobotFileContent, remove_previous},
 };
 
 /// Whether and how the spray path is written.

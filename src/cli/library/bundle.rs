@@ -7,14 +7,12 @@ use jiff::Timestamp;
 use serde::Serialize;
 
 use super::{Console, LibraryChoice, Outcome, Table};
-use crate::{
-    cli::console::Advised as _,
-    files::file_name,
-    library::{LibraryFolder, LibraryPlace, PartName, PartNumbers},
-    plant::bundle::{
-        self, BundleError, BundleStore, Installed, KeyFiles, LocalPart, LocalParts, Manifest,
-        PublishedVersion, SigningKey, StoreAddress, Take, TakenBundle, TrustedKey, make_keys,
-    },
+use crate::cli::console::Advised as _;
+use files::file_name;
+use inspection::library::{LibraryFolder, LibraryPlace, PartName, PartNumbers};
+use plant::bundle::{
+    self, BundleError, BundleStore, Installed, KeyFiles, LocalPart, LocalParts, Manifest,
+    PublishedVersion, SigningKey, StoreAddress, Take, TakenBundle, TrustedKey, make_keys,
 };
 
 /// Make the keys that sign and verify versions of a library
@@ -309,7 +307,7 @@ pub(super) fn versions(
         ]);
     }
     if !versions.is_empty() && !args.json {
-        table.show(console);
+        console.table(&table);
     }
     Ok(outcome)
 }

@@ -1,17 +1,16 @@
 //! `partsight library path`: stores, shows and removes the spray path of a part.
 
+use crate::cli::input::parse_name;
 use std::path::PathBuf;
 
 use clap::Args;
 
 use super::{Console, LibraryChoice, Outcome};
-use crate::{
-    cli::{console::Advised as _, read_part},
-    library::{PartName, SprayPath},
-    robot::spray::{BandStatus, against_reference, off_the_part},
-    stages::{reference::Reference, stand_off::StandOffParams},
-    units::counted,
-};
+use crate::cli::{console::Advised as _, read_part};
+use geometry::units::counted;
+use inspection::library::{PartName, SprayPath};
+use robot::spray::{BandStatus, against_reference, off_the_part};
+use stages::{reference::Reference, stand_off::StandOffParams};
 
 /// Store the nozzle's path over a part, or show what is stored
 #[derive(Debug, Args)]
@@ -34,6 +33,7 @@ Exit code 1 if the path does not aim at the part: it is stored, but programs of 
 are refused, and `serve` does not send it.")]
 pub(super) struct PathArgs {
     /// Name of the part
+    #[arg(value_parser = parse_name)]
     name: PartName,
     /// The path; without it, the stored one is shown
     #[arg(value_name = "FILE", conflicts_with = "remove")]

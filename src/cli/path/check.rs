@@ -1,41 +1,43 @@
 //! `partsight path check`: checks that an arm reaches a part's path in its standard position.
 
+use crate::cli::input::parse_name;
 use std::{cell::RefCell, cmp::Ordering};
 
 use clap::Args;
 use nalgebra::Translation3;
 use serde_json::json;
 
-use crate::{
-    cli::{
-        LibraryChoice, Outcome,
-        calibrate::CalibrationChoice,
-        console::{Advised as _, Console, advised_error, store_a_path},
-        input::parse_nozzle_pose,
-        program::{CellChoice, parse_approach, parse_speed},
-        read_part,
-    },
-    geometry::rigid::RigidTransform,
-    library::PartName,
-    report::SCHEMA,
-    robot::{
-        Convention, WrittenPose,
-        arm::{
-            Arm, PathCheck, PlaceSuggestion, PlacedArm, PointCheck, PointProblem, Way, check_path,
-            suggest_base, suggest_rail,
-        },
-        program::{ProgramSettings, arm_points},
-        spray::carry,
-    },
-    stages::stand_off::StandOffParams,
-    station::robot_file::Unchecked,
+use crate::cli::{
+    LibraryChoice, Outcome,
+    calibrate::CalibrationChoice,
+    console::{Advised as _, Console, advised_error, store_a_path},
+    input::parse_nozzle_pose,
+    program::{CellChoice, parse_approach, parse_speed},
+    read_part,
+};
+use geometry::{
+    rigid::RigidTransform,
     units::{Metres, counted},
 };
+use inspection::library::PartName;
+use records::report::SCHEMA;
+use robot::{
+    Convention, WrittenPose,
+    arm::{
+        Arm, PathCheck, PlaceSuggestion, PlacedArm, PointCheck, PointProblem, Way, check_path,
+        suggest_base, suggest_rail,
+    },
+    program::{ProgramSettings, arm_points},
+    spray::carry,
+};
+use stages::stand_off::StandOffParams;
+use station::robot_file::Unchecked;
 
 /// Check that an arm reaches the stored path of a part in its standard position without collisions
 #[derive(Debug, Args)]
 pub(super) struct CheckArgs {
     /// Name of the part
+    #[arg(value_parser = parse_name)]
     part: PartName,
     /// The arm: kr6-r900, m-20ia, irb2600, irb4600, gp25, or a TOML file
     #[arg(long, value_name = "ARM")]
@@ -325,7 +327,7 @@ fn better_places(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::robot::arm::Obstacles;
+    use robot::arm::Obstacles;
 
     fn point(problem: Option<PointProblem>) -> PointCheck {
         PointCheck {

@@ -1,29 +1,29 @@
 //! `partsight path export`: writes the stored path of a part in its standard position as a program for the robot's
 //! controller.
 
+use crate::cli::input::parse_name;
 use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::{
-    cli::{
-        LibraryChoice, Outcome,
-        calibrate::CalibrationChoice,
-        console::{Advised as _, Console, advised_error},
-        program::{ProgramOptions, ProgramSubject, parse_format},
-        read_part,
-    },
-    geometry::rigid::RigidTransform,
-    library::PartName,
-    robot::{program::ProgramFormat, spray::carry},
-    stages::stand_off::StandOffParams,
-    station::robot_file::remove_previous,
+use crate::cli::{
+    LibraryChoice, Outcome,
+    calibrate::CalibrationChoice,
+    console::{Advised as _, Console, advised_error},
+    program::{ProgramOptions, ProgramSubject, parse_format},
+    read_part,
 };
+use geometry::rigid::RigidTransform;
+use inspection::library::PartName;
+use robot::{program::ProgramFormat, spray::carry};
+use stages::stand_off::StandOffParams;
+use station::robot_file::remove_previous;
 
 /// Write the stored path of a part, hung as it was enrolled, as a program for the robot's controller
 #[derive(Debug, Args)]
 pub(super) struct ExportArgs {
     /// Name of the part
+    #[arg(value_parser = parse_name)]
     part: PartName,
     /// Language of the program, if the file's ending does not give it: krl, ls, rapid, urscript, jbi or drl
     #[arg(long = "as", value_name = "FORMAT", value_parser = parse_format)]

@@ -5,15 +5,12 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::paint::CoatChoice;
-use crate::{
-    cli::{
-        Outcome,
-        console::{Advised as _, Console, advised_error},
-    },
-    library::PartName,
-    paint::{Coat, Profile, fit_stripe, read_stripe},
-    pipeline::RecipeFile,
+use crate::cli::{
+    Outcome,
+    console::{Advised as _, Console, advised_error},
 };
+use inspection::{library::PartName, pipeline::RecipeFile};
+use robot::paint::{Coat, Profile, fit_stripe, read_stripe};
 
 /// Fit the gun of a coat to a measured stripe: pattern width, transfer efficiency, and Gaussian or beta profile
 #[derive(Debug, Args)]

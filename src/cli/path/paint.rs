@@ -1,31 +1,35 @@
 //! `partsight path plan` and `path simulate`: a path over an enrolled part, and the resulting film.
 
+use crate::cli::input::parse_name;
 use std::path::PathBuf;
 
 use clap::Args;
 use nalgebra::Point3;
 use serde_json::json;
 
-use crate::{
-    cli::{
-        LibraryChoice, Outcome,
-        console::{Advised as _, Console, advised_error},
-        input::parse_side,
-        read_part,
-        recipe::parse_setting,
-    },
-    files::write_text,
+use crate::cli::{
+    LibraryChoice, Outcome,
+    console::{Advised as _, Console, advised_error},
+    input::parse_side,
+    read_part,
+    recipe::parse_setting,
+};
+use files::write_text;
+use geometry::units::counted;
+use inspection::{
     library::{PartName, Side, SprayPath, StoredPart},
-    paint::{Coat, CoatFolder, Film, KeepOut, LEAST_WITHIN, PaintSurface, plan, propose, simulate},
     pipeline::parameters::Setting,
-    report::SCHEMA,
-    units::counted,
+};
+use records::report::SCHEMA;
+use robot::paint::{
+    Coat, CoatFolder, Film, KeepOut, LEAST_WITHIN, PaintSurface, plan, propose, simulate,
 };
 
 /// Plan a spray path over the side of a part that was seen when it was enrolled, and simulate its film
 #[derive(Debug, Args)]
 pub(super) struct PlanArgs {
     /// Name of the part
+    #[arg(value_parser = parse_name)]
     part: PartName,
     #[command(flatten)]
     coat: CoatChoice,
@@ -54,6 +58,7 @@ pub(super) struct PlanArgs {
 #[derive(Debug, Args)]
 pub(super) struct SimulateArgs {
     /// Name of the part
+    #[arg(value_parser = parse_name)]
     part: PartName,
     #[command(flatten)]
     coat: CoatChoice,

@@ -2,12 +2,10 @@
 
 use serde::Serialize;
 
-use crate::{
-    cli::console::{Console, Table},
-    geometry::rigid::row_major,
-    report::SCHEMA,
-    scan::{Excluded, FusedCloud, Overlap, Scan, ScannedShot},
-};
+use crate::cli::console::{Console, Table};
+use geometry::rigid::row_major;
+use records::report::SCHEMA;
+use stages::scan::{Excluded, FusedCloud, Overlap, Scan, ScannedShot};
 
 /// JSON line of `scan --json`; metres and radians.
 #[derive(Debug, Serialize)]
@@ -120,7 +118,7 @@ pub(super) fn show(scan: &Scan, part: &FusedCloud, console: &mut Console) {
             remark.to_owned(),
         ]);
     }
-    table.show(console);
+    console.table(&table);
     for (what, before, after) in [
         ("all surfaces", scan.before.all, scan.after.all),
         ("the part", scan.before.part, scan.after.part),

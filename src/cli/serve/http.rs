@@ -4,12 +4,10 @@ use std::{net::SocketAddr, path::PathBuf};
 
 use clap::Args;
 
-use crate::{
-    cli::console::{Advised as _, Console, with_advice},
-    plant::http::{HttpError, HttpServer, HttpSettings, Tls, Tokens},
-    robot::Convention,
-    serve::{ServerHandle, parse_address},
-};
+use crate::cli::console::{Advised as _, Console, with_advice};
+use plant::http::{HttpError, HttpServer, HttpSettings, Tls, Tokens};
+use robot::Convention;
+use serve::{ServerHandle, parse_address};
 
 #[derive(Debug, Args)]
 pub(super) struct HttpArgs {

@@ -11,35 +11,36 @@ use super::{
     show_numbers,
     take::{LibraryTaker, TakenLibrary},
 };
-use crate::{
-    capture::{CaptureWarning, Captured, FeedState, Image},
-    cli::{
-        Outcome,
-        console::{Console, advised_error},
-        input::before,
-        interrupt::Interrupt,
-        output::OutputFormat,
-        record::{HistoryRecorder, SceneOrigin},
-    },
-    error::{Advice as _, guarded},
-    history::{HungId, Traceability},
+#[cfg(feature = "plant")]
+use crate::cli::mqtt::{end_link, show_news};
+use crate::cli::{
+    Outcome,
+    console::{Console, advised_error},
+    input::before,
+    interrupt::Interrupt,
+    output::OutputFormat,
+    record::{HistoryRecorder, SceneOrigin},
+};
+use capture::{CaptureWarning, Captured, FeedState, Image};
+use geometry::error::{Advice as _, guarded};
+use inspection::{
     library::Library,
     pipeline::{self, Inspection, MirrorTally, NamedRecipe, Unwatched},
-    report::{CaptureLine, InspectionLine},
-    serve::{
-        Asked, Camera, ClientEvent, ClientNews, Found, InspectionRecord, Inspector, NoFrame,
-        PartFinder, Trouble, VerdictCode,
-    },
-    stages::{
-        field_of_view::FieldOfView,
-        reference::Reference,
-        scene::{EmptyCell, SceneCloud, scene_from_image},
-    },
 };
 #[cfg(feature = "plant")]
-use crate::{
-    cli::mqtt::{end_link, show_news},
-    plant::mqtt::{LibraryMessage, MqttLink},
+use plant::mqtt::{LibraryMessage, MqttLink};
+use records::{
+    history::{HungId, Traceability},
+    report::{CaptureLine, InspectionLine},
+};
+use serve::{
+    Asked, Camera, ClientEvent, ClientNews, Found, InspectionRecord, Inspector, NoFrame,
+    PartFinder, Trouble, VerdictCode,
+};
+use stages::{
+    field_of_view::FieldOfView,
+    reference::Reference,
+    scene::{EmptyCell, SceneCloud, scene_from_image},
 };
 
 /// The inspections of a service, on the thread that runs its server.

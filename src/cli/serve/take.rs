@@ -9,22 +9,19 @@ use std::{
 
 use clap::Args;
 
-use crate::{
-    cli::{
-        console::{Advised as _, Console, advice_of, advised_error},
-        input::within,
-        library::open_store,
-        numbers::NumbersChoice,
-    },
-    error::guarded,
-    library::{LibraryFolder, LibraryLoad, LibraryPlace},
-    plant::bundle::{
-        self, BundleError, BundleStore, Installed, LocalParts, Manifest, Take, TakenBundle,
-        TrustedKey,
-    },
-    serve::{LibraryStatus, NumberedPart, ServeError, ServerHandle, Trouble},
-    stages::reference::ReferenceParams,
+use crate::cli::{
+    console::{Advised as _, Console, advice_of, advised_error},
+    input::within,
+    library::open_store,
+    numbers::NumbersChoice,
 };
+use geometry::error::guarded;
+use inspection::library::{LibraryFolder, LibraryLoad, LibraryPlace};
+use plant::bundle::{
+    self, BundleError, BundleStore, Installed, LocalParts, Manifest, Take, TakenBundle, TrustedKey,
+};
+use serve::{LibraryStatus, NumberedPart, ServeError, ServerHandle, Trouble};
+use stages::reference::ReferenceParams;
 
 /// The reason in the status if a version could not be taken.
 const NOT_TAKEN: &str = "library_not_taken";

@@ -5,17 +5,15 @@ use std::path::Path;
 use jiff::Timestamp;
 
 use super::SimulateArgs;
-use crate::{
-    cases::{CaseDescription, FoundVerdict, TruePose, Truth},
-    cli::{
-        Outcome,
-        console::{Advised as _, Console, advised_error},
-        input::open_case_folder,
-    },
-    library::shipped_enrolled_at,
-    simulate::{PartPose, PoseRange, Side, SimulatedFrame, SimulatedObject, frame},
-    stages::scene::scene_from_frame,
+use crate::cli::{
+    Outcome,
+    console::{Advised as _, Console, advised_error},
+    input::open_case_folder,
 };
+use inspection::library::shipped_enrolled_at;
+use records::cases::{CaseDescription, FoundVerdict, TruePose, Truth};
+use simulate::{PartPose, PoseRange, Side, SimulatedFrame, SimulatedObject, frame};
+use stages::scene::scene_from_frame;
 
 /// Writes `--num` cases that cycle through the objects, then through the placements, each with its own seed.
 pub(super) fn run(

@@ -6,18 +6,18 @@ use std::{collections::BTreeSet, path::Path};
 use serde_json::json;
 
 use super::SimulateArgs;
-use crate::{
-    cli::{
-        Outcome,
-        console::{Advised as _, Console, advised_error},
-        write_json,
-    },
-    files::{depth_png::intrinsics_path, disk, file_name, write_depth_png},
-    geometry::rigid::row_major,
-    robot::frame_poses::FRAME_POSES,
-    simulate::{ScanSetup, SimulatedScan},
+use crate::cli::{
+    Outcome,
+    console::{Advised as _, Console, advised_error},
+    write_json,
+};
+use files::{depth_png::intrinsics_path, disk, file_name, write_depth_png};
+use geometry::{
+    rigid::row_major,
     units::{Metres, Radians},
 };
+use robot::frame_poses::FRAME_POSES;
+use simulate::{ScanSetup, SimulatedScan};
 
 /// Typical errors of the poses that a robot reports.
 const PLACE_ERROR: Metres = Metres(0.003);

@@ -14,25 +14,24 @@ use std::{
 use anyhow::Context as _;
 
 use super::client::{Client, Framing, busy_rate};
-#[cfg(feature = "plant")]
-use crate::plant::http::{HttpServer, HttpSettings, Tokens};
-use crate::{
-    bench::suites::enrol_standard_parts,
-    cli::console::Advised as _,
-    error::lock,
-    geometry::{depth_frame::DepthFrame, rigid::RigidTransform},
+use crate::cli::console::Advised as _;
+use bench::suites::enrol_standard_parts;
+use geometry::{depth_frame::DepthFrame, error::lock, rigid::RigidTransform};
+use inspection::{
     library::{EnrolParams, Library},
     pipeline::{self, NamedRecipe, Unwatched},
-    report::InspectionLine,
-    robot::{Convention, RobotFrame},
-    serve::{
-        ANSWER_BYTES, Asked, ByteOrder, CameraStatus, Found, FrameOrigin, Inspector, ListenAddress,
-        Listener, NumberedPart, PartFinder, PoseKind, Protocol, Request, Server, ServerSettings,
-        binary_request, parse_address,
-    },
-    simulate::{CellSetup, PartKind, Side, frame},
-    stages::scene::scene_from_frame,
 };
+#[cfg(feature = "plant")]
+use plant::http::{HttpServer, HttpSettings, Tokens};
+use records::report::InspectionLine;
+use robot::{Convention, RobotFrame};
+use serve::{
+    ANSWER_BYTES, Asked, ByteOrder, CameraStatus, Found, FrameOrigin, Inspector, ListenAddress,
+    Listener, NumberedPart, PartFinder, PoseKind, Protocol, Request, Server, ServerSettings,
+    binary_request, parse_address,
+};
+use simulate::{CellSetup, PartKind, Side, frame};
+use stages::scene::scene_from_frame;
 
 /// Longer than any connection waits for its turn.
 const PATIENCE: Duration = Duration::from_mins(10);

@@ -1,0 +1,572 @@
+//! The window as eframe drives it: polls tasks, draws the last results, applies the user's actions.
+
+use std::{io, path::PathBuf, sync::Arc, time::Duration};
+
+use eframe::egui_wgpu::RenderState;
+use egui::{CentralPanel, Frame, LayerId, Ui};
+
+use super::{
+    inspection::{camera::Camera, inspected::Inspected, library_cache::LibraryCache},
+    shell::{
+        action::{Action, DialogRequest, Effect, apply, remove_notices},
+        closing::{self, Closing},
+        context::Services,
+        current_trace, dialogs,
+        file_dialog::{DialogLock, FileDialog},
+        inspector, keys,
+        live::{self, LiveAction},
+        message::{Event, Message},
+        notice::{Notice, NoticeTopic},
+        notices, operator_bars, path_entry, rail,
+        robot::RobotCell,
+        roles::{self, RoleAction},
+        scanner::{self, KeyTarget},
+        session::{Source, ThemeChoice, UserRole, WorkspaceKind},
+        settings,
+        settings_file::Memory,
+        shift,
+        state::State,
+        top_bar,
+        workspace::Workspace,
+    },
+    task::TaskRunner,
+    ui::{
+        theme::Theme,
+        viewport::{ViewError, ViewportGpu},
+    },
+    user_error::UserError,
+    workspaces::{
+        align::AlignWorkspace,
+        compare::CompareWorkspace,
+        enrol::EnrolWorkspace,
+        history::HistoryWorkspace,
+        inspect::{InspectWorkspace, WorkCounts},
+        paint::PaintWorkspace,
+    },
+};
+use crate::language::{Language, text};
+use files::file_of;
+use inspection::pipeline::{RecipeFolder, open_recipe};
+use records::history::{HistoryBuffer, Writer};
+use robot::{cell_check::CellCheckFolder, frame_poses::FRAME_POSES};
+
+mod data_lock;
+mod hosting;
+
+use self::data_lock::DataLock;
+
+/// Options for opening the window.
+#[derive(Clone, Debug, Default)]
+pub struct WindowOptions {
+    /// The library's folder; `None` for the one chosen last, else the one that the command line would find.
+    pub library: Option<PathBuf>,
+    /// A captured scene, or the folder of a scan, to open first; `None` to capture from the source.
+    pub scene: Option<PathBuf>,
+    /// File of the settings, beside which the draft of Enrol is kept; `None` to keep nothing.
+    pub settings: Option<PathBuf>,
+    /// Folder of kept cases; `None` for the user's own.
+    pub cases: Option<PathBuf>,
+    /// Folder of the user's recipes; `None` to keep none.
+    pub recipes: Option<PathBuf>,
+    /// Folder of the history; `None` to keep inspections only in memory.
+    pub history: Option<PathBuf>,
+    /// File of the user's own calibration of the robot's cell; `None` to use none.
+    pub cell: Option<PathBuf>,
+    /// Folder of the cell's baseline and checks; `None` to keep none.
+    pub cell_checks: Option<PathBuf>,
+    /// Opens cameras.
+    pub camera: Camera,
+    /// Language unless one was chosen in the window; `None` for English.
+    pub language: Option<Language>,
+}
+
+/// The window.
+pub struct Window {
+    state: State,
+    memory: Memory,
+    dialog: FileDialog<DialogRequest>,
+    services: Services,
+    robot: RobotCell,
+    workspaces: Vec<Box<dyn Workspace>>,
+    /// Messages of the workspaces that were not handled yet.
+    messages: Vec<Message>,
+    installed: Option<ThemeChoice>,
+    gpu: Result<ViewportGpu, ViewError>,
+    /// Time of the last input, seconds of egui's clock.
+    touched: f64,
+    /// Tells a second window that this one is open.
+    data_lock: DataLock,
+}
+
+impl Window {
+    /// Starts the threads and requests the first frame. Without a `render_state` the 3-D view shows an error text.
+    pub fn new(
+        ctx: &egui::Context,
+        render_state: Option<&RenderState>,
+        options: WindowOptions,
+    ) -> io::Result<Self> {
+        Theme::install_fonts(ctx);
+        let WindowOptions {
+            library,
+            scene,
+            settings,
+            cases,
+            recipes,
+            history,
+            cell,
+            cell_checks,
+            camera,
+            language,
+        } = options;
+        let is_first_start = settings.as_ref().is_some_and(|path| !path.exists());
+        language.unwrap_or_default().make_current();
+        let (remembered, trouble) = settings.as_deref().map(settings::load).unwrap_or_default();
+        let data_lock = DataLock::take(history.as_deref());
+        // The other window keeps its settings and its draft there.
+        let settings = settings.filter(|_| !data_lock.is_taken);
+        let kept = Arc::new(HistoryBuffer::new(history));
+        let repaint = ctx.clone();
+        let runner = TaskRunner::new(move || repaint.request_repaint());
+        let repaint = ctx.clone();
+        let history_writer = Writer::start(Arc::clone(&kept), move || repaint.request_repaint())?;
+        let library_cache =
+            LibraryCache::new(library.or_else(|| remembered.library.clone()), camera)
+                .with_history(Arc::clone(&kept));
+        let gpu = render_state
+            .map(ViewportGpu::of_window)
+            .ok_or_else(|| ViewError::NoDevice {
+                reason: "the window draws without one".into(),
+            });
+        // Coats are kept beside the recipes.
+        let coats = recipes.as_ref().map(|path| path.with_file_name("coats"));
+        let draft = settings.as_ref();
+        let draft = draft.map(|path| path.with_file_name("draft.json"));
+        let remembered_live = remembered.live;
+        let mut window = Self {
+            memory: Memory::new(settings, remembered.clone(), &runner),
+            state: remembered.into_state(&runner, &library_cache),
+            dialog: FileDialog::default(),
+            services: Services {
+                library_cache,
+                dialogs: DialogLock::default(),
+            },
+            robot: RobotCell::new(cell_checks.map(CellCheckFolder::at), &runner),
+            workspaces: vec![
+                Box::new(InspectWorkspace::new(&gpu, &runner)),
+                Box::new(EnrolWorkspace::new(gpu.clone(), draft, &runner)),
+                Box::new(CompareWorkspace::new(cases, recipes.clone(), &runner)),
+                Box::new(AlignWorkspace::new(&gpu, &runner)),
+                Box::new(PaintWorkspace::new(&gpu, coats, &runner)),
+                Box::new(HistoryWorkspace::new(history_writer, kept, &runner)),
+            ],
+            messages: Vec::new(),
+            installed: None,
+            gpu: gpu.clone(),
+            touched: ctx.input(|input| input.time),
+            data_lock,
+        };
+        let language = window.state.session.chosen_language.or(language);
+        window.state.session.language = language.unwrap_or_default();
+        window.state.session.language.make_current();
+        window.state.notices.extend(trouble.map(Notice::from));
+        let is_second = window.data_lock.is_taken;
+        if is_second {
+            let advice = text!("shell-second-window-advice");
+            let notice = Notice::look(text!("shell-second-window"), advice);
+            let notices = &mut window.state.notices;
+            notices.push(notice.about(NoticeTopic::SecondWindow));
+        }
+        if let (true, Some(recipes)) = (is_first_start, recipes) {
+            window.use_default_recipe(recipes);
+        }
+        window.forget_a_vanished_file();
+        window.state.session.usual_cell = cell;
+        window.with_robot(ctx, RobotCell::load_remembered);
+        let session = &window.state.session;
+        // If robots were answered before, follow the source: answering them takes frames.
+        let follows = (remembered_live || session.answering.is_on) && !is_second;
+        let is_opened = scene.is_some();
+        let first = match scene {
+            Some(path) => Some(Action::Open(path)),
+            None if follows && session.source.followed().is_some() => {
+                Some(Action::Live(LiveAction::Toggle))
+            }
+            // It has no frame yet.
+            None if session.source.is_watched() => None,
+            // Both windows would count the part that hangs there.
+            None if is_second && matches!(session.source, Source::Camera(_)) => None,
+            None => Some(Action::Capture),
+        };
+        window.state.load_library();
+        // The first scene is inspected even if Enrol is in front; one that the user names is shown with its result.
+        let front = std::mem::take(&mut window.state.session.workspace);
+        window.state.inspector.is_start = true;
+        if let Some(first) = first {
+            window.act(first, ctx);
+        }
+        window.state.inspector.is_start = false;
+        if !is_opened {
+            window.state.session.workspace = front;
+        }
+        Ok(window)
+    }
+
+    /// Uses the user's default recipe, if no recipe is remembered.
+    fn use_default_recipe(&mut self, recipes: PathBuf) {
+        match open_recipe(Ok(RecipeFolder::at(recipes)), None) {
+            Ok(file) => self.state.session.recipe = Arc::new(file.into()),
+            Err(error) => self.state.notices.push(UserError::of(&error).into()),
+        }
+    }
+
+    /// State of the window outside the workspaces.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// Carries out an action that the user could cause.
+    pub fn act(&mut self, action: Action, ctx: &egui::Context) {
+        if let Some(effect) = apply(&mut self.state, action) {
+            self.make(effect, ctx);
+        }
+    }
+
+    /// Shows a result made elsewhere as a new inspection; cancels a running one.
+    pub fn show_result(&mut self, inspected: Arc<Inspected>, ctx: &egui::Context) {
+        let event = inspector::show_made(&mut self.state, inspected);
+        self.tell(&event, ctx);
+    }
+
+    fn make(&mut self, effect: Effect, ctx: &egui::Context) {
+        match effect {
+            Effect::ShowDialog(ask) => {
+                let lock = &self.services.dialogs;
+                self.dialog.open(ask, &dialogs::request(ask), lock, ctx);
+            }
+            Effect::Press(kind, place) => {
+                self.lend(kind, ctx, |workspace, cx| workspace.press(place, cx));
+            }
+            Effect::CancelTask(kind) => {
+                self.lend(kind, ctx, |workspace, _| workspace.cancel());
+            }
+            Effect::Take(scene, title) => {
+                let front = self.state.session.workspace;
+                self.lend(front, ctx, |workspace, cx| {
+                    workspace.take_scene(scene, title, cx);
+                });
+            }
+            Effect::TakeFile(path) => self.take_file(path, ctx),
+            Effect::Robot(action) => self.with_robot(ctx, |robot, cx| robot.apply(action, cx)),
+            Effect::Tell(event) => self.tell(&event, ctx),
+            Effect::EngineerIn(kind) => {
+                self.lend(kind, ctx, |workspace, cx| {
+                    workspace.on_event(&Event::EngineerIn, cx);
+                });
+            }
+            Effect::Close => {
+                if self.may_close() {
+                    ctx.send_viewport_cmd(egui::ViewportCommand::Close);
+                }
+            }
+        }
+    }
+
+    /// True if nothing would be lost and no robot is answered, or the user has agreed; otherwise asks the user.
+    fn may_close(&mut self) -> bool {
+        if self.state.closing == Closing::Confirmed {
+            return true;
+        }
+        let all = self.workspaces.iter();
+        let mut lost: Vec<String> = all.filter_map(|workspace| workspace.unsaved()).collect();
+        lost.extend(self.not_written());
+        let is_unsaved = !lost.is_empty();
+        let answering = self.robot.answering().status();
+        lost.extend(answering.map(|status| {
+            let at = status.at.address.to_string();
+            text!("shell-robots-without-answer", at = at)
+        }));
+        let may_close = lost.is_empty();
+        self.state.closing = if may_close {
+            Closing::No
+        } else {
+            Closing::Asked {
+                what: lost.join("\n"),
+                is_unsaved,
+            }
+        };
+        may_close
+    }
+
+    /// Describes the inspections that the history cannot write, if any.
+    fn not_written(&self) -> Option<String> {
+        let history = self.services.library_cache.history();
+        // Without a failure, those that wait are about to be written.
+        let num = history.next_try().map_or(0, |_| history.num_waiting());
+        (num > 0).then(|| text!("shell-not-written", num = num))
+    }
+
+    /// Sends an event to every workspace.
+    fn tell(&mut self, event: &Event, ctx: &egui::Context) {
+        for kind in WorkspaceKind::ALL {
+            self.lend(kind, ctx, |workspace, cx| workspace.on_event(event, cx));
+        }
+    }
+
+    /// The device that the views draw with, which also draws the window.
+    pub(super) fn gpu(&self) -> &Result<ViewportGpu, ViewError> {
+        &self.gpu
+    }
+
+    /// True if the device is lost and nothing can be drawn any more.
+    fn is_lost(&self) -> bool {
+        self.gpu.as_ref().is_ok_and(ViewportGpu::is_lost)
+    }
+
+    /// Work done by the frames of Inspect so far.
+    pub fn counts(&self) -> WorkCounts {
+        let inspect = self.workspace::<InspectWorkspace>();
+        inspect.map_or_else(WorkCounts::default, InspectWorkspace::counts)
+    }
+
+    /// Share of the points that the view of Inspect drew in the last frame, 0..1.
+    pub fn detail_of_view(&self) -> f32 {
+        let inspect = self.workspace::<InspectWorkspace>();
+        inspect.map_or(1.0, InspectWorkspace::detail)
+    }
+
+    /// Shows a notice that the window was reopened after its device was lost.
+    pub(super) fn tell_of_lost_device(&mut self) {
+        let lost = UserError {
+            what: text!("shell-device-lost"),
+            advice: text!("shell-device-lost-advice"),
+        };
+        self.state.notices.push(lost.into());
+    }
+
+    /// Replaces a source whose file is gone by the simulated cell.
+    fn forget_a_vanished_file(&mut self) {
+        let session = &mut self.state.session;
+        let path = match &session.source {
+            Source::File(path) => Some(path),
+            Source::Scan(files) => files.frames.first(),
+            Source::Cell(_) | Source::Camera(_) => None,
+        };
+        if let Some(path) = path
+            && !file_of(path).exists()
+        {
+            let gone = UserError {
+                what: text!("shell-gone", path = path.display().to_string()),
+                advice: text!("shell-gone-advice"),
+            };
+            session.recent.retain(|known| known != path);
+            session.source = Source::default();
+            self.state.notices.push(gone.into());
+        }
+    }
+
+    fn install_theme(&mut self, ctx: &egui::Context) {
+        if self.installed != Some(self.state.session.theme) {
+            Theme::install(self.state.session.theme, ctx);
+            self.installed = Some(self.state.session.theme);
+        }
+    }
+
+    /// Opens the first of the files dropped onto the window; a folder is a scan if it contains poses, else it is played as a
+    /// recording.
+    fn take_drops(&mut self, ctx: &egui::Context) {
+        let dropped = ctx.input(|input| {
+            let first = input.raw.dropped_files.first();
+            first.map(|file| file.path().to_owned())
+        });
+        if let Some(path) = dropped {
+            self.take_file(path, ctx);
+        }
+    }
+
+    /// Enrols the file if Enrol is in front, else inspects it.
+    fn take_file(&mut self, path: PathBuf, ctx: &egui::Context) {
+        let is_scan = path.join(FRAME_POSES).is_file();
+        let taker = match self.state.session.workspace {
+            WorkspaceKind::Enrol => WorkspaceKind::Enrol,
+            _ => WorkspaceKind::Inspect,
+        };
+        let is_taken = self.lend(taker, ctx, |workspace, cx| workspace.take_file(&path, cx));
+        if is_taken == Some(true) {
+            return;
+        }
+        let opened = if path.is_dir() && !is_scan {
+            Action::Chosen(DialogRequest::Recording, path)
+        } else {
+            Action::Open(path)
+        };
+        self.act(opened, ctx);
+    }
+
+    /// Handles the results of tasks, the dialog, and input from the desktop.
+    pub(super) fn fetch(&mut self, ctx: &egui::Context) {
+        self.state.session.language.make_current();
+        self.install_theme(ctx);
+        if self.is_lost() {
+            ctx.send_viewport_cmd(egui::ViewportCommand::Close);
+        }
+        let is_closed = ctx.input(|input| input.viewport().close_requested());
+        if is_closed && !self.is_lost() && !self.may_close() {
+            ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
+        }
+        let is_enrolling = self.state.session.workspace == WorkspaceKind::Enrol;
+        let enrol = self.hosted(WorkspaceKind::Enrol);
+        let has_draft = enrol.is_some_and(|enrol| enrol.unsaved().is_some());
+        self.state.inspector.loader.may_reload = !(is_enrolling && has_draft);
+        let inspected = inspector::update(&mut self.state);
+        let counted = live::update(&mut self.state);
+        let traced = current_trace::update(&self.state.session, ctx);
+        for event in inspected.into_iter().chain(counted).chain(traced) {
+            self.tell(&event, ctx);
+        }
+        for kind in WorkspaceKind::ALL {
+            self.lend(kind, ctx, Workspace::update);
+        }
+        let history = self.workspace::<HistoryWorkspace>();
+        let is_failing = history.is_some_and(|history| history.state.trouble.is_some());
+        self.state.session.is_history_failing = is_failing;
+        shift::update(&mut self.state, self.services.library_cache.history(), ctx);
+        if let Some(action) = self.with_robot(ctx, RobotCell::update) {
+            self.act(Action::Robot(action), ctx);
+        }
+        match self.dialog.poll() {
+            Some((ask, Ok(path))) => self.act(Action::Chosen(ask, path), ctx),
+            Some((_, Err(notice))) => self.act(Action::Notify(notice), ctx),
+            None => {}
+        }
+        self.take_drops(ctx);
+        if let Some(notice) = self.memory.keep(&self.state, ctx) {
+            self.act(Action::Notify(notice), ctx);
+        }
+    }
+
+    /// Draws everything and carries out the user's actions.
+    pub(super) fn show(&mut self, ui: &mut Ui) {
+        // egui aborts on a lost device, unless there is nothing to draw.
+        if self.is_lost() {
+            return;
+        }
+        self.state.session.language.make_current();
+        let ctx = ui.ctx().clone();
+        let mut actions = Vec::new();
+        let key_target = if self.is_behind_dialog(&ctx) {
+            KeyTarget::Dialog
+        } else {
+            KeyTarget::Page
+        };
+        if self.state.session.role == UserRole::Operator
+            && let Some(code) = scanner::listen(&ctx, key_target)
+        {
+            if self.state.roles.may_be_pin(&code) {
+                let digits = code.chars().map(RoleAction::Digit);
+                actions.extend(digits.chain([RoleAction::Enter]).map(Action::Role));
+            } else {
+                let now = ctx.input(|input| input.time);
+                remove_notices(&mut self.state, NoticeTopic::Serial);
+                let notice = self.state.session.enter_scanned(&code, now);
+                actions.extend(notice.map(Action::Notify));
+            }
+        }
+        let work = self.work();
+        if self.state.session.is_operator_view() {
+            operator_bars::ui(ui, &self.state, &self.robot, work, &mut actions);
+        } else {
+            top_bar::ui(ui, &self.state, &self.robot, work, &mut actions);
+            rail::ui(ui, &self.state, &mut actions);
+        }
+        let room = notices::room(ui, &self.state);
+        let front = self.state.session.workspace;
+        let canvas = match front {
+            // Its view covers everything, and a software driver would still paint what is below.
+            WorkspaceKind::Inspect => Frame::new(),
+            _ => Frame::new().fill(Theme::of(ui).canvas),
+        };
+        CentralPanel::default().frame(canvas).show(ui, |ui| {
+            self.lend(front, &ctx, |workspace, cx| workspace.ui(ui, cx));
+        });
+        let hosted = self.hosted(front);
+        let view_has_focus = hosted.is_some_and(Workspace::has_key_focus);
+        let keys = hosted.map_or_else(Vec::new, Workspace::key_bindings);
+        live::set_up(&ctx, &self.state, &mut actions);
+        roles::dialog(&ctx, &self.state, &mut actions);
+        closing::dialog(&ctx, &self.state, &mut actions);
+        let of_robot = self.robot.ui(&ctx, &self.state.session);
+        actions.extend(of_robot.into_iter().map(Action::Robot));
+        path_entry::ui(&ctx, &self.services.dialogs);
+        keys::help(&ctx, &self.state, &keys, &mut actions);
+        notices::ui(&ctx, room, &self.state, &mut actions);
+        let is_behind_dialog = self.is_behind_dialog(&ctx);
+        keys::shortcuts(
+            &ctx,
+            &self.state,
+            &keys,
+            view_has_focus,
+            is_behind_dialog,
+            &mut actions,
+        );
+        for action in actions {
+            self.act(action, &ctx);
+        }
+        self.lock_untouched(&ctx);
+    }
+
+    /// True while any dialog is on top of the workspaces, including the system's.
+    fn is_behind_dialog(&self, ctx: &egui::Context) -> bool {
+        let state = &self.state;
+        let is_own = state.is_help_open
+            || state.session.live.setup.is_some()
+            || state.roles.asked.is_some()
+            || matches!(state.closing, Closing::Asked { .. })
+            || self.robot.dialog().is_some();
+        let is_beneath =
+            |memory: &egui::Memory| !memory.is_above_modal_layer(LayerId::background());
+        is_own || self.services.dialogs.is_open() || ctx.memory(is_beneath)
+    }
+
+    /// Locks the engineer's view after a long time without input.
+    fn lock_untouched(&mut self, ctx: &egui::Context) {
+        let (now, is_touched) = ctx.input(|input| (input.time, !input.events.is_empty()));
+        if is_touched {
+            self.touched = now;
+        }
+        let Some(after) = self.state.roles.lock_timeout(self.state.session.role) else {
+            return;
+        };
+        let left = self.touched + after - now;
+        if left > 0.0 {
+            ctx.request_repaint_after(Duration::from_secs_f64(left));
+        } else {
+            self.act(Action::Role(RoleAction::Lock), ctx);
+        }
+    }
+}
+
+impl eframe::App for Window {
+    fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
+        self.fetch(ctx);
+    }
+
+    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        self.show(ui);
+    }
+
+    fn on_exit(&mut self) {
+        // Nothing is drawn any more.
+        let ctx = egui::Context::default();
+        let mut events = live::close(&mut self.state);
+        events.extend(current_trace::settle(&self.state.session, f64::INFINITY));
+        for event in events {
+            self.lend(WorkspaceKind::History, &ctx, |history, cx| {
+                history.on_event(&event, cx);
+            });
+        }
+        for workspace in &mut self.workspaces {
+            workspace.close();
+        }
+        self.memory.finish();
+    }
+}

@@ -1,0 +1,173 @@
+//! Align, for the engineer: every method on the same two clouds, side by side, and Table I.
+//!
+//! ```text
+//! choosing  what is aligned to what, from where       start, pair
+//! views     one 3-D view a method, one camera         track: the poses of a method and E at each
+//! scrubber  E per iteration, and the iteration shown   plot, playback
+//! side      Table I, the true error                   table
+//! ```
+
+mod action;
+mod choosing;
+mod pair;
+mod playback;
+mod plot;
+mod scrubber;
+mod series;
+mod side;
+mod start;
+mod state;
+mod table;
+mod track;
+mod views;
+mod work;
+
+use egui::{Frame, Key, Margin, Modifiers, Panel, Ui};
+
+pub use self::{
+    action::{AlignAction, AlignFile},
+    pair::{Pair, PairSource},
+    playback::MethodComparison,
+    start::{CustomStart, Start},
+    state::{AlignResult, AlignState, Pairing},
+    table::{TableCell, TableFigures, TableRow, TableShown},
+    track::{MethodRun, Track},
+};
+use self::{side::SidePanel, views::LinkedViews};
+pub use crate::ui::scrubber::Playback;
+use crate::{
+    language::{keys, text},
+    shell::{
+        context::ShellContext,
+        key_binding::{KeyBinding, Shortcut},
+        session::{Session, WorkspaceKind},
+        workspace::Workspace,
+    },
+    task::{Running, TaskRunner},
+    ui::{
+        theme::Theme,
+        viewport::{ViewError, ViewportGpu},
+    },
+};
+
+/// Width of the panel on the right in a wide and in a narrow window, logical pixels.
+const SIDE: [f32; 2] = [340.0, 300.0];
+/// Height of the plot in a high and in a low window, logical pixels.
+const PLOT: [f32; 2] = [236.0, 200.0];
+
+/// The shortcuts of this workspace.
+const SHORTCUTS: [Shortcut<AlignAction>; 4] = [
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::R,
+        keys: || keys("R"),
+        does: || text!("align-key-run"),
+        action: || AlignAction::Run,
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::P,
+        keys: || text!("align-keys-play"),
+        does: || text!("align-key-play"),
+        action: || AlignAction::TogglePlay,
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::Comma,
+        keys: || text!("align-keys-back"),
+        does: || text!("align-key-back"),
+        action: || AlignAction::Step(-1.0),
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::Period,
+        keys: || text!("align-keys-on"),
+        does: || text!("align-key-on"),
+        action: || AlignAction::Step(1.0),
+    },
+];
+
+/// The workspace.
+pub struct AlignWorkspace {
+    /// The state of the workspace.
+    pub state: AlignState,
+    views: LinkedViews,
+    side: SidePanel,
+}
+
+impl AlignWorkspace {
+    /// Creates the workspace without a result.
+    pub fn new(gpu: &Result<ViewportGpu, ViewError>, runner: &TaskRunner) -> Self {
+        Self {
+            state: AlignState::new(runner),
+            views: LinkedViews::new(gpu),
+            side: SidePanel::default(),
+        }
+    }
+}
+
+impl Workspace for AlignWorkspace {
+    fn kind(&self) -> WorkspaceKind {
+        WorkspaceKind::Align
+    }
+
+    fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) {
+        let Self { state, views, side } = self;
+        let (session, theme) = (cx.session, Theme::of(ui));
+        let mut actions = Vec::new();
+        let size = ui.available_size();
+        let panel = |margin| Frame::new().fill(theme.panel).inner_margin(margin);
+        Panel::right("table one")
+            .exact_size(if size.x > 1100.0 { SIDE[0] } else { SIDE[1] })
+            .resizable(false)
+            .frame(panel(Margin::symmetric(18, 14)))
+            .show(ui, |ui| side.ui(ui, state, session, &mut actions));
+        let look = Panel::top("alignment")
+            .exact_size(choosing::height(state) + 16.0)
+            .resizable(false)
+            .frame(panel(Margin::symmetric(12, 8)))
+            .show(ui, |ui| choosing::ui(ui, state, session, &mut actions));
+        if let Some(look) = look.inner {
+            views.look(look);
+        }
+        Panel::bottom("iterations")
+            .exact_size(if size.y > 760.0 { PLOT[0] } else { PLOT[1] })
+            .resizable(false)
+            .frame(panel(Margin::symmetric(14, 8)))
+            .show(ui, |ui| scrubber::ui(ui, state, &mut actions));
+        views.ui(ui, state, session);
+        for action in actions {
+            state.apply(action, cx);
+        }
+    }
+
+    fn update(&mut self, cx: &mut ShellContext<'_>) {
+        self.state.update(cx);
+    }
+
+    fn key_bindings(&self) -> Vec<KeyBinding> {
+        SHORTCUTS.iter().map(Shortcut::binding).collect()
+    }
+
+    fn press(&mut self, place: usize, cx: &mut ShellContext<'_>) {
+        if let Some(shortcut) = SHORTCUTS.get(place) {
+            self.state.apply((shortcut.action)(), cx);
+        }
+    }
+
+    fn running(&self) -> Option<&Running> {
+        self.state.running()
+    }
+
+    fn cancel(&mut self) {
+        self.state.cancel();
+    }
+
+    fn has_key_focus(&self) -> bool {
+        self.views.has_focus()
+    }
+
+    fn is_idle(&self, _session: &Session) -> bool {
+        self.running().is_none() && !self.state.is_writing()
+    }
+}

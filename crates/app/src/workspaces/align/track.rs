@@ -1,0 +1,254 @@
+//! The poses of one method from start to end, with E at each, ready to be drawn and scrubbed.
+
+use std::{
+    ops::Range,
+    time::{Duration, Instant},
+};
+
+use super::pair::Pair;
+use crate::{
+    language::{results, text},
+    ui::widgets::sentence,
+    user_error::UserError,
+};
+use geometry::rigid::{self, RigidTransform};
+use stages::pose::{
+    FitQuality, Iteration, Phase, PoseError, PoseEstimate, PoseMethod, PoseWarning, Stopped,
+    Uncertainty, align_to,
+};
+
+/// The run of one method on a pair.
+#[derive(Clone, Debug)]
+pub struct MethodRun {
+    /// The method that ran.
+    pub method: PoseMethod,
+    /// How long the estimation took.
+    pub time: Duration,
+    /// The track, or why there is none.
+    pub track: Result<Track, PoseError>,
+}
+
+/// The poses that a method went through.
+#[derive(Clone, Debug)]
+pub struct Track {
+    /// The pose of every iteration, then the final pose.
+    pub poses: Vec<RigidTransform>,
+    /// E of eq. 12 at each pose, square metres, measured alike for all methods: [`Pair::e_m2`].
+    pub e_m2: Vec<f64>,
+    /// Base-10 logarithms of E.
+    pub log_e: Vec<f32>,
+    /// The iterations of each genetic search.
+    pub searches: Vec<Range<usize>>,
+    /// Why the method stopped.
+    pub stopped: Stopped,
+    /// Fit at the final pose.
+    pub fit: FitQuality,
+    /// Uncertainty of the final pose.
+    pub uncertainty: Option<Uncertainty>,
+    /// Error of the final pose, where the truth is known.
+    pub true_error: Option<rigid::PoseDelta>,
+    /// Why the final pose should not be relied upon.
+    pub doubts: Vec<PoseWarning>,
+}
+
+/// Smallest E plotted, square metres: (10 nm)², below the resolution of `f32` points.
+const LEAST_E: f64 = 1e-16;
+
+/// Limit of closest-point searches per track; long tracks are measured over fewer points.
+const MOST_SEARCHES: usize = 1_000_000;
+
+/// Runs a method on a pair and measures the time.
+pub(super) fn estimated(
+    method: PoseMethod,
+    pair: &Pair,
+    is_cancelled: &dyn Fn() -> bool,
+) -> (Result<PoseEstimate, PoseError>, Duration) {
+    let clock = Instant::now();
+    let prepared = pair.prepared.as_ref().map_err(|error| *error);
+    let aligned = prepared
+        .and_then(|target| align_to(&pair.source, target, &method.into(), None, is_cancelled));
+    (aligned, clock.elapsed())
+}
+
+impl MethodRun {
+    /// Runs the method on the pair and records its track.
+    pub fn of(method: PoseMethod, pair: &Pair, is_cancelled: &dyn Fn() -> bool) -> Self {
+        let (aligned, time) = estimated(method, pair, is_cancelled);
+        Self {
+            method,
+            time,
+            track: aligned.map(|estimate| Track::of(&estimate, pair)),
+        }
+    }
+}
+
+impl Track {
+    fn of(estimate: &PoseEstimate, pair: &Pair) -> Self {
+        let end = estimate.target_from_source;
+        let steps = estimate.iterations.iter();
+        let mut poses: Vec<RigidTransform> = steps.map(|step| step.target_from_source).collect();
+        poses.push(end);
+        let e_m2 = e_along(&poses, pair);
+        let log_e: Vec<f32> = e_m2.iter().map(|e| e.max(LEAST_E).log10() as f32).collect();
+        Self {
+            log_e,
+            searches: searches(&estimate.iterations),
+            stopped: estimate.stopped,
+            fit: estimate.fit,
+            uncertainty: estimate.uncertainty,
+            true_error: pair.true_error(&end),
+            doubts: warnings(estimate),
+            e_m2,
+            poses,
+        }
+    }
+
+    /// E at the final pose, square metres.
+    pub fn end_e_m2(&self) -> f64 {
+        self.e_m2.last().copied().unwrap_or(f64::INFINITY)
+    }
+
+    /// Returns the pose of an iteration, or the final pose beyond the end.
+    pub fn pose_at(&self, place: usize) -> RigidTransform {
+        let last = self.poses.len().saturating_sub(1);
+        self.poses
+            .get(place.min(last))
+            .copied()
+            .unwrap_or_else(RigidTransform::identity)
+    }
+
+    /// Describes why and after how many iterations the method stopped.
+    pub fn ending(&self) -> String {
+        let num = self.poses.len().saturating_sub(1);
+        let is_lost = self
+            .true_error
+            .filter(|error| error.rotation.degrees() > 5.0);
+        match (self.stopped, is_lost) {
+            (Stopped::BelowTarget, _) => {
+                text!("align-ended-below-target", count = num)
+            }
+            (Stopped::Converged, Some(_)) => {
+                text!("align-ended-elsewhere", count = num)
+            }
+            (Stopped::Converged, None) => text!("align-ended-settled", count = num),
+            (Stopped::NoProgress, _) => {
+                text!("align-ended-gave-up", count = num)
+            }
+            (Stopped::IterationLimit, _) => text!("align-ended-moving", count = num),
+        }
+    }
+}
+
+/// Measures E at every pose; reuses it where the pose did not change, as between generations without progress.
+fn e_along(poses: &[RigidTransform], pair: &Pair) -> Vec<f64> {
+    let step = (poses.len() * pair.sample.len())
+        .div_ceil(MOST_SEARCHES)
+        .max(1);
+    let last = poses.len().saturating_sub(1);
+    let mut all: Vec<f64> = Vec::with_capacity(poses.len());
+    for (place, pose) in poses.iter().enumerate() {
+        let is_same = place > 0 && place < last && poses[place - 1] == *pose;
+        let before = all.last().copied().filter(|_| is_same);
+        let step = if place == last { 1 } else { step };
+        all.push(before.unwrap_or_else(|| pair.e_m2_over(pose, step)));
+    }
+    all
+}
+
+/// Finds the ranges of iterations in which the genetic algorithm searched.
+fn searches(iterations: &[Iteration]) -> Vec<Range<usize>> {
+    let mut place = 0;
+    let stretches = iterations.chunk_by(|a, b| a.phase == b.phase);
+    let stretches = stretches.map(|stretch| {
+        let first = place;
+        place += stretch.len();
+        (stretch[0].phase, first..place)
+    });
+    let genetic = stretches.filter(|(phase, _)| *phase == Phase::Genetic);
+    genetic.map(|(_, stretch)| stretch).collect()
+}
+
+/// Words an error with advice that can be followed in the window.
+pub(super) fn in_the_window(error: &PoseError) -> UserError {
+    let advice = match error {
+        PoseError::OneSidedPairs { .. } | PoseError::NoOverlap { .. } => {
+            text!("align-nearer-or-same-part")
+        }
+        other => results::pose_error_advice(other),
+    };
+    UserError {
+        what: sentence(&results::pose_error(error)),
+        advice,
+    }
+}
+
+/// The doubt about a pose and, if it is another one, that the pose is unconstrained, as its uncertainty shows.
+fn warnings(estimate: &PoseEstimate) -> Vec<PoseWarning> {
+    let doubt = estimate.doubt();
+    let freedom = estimate.uncertainty.and_then(|bounds| bounds.freedom);
+    let loose = freedom.map(|freedom| PoseWarning::Loose { freedom });
+    doubt
+        .into_iter()
+        .chain(loose.filter(|_| loose != doubt))
+        .collect()
+}
+
+/// Words a doubt about the pose at the end of a track, with advice.
+pub(super) fn doubted(doubt: &PoseWarning, track: &Track) -> UserError {
+    let advice = match doubt {
+        PoseWarning::Ambiguous { .. } => text!("align-which-way-round"),
+        PoseWarning::Loose { .. } => {
+            text!("align-look-for-edge")
+        }
+        PoseWarning::Unsettled { .. } => text!("align-other-method"),
+        // Source and target do show the same part.
+        PoseWarning::LittleOverlap { .. } if track.true_error.is_some() => {
+            text!("align-nearer-start")
+        }
+        PoseWarning::LittleOverlap { .. } => text!("results-little-overlap-advice"),
+    };
+    UserError {
+        what: sentence(&results::pose_warning(doubt)),
+        advice,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use geometry::units::{Metres, Radians};
+    use stages::pose::{Axis, FreeMotion, RunnerUp};
+
+    #[test]
+    fn an_ambiguous_pose_that_is_unconstrained_too_says_both() {
+        let freedom = FreeMotion::Slide(Axis::Long);
+        let mut estimate = PoseEstimate {
+            target_from_source: RigidTransform::identity(),
+            method: PoseMethod::Global,
+            stopped: Stopped::Converged,
+            iterations: Vec::new(),
+            fit: FitQuality {
+                e_m2: 0.0012,
+                rms_m: 0.0025,
+                overlap: 0.89,
+                sight: None,
+            },
+            uncertainty: Some(Uncertainty {
+                shift: Metres(f64::INFINITY),
+                turn: Radians(f64::INFINITY),
+                freedom: Some(freedom),
+            }),
+            runner_up: Some(RunnerUp {
+                target_from_source: RigidTransform::identity(),
+                ratio: 1.03,
+            }),
+        };
+        let loose = PoseWarning::Loose { freedom };
+        let ambiguous = PoseWarning::Ambiguous { ratio: 1.03 };
+        assert_eq!(warnings(&estimate), [ambiguous, loose]);
+        estimate.runner_up = None;
+        assert_eq!(warnings(&estimate), [loose]);
+        estimate.uncertainty = None;
+        assert!(warnings(&estimate).is_empty());
+    }
+}

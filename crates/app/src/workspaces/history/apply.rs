@@ -1,0 +1,349 @@
+//! Actions of the workspace, and how they are carried out.
+
+use std::{ops::Range, path::PathBuf, sync::Arc};
+
+use super::{
+    export, filter::ListFilter, state::HistoryState, statistics::StatisticsView,
+    work::HistoryResult,
+};
+use crate::{
+    inspection::{inspected::Inspected, source::file_name},
+    language::text,
+    shell::{
+        context::ShellContext,
+        file_dialog::{FileChoice, FileRequest},
+        message::{Event, Message, ReinspectionPurpose},
+        notice::Notice,
+        session::{UserRole, WorkspaceKind},
+    },
+    user_error::UserError,
+};
+use inspection::library::Truth;
+use records::history::{
+    HistoryEvent, HungId, NewEntry, PruneResult, Retention, SetAside, TraceChange,
+};
+
+/// An action in the workspace.
+#[derive(Debug)]
+pub enum HistoryAction {
+    /// Set the filter of the list.
+    Filter(ListFilter),
+    /// Report the rows of the list that are visible.
+    Visible(Range<usize>),
+    /// Select this inspection.
+    Select(i64),
+    /// Select the row above (newer) or below.
+    Step(Direction),
+    /// Show the inspection with all its stages.
+    Open(i64),
+    /// Show the selected inspection with all its stages.
+    OpenSelected,
+    /// Inspect its scene again with the recipe and library in use, and show what changed.
+    InspectAgain(i64),
+    /// Do the same with the selected inspection.
+    AgainSelected,
+    /// Set the remark on an inspection.
+    Remark(i64, String),
+    /// Set the true label of an inspection; `None` if unknown.
+    Label(i64, Option<Truth>),
+    /// Show the statistics (`true`) or the list.
+    Statistics(bool),
+    /// Open the window of the retention rule or change the rule in it; `None` closes it.
+    Rule(Option<Retention>),
+    /// Apply this retention rule.
+    Keep(Retention),
+    /// Ask where to write the listed inspections.
+    Ask(HistoryFile),
+    /// Write the listed inspections to this path.
+    Export(HistoryFile, PathBuf),
+}
+
+/// A destination that a person is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HistoryFile {
+    /// A table of the listed inspections.
+    Csv,
+    /// A folder of cases, made of the listed inspections with a kept frame and a true label.
+    Cases,
+}
+
+impl HistoryFile {
+    fn request(self) -> FileRequest {
+        match self {
+            Self::Csv => FileRequest {
+                title: text!("history-export-csv-title"),
+                filters: vec![(text!("shell-csv-files"), &["csv"])],
+                choice: FileChoice::NewFile("inspections.csv".into()),
+            },
+            Self::Cases => FileRequest {
+                title: text!("history-export-cases-title"),
+                filters: Vec::new(),
+                choice: FileChoice::FolderToWrite,
+            },
+        }
+    }
+}
+
+impl HistoryAction {
+    /// True if frames may be lost: those that a new rule does not keep are deleted.
+    fn needs_engineer(&self) -> bool {
+        matches!(self, Self::Rule(Some(_)) | Self::Keep(_))
+    }
+}
+
+/// Direction of a step in the list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    /// To a newer inspection.
+    Up,
+    /// To an older inspection.
+    Down,
+}
+
+/// A job for the writer thread.
+#[derive(Clone, Debug)]
+pub enum HistoryJob {
+    /// Write an inspection; the ticket is returned with its number.
+    Add(u64, Box<NewEntry>),
+    /// Change the traceability in the rows of a part.
+    Trace(HungId, TraceChange),
+    /// Write a remark.
+    Remark(i64, String),
+    /// Write a true label.
+    Label(i64, Option<Truth>),
+    /// Apply a retention rule.
+    Keep(Retention),
+}
+
+impl HistoryState {
+    /// Carries out an action; where the engineer is needed, an operator is first asked for the engineer.
+    pub fn apply(&mut self, action: HistoryAction, cx: &mut ShellContext<'_>) {
+        if action.needs_engineer() && cx.session.role == UserRole::Operator {
+            self.held = Some(action);
+            cx.send(Message::AskEngineer);
+            return;
+        }
+        match action {
+            HistoryAction::Filter(filter) => {
+                self.filter = filter;
+                self.look(cx);
+            }
+            HistoryAction::Visible(rows) => {
+                if self.sees(rows) {
+                    self.look(cx);
+                }
+            }
+            HistoryAction::Select(number) => self.select(number, cx),
+            HistoryAction::Step(direction) => {
+                let at = self.listed().and_then(|number| self.place_of(number));
+                let to = match (at, direction) {
+                    (None, _) => 0,
+                    (Some(at), Direction::Up) => at.saturating_sub(1),
+                    (Some(at), Direction::Down) => at + 1,
+                };
+                if let Some(number) = self.row(to).map(|row| row.number) {
+                    self.select(number, cx);
+                }
+            }
+            HistoryAction::OpenSelected => {
+                if let Some(number) = self.selected {
+                    self.open(number, cx);
+                }
+            }
+            HistoryAction::Open(number) => self.open(number, cx),
+            HistoryAction::InspectAgain(number) => self.inspect_again(number, cx),
+            HistoryAction::AgainSelected => {
+                if let Some(number) = self.selected {
+                    self.inspect_again(number, cx);
+                }
+            }
+            HistoryAction::Remark(number, remark) => self.queue(HistoryJob::Remark(number, remark)),
+            HistoryAction::Label(number, label) => {
+                self.asks_actual_part = false;
+                self.queue(HistoryJob::Label(number, label));
+            }
+            HistoryAction::Statistics(is_shown) => {
+                self.statistics = if is_shown {
+                    StatisticsView::Counting
+                } else {
+                    StatisticsView::Closed
+                };
+                self.look(cx);
+            }
+            HistoryAction::Rule(rule) => self.rule = rule,
+            HistoryAction::Keep(rule) => {
+                self.rule = None;
+                self.queue(HistoryJob::Keep(rule.clamped()));
+            }
+            HistoryAction::Ask(file) => {
+                let lock = &cx.services.dialogs;
+                self.dialog.open(file, &file.request(), lock, cx.egui);
+            }
+            HistoryAction::Export(file, path) => self.export(file, path, cx),
+        }
+    }
+
+    /// Selects this inspection, as the user's choice.
+    pub(super) fn select(&mut self, number: i64, cx: &ShellContext<'_>) {
+        let is_other = self.selected != Some(number);
+        self.selects(number);
+        if is_other {
+            self.asks_actual_part = false;
+            self.look(cx);
+        }
+    }
+
+    /// Handles an event of the shell.
+    pub fn on_event(&mut self, event: &Event, cx: &mut ShellContext<'_>) {
+        match event {
+            Event::Inspected { inspected, purpose } => match purpose {
+                ReinspectionPurpose::New => {
+                    // Select the newest: a person coming here from another workspace looks for it.
+                    if cx.session.workspace != WorkspaceKind::History {
+                        self.select_newest();
+                    }
+                    let entry = inspected.entry.clone();
+                    self.keep(entry, Some(inspected));
+                }
+                ReinspectionPurpose::Repeated | ReinspectionPurpose::Shots => {}
+                ReinspectionPurpose::Past => self.remade(inspected, cx),
+            },
+            Event::Left(entry) => self.keep((**entry).clone(), None),
+            Event::TracedLate(hung, change) => {
+                let job = HistoryJob::Trace(hung.clone(), change.clone());
+                self.jobs.push(job);
+            }
+            Event::EngineerIn => {
+                if let Some(action) = self.held.take() {
+                    self.apply(action, cx);
+                }
+            }
+            Event::WrongPart(part) => {
+                self.choose_part(part);
+                self.asks_actual_part = true;
+                self.look(cx);
+            }
+            Event::Escape => {
+                let is_in_front = cx.session.workspace == WorkspaceKind::History;
+                if is_in_front && cx.session.role == UserRole::Operator {
+                    cx.send(Message::GoTo(WorkspaceKind::Inspect));
+                }
+            }
+            Event::PosesWanted(_) | Event::Export | Event::Undo => {}
+        }
+    }
+
+    /// Queues an inspection for writing, and keeps it whole in memory for a while.
+    pub(super) fn keep(&mut self, entry: NewEntry, whole: Option<&Arc<Inspected>>) {
+        let ticket = self.ticket(&entry.record.summary.hung, whole);
+        self.jobs.push(HistoryJob::Add(ticket, Box::new(entry)));
+    }
+
+    /// Takes in the results of the tasks and of the file dialog.
+    pub fn update(&mut self, cx: &mut ShellContext<'_>) {
+        if cx.session.workspace != WorkspaceKind::History {
+            self.asks_actual_part = false;
+        }
+        while let Some(event) = self.looking.poll() {
+            match event {
+                Ok(looked) => self.receive(*looked, cx),
+                Err(error) => cx.notify(error),
+            }
+        }
+        match self.counting.poll() {
+            Some(Ok(found)) if self.statistics.is_open() => {
+                self.statistics = StatisticsView::Counted(found);
+            }
+            Some(Err(error)) => cx.notify(error),
+            Some(_) | None => {}
+        }
+        cx.notify_written(&mut self.exporting);
+        if let Some((file, path)) = cx.chosen(&mut self.dialog) {
+            self.apply(HistoryAction::Export(file, path), cx);
+        }
+    }
+
+    /// Handles inspections lost because the disk is too slow; the oldest are lost first.
+    pub(super) fn crowded(&mut self, num_lost: usize, cx: &mut ShellContext<'_>) {
+        self.lost(num_lost);
+        // Notify only once.
+        if !std::mem::replace(&mut self.is_crowded, true) {
+            cx.notify(Notice::look(
+                text!("history-crowded"),
+                text!("history-crowded-advice"),
+            ));
+        }
+        self.refresh_if_stale(cx);
+    }
+
+    /// Handles an event of the writer thread.
+    pub fn take_news(&mut self, news: HistoryEvent, cx: &mut ShellContext<'_>) {
+        match news {
+            HistoryEvent::Added { ticket, number } => self.added(ticket, number),
+            HistoryEvent::SetAside(SetAside { what, aside }) => {
+                let path = aside.display().to_string();
+                cx.notify(Notice::look(
+                    text!("history-set-aside", what = what),
+                    text!("history-set-aside-advice", path = path),
+                ));
+            }
+            HistoryEvent::Failed { what, advice } => {
+                let error = UserError { what, advice };
+                self.trouble = Some(error.clone());
+                let mut notice = Notice::from(error);
+                notice.advice = text!("history-failed-advice", advice = notice.advice);
+                cx.notify(notice);
+            }
+            HistoryEvent::Works { numbers, num_lost } => {
+                self.trouble = None;
+                self.renumber(&numbers);
+                let count = numbers.len();
+                cx.notify(Notice::done(if num_lost > 0 {
+                    text!("history-works-lost", count = count, lost = num_lost)
+                } else {
+                    text!("history-works", count = count)
+                }));
+            }
+            HistoryEvent::NotChanged { what, advice } => {
+                self.answered();
+                cx.notify(UserError { what, advice });
+            }
+            HistoryEvent::Swept(PruneResult {
+                num_frames,
+                num_bytes,
+            }) => {
+                let megabytes = format!("{:.1}", num_bytes as f64 / 1e6);
+                let what = text!("history-swept", count = num_frames, megabytes = megabytes,);
+                cx.notify(Notice::done(what));
+                self.is_stale = true;
+            }
+            HistoryEvent::FilesChanged => self.is_stale = true,
+            HistoryEvent::Changed { .. } | HistoryEvent::RuleChanged => self.answered(),
+        }
+        self.refresh_if_stale(cx);
+    }
+
+    /// Takes in the result of a query.
+    pub fn receive(&mut self, looked: HistoryResult, cx: &mut ShellContext<'_>) {
+        let before = self.selected;
+        self.take(looked);
+        self.look_at_part();
+        if before == self.selected {
+            self.go_on(cx);
+        } else {
+            // The selection has changed: fetch the newly selected inspection.
+            self.look(cx);
+        }
+    }
+
+    /// Writes the listed inspections to the chosen path.
+    fn export(&mut self, file: HistoryFile, path: PathBuf, cx: &ShellContext<'_>) {
+        let title = text!("shell-writing", file = file_name(&path));
+        let filter = self.filter.at(&geometry::clock::zoned_now());
+        let keeper = Arc::clone(cx.services.library_cache.history());
+        self.exporting.start(title, move |_| {
+            let written = export::write(&filter, file, &path, &keeper)?;
+            Ok(Notice::done(written))
+        });
+    }
+}

@@ -1,0 +1,172 @@
+//! Above the list: its filter, and what can be done with the listed inspections.
+
+use egui::{Align, Button, Layout, Ui, WidgetInfo, vec2};
+
+use super::{
+    HistoryAction, HistoryFile, HistoryState,
+    filter::{DateRange, ListFilter, VerdictChoice, day_of},
+};
+use crate::{
+    language::text,
+    shell::session::Session,
+    ui::{
+        theme::{Theme, space},
+        widgets::{labelled, line_edit, menu_list, shortened, text_button},
+    },
+};
+
+/// Draws the bar.
+pub(super) fn ui(
+    ui: &mut Ui,
+    history: &HistoryState,
+    session: &Session,
+    actions: &mut Vec<HistoryAction>,
+) {
+    let known = &history.filter;
+    let mut filter = known.clone();
+    ui.horizontal_wrapped(|ui| {
+        let (label, hint) = (text!("history-find"), text!("history-find-hint"));
+        text_field(ui, &mut filter.text, &label, hint, 170.0);
+        days(ui, &mut filter);
+        verdicts(ui, &mut filter);
+        parts(ui, history, session, &mut filter);
+        let is_filtered = *known != ListFilter::default();
+        if is_filtered && text_button(ui, &text!("history-show-all")).clicked() {
+            filter = ListFilter::default();
+        }
+    });
+    if filter.days == DateRange::Typed {
+        ui.horizontal(|ui| typed(ui, &mut filter));
+    }
+    ui.horizontal(|ui| {
+        let (matching, count) = (history.page.num_matching, history.num_rows());
+        let counted = text!("history-counted", matching = matching, count = count);
+        ui.weak(&counted)
+            .widget_info(|| WidgetInfo::labeled(egui::Role::Label, true, &counted));
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            action_buttons(ui, history, actions);
+        });
+    });
+    if filter != *known {
+        actions.push(HistoryAction::Filter(filter));
+    }
+}
+
+fn action_buttons(ui: &mut Ui, history: &HistoryState, actions: &mut Vec<HistoryAction>) {
+    let ways = [
+        (
+            text!("shell-export-csv"),
+            text!("history-export-csv-hint"),
+            HistoryFile::Csv,
+        ),
+        (
+            text!("history-export-cases"),
+            text!("history-export-cases-hint"),
+            HistoryFile::Cases,
+        ),
+    ];
+    for (label, says, file) in ways {
+        if text_button(ui, &label).on_hover_text(says).clicked() {
+            actions.push(HistoryAction::Ask(file));
+        }
+    }
+    let is_shown = history.statistics.is_open();
+    let label = text!("history-statistics");
+    let button = Button::selectable(is_shown, &label).frame_when_inactive(true);
+    let shown = labelled(ui, button, &label);
+    shown.widget_info(|| WidgetInfo::selected(egui::Role::Button, true, is_shown, &label));
+    let says = text!("history-statistics-hint");
+    if shown.on_hover_text(says).clicked() {
+        actions.push(HistoryAction::Statistics(!is_shown));
+    }
+    let frames = text_button(ui, &text!("history-frames-button"));
+    let says = text!("history-frames-button-hint");
+    if frames.on_hover_text(says).clicked() {
+        let rule = history.kept.0;
+        actions.push(HistoryAction::Rule(Some(rule)));
+    }
+}
+
+fn text_field(ui: &mut Ui, text: &mut String, label: &str, hint: String, width: f32) {
+    let field = line_edit(text, hint, width).min_size(vec2(width, space::TARGET));
+    ui.add(field)
+        .widget_info(|| WidgetInfo::labeled(egui::Role::TextInput, true, label));
+}
+
+/// Draws a menu for one choice; `label` tells it from other menus with the same choices.
+fn menu<T: PartialEq + Clone>(
+    ui: &mut Ui,
+    label: &str,
+    chosen: &mut T,
+    choices: impl Iterator<Item = (T, String)>,
+) {
+    let choices: Vec<_> = choices.collect();
+    let now = choices.iter().find(|(choice, _)| choice == chosen);
+    let now = now.map_or("", |(_, title)| title);
+    let title = format!("{label} · {} ▼", shortened(now, 20));
+    ui.menu_button(&title, |ui| {
+        ui.set_min_width(160.0);
+        menu_list(ui, |ui| {
+            for (choice, title) in choices {
+                let response = ui.selectable_label(*chosen == choice, &title);
+                response.widget_info(|| {
+                    let label = format!("{label}: {title}");
+                    WidgetInfo::labeled(egui::Role::Button, true, label)
+                });
+                if response.clicked() {
+                    *chosen = choice;
+                    ui.close();
+                }
+            }
+        });
+    });
+}
+
+fn days(ui: &mut Ui, filter: &mut ListFilter) {
+    let choices = DateRange::ALL.map(|days| (days, days.title()));
+    let label = text!("history-filter-days");
+    menu(ui, &label, &mut filter.days, choices.into_iter());
+}
+
+fn verdicts(ui: &mut Ui, filter: &mut ListFilter) {
+    let all = std::iter::once((None, text!("history-filter-all-verdicts")));
+    let each = VerdictChoice::ALL.map(|verdict| (Some(verdict), verdict.title()));
+    let label = text!("history-filter-verdict");
+    menu(ui, &label, &mut filter.verdict, all.chain(each));
+}
+
+fn parts(ui: &mut Ui, history: &HistoryState, session: &Session, filter: &mut ListFilter) {
+    let enrolled = session.library.iter().flat_map(|library| &library.parts);
+    let enrolled = enrolled.map(|part| {
+        let name = part.name.as_str().to_owned();
+        (Some(name), part.shown_title().to_owned())
+    });
+    let is_enrolled = |name: &str| {
+        let library = session.library.as_ref();
+        library.is_some_and(|library| library.place_of(name).is_some())
+    };
+    // Those of another library, or removed from this one.
+    let others = history.parts.iter().flatten();
+    let others = others.filter(|(name, _)| !is_enrolled(name));
+    let others = others.map(|(name, title)| (Some(name.clone()), title.clone()));
+    let all = std::iter::once((None, text!("history-filter-all-parts")));
+    let label = text!("history-filter-part");
+    let choices = all.chain(enrolled).chain(others);
+    menu(ui, &label, &mut filter.part, choices);
+}
+
+/// Draws the fields for the first and the last day.
+fn typed(ui: &mut Ui, filter: &mut ListFilter) {
+    let theme = Theme::of(ui);
+    let fields = [
+        (text!("history-from"), text!("history-first-day")),
+        (text!("history-to"), text!("history-last-day")),
+    ];
+    for (text, (word, label)) in filter.typed.iter_mut().zip(fields) {
+        ui.weak(word);
+        text_field(ui, text, &label, "2026-11-20".to_owned(), 110.0);
+    }
+    if filter.typed.iter().any(|text| day_of(text).is_err()) {
+        ui.colored_label(theme.warning, text!("history-day-format"));
+    }
+}

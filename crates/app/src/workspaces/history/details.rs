@@ -1,0 +1,346 @@
+//! The selected inspection: its verdict, its picture, and what can be done with it.
+
+use std::sync::Arc;
+
+use egui::{Button, RichText, ScrollArea, Sense, TextureHandle, Ui, vec2};
+
+use super::{
+    HistoryAction, HistoryState, OpenedInspection, differences, label,
+    list::{DAY_AND_TIME, local_time},
+};
+use crate::{
+    inspection::unit_system::UnitSystem,
+    language::{
+        history::{stored_refusal, stored_scene, stored_title},
+        keys,
+        results::{accepted_or_not, recipe_label, stored_verdict},
+        text,
+    },
+    shell::session::Session,
+    ui::{
+        theme::{Theme, font, space},
+        widgets::{
+            Mark, fitted, heading, labelled, line_mark, path_row, row, sentence, shortened, texture,
+        },
+    },
+};
+use records::history::{Differences, InspectionDetail, Record, StoredVerdict, Summary};
+
+/// State of the details kept between frames.
+#[derive(Default)]
+pub(super) struct Details {
+    /// Picture of an inspection; true if it is the large one of an inspection kept whole in memory.
+    picture: Option<(i64, bool, TextureHandle)>,
+    pub(super) remark: label::Remark,
+    /// Number of the part's inspection that was drawn last.
+    drawn: Option<i64>,
+}
+
+impl Details {
+    pub(super) fn ui(
+        &mut self,
+        ui: &mut Ui,
+        history: &HistoryState,
+        session: &Session,
+        actions: &mut Vec<HistoryAction>,
+    ) {
+        let Some(past) = &history.record else {
+            ui.weak(text!("history-choose"));
+            return;
+        };
+        self.make(ui, history, past);
+        let record = &past.record;
+        // Remark and label belong to the inspection that stands for the part.
+        let of_part = past.part.first().unwrap_or(record);
+        let number = of_part.summary.number;
+        let mut area = ScrollArea::vertical().auto_shrink(false);
+        // Another part starts at the top; other inspections of the same part keep the place.
+        if self.drawn.replace(number) != Some(number) {
+            area = area.vertical_scroll_offset(0.0);
+        }
+        // The bar is beside the figures, not over them.
+        ui.spacing_mut().scroll.floating_allocated_width = space::SMALL;
+        area.show(ui, |ui| {
+            verdict(ui, record, of_part, session);
+            if history.asks_actual_part {
+                ui.add_space(space::SMALL);
+                let text = RichText::new(text!("history-choose-actual-part"));
+                ui.label(text.font(font::body_strong()).color(Theme::of(ui).warning));
+            }
+            let is_edited = self.remark.ui(ui, &of_part.summary, session, actions);
+            // The next inspection must not take the place of one that is being edited.
+            if is_edited && !history.is_chosen() {
+                actions.push(HistoryAction::Select(record.summary.number));
+            }
+            self.picture(ui, record);
+            ui.add_space(space::MEDIUM);
+            buttons(ui, history, record, actions);
+            let differences = history.differences.as_ref();
+            let number = record.summary.number;
+            if let Some((_, found)) = differences.filter(|(of, _)| *of == number) {
+                differences::today(ui, found, session.units);
+            }
+            part(ui, past, session.units, actions);
+            let title = text!("history-inspection", number = number.abs());
+            heading(ui, &title);
+            ui.scope(|ui| {
+                // Lines of text need less height than controls.
+                ui.spacing_mut().interact_size.y = 22.0;
+                figures(ui, record);
+                pose(ui, record, session.units);
+                times(ui, record);
+            });
+        });
+    }
+
+    /// Uploads a new picture.
+    fn make(&mut self, ui: &Ui, history: &HistoryState, past: &Arc<OpenedInspection>) {
+        let number = past.record.summary.number;
+        let whole = history.whole(number);
+        let large = whole.and_then(|whole| whole.figures.segmentation.as_ref());
+        let key = (number, large.is_some());
+        let made = self.picture.as_ref();
+        if made.is_some_and(|(of, is_large, _)| (*of, *is_large) == key) {
+            return;
+        }
+        let image = large.or(past.picture.as_ref());
+        let made = texture(ui.ctx(), "past inspection", image);
+        self.picture = made.map(|made| (number, large.is_some(), made));
+    }
+
+    fn picture(&self, ui: &mut Ui, record: &Record) {
+        let number = record.summary.number;
+        let made = self.picture.as_ref().filter(|(of, ..)| *of == number);
+        let Some((_, _, texture)) = made else {
+            let text = text!("history-no-picture");
+            ui.label(RichText::new(text).small().weak());
+            return;
+        };
+        ui.add_space(space::MEDIUM);
+        let width = ui.available_width();
+        let size = vec2(width, width * 0.75);
+        let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+        response.widget_info(|| {
+            let label = text!("history-picture", number = number.abs());
+            egui::WidgetInfo::labeled(egui::Role::Image, true, label)
+        });
+        let place = fitted(rect, texture.aspect_ratio());
+        egui::Image::new(texture).paint_at(ui, place);
+    }
+}
+
+fn verdict(ui: &mut Ui, record: &Record, of_part: &Record, session: &Session) {
+    let theme = Theme::of(ui);
+    let summary = Summary {
+        label: of_part.summary.label.clone(),
+        ..record.summary.clone()
+    };
+    let summary = &summary;
+    let title = RichText::new(stored_title(summary)).font(font::title());
+    ui.label(title);
+    let (sign, colour) = if summary.is_ok() {
+        (Mark::Good, theme.accepted)
+    } else {
+        (Mark::Bad, theme.rejected)
+    };
+    // An empty cell is not a bad part: its title says all.
+    if summary.verdict != StoredVerdict::NoPart {
+        ui.horizontal(|ui| {
+            line_mark(ui, 20.0, 9.0, sign);
+            let word = if summary.is_wrongly_accepted() {
+                text!("operator-reported-wrong")
+            } else {
+                accepted_or_not(summary.is_ok())
+            };
+            let word = RichText::new(word).font(font::verdict());
+            ui.label(word.color(colour));
+        });
+    }
+    if summary.is_simulated {
+        ui.colored_label(Theme::of(ui).warning, text!("history-simulated"));
+    }
+    let title_of = |name: &str| match &session.library {
+        Some(library) => library.title_of(name).to_owned(),
+        None => name.to_owned(),
+    };
+    if let Some([reason, advice]) = stored_refusal(record, title_of) {
+        ui.label(sentence(&reason));
+        let advice = RichText::new(advice).font(font::body_strong());
+        ui.label(advice.color(Theme::of(ui).warning));
+    }
+}
+
+/// Draws the inspections of the part if there are several, and the differences between the one that stands for the part
+/// and the selected one (the last, if the selected one stands for the part).
+fn part(ui: &mut Ui, past: &OpenedInspection, units: UnitSystem, actions: &mut Vec<HistoryAction>) {
+    let theme = Theme::of(ui);
+    let (Some(head), Some(last)) = (past.part.first(), past.part.last()) else {
+        return;
+    };
+    heading(ui, &text!("history-of-part"));
+    let number = past.record.summary.number;
+    for record in &past.part {
+        let row = &record.summary;
+        let word = stored_verdict(row.verdict);
+        let counts = if row.number == head.summary.number {
+            format!(" · {}", text!("history-counts"))
+        } else {
+            String::new()
+        };
+        let text = format!(
+            "{} · {word} · {}{counts}",
+            row.number.abs(),
+            local_time(row.at, "%H:%M:%S")
+        );
+        let button = Button::selectable(row.number == number, text)
+            .frame_when_inactive(true)
+            .min_size(vec2(ui.available_width(), space::TARGET));
+        let number = row.number.abs();
+        let label = text!("history-of-this-part", number = number, verdict = word) + &counts;
+        if labelled(ui, button, &label).clicked() {
+            actions.push(HistoryAction::Select(row.number));
+        }
+    }
+    let other = if number == head.summary.number {
+        last
+    } else {
+        &past.record
+    };
+    let found = Differences::between(head.into(), other.into(), None);
+    let names = [head, other].map(|record| record.summary.number.abs().to_string());
+    let is_same = found.has_same_result();
+    let sentence = if is_same {
+        text!("history-found-same", number = &names[1])
+    } else {
+        text!("history-found-other", number = &names[1])
+    };
+    let names = [&*names[0], &*names[1]];
+    differences::table(ui, &found, (&sentence, is_same), names, units, theme);
+}
+
+fn figures(ui: &mut Ui, record: &Record) {
+    let Record { summary, detail } = record;
+    let shown = |title: &str| stored_scene(title, summary.is_simulated);
+    let (scene, source) = (&summary.scene, &summary.source);
+    path_row(ui, &text!("inspect-scene"), &shown(scene));
+    if source != scene {
+        path_row(ui, &text!("history-figure-source"), &shown(source));
+    }
+    let mut row = |name: String, value: &str| row(ui, &name, &shortened(value, 32));
+    let time = local_time(summary.at, DAY_AND_TIME);
+    row(text!("history-figure-time"), &time);
+    let trace = &summary.trace;
+    for (name, text) in [
+        (text!("history-figure-serial"), &trace.serial),
+        (text!("inspect-order"), &trace.order),
+        (text!("inspect-operator"), &trace.operator),
+    ] {
+        if !text.is_empty() {
+            row(name, text);
+        }
+    }
+    if let Some([score, margin]) = summary.score {
+        row(text!("history-figure-score"), &format!("{score:.2}"));
+        row(text!("history-figure-margin"), &format!("{margin:.2}"));
+    }
+    row(text!("inspect-recipe"), &recipe_text(detail));
+    row(text!("history-figure-library"), &detail.library_identity);
+    row(text!("history-figure-program"), &detail.program);
+    let frame = summary.frame_bytes.map_or_else(
+        || text!("history-frame-not-kept"),
+        |bytes| {
+            let megabytes = format!("{:.1}", bytes as f64 / 1e6);
+            text!("history-frame-kept", megabytes = megabytes)
+        },
+    );
+    row(text!("history-figure-frame"), &frame);
+}
+
+fn pose(ui: &mut Ui, record: &Record, units: UnitSystem) {
+    let Some(pose) = &record.detail.camera_from_part else {
+        return;
+    };
+    heading(ui, "camera_from_part");
+    let shift = pose.translation.vector;
+    let (rx, ry, rz) = pose.rotation.euler_angles();
+    for (name, metres) in ["x", "y", "z"].into_iter().zip(shift.iter()) {
+        row(ui, name, &units.signed_length(*metres));
+    }
+    let last = text!("history-rz");
+    for (name, radians) in [("rx", rx), ("ry", ry), (last.as_str(), rz)] {
+        row(ui, name, &units.signed_angle(radians));
+    }
+}
+
+fn times(ui: &mut Ui, record: &Record) {
+    let times = record.timings();
+    if times.is_empty() {
+        return;
+    }
+    heading(ui, &text!("history-times"));
+    for (stage, ms) in times {
+        row(ui, &stage_title(stage), &format!("{ms:.1} ms"));
+    }
+}
+
+/// Title of a stage of the report.
+fn stage_title(stage: String) -> String {
+    match stage.as_str() {
+        "segment" => text!("history-stage-segment"),
+        "project" => text!("history-stage-project"),
+        "contour" => text!("history-stage-contour"),
+        "signature" => text!("history-stage-signature"),
+        "rank" => text!("history-stage-rank"),
+        "pose" => text!("history-stage-pose"),
+        "total" => text!("history-stage-total"),
+        _ => stage,
+    }
+}
+
+/// Name of the recipe, if known, and its identity.
+fn recipe_text(detail: &InspectionDetail) -> String {
+    match &detail.recipe_label {
+        Some(label) if label.is_changed => {
+            format!("{}, {}", recipe_label(label), detail.recipe_identity)
+        }
+        _ => detail.recipe_text(),
+    }
+}
+
+fn buttons(ui: &mut Ui, history: &HistoryState, record: &Record, actions: &mut Vec<HistoryAction>) {
+    let theme = Theme::of(ui);
+    let number = record.summary.number;
+    let no_frame = history
+        .why_no_scene(record)
+        .map(|[what, advice]| format!("{what}. {advice}"));
+    ui.horizontal(|ui| {
+        let label = text!("history-open");
+        let open = RichText::new(&label).font(font::body_strong());
+        let key = RichText::new(keys("Enter")).small();
+        let open = Button::new(open.color(theme.on_accent))
+            .shortcut_text(key.color(theme.on_accent))
+            .fill(theme.accent);
+        let mut press = |button, label: &str, says: String| {
+            let can = no_frame.is_none();
+            let pressed = ui
+                .add_enabled_ui(can, |ui| labelled(ui, button, label))
+                .inner;
+            // `labelled` describes every button as enabled.
+            pressed.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, can, label));
+            pressed.on_hover_text(says).clicked()
+        };
+        if press(open, &label, text!("history-open-hint")) {
+            actions.push(HistoryAction::Open(number));
+        }
+        let key = RichText::new("A").small();
+        let label = text!("history-again");
+        let again = Button::new(&label).shortcut_text(key.weak());
+        if press(again, &label, text!("history-again-hint")) {
+            actions.push(HistoryAction::InspectAgain(number));
+        }
+    });
+    // Not as a hover text: a touch screen has none.
+    if let Some(why) = no_frame {
+        ui.label(RichText::new(why).small().weak());
+    }
+}

@@ -1,0 +1,238 @@
+//! History: find, reopen and label past inspections.
+
+mod apply;
+mod bar;
+mod details;
+mod differences;
+mod drift;
+mod export;
+mod filter;
+mod keeping;
+mod label;
+mod list;
+mod reopen;
+mod state;
+mod statistics;
+mod work;
+
+use std::sync::Arc;
+
+use egui::{CentralPanel, Frame, Key, Margin, Modifiers, Panel, Ui};
+
+pub use self::{
+    apply::{Direction, HistoryAction, HistoryFile, HistoryJob},
+    filter::{DateRange, ListFilter, VerdictChoice},
+    state::HistoryState,
+    statistics::{ReasonGroup, Statistics, StatisticsView, Tally},
+    work::{HistoryQuery, HistoryResult, OpenedInspection},
+};
+use self::{details::Details, list::List};
+
+use crate::{
+    inspection::folder_watch::FolderWatch,
+    language::{keys, text},
+    shell::{
+        context::ShellContext,
+        key_binding::{KeyBinding, Shortcut},
+        message::Event,
+        session::{Session, WorkspaceKind},
+        workspace::Workspace,
+    },
+    task::{Running, TaskRunner},
+    ui::theme::{Theme, space},
+};
+use records::history::{HistoryBuffer, Writer};
+
+/// Width of the details in a wide and in a narrow window, logical pixels.
+const DETAILS: [f32; 2] = [340.0, 300.0];
+
+/// The shortcuts of this workspace.
+const SHORTCUTS: [Shortcut<HistoryAction>; 4] = [
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::ArrowUp,
+        keys: || keys("Up"),
+        does: || text!("history-key-newer"),
+        action: || HistoryAction::Step(Direction::Up),
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::ArrowDown,
+        keys: || keys("Down"),
+        does: || text!("history-key-older"),
+        action: || HistoryAction::Step(Direction::Down),
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::Enter,
+        keys: || keys("Enter"),
+        does: || text!("history-key-open"),
+        action: || HistoryAction::OpenSelected,
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::A,
+        keys: || keys("A"),
+        does: || text!("history-key-again"),
+        action: || HistoryAction::AgainSelected,
+    },
+];
+
+/// The workspace.
+pub struct HistoryWorkspace {
+    /// The state of the workspace.
+    pub state: HistoryState,
+    details: Details,
+    list: List,
+    writer: Writer,
+    keeper: Arc<HistoryBuffer>,
+    /// Watches for what commands write.
+    watch: FolderWatch,
+    /// True once inspections written before the start have been looked for.
+    has_looked: bool,
+}
+
+impl HistoryWorkspace {
+    /// Creates the workspace; `writer` writes what `keeper` buffers.
+    pub fn new(writer: Writer, keeper: Arc<HistoryBuffer>, runner: &TaskRunner) -> Self {
+        Self {
+            state: HistoryState::new(runner),
+            details: Details::default(),
+            list: List::default(),
+            writer,
+            keeper,
+            watch: FolderWatch::new("history-watch", runner),
+            has_looked: false,
+        }
+    }
+
+    /// Carries out an action and hands its jobs to the writer.
+    pub fn apply(&mut self, action: HistoryAction, cx: &mut ShellContext<'_>) {
+        self.state.apply(action, cx);
+        self.write();
+    }
+
+    /// Hands queued jobs to the writer.
+    fn write(&mut self) {
+        for job in self.state.jobs.drain(..) {
+            match job {
+                HistoryJob::Add(ticket, entry) => self.writer.add(ticket, *entry),
+                HistoryJob::Trace(hung, change) => self.writer.trace(hung, change),
+                HistoryJob::Remark(number, remark) => self.writer.remark(number, remark),
+                HistoryJob::Label(number, label) => self.writer.label(number, label),
+                HistoryJob::Keep(rule) => self.writer.retention(rule),
+            }
+        }
+    }
+}
+
+impl Workspace for HistoryWorkspace {
+    fn kind(&self) -> WorkspaceKind {
+        WorkspaceKind::History
+    }
+
+    fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) {
+        let Self {
+            state,
+            details,
+            list,
+            ..
+        } = self;
+        let (session, theme) = (cx.session, Theme::of(ui));
+        if state.num_rows() == 0 && state.trouble.is_none() {
+            empty(ui);
+            return;
+        }
+        let mut actions = Vec::new();
+        let width = ui.available_width();
+        Panel::right("details")
+            .exact_size(if width > 1100.0 {
+                DETAILS[0]
+            } else {
+                DETAILS[1]
+            })
+            .resizable(false)
+            .frame(
+                Frame::new()
+                    .fill(theme.panel)
+                    .inner_margin(Margin::same(16)),
+            )
+            .show(ui, |ui| details.ui(ui, state, session, &mut actions));
+        CentralPanel::default()
+            .frame(Frame::new().inner_margin(Margin::same(16)))
+            .show(ui, |ui| {
+                if state.statistics.is_open() {
+                    bar::ui(ui, state, session, &mut actions);
+                    ui.add_space(space::SMALL);
+                    statistics::ui(ui, &state.statistics, session.units);
+                } else {
+                    list.ui(ui, state, session, &mut actions);
+                }
+            });
+        keeping::ui(ui.ctx(), state, &mut actions);
+        for action in actions {
+            self.apply(action, cx);
+        }
+    }
+
+    fn update(&mut self, cx: &mut ShellContext<'_>) {
+        if !std::mem::replace(&mut self.has_looked, true) {
+            self.state.look(cx);
+        }
+        let crowded = self.writer.take_dropped();
+        if crowded != [0; 2] {
+            self.state.crowded(crowded[1], cx);
+        }
+        if let Some(folder) = self.keeper.folder() {
+            self.watch.watch(folder);
+        }
+        if self.watch.has_changed() {
+            self.keeper.files_changed();
+        }
+        for news in self.keeper.take_news() {
+            self.state.take_news(news, cx);
+        }
+        self.state.update(cx);
+        self.write();
+    }
+
+    fn on_event(&mut self, event: &Event, cx: &mut ShellContext<'_>) {
+        self.state.on_event(event, cx);
+        self.write();
+    }
+
+    fn close(&mut self) {
+        if let Some((number, remark)) = self.details.remark.take_edited(None) {
+            self.state.queue(HistoryJob::Remark(number, remark));
+        }
+        self.write();
+    }
+
+    fn key_bindings(&self) -> Vec<KeyBinding> {
+        SHORTCUTS.iter().map(Shortcut::binding).collect()
+    }
+
+    fn press(&mut self, place: usize, cx: &mut ShellContext<'_>) {
+        if let Some(shortcut) = SHORTCUTS.get(place) {
+            self.apply((shortcut.action)(), cx);
+        }
+    }
+
+    fn writing(&self) -> Option<&Running> {
+        self.state.exporting.running()
+    }
+
+    fn is_idle(&self, _session: &Session) -> bool {
+        self.state.is_settled()
+    }
+}
+
+/// Draws the area before the first inspection.
+fn empty(ui: &mut Ui) {
+    ui.vertical_centered(|ui| {
+        ui.add_space(ui.available_height() * 0.4);
+        ui.heading(text!("history-empty"));
+        ui.add_space(space::SMALL);
+        ui.weak(text!("history-empty-advice"));
+    });
+}

@@ -1,0 +1,207 @@
+//! Queries of the history for what the window shows.
+
+use std::{collections::BTreeMap, ops::Range, path::PathBuf, sync::Arc};
+
+use image::{DynamicImage, RgbImage};
+
+use super::filter::ListFilter;
+use records::history::{
+    Filter, HistoryBuffer, HistoryError, HungId, Page, PartOutcome, Record, Retention,
+    StoredVerdict, Summary, Usage,
+};
+
+/// A query.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct HistoryQuery {
+    /// The filter of the inspections.
+    pub filter: ListFilter,
+    /// The rows wanted, counted from the newest.
+    pub rows: Range<usize>,
+    /// Number of the selected inspection.
+    pub selected: Option<i64>,
+    /// The part whose row is wanted instead.
+    pub part: Option<HungId>,
+    /// True if the parts of the whole history are wanted, for which every row is read.
+    pub with_parts: bool,
+}
+
+/// Result of a query.
+#[derive(Clone, Debug)]
+pub struct HistoryResult {
+    /// The query.
+    pub asked: HistoryQuery,
+    /// The rows found.
+    pub page: Page,
+    /// The selected inspection, if it exists.
+    pub record: Option<Arc<OpenedInspection>>,
+    /// False if the filter hides the selected inspection.
+    pub is_listed: bool,
+    /// Number of the selected row and its index in the list, if it is listed but not among the rows found.
+    pub far_row: Option<(i64, usize)>,
+    /// The retention rule, and the space that kept frames take.
+    pub kept: (Retention, Usage),
+    /// The folder of the kept frames.
+    pub frames: Option<PathBuf>,
+    /// Names and titles of the parts in the history, if wanted.
+    pub parts: Option<BTreeMap<String, String>>,
+}
+
+/// An inspection with its picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OpenedInspection {
+    /// The full record.
+    pub record: Record,
+    /// Its small picture.
+    pub picture: Option<RgbImage>,
+    /// All inspections of the same part, the one that stands for it first, then the others from the oldest on; empty if
+    /// there is only one.
+    pub part: Vec<Record>,
+}
+
+/// Runs a query.
+pub(super) fn look(
+    request: &HistoryQuery,
+    history: &HistoryBuffer,
+) -> Result<HistoryResult, HistoryError> {
+    let filter = request.filter.at(&geometry::clock::zoned_now());
+    let rows = &request.rows;
+    let page = history.page(&filter, rows.start, rows.len())?;
+    let selected = match &request.part {
+        Some(part) => history.part(part)?.map(|row| row.number),
+        None => request.selected,
+    };
+    let record = match selected {
+        Some(number) => history.row(number)?,
+        None => None,
+    };
+    let record = match record {
+        Some(record) => Some(Arc::new(opened(record, history)?)),
+        None => None,
+    };
+    let head = record.as_ref().map(|record| {
+        let of_part = record.part.first().unwrap_or(&record.record);
+        &of_part.summary
+    });
+    let is_listed = head.is_none_or(|head| filter.passes(head));
+    let is_found = |head: &Summary| page.rows.iter().any(|row| row.number == head.number);
+    let far_row = match head.filter(|head| is_listed && !is_found(head)) {
+        Some(head) => {
+            // The list is in the order of time.
+            let down_to_it = Filter {
+                since: Some(head.at),
+                ..filter
+            };
+            let num = history.page(&down_to_it, 0, 0)?.num_matching;
+            Some((head.number, num.saturating_sub(1)))
+        }
+        None => None,
+    };
+    Ok(HistoryResult {
+        asked: request.clone(),
+        page,
+        far_row,
+        record,
+        is_listed,
+        kept: history.kept()?,
+        frames: history.frames_folder(),
+        parts: if request.with_parts {
+            Some(parts(history)?)
+        } else {
+            None
+        },
+    })
+}
+
+/// Outcomes of the matching parts, and the number of simulated parts among them that are left out. No part hangs in a
+/// simulated frame, so those count only where there is nothing else: the filter leaves them out otherwise.
+pub(super) fn outcomes(
+    filter: &mut Filter,
+    history: &HistoryBuffer,
+) -> Result<(Vec<PartOutcome>, usize), HistoryError> {
+    filter.is_simulated = Some(true);
+    let num_simulated = history.page(filter, 0, 0)?.num_matching;
+    filter.is_simulated = Some(false);
+    let outcomes = history.outcomes(filter)?;
+    if !outcomes.is_empty() {
+        return Ok((outcomes, num_simulated));
+    }
+    filter.is_simulated = None;
+    Ok((history.outcomes(filter)?, 0))
+}
+
+/// Names and titles of the parts in the history.
+fn parts(history: &HistoryBuffer) -> Result<BTreeMap<String, String>, HistoryError> {
+    let mut parts = BTreeMap::new();
+    for part in history.outcomes(&Filter::default())? {
+        if let Some(name) = part.part {
+            let entry = parts.entry(name);
+            entry.or_insert_with_key(|name| former_title(history, name));
+        }
+    }
+    Ok(parts)
+}
+
+/// The title under which a part was last accepted, else its name.
+pub(super) fn former_title(history: &HistoryBuffer, name: &str) -> String {
+    let accepted = Filter {
+        part: Some(name.to_owned()),
+        verdict: Some(StoredVerdict::Accepted),
+        ..Filter::default()
+    };
+    let page = history.page(&accepted, 0, 1).ok();
+    let row = page.and_then(|page| page.rows.into_iter().next());
+    row.map_or_else(|| name.to_owned(), |row| row.title)
+}
+
+fn opened(record: Record, history: &HistoryBuffer) -> Result<OpenedInspection, HistoryError> {
+    let head = match record.summary.parent {
+        Some(parent) => history.row(parent)?,
+        None => Some(record.clone()),
+    };
+    let mut part = Vec::new();
+    if let Some(head) = head {
+        part = history.below(head.summary.number)?;
+        if !part.is_empty() {
+            part.insert(0, head);
+        }
+    }
+    let picture = image::load_from_memory(&record.detail.thumbnail).ok();
+    Ok(OpenedInspection {
+        picture: picture.map(DynamicImage::into_rgb8),
+        record,
+        part,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Instant;
+
+    use super::*;
+    use records::fixtures::history_entry;
+
+    #[test]
+    fn simulated_frames_are_counted_only_where_there_is_nothing_else() {
+        let history = HistoryBuffer::new(None);
+        let add = |seconds, part, is_simulated| {
+            let mut entry = history_entry(seconds, StoredVerdict::Accepted, part);
+            entry.record.summary.is_simulated = is_simulated;
+            history.add(seconds as u64, entry, Instant::now());
+        };
+        let num = |part: &str| {
+            let mut filter = Filter {
+                part: Some(part.to_owned()),
+                ..Filter::default()
+            };
+            let (outcomes, num_left_out) = outcomes(&mut filter, &history).expect("asked");
+            (outcomes.len(), num_left_out, filter.is_simulated)
+        };
+        add(1, "fender", true);
+        add(2, "fender", true);
+        assert_eq!(num("fender"), (2, 0, None));
+        add(3, "fender", false);
+        add(4, "grille", true);
+        assert_eq!(num("fender"), (1, 2, Some(false)));
+        assert_eq!(num("grille"), (1, 0, None));
+    }
+}

@@ -1,0 +1,533 @@
+//! What the operator's banner says: which part, OK or not, and what to do next.
+
+use egui::Color32;
+
+use super::{
+    headline::{Headline, HeadlineState},
+    hold::{Hold, inspect_current},
+    operator_words::{in_short, next_step, next_without_part, no_part_in_short},
+};
+use crate::{
+    inspection::{inspected::Inspected, source::Origin},
+    language::text,
+    shell::{
+        live::SourceState,
+        session::{Session, Source, UserRole},
+    },
+    ui::{
+        theme::Theme,
+        widgets::{Mark, sentence},
+    },
+};
+use capture::SourceSpec;
+use inspection::pipeline::{Unrecognisable, Verdict};
+use records::history::StoredVerdict;
+use station::Currency;
+
+/// State that the banner shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Tone {
+    /// An accepted part that a robot may act on.
+    Ok,
+    /// An accepted part that no robot may act on.
+    Recognised,
+    /// A part that is not accepted.
+    NotOk,
+    /// There is no verdict, or not yet.
+    Open,
+    /// There is no result, and somebody has to fix it.
+    Trouble,
+}
+
+impl Tone {
+    pub(super) fn word(self) -> String {
+        match self {
+            Self::Ok => text!("operator-ok"),
+            Self::Recognised => text!("inspect-recognised"),
+            Self::NotOk => text!("operator-not-ok"),
+            Self::Open | Self::Trouble => String::new(),
+        }
+    }
+
+    pub(super) fn mark(self) -> Mark {
+        match self {
+            Self::Ok => Mark::Good,
+            Self::Recognised => Mark::Known,
+            Self::NotOk => Mark::Bad,
+            Self::Open => Mark::Open,
+            Self::Trouble => Mark::Look,
+        }
+    }
+
+    /// Colours of the word and of its background.
+    pub(super) fn colours(self, theme: &Theme) -> [Color32; 2] {
+        match self {
+            Self::Ok => [theme.accepted, theme.accepted_back],
+            Self::Recognised => [theme.text, theme.panel],
+            Self::NotOk => [theme.rejected, theme.rejected_back],
+            Self::Open => [theme.weak_text, theme.panel],
+            Self::Trouble => [theme.warning, theme.panel],
+        }
+    }
+}
+
+/// The verdict, its reason and the next step, in the operator's words.
+#[derive(Debug)]
+pub(super) struct Banner {
+    pub(super) tone: Tone,
+    pub(super) title: String,
+    pub(super) reason: String,
+    pub(super) next: String,
+    /// What else the operator should know about the part; may be empty.
+    pub(super) caution: String,
+    /// True if the picture shows what hangs there now.
+    pub(super) is_current: bool,
+}
+
+impl Banner {
+    pub(super) fn new(
+        tone: Tone,
+        title: impl Into<String>,
+        reason: impl Into<String>,
+        next: impl Into<String>,
+    ) -> Self {
+        Self {
+            tone,
+            title: title.into(),
+            reason: reason.into(),
+            next: next.into(),
+            caution: String::new(),
+            is_current: false,
+        }
+    }
+
+    pub(super) fn of(session: &Session) -> Self {
+        let wait = text!("inspect-wait");
+        if session.is_live() {
+            match session.live.status.as_ref().map(|status| &status.source) {
+                None | Some(SourceState::Opening) => {
+                    return Self::new(Tone::Open, text!("operator-opening-camera"), "", wait);
+                }
+                Some(SourceState::Lost(_)) => return Self::of_lost(&session.source),
+                Some(SourceState::Running) => {}
+            }
+        } else if let Some(run) = &session.inspecting {
+            if run.is_waiting {
+                return Self::waiting_for_file();
+            }
+            return Self::new(Tone::Open, text!("operator-inspecting"), &run.title, wait);
+        }
+        if let Some(trouble) = &session.failed {
+            // A watched folder has no Capture: the next file comes by itself.
+            let next = if session.is_watching() {
+                trouble.advice.clone()
+            } else {
+                text!("operator-no-result-next")
+            };
+            return Self::new(
+                Tone::Trouble,
+                text!("operator-no-result"),
+                sentence(&trouble.what),
+                next,
+            );
+        }
+        if let Some(library) = &session.library {
+            let ask = text!("operator-ask-to-enrol");
+            if let Some(trouble) = &library.unloaded {
+                return Self::new(
+                    Tone::Trouble,
+                    text!("shell-no-library"),
+                    sentence(&trouble.what),
+                    ask,
+                );
+            }
+            if library.parts.is_empty() {
+                let why = text!("operator-no-parts-why");
+                return Self::new(Tone::Trouble, text!("operator-no-parts"), why, ask);
+            }
+        }
+        // What is shown may be of another source, or from before this one was followed. After Live, the line may have gone on;
+        // a frame without a verdict already says that Live was stopped.
+        let shown = session.shown.as_ref().filter(|shown| {
+            let is_current = session.currency(&shown.inspected) != Currency::Superseded;
+            let says_itself = shown.is_past || shown.inspected.is_open();
+            is_current || says_itself && !shown.is_outdated
+        });
+        let Some(shown) = shown else {
+            return Self::without_current(session);
+        };
+        let inspected = &shown.inspected;
+        let result = Self::of_result(inspected, session);
+        let mut verdict = Self {
+            caution: caution(inspected, result.tone),
+            is_current: true,
+            ..result
+        };
+        let serial = session.trace.of_part(inspected).serial;
+        // While the next part swings in, a frame may still belong to the one before.
+        let is_part = inspected.entry.record.summary.verdict != StoredVerdict::NoPart;
+        if is_part && !inspected.is_open() && !serial.is_empty() {
+            verdict.reason = format!("{} · {serial}", verdict.reason);
+        }
+        if shown.is_past {
+            return Self {
+                tone: Tone::Open,
+                reason: text!("inspect-from-history"),
+                next: inspect_current(&session.source),
+                caution: String::new(),
+                ..verdict
+            };
+        }
+        verdict
+    }
+
+    /// The banner while no result counts for the part that hangs there now.
+    fn without_current(session: &Session) -> Self {
+        if session.is_watching() {
+            return Self::waiting_for_file();
+        }
+        let [title, reason, next] = if session.is_live() {
+            [
+                text!("inspect-looking"),
+                text!("operator-nothing-captured"),
+                text!("inspect-wait"),
+            ]
+        } else if session.shown.is_some() {
+            [
+                text!("inspect-no-verdict"),
+                text!("operator-counts-no-longer"),
+                inspect_current(&session.source),
+            ]
+        } else {
+            [
+                text!("operator-ready"),
+                text!("operator-nothing-inspected"),
+                text!("operator-hang-and-capture"),
+            ]
+        };
+        Self::new(Tone::Open, title, reason, next)
+    }
+
+    fn waiting_for_file() -> Self {
+        Self::new(
+            Tone::Open,
+            text!("shell-waiting-for-file"),
+            text!("operator-no-new-file"),
+            text!("operator-save-capture"),
+        )
+    }
+
+    /// The exact error is for the engineer.
+    fn of_lost(source: &Source) -> Self {
+        let (title, next) = if is_folder(source) {
+            (
+                text!("operator-no-folder"),
+                text!("operator-no-folder-next"),
+            )
+        } else {
+            (
+                text!("operator-no-camera"),
+                text!("operator-no-camera-next"),
+            )
+        };
+        Self::new(Tone::Trouble, title, text!("operator-lost"), next)
+    }
+
+    fn of_result(inspected: &Inspected, session: &Session) -> Self {
+        let Headline {
+            title,
+            state,
+            actual,
+            complaint,
+            ..
+        } = Headline::of(inspected, session);
+        let inspection = &inspected.inspection;
+        if actual.is_some() {
+            let next = text!("operator-reported-wrong-next");
+            return Self::new(Tone::NotOk, title, text!("operator-reported-wrong"), next);
+        }
+        if state.is_accepted() {
+            if let Some(hold) = Hold::of(session, inspected, UserRole::Operator) {
+                return Self::new(Tone::Recognised, title, hold.reason, hold.advice);
+            }
+            let is_file = matches!(inspected.origin, Origin::File { .. } | Origin::Scan { .. });
+            let next = if is_file {
+                text!("operator-file-next")
+            } else if caution(inspected, Tone::Ok).is_empty() {
+                text!("operator-start-robot")
+            } else {
+                text!("operator-check-part-next")
+            };
+            return Self::new(Tone::Ok, title, text!("operator-recognised"), next);
+        }
+        let (reason, advice) = complaint.unwrap_or_default();
+        if state == HeadlineState::Open {
+            return Self::new(Tone::Open, title, sentence(&reason), advice);
+        }
+        let nearest = inspection.verdict.guess().map_or_else(
+            || text!("operator-an-enrolled-part"),
+            |part| inspected.library.title_of(part).to_owned(),
+        );
+        match &inspection.verdict {
+            Verdict::NoPart(why @ Unrecognisable::EmptyLibrary) => Self::new(
+                Tone::Trouble,
+                text!("operator-no-parts"),
+                no_part_in_short(why),
+                text!("operator-ask-to-enrol"),
+            ),
+            // An empty cell is not a bad part.
+            Verdict::NoPart(why) => {
+                let next = next_without_part(why, session);
+                Self::new(Tone::Open, title, no_part_in_short(why), next)
+            }
+            Verdict::Part {
+                rejected: Some(why),
+                ..
+            } => {
+                let next = next_step(why, &nearest, session);
+                Self::new(Tone::NotOk, title, in_short(why, &nearest), next)
+            }
+            Verdict::Part { rejected: None, .. } => {
+                Self::new(Tone::NotOk, title, sentence(&reason), advice)
+            }
+        }
+    }
+}
+
+/// Says that some of a part is outside the picture, or that an accepted one may be another model.
+fn caution(inspected: &Inspected, tone: Tone) -> String {
+    let is_cut = inspected.inspection.touches_edge() && inspected.scan.is_none();
+    match tone {
+        Tone::NotOk if is_cut => text!("operator-reaches-edge"),
+        Tone::Ok | Tone::Recognised => {
+            let is_approximate = inspected.inspection.verdict.is_approximate();
+            let cautions = [
+                is_cut.then(|| text!("operator-reaches-edge-ok")),
+                is_approximate.then(|| text!("operator-approximate-ok")),
+            ];
+            let cautions: Vec<String> = cautions.into_iter().flatten().collect();
+            cautions.join("\n")
+        }
+        Tone::NotOk | Tone::Open | Tone::Trouble => String::new(),
+    }
+}
+
+/// True for a watched folder or a recording.
+fn is_folder(source: &Source) -> bool {
+    matches!(source, Source::Camera(spec)
+        if matches!(**spec, SourceSpec::Watched(_) | SourceSpec::Recording(_)))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::{
+        inspection::{
+            inspected::{LiveFrameContext, inspected_cell},
+            source::CellChoice,
+        },
+        language::Language,
+        shell::{
+            live::LiveStatus,
+            message::ReinspectionPurpose,
+            session::{Inspecting, Shown},
+        },
+        user_error::UserError,
+    };
+    use geometry::rigid::RigidTransform;
+    use inspection::pipeline::{
+        Rejection,
+        live::{LiveVerdict, MotionState},
+    };
+    use robot::RobotFrame;
+
+    fn showing(inspected: Inspected, is_past: bool) -> Session {
+        Session {
+            shown: Some(Shown {
+                generation: 1,
+                inspected: Arc::new(inspected),
+                is_past,
+                session: None,
+                is_outdated: false,
+            }),
+            robot: Some(Arc::new(RobotFrame {
+                robot_from_camera: RigidTransform::identity(),
+                name: "cell 1".into(),
+            })),
+            ..Session::default()
+        }
+    }
+
+    #[test]
+    fn a_part_at_the_edge_another_model_and_a_file_are_said_and_only_what_is_certain() {
+        let banner = |change: fn(&mut Inspected), is_past| {
+            let mut inspected = inspected_cell(CellChoice::InTurn, 1);
+            change(&mut inspected);
+            Banner::of(&showing(inspected, is_past))
+        };
+        let beside_shadow: fn(&mut Inspected) = |inspected| {
+            if let Ok(part) = &mut inspected.inspection.segmentation.part {
+                part.touches_edge = true;
+            }
+            inspected.origin = camera();
+        };
+        let cut: fn(&mut Inspected) = |inspected| {
+            if let Some(Ok(pose)) = &mut inspected.inspection.pose
+                && let Some(sight) = &mut pose.fit.sight
+            {
+                sight.outside = 0.1;
+            }
+            inspected.origin = camera();
+        };
+        let approximate: fn(&mut Inspected) = |inspected| {
+            if let Verdict::Part { is_approximate, .. } = &mut inspected.inspection.verdict {
+                *is_approximate = true;
+            }
+            inspected.origin = camera();
+        };
+        let refused: fn(&mut Inspected) = |inspected| {
+            if let Ok(part) = &mut inspected.inspection.segmentation.part {
+                part.touches_edge = true;
+            }
+            if let Verdict::Part { rejected, part, .. } = &mut inspected.inspection.verdict {
+                *rejected = Some(Rejection::NotSteady { part: part.clone() });
+            }
+        };
+        assert_eq!(banner(|_| (), false).caution, "");
+        let inside = banner(beside_shadow, false);
+        assert_eq!((inside.tone, &*inside.caution), (Tone::Ok, ""));
+        let plain = banner(|inspected| inspected.origin = camera(), false);
+        assert_eq!((&*plain.next, &*plain.caution), ("Start the robot", ""));
+        for (change, caution) in [(cut, "Not all of it"), (approximate, "another model")] {
+            let good = banner(change, false);
+            assert_eq!(good.tone, Tone::Ok);
+            assert!(good.caution.contains(caution), "{}", good.caution);
+            assert_eq!(good.next, "Check the part, then start the robot");
+        }
+        let bad = banner(refused, false);
+        assert_eq!(bad.tone, Tone::NotOk);
+        assert!(bad.caution.contains("all of it"), "{}", bad.caution);
+        assert_eq!(banner(cut, true).caution, "");
+        let file: fn(&mut Inspected) = |inspected| {
+            inspected.origin = Origin::File {
+                path: "/data/door.png".into(),
+                is_simulated: false,
+            };
+        };
+        // It may show what hung there days ago.
+        let next = banner(file, false).next;
+        assert!(next.starts_with("From a file"), "{next}");
+    }
+
+    #[test]
+    fn an_acceptance_by_live_does_not_stand_once_live_is_off() {
+        let banner = |is_live: bool, is_past: bool| {
+            let mut inspected = inspected_cell(CellChoice::InTurn, 1);
+            inspected.origin = camera();
+            let mut session = showing(inspected, is_past);
+            session.live.is_on = is_live;
+            session.live.status = is_live.then(|| status(SourceState::Running));
+            if let Some(shown) = &mut session.shown {
+                shown.session = Some(1);
+            }
+            Banner::of(&session)
+        };
+        assert_eq!(banner(true, false).tone, Tone::Ok);
+        let off = banner(false, false);
+        assert_eq!((off.tone, off.is_current), (Tone::Open, false));
+        assert_eq!(off.reason, "The last verdict no longer counts");
+        let past = banner(false, true);
+        assert!(past.reason.starts_with("From the history"), "{past:?}");
+    }
+
+    #[test]
+    fn a_capture_that_waits_for_a_file_tells_the_operator_to_save_one() {
+        let banner = |is_waiting| {
+            let mut session = showing(inspected_cell(CellChoice::InTurn, 1), false);
+            session.inspecting = Some(Inspecting {
+                title: text!("shell-waiting-for-file"),
+                purpose: ReinspectionPurpose::New,
+                is_waiting,
+            });
+            let banner = Banner::of(&session);
+            assert_eq!((banner.tone, banner.is_current), (Tone::Open, false));
+            [banner.title, banner.next]
+        };
+        let [title, next] = banner(true);
+        assert_eq!(title, "Waiting for a new file");
+        assert!(next.starts_with("Save a capture to the folder"), "{next}");
+        assert_eq!(banner(false), ["Inspecting…", "Wait a moment"]);
+    }
+
+    #[test]
+    fn only_a_steady_part_is_shown_with_its_serial_number() {
+        let reason = |choice, moves: bool| {
+            let mut inspected = inspected_cell(choice, 1);
+            inspected.entry.record.summary.trace.serial = "4711".into();
+            inspected.followed = moves.then_some(LiveFrameContext {
+                stillness: MotionState::Moving,
+                standing: LiveVerdict::Open,
+            });
+            Banner::of(&showing(inspected, false)).reason
+        };
+        assert!(reason(CellChoice::InTurn, false).contains("4711"));
+        for (choice, moves) in [(CellChoice::InTurn, true), (CellChoice::Empty, false)] {
+            let reason = reason(choice, moves);
+            assert!(!reason.contains("4711"), "{reason}");
+        }
+    }
+
+    #[test]
+    fn a_lost_source_is_named_by_its_kind_in_the_language_of_the_window() {
+        let lost = |source| {
+            let mut session = Session {
+                source,
+                ..Session::default()
+            };
+            session.live.is_on = true;
+            session.live.status = Some(status(SourceState::Lost(UserError {
+                what: "the folder does not exist".into(),
+                advice: "Connect the drive".into(),
+            })));
+            Banner::of(&session)
+        };
+        let folder = Source::Camera(Box::new("watch:captures".parse().expect("a source")));
+        Language::German.make_current();
+        let banners = [lost(folder), lost(Source::default())];
+        Language::English.make_current();
+        let expected = [
+            ("Ordner nicht erreichbar", "Netzlaufwerk"),
+            ("Keine Kamera", "Stecker"),
+        ];
+        for (banner, (title, next)) in banners.iter().zip(expected) {
+            assert_eq!(banner.title, title);
+            assert!(banner.next.starts_with(next), "{banner:?}");
+            assert!(banner.next.contains("Instandhaltung"), "{banner:?}");
+            assert!(!banner.reason.contains("folder"), "{banner:?}");
+        }
+    }
+
+    fn status(source: SourceState) -> LiveStatus {
+        LiveStatus {
+            source,
+            stillness: None,
+            standing: LiveVerdict::Open,
+            rates: [None; 2],
+            latency: None,
+            num_inspected: 1,
+            num_dropped: 0,
+            num_averaged: 1,
+            recorded: None,
+        }
+    }
+
+    /// A frame of a camera that is not simulated.
+    fn camera() -> Origin {
+        Origin::Frame {
+            name: "kinect frame 1".into(),
+            is_simulated: false,
+        }
+    }
+}

@@ -1,0 +1,398 @@
+//! The verdict card: which part, accepted or not, where, how certain, and what to do next.
+
+use egui::{
+    Align, Button, Frame, Label, Layout, Panel, Rect, RichText, ScrollArea, Sense, Ui, pos2,
+    style::ScrollStyle, vec2,
+};
+
+use super::{
+    action::{InspectAction, InspectFile},
+    headline::{self, Headline, HeadlineState},
+    hold::{self, Hold},
+    robot_numbers, stand_off,
+};
+use crate::{
+    inspection::{inspected::Inspected, unit_system::UnitSystem},
+    language::{
+        results::{free_motion, recipe_label, stopped, traced},
+        text,
+    },
+    shell::{
+        live,
+        session::{Session, UserRole},
+    },
+    shots::summary,
+    ui::{
+        theme::{ROUNDING, Theme, font, space},
+        widgets::{focus_ring, heading, row, shortened},
+    },
+};
+use inspection::pipeline::Verdict;
+use stages::pose::PoseEstimate;
+
+/// Draws the card; with the stand-off of an assumed path only if its nozzle is shown.
+pub(super) fn ui(
+    ui: &mut Ui,
+    inspected: &Inspected,
+    session: &Session,
+    shows_nozzle: bool,
+    actions: &mut Vec<InspectAction>,
+) {
+    let theme = Theme::of(ui);
+    if session.is_old() {
+        let text = match &session.inspecting {
+            Some(_) => text!("inspect-previous-result"),
+            None => text!("inspect-outdated"),
+        };
+        let text = RichText::new(text).font(font::body_strong());
+        ui.label(text.color(theme.warning));
+        ui.multiply_opacity(0.55);
+    }
+    if session.shown.as_ref().is_some_and(|shown| shown.is_past) {
+        let text = text!("inspect-from-history");
+        let text = RichText::new(text).font(font::body_strong());
+        ui.label(text.color(theme.warning));
+    }
+    if session.is_live() && live::card(ui, session) {
+        actions.push(InspectAction::ToggleRecording);
+    }
+    let inspection = &inspected.inspection;
+    // Without the part's name, the figures of its pose are of no use.
+    let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+    let pose = pose.filter(|_| inspection.verdict.is_named());
+    // Keep the buttons visible, however low the window.
+    let pose_to_copy = pose.filter(|_| inspection.verdict.is_accepted());
+    Panel::bottom("ways on")
+        .exact_size(space::TARGET + space::MEDIUM)
+        .resizable(false)
+        .show_separator_line(false)
+        .frame(Frame::new())
+        .show(ui, |ui| {
+            let copying = pose_to_copy.map(|_| Hold::robot_of_files(session, inspected).map(drop));
+            action_buttons(ui, copying, actions);
+        });
+    hold::look_again(ui);
+    // Lines of text need less height than controls.
+    ui.spacing_mut().interact_size.y = 20.0;
+    ui.spacing_mut().item_spacing.y = 3.0;
+    ui.spacing_mut().scroll = ScrollStyle::thin();
+    // The bar is beside the figures, not over them.
+    ui.spacing_mut().scroll.floating_allocated_width = space::SMALL;
+    // Keep the verdict visible when the rest is scrolled.
+    let headline = Headline::of(inspected, session);
+    headline::ui(ui, &headline);
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        if inspection.touches_edge() && inspected.scan.is_none() {
+            ui.colored_label(theme.warning, text!("inspect-touches-edge"));
+        }
+        as_part(ui, inspected, &headline);
+        score(ui, inspected, &headline);
+        if let Some(pose) = pose {
+            offset(ui, inspected, pose, session.units);
+            fit(ui, pose, session.units);
+            if pose.is_ambiguous() && !inspection.verdict.is_unknown() {
+                ui.colored_label(theme.warning, text!("inspect-ambiguous"));
+            }
+            if inspection.verdict.is_approximate() && !inspection.verdict.is_unknown() {
+                ui.colored_label(theme.warning, text!("inspect-approximate"));
+            }
+            // The figures of a path that was never stored would look like a defect beside an accepted part.
+            if shows_nozzle || inspected.spray.is_some() {
+                stand_off::ui(ui, inspected, session.units);
+            }
+            robot_numbers::ui(ui, inspected, session, actions);
+        }
+        if let Some(scan) = &inspected.scan {
+            summary(ui, &scan.fused, session.units);
+        }
+        footer(ui, inspected, session);
+    });
+}
+
+/// Draws the buttons for what can be done with the result. `copying` is `None` without a pose to copy, and holds why it must not
+/// be copied.
+fn action_buttons(
+    ui: &mut Ui,
+    copying: Option<Result<(), Hold>>,
+    actions: &mut Vec<InspectAction>,
+) {
+    /// Left and right of a button's text, logical pixels.
+    const PADDING: f32 = 4.0;
+    let theme = Theme::of(ui);
+    let ways = [
+        (
+            text!("inspect-export"),
+            text!("inspect-export-says"),
+            InspectAction::Ask(InspectFile::Report),
+        ),
+        (
+            text!("inspect-wrong-part"),
+            text!("inspect-wrong-part-says"),
+            InspectAction::Compare,
+        ),
+        (
+            text!("inspect-copy-pose"),
+            text!("inspect-copy-pose-says"),
+            InspectAction::CopyPose,
+        ),
+    ];
+    let num = if copying.is_some() { 3 } else { 2 };
+    let hold = copying.and_then(Result::err);
+    ui.with_layout(Layout::bottom_up(Align::Min), |ui| {
+        ui.horizontal(|ui| {
+            ui.spacing_mut().button_padding.x = PADDING;
+            let gaps = ui.spacing().item_spacing.x * (num - 1) as f32;
+            let room = ui.available_width() - gaps;
+            let needed = |(label, ..): &(String, String, InspectAction)| {
+                let colour = theme.text;
+                let galley = ui
+                    .painter()
+                    .layout_no_wrap(label.clone(), font::small(), colour);
+                galley.size().x + 2.0 * PADDING
+            };
+            let mut widths: Vec<f32> = ways.iter().take(num).map(needed).collect();
+            let even = room / num as f32;
+            // Equal widths, unless a text needs more.
+            if widths.iter().all(|width| *width <= even) {
+                widths.fill(even);
+            }
+            let spare = (room - widths.iter().sum::<f32>()) / num as f32;
+            for ((label, says, action), width) in ways.into_iter().zip(widths) {
+                let text = RichText::new(label).small();
+                let size = vec2(width + spare, space::TARGET);
+                let hold = hold
+                    .as_ref()
+                    .filter(|_| matches!(action, InspectAction::CopyPose));
+                let button = ui.add_enabled_ui(hold.is_none(), |ui| {
+                    ui.add_sized(size, Button::new(text).truncate())
+                });
+                let button = button.inner;
+                focus_ring(ui, button.rect, &button);
+                let why_not = hold.map_or_else(String::new, Hold::in_words);
+                let button = button.on_hover_text(says).on_disabled_hover_text(why_not);
+                if button.clicked() {
+                    actions.push(action);
+                }
+            }
+        });
+    });
+}
+
+/// Heads the figures with the part that they belong to, if the headline does not name it.
+fn as_part(ui: &mut Ui, inspected: &Inspected, headline: &Headline) {
+    let verdict = &inspected.inspection.verdict;
+    let Some(guess) = verdict.guess().filter(|_| verdict.is_named()) else {
+        return;
+    };
+    let part = inspected.library.title_of(guess);
+    if !headline.state.is_accepted()
+        && headline.state != HeadlineState::Open
+        && !headline.title.contains(part)
+    {
+        heading(ui, &text!("inspect-as-part", part = part));
+    }
+}
+
+/// Draws the score as a bar against the threshold, and the margin.
+fn score(ui: &mut Ui, inspected: &Inspected, headline: &Headline) {
+    let theme = Theme::of(ui);
+    let Verdict::Part { score, margin, .. } = inspected.inspection.verdict else {
+        return;
+    };
+    // A mirror image is called the image of a part that need not score more than the next one.
+    let is_mirrored = inspected.inspection.verdict.is_mirrored();
+    // Another reference of the same part is no other part.
+    let next = inspected.inspection.ranking.runner_up();
+    let next = next.filter(|_| !is_mirrored);
+    ui.add_space(space::MEDIUM);
+    let name = if is_mirrored {
+        text!("inspect-score-itself")
+    } else {
+        text!("inspect-score")
+    };
+    row(ui, &name, &format!("{score:.2}"));
+    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 12.0), Sense::hover());
+    let painter = ui.painter();
+    let bar = Rect::from_min_max(rect.min + vec2(0.0, 2.0), rect.max - vec2(0.0, 2.0));
+    painter.rect_filled(bar, ROUNDING, theme.track);
+    let width = bar.width() * score.clamp(0.0, 1.0) as f32;
+    let fill = match headline.state {
+        HeadlineState::Go => theme.accepted,
+        HeadlineState::Recognised if headline.actual.is_none() => theme.text,
+        HeadlineState::Open => theme.warning,
+        HeadlineState::Recognised | HeadlineState::NoPart | HeadlineState::Refused => {
+            theme.rejected
+        }
+    };
+    painter.rect_filled(
+        Rect::from_min_size(bar.min, vec2(width, bar.height())),
+        ROUNDING,
+        fill,
+    );
+    let tick = bar.left() + bar.width() * inspected.recipe.accept.min_score as f32;
+    let tick = Rect::from_min_max(
+        pos2(tick - 1.0, rect.top()),
+        pos2(tick + 1.0, rect.bottom()),
+    );
+    painter.rect_filled(tick, 0.0, theme.text);
+    let caption = |text: String| RichText::new(text).small().weak();
+    ui.horizontal(|ui| {
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            ui.label(caption(text!(
+                "inspect-threshold",
+                score = format!("{:.2}", inspected.recipe.accept.min_score)
+            )));
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                if let Some(next) = next {
+                    let next = caption(text!(
+                        "inspect-next",
+                        part = inspected.library.title_of(&next.part),
+                        score = format!("{:.2}", next.score)
+                    ));
+                    ui.add(Label::new(next).truncate());
+                }
+            });
+        });
+    });
+    if next.is_some() {
+        let lead = ui.label(caption(text!(
+            "inspect-margin",
+            margin = format!("{margin:.2}")
+        )));
+        lead.on_hover_text(text!("inspect-margin-says"));
+    }
+}
+
+/// Draws how far the part's middle is from its standard position, and how the part is rotated.
+fn offset(ui: &mut Ui, inspected: &Inspected, pose: &PoseEstimate, units: UnitSystem) {
+    let camera_from_part = pose.camera_from_part();
+    heading(ui, &text!("inspect-offset"));
+    let rows = |ui: &mut Ui, rows: [(&str, String); 3]| {
+        for (axis, value) in rows {
+            row(ui, axis, &value);
+        }
+    };
+    // nalgebra's Euler angles are those of Rz·Ry·Rx.
+    let (rx, ry, rz) = camera_from_part.rotation.euler_angles();
+    let turns = [("rx", rx), ("ry", ry), ("rz", rz)];
+    let turns = turns.map(|(axis, radians)| (axis, units.signed_angle(radians)));
+    if let Some(middle) = inspected.middle {
+        let shift = camera_from_part * middle - middle;
+        let shifts = [("x", shift.x), ("y", shift.y), ("z", shift.z)];
+        let shifts = shifts.map(|(axis, metres)| (axis, units.signed_length(metres)));
+        ui.spacing_mut().item_spacing.x = space::LARGE;
+        ui.columns(2, |columns| {
+            if let [left, right] = columns {
+                rows(left, shifts);
+                rows(right, turns);
+            }
+        });
+        ui.spacing_mut().item_spacing.x = space::SMALL;
+    } else {
+        rows(ui, turns);
+    }
+    if let Some(other) = inspected.inspection.other_reference() {
+        let other = inspected.library.title_of(other);
+        ui.weak(text!("inspect-measured-from", part = other));
+    }
+    let note = text!("inspect-offset-note");
+    ui.label(RichText::new(note).small().weak());
+}
+
+fn fit(ui: &mut Ui, pose: &PoseEstimate, units: UnitSystem) {
+    let theme = Theme::of(ui);
+    heading(ui, &text!("inspect-fit"));
+    row(ui, &text!("inspect-rms"), &units.length(pose.fit.rms_m));
+    row(
+        ui,
+        &text!("inspect-overlap"),
+        &format!("{:.0} %", pose.fit.overlap * 100.0),
+    );
+    if let Some(bounds) = pose.uncertainty {
+        if let Some(freedom) = bounds.freedom {
+            let text = text!("inspect-unconstrained", freedom = free_motion(freedom));
+            ui.colored_label(theme.warning, text);
+        } else {
+            let (shift, turn) = (units.length(bounds.shift.0), units.angle(bounds.turn.0));
+            let value = format!("{shift} · {turn}");
+            let names = [
+                text!("inspect-pose-uncertainty"),
+                text!("inspect-uncertainty"),
+                "95 %".to_owned(),
+            ];
+            let width = |text: &str| {
+                let laid_out = ui
+                    .painter()
+                    .layout_no_wrap(text.into(), font::body(), theme.text);
+                laid_out.size().x
+            };
+            let room = ui.available_width() - width(&value) - 2.0 * space::SMALL;
+            let fits = |name: &&String| width(name) <= room;
+            let name = names.iter().find(fits).unwrap_or(&names[2]);
+            row(ui, name, &value);
+        }
+    }
+    if let Some(runner_up) = pose.runner_up {
+        // What rounds to 1.0 times is not worse.
+        let words = if runner_up.ratio < 1.05 {
+            text!("inspect-as-good")
+        } else {
+            let ratio = format!("{:.1}", runner_up.ratio);
+            text!("inspect-times-worse", ratio = ratio)
+        };
+        row(ui, &text!("inspect-runner-up"), &words);
+    }
+    let by = format!("{} · {}", stopped(pose.stopped), pose.method.name());
+    row(
+        ui,
+        &text!("inspect-iterations", num = pose.iterations.len()),
+        &by,
+    );
+}
+
+fn footer(ui: &mut Ui, inspected: &Inspected, session: &Session) {
+    heading(ui, &text!("inspect-inspection"));
+    let ms = inspected.inspection.timings.total.as_secs_f64() * 1000.0;
+    row(ui, &text!("inspect-time"), &format!("{ms:.1} ms"));
+    row(ui, &text!("inspect-scene"), &inspected.origin.shown_title());
+    if inspected.origin.is_simulated() {
+        row(ui, &text!("inspect-camera"), &text!("inspect-simulated"));
+    }
+    for (name, text) in session.trace.of_part(inspected).known() {
+        row(ui, &traced(name), &shortened(text, 28));
+    }
+    if session.role == UserRole::Engineer {
+        let label = recipe_label(&inspected.recipe.label);
+        row(ui, &text!("inspect-recipe"), &shortened(&label, 28));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::inspection::{inspected::inspected_cell, source::CellChoice};
+
+    #[test]
+    fn the_next_part_is_not_another_reference_of_the_same_part() {
+        let mut found = inspected_cell(CellChoice::InTurn, 1);
+        let [first, second, third, ..] = &mut found.inspection.ranking.entries[..] else {
+            panic!("few parts");
+        };
+        second.part.clone_from(&first.part);
+        "front_door_b".clone_into(&mut second.enrolled_as);
+        "front_door_b".clone_into(&mut found.figures.candidates[1].title);
+        let next = found.library.title_of(&third.part);
+        let expected = format!("Next: {next} {:.2}", third.score);
+        let headline = Headline::of(&found, &Session::default());
+        let ctx = egui::Context::default();
+        Theme::install_fonts(&ctx);
+        let output = ctx.run_ui(egui::RawInput::default(), |ui| score(ui, &found, &headline));
+        let written = output.shapes.iter().filter_map(|drawn| match &drawn.shape {
+            egui::Shape::Text(text) => Some(text.galley.text().to_owned()),
+            _ => None,
+        });
+        let written: Vec<String> = written.collect();
+        output.drop_without_applying_deltas();
+        assert!(written.contains(&expected), "{written:?}");
+    }
+}

@@ -1,0 +1,132 @@
+//! Why a robot must not act on a recognised part, and what the operator or the engineer does about it.
+
+use std::{sync::Arc, time::Duration};
+
+use egui::Ui;
+
+use crate::{
+    inspection::{inspected::Inspected, source::Origin},
+    language::{robot::doubt, text},
+    shell::session::{Session, Source, UserRole},
+    ui::widgets::sentence,
+    user_error::UserError,
+};
+use robot::RobotFrame;
+use station::Doubt;
+
+/// Time between two looks at the age of a capture, which counts in minutes.
+const AGE_CHECK: Duration = Duration::from_secs(15);
+
+/// Why a robot must not act on a result: the reason to show first, and what this person does about it. `None` if it may.
+pub(super) struct Hold {
+    /// The reason, in a few words.
+    pub(super) reason: String,
+    /// What to do.
+    pub(super) advice: String,
+}
+
+impl Hold {
+    /// What keeps a robot from acting on a result; also that the part hangs nowhere, which does not keep anything from
+    /// being copied or written.
+    pub(super) fn of(session: &Session, inspected: &Inspected, role: UserRole) -> Option<Self> {
+        let doubts = session.robot_doubts(inspected);
+        let first = doubts.first();
+        let is_of_now = |doubt: &Doubt| {
+            matches!(
+                doubt,
+                Doubt::ReportedWrong | Doubt::Moving | Doubt::SourceLost | Doubt::Superseded
+            )
+        };
+        // Neither a calibration nor another capture helps a part that hangs nowhere.
+        if !first.is_some_and(is_of_now) && session.is_staged(inspected) {
+            return Some(Self::staged(session, inspected, role));
+        }
+        first.map(|doubt| Self::of_doubt(doubt, session, inspected, role))
+    }
+
+    /// The robot frame in which the pose may be copied and a path be written, or why not. The pose of a part that hangs nowhere
+    /// may: what is written of it says so.
+    pub(super) fn robot_of_files<'a>(
+        session: &'a Session,
+        inspected: &'a Inspected,
+    ) -> Result<&'a Arc<RobotFrame>, Self> {
+        let doubts = session.robot_doubts(inspected);
+        let robot = session.robot_of(inspected);
+        robot.filter(|_| doubts.is_empty()).ok_or_else(|| {
+            // What was not accepted never has a pose for a robot, however old it is.
+            let refused = doubts.iter().find(|doubt| **doubt == Doubt::NotAccepted);
+            let first = refused.or(doubts.first()).unwrap_or(&Doubt::NotCalibrated);
+            Self::of_doubt(first, session, inspected, session.role)
+        })
+    }
+
+    /// Reason and advice as one text, for a control that cannot be used.
+    pub(super) fn in_words(&self) -> String {
+        format!("{}\n{}", self.reason, self.advice)
+    }
+
+    fn staged(session: &Session, inspected: &Inspected, role: UserRole) -> Self {
+        Self {
+            reason: if session.is_replayed(inspected) {
+                text!("inspect-hold-replayed")
+            } else {
+                text!("inspect-hold-simulated")
+            },
+            advice: match role {
+                UserRole::Operator => text!("inspect-hold-choose-camera-operator"),
+                UserRole::Engineer => text!("inspect-hold-choose-camera"),
+            },
+        }
+    }
+
+    fn of_doubt(found: &Doubt, session: &Session, inspected: &Inspected, role: UserRole) -> Self {
+        let is_past = session.shown.as_ref().is_some_and(|shown| shown.is_past);
+        let is_file = matches!(inspected.origin, Origin::File { .. } | Origin::Scan { .. });
+        let [usual_reason, usual_advice] = doubt(found);
+        let reason = match found {
+            Doubt::Superseded if is_past => text!("inspect-from-history"),
+            Doubt::Superseded if session.inspecting.is_some() => text!("inspect-previous-result"),
+            Doubt::NotAccepted => text!("inspect-no-pose-to-copy"),
+            Doubt::NotCalibrated => text!("inspect-hold-not-calibrated"),
+            Doubt::Old if is_file => text!("inspect-hold-old-file"),
+            Doubt::Old => text!("inspect-hold-old"),
+            _ => sentence(&usual_reason),
+        };
+        let advice = match (found, role) {
+            (Doubt::Superseded, _) if session.inspecting.is_some() => text!("inspect-wait"),
+            (Doubt::Superseded, _) => inspect_current(&session.source),
+            (Doubt::NotAccepted, _) => text!("inspect-no-pose-advice"),
+            // What only the engineer can do.
+            (Doubt::ReportedWrong, UserRole::Operator) => text!("operator-reported-wrong-next"),
+            (Doubt::NoPose, UserRole::Operator) => text!("operator-unconfirmed-next"),
+            (Doubt::NotCalibrated, UserRole::Operator) => {
+                text!("inspect-hold-not-calibrated-operator")
+            }
+            (Doubt::ClockAhead(_), UserRole::Operator) => text!("inspect-hold-clock-operator"),
+            _ => usual_advice,
+        };
+        Self { reason, advice }
+    }
+}
+
+impl From<Hold> for UserError {
+    fn from(hold: Hold) -> Self {
+        Self {
+            what: hold.reason,
+            advice: hold.advice,
+        }
+    }
+}
+
+/// Draws the window again soon: a capture grows old without any event.
+pub(super) fn look_again(ui: &Ui) {
+    ui.ctx().request_repaint_after(AGE_CHECK);
+}
+
+/// Says how the part that hangs there now is inspected.
+pub(super) fn inspect_current(source: &Source) -> String {
+    match source.followed() {
+        Some(_) => text!("operator-follow-current"),
+        None => text!("operator-capture-current"),
+    }
+}

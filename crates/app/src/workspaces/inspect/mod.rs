@@ -1,0 +1,370 @@
+//! Inspect, the operator's workspace: the view, the verdict and the stages.
+
+mod action;
+mod banner;
+mod card;
+mod controls;
+mod headline;
+mod hold;
+mod operator;
+mod operator_words;
+mod plots;
+mod ranking;
+mod robot_numbers;
+mod stand_off;
+mod state;
+mod strip;
+#[cfg(test)]
+mod tests;
+mod view;
+
+use std::{path::Path, sync::Arc};
+
+use egui::{Align2, Frame, Key, Margin, Modifiers, Panel, TextureHandle, Ui};
+
+use self::view::SceneView;
+pub use self::{
+    action::{InspectAction, InspectFile},
+    state::{InspectState, ViewPart},
+    view::WorkCounts,
+};
+use crate::{
+    inspection::{fuse::FusedShots, inspected::Inspected},
+    language::{Language, keys, text},
+    shell::{
+        context::ShellContext,
+        key_binding::{KeyBinding, Shortcut},
+        message::Event,
+        session::{Session, Shown, WorkspaceKind},
+        workspace::Workspace,
+    },
+    shots::{ShotList, ShotsAction, ShotsFile, ShownShots, StripTab},
+    task::{Running, TaskRunner},
+    ui::{
+        theme::{Theme, font, space},
+        viewport::{ViewError, ViewportGpu},
+        widgets::texture,
+    },
+};
+
+/// Width of the verdict card in a wide and in a narrow window, logical pixels.
+const CARD: [f32; 2] = [340.0, 300.0];
+/// Height of the stage strip in a high and in a low window, logical pixels.
+const STRIP: [f32; 2] = [196.0, 164.0];
+
+/// The shortcuts of this workspace.
+const SHORTCUTS: [Shortcut<InspectAction>; 6] = [
+    Shortcut {
+        modifiers: Modifiers::COMMAND.plus(Modifiers::SHIFT),
+        key: Key::Z,
+        keys: || keys("Ctrl Shift Z"),
+        does: || text!("inspect-does-redo"),
+        action: || InspectAction::Shots(ShotsAction::Redo),
+    },
+    Shortcut {
+        modifiers: Modifiers::COMMAND,
+        key: Key::Z,
+        keys: || keys("Ctrl Z"),
+        does: || text!("inspect-does-undo"),
+        action: || InspectAction::Shots(ShotsAction::Undo),
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::P,
+        keys: || keys("P"),
+        does: || text!("inspect-does-picture"),
+        action: || InspectAction::Ask(InspectFile::Picture),
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::C,
+        keys: || keys("C"),
+        does: || text!("inspect-does-contour"),
+        action: || InspectAction::Toggle(ViewPart::Outline),
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::N,
+        keys: || keys("N"),
+        does: || text!("inspect-does-nozzle"),
+        action: || InspectAction::Toggle(ViewPart::NozzleWorst),
+    },
+    Shortcut {
+        modifiers: Modifiers::COMMAND.plus(Modifiers::SHIFT),
+        key: Key::C,
+        keys: || keys("Ctrl Shift C"),
+        does: || text!("inspect-does-copy"),
+        action: || InspectAction::CopyPose,
+    },
+];
+
+/// The workspace. Between frames it keeps its state and what it prepared of the last result.
+pub struct InspectWorkspace {
+    /// The state of the workspace.
+    pub state: InspectState,
+    view: SceneView,
+    shots: ShotList,
+    made: Option<TextureSet>,
+    num_made: u64,
+}
+
+/// Textures of one result.
+struct TextureSet {
+    generation: u64,
+    /// Language of the texts in the view.
+    language: Language,
+    segmentation: Option<TextureHandle>,
+    binary: Option<TextureHandle>,
+}
+
+impl InspectWorkspace {
+    /// Creates the workspace; the view draws with `gpu`.
+    pub fn new(gpu: &Result<ViewportGpu, ViewError>, runner: &TaskRunner) -> Self {
+        Self {
+            state: InspectState::new(runner),
+            view: SceneView::new(gpu.clone()),
+            shots: ShotList::default(),
+            made: None,
+            num_made: 0,
+        }
+    }
+
+    /// Work done by its frames so far.
+    pub fn counts(&self) -> WorkCounts {
+        let mut counts = self.view.counts();
+        counts.made += self.num_made;
+        counts
+    }
+
+    /// Share of the points drawn in the last frame, 0..1.
+    pub fn detail(&self) -> f32 {
+        self.view.viewport.detail()
+    }
+
+    /// Hands over a picture of the current view, if one was requested.
+    fn hand_over_picture(&mut self, ui: &Ui, cx: &mut ShellContext<'_>) {
+        if self.state.wants_picture() {
+            let shot = self.view.shot(ui.pixels_per_point());
+            self.state.take_picture(shot, cx);
+        }
+    }
+
+    /// Draws the strip: the stages, or the list of shots of a scan.
+    fn strip(
+        &mut self,
+        ui: &mut Ui,
+        inspected: &Inspected,
+        session: &Session,
+        actions: &mut Vec<InspectAction>,
+    ) {
+        if let Some(scan) = &inspected.scan
+            && self.shots_ui(ui, &scan.fused, session, actions)
+        {
+            return;
+        }
+        let pictures = self.pictures(inspected, session, Theme::of(ui));
+        strip::ui(ui, &pictures, actions);
+    }
+
+    /// Draws the strip of a scan: a row of tabs, and the list unless the stages are chosen; returns whether it drew the
+    /// list.
+    fn shots_ui(
+        &mut self,
+        ui: &mut Ui,
+        fused: &Arc<FusedShots>,
+        session: &Session,
+        actions: &mut Vec<InspectAction>,
+    ) -> bool {
+        let scan = ShownShots {
+            fused,
+            choice: self.state.shot_choice(session).unwrap_or(&fused.choice),
+            shots: &self.state.shots,
+            session,
+        };
+        let mut caused = Vec::new();
+        let margin = Frame::new().inner_margin(Margin::symmetric(12, 6));
+        let shown = margin.show(ui, |ui| {
+            let is_list = ShotList::tabs(ui, scan, &text!("inspect-stages"), &mut caused);
+            if is_list {
+                if session.is_old() {
+                    ui.multiply_opacity(0.75);
+                }
+                self.shots.ui(ui, scan, &mut caused);
+            }
+            is_list
+        });
+        actions.extend(caused.into_iter().map(InspectAction::Shots));
+        shown.inner
+    }
+
+    fn pictures<'a>(
+        &'a self,
+        inspected: &'a Inspected,
+        session: &'a Session,
+        theme: &'static Theme,
+    ) -> plots::Pictures<'a> {
+        let made = self.made.as_ref();
+        plots::Pictures {
+            inspected,
+            state: &self.state,
+            session,
+            theme,
+            segmentation: made.and_then(|made| made.segmentation.as_ref()),
+            binary: made.and_then(|made| made.binary.as_ref()),
+        }
+    }
+
+    /// Uploads what a new result shows; the texts in the view also change with the language.
+    fn make(&mut self, ctx: &egui::Context, shown: &Shown) {
+        let language = Language::current();
+        if self
+            .made
+            .as_ref()
+            .is_some_and(|made| (made.generation, made.language) == (shown.generation, language))
+        {
+            return;
+        }
+        self.num_made += 1;
+        let figures = &shown.inspected.figures;
+        self.made = Some(TextureSet {
+            generation: shown.generation,
+            language,
+            segmentation: texture(ctx, "segmentation", figures.segmentation.as_ref()),
+            binary: texture(ctx, "binary image", figures.binary.as_ref()),
+        });
+        self.view.show(shown);
+    }
+}
+
+impl Workspace for InspectWorkspace {
+    fn kind(&self) -> WorkspaceKind {
+        WorkspaceKind::Inspect
+    }
+
+    fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) {
+        let (session, theme) = (cx.session, Theme::of(ui));
+        if session.is_operator_view() {
+            if let Some(shown) = &session.shown {
+                self.make(ui.ctx(), shown);
+                self.view.frame_part(shown);
+            }
+            operator::ui(ui, session, |ui| {
+                if let Some(shown) = &session.shown {
+                    self.view.plain_ui(ui, session, &shown.inspected);
+                }
+            });
+            self.hand_over_picture(ui, cx);
+            return;
+        }
+        let Some(shown) = &session.shown else {
+            ui.painter().rect_filled(ui.max_rect(), 0.0, theme.canvas);
+            empty(ui, session);
+            return;
+        };
+        self.make(ui.ctx(), shown);
+        let inspected: &Inspected = &shown.inspected;
+        let mut actions = Vec::new();
+        let size = ui.available_size();
+        let panel = |margin| Frame::new().fill(theme.panel).inner_margin(margin);
+        Panel::right("verdict")
+            .exact_size(if size.x > 1100.0 { CARD[0] } else { CARD[1] })
+            .resizable(false)
+            .frame(panel(Margin::symmetric(18, 14)))
+            .show(ui, |ui| {
+                let shows_nozzle = self.state.shows_nozzle();
+                card::ui(ui, inspected, session, shows_nozzle, &mut actions);
+            });
+        Panel::bottom("stages")
+            .exact_size(strip_height(&self.state, inspected, size.y))
+            .resizable(false)
+            .frame(panel(Margin::ZERO))
+            .show(ui, |ui| {
+                self.strip(ui, inspected, session, &mut actions);
+            });
+        if self.state.enlarged.is_some() {
+            let rest = ui.available_rect_before_wrap();
+            ui.painter().rect_filled(rest, 0.0, theme.canvas);
+            let pictures = self.pictures(inspected, session, theme);
+            strip::enlarged_ui(ui, &pictures, &mut actions);
+        } else {
+            let Self { state, view, .. } = self;
+            view.ui(ui, state, session, inspected, &mut actions);
+        }
+        self.hand_over_picture(ui, cx);
+        for action in actions {
+            self.state.apply(action, cx);
+        }
+    }
+
+    fn update(&mut self, cx: &mut ShellContext<'_>) {
+        self.state.update(cx);
+    }
+
+    fn on_event(&mut self, event: &Event, cx: &mut ShellContext<'_>) {
+        self.state.on_event(event, cx);
+    }
+
+    fn take_file(&mut self, path: &Path, cx: &mut ShellContext<'_>) -> bool {
+        let is_wanted = self.state.shots.wants(path);
+        if is_wanted {
+            let file = InspectFile::Shots(ShotsFile::Poses);
+            let chosen = InspectAction::Chosen(file, path.to_owned());
+            self.state.apply(chosen, cx);
+        }
+        is_wanted
+    }
+
+    fn key_bindings(&self) -> Vec<KeyBinding> {
+        SHORTCUTS.iter().map(Shortcut::binding).collect()
+    }
+
+    fn press(&mut self, place: usize, cx: &mut ShellContext<'_>) {
+        if let Some(shortcut) = SHORTCUTS.get(place) {
+            self.state.apply((shortcut.action)(), cx);
+        }
+    }
+
+    /// The space bar captures even while the view has the key focus.
+    fn has_key_focus(&self) -> bool {
+        self.view.has_focus
+    }
+
+    fn writing(&self) -> Option<&Running> {
+        self.state.writing()
+    }
+
+    fn is_idle(&self, _session: &Session) -> bool {
+        self.state.writing().is_none()
+    }
+}
+
+fn strip_height(state: &InspectState, inspected: &Inspected, height: f32) -> f32 {
+    let usual = if height > 760.0 { STRIP[0] } else { STRIP[1] };
+    match state.shots.strip {
+        _ if inspected.scan.is_none() => usual,
+        StripTab::Shots => ShotList::HEIGHT,
+        StripTab::Usual => usual + space::TARGET + 12.0,
+    }
+}
+
+/// Draws the area before the first result.
+fn empty(ui: &Ui, session: &Session) {
+    let theme = Theme::of(ui);
+    let text = match &session.inspecting {
+        Some(run) => format!("{}…", run.title),
+        None => text!("inspect-nothing-yet"),
+    };
+    let rect = ui.max_rect();
+    let galley = ui.painter().layout(
+        text.clone(),
+        font::verdict(),
+        theme.weak_text,
+        rect.width() * 0.8,
+    );
+    let at = Align2::CENTER_CENTER
+        .align_size_within_rect(galley.size(), rect)
+        .min;
+    ui.painter().galley(at, galley, theme.weak_text);
+    let response = ui.interact(rect, ui.scope_id().with("empty"), egui::Sense::hover());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &text));
+}

@@ -1,0 +1,265 @@
+//! The design of a spray path, and its undo history.
+
+use std::mem;
+
+use super::{action::ShownPath, state::PaintState};
+use crate::{
+    inspection::library_cache::LibraryView,
+    language::text,
+    shell::{
+        context::ShellContext,
+        message::Message,
+        notice::{Notice, NoticeTopic},
+        program_setup::ProgramSetup,
+        session::Session,
+        undo_stack::UndoDirection,
+    },
+};
+use inspection::{
+    library::{FileCheck, PartName, SprayPath},
+    pipeline::{RecipeFile, parameters::Parameter},
+};
+use robot::paint::{Coat, KeepOut, PathEdit};
+
+/// Everything that Undo restores.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Design {
+    /// The part; `None` until chosen or drawn on.
+    pub part: Option<PartName>,
+    /// Its cloud then: what is drawn is in the coordinates of this cloud.
+    pub cloud: Option<FileCheck>,
+    /// The saved coat that was chosen.
+    pub kept: RecipeFile<Coat>,
+    /// Its parameters, with the changes made since.
+    pub coat: Coat,
+    /// Keep-outs and areas to be painted.
+    pub regions: Vec<KeepOut>,
+    /// Corrections by hand of the path planned from them.
+    pub edits: Vec<PathEdit>,
+}
+
+/// An undoable step.
+#[derive(Clone, Debug)]
+pub(super) enum Step {
+    /// Set the design.
+    Design(Box<Design>),
+    /// Store this path with a part; `None` removes the present one.
+    Stored(PartName, Option<SprayPath>),
+    /// Set the pose of the arm's base.
+    Base([f64; 6]),
+}
+
+impl Design {
+    /// True if both give the same path over the same part, before corrections by hand.
+    pub(super) fn is_same_path(&self, other: &Self) -> bool {
+        (&self.coat, &self.regions) == (&other.coat, &other.regions)
+    }
+
+    /// True if there are regions or corrections by hand.
+    pub fn is_drawn_on(&self) -> bool {
+        !self.regions.is_empty() || !self.edits.is_empty()
+    }
+
+    /// Removes regions and corrections by hand.
+    pub(super) fn clear(&mut self) {
+        self.regions.clear();
+        self.edits.clear();
+    }
+
+    /// True if the part is still enrolled as it was when it was chosen or drawn on.
+    fn is_enrolled(&self, library: &LibraryView) -> bool {
+        let (part, cloud) = (self.part.as_ref(), self.cloud.as_ref());
+        let mut parts = library.parts.iter();
+        parts.any(|known| Some(&known.name) == part && Some(&known.cloud) == cloud)
+    }
+
+    /// Takes over the part's new name if it was renamed in the library. If it was removed or enrolled anew, removes what is drawn
+    /// on it; returns true if there was anything.
+    fn follow(&mut self, library: &LibraryView) -> bool {
+        let (Some(part), Some(cloud)) = (&self.part, &self.cloud) else {
+            return false;
+        };
+        let mut parts = library.parts.iter();
+        let named = parts.find(|known| known.name == *part);
+        let renamed = || library.parts.iter().find(|known| known.cloud == *cloud);
+        if let Some(known) = named.or_else(renamed) {
+            if known.cloud == *cloud {
+                self.part = Some(known.name.clone());
+                return false;
+            }
+            self.cloud = Some(known.cloud.clone());
+        }
+        let was_drawn_on = self.is_drawn_on();
+        self.clear();
+        was_drawn_on
+    }
+
+    /// True if the coat differs from the saved one of its name.
+    pub fn is_coat_changed(&self) -> bool {
+        self.coat != self.kept.recipe
+    }
+}
+
+impl PaintState {
+    /// Changes the design as an undoable step.
+    pub(super) fn change(&mut self, change: impl FnOnce(&mut Design)) {
+        let before = self.design.clone();
+        change(&mut self.design);
+        if self.design == before {
+            return;
+        }
+        self.shown_path = ShownPath::Planned;
+        self.steps.push(Step::Design(Box::new(before)));
+    }
+
+    /// True if the last step changed this parameter and nothing else.
+    pub(super) fn is_last_change_of(&self, parameter: &Parameter<Coat>) -> bool {
+        let (Some(Step::Design(before)), true) =
+            (self.steps.done.last(), self.steps.undone.is_empty())
+        else {
+            return false;
+        };
+        let mut same = (**before).clone();
+        parameter.copy(&self.design.coat, &mut same.coat);
+        same == self.design && **before != self.design
+    }
+
+    /// Chooses the part to paint as an undoable step; what is drawn on another one is dropped.
+    pub(super) fn choose_part(&mut self, part: PartName, cx: &mut ShellContext<'_>) {
+        let session = cx.session;
+        let former = self.part(session);
+        let is_other = former != Some(&part);
+        if let Some(former) = former.filter(|_| is_other && self.design.is_drawn_on()) {
+            cx.notify(drawn_dropped(
+                former,
+                session,
+                text!("paint-drawn-dropped-undo"),
+            ));
+        }
+        if !is_other && !self.is_planning() && self.is_old(session) {
+            // Choosing it again repeats what was cancelled or has failed.
+            self.asked = None;
+        }
+        let mut parts = session.library.iter().flat_map(|library| &library.parts);
+        let enrolled = parts.find(|known| known.name == part);
+        self.change(|design| {
+            design.part = Some(part);
+            design.cloud = enrolled.map(|part| part.cloud.clone());
+            if is_other {
+                design.clear();
+            }
+        });
+    }
+
+    /// Changes what is drawn on the part as an undoable step. The part stays the one to paint, whichever is recognised next.
+    pub(super) fn draw(&mut self, session: &Session, draw: impl FnOnce(&mut Design)) {
+        let enrolled = self.enrolled(session);
+        self.change(|design| {
+            if let Some(part) = enrolled {
+                design.part = Some(part.name.clone());
+                design.cloud = Some(part.cloud.clone());
+            }
+            draw(design);
+        });
+    }
+
+    /// Follows the part through a change of the library. Dropping what is drawn on it is an undoable step.
+    pub(super) fn follow_part(&mut self, cx: &mut ShellContext<'_>) {
+        let library = cx.session.library.as_ref();
+        if self.design.part.is_none()
+            || library.is_none_or(|library| self.design.is_enrolled(library))
+        {
+            return;
+        }
+        let mut design = self.design.clone();
+        if follow(&mut design, cx) {
+            self.change(|now| *now = design);
+        } else {
+            self.design = design;
+        }
+    }
+
+    /// Adds regions. Areas to be painted are merged into one region; keep-outs stay separate.
+    pub(super) fn add(&mut self, regions: Vec<KeepOut>, session: &Session) {
+        self.draw(session, |design| {
+            for region in regions {
+                let former = design.regions.iter_mut().find_map(|former| match former {
+                    KeepOut::Outside { areas } => Some(areas),
+                    KeepOut::Sphere { .. } | KeepOut::Polygon { .. } => None,
+                });
+                match (region, former) {
+                    (KeepOut::Outside { areas }, Some(former)) => former.extend(areas),
+                    (region, _) => design.regions.push(region),
+                }
+            }
+        });
+    }
+
+    /// Uses other settings for robot programs. Another base is an undoable step; dragging its numbers is one step.
+    pub(super) fn set_up(&mut self, setup: ProgramSetup, cx: &mut ShellContext<'_>) {
+        let former = cx.session.program.base;
+        let is_dragged = cx.egui.input(|input| input.pointer.any_down());
+        let is_last = matches!(self.steps.done.last(), Some(Step::Base(_)));
+        let is_same_step = is_dragged && is_last && self.steps.undone.is_empty();
+        if setup.base.iter().ne(&former) && !is_same_step {
+            self.steps.push(Step::Base(former));
+        }
+        use_setup(setup, cx);
+    }
+
+    /// Undoes or redoes one step.
+    pub(super) fn step(&mut self, way: UndoDirection, cx: &mut ShellContext<'_>) {
+        if self.is_storing() {
+            return;
+        }
+        match self.steps.from(way).pop() {
+            None => {}
+            Some(Step::Design(other)) => {
+                let now = mem::replace(&mut self.design, *other);
+                let back = Step::Design(Box::new(now));
+                self.steps.add_inverse(Some(way), back);
+                self.shown_path = ShownPath::Planned;
+                // The part may have changed in the library since.
+                follow(&mut self.design, cx);
+            }
+            Some(Step::Stored(part, path)) => self.store(Some(way), part, path, cx),
+            Some(Step::Base(base)) => {
+                let former = cx.session.program.clone();
+                let back = Step::Base(former.base);
+                self.steps.add_inverse(Some(way), back);
+                use_setup(ProgramSetup { base, ..former }, cx);
+            }
+        }
+    }
+}
+
+/// Has a design follow its part in the library; returns true, and tells the user, if what is drawn on it was dropped.
+fn follow(design: &mut Design, cx: &mut ShellContext<'_>) -> bool {
+    let session = cx.session;
+    let Some((library, part)) = session.library.as_ref().zip(design.part.clone()) else {
+        return false;
+    };
+    let was_dropped = design.follow(library);
+    if was_dropped {
+        let advice = text!("paint-drawn-dropped-again");
+        cx.notify(drawn_dropped(&part, session, advice));
+    }
+    was_dropped
+}
+
+/// The notice that what is drawn on this part was dropped.
+fn drawn_dropped(part: &PartName, session: &Session, advice: String) -> Notice {
+    let library = session.library.as_ref();
+    let title = library.map_or(part.as_str(), |library| library.title_of(part.as_str()));
+    Notice::look(text!("paint-drawn-dropped", part = title), advice)
+}
+
+/// Sends other settings for robot programs, and removes the notices of why the former ones gave none.
+fn use_setup(setup: ProgramSetup, cx: &mut ShellContext<'_>) {
+    cx.send(Message::RemoveNotices(NoticeTopic::Program));
+    // Inspect shows it, too.
+    if let Some(error) = cx.session.program.nozzle_error() {
+        cx.send(Message::Retract(error.into()));
+    }
+    cx.send(Message::UseProgramSetup(setup));
+}

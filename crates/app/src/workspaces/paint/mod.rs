@@ -1,0 +1,229 @@
+//! Paint, the engineer's: a spray path over an enrolled part, the film that it leaves, and the gun along it.
+//!
+//! ```text
+//! side      part, coat, figures of the film       parameters from the coat's table
+//! tools     pattern, regions, undo
+//! view      the part by its film, rows, the gun   region: what is drawn becomes a region
+//! timeline  the path over time                    course: when the gun is where
+//! state     what is shown, asked for and stored   work: plan, simulate, store
+//! robot     arm and gun of its programs           reach: which points the arm reaches, and the program
+//! design    what is painted how, and its undo     coats: chosen, changed, saved; playback: the place in time
+//! ```
+
+mod action;
+mod coats;
+mod course;
+mod design;
+mod playback;
+mod reach;
+mod region;
+mod robot;
+mod side;
+mod state;
+mod timeline;
+mod tools;
+mod view;
+mod work;
+
+use std::path::PathBuf;
+
+use egui::{CentralPanel, Frame, Key, Margin, Modifiers, Panel, Ui};
+
+use self::view::PaintView;
+pub use self::{
+    action::{PaintAction, PaintFile, ShownPath},
+    course::{GunCourse, GunState},
+    design::Design,
+    reach::Reach,
+    region::{EditKind, PaintTool, RegionUse},
+    state::PaintState,
+    work::Planned,
+};
+pub use crate::ui::scrubber::Playback;
+use crate::{
+    language::{keys, text},
+    shell::{
+        context::ShellContext,
+        key_binding::{KeyBinding, Shortcut},
+        message::Event,
+        session::{Session, WorkspaceKind},
+        workspace::Workspace,
+    },
+    task::{Running, TaskRunner},
+    ui::{
+        theme::{Theme, space},
+        viewport::{DrawnShape, ViewError, ViewportGpu},
+    },
+};
+
+/// Width of the panel on the right in a wide and in a narrow window, logical pixels.
+const SIDE: [f32; 2] = [340.0, 300.0];
+/// Height of the timeline, logical pixels.
+const TIMELINE: f32 = 2.0 * space::TARGET + 46.0;
+
+/// The shortcuts of this workspace. Those with more modifiers come first, as the others would match them too.
+const SHORTCUTS: [Shortcut<PaintAction>; 8] = [
+    Shortcut {
+        modifiers: Modifiers::COMMAND.plus(Modifiers::SHIFT),
+        key: Key::Z,
+        keys: || keys("Ctrl Shift Z"),
+        does: || text!("shell-redo"),
+        action: || PaintAction::Redo,
+    },
+    Shortcut {
+        modifiers: Modifiers::COMMAND,
+        key: Key::Z,
+        keys: || keys("Ctrl Z"),
+        does: || text!("shell-undo"),
+        action: || PaintAction::Undo,
+    },
+    Shortcut {
+        modifiers: Modifiers::COMMAND,
+        key: Key::S,
+        keys: || keys("Ctrl S"),
+        does: || text!("paint-store"),
+        action: || PaintAction::Store,
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::P,
+        keys: || keys("P"),
+        does: || text!("paint-key-play"),
+        action: || PaintAction::TogglePlay,
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::Comma,
+        keys: || keys(","),
+        does: || text!("paint-key-back"),
+        action: || PaintAction::Step(-1),
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::Period,
+        keys: || keys("."),
+        does: || text!("paint-key-on"),
+        action: || PaintAction::Step(1),
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::D,
+        keys: || keys("D"),
+        does: || text!("paint-keep-out-lasso"),
+        action: || {
+            let lasso = PaintTool::Outline(DrawnShape::Lasso, RegionUse::KeepOut);
+            PaintAction::Use(lasso)
+        },
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::R,
+        keys: || keys("R"),
+        does: || text!("view-rotate"),
+        action: || PaintAction::Use(PaintTool::Look),
+    },
+];
+
+/// The workspace.
+pub struct PaintWorkspace {
+    /// The state of the workspace.
+    pub state: PaintState,
+    view: PaintView,
+    is_front: bool,
+}
+
+impl PaintWorkspace {
+    /// Creates the workspace without a chosen part; `coats` is the folder of the user's coats.
+    pub fn new(
+        gpu: &Result<ViewportGpu, ViewError>,
+        coats: Option<PathBuf>,
+        runner: &TaskRunner,
+    ) -> Self {
+        Self {
+            state: PaintState::new(coats, runner),
+            view: PaintView::new(gpu),
+            is_front: false,
+        }
+    }
+}
+
+impl Workspace for PaintWorkspace {
+    fn kind(&self) -> WorkspaceKind {
+        WorkspaceKind::Paint
+    }
+
+    fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) {
+        let Self { state, view, .. } = self;
+        let (session, theme) = (cx.session, Theme::of(ui));
+        let mut actions = Vec::new();
+        let size = ui.available_size();
+        let panel = |margin| Frame::new().fill(theme.panel).inner_margin(margin);
+        Panel::right("paint side")
+            .exact_size(if size.x > 1100.0 { SIDE[0] } else { SIDE[1] })
+            .resizable(false)
+            .frame(panel(Margin::ZERO))
+            .show(ui, |ui| side::ui(ui, state, session, &mut actions));
+        Panel::top("paint tools")
+            .resizable(false)
+            .frame(panel(Margin::symmetric(12, 8)))
+            .show(ui, |ui| tools::ui(ui, state, &mut actions));
+        Panel::bottom("paint timeline")
+            .exact_size(TIMELINE)
+            .resizable(false)
+            .frame(panel(Margin::symmetric(14, 8)))
+            .show(ui, |ui| timeline::ui(ui, state, &mut actions));
+        CentralPanel::default()
+            .frame(Frame::new().fill(theme.canvas))
+            .show(ui, |ui| view.ui(ui, state, session, &mut actions));
+        for action in actions {
+            state.apply(action, cx);
+        }
+    }
+
+    fn update(&mut self, cx: &mut ShellContext<'_>) {
+        let is_front = cx.session.workspace == WorkspaceKind::Paint;
+        if is_front && !self.is_front {
+            self.state.list_coats(cx);
+        }
+        self.is_front = is_front;
+        self.state.update(cx);
+    }
+
+    fn on_event(&mut self, event: &Event, cx: &mut ShellContext<'_>) {
+        self.state.on_event(event, cx);
+    }
+
+    fn key_bindings(&self) -> Vec<KeyBinding> {
+        SHORTCUTS.iter().map(Shortcut::binding).collect()
+    }
+
+    fn press(&mut self, place: usize, cx: &mut ShellContext<'_>) {
+        if let Some(shortcut) = SHORTCUTS.get(place) {
+            self.state.apply((shortcut.action)(), cx);
+        }
+    }
+
+    fn running(&self) -> Option<&Running> {
+        self.state.running()
+    }
+
+    fn cancel(&mut self) {
+        self.state.cancel();
+    }
+
+    fn writing(&self) -> Option<&Running> {
+        self.state.writing()
+    }
+
+    fn unsaved(&self) -> Option<String> {
+        self.state.unsaved()
+    }
+
+    fn has_key_focus(&self) -> bool {
+        self.view.has_focus
+    }
+
+    fn is_idle(&self, session: &Session) -> bool {
+        self.state.is_idle(session)
+    }
+}

@@ -1,0 +1,483 @@
+//! On the right: the part, its coat with every parameter, the figures of the film, and what can be done with the path.
+
+use egui::{
+    Button, CentralPanel, Frame, Id, IntoAtoms, Label, Margin, Panel, Popup, Rect, Response,
+    RichText, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2,
+};
+
+use super::{
+    action::{PaintAction, PaintFile, ShownPath},
+    robot,
+    state::PaintState,
+    timeline::minutes,
+    work::Planned,
+};
+use crate::{
+    language::{enrolment::painted_from, parameters, text, within_sentence},
+    shell::session::Session,
+    ui::{
+        parameter_control::{self, fold},
+        theme::{Theme, font, space},
+        tool_row::choice,
+        widgets::{grouped, heading, line_edit, menu_list, row, shortened, text_button},
+    },
+};
+use ::robot::paint::{Coat, CoatGroup, FilmFigures, LEAST_WITHIN};
+use inspection::{
+    library::Side,
+    pipeline::parameters::{Parameters as _, Place},
+};
+use stages::reference::Coverage;
+
+/// Characters of a part's title on its menu.
+pub(super) const TITLE: usize = 26;
+
+/// Draws the panel.
+pub(super) fn ui(
+    ui: &mut Ui,
+    paint: &PaintState,
+    session: &Session,
+    actions: &mut Vec<PaintAction>,
+) {
+    let theme = Theme::of(ui);
+    let frame = |top, bottom| {
+        Frame::new().fill(theme.panel).inner_margin(Margin {
+            left: 16,
+            right: 14,
+            top,
+            bottom,
+        })
+    };
+    Panel::bottom("paint actions")
+        .resizable(false)
+        .frame(frame(8, 12))
+        .show(ui, |ui| buttons(ui, paint, session, actions));
+    Panel::top("paint head")
+        .resizable(false)
+        .frame(frame(12, 4))
+        .show(ui, |ui| head(ui, paint, session, actions));
+    CentralPanel::default().frame(frame(0, 4)).show(ui, |ui| {
+        ScrollArea::vertical()
+            .id_salt("coat")
+            .auto_shrink(false)
+            .show(ui, |ui| {
+                ui.set_max_width(ui.available_width() - 8.0);
+                coat(ui, paint, actions);
+                if let Some(planned) = &paint.planned {
+                    ui.scope(|ui| {
+                        if paint.is_old(session) {
+                            ui.multiply_opacity(0.55);
+                        }
+                        check(ui, planned);
+                    });
+                }
+                robot::ui(ui, paint, session, actions);
+            });
+    });
+}
+
+/// Draws the part, and whether its film is good.
+fn head(ui: &mut Ui, paint: &PaintState, session: &Session, actions: &mut Vec<PaintAction>) {
+    let theme = Theme::of(ui);
+    let Some(library) = &session.library else {
+        ui.label(text!("paint-library-loading"));
+        return;
+    };
+    if library.parts.is_empty() {
+        ui.label(text!("paint-no-part"));
+        return;
+    }
+    let chosen = paint.part(session);
+    let none = text!("paint-none-chosen");
+    let title = chosen.map_or(none.as_str(), |part| library.title_of(part.as_str()));
+    let text = RichText::new(format!("{} ▼", shortened(title, TITLE))).font(font::verdict());
+    let label = text!("paint-part", part = title);
+    menu(ui, text, &label, text!("paint-part-hint"), |ui| {
+        menu_list(ui, |ui| {
+            for meta in &library.parts {
+                let is_chosen = chosen == Some(&meta.name);
+                if ui
+                    .selectable_label(is_chosen, library.title_of(meta.name.as_str()))
+                    .clicked()
+                {
+                    actions.push(PaintAction::ChoosePart(meta.name.clone()));
+                    ui.close();
+                }
+            }
+        });
+    });
+    ui.spacing_mut().interact_size.y = 0.0;
+    if chosen.is_none() {
+        let text = RichText::new(text!("paint-recognised-gone")).color(theme.warning);
+        ui.add(Label::new(text).wrap());
+        return;
+    }
+    if let Some(part) = paint.enrolled(session)
+        && part.coverage == Coverage::AllAround
+    {
+        side_menu(ui, part.side, paint, actions);
+    }
+    if let Some(failed) = &paint.failed {
+        let text = RichText::new(&failed.what).color(theme.rejected);
+        ui.add(Label::new(text).wrap());
+        let advice = RichText::new(&failed.advice);
+        ui.add(Label::new(advice).wrap());
+        return;
+    }
+    let Some(planned) = &paint.planned else {
+        let text = if paint.is_planning() {
+            text!("paint-planning")
+        } else {
+            text!("paint-not-planned")
+        };
+        ui.add(Label::new(RichText::new(text).weak()).wrap());
+        return;
+    };
+    let is_old = paint.is_old(session);
+    let (figures, coat) = (&planned.film.figures, &planned.coat);
+    let colour = if figures.within >= LEAST_WITHIN {
+        theme.accepted
+    } else {
+        theme.rejected
+    };
+    let micrometres = |metres: f64| format!("{:.0}", 1e6 * metres);
+    let text = text!(
+        "paint-within",
+        share = percent(figures.within),
+        target = micrometres(coat.target),
+        tolerance = micrometres(coat.target * coat.tolerance)
+    );
+    ui.scope(|ui| {
+        if is_old {
+            ui.multiply_opacity(0.55);
+        }
+        ui.label(RichText::new(text).font(font::body_strong()).color(colour));
+        robot::verdict(ui, paint, session);
+        histogram(ui, figures, coat.tolerance);
+    });
+    // In place of the scope, so that nothing below moves while a parameter is changed.
+    let note = if is_old {
+        RichText::new(text!("paint-previous-path")).color(theme.warning)
+    } else {
+        let scope = match planned.surface.coverage {
+            Coverage::OneSide => text!("paint-scope-one-side"),
+            Coverage::AllAround => text!("paint-scope-all-around"),
+            Coverage::SeveralSides => text!("paint-scope-several-sides"),
+        };
+        RichText::new(scope).weak()
+    };
+    ui.add(Label::new(note.small()).wrap());
+}
+
+/// Draws the side that a part known all around is painted from, as a menu of all sides.
+fn side_menu(
+    ui: &mut Ui,
+    stored: Option<Side>,
+    paint: &PaintState,
+    actions: &mut Vec<PaintAction>,
+) {
+    let planned = paint.planned.as_ref();
+    let shown = stored.or_else(|| Some(planned?.surface.painted_side()));
+    let label = shown.map_or_else(|| text!("paint-side-none"), painted_from);
+    let text = RichText::new(format!("{label} ▼"));
+    menu(ui, text, &label, text!("paint-side-hint"), |ui| {
+        for side in Side::ALL {
+            let is_chosen = Some(side) == shown;
+            if ui.selectable_label(is_chosen, painted_from(side)).clicked() {
+                actions.push(PaintAction::ChooseSide(side));
+                ui.close();
+            }
+        }
+    });
+}
+
+/// Draws the coat: its name and every parameter.
+fn coat(ui: &mut Ui, paint: &PaintState, actions: &mut Vec<PaintAction>) {
+    let design = &paint.design;
+    heading(ui, &text!("paint-coat"));
+    ui.horizontal(|ui| {
+        let kept = design.kept.name.as_str();
+        let name = if design.is_coat_changed() {
+            text!("paint-coat-changed", coat = kept)
+        } else {
+            kept.to_owned()
+        };
+        let text = format!("{} ▼", shortened(&name, TITLE));
+        let label = text!("paint-coat-named", coat = name);
+        let notes = parameters::coat_notes(&design.kept.notes);
+        menu(ui, text, &label, notes, |ui| {
+            for coat in &paint.coats {
+                if ui.selectable_label(coat == kept, coat).clicked() {
+                    actions.push(PaintAction::ChooseCoat(coat.clone()));
+                    ui.close();
+                }
+            }
+            ui.separator();
+            if ui.button(text!("shell-save-as")).clicked() {
+                actions.push(PaintAction::Name(Some(String::new())));
+                ui.close();
+            }
+        });
+        if design.is_coat_changed() && text_button(ui, &text!("paint-reset-coat")).clicked() {
+            actions.push(PaintAction::ResetCoat);
+        }
+    });
+    if let Some(naming) = &paint.naming {
+        name_ui(ui, naming, actions);
+    }
+    // Most frequently changed first.
+    for group in [CoatGroup::Path, CoatGroup::Film, CoatGroup::Gun] {
+        parameters_of(ui, group, paint, actions);
+    }
+}
+
+/// Draws a button with a menu, which closes once the button is scrolled out of view: it would stay elsewhere in the window.
+pub(super) fn menu(
+    ui: &mut Ui,
+    text: impl IntoAtoms<'static>,
+    label: &str,
+    hint: String,
+    entries: impl FnOnce(&mut Ui),
+) {
+    let button = ui.menu_button(text, entries).response;
+    if !ui.is_rect_visible(button.rect) {
+        Popup::close_id(ui.ctx(), Popup::default_response_id(&button));
+    }
+    button.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, label));
+    button.on_hover_text(hint);
+}
+
+/// Draws the field for the coat's name.
+fn name_ui(ui: &mut Ui, naming: &str, actions: &mut Vec<PaintAction>) {
+    let mut written = naming.to_owned();
+    let id = Id::unique("name of the coat");
+    let is_new = ui.ctx().read_response(id).is_none();
+    ui.horizontal_wrapped(|ui| {
+        let edit = line_edit(&mut written, text!("paint-coat-name"), 150.0);
+        let response = ui.add(edit.id(id));
+        // Without the focus, typed keys would act as shortcuts.
+        if is_new {
+            response.request_focus();
+        }
+        response.widget_info(|| {
+            let mut info = WidgetInfo::text_edit(true, naming, &written, text!("paint-coat-name"));
+            info.label = Some(text!("paint-coat-name"));
+            info
+        });
+        let is_entered =
+            response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
+        if written != naming {
+            actions.push(PaintAction::Name(Some(written.clone())));
+        }
+        if text_button(ui, &text!("shell-save")).clicked() || is_entered {
+            actions.push(PaintAction::SaveCoat);
+        }
+        if text_button(ui, &text!("shell-cancel")).clicked() {
+            actions.push(PaintAction::Name(None));
+        }
+    });
+}
+
+/// Draws the parameters of a group, the less used ones folded.
+fn parameters_of(
+    ui: &mut Ui,
+    group: CoatGroup,
+    paint: &PaintState,
+    actions: &mut Vec<PaintAction>,
+) {
+    let theme = Theme::of(ui);
+    // The pattern is in the row of tools.
+    let is_here = |key: &str| key != "pattern";
+    let of = |place: Place| {
+        let all = Coat::ALL.iter();
+        all.filter(move |p| p.group == group && p.place == place && is_here(p.key))
+    };
+    let design = &paint.design;
+    let mut control = |ui: &mut Ui, parameter| {
+        let (coat, kept) = (&design.coat, &design.kept.recipe);
+        parameter_control::control(ui, parameter, coat, kept, &mut |change| {
+            actions.push(PaintAction::Change(parameter.key, change));
+        });
+    };
+    let title = parameters::coat_group(group);
+    heading(ui, &title);
+    for parameter in of(Place::Front) {
+        control(ui, parameter);
+    }
+    let num = of(Place::Fold).count();
+    if num == 0 {
+        return;
+    }
+    let more = text!("shell-more", group = within_sentence(&title), count = num);
+    fold(ui, more, theme.weak_text)
+        .id_salt(group.title())
+        .show_unindented(ui, |ui| {
+            for parameter in of(Place::Fold) {
+                control(ui, parameter);
+            }
+        });
+}
+
+/// Draws the figures of the film.
+fn check(ui: &mut Ui, planned: &Planned) {
+    heading(ui, &text!("paint-check"));
+    let (film, takes) = (&planned.film.figures, &planned.film.path);
+    let micrometres = |metres: f64| format!("{:.1}", 1e6 * metres);
+    for (name, value) in [
+        (
+            text!("paint-thinnest-thickest"),
+            format!("{} · {} µm", micrometres(film.min), micrometres(film.max)),
+        ),
+        (
+            text!("paint-mean"),
+            format!("{} µm", micrometres(film.mean)),
+        ),
+        (text!("paint-missed"), format!("{} %", percent(film.missed))),
+        (text!("paint-double"), format!("{} %", percent(film.double))),
+        (
+            text!("paint-faced"),
+            format!("{} %", percent(film.reachable)),
+        ),
+        (
+            text!("paint-landed"),
+            format!("{} %", percent(takes.landed)),
+        ),
+        (text!("paint-time"), minutes(takes.time)),
+        (text!("paint-points"), grouped(planned.path.points().len())),
+    ] {
+        row(ui, &name, &value);
+    }
+}
+
+/// Draws the shares of the surface by thickness; those within tolerance are highlighted.
+fn histogram(ui: &mut Ui, film: &FilmFigures, tolerance: f64) {
+    let theme = Theme::of(ui);
+    let size = vec2(ui.available_width(), 52.0);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(egui::Role::Image, true, text!("paint-histogram")));
+    let response = response.on_hover_text(text!("paint-histogram-hint"));
+    let painter = ui.painter_at(response.rect);
+    let most = film.histogram.iter().copied().fold(1e-9, f64::max);
+    let plot = rect.with_max_y(rect.bottom() - 14.0);
+    let num = film.histogram.len();
+    let width = plot.width() / num as f32;
+    for (i, share) in film.histogram.iter().enumerate() {
+        let left = plot.left() + i as f32 * width;
+        let height = (share / most) as f32 * plot.height();
+        let bar = Rect::from_min_max(
+            pos2(left + 0.5, plot.bottom() - height),
+            pos2(left + width - 0.5, plot.bottom()),
+        );
+        // Bars are a tenth of the target each.
+        let middle = (i as f64 + 0.5) / 10.0;
+        let is_within = (middle - 1.0).abs() <= tolerance;
+        let colour = if is_within {
+            theme.accepted
+        } else {
+            theme.weak_text
+        };
+        painter.rect_filled(bar, 0.0, colour);
+    }
+    painter.hline(plot.x_range(), plot.bottom(), theme.edge_stroke());
+    for (share, text, anchor) in [
+        (0.0, "0", egui::Align2::LEFT_TOP),
+        (1.0, "100 %", egui::Align2::CENTER_TOP),
+        (2.0, "200 %", egui::Align2::RIGHT_TOP),
+    ] {
+        let x = plot.left() + plot.width() * share / (num as f32 / 10.0);
+        let at = pos2(x, plot.bottom() + 1.0);
+        painter.text(at, anchor, text, font::scale(), theme.weak_text);
+    }
+}
+
+fn percent(share: f64) -> String {
+    format!("{:.1}", 100.0 * share)
+}
+
+/// Draws the buttons for the path.
+fn buttons(ui: &mut Ui, paint: &PaintState, session: &Session, actions: &mut Vec<PaintAction>) {
+    let theme = Theme::of(ui);
+    if let Some(stored) = paint.stored(session) {
+        ui.horizontal(|ui| {
+            let count = stored.points().len();
+            for (text, path) in [
+                (text!("paint-planned-path"), ShownPath::Planned),
+                (text!("paint-stored-path", count = count), ShownPath::Stored),
+            ] {
+                let is_chosen = paint.shown_path == path;
+                if choice(ui, &text, &text, is_chosen, true).clicked() {
+                    actions.push(PaintAction::Show(path));
+                }
+            }
+        });
+    }
+    let is_ready = paint.planned.is_some() && !paint.is_old(session);
+    let unready = (!is_ready).then(|| match &paint.failed {
+        Some(failed) => failed.what.clone(),
+        None if paint.is_planning() => text!("paint-planning"),
+        None => text!("paint-not-planned"),
+    });
+    let half = (ui.available_width() - space::SMALL) / 2.0;
+    ui.horizontal(|ui| {
+        let export = button(ui, &text!("shell-export"), is_ready, half, None);
+        let export = export
+            .on_hover_text(text!("paint-export-hint"))
+            .on_disabled_hover_text(unready.clone().unwrap_or_default());
+        if export.clicked() {
+            actions.push(PaintAction::Ask(PaintFile::Table));
+        }
+        let can = is_ready && session.robot.is_some();
+        let program = button(ui, &text!("paint-export-program"), can, half, None);
+        let why_not = unready.clone();
+        let program = program
+            .on_hover_text(text!("paint-export-program-hint"))
+            .on_disabled_hover_text(why_not.unwrap_or_else(|| text!("paint-not-calibrated")));
+        if program.clicked() {
+            actions.push(PaintAction::Ask(PaintFile::Program));
+        }
+    });
+    let store = text!("paint-store-short");
+    let library = session.library.as_ref();
+    let fixed = library.and_then(|library| library.is_fixed.as_ref());
+    let is_stored = paint.is_stored();
+    let can = is_ready && fixed.is_none() && !paint.is_storing() && !is_stored;
+    let can_propose = paint.planned.is_some() || paint.failed.is_some() || !paint.is_planning();
+    let response = ui.horizontal(|ui| {
+        let propose = button(ui, &text!("paint-propose"), can_propose, half, None);
+        let propose = propose
+            .on_hover_text(text!("paint-propose-hint"))
+            .on_disabled_hover_text(text!("paint-planning"));
+        if propose.clicked() {
+            actions.push(PaintAction::Propose);
+        }
+        button(ui, &store, can, half, Some(theme))
+    });
+    let response = response.inner;
+    // The button shows a shorter text.
+    let whole = text!("paint-store");
+    response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, can, &whole));
+    let reason = match (fixed, is_stored) {
+        (Some(fixed), _) => format!("{}\n{}", fixed.what, fixed.advice),
+        (None, true) => text!("paint-is-stored"),
+        (None, false) if paint.is_storing() => text!("paint-storing"),
+        (None, false) => unready.unwrap_or_default(),
+    };
+    let response = response
+        .on_hover_text(text!("paint-store-hint"))
+        .on_disabled_hover_text(reason);
+    if response.clicked() {
+        actions.push(PaintAction::Store);
+    }
+}
+
+/// Draws a button of this width, in the theme's accent colour if a theme is given.
+fn button(ui: &mut Ui, label: &str, can: bool, width: f32, accent: Option<&Theme>) -> Response {
+    let text = RichText::new(label).font(font::body_strong());
+    let button = match accent.filter(|_| can) {
+        Some(theme) => Button::new(text.color(theme.on_accent)).fill(theme.accent),
+        None => Button::new(text),
+    };
+    let response = ui.add_enabled(can, button.min_size(vec2(width, space::TARGET)));
+    response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, can, label));
+    response
+}

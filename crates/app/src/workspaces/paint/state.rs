@@ -1,0 +1,499 @@
+//! State of the workspace, and the actions that change it.
+
+use std::{path::PathBuf, sync::Arc};
+
+use super::{
+    action::{PaintAction, PaintFile, ShownPath},
+    design::{Design, Step},
+    reach::{Reach, ReachRequest},
+    region::PaintTool,
+    work::{self, PaintResult, Planned, Request},
+};
+use crate::{
+    inspection::source::file_name,
+    language::text,
+    shell::{
+        context::ShellContext,
+        file_dialog::FileDialog,
+        message::{Event, Message},
+        notice::{Notice, NoticeTopic},
+        program_setup::ProgramSetup,
+        session::{Session, WorkspaceKind},
+        undo_stack::{UndoDirection, UndoStack},
+    },
+    task::{Running, Task, TaskRunner},
+    ui::scrubber::Playback,
+    user_error::UserError,
+};
+use inspection::{
+    library::{PartMeta, PartName, Side, SprayPath},
+    pipeline::Verdict,
+};
+use robot::paint::{BUILT_IN_COATS, CoatFolder, built_in_coat};
+
+/// State of the workspace.
+#[derive(Debug)]
+pub struct PaintState {
+    /// The design of the path.
+    pub design: Design,
+    /// The path shown.
+    pub shown_path: ShownPath,
+    /// The last path of the part to paint, with its film and input.
+    pub planned: Option<Arc<Planned>>,
+    /// Why there is no path for the last request.
+    pub failed: Option<UserError>,
+    /// What a left drag does.
+    pub tool: PaintTool,
+    /// True if the part is coloured by its film.
+    pub is_film_shown: bool,
+    /// Position on the timeline, seconds.
+    pub time: f64,
+    /// Whether the position advances by itself.
+    pub playback: Playback,
+    /// The name being entered for the coat.
+    pub naming: Option<String>,
+    /// Names of all coats.
+    pub coats: Vec<String>,
+    pub(super) coat_folder: Option<CoatFolder>,
+    pub(super) steps: UndoStack<Step>,
+    pub(super) asked: Option<Request>,
+    /// The request that the last path answers.
+    answered: Option<Request>,
+    task: Task<PaintResult>,
+    storing: Task<PaintResult>,
+    /// The step being stored, and its direction if it is undone or redone.
+    pending: Option<(Option<UndoDirection>, Step)>,
+    pub(super) reach: Option<Result<Arc<Reach>, UserError>>,
+    pub(super) reach_asked: Option<ReachRequest>,
+    pub(super) reach_task: Task<Arc<Reach>>,
+    /// Its result describes what was written.
+    pub(super) writing: Task<Notice>,
+    dialog: FileDialog<PaintFile>,
+}
+
+impl PaintState {
+    /// Creates the state without a chosen part; `coats` is the folder of the user's coats.
+    pub fn new(coats: Option<PathBuf>, runner: &TaskRunner) -> Self {
+        let kept = built_in_coat(BUILT_IN_COATS[0]).expect("the program has it");
+        Self {
+            design: Design {
+                part: None,
+                cloud: None,
+                coat: kept.recipe,
+                kept,
+                regions: Vec::new(),
+                edits: Vec::new(),
+            },
+            shown_path: ShownPath::default(),
+            planned: None,
+            failed: None,
+            tool: PaintTool::default(),
+            is_film_shown: true,
+            time: 0.0,
+            playback: Playback::default(),
+            naming: None,
+            coats: BUILT_IN_COATS.map(str::to_owned).to_vec(),
+            coat_folder: coats.map(CoatFolder::at),
+            steps: UndoStack::default(),
+            asked: None,
+            answered: None,
+            task: Task::new("paint", runner),
+            storing: Task::new("paint-store", runner),
+            pending: None,
+            reach: None,
+            reach_asked: None,
+            reach_task: Task::new("paint-reach", runner),
+            writing: Task::new("paint-write", runner),
+            dialog: FileDialog::default(),
+        }
+    }
+
+    /// The job that plans, stores or checks reach, if any.
+    pub fn running(&self) -> Option<&Running> {
+        let own = self.task.running().or_else(|| self.storing.running());
+        own.or_else(|| self.reach_task.running())
+    }
+
+    /// True while a path is being stored.
+    pub fn is_storing(&self) -> bool {
+        self.storing.running().is_some()
+    }
+
+    /// The file being written, if any.
+    pub fn writing(&self) -> Option<&Running> {
+        self.writing.running()
+    }
+
+    /// Whether there is a step to undo and one to redo.
+    pub fn can_undo(&self) -> [bool; 2] {
+        let steps = &self.steps;
+        [!steps.done.is_empty(), !steps.undone.is_empty()]
+    }
+
+    /// True if the path shown was stored with the part when it was planned.
+    pub(super) fn is_stored(&self) -> bool {
+        let planned = self.planned.as_ref();
+        planned.is_some_and(|planned| planned.is_stored)
+    }
+
+    /// Describes regions drawn by a person whose path is not stored.
+    pub(super) fn unsaved(&self) -> Option<String> {
+        (self.design.is_drawn_on() && !self.is_stored()).then(|| text!("paint-unsaved"))
+    }
+
+    /// Cancels planning and the reach check; the shown path stays.
+    pub fn cancel(&mut self) {
+        self.task.cancel();
+        self.reach_task.cancel();
+    }
+
+    /// True while a path is planned or proposed.
+    pub fn is_planning(&self) -> bool {
+        self.task.running().is_some()
+    }
+
+    /// True while the shown path does not match the present request, even if its planning was cancelled.
+    pub fn is_old(&self, session: &Session) -> bool {
+        let is_answered = self.request(session) == self.answered;
+        !is_answered || self.is_planning() || self.failed.is_some()
+    }
+
+    /// Forgets path and failure of another part, or of the part before it was enrolled anew: nothing of it is shown under the name
+    /// of the part to paint now.
+    fn forget_other_part(&mut self, session: &Session) {
+        if session.library.is_none() {
+            return;
+        }
+        let part = self.enrolled(session);
+        let is_other = |known: &PartName| part.is_none_or(|part| part.name != *known);
+        let planned = self.planned.as_ref();
+        let is_planned = planned.is_some_and(|planned| is_other(&planned.part));
+        let asked = self.asked.as_ref();
+        let is_asked = asked.is_some_and(|asked| {
+            is_other(&asked.part) || part.is_none_or(|part| part.cloud != asked.cloud)
+        });
+        if is_planned || is_asked {
+            self.task.cancel();
+            self.planned = None;
+            self.failed = None;
+            self.asked = None;
+            self.answered = None;
+            self.time = 0.0;
+            self.playback = Playback::Paused;
+        }
+    }
+
+    /// True if no job runs and none will start with the next frame.
+    pub(super) fn is_idle(&self, session: &Session) -> bool {
+        let is_front = session.workspace == WorkspaceKind::Paint;
+        let is_waiting = is_front
+            && (self.request(session) != self.asked
+                || self.reach_request(session) != self.reach_asked);
+        !is_waiting && self.running().is_none() && self.writing().is_none()
+    }
+
+    /// The part to paint: the one chosen, else the one recognised last, else, if none was recognised, the first.
+    pub fn part<'a>(&self, session: &'a Session) -> Option<&'a PartName> {
+        Some(&self.enrolled(session)?.name)
+    }
+
+    /// The library's entry of the part to paint.
+    pub(super) fn enrolled<'a>(&self, session: &'a Session) -> Option<&'a PartMeta> {
+        let parts = &session.library.as_ref()?.parts;
+        let named = |name: &str| parts.iter().find(|part| part.name.as_str() == name);
+        let chosen = self.design.part.as_ref();
+        let chosen = chosen.and_then(|chosen| named(chosen.as_str()));
+        if chosen.is_some() {
+            return chosen;
+        }
+        let shown = session.shown.as_ref();
+        let inspection = shown.map(|shown| &shown.inspected.inspection);
+        match inspection.map(|inspection| (&inspection.verdict, inspection.reference())) {
+            Some((Verdict::Part { part, .. }, reference)) => recognised(part, reference, parts),
+            _ => parts.first(),
+        }
+    }
+
+    /// The path stored with the part, if any.
+    pub fn stored<'a>(&self, session: &'a Session) -> Option<&'a SprayPath> {
+        let library = session.library.as_ref()?;
+        let place = library.place_of(self.part(session)?.as_str())?;
+        Some(&library.spray_paths.get(place)?.as_ref()?.path)
+    }
+
+    /// Carries out an action.
+    pub fn apply(&mut self, action: PaintAction, cx: &mut ShellContext<'_>) {
+        let before = self.design.clone();
+        let part = self.part(cx.session);
+        let is_step = matches!(action, PaintAction::Undo | PaintAction::Redo);
+        self.carry_out(action, cx);
+        // Corrections refer to points and strokes of the former path.
+        let is_corrected = !is_step && !self.design.edits.is_empty();
+        let is_same_path = self.part(cx.session) == part && self.design.is_same_path(&before);
+        if is_corrected && !is_same_path {
+            self.design.edits.clear();
+            cx.notify(Notice::look(
+                text!("paint-edits-dropped"),
+                text!("paint-edits-dropped-advice"),
+            ));
+        }
+        self.forget_other_part(cx.session);
+    }
+
+    fn carry_out(&mut self, action: PaintAction, cx: &mut ShellContext<'_>) {
+        match action {
+            PaintAction::ChoosePart(part) => self.choose_part(part, cx),
+            PaintAction::ChooseSide(side) => self.choose_side(side, cx),
+            PaintAction::ChooseCoat(name) => self.choose_coat(&name, cx),
+            PaintAction::Change(key, change) => self.change_parameter(key, change, cx),
+            PaintAction::ResetCoat => self.change(|design| design.coat = design.kept.recipe),
+            PaintAction::Name(name) => {
+                self.naming = name;
+                cx.send(Message::RemoveNotices(NoticeTopic::CoatName));
+            }
+            PaintAction::SaveCoat => self.save_coat(cx),
+            PaintAction::Show(path) => self.shown_path = path,
+            PaintAction::Use(tool) => self.tool = tool,
+            PaintAction::Add(regions) => self.add(regions, cx.session),
+            PaintAction::Edit(edit) => self.draw(cx.session, |design| design.edits.push(edit)),
+            PaintAction::Clear => self.change(Design::clear),
+            PaintAction::Undo => self.step(UndoDirection::Undo, cx),
+            PaintAction::Redo => self.step(UndoDirection::Redo, cx),
+            PaintAction::Propose => {
+                self.shown_path = ShownPath::Planned;
+                self.plan(true, cx);
+            }
+            PaintAction::Store => self.store_shown(cx),
+            PaintAction::ToggleFilm => self.is_film_shown = !self.is_film_shown,
+            PaintAction::Ask(file) => {
+                // Refuse before the user chooses a file.
+                if file == PaintFile::Program
+                    && let Some(error) = self.why_no_program(cx.session)
+                {
+                    return cx.notify(Notice::from(error).about(NoticeTopic::Program));
+                }
+                let lock = &cx.services.dialogs;
+                let request = file.request(self.part(cx.session), cx.session);
+                self.dialog.open(file, &request, lock, cx.egui);
+            }
+            PaintAction::Chosen(PaintFile::Table, file) => self.write_table(file),
+            PaintAction::Chosen(PaintFile::Program, file) => self.export_program(file, cx),
+            PaintAction::Chosen(PaintFile::Arm, file) => {
+                let setup = ProgramSetup {
+                    arm: Some(file.display().to_string()),
+                    ..cx.session.program.clone()
+                };
+                self.set_up(setup, cx);
+            }
+            PaintAction::Chosen(PaintFile::Obstacles, file) => {
+                let setup = ProgramSetup {
+                    obstacles: Some(file.display().to_string()),
+                    ..cx.session.program.clone()
+                };
+                self.set_up(setup, cx);
+            }
+            PaintAction::SetUp(setup) => self.set_up(setup, cx),
+            PaintAction::ShowUnreached => self.show_unreached(cx.session),
+            PaintAction::Scrub(time) => {
+                self.playback = Playback::Paused;
+                self.go_to(time);
+            }
+            PaintAction::Step(strokes) => {
+                self.playback = Playback::Paused;
+                self.go_by(strokes);
+            }
+            PaintAction::TogglePlay => self.toggle_play(),
+            PaintAction::Advance(seconds) => self.advance(seconds),
+        }
+    }
+
+    fn store_shown(&mut self, cx: &ShellContext<'_>) {
+        let Some(planned) = self.planned.as_ref().filter(|_| !self.is_old(cx.session)) else {
+            return;
+        };
+        let (part, path) = (planned.part.clone(), planned.path.clone());
+        self.store(None, part, Some(path), cx);
+    }
+
+    /// Stores a path with a part, or removes the one it has.
+    pub(super) fn store(
+        &mut self,
+        way: Option<UndoDirection>,
+        part: PartName,
+        path: Option<SprayPath>,
+        cx: &ShellContext<'_>,
+    ) {
+        if self.is_storing() {
+            return;
+        }
+        self.pending = Some((way, Step::Stored(part.clone(), path.clone())));
+        let library_cache = cx.services.library_cache.clone();
+        self.storing.start(text!("paint-storing"), move |_| {
+            Ok(work::store(&part, path.as_ref(), &library_cache)?)
+        });
+    }
+
+    /// Stores the side that the part is painted from with it; corrections by hand belong to a path over another side.
+    fn choose_side(&mut self, side: Side, cx: &ShellContext<'_>) {
+        let part = self.part(cx.session).cloned();
+        let Some(part) = part.filter(|_| !self.is_storing()) else {
+            return;
+        };
+        self.change(|design| design.edits.clear());
+        let library_cache = cx.services.library_cache.clone();
+        self.storing.start(text!("paint-storing-side"), move |_| {
+            Ok(work::choose_side(&part, side, &library_cache)?)
+        });
+    }
+
+    fn write_table(&mut self, file: PathBuf) {
+        let Some(planned) = self.planned.clone() else {
+            return;
+        };
+        let title = text!("shell-writing", file = file_name(&file));
+        self.writing.start(title, move |_| {
+            let written = work::write(&file, &planned.part, &planned.path)?;
+            Ok(Notice::done(written))
+        });
+    }
+
+    /// The present request, if there is a part.
+    fn request(&self, session: &Session) -> Option<Request> {
+        let library = session.library.as_ref()?;
+        let part = self.enrolled(session)?;
+        Some(Request {
+            part: part.name.clone(),
+            cloud: part.cloud.clone(),
+            library: library.identity.clone(),
+            side: part.side,
+            stored: part.spray.clone(),
+            coat: self.design.coat,
+            regions: self.design.regions.clone(),
+            edits: self.design.edits.clone(),
+            shown: self.shown_path,
+        })
+    }
+
+    fn plan(&mut self, is_proposal: bool, cx: &ShellContext<'_>) {
+        let Some(request) = self.request(cx.session) else {
+            return;
+        };
+        self.asked = Some(request.clone());
+        let library_cache = cx.services.library_cache.clone();
+        let title = if is_proposal {
+            text!("paint-proposing")
+        } else {
+            text!("paint-planning")
+        };
+        self.task.start(title, move |context| {
+            work::planned(&request, is_proposal, &library_cache, context)
+        });
+    }
+
+    /// Takes in the results of the tasks and of the file dialog, and plans if needed.
+    pub fn update(&mut self, cx: &mut ShellContext<'_>) {
+        self.follow_part(cx);
+        while let Some(event) = self.task.poll() {
+            match event {
+                Ok(result) => self.receive(result, cx),
+                Err(error) => self.failed = Some(error),
+            }
+        }
+        match self.storing.poll() {
+            Some(Ok(result)) => self.receive(result, cx),
+            Some(Err(error)) => {
+                // Keep a step that failed, so that it can be tried again.
+                if let Some((Some(way), step)) = self.pending.take() {
+                    self.steps.from(way).push(step);
+                }
+                cx.notify(error);
+            }
+            None => {}
+        }
+        cx.notify_written(&mut self.writing);
+        if let Some((file, path)) = cx.chosen(&mut self.dialog) {
+            self.apply(PaintAction::Chosen(file, path), cx);
+        }
+        if self.shown_path == ShownPath::Stored && self.stored(cx.session).is_none() {
+            self.shown_path = ShownPath::Planned;
+        }
+        self.forget_other_part(cx.session);
+        let is_front = cx.session.workspace == WorkspaceKind::Paint;
+        if is_front && self.request(cx.session) != self.asked {
+            self.plan(false, cx);
+        }
+        self.update_reach(cx);
+    }
+
+    /// Handles an event of the shell.
+    pub(super) fn on_event(&mut self, event: &Event, cx: &ShellContext<'_>) {
+        if matches!(event, Event::Escape) && cx.session.workspace == WorkspaceKind::Paint {
+            self.tool = PaintTool::Look;
+        }
+    }
+
+    fn show(&mut self, planned: Arc<Planned>) {
+        self.failed = None;
+        self.planned = Some(planned);
+        self.answered.clone_from(&self.asked);
+        self.go_to(self.time);
+    }
+
+    fn receive(&mut self, result: PaintResult, cx: &mut ShellContext<'_>) {
+        match result {
+            PaintResult::Planned(planned) => self.show(planned),
+            PaintResult::Proposed(planned) => {
+                // Drop a proposal if the design has changed meanwhile.
+                if self.request(cx.session) == self.asked {
+                    self.change(|design| {
+                        design.coat = planned.coat;
+                        design.edits.clear();
+                    });
+                    self.asked = self.request(cx.session);
+                    self.show(planned);
+                }
+            }
+            PaintResult::SideChosen(library) => {
+                let saved = None;
+                cx.send(Message::LibraryChanged { library, saved });
+            }
+            PaintResult::Stored {
+                part,
+                former,
+                num_points,
+                library,
+            } => {
+                let title = library.title_of(part.as_str()).to_owned();
+                let what = match num_points {
+                    Some(count) => text!("enrol-stored-path", count = count, part = title),
+                    None => text!("enrol-removed-path", part = title),
+                };
+                let step = Step::Stored(part, former);
+                let way = self.pending.take().and_then(|(way, _)| way);
+                self.steps.add_inverse(way, step);
+                cx.notify(Notice::done(what));
+                let saved = None;
+                cx.send(Message::LibraryChanged { library, saved });
+            }
+        }
+    }
+}
+
+/// The entry of a recognised part: the reference found, since each has a frame and a path of its own; if that is no longer
+/// enrolled, the part's own reference, else another one of the part. Never another part.
+fn recognised<'a>(
+    part: &str,
+    reference: Option<&str>,
+    parts: &'a [PartMeta],
+) -> Option<&'a PartMeta> {
+    let references = parts.iter();
+    let references = references.filter(|entry| entry.part_name().as_str() == part);
+    references.min_by_key(|entry| match entry.name.as_str() {
+        name if reference == Some(name) => 0,
+        name if name == part => 1,
+        _ => 2,
+    })
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,268 @@
+//! Jobs of the workspace: plan a path, simulate its film, store it.
+
+use std::{path::Path, sync::Arc};
+
+use glam::Vec3;
+
+use super::{action::ShownPath, course::GunCourse};
+use crate::{
+    inspection::library_cache::{LibraryCache, LibraryView, LoadedLibrary, StoredPath},
+    language::text,
+    task::{TaskContext, TaskError},
+    ui::viewport::{Colouring, Line, LineSet, PointSet, Role, vec3},
+    user_error::UserError,
+};
+use files::write_text;
+use inspection::library::{FileCheck, PartMeta, PartName, Side, SprayPath};
+use robot::paint::{
+    Coat, Film, KeepOut, PaintError, PaintSurface, PathEdit, edited, plan, propose, simulate,
+};
+use stages::reference::Reference;
+
+/// Input of planning.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Request {
+    pub(super) part: PartName,
+    /// Its cloud.
+    pub(super) cloud: FileCheck,
+    /// The library of the part.
+    pub(super) library: String,
+    /// The side that it is painted from, if it is stored with the part.
+    pub(super) side: Option<Side>,
+    /// The path stored with the part.
+    pub(super) stored: Option<FileCheck>,
+    pub(super) coat: Coat,
+    pub(super) regions: Vec<KeepOut>,
+    pub(super) edits: Vec<PathEdit>,
+    pub(super) shown: ShownPath,
+}
+
+/// A path and its film, and what the view shows of them.
+#[derive(Debug)]
+pub struct Planned {
+    /// Name of the part.
+    pub part: PartName,
+    /// The surface to paint.
+    pub surface: PaintSurface,
+    /// The spray path.
+    pub path: SprayPath,
+    /// The simulated film.
+    pub film: Film,
+    /// Times along the path.
+    pub course: GunCourse,
+    /// The coat; for a proposal, the one found.
+    pub coat: Coat,
+    /// True if the same path was stored with the part when it was planned.
+    pub is_stored: bool,
+    /// The surface coloured by its film.
+    pub(super) points: PointSet,
+    /// Strokes as lines, and the moves between them dashed.
+    pub(super) lines: LineSet,
+    /// The points where the gun is switched on, and off.
+    pub(super) marks: [PointSet; 2],
+}
+
+/// A result of a task.
+#[derive(Debug)]
+pub(super) enum PaintResult {
+    /// A path and its film.
+    Planned(Arc<Planned>),
+    /// A path and its film for a coat whose spacing and speed were found.
+    Proposed(Arc<Planned>),
+    /// The side that a part is painted from was stored with it.
+    SideChosen(Arc<LibraryView>),
+    /// A path was stored with a part or removed; holds the former path.
+    Stored {
+        part: PartName,
+        former: Option<SprayPath>,
+        num_points: Option<usize>,
+        library: Arc<LibraryView>,
+    },
+}
+
+/// Finds a part of the library, and its index.
+pub(super) fn enrolled<'a>(
+    loaded: &'a LoadedLibrary,
+    part: &PartName,
+) -> Result<(usize, &'a Reference), UserError> {
+    let place = loaded.shown.place_of(part.as_str());
+    let found = place.and_then(|place| Some((place, loaded.library.references.get(place)?)));
+    found.ok_or_else(|| UserError {
+        what: text!("paint-no-such-part", part = part.as_str()),
+        advice: text!("paint-no-such-part-advice"),
+    })
+}
+
+/// Plans or reads a path, and simulates its film.
+pub(super) fn planned(
+    request: &Request,
+    is_proposal: bool,
+    library_cache: &LibraryCache,
+    context: &TaskContext<PaintResult>,
+) -> Result<PaintResult, TaskError> {
+    let loaded = library_cache.get();
+    let (place, reference) = enrolled(&loaded, &request.part)?;
+    let (coat, regions) = (&request.coat, &request.regions);
+    let PartMeta { coverage, side, .. } = loaded.shown.parts[place];
+    let surface = PaintSurface::of(reference, coverage, side).map_err(|error| match error {
+        PaintError::SideUnclear { .. } => UserError {
+            what: text!("paint-side-unclear"),
+            advice: text!("paint-side-unclear-advice"),
+        },
+        error => UserError::of(&error),
+    })?;
+    context.check()?;
+    let stored = loaded.shown.spray_paths.get(place).and_then(Option::as_ref);
+    let failed = |error| UserError::of(&error);
+    let (coat, path, film) = match (request.shown, stored) {
+        (ShownPath::Stored, Some(StoredPath { path, .. })) => {
+            let film = simulate(&surface, path, coat, regions).map_err(failed)?;
+            (*coat, path.clone(), film)
+        }
+        _ if is_proposal => {
+            let found = propose(&surface, coat, regions).map_err(failed)?;
+            (found.coat, found.path, found.film)
+        }
+        _ => {
+            let path = plan(&surface, coat, regions).map_err(failed)?;
+            let path = edited(path, &request.edits, coat.stand_off);
+            context.check()?;
+            let film = simulate(&surface, &path, coat, regions).map_err(failed)?;
+            (*coat, path, film)
+        }
+    };
+    context.check()?;
+    let course = GunCourse::of(&path, coat.speed);
+    let planned = Planned {
+        part: request.part.clone(),
+        points: coloured(&surface, &film, &coat),
+        lines: lines(&path, &course, &coat),
+        marks: marks(&path, &course, &coat),
+        is_stored: stored.is_some_and(|stored| path.is_as_written(&stored.path)),
+        surface,
+        path,
+        film,
+        course,
+        coat,
+    };
+    let planned = Arc::new(planned);
+    Ok(if is_proposal {
+        PaintResult::Proposed(planned)
+    } else {
+        PaintResult::Planned(planned)
+    })
+}
+
+/// Scale of the film's deviations: a view keeps whole micrometres, and films are only some micrometres thick.
+pub(super) const MAGNIFIED: f64 = 1000.0;
+
+/// Returns the surface with the film's deviation from its target; keep-outs and what is not reachable have none.
+fn coloured(surface: &PaintSurface, film: &Film, coat: &Coat) -> PointSet {
+    let positions: Vec<[f32; 3]> = surface.points.iter().map(|p| vec3(p).to_array()).collect();
+    let each = film.thickness.iter().zip(&film.is_reachable);
+    let off: Vec<f32> = each
+        .map(|(thickness, is_reachable)| {
+            if *is_reachable {
+                (MAGNIFIED * (thickness - coat.target)) as f32
+            } else {
+                f32::NAN
+            }
+        })
+        .collect();
+    PointSet::new(positions, Role::Part)
+        .with_deviations(off)
+        .packed()
+}
+
+/// Distance of lines from the surface, metres, as points have a size.
+const BEFORE: f64 = 0.008;
+
+/// The point at which the gun aims at a point of the path, moved a little off the surface.
+pub(super) fn aim(path: &SprayPath, point: usize, coat: &Coat) -> Vec3 {
+    let point = &path.points()[point];
+    let stand_off = point.stand_off.map_or(coat.stand_off, |d| d.0);
+    vec3(&(point.nozzle + point.direction.into_inner() * (stand_off - BEFORE)))
+}
+
+fn lines(path: &SprayPath, course: &GunCourse, coat: &Coat) -> LineSet {
+    let stretch = |first: usize, last: usize| -> Vec<Vec3> {
+        (first..=last).map(|i| aim(path, i, coat)).collect()
+    };
+    let move_along = |first: usize, last: usize| {
+        let line = Line::new(stretch(first, last), Role::Contour);
+        line.dashed().with_width(1.0)
+    };
+    let mut lines = Vec::new();
+    let mut from = 0;
+    for stroke in &course.strokes {
+        let [first, last] = *stroke;
+        if first > from {
+            lines.push(move_along(from, first));
+        }
+        let spraying = Line::new(stretch(first, last), Role::Contour);
+        lines.push(spraying.with_width(1.6));
+        from = last;
+    }
+    let last = path.points().len() - 1;
+    if last > from {
+        lines.push(move_along(from, last));
+    }
+    LineSet::new(lines)
+}
+
+fn marks(path: &SprayPath, course: &GunCourse, coat: &Coat) -> [PointSet; 2] {
+    let at = |point: usize| aim(path, point, coat).to_array();
+    let on: Vec<[f32; 3]> = course.strokes.iter().map(|[first, _]| at(*first)).collect();
+    let off: Vec<[f32; 3]> = course.strokes.iter().map(|[_, last]| at(*last)).collect();
+    [
+        PointSet::new(on, Role::AxisY).coloured(Colouring::Segment),
+        PointSet::new(off, Role::AxisX).coloured(Colouring::Segment),
+    ]
+}
+
+/// Stores a path with a part or removes it, and reloads the library.
+pub(super) fn store(
+    part: &PartName,
+    path: Option<&SprayPath>,
+    library_cache: &LibraryCache,
+) -> Result<PaintResult, UserError> {
+    let loaded = library_cache.get();
+    let folder = loaded.folder_to_change()?;
+    // A damaged path cannot be brought back.
+    let former = folder.spray_path(part.as_str()).ok().flatten();
+    folder
+        .set_spray_path(part, path)
+        .map_err(|error| UserError::of(&error))?;
+    let library = library_cache
+        .reload()
+        .map_err(|error| UserError::of(&error))?;
+    Ok(PaintResult::Stored {
+        part: part.clone(),
+        former,
+        num_points: path.map(|path| path.points().len()),
+        library: Arc::clone(&library.shown),
+    })
+}
+
+/// Stores the side that a part is painted from with it, and reloads the library.
+pub(super) fn choose_side(
+    part: &PartName,
+    side: Side,
+    library_cache: &LibraryCache,
+) -> Result<PaintResult, UserError> {
+    let folder = library_cache.get();
+    let folder = folder.folder_to_change()?;
+    folder
+        .set_side(part, side)
+        .map_err(|error| UserError::of(&error))?;
+    let library = library_cache
+        .reload()
+        .map_err(|error| UserError::of(&error))?;
+    Ok(PaintResult::SideChosen(Arc::clone(&library.shown)))
+}
+
+/// Writes a path as a table, atomically; describes what was written.
+pub(super) fn write(file: &Path, part: &PartName, path: &SprayPath) -> Result<String, UserError> {
+    write_text(file, &path.to_text_of(part)).map_err(|error| UserError::of(&error))?;
+    Ok(text!("shell-wrote", path = file.display().to_string()))
+}

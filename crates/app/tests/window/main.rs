@@ -1,0 +1,21 @@
+//! The window, tested by its labels and controls. Only the pictures need a graphics adapter; without one, the 3-D
+//! view shows a message.
+
+mod align;
+mod answering;
+mod cell_check;
+mod compare;
+mod enrol;
+mod history;
+mod inspect;
+mod language;
+mod live;
+mod operator;
+mod paint;
+mod pictures;
+pub(crate) mod robot;
+mod roles;
+mod set_up;
+mod shots;
+mod view;
+mod viewport;

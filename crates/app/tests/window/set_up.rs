@@ -1,0 +1,179 @@
+//! Helpers that open a window, operate it and read it.
+
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+    thread,
+    time::{Duration, Instant},
+};
+
+use app::{
+    Window, WindowOptions,
+    shell::{
+        action::{Action, DialogRequest},
+        context::ShellContext,
+        live::SourceState,
+        state::State,
+        workspace::Workspace,
+    },
+    workspaces::{
+        enrol::{EnrolState, EnrolWorkspace},
+        history::{HistoryState, HistoryWorkspace},
+        inspect::{InspectAction, InspectFile, InspectState, InspectWorkspace},
+    },
+};
+use egui::Vec2;
+use egui_kittest::{Harness, kittest::Queryable as _};
+
+/// A window without a screen.
+pub(crate) type WindowHarness = Harness<'static, Window>;
+
+/// The usual size of a window, that of the design sketches.
+pub(crate) const USUAL: Vec2 = Vec2::new(1440.0, 900.0);
+/// The smallest supported screen: nothing may be cut off.
+pub(crate) const SMALL: Vec2 = Vec2::new(1024.0, 768.0);
+
+/// Opens a window and waits for its first result.
+pub(crate) fn open_with(size: Vec2, options: WindowOptions) -> WindowHarness {
+    let mut harness = Harness::builder().with_size(size).build_eframe(|cc| {
+        Window::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), options).expect("threads")
+    });
+    settle(&mut harness);
+    harness
+}
+
+/// Options for a window with the shipped parts, without the user's library and settings.
+pub(crate) fn plain_options() -> WindowOptions {
+    WindowOptions {
+        library: Some("reference_parts".into()),
+        ..WindowOptions::default()
+    }
+}
+
+/// Opens a window as at the first start.
+pub(crate) fn open() -> WindowHarness {
+    open_with(USUAL, plain_options())
+}
+
+/// Draws until no task is running.
+pub(crate) fn settle(harness: &mut WindowHarness) {
+    wait_for(harness, Window::is_idle);
+    harness.run_steps(8);
+    // Check everywhere that every control has a name.
+    harness.check_accessibility();
+}
+
+/// Draws until the state meets the condition.
+pub(crate) fn wait_until(harness: &mut WindowHarness, is_so: impl Fn(&State) -> bool) {
+    wait_for(harness, |window| is_so(window.state()));
+}
+
+/// Draws until the window meets the condition.
+///
+/// The window's clock advances normally for animations, then hardly at all: the time that the work takes must not
+/// decide which notices are still shown.
+pub(crate) fn wait_for(harness: &mut WindowHarness, is_so: impl Fn(&Window) -> bool) {
+    let until = Instant::now() + Duration::from_mins(3);
+    let moving = (0..20).map(|_| 0.1);
+    let mut ticks = moving.chain(std::iter::repeat(1e-3));
+    harness.step();
+    while !is_so(harness.state()) {
+        assert!(Instant::now() < until, "still working after three minutes");
+        thread::sleep(Duration::from_millis(5));
+        let time = harness.ctx.input(|input| input.time) + ticks.next().unwrap_or_default();
+        harness.input_mut().time = Some(time);
+        harness.step();
+    }
+    harness.input_mut().time = None;
+}
+
+/// Scrolls the control of this label into view, presses it, and waits for the result.
+pub(crate) fn press(harness: &mut WindowHarness, label: &str) {
+    harness.get_by_label(label).scroll_to_me();
+    harness.run_steps(12);
+    harness.get_by_label(label).click();
+    settle(harness);
+}
+
+/// Performs an action of the user, and waits for the result.
+pub(crate) fn act(harness: &mut WindowHarness, action: Action) {
+    let context = harness.ctx.clone();
+    harness.state_mut().act(action, &context);
+    settle(harness);
+}
+
+/// Follows a folder, and waits until it is watched. From then on, nothing settles.
+pub(crate) fn watch_folder(harness: &mut WindowHarness, folder: &Path) {
+    let context = harness.ctx.clone();
+    let watched = Action::Chosen(DialogRequest::WatchedFolder, folder.to_owned());
+    harness.state_mut().act(watched, &context);
+    wait_until(harness, |state| {
+        let status = state.session.live.status.as_ref();
+        status.is_some_and(|status| status.source == SourceState::Running)
+    });
+}
+
+/// Runs a closure on the workspace of this type, and waits for the result.
+pub(crate) fn act_in<W: Workspace>(
+    harness: &mut WindowHarness,
+    act: impl FnOnce(&mut W, &mut ShellContext<'_>),
+) {
+    let context = harness.ctx.clone();
+    let done = harness.state_mut().with(&context, act);
+    done.expect("the window has this workspace");
+    settle(harness);
+}
+
+/// State of the History workspace.
+pub(crate) fn history_of(harness: &WindowHarness) -> &HistoryState {
+    let workspace = harness.state().workspace::<HistoryWorkspace>();
+    &workspace.expect("the workspace").state
+}
+
+/// State of the Inspect workspace.
+pub(crate) fn inspect_of(harness: &WindowHarness) -> &InspectState {
+    let workspace = harness.state().workspace::<InspectWorkspace>();
+    &workspace.expect("the workspace").state
+}
+
+/// Chooses a file in Inspect, as the user does in a file dialog.
+pub(crate) fn choose_in_inspect(harness: &mut WindowHarness, file: InspectFile, path: PathBuf) {
+    let chosen = InspectAction::Chosen(file, path);
+    act_in(harness, |inspect: &mut InspectWorkspace, cx| {
+        inspect.state.apply(chosen, cx);
+    });
+}
+
+/// State of the Enrol workspace.
+pub(crate) fn enrol_of(harness: &WindowHarness) -> &EnrolState {
+    let workspace = harness.state().workspace::<EnrolWorkspace>();
+    &workspace.expect("the workspace").state
+}
+
+#[derive(Debug)]
+struct Dropped(PathBuf);
+
+impl egui::DroppedFile for Dropped {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        Err("the window opens files itself".into())
+    }
+}
+
+/// True if either view calls the part recognised, whether or not a robot may act on it.
+pub(crate) fn is_recognised(harness: &WindowHarness) -> bool {
+    let words = ["OK", "Accepted", "Recognised"];
+    words
+        .iter()
+        .any(|word| harness.query_by_label(word).is_some())
+}
+
+/// Drops a file onto the window.
+pub(crate) fn drop_file(harness: &mut WindowHarness, path: &Path) {
+    let dropped = Arc::new(Dropped(path.to_owned()));
+    harness.input_mut().dropped_files.push(dropped);
+    settle(harness);
+}

@@ -1,0 +1,112 @@
+//! Generates any number of simulated references.
+//!
+//! The first 64 are the eight parts of eight models of the car, each enrolled from a frontal capture. All further ones
+//! are *perturbed signatures* of these: the ray lengths vary by a few per cent around the outline, the packed pixels are
+//! those of the original, and there is no cloud. They are not real parts, but ranking does the same work for them. Ten
+//! thousand take about 1 GB.
+
+use rand::{RngExt as _, SeedableRng as _};
+use rand_pcg::Pcg64;
+
+use super::ScalingError;
+use crate::suites::enrol_part;
+use inspection::{
+    library::EnrolParams,
+    pipeline::{Cancelled, ProgressObserver},
+};
+use simulate::{PartKind, Side};
+use stages::{
+    correlation::LiteralReference,
+    rank::Matcher,
+    reference::{Reference, ReferenceView},
+};
+
+/// Number of car models whose parts are really enrolled.
+pub(super) const NUM_MODELS: u64 = 8;
+
+/// Enrols the unperturbed parts.
+pub(super) fn originals(
+    most: usize,
+    watch: &dyn ProgressObserver,
+) -> Result<Vec<Reference>, ScalingError> {
+    let mut originals = Vec::new();
+    for model_seed in 0..NUM_MODELS {
+        for kind in PartKind::ALL {
+            if watch.is_cancelled() {
+                return Err(Cancelled.into());
+            }
+            if originals.len() < most {
+                let enrolled = enrol_part(kind, Side::Left, model_seed, &EnrolParams::default())?;
+                originals.push(enrolled.without_cloud());
+            }
+        }
+    }
+    Ok(originals)
+}
+
+/// Returns an original, or a perturbed copy of one with only the data that this matcher uses.
+pub(super) fn nth_reference(originals: &[Reference], place: usize, matcher: Matcher) -> Reference {
+    let original = &originals[place % originals.len()];
+    if place < originals.len() {
+        return original.clone();
+    }
+    let mut random = Pcg64::seed_from_u64(place as u64);
+    let swing = ScaleCurve::new(&mut random);
+    let mut copy = original.clone();
+    copy.name = format!("{}_{place}", original.name);
+    match matcher {
+        Matcher::Default => {
+            let views = original.views.iter().map(|view| perturb(view, &swing));
+            copy = copy.with_views(views.collect());
+            copy.summaries();
+            copy.views.iter_mut().for_each(ReferenceView::drop_shape);
+        }
+        Matcher::Paper => {
+            let mut signature = original.literal().signature.clone();
+            let num = signature.lengths.len();
+            for (k, length) in signature.lengths.iter_mut().enumerate() {
+                *length *= swing.at(k, num);
+            }
+            copy = copy.with_literal(LiteralReference::new(signature));
+            copy.views.clear();
+        }
+    }
+    copy
+}
+
+/// A factor that varies a few times around the outline.
+struct ScaleCurve {
+    waves: [[f64; 2]; 4],
+}
+
+impl ScaleCurve {
+    fn new(random: &mut Pcg64) -> Self {
+        let mut wave = || {
+            [
+                random.random_range(-0.02..0.02),
+                random.random_range(0.0..std::f64::consts::TAU),
+            ]
+        };
+        Self {
+            waves: [wave(), wave(), wave(), wave()],
+        }
+    }
+
+    fn at(&self, k: usize, num: usize) -> f64 {
+        let turn = std::f64::consts::TAU * k as f64 / num.max(1) as f64;
+        let waves = self.waves.iter().zip(1..);
+        1.0 + waves
+            .map(|([height, phase], times)| height * (f64::from(times) * turn + phase).cos())
+            .sum::<f64>()
+    }
+}
+
+fn perturb(view: &ReferenceView, swing: &ScaleCurve) -> ReferenceView {
+    let mut view = view.clone();
+    let num = view.signature.rays.len();
+    let rays = &mut view.signature.rays;
+    for (k, ray) in rays.iter_mut().enumerate() {
+        *ray *= swing.at(k, num);
+    }
+    view
+}

@@ -1,0 +1,276 @@
+//! Errors and warnings of sources, with advice.
+
+use std::{io, path::PathBuf};
+
+use thiserror::Error;
+
+use super::{
+    genicam::{GenicamError, GenicamWarning},
+    kinect::{KinectError, KinectWarning},
+    openni::OpenNiError,
+    realsense::RealsenseError,
+};
+use files::{FileError, FileWarning, advice_on, words_of};
+use geometry::error::Advice;
+
+/// Why a source cannot be opened, delivers no more, or cannot be recorded.
+#[derive(Debug, Error)]
+pub enum CaptureError {
+    /// The folder of a recording, or one to watch, does not exist.
+    #[error("{}: the folder does not exist", path.display())]
+    FolderGone {
+        /// The folder.
+        path: PathBuf,
+        /// True if it may appear later, as on a network share or a USB stick.
+        may_come: bool,
+    },
+    /// The folder cannot be listed.
+    #[error("{}: cannot read the folder: {}", path.display(), words_of(source))]
+    FolderUnreadable {
+        /// The folder.
+        path: PathBuf,
+        /// The underlying error.
+        source: io::Error,
+    },
+    /// A file of a source cannot be read.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// The file is a mesh, not a capture of a camera.
+    #[error("{}: a mesh, expected a depth camera's capture", path.display())]
+    MeshIsNoCapture {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A Kinect failed.
+    #[error(transparent)]
+    Kinect(#[from] KinectError),
+    /// A GenICam camera failed.
+    #[error(transparent)]
+    Genicam(#[from] GenicamError),
+    /// An OpenNI camera, or a file of one, failed.
+    #[error(transparent)]
+    OpenNi(#[from] OpenNiError),
+    /// A RealSense camera, or a file of one, failed.
+    #[error(transparent)]
+    Realsense(#[from] RealsenseError),
+    /// The folder has nothing to replay.
+    #[error("{}: neither a recording nor a camera's file", path.display())]
+    NoFrames {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The recording was made by a newer version.
+    #[error("{}: made by a newer version: format {found}, this one reads up to {known}", path.display())]
+    NewerRecording {
+        /// The recording's list of frames.
+        path: PathBuf,
+        /// Its format version.
+        found: u32,
+        /// The newest version that can be read.
+        known: u32,
+    },
+    /// The recording contradicts itself.
+    #[error("{}: damaged: {what}", path.display())]
+    DamagedRecording {
+        /// The file.
+        path: PathBuf,
+        /// The contradiction.
+        what: String,
+    },
+    /// The folder to record to is not empty.
+    #[error("{}: the folder is not empty", path.display())]
+    FolderInUse {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The recording cannot be continued.
+    #[error("{}: cannot record: {}; {} kept", path.display(), words_of(source), counted(*num_kept))]
+    Unwritable {
+        /// The folder, or the frame's file.
+        path: PathBuf,
+        /// Number of complete frames in the recording.
+        num_kept: u64,
+        /// The underlying error.
+        source: io::Error,
+    },
+    /// The system refuses a thread for the camera.
+    #[error("the camera's thread cannot be started: {source}")]
+    NoThread {
+        /// The underlying error.
+        source: io::Error,
+    },
+    /// Frames are requested while the window does not follow its source.
+    #[error("the window does not follow its source, so there are no frames")]
+    NotFollowed,
+    /// The camera's thread panicked.
+    #[error("an error of the program ended the camera's thread")]
+    Crashed,
+}
+
+fn counted(num_frames: u64) -> String {
+    match num_frames {
+        0 => "no frame is".into(),
+        1 => "1 frame is".into(),
+        num => format!("{num} frames are"),
+    }
+}
+
+/// The rest of a message that names what was found instead: `, only A, B`; empty if nothing was found.
+pub(super) fn only(found: &[String]) -> String {
+    if found.is_empty() {
+        String::new()
+    } else {
+        format!(", only {}", found.join(", "))
+    }
+}
+
+/// The rest of a message that quotes a camera's library: `: no such device`; empty if the library gave no message.
+pub(super) fn quoted(message: Option<&String>) -> String {
+    message.map_or_else(String::new, |message| format!(": {message}"))
+}
+
+/// Checks that every error has a sentence and an advice of its own.
+#[cfg(test)]
+pub(super) fn check_messages<E: Advice + std::fmt::Display>(errors: &[E]) {
+    let advice: std::collections::BTreeSet<String> = errors.iter().map(Advice::advice).collect();
+    assert_eq!(advice.len(), errors.len());
+    for error in errors {
+        let text = format!("{error}. {}", error.advice());
+        assert!(
+            !text.contains('\n') && !error.advice().ends_with('.'),
+            "{text}"
+        );
+    }
+}
+
+/// How to recover from a source's error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Recovery {
+    /// Not automatically: a person has to act first.
+    None,
+    /// Open the source again after a while.
+    Reopen,
+    /// Query the same source again after a while: it remembers what it has delivered.
+    AskAgain,
+}
+
+impl CaptureError {
+    /// How to recover from this error.
+    pub fn recovery(&self) -> Recovery {
+        match self {
+            Self::FolderGone { may_come: true, .. } | Self::FolderUnreadable { .. } => {
+                Recovery::AskAgain
+            }
+            Self::Kinect(error) => error.recovery(),
+            Self::Genicam(error) => error.recovery(),
+            Self::OpenNi(error) => error.recovery(),
+            Self::Realsense(error) => error.recovery(),
+            Self::FolderGone { .. }
+            | Self::File(_)
+            | Self::MeshIsNoCapture { .. }
+            | Self::NoFrames { .. }
+            | Self::NewerRecording { .. }
+            | Self::DamagedRecording { .. }
+            | Self::FolderInUse { .. }
+            | Self::Unwritable { .. }
+            | Self::NoThread { .. }
+            | Self::NotFollowed
+            | Self::Crashed => Recovery::None,
+        }
+    }
+}
+
+impl Advice for CaptureError {
+    fn advice(&self) -> String {
+        match self {
+            Self::FolderGone {
+                path,
+                may_come: true,
+            } => format!(
+                "Connect the drive or share that holds {}; captures go on by themselves",
+                path.display()
+            ),
+            Self::FolderGone { .. } => {
+                "Check the name and that the drive is connected".into()
+            }
+            Self::FolderUnreadable { .. } => {
+                "Ask for access to this folder; it is looked for again by itself".into()
+            }
+            Self::File(error) => error.advice(),
+            Self::MeshIsNoCapture { path } => {
+                format!(
+                    "Enrol it as a reference: partsight enrol {}",
+                    path.display()
+                )
+            }
+            Self::Kinect(error) => error.advice(),
+            Self::Genicam(error) => error.advice(),
+            Self::OpenNi(error) => error.advice(),
+            Self::Realsense(error) => error.advice(),
+            Self::NoFrames { .. } => {
+                "Give the folder that holds the frames, or record a source into one first".into()
+            }
+            Self::NewerRecording { .. } => "Update Partsight on this computer".into(),
+            Self::DamagedRecording { .. } => {
+                "Copy the recording again from where it was made".into()
+            }
+            Self::FolderInUse { .. } => "Name a folder that is not there yet".into(),
+            Self::Unwritable { source, .. } => advice_on(source).into(),
+            Self::NoThread { .. } => "Close other programs and start again".into(),
+            Self::NotFollowed => {
+                "Press Live in the window; if its source is a single file or a scan, first choose a camera, a recording or a folder".into()
+            }
+            Self::Crashed => "Choose the source again, and report what was done before".into(),
+        }
+    }
+}
+
+/// Something odd about a capture that can be used nevertheless.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum CaptureWarning {
+    /// About the capture's file.
+    #[error(transparent)]
+    File(#[from] FileWarning),
+    /// About a Kinect.
+    #[error(transparent)]
+    Kinect(#[from] KinectWarning),
+    /// About a GenICam camera.
+    #[error(transparent)]
+    Genicam(#[from] GenicamWarning),
+    /// The end of the recording is missing.
+    #[error("the recording was cut off; its {num_frames} whole frames are replayed")]
+    CutOff {
+        /// Number of complete frames.
+        num_frames: usize,
+    },
+    /// The sequence has no file with the camera's numbers.
+    #[error("{} is missing: a camera of 640×480 pixels, fx = fy = 525, with 5000 units to the metre is assumed", missing.display())]
+    AssumedCamera {
+        /// Where that file was expected.
+        missing: PathBuf,
+    },
+}
+
+impl CaptureWarning {
+    /// True if it concerns the source and is thus the same for all its captures, so that showing it once is enough.
+    pub fn is_about_source(&self) -> bool {
+        !matches!(self, Self::File(warning) if !matches!(warning, FileWarning::Camera(_)))
+    }
+}
+
+impl Advice for CaptureWarning {
+    fn advice(&self) -> String {
+        match self {
+            Self::File(warning) => warning.advice(),
+            Self::Kinect(warning) => warning.advice(),
+            Self::Genicam(warning) => warning.advice(),
+            Self::CutOff { .. } => {
+                "Record again if the end matters; leave room on the disk, and stop before you unplug a drive".into()
+            }
+            Self::AssumedCamera { missing } => format!(
+                "Put the camera's intrinsics into {}, as beside a depth PNG",
+                missing.display()
+            ),
+        }
+    }
+}

@@ -1,0 +1,354 @@
+//! A Kinect, through libfreenect.
+//!
+//! Depth is read in the depth camera's own geometry and in millimetres, as computed by the library from the calibration
+//! stored in every Kinect; the focal length comes from the same calibration. The other mode in millimetres maps every
+//! reading to the colour camera's view, which leaves holes, and colour is not used here. Libraries that deliver only steps
+//! of disparity, such as those that play recorded sessions, are converted to millimetres with a typical Kinect's values,
+//! with a warning in every capture.
+//!
+//! Motor and LED are not used. (libfreenect itself lights the LED of the later models, 1473 and Kinect for Windows, while
+//! it opens them.) Only one Kinect can be open in a process.
+
+mod error;
+mod freenect;
+mod header;
+mod raw_depth;
+mod session;
+
+use std::{
+    ffi::CString,
+    time::{Duration, Instant},
+};
+
+pub use self::error::{KinectError, KinectWarning};
+use self::{
+    freenect::{Context, Device, Failed, Library},
+    header::{DEPTH_11BIT, DEPTH_MM, DEPTH_MM_MAX, FrameMode},
+};
+use super::{
+    driver_search::CameraLibrary,
+    error::{CaptureError, CaptureWarning},
+    open::SourceListing,
+    read_timeout::ReadTimeout,
+    source::{Captured, DepthSource, Image, NextCapture},
+    spec::{KinectSpec, SourceSpec},
+};
+use geometry::{
+    depth_frame::{DepthFrame, Intrinsics},
+    distortion::Distortion,
+};
+
+static FREENECT: CameraLibrary = CameraLibrary {
+    name: "libfreenect",
+    cameras: "Kinects",
+    versions: "libfreenect 0.5",
+    install: if cfg!(target_os = "macos") {
+        "brew install libfreenect"
+    } else if cfg!(windows) {
+        "put freenect.dll 0.5 and libusb-1.0.dll beside the program"
+    } else {
+        "sudo apt-get install libfreenect0.5"
+    },
+    variable: "PARTSIGHT_FREENECT",
+    file_names: if cfg!(target_os = "macos") {
+        &[
+            "libfreenect.0.5.dylib",
+            "libfreenect.0.dylib",
+            "libfreenect.dylib",
+            // Homebrew's folder on Apple silicon is not among those that the system searches.
+            "/opt/homebrew/lib/libfreenect.dylib",
+        ]
+    } else if cfg!(windows) {
+        &["freenect.dll", "libfreenect.dll"]
+    } else {
+        &["libfreenect.so.0.5", "libfreenect.so.0", "libfreenect.so"]
+    },
+};
+
+/// An open Kinect whose depth stream runs. Dropping it stops the stream and closes the camera.
+pub(super) struct Kinect {
+    /// `None` once it is lost or the session has ended.
+    device: Option<Device>,
+    title: String,
+    camera: Intrinsics,
+    units: Units,
+    library: &'static Library,
+    /// Number of entries of the recorded session, if the library plays one.
+    num_entries: Option<usize>,
+    num_frames: u64,
+    silence: ReadTimeout,
+    warnings: Vec<CaptureWarning>,
+}
+
+/// Unit of the values in the library's frames.
+enum Units {
+    Millimetres,
+    /// A step of disparity; the table converts steps to millimetres.
+    Steps(Vec<u16>),
+}
+
+/// Lists the Kinects that are plugged in, or why there are none, using the environment's or the system's libfreenect.
+pub(super) fn list() -> Vec<SourceListing> {
+    found_devices().unwrap_or_else(|error| vec![cannot_be_opened(error)])
+}
+
+fn found_devices() -> Result<Vec<SourceListing>, KinectError> {
+    let library = FREENECT.find(None, Library::load)?;
+    let (context, num_entries) = start(library)?;
+    let num_devices = context.num_devices().map_err(KinectError::of_opening)?;
+    if num_devices == 0 {
+        return Err(KinectError::NoDevice);
+    }
+    let can_be_opened = |serial| {
+        let spec = KinectSpec {
+            serial,
+            library: None,
+        };
+        SourceListing::openable(title(&spec, library), SourceSpec::Kinect(spec))
+    };
+    if num_entries.is_some() {
+        return Ok(vec![can_be_opened(None)]);
+    }
+    let serials = context.serials().map_err(KinectError::of_opening)?;
+    let num_closed = num_devices.saturating_sub(serials.len());
+    let closed = (0..num_closed).map(|_| cannot_be_opened(KinectError::no_permission()));
+    Ok(serials
+        .into_iter()
+        .map(Some)
+        .map(can_be_opened)
+        .chain(closed)
+        .collect())
+}
+
+fn cannot_be_opened(error: KinectError) -> SourceListing {
+    SourceListing::unusable("Kinect", error)
+}
+
+fn title(spec: &KinectSpec, library: &Library) -> String {
+    if library.plays_sessions() {
+        "Kinect, a recorded session".into()
+    } else {
+        SourceSpec::Kinect(spec.clone()).title()
+    }
+}
+
+/// Starts the library. A build that plays recorded sessions terminates the program if there is no session, so check for it
+/// first. Returns the context and the session's number of entries.
+fn start(library: &'static Library) -> Result<(Context, Option<usize>), KinectError> {
+    let num_entries = library
+        .plays_sessions()
+        .then(|| session::check(library.file()))
+        .transpose()?;
+    Ok((Context::new(library)?, num_entries))
+}
+
+impl Kinect {
+    /// Opens the Kinect with the given serial number, or the first one, and starts its depth stream.
+    pub(super) fn open(spec: &KinectSpec) -> Result<Self, KinectError> {
+        let library = FREENECT.find(spec.library.as_deref(), Library::load)?;
+        let (context, num_entries) = start(library)?;
+        let mut device = open_device(context, num_entries.is_some(), spec.serial.as_deref())?;
+        let mode = best_mode(&device.depth_modes()).ok_or(KinectError::NoDepthMode)?;
+        let mut warnings = Vec::new();
+        let camera = camera_of(&device, &mode).unwrap_or_else(|| {
+            let camera = usual_camera(&mode);
+            warnings.push(KinectWarning::FocalLengthAssumed { pixels: camera.fx }.into());
+            camera
+        });
+        let units = if mode.format == DEPTH_MM {
+            Units::Millimetres
+        } else {
+            warnings.push(KinectWarning::DepthScaleAssumed.into());
+            Units::Steps(raw_depth::millimetres_by_step())
+        };
+        device
+            .start(mode)
+            .map_err(|failed| KinectError::NotStarted { said: failed.said })?;
+        Ok(Self {
+            device: Some(device),
+            title: title(spec, library),
+            camera,
+            units,
+            library,
+            num_entries,
+            num_frames: 0,
+            silence: ReadTimeout::default(),
+            warnings,
+        })
+    }
+
+    fn captured(&mut self, depth: Vec<u16>) -> Captured {
+        self.num_frames += 1;
+        self.silence.restart();
+        let image = Image::Depth(DepthFrame {
+            intrinsics: self.camera,
+            metres_per_unit: 0.001,
+            depth,
+            is_simulated: false,
+        });
+        let name = format!("Kinect frame {}", self.num_frames);
+        Captured {
+            warnings: self.warnings.clone(),
+            ..Captured::now(self.num_frames, name, image)
+        }
+    }
+
+    /// Closes the camera.
+    fn end(&mut self, reason: KinectError) -> Result<NextCapture, CaptureError> {
+        self.device = None;
+        Err(reason.into())
+    }
+}
+
+impl DepthSource for Kinect {
+    fn title(&self) -> String {
+        self.title.clone()
+    }
+
+    fn is_simulated(&self) -> bool {
+        false
+    }
+
+    fn next(&mut self, wait: Duration) -> Result<NextCapture, CaptureError> {
+        let start = Instant::now();
+        let mut waited = Duration::ZERO;
+        loop {
+            // Stop before the end: beyond it, the library would also print a message to the program's output.
+            if self
+                .num_entries
+                .is_some_and(|num| self.library.num_turns() >= num)
+            {
+                self.device = None;
+            }
+            let Some(device) = &mut self.device else {
+                return Ok(NextCapture::End);
+            };
+            let received = device.receive(wait.saturating_sub(waited));
+            let depth = received.map(|values| values.map(|values| self.units.millimetres(values)));
+            let turn = start.elapsed().saturating_sub(waited);
+            waited += turn;
+            match depth {
+                Ok(Some(depth)) => return Ok(NextCapture::Captured(self.captured(depth))),
+                Ok(None) if self.num_entries.is_some() => {}
+                Ok(None) => {
+                    if let Some(seconds) = self.silence.add(turn) {
+                        return self.end(KinectError::Silent { seconds });
+                    }
+                }
+                // The end of a session and a lost camera have the same code.
+                Err(_) if self.num_entries.is_some() => {
+                    self.device = None;
+                    return Ok(NextCapture::End);
+                }
+                Err(Failed { said, .. }) => return self.end(KinectError::Lost { said }),
+            }
+            if waited >= wait {
+                return Ok(NextCapture::NotYet);
+            }
+        }
+    }
+}
+
+impl Units {
+    /// Converts a frame to millimetres; 0 means no reading.
+    fn millimetres(&self, values: &[u16]) -> Vec<u16> {
+        match self {
+            Self::Millimetres => values
+                .iter()
+                .map(|&mm| if mm < DEPTH_MM_MAX { mm } else { 0 })
+                .collect(),
+            Self::Steps(table) => values
+                .iter()
+                .map(|&step| table.get(usize::from(step)).copied().unwrap_or(0))
+                .collect(),
+        }
+    }
+}
+
+fn open_device(
+    context: Context,
+    plays_session: bool,
+    serial: Option<&str>,
+) -> Result<Device, KinectError> {
+    let num_devices = context.num_devices().map_err(KinectError::of_opening)?;
+    if num_devices == 0 {
+        return Err(KinectError::NoDevice);
+    }
+    let Some(serial) = serial else {
+        return context.open(None).map_err(KinectError::of_opening);
+    };
+    let found = context.serials().map_err(KinectError::of_opening)?;
+    // A session has one camera, whose serial number is unknown.
+    if !plays_session && !found.iter().any(|one| one == serial) {
+        if found.len() < num_devices {
+            return Err(KinectError::no_permission());
+        }
+        return Err(KinectError::NoSuchSerial {
+            serial: serial.to_owned(),
+            found,
+        });
+    }
+    let serial = CString::new(serial).ok();
+    context
+        .open(serial.as_deref())
+        .map_err(KinectError::of_opening)
+}
+
+/// Prefers millimetres computed by the library over steps of disparity.
+fn best_mode(modes: &[FrameMode]) -> Option<FrameMode> {
+    let of_format = |format| modes.iter().find(|mode| mode.format == format).copied();
+    of_format(DEPTH_MM).or_else(|| of_format(DEPTH_11BIT))
+}
+
+/// The intrinsics that the library uses; `None` if it does not reveal them.
+fn camera_of(device: &Device, mode: &FrameMode) -> Option<Intrinsics> {
+    // Far enough that rounding to whole millimetres does not matter, and within the range of a C int.
+    let far_mm = 1_000_000;
+    let (width, height) = (i32::from(mode.width), i32::from(mode.height));
+    let (left, top) = device.point_mm(0, 0, far_mm)?;
+    let (right, bottom) = device.point_mm(width, height, far_mm)?;
+    let far_mm = f64::from(far_mm);
+    let fx = far_mm * f64::from(width) / (right - left);
+    let fy = far_mm * f64::from(height) / (bottom - top);
+    let is_camera = |focal: f64| focal > 0.2 * f64::from(width) && focal < 5.0 * f64::from(width);
+    (is_camera(fx) && is_camera(fy)).then(|| Intrinsics {
+        cx: -left * fx / far_mm,
+        cy: -top * fy / far_mm,
+        fx,
+        fy,
+        ..usual_camera(mode)
+    })
+}
+
+/// The intrinsics of a typical Kinect.
+fn usual_camera(mode: &FrameMode) -> Intrinsics {
+    let (width, height) = (f64::from(mode.width), f64::from(mode.height));
+    let focal = raw_depth::FOCAL_LENGTH * width / 640.0;
+    Intrinsics {
+        width: usize::try_from(mode.width).unwrap_or(0),
+        height: usize::try_from(mode.height).unwrap_or(0),
+        fx: focal,
+        fy: focal,
+        // As in libfreenect's `freenect_camera_to_world`.
+        cx: width / 2.0,
+        cy: height / 2.0,
+        distortion: Distortion::NONE,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_beyond_the_range_is_no_reading() {
+        let values = [0, 1234, 9_999, 10_000, u16::MAX];
+        assert_eq!(
+            Units::Millimetres.millimetres(&values),
+            [0, 1234, 9_999, 0, 0]
+        );
+        let steps = Units::Steps(raw_depth::millimetres_by_step()).millimetres(&[802, 2047, 2048]);
+        assert_eq!(steps[1..], [0, 0]);
+        assert!((1200..1205).contains(&steps[0]));
+    }
+}

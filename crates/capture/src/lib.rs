@@ -1,0 +1,49 @@
+//! Sources of frames: the simulated cell, recordings, a watched folder, a Kinect, and cameras through GenICam, OpenNI and
+//! RealSense.
+//!
+//! ```text
+//! SourceSpec ─► open ─► DepthSource ─► Feed ─► Captured, to be inspected, recorded or shown
+//!  "kinect"             one at a time   a thread of its own, newest first, finds a lost source again
+//! ```
+//!
+//! A [`DepthSource`] is opened, used and dropped on one thread, as some camera libraries require. [`Feed`] is that thread;
+//! a caller that can wait for frames on its own thread may also use a source directly.
+
+mod driver_search;
+mod error;
+mod feed;
+#[cfg(any(test, feature = "fixtures"))]
+pub mod fixtures;
+mod genicam;
+mod kinect;
+mod open;
+mod openni;
+mod rate;
+mod read;
+mod read_timeout;
+mod realsense;
+mod recording;
+mod simulated;
+mod source;
+mod spec;
+mod watched;
+
+pub use self::driver_search::CameraLibraryError;
+pub use self::error::{CaptureError, CaptureWarning, Recovery};
+pub use self::feed::{BackpressurePolicy, Feed, FeedItem, FeedState, FeedStatus};
+pub use self::genicam::{GenicamError, GenicamWarning};
+pub use self::kinect::{KinectError, KinectWarning};
+pub use self::open::{SourceListing, list, open};
+pub use self::openni::OpenNiError;
+pub use self::rate::FrameRate;
+pub use self::read::may_be_capture;
+pub use self::read::read_image;
+pub use self::realsense::RealsenseError;
+pub use self::recording::{Recorder, Replay};
+pub use self::simulated::SimulatedCell;
+pub use self::source::{Captured, DepthSource, Image, NextCapture, SkippedCapture};
+pub use self::spec::{
+    CellScene, GenicamFormat, GenicamSpec, KinectSpec, OpenNiSpec, Pace, RealsenseSpec,
+    RecordingSpec, SimulatedPose, SimulatedSpec, SourceSpec, SpecError, WatchedFrom, WatchedSpec,
+};
+pub use self::watched::WatchedFolder;

@@ -1,0 +1,64 @@
+//! Reads single files as captures.
+
+use std::{fs, path::Path};
+
+use jiff::Timestamp;
+
+use super::{
+    error::{CaptureError, CaptureWarning},
+    source::Image,
+};
+use files::{self, FileContent, FileError, file_name};
+use geometry::{clock, cloud::PointCloud};
+
+/// A file ending of scenes that is also common for logs and settings beside them.
+const OF_LOGS: &str = "txt";
+
+/// True if a file of this name may be a capture: a known ending, and not hidden.
+pub fn may_be_capture(path: &Path) -> bool {
+    let ending = path.extension().map(|ending| ending.to_string_lossy());
+    let is_known = ending.is_some_and(|found| {
+        let mut endings = files::SCENE_ENDINGS.iter();
+        endings.any(|ending| *ending != OF_LOGS && found.eq_ignore_ascii_case(ending))
+    });
+    is_known && !file_name(path).starts_with('.')
+}
+
+/// Reads a capture from a file. A file without any reading is an image without points: the camera was covered.
+pub fn read_image(path: &Path) -> Result<(Image, Vec<CaptureWarning>), CaptureError> {
+    image_of(files::open(path), path)
+}
+
+/// As [`read_image`], for a file that is already open.
+pub(super) fn image_of(
+    opened: Result<FileContent, FileError>,
+    path: &Path,
+) -> Result<(Image, Vec<CaptureWarning>), CaptureError> {
+    let opened = match opened {
+        Ok(opened) => opened,
+        Err(FileError::NoPoints { .. }) => {
+            return Ok((Image::Cloud(PointCloud::default()), Vec::new()));
+        }
+        Err(error) => return Err(error.into()),
+    };
+    let warnings = opened
+        .warnings_as_capture()
+        .into_iter()
+        .map(CaptureWarning::File);
+    let warnings = warnings.collect();
+    let image = match opened {
+        FileContent::Cloud(cloud) => Image::Cloud(cloud),
+        FileContent::Depth(frame) => Image::Depth(frame),
+        FileContent::Mesh(_) => {
+            let path = path.to_owned();
+            return Err(CaptureError::MeshIsNoCapture { path });
+        }
+    };
+    Ok((image, warnings))
+}
+
+/// The time of a file's last modification, if the system knows it.
+pub(super) fn written_at(path: &Path) -> Option<Timestamp> {
+    let modified = fs::metadata(path).and_then(|file| file.modified()).ok()?;
+    Some(clock::timestamp(modified))
+}

@@ -1,0 +1,94 @@
+use super::*;
+use crate::spec::SourceSpec;
+
+fn cell(text: &str) -> SimulatedCell {
+    match text.parse() {
+        Ok(SourceSpec::Simulated(spec)) => SimulatedCell::new(spec),
+        other => panic!("{text}: {other:?}"),
+    }
+}
+
+fn kind_of(truth: &FrameTruth) -> Option<PartKind> {
+    truth.part()
+}
+
+#[test]
+fn a_frame_follows_from_the_settings_and_its_number() {
+    let mut forwards = cell("simulated,fps=2,every=4:line");
+    let frames: Vec<_> = (1..=9).map(|number| forwards.frame(number)).collect();
+    let mut again = cell("simulated,fps=2,every=4:line");
+    for number in [9, 2, 5] {
+        assert!(
+            again.frame(number) == frames[number as usize - 1],
+            "{number}"
+        );
+    }
+    assert!(
+        frames[3].0 != frames[4].0,
+        "the noise of a frame is its own"
+    );
+    let mut other = cell("simulated,fps=2,every=4,seed=2:line");
+    assert!(other.frame(5) != frames[4]);
+}
+
+#[test]
+fn the_line_shows_every_part_in_turn_and_the_empty_cell_between_them() {
+    let mut line = cell("simulated,noise=0,fps=1,every=4:line");
+    let mut seen = std::collections::BTreeSet::new();
+    for visit in 0..8 {
+        assert_eq!(kind_of(&line.frame(4 * visit + 1).1), None, "visit {visit}");
+        let (_, truth) = line.frame(4 * visit + 4);
+        assert!(truth.fully_visible, "visit {visit}");
+        seen.insert(kind_of(&truth).expect("a part"));
+        if visit == 0 {
+            assert_eq!(kind_of(&truth), Some(PartKind::FrontDoor));
+        }
+    }
+    assert_eq!(seen.len(), 8);
+}
+
+#[test]
+fn what_was_asked_for_hangs_there() {
+    let (_, right) = cell("simulated,side=right:fender").frame(1);
+    assert_eq!(
+        right.subject,
+        SimulatedObject::Part {
+            kind: PartKind::Fender,
+            side: simulate::Side::Right,
+            model_seed: 0
+        }
+    );
+    let (_, fixed) = cell("simulated,pose=0 0 15deg 0.1 0 1.2:grille").frame(3);
+    assert!((fixed.camera_from_part.translation.z - 1.2).abs() < 1e-12);
+    assert!((fixed.camera_from_part.rotation.angle().to_degrees() - 15.0).abs() < 1e-9);
+    let (_, empty) = cell("simulated:empty").frame(1);
+    assert_eq!(empty.subject, SimulatedObject::Nothing);
+    let (Image::Depth(clear), _) = cell("simulated,noise=0:hood").frame(1) else {
+        panic!("a depth image")
+    };
+    let (Image::Depth(noisy), _) = cell("simulated,noise=3:hood").frame(1) else {
+        panic!("a depth image")
+    };
+    let num_lost = |depth: &[u16]| depth.iter().filter(|&&depth| depth == 0).count();
+    assert!(num_lost(&noisy.depth) > num_lost(&clear.depth) + 1000);
+}
+
+#[test]
+fn frames_that_could_not_be_taken_in_time_are_left_out() {
+    let mut cell = cell("simulated,fps=10:fender");
+    let start = Instant::now();
+    assert_eq!(cell.due(start), (1, Duration::ZERO));
+    cell.number = 1;
+    let (number, left) = cell.due(start + Duration::from_millis(40));
+    assert_eq!((number, left.as_millis()), (2, 60));
+    // A little late: nothing is lost.
+    assert_eq!(
+        cell.due(start + Duration::from_millis(190)),
+        (2, Duration::ZERO)
+    );
+    // A second late: the camera has gone on.
+    assert_eq!(
+        cell.due(start + Duration::from_millis(1150)),
+        (11, Duration::ZERO)
+    );
+}

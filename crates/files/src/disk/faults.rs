@@ -1,0 +1,260 @@
+//! Makes every single call of a writer fail, one after the other, as `SQLite` does in its own tests. However a call fails,
+//! the disk must hold the old or the new state afterwards, the message must fit, and the next try must succeed.
+
+use std::{
+    cell::Cell,
+    env, fs, io,
+    path::Path,
+    process::{self, Command},
+};
+
+use geometry::error::Advice;
+
+/// How a call fails.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Fault {
+    /// ENOSPC; a write stores half of its bytes first.
+    Full,
+    /// EIO.
+    Broken,
+    /// EACCES.
+    Denied,
+    /// The program ends; a write stores half of its bytes first.
+    Killed,
+}
+
+/// Which calls of this thread fail, and how.
+#[derive(Clone, Copy, Debug)]
+struct Plan {
+    fault: Fault,
+    /// Calls that still succeed.
+    left: u32,
+    /// True if every later call fails too.
+    stays: bool,
+    has_struck: bool,
+}
+
+thread_local! {
+    static PLAN: Cell<Option<Plan>> = const { Cell::new(None) };
+}
+
+/// Runs before every call.
+pub(super) fn inject(part_of_it: impl FnOnce()) -> io::Result<()> {
+    let Some(mut plan) = PLAN.get() else {
+        return Ok(());
+    };
+    let strikes = plan.left == 0 && (plan.stays || !plan.has_struck);
+    plan.left = plan.left.saturating_sub(1);
+    plan.has_struck |= strikes;
+    PLAN.set(Some(plan));
+    if !strikes {
+        return Ok(());
+    }
+    match plan.fault {
+        Fault::Full => {
+            part_of_it();
+            Err(io::Error::from_raw_os_error(28))
+        }
+        Fault::Broken => Err(io::Error::from_raw_os_error(5)),
+        Fault::Denied => Err(io::Error::from_raw_os_error(13)),
+        Fault::Killed => {
+            part_of_it();
+            process::abort()
+        }
+    }
+}
+
+/// Runs a writer under a plan; the second result is true if a call failed.
+fn with_fault<T>(plan: Plan, write: impl FnOnce() -> T) -> (T, bool) {
+    PLAN.set(Some(plan));
+    let written = write();
+    let has_struck = PLAN.take().is_some_and(|plan| plan.has_struck);
+    (written, has_struck)
+}
+
+impl Fault {
+    /// Returns true if message and advice describe the fault.
+    fn is_told_by(self, message: &str) -> bool {
+        let says = |words: &[&str]| words.iter().any(|words| message.contains(words));
+        match self {
+            Self::Full => says(&["the disk is full"]) && says(&["room"]),
+            Self::Broken => says(&["Input/output error"]) && says(&["disk"]) && !says(&["room"]),
+            Self::Denied => says(&["permission denied"]) && says(&["access", "writable"]),
+            Self::Killed => false,
+        }
+    }
+}
+
+/// Returns an error with its advice, as [`Writer::write`] reports it.
+pub fn told(error: &(impl std::error::Error + Advice)) -> String {
+    format!("{error}; {}", error.advice())
+}
+
+/// Environment variable for the child process to be killed: the number of the call, and the folder.
+const KILLED: &str = "PARTSIGHT_TEST_KILLED_AT";
+
+/// More calls than any writer makes.
+const MOST_CALLS: u32 = 1000;
+
+/// A writer under test.
+pub struct Writer<'a> {
+    /// The full name of the test. It runs again in a child process, which is killed.
+    pub test: &'a str,
+    /// Creates the old state in an empty folder.
+    pub prepare: &'a dyn Fn(&Path),
+    /// Changes the old state into the new one; on failure returns the error with its advice.
+    pub write: &'a dyn Fn(&Path) -> Result<(), String>,
+    /// Describes the state that a reader of this program finds.
+    pub state: &'a dyn Fn(&Path) -> String,
+    /// States between old and new that count as whole.
+    pub between: &'a [&'a str],
+}
+
+impl Writer<'_> {
+    /// Makes every call fail in every way, and checks the state afterwards.
+    pub fn fails_at_every_call(&self) {
+        if let Ok(told) = env::var(KILLED) {
+            let (at, folder) = told.split_once(' ').expect("a number and a folder");
+            let plan = Plan {
+                fault: Fault::Killed,
+                left: at.parse().expect("a number"),
+                stays: false,
+                has_struck: false,
+            };
+            let (written, _) = with_fault(plan, || (self.write)(Path::new(folder)));
+            written.expect("written");
+            return;
+        }
+        let (old, new) = self.both();
+        assert_ne!(old, new, "the writer changes nothing");
+        let mut num_calls = [0; 7];
+        let faults = [Fault::Full, Fault::Broken, Fault::Denied];
+        let plans = faults.map(|fault| [(fault, false), (fault, true)]);
+        for (num, (fault, stays)) in num_calls.iter_mut().zip(plans.as_flattened()) {
+            let plan = |left| Plan {
+                fault: *fault,
+                left,
+                stays: *stays,
+                has_struck: false,
+            };
+            *num = (0..MOST_CALLS)
+                .find(|&at| !self.survives(plan(at), &old, &new))
+                .expect("it ends");
+        }
+        num_calls[6] = (0..MOST_CALLS)
+            .find(|&at| !self.survives_being_killed(at, &old, &new))
+            .expect("it ends");
+        assert!(num_calls.iter().all(|&num| num > 0), "{num_calls:?}");
+        eprintln!("{}: calls that failed: {num_calls:?}", self.test);
+    }
+
+    fn both(&self) -> (String, String) {
+        let folder = tempfile::tempdir().expect("a folder");
+        (self.prepare)(folder.path());
+        let old = (self.state)(folder.path());
+        (self.write)(folder.path()).expect("written");
+        (old, (self.state)(folder.path()))
+    }
+
+    /// Returns false if the writer makes fewer calls, so that none failed.
+    fn survives(&self, plan: Plan, old: &str, new: &str) -> bool {
+        let folder = tempfile::tempdir().expect("a folder");
+        (self.prepare)(folder.path());
+        let (written, has_struck) = with_fault(plan, || (self.write)(folder.path()));
+        let found = (self.state)(folder.path());
+        match written {
+            Ok(()) => assert_eq!(found, new, "{plan:?} was not told"),
+            Err(message) => {
+                assert!(has_struck, "{message}");
+                assert!(plan.fault.is_told_by(&message), "{plan:?}: {message}");
+                self.is_whole(&found, old, new, &format!("{plan:?}: {message}"));
+            }
+        }
+        self.goes_on(folder.path(), &found, old, new, &format!("{plan:?}"));
+        has_struck
+    }
+
+    fn survives_being_killed(&self, at: u32, old: &str, new: &str) -> bool {
+        let folder = tempfile::tempdir().expect("a folder");
+        (self.prepare)(folder.path());
+        let ran = Command::new(env::current_exe().expect("this program"))
+            .args(["--exact", self.test, "--test-threads=1"])
+            .env(KILLED, format!("{at} {}", folder.path().display()))
+            .output()
+            .expect("ran");
+        let said = String::from_utf8_lossy(&ran.stdout);
+        assert!(said.contains("running 1 test"), "{} is no test", self.test);
+        let found = (self.state)(folder.path());
+        if ran.status.success() {
+            assert_eq!(found, new);
+            return false;
+        }
+        assert!(ran.status.code().is_none(), "not killed: {said}");
+        self.is_whole(&found, old, new, &format!("killed at call {at}"));
+        self.goes_on(folder.path(), &found, old, new, &format!("killed at {at}"));
+        true
+    }
+
+    fn is_whole(&self, found: &str, old: &str, new: &str, when: &str) {
+        let is_whole = found == old || found == new || self.between.contains(&found);
+        assert!(is_whole, "{when}: neither {old} nor {new}: {found}");
+    }
+
+    /// A failed write succeeds on the next try.
+    fn goes_on(&self, folder: &Path, found: &str, old: &str, new: &str, when: &str) {
+        if found == old {
+            let again = (self.write)(folder);
+            again.unwrap_or_else(|message| panic!("{when}, and then: {message}"));
+            assert_eq!((self.state)(folder), new, "{when}, and again");
+        }
+    }
+}
+
+/// Calls that change something on a disk.
+const CALLS: [&str; 12] = [
+    "fs::write(",
+    "fs::rename(",
+    "fs::copy(",
+    "fs::remove_",
+    "fs::create_dir",
+    "fs::hard_link(",
+    "File::create",
+    "OpenOptions::new(",
+    ".sync_all()",
+    ".sync_data()",
+    ".set_len(",
+    ".persist(",
+];
+
+#[test]
+fn nothing_else_changes_anything_on_a_disk() {
+    fn look(folder: &Path, found: &mut Vec<String>) {
+        for entry in fs::read_dir(folder).expect("listed") {
+            let path = entry.expect("an entry").path();
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            if path.is_dir() && name != "tests" {
+                look(&path, found);
+            }
+            let is_read = name.ends_with(".rs")
+                && name != "tests.rs"
+                && name != "disk.rs"
+                && name != "fixtures.rs";
+            if !is_read || path.ends_with("disk/faults.rs") {
+                continue;
+            }
+            let text = fs::read_to_string(&path).expect("read");
+            // Unit tests come last in a file.
+            let code = text.split("#[cfg(test)]\nmod tests").next().unwrap_or("");
+            for (number, line) in (1..).zip(code.lines()) {
+                if CALLS.iter().any(|call| line.contains(call)) {
+                    found.push(format!("{}:{number}: {}", path.display(), line.trim()));
+                }
+            }
+        }
+    }
+    let mut found = Vec::new();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    look(&root.join("src"), &mut found);
+    look(&root.join("crates"), &mut found);
+    assert_eq!(found, Vec::<String>::new());
+}

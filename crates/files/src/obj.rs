@@ -1,0 +1,154 @@
+//! OBJ: vertices and polygons as text.
+//!
+//! Source: Wavefront's *Advanced Visualizer Manual*, appendix B1. `v` and `f` of all objects and groups are read together;
+//! polygons are split into fans about their first corner. An OBJ without faces is a cloud. Texture coordinates, normals,
+//! materials, lines and curves are ignored.
+
+use super::error::FileError;
+use super::open::FileContent;
+use super::readings::tidy;
+use super::source::Source;
+use super::surface::{checked_mesh, point_of, push_fan};
+use geometry::cloud::PointCloud;
+
+/// Returns true if the first line that is neither empty nor a comment begins with a keyword of the format.
+pub(super) fn is_obj(source: Source<'_>) -> bool {
+    const KEYWORDS: [&str; 12] = [
+        "v", "vn", "vt", "vp", "f", "l", "o", "g", "s", "mtllib", "usemtl", "mg",
+    ];
+    let first = source
+        .lines()
+        .map(|(_, line)| line)
+        .find(|line| !line.is_empty() && !line.starts_with('#'));
+    first.is_some_and(|line| {
+        let keyword = line.split_whitespace().next();
+        keyword.is_some_and(|word| KEYWORDS.contains(&word))
+    })
+}
+
+pub(super) fn read(source: Source<'_>) -> Result<FileContent, FileError> {
+    let mut points = Vec::new();
+    let mut triangles = Vec::new();
+    let mut statement = String::new();
+    for (number, line) in source.lines() {
+        // A backslash at the end continues a line on the next one.
+        if let Some(begun) = line.strip_suffix('\\') {
+            statement.push_str(begun);
+            statement.push(' ');
+            continue;
+        }
+        statement.push_str(&line);
+        let mut words = statement.split_whitespace();
+        match words.next() {
+            Some("v") => {
+                let point = point_of(words);
+                points.push(
+                    point.ok_or_else(|| {
+                        source.malformed(number, &statement, "v and three numbers")
+                    })?,
+                );
+                source.limited("points", points.len())?;
+            }
+            Some("f") => {
+                let polygon: Option<Vec<u32>> =
+                    words.map(|corner| index_of(corner, points.len())).collect();
+                let polygon = polygon.filter(|polygon| polygon.len() >= 3);
+                let polygon = polygon.ok_or_else(|| {
+                    source.malformed(
+                        number,
+                        &statement,
+                        "f and three vertices or more that come before it",
+                    )
+                })?;
+                push_fan(&polygon, &mut triangles);
+                source.limited("triangles", triangles.len())?;
+            }
+            _ => {}
+        }
+        statement.clear();
+    }
+    if triangles.is_empty() {
+        tidy(
+            PointCloud {
+                points,
+                ..PointCloud::default()
+            },
+            source,
+        )
+        .map(FileContent::Cloud)
+    } else {
+        checked_mesh(source, points, triangles).map(FileContent::Mesh)
+    }
+}
+
+/// Returns the vertex named by `7/1/2` or `-1//3`, from 0; `None` if there is no such vertex yet.
+fn index_of(corner: &str, num_points: usize) -> Option<u32> {
+    let number: i64 = corner.split('/').next()?.parse().ok()?;
+    // Positive numbers count from 1, negative ones back from the latest vertex.
+    let index = if number > 0 {
+        number - 1
+    } else {
+        num_points as i64 + number
+    };
+    let is_known = number != 0 && (0..num_points as i64).contains(&index);
+    is_known.then(|| u32::try_from(index).ok()).flatten()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use nalgebra::Point3;
+
+    use super::*;
+
+    fn read_text(text: &str) -> Result<FileContent, FileError> {
+        let source = Source {
+            path: Path::new("test.obj"),
+            bytes: text.as_bytes(),
+        };
+        assert!(is_obj(source), "{text:?} is not recognised");
+        read(source)
+    }
+
+    #[test]
+    fn polygons_become_fans_and_indices_count_from_either_end() {
+        let text = "# a comment\nmtllib none.mtl\no square\nv 0 0 0\nv 1 0 0 1\nv 1 1 0 0.5 0.5 0.5\nvn 0 0 1\n\
+                    v 0 1 0\ns off\nusemtl paint\nf 1//1 2//1 \\\n 3//1 4//1\nf -4 -3 -2\n";
+        let FileContent::Mesh(mesh) = read_text(text).unwrap() else {
+            panic!("expected a mesh");
+        };
+        assert_eq!(mesh.vertices.len(), 4);
+        assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3], [0, 1, 2]]);
+    }
+
+    #[test]
+    fn without_faces_it_is_a_cloud() {
+        let opened = read_text("v 0 1 0\nv 1 2 3\nv 0 0 0\nv nan 0 0\n").unwrap();
+        let expected =
+            PointCloud::from_points([Point3::new(0.0, 1.0, 0.0), Point3::new(1.0, 2.0, 3.0)]);
+        assert_eq!(opened, FileContent::Cloud(expected));
+    }
+
+    #[test]
+    fn vertices_that_do_not_exist_are_named_by_line() {
+        for face in [
+            "f 1 2 4",
+            "f 0 1 2",
+            "f -4 1 2",
+            "f 1 2",
+            "f 1 2 x",
+            "f 1 2 99999999999999999999",
+        ] {
+            let error = read_text(&format!("v 0 0 0\nv 1 0 0\nv 0 1 0\n{face}\n")).unwrap_err();
+            assert!(
+                matches!(error, FileError::Malformed { line: 4, .. }),
+                "{face}: {error}"
+            );
+        }
+        assert!(matches!(
+            read_text("v 0 0\n"),
+            Err(FileError::Malformed { line: 1, .. })
+        ));
+    }
+}

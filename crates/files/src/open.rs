@@ -1,0 +1,400 @@
+//! Opening of any file: finds it, recognises its format and calls its reader.
+
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+use super::error::{FileError, NoFile};
+use super::import::ImportOptions;
+use super::source::{Source, read_bytes};
+use super::{depth_png, gltf, obj, pcd, ply, stl, xyz};
+use geometry::cloud::{MAX_STRAY_SHARE, PointCloud};
+use geometry::depth_frame::{CameraDoubt, DepthFrame};
+use geometry::error::{Advice, guarded};
+use geometry::mesh::TriangleMesh;
+use geometry::pinhole_fit::fit_pinhole;
+use geometry::units::Metres;
+
+/// The content of a file.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FileContent {
+    /// Points, in camera space unless the file uses another one. At least one is finite.
+    Cloud(PointCloud),
+    /// A surface with at least one triangle.
+    Mesh(TriangleMesh),
+    /// A depth image with its camera. At least one pixel is a reading.
+    Depth(DepthFrame),
+}
+
+/// Something odd about a file that could be read all the same.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum FileWarning {
+    /// Taken as metres, the points span more than any spray cell.
+    #[error("the points span {:.0} m, so the file may be in {}", extent.0, units_of(*extent))]
+    TooWideForMetres {
+        /// The longest side of the box around the points.
+        extent: Metres,
+    },
+    /// The points span less than any part.
+    #[error("the points span only {extent}, so the file is probably in another unit")]
+    TooSmall {
+        /// The longest side of the box around the points.
+        extent: Metres,
+    },
+    /// The file is longer than its header announces.
+    #[error("{num} bytes follow the last point, so the file is probably damaged")]
+    SurplusBytes {
+        /// Bytes after the last point.
+        num: u64,
+    },
+    /// Points lie behind a camera at the origin.
+    #[error("{:.1} % of the points lie behind the camera, so they are probably in another frame", share * 100.0)]
+    BehindCamera {
+        /// Share of the points, 0..1.
+        share: f64,
+    },
+    /// Rows and columns are not the picture of a pinhole camera at the origin.
+    #[error("its rows and columns are not those of an undistorted camera at the origin")]
+    NoPinholeCamera,
+    /// The camera is implausible.
+    #[error(transparent)]
+    Camera(#[from] CameraDoubt),
+}
+
+impl Advice for FileWarning {
+    fn advice(&self) -> String {
+        match self {
+            Self::TooWideForMetres { extent } if extent.0 < ONLY_MILLIMETRES => {
+                "Read it in its own unit, or export it in metres".into()
+            }
+            Self::TooWideForMetres { .. } => "Read it as millimetres, or export it in metres".into(),
+            Self::TooSmall { .. } => "Read it in its own unit, probably metres".into(),
+            Self::SurplusBytes { .. } => {
+                "Copy or export the file again from the program that made it".into()
+            }
+            Self::BehindCamera { .. } | Self::NoPinholeCamera => {
+                "For an inspection export the capture in the camera's own frame, x right, y down, z forward, with its distortion removed"
+                    .into()
+            }
+            Self::Camera(doubt) => doubt.advice(),
+        }
+    }
+}
+
+/// The extent that causes a warning, in metres: a part of 0.1 m in millimetres looks this wide, and no cell is.
+const SUSPICIOUS_EXTENT: f64 = 100.0;
+
+/// The extent, in metres, from which only millimetres make a cell of it: in centimetres it spans 10 m or more.
+pub const ONLY_MILLIMETRES: f64 = 1000.0;
+
+/// Returns the units in which a file with this extent may be.
+fn units_of(extent: Metres) -> &'static str {
+    if extent.0 < ONLY_MILLIMETRES {
+        "millimetres, centimetres or inches"
+    } else {
+        "millimetres"
+    }
+}
+
+/// The extent below which captures and parts get a warning, in metres: a cell of metres, read as millimetres, is smaller, and
+/// no part is.
+const SMALLEST_EXTENT: f64 = 0.1;
+
+/// Clouds with fewer readings are no captures, and a camera cannot be fitted to a few.
+const MIN_READINGS: usize = 1000;
+
+fn warnings_of(cloud: &PointCloud) -> impl Iterator<Item = FileWarning> {
+    let num = cloud.surplus_bytes;
+    let surplus = (num > 0).then_some(FileWarning::SurplusBytes { num });
+    // Only organised clouds are always captures; others may be in any space, for example references to be enrolled.
+    let share = cloud.grid.map_or(0.0, |_| cloud.share_behind());
+    let behind = (share > 0.0).then_some(FileWarning::BehindCamera { share });
+    let grid = cloud
+        .grid
+        .filter(|_| cloud.num_finite() >= MIN_READINGS && behind.is_none());
+    let camera = grid.and_then(|grid| match fit_pinhole(&cloud.points, grid) {
+        Some(camera) => camera.doubt().map(FileWarning::Camera),
+        None => Some(FileWarning::NoPinholeCamera),
+    });
+    surplus.into_iter().chain(behind).chain(camera)
+}
+
+impl FileContent {
+    /// Returns true if the content is marked as simulated.
+    pub fn is_simulated(&self) -> bool {
+        match self {
+            Self::Cloud(cloud) => cloud.is_simulated,
+            Self::Depth(frame) => frame.is_simulated,
+            Self::Mesh(_) => false,
+        }
+    }
+
+    /// Returns what is odd about the content. The numbers themselves are never changed.
+    pub fn warnings(&self) -> Vec<FileWarning> {
+        let bounds = match self {
+            Self::Cloud(cloud) => cloud.bounds(),
+            Self::Mesh(mesh) => mesh.bounds(),
+            Self::Depth(_) => None,
+        };
+        let extent = bounds.map_or(0.0, |(low, high)| f64::from((high - low).amax()));
+        let mut warnings = Vec::new();
+        if extent >= SUSPICIOUS_EXTENT {
+            let extent = Metres(extent);
+            warnings.push(FileWarning::TooWideForMetres { extent });
+        }
+        let has_surface = match self {
+            Self::Cloud(cloud) => cloud.num_finite() >= MIN_READINGS,
+            Self::Mesh(_) => true,
+            Self::Depth(_) => false,
+        };
+        if has_surface && extent < SMALLEST_EXTENT {
+            let extent = Metres(extent);
+            warnings.push(FileWarning::TooSmall { extent });
+        }
+        match self {
+            Self::Cloud(cloud) => warnings.extend(warnings_of(cloud)),
+            Self::Depth(frame) if frame.depth.len() >= MIN_READINGS => {
+                warnings.extend(frame.intrinsics.doubt().map(FileWarning::Camera));
+            }
+            Self::Depth(_) | Self::Mesh(_) => {}
+        }
+        warnings
+    }
+
+    /// As [`warnings`](Self::warnings), for content used as a capture: unorganised clouds must be in camera space, too.
+    /// [`MAX_STRAY_SHARE`] of their points may be stray.
+    pub fn warnings_as_capture(&self) -> Vec<FileWarning> {
+        let mut warnings = self.warnings();
+        if let Self::Cloud(cloud) = self
+            && cloud.grid.is_none()
+        {
+            let share = cloud.share_behind();
+            if share > MAX_STRAY_SHARE {
+                warnings.push(FileWarning::BehindCamera { share });
+            }
+        }
+        warnings
+    }
+}
+
+/// Reads the file at `path`. Its format is recognised by its content, never by its name.
+///
+/// `#` and a name after the path select one mesh of a glTF or GLB file: `car.gltf#Door_FL`. [`ImportOptions`] for a cloud or
+/// a mesh are given in the same way: `door.stl#units=mm#up=z`. A file whose own name contains a `#` takes precedence.
+pub fn open(path: &Path) -> Result<FileContent, FileError> {
+    let (file, words) = split_words(path);
+    let mut options = ImportOptions::default();
+    let mut mesh_name: Option<String> = None;
+    for word in words.iter().flat_map(|words| words.split('#')) {
+        let is_option = options.take(word).map_err(|bad| FileError::ImportOption {
+            path: file.clone(),
+            bad,
+        })?;
+        if !is_option {
+            // The name may contain a `#`.
+            mesh_name = Some(mesh_name.map_or_else(|| word.to_owned(), |name| name + "#" + word));
+        }
+    }
+    let bytes = read_bytes(&file).map_err(|error| match error {
+        FileError::NotAFile {
+            path,
+            found: NoFile::Folder,
+        } => FileError::FolderOfCaptures { path },
+        error => error,
+    })?;
+    let content = read(&file, &bytes, mesh_name.as_deref())?;
+    Ok(options.applied(content))
+}
+
+/// Like [`open`], for bytes in memory. `path` is for errors, and names the place where a depth image's camera is looked for.
+pub fn open_bytes(path: &Path, bytes: &[u8]) -> Result<FileContent, FileError> {
+    read(path, bytes, None)
+}
+
+fn read(path: &Path, bytes: &[u8], mesh_name: Option<&str>) -> Result<FileContent, FileError> {
+    guarded(|| read_known(Source { path, bytes }, mesh_name)).unwrap_or_else(|fault| {
+        Err(FileError::Fault {
+            path: path.to_owned(),
+            fault,
+        })
+    })
+}
+
+fn read_known(source: Source<'_>, mesh_name: Option<&str>) -> Result<FileContent, FileError> {
+    let format = recognise(source)?;
+    if let (Some(wanted), false) = (mesh_name, matches!(format, Format::Gltf)) {
+        return Err(FileError::NoSuchMesh {
+            path: source.path.to_owned(),
+            wanted: wanted.to_owned(),
+            available: Vec::new(),
+        });
+    }
+    match format {
+        Format::Pcd => pcd::read(source).map(FileContent::Cloud),
+        Format::Ply => ply::read(source),
+        Format::Stl => stl::read(source).map(FileContent::Mesh),
+        Format::Obj => obj::read(source),
+        Format::Gltf => gltf::read(source, mesh_name).map(FileContent::Mesh),
+        Format::DepthPng => depth_png::read(source).map(FileContent::Depth),
+        Format::Xyz => xyz::read(source).map(FileContent::Cloud),
+    }
+}
+
+/// Returns the file that [`open`] reads at `path`, without the words behind it.
+pub fn file_of(path: &Path) -> PathBuf {
+    split_words(path).0
+}
+
+/// Splits a path into the file and the words behind it: the longest part before a `#` that is a file.
+fn split_words(path: &Path) -> (PathBuf, Option<String>) {
+    let whole = (path.to_owned(), None);
+    if path.exists() {
+        return whole;
+    }
+    // A path that is not Unicode cannot be split, but works as a whole.
+    let Some(text) = path.to_str() else {
+        return whole;
+    };
+    let mut splits = text.rmatch_indices('#').map(|(at, _)| text.split_at(at));
+    splits
+        .find(|(file, _)| Path::new(file).is_file())
+        .map_or(whole, |(file, name)| {
+            (file.into(), Some(name.trim_start_matches('#').to_owned()))
+        })
+}
+
+enum Format {
+    Pcd,
+    Ply,
+    Stl,
+    Obj,
+    Gltf,
+    DepthPng,
+    Xyz,
+}
+
+fn recognise(source: Source<'_>) -> Result<Format, FileError> {
+    let bytes = source.bytes;
+    if depth_png::is_png(bytes) {
+        return Ok(Format::DepthPng);
+    }
+    if gltf::is_glb(bytes) {
+        return Ok(Format::Gltf);
+    }
+    if ply::is_ply(bytes) {
+        return Ok(Format::Ply);
+    }
+    // Before the text formats: many binary STL files also begin with "solid".
+    if stl::is_binary(bytes) {
+        return Ok(Format::Stl);
+    }
+    // Before the test for text: a PCD may be binary after its header.
+    if pcd::is_pcd(source) {
+        return Ok(Format::Pcd);
+    }
+    if !is_text(bytes) {
+        return Err(unknown_binary(source));
+    }
+    if stl::is_ascii(bytes) {
+        return Ok(Format::Stl);
+    }
+    if gltf::is_json(bytes) {
+        return Ok(Format::Gltf);
+    }
+    if depth_png::is_intrinsics(bytes) {
+        return Err(FileError::IsIntrinsics {
+            path: source.path.to_owned(),
+            image: match source.path.file_name() {
+                Some(name) if name == depth_png::FOLDER_CAMERA => {
+                    source.path.with_file_name("*.png")
+                }
+                _ => source.path.with_extension("png"),
+            },
+        });
+    }
+    if obj::is_obj(source) {
+        return Ok(Format::Obj);
+    }
+    if xyz::is_xyz(source) {
+        return Ok(Format::Xyz);
+    }
+    let first = source
+        .lines()
+        .map(|(_, line)| line)
+        .find(|line| !line.is_empty());
+    Err(unknown(
+        source,
+        format!(
+            "text that begins {:?}",
+            beginning(&first.unwrap_or_default())
+        ),
+    ))
+}
+
+/// Describes a file for an error that expected another kind.
+pub(super) fn described(source: Source<'_>) -> String {
+    let words = match recognise(source) {
+        Ok(Format::Pcd) => "a PCD cloud",
+        Ok(Format::Ply) => "a PLY",
+        Ok(Format::Stl) => "an STL mesh",
+        Ok(Format::Obj) => "an OBJ",
+        Ok(Format::Gltf) => "a glTF",
+        Ok(Format::DepthPng) => "a PNG",
+        Ok(Format::Xyz) => "XYZ text",
+        Err(FileError::UnknownFormat { found, .. }) => return found,
+        Err(FileError::IsIntrinsics { .. }) => "the camera of a depth image",
+        Err(_) => "something else",
+    };
+    words.into()
+}
+
+/// Returns true if the first 4096 bytes contain no zero.
+fn is_text(bytes: &[u8]) -> bool {
+    !bytes.iter().take(4096).any(|&byte| byte == 0)
+}
+
+fn unknown_binary(source: Source<'_>) -> FileError {
+    let Source { path, bytes } = source;
+    // The content of a cut binary STL cannot be recognised. The file name may word the error, but not choose the reader.
+    if path
+        .extension()
+        .is_some_and(|ending| ending.eq_ignore_ascii_case("stl"))
+    {
+        return stl::wrong_length(source);
+    }
+    let known = [
+        (b"\xff\xd8\xff".as_slice(), "a JPEG picture"),
+        (b"PK\x03\x04", "a ZIP archive"),
+        (b"\x1f\x8b", "a gzip archive"),
+        (b"%PDF", "a PDF"),
+        (b"\xff\xfe", "text in UTF-16"),
+        (b"\xfe\xff", "text in UTF-16"),
+    ];
+    let found = known.iter().find(|(magic, _)| bytes.starts_with(magic));
+    let hex: Vec<String> = bytes
+        .iter()
+        .take(8)
+        .map(|byte| format!("{byte:02x}"))
+        .collect();
+    unknown(
+        source,
+        found.map_or_else(
+            || format!("bytes that begin {}", hex.join(" ")),
+            |(_, name)| (*name).into(),
+        ),
+    )
+}
+
+fn unknown(source: Source<'_>, found: String) -> FileError {
+    FileError::UnknownFormat {
+        path: source.path.to_owned(),
+        found,
+    }
+}
+
+fn beginning(line: &str) -> String {
+    line.chars().take(40).collect()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,71 @@
+//! The [`Advice`] that every error gives, panics as errors, and locks.
+
+use std::{
+    any::Any,
+    panic::{AssertUnwindSafe, catch_unwind},
+    sync::{Mutex, MutexGuard, PoisonError},
+};
+
+/// Tells the user what to do about an error; kept apart from the error's message.
+///
+/// The message states what was found and what was expected; the advice is one imperative sentence,
+/// for example "Clear the table and capture again".
+pub trait Advice {
+    /// Returns what to do next, as one sentence without a line break.
+    fn advice(&self) -> String;
+}
+
+/// A panic, which is a bug in the program, while working on one input.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, serde::Serialize, serde::Deserialize)]
+#[error("internal error of the program: {message}")]
+pub struct Fault {
+    /// The message of the panic.
+    message: String,
+}
+
+impl Fault {
+    fn of(panic: &(dyn Any + Send)) -> Self {
+        let text = panic.downcast_ref::<&str>().map(ToString::to_string);
+        let text = text.or_else(|| panic.downcast_ref::<String>().cloned());
+        Self {
+            message: text.unwrap_or_else(|| "no message".into()),
+        }
+    }
+}
+
+impl Advice for Fault {
+    fn advice(&self) -> String {
+        "Keep the file or frame and report it with this message; later inspections are not affected"
+            .into()
+    }
+}
+
+/// Runs `work` and turns a panic in it into an error, so that one bad input does not stop the following ones.
+///
+/// Anything that `work` shares with others must stay usable if it breaks off half-way: frames and libraries are only
+/// ever read or replaced whole.
+pub fn guarded<T>(work: impl FnOnce() -> T) -> Result<T, Fault> {
+    catch_unwind(AssertUnwindSafe(work)).map_err(|panic| Fault::of(panic.as_ref()))
+}
+
+/// Locks a mutex and ignores poisoning. Use it only for values that are replaced whole or appended to: these stay valid
+/// if a thread panics while it holds the lock.
+pub fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_becomes_an_error_with_its_message() {
+        assert_eq!(guarded(|| 7), Ok(7));
+        let empty: [u8; 0] = [];
+        let found = guarded(|| empty[std::hint::black_box(0)]).expect_err("a panic");
+        assert!(found.to_string().contains("index out of bounds"), "{found}");
+        let found = guarded(|| panic!("no ray at all")).expect_err("a panic");
+        assert!(found.to_string().contains("no ray at all"), "{found}");
+        assert!(found.advice().contains("report"));
+    }
+}

@@ -1,0 +1,205 @@
+//! What tests of this crate and of those above it build.
+
+use std::{fs, path::Path};
+
+use geometry::units::Metres;
+use stages::{
+    contour::ContourError,
+    fixtures::{FREEDOMS, pose_errors},
+    pose::PoseError,
+    project::ProjectError,
+    reference::ReferenceParams,
+    segment::NoPart,
+    signature::SignatureError,
+};
+
+use crate::{
+    library::{Library, LibraryFolder},
+    pipeline::{Rejection, Unrecognisable},
+};
+
+/// Loads the eight shipped parts.
+pub fn shipped_library() -> Library {
+    let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join(concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../reference_parts"
+    ));
+    let folder = LibraryFolder::open(&path).expect("the shipped parts");
+    let load = folder.load(&ReferenceParams::default()).expect("loaded");
+    load.library
+}
+
+/// Copies the shipped parts into a new folder, for a test to change.
+pub fn copy_library(to: &Path) {
+    for part in fs::read_dir(concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../reference_parts"
+    ))
+    .expect("the shipped parts")
+    {
+        let from = part.expect("a part").path();
+        if from.is_dir() {
+            let to = to.join(from.file_name().expect("a name"));
+            fs::create_dir_all(&to).expect("made");
+            for file in fs::read_dir(from).expect("listed") {
+                let file = file.expect("a file").path();
+                fs::copy(&file, to.join(file.file_name().expect("a name"))).expect("copied");
+            }
+        }
+    }
+}
+
+/// Enrols a copy of a part of this library as another reference of it, without a title.
+pub fn add_reference(library: &Path, part: &str, name: &str) {
+    let (from, to) = (library.join(part), library.join(name));
+    fs::create_dir(&to).expect("made");
+    for file in ["cloud.ply", "signature.json", "thumbnail.png"] {
+        fs::copy(from.join(file), to.join(file)).expect("copied");
+    }
+    let meta = fs::read_to_string(from.join("part.toml")).expect("read");
+    let lines = meta.lines().map(|line| match line.split_once(" = ") {
+        Some(("name", _)) => format!("name = \"{name}\"\npart = \"{part}\"\n"),
+        Some(("title", _)) => String::new(),
+        _ => format!("{line}\n"),
+    });
+    let lines: Vec<String> = lines.collect();
+    fs::write(to.join("part.toml"), lines.concat()).expect("written");
+}
+
+/// Every rejection; those with several texts more than once.
+pub fn rejections() -> Vec<Rejection> {
+    let part = "Fender, left".to_owned();
+    let (score, threshold, margin) = (0.456, 0.9, 0.125);
+    let [num_agreeing, num_frames, needed] = [2, 5, 4];
+    let piece = |hidden, outside| Rejection::Piece {
+        part: "Fender, left".into(),
+        score,
+        threshold,
+        hidden,
+        outside,
+    };
+    let mut all = vec![
+        Rejection::LowScore {
+            part: part.clone(),
+            score,
+            threshold,
+        },
+        piece(0.4, 0.0),
+        piece(0.0, 0.4),
+        piece(0.2, 0.2),
+        Rejection::HardlySeen {
+            part: part.clone(),
+            score,
+        },
+        Rejection::AnotherModel {
+            part: part.clone(),
+            relief: Metres(0.0042),
+            outline: Metres(0.0119),
+            missing: 0.0123,
+        },
+        Rejection::AnotherMake {
+            part: part.clone(),
+            likeness: 0.7,
+        },
+        Rejection::AmbiguousPose {
+            part: part.clone(),
+            margin,
+            threshold,
+        },
+        Rejection::Uncertain {
+            part: part.clone(),
+            shift: Metres(0.0213),
+            limit: Metres(0.015),
+        },
+        Rejection::Unknown {
+            nearest: part.clone(),
+            score,
+        },
+        Rejection::Mirrored {
+            part: part.clone(),
+            score,
+        },
+        Rejection::MirroredImage {
+            part: part.clone(),
+            score,
+        },
+        Rejection::SmallMargin {
+            part: part.clone(),
+            other: "Grille".into(),
+            margin,
+            threshold,
+        },
+        Rejection::Unconfirmed { part: part.clone() },
+        Rejection::OutOfRange {
+            part: part.clone(),
+            depth: Metres(31.456),
+        },
+        Rejection::BehindCamera {
+            part: part.clone(),
+            share: 0.0321,
+        },
+        Rejection::SurplusBytes {
+            part: part.clone(),
+            num: 4096,
+        },
+        Rejection::NotSteady { part: part.clone() },
+        Rejection::FewFrames {
+            part: part.clone(),
+            num_frames,
+            needed,
+        },
+        Rejection::Undecided {
+            part: part.clone(),
+            num_agreeing,
+            num_frames,
+            needed,
+        },
+        Rejection::PosesApart {
+            part: part.clone(),
+            num_agreeing,
+            num_frames,
+            needed,
+        },
+    ];
+    all.extend(FREEDOMS.map(|freedom| Rejection::Unconstrained {
+        part: part.clone(),
+        freedom,
+    }));
+    all.extend(pose_errors().into_iter().map(Rejection::NoPose));
+    all
+}
+
+/// Every unrecognisable scene except a fault of the program; those with several texts more than once.
+pub fn unrecognisables() -> Vec<Unrecognisable> {
+    let only_background = |knows_cell| {
+        Unrecognisable::NoPart(NoPart::OnlyBackground {
+            planes: 2,
+            found: 0.0123,
+            needed: 0.02,
+            knows_cell,
+        })
+    };
+    vec![
+        NoPart::TooFewPoints {
+            found: 12,
+            needed: 200,
+        }
+        .into(),
+        NoPart::TooWide { extent: 1234.5 }.into(),
+        only_background(false),
+        only_background(true),
+        ProjectError::NoPlane {
+            num_points: 5,
+            width: 0.000_12,
+        }
+        .into(),
+        ProjectError::TooLarge {
+            found: 21.04,
+            limit: 10.0,
+        }
+        .into(),
+        ContourError::NoShape { num_set: 7 }.into(),
+        SignatureError::NoOutline { num_points: 1 }.into(),
+        Unrecognisable::EmptyLibrary,
+    ]
+}

@@ -1,0 +1,6 @@
+//! The enrolled parts, and the inspection of a scene with them: recipe, run, verdict, live.
+
+#[cfg(any(test, feature = "fixtures"))]
+pub mod fixtures;
+pub mod library;
+pub mod pipeline;

@@ -1,0 +1,80 @@
+//! The library of enrolled parts.
+//!
+//! A library is a folder that can be copied to a stick and read by people, with one folder per part:
+//!
+//! ```text
+//! reference_parts/
+//!   front_door/
+//!     part.toml       schema version, name, notes, checksum of the cloud, how it was enrolled
+//!     cloud.ply       the reference cloud with normals: binary, metres, part space
+//!     signature.json  outline and fan signature of the standard view
+//!     thumbnail.png   for people
+//!     spray-CRC.csv   the stored spray path, if any: part space; part.toml has its checksum
+//!   numbers.toml      the numbers by which robots know the parts
+//!   .trash/           removed and replaced parts; restored, or moved back by hand, they are enrolled again
+//! ```
+//!
+//! An inspection needs only the cloud and `part.toml`; signature and thumbnail can be made again from them.
+
+mod enrol;
+mod entry;
+mod error;
+mod identity;
+mod install;
+mod load;
+mod name;
+mod numbers;
+mod part;
+mod place;
+mod problem;
+mod references;
+mod replace_all;
+mod shared_title;
+mod shipped;
+mod side;
+mod similarity;
+mod simulated;
+mod spray_path;
+mod spray_store;
+mod store;
+mod thumbnail;
+mod trash;
+mod truth;
+
+use stages::reference::Reference;
+
+pub use self::{
+    enrol::{
+        EnrolError, EnrolParams, EnrolWarning, Enrolled, PartDescription, enrol_captured,
+        enrol_mesh, enrol_scan, enrol_selected, enrol_surface, enrol_whole, surfaces_to_enrol,
+    },
+    entry::is_part_file,
+    error::LibraryError,
+    load::{LibraryListing, LibraryLoad, StoredPart},
+    name::{BadName, PartName},
+    numbers::{GivenNumbers, PartNumbers},
+    part::{
+        EnrolMethod, Enrolment, FileCheck, MAX_TITLE, Part, PartMeta, PartNaming, SCHEMA_VERSION,
+        StoredLiteral, StoredSignature,
+    },
+    place::{LibraryPlace, open_library},
+    problem::{EntryError, EntryIssue, EntryProblem, EntryWarning},
+    shared_title::SharedTitle,
+    shipped::{EnrolledAt, shipped_enrolled_at, shipped_files},
+    side::{Side, outer_side},
+    similarity::{Similarity, likenesses, most_similar},
+    simulated::{enrol_part, enrol_standard_parts, enrolled_name, enrolment_pose},
+    spray_path::{
+        MAX_PATH_POINTS, MAX_SPEED, PathLineProblem, PathPoint, SprayPath, SprayPathError,
+    },
+    store::{LibraryFolder, Renamed, Restored, Saved},
+    trash::TrashEntry,
+    truth::Truth,
+};
+
+/// The enrolled parts, prepared for ranking and pose.
+#[derive(Clone, Debug, Default)]
+pub struct Library {
+    /// The references, sorted by name.
+    pub references: Vec<Reference>,
+}

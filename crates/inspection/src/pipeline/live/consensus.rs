@@ -1,0 +1,297 @@
+//! One verdict from those on the last frames.
+//!
+//! A frame's verdict is a guess with a probability. Frames of one still scene share a systematic error, so their
+//! agreement is no proof, but their disagreement is a warning: a part is accepted only if nearly every frame accepts
+//! it, none accepts another, and their poses lie together. The score is the lower median, which is the score of an
+//! actual frame.
+
+use std::{collections::VecDeque, time::Duration};
+
+use nalgebra::Point3;
+
+use super::mean_pose::{MeanPose, PoseTolerance, mean_pose};
+use crate::pipeline::{AcceptParams, Inspection, Rejection, Verdict};
+use geometry::{
+    rigid::RigidTransform,
+    statistics::lower_median,
+    units::{Metres, Radians},
+};
+
+/// When frames agree.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ConsensusParams {
+    /// Maximum number of frames that the verdict rests on, 1..60. Raising it makes verdict and pose steadier and
+    /// slower to change.
+    pub num_frames: usize,
+    /// Minimum number of frames that it rests on, 1..=`num_frames`. Raising it makes the user wait longer.
+    pub least_frames: usize,
+    /// Share of the frames that must agree, 0.5..1. Lowering it accepts parts that some frames reject.
+    pub least_share: f64,
+    /// How far poses may lie apart to be averaged.
+    pub tolerance: PoseTolerance,
+}
+
+impl Default for ConsensusParams {
+    fn default() -> Self {
+        Self {
+            num_frames: 10,
+            least_frames: 5,
+            least_share: 0.8,
+            tolerance: PoseTolerance {
+                shift: Metres::from_mm(6.0),
+                turn: Radians::from_degrees(1.5),
+            },
+        }
+    }
+}
+
+/// A verdict that rests on several frames.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ConsensusVerdict {
+    /// The verdict; score and margin are medians.
+    pub verdict: Verdict,
+    /// Frames that it rests on.
+    pub num_frames: usize,
+    /// Frames that agree with it.
+    pub num_agreeing: usize,
+    /// Mean of the poses that agree; `None` if no part was named or no pose was asked for.
+    pub pose: Option<MeanPose>,
+}
+
+/// The result of one frame.
+#[derive(Clone, Debug)]
+struct FrameVerdict {
+    at: Duration,
+    verdict: Verdict,
+    /// The reference in whose coordinates the pose is.
+    reference: Option<String>,
+    camera_from_part: Option<RigidTransform>,
+    /// Middle of the part, part space, metres.
+    middle: Point3<f64>,
+}
+
+/// The results of the last frames of a scene, as long as it does not move.
+#[derive(Debug)]
+pub struct Consensus {
+    params: ConsensusParams,
+    said: VecDeque<FrameVerdict>,
+}
+
+impl Consensus {
+    /// Creates a consensus without frames.
+    pub fn new(params: ConsensusParams) -> Self {
+        Self {
+            params,
+            said: VecDeque::new(),
+        }
+    }
+
+    /// Forgets every frame, because the scene has moved.
+    pub fn clear(&mut self) {
+        self.said.clear();
+    }
+
+    /// Adds the result of the frame taken at `at`. `middle` is the middle of the named part, part space, metres.
+    pub fn add(&mut self, at: Duration, inspection: &Inspection, middle: Option<Point3<f64>>) {
+        let pose = inspection.found_pose();
+        self.said.push_back(FrameVerdict {
+            at,
+            verdict: inspection.verdict.clone(),
+            reference: inspection.reference().map(ToOwned::to_owned),
+            camera_from_part: pose.map(stages::pose::PoseEstimate::camera_from_part),
+            middle: middle.unwrap_or_else(Point3::origin),
+        });
+        while self.said.len() > self.params.num_frames.max(1) {
+            self.said.pop_front();
+        }
+    }
+
+    /// Number of frames from `since` on, and the number needed.
+    pub fn gathered(&self, since: Duration) -> (usize, usize) {
+        let num = self.said.iter().filter(|said| said.at >= since).count();
+        (num, self.least_frames())
+    }
+
+    fn least_frames(&self) -> usize {
+        self.params
+            .least_frames
+            .clamp(1, self.params.num_frames.max(1))
+    }
+
+    /// The verdict of the frames from `since` on; `None` while they are too few.
+    pub fn agreed(&self, since: Duration, accept: &AcceptParams) -> Option<ConsensusVerdict> {
+        let said: Vec<&FrameVerdict> = self.said.iter().filter(|said| said.at >= since).collect();
+        if said.len() < self.least_frames() {
+            return None;
+        }
+        let num_frames = said.len();
+        let needed = (self.params.least_share * num_frames as f64).ceil() as usize;
+        let Some(name) = most_named(&said) else {
+            return nothing_named(&said);
+        };
+        let naming: Vec<&FrameVerdict> = said
+            .iter()
+            .copied()
+            .filter(|said| named(&said.verdict).is_some_and(|(part, ..)| part == name))
+            .collect();
+        let num_empty = said
+            .iter()
+            .filter(|said| named(&said.verdict).is_none())
+            .count();
+        if num_empty > naming.len() {
+            return nothing_named(&said);
+        }
+        let of = |pick: fn(&Verdict) -> Option<f64>| {
+            lower_median(naming.iter().filter_map(|said| pick(&said.verdict))).unwrap_or(0.0)
+        };
+        let score = of(|verdict| named(verdict).map(|(_, score, _)| score));
+        let margin = of(|verdict| named(verdict).map(|(_, _, margin)| margin));
+        let num_accepting = naming
+            .iter()
+            .filter(|said| said.verdict.is_accepted())
+            .count();
+        let is_contradicted = said.iter().any(|said| {
+            said.verdict.is_accepted()
+                && named(&said.verdict).is_some_and(|(part, ..)| part != name)
+        });
+        // The mean replaces the last frame's pose, so only poses of its reference count: each reference has its own
+        // coordinates.
+        let last = naming.last();
+        let poses: Vec<RigidTransform> = naming
+            .iter()
+            .filter(|said| last.is_some_and(|last| last.reference == said.reference))
+            .filter_map(|said| said.camera_from_part)
+            .collect();
+        let middle = last.map_or_else(Point3::origin, |said| said.middle);
+        let pose = mean_pose(&poses, &middle, self.params.tolerance);
+        let in_place = pose.map(|pose| pose.num_agreeing);
+
+        let undecided = |num_agreeing: usize| Rejection::Undecided {
+            part: name.to_owned(),
+            num_agreeing,
+            num_frames,
+            needed,
+        };
+        let rejected = if num_accepting < needed || is_contradicted {
+            // A reason that most frames share is more useful than the fact that they do not all agree.
+            let mut complaints = naming.iter().filter_map(|said| said.verdict.rejected());
+            let num_rejecting = naming.len() - num_accepting;
+            let last = complaints.next_back().cloned();
+            let is_common = num_rejecting >= needed && !is_contradicted;
+            Some(
+                last.filter(|_| is_common)
+                    .or_else(|| almost_equal(&said, name, needed))
+                    .unwrap_or_else(|| undecided(num_accepting)),
+            )
+        } else if score < accept.min_score || margin < accept.min_margin {
+            Some(undecided(num_accepting))
+        } else if in_place.is_some_and(|num| num < needed) {
+            Some(Rejection::PosesApart {
+                part: name.to_owned(),
+                num_agreeing: in_place.unwrap_or(0),
+                num_frames,
+                needed,
+            })
+        } else {
+            None
+        };
+        let num_approximate = naming
+            .iter()
+            .filter(|said| said.verdict.is_approximate())
+            .count();
+        let is_approximate = 2 * num_approximate >= naming.len();
+        let num_agreeing = match &rejected {
+            None => num_accepting.min(in_place.unwrap_or(num_accepting)),
+            Some(_) => naming.len(),
+        };
+        Some(ConsensusVerdict {
+            verdict: Verdict::Part {
+                part: name.to_owned(),
+                score,
+                margin,
+                rejected,
+                is_approximate,
+            },
+            num_frames,
+            num_agreeing,
+            pose,
+        })
+    }
+}
+
+/// The verdict where most frames name no part: that of the last such frame.
+fn nothing_named(said: &[&FrameVerdict]) -> Option<ConsensusVerdict> {
+    let mut empty = said.iter().filter(|said| named(&said.verdict).is_none());
+    let num_agreeing = empty.clone().count();
+    Some(ConsensusVerdict {
+        verdict: empty.next_back()?.verdict.clone(),
+        num_frames: said.len(),
+        num_agreeing,
+        pose: None,
+    })
+}
+
+/// The rejection for frames that disagree because two parts fit almost equally well: at least one frame was rejected for this, and
+/// at least `needed` frames fit that explanation.
+fn almost_equal(said: &[&FrameVerdict], name: &str, needed: usize) -> Option<Rejection> {
+    let pair_of = |verdict: &Verdict| match verdict.rejected() {
+        Some(Rejection::SmallMargin { part, other, .. }) if part == name => Some(other.clone()),
+        Some(Rejection::SmallMargin { part, other, .. }) if other == name => Some(part.clone()),
+        _ => None,
+    };
+    let other = said.iter().find_map(|said| pair_of(&said.verdict))?;
+    let of_pair = said.iter().filter(|said| {
+        let accepts = named(&said.verdict).is_some_and(|(part, ..)| {
+            said.verdict.is_accepted() && (part == name || part == other)
+        });
+        accepts || pair_of(&said.verdict).as_ref() == Some(&other)
+    });
+    if of_pair.count() < needed {
+        return None;
+    }
+    let margins = said
+        .iter()
+        .filter_map(|said| match said.verdict.rejected() {
+            Some(Rejection::SmallMargin {
+                margin, threshold, ..
+            }) => Some((*margin, *threshold)),
+            _ => None,
+        });
+    let threshold = margins.clone().map(|(_, threshold)| threshold).next()?;
+    Some(Rejection::SmallMargin {
+        part: name.to_owned(),
+        margin: lower_median(margins.map(|(margin, _)| margin))?,
+        threshold,
+        other,
+    })
+}
+
+fn named(verdict: &Verdict) -> Option<(&str, f64, f64)> {
+    match verdict {
+        Verdict::Part {
+            part,
+            score,
+            margin,
+            ..
+        } => Some((part, *score, *margin)),
+        Verdict::NoPart(_) => None,
+    }
+}
+
+/// The part that most frames name; of several, the one named first.
+fn most_named<'a>(said: &[&'a FrameVerdict]) -> Option<&'a str> {
+    let names = said.iter().filter_map(|said| named(&said.verdict));
+    let names: Vec<&str> = names.map(|(part, ..)| part).collect();
+    let count = |name: &str| names.iter().filter(|other| **other == name).count();
+    let mut most: Option<(usize, &str)> = None;
+    for name in &names {
+        let num = count(name);
+        if most.is_none_or(|(known, _)| num > known) {
+            most = Some((num, name));
+        }
+    }
+    most.map(|(_, name)| name)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,227 @@
+//! Following one camera: which verdict counts after many frames, and what it rests on.
+//!
+//! ```text
+//! frame ─► MotionDetector ─► DepthAverage ─► pipeline::run ─► Consensus ─► LiveVerdict ─► HungParts
+//!          does it move?      less noise      each frame      one verdict of many         one inspection per part
+//! ```
+//!
+//! A verdict on a part that swings or is just being hung is useless to a robot. So every frame is inspected, but no
+//! verdict counts until nothing has moved for a while and the last frames agree.
+
+mod average;
+mod consensus;
+mod hung;
+mod mean_pose;
+mod steady;
+mod two_frames;
+
+use std::{sync::Arc, time::Duration};
+
+use nalgebra::Point3;
+
+pub use self::{
+    average::{DepthAverage, MAX_AVERAGED},
+    consensus::{Consensus, ConsensusParams, ConsensusVerdict},
+    hung::{FrameRole, HungFrame, HungParts, Left},
+    mean_pose::{MeanPose, PoseTolerance, mean_pose},
+    steady::{MotionDetector, MotionState, SteadyParams},
+    two_frames::{refuse_moving, refuse_unless_again},
+};
+use super::{AcceptParams, Inspection, Rejection, Verdict};
+use stages::{field_of_view::FieldOfView, scene::SceneCloud};
+
+/// Parameters for following a camera.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LiveParams {
+    /// When the scene counts as still.
+    pub steady: SteadyParams,
+    /// Frames that depth is averaged over, 1..=[`MAX_AVERAGED`]; 1 turns averaging off. Raising it lowers the noise
+    /// and takes a few milliseconds more per frame.
+    pub average: usize,
+    /// When frames agree.
+    pub consensus: ConsensusParams,
+}
+
+impl Default for LiveParams {
+    fn default() -> Self {
+        Self {
+            steady: SteadyParams::default(),
+            average: 1,
+            consensus: ConsensusParams::default(),
+        }
+    }
+}
+
+/// The verdict on the scene after a frame.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum LiveVerdict {
+    /// No verdict counts: something moves, or too few frames were seen to rule that out.
+    #[default]
+    Open,
+    /// The scene is still, but more frames are needed.
+    Gathering {
+        /// Frames so far.
+        num_frames: usize,
+        /// Frames needed.
+        needed: usize,
+    },
+    /// A verdict that counts.
+    Counted(Box<ConsensusVerdict>),
+}
+
+impl LiveVerdict {
+    /// The verdict that counts, if there is one.
+    pub fn counted(&self) -> Option<&ConsensusVerdict> {
+        match self {
+            Self::Counted(agreed) => Some(agreed),
+            Self::Open | Self::Gathering { .. } => None,
+        }
+    }
+}
+
+/// Follows one camera. The same frames at the same times always lead to the same verdicts.
+#[derive(Debug)]
+pub struct LiveTracker {
+    steady: MotionDetector,
+    average: DepthAverage,
+    consensus: Consensus,
+    last_at: Duration,
+    /// The camera's field of view, as far as the frames showed it.
+    field_of_view: Option<Arc<FieldOfView>>,
+}
+
+impl LiveTracker {
+    /// Creates a tracker that has seen no frame.
+    pub fn new(params: &LiveParams) -> Self {
+        Self {
+            steady: MotionDetector::new(params.steady.clone()),
+            average: DepthAverage::over(params.average),
+            consensus: Consensus::new(params.consensus.clone()),
+            last_at: Duration::ZERO,
+            field_of_view: None,
+        }
+    }
+
+    /// Whether the scene moves, judging by the frames so far.
+    pub fn stillness(&self) -> MotionState {
+        self.steady.stillness()
+    }
+
+    /// Frames that the depth of the next scene is averaged over.
+    pub fn num_averaged(&self) -> usize {
+        self.average.num_frames()
+    }
+
+    /// The camera's field of view, as far as the frames showed it.
+    pub fn known_view(&self) -> Option<Arc<FieldOfView>> {
+        self.field_of_view.clone()
+    }
+
+    /// Takes in a frame and returns the scene to inspect: the frame itself, or its average with the previous ones
+    /// while nothing moves. `at` is the camera's time, from any origin.
+    pub fn look(&mut self, mut scene: Arc<SceneCloud>, at: Duration) -> Arc<SceneCloud> {
+        if self.field_of_view.is_some() && scene.known_view.is_none() {
+            Arc::make_mut(&mut scene).set_known_view(self.field_of_view.clone());
+        }
+        self.field_of_view =
+            FieldOfView::remembered(self.field_of_view.take(), scene.field_of_view());
+        let run = self.steady.run();
+        let stillness = self.steady.see(&scene, at);
+        self.last_at = at;
+        if self.steady.run() != run {
+            self.average.clear();
+            self.consensus.clear();
+        }
+        self.average.add(&scene);
+        if stillness.is_steady() {
+            self.average.mean().unwrap_or(scene)
+        } else {
+            scene
+        }
+    }
+
+    /// Takes in the inspection of the scene last returned by [`look`](Self::look), and overwrites its verdict: with
+    /// the verdict and mean pose of all frames, or with the reason why its own verdict does not count. `middle` is
+    /// the middle of the named part, part space, metres.
+    pub fn judge(
+        &mut self,
+        inspection: &mut Inspection,
+        middle: Option<Point3<f64>>,
+        accept: &AcceptParams,
+    ) -> LiveVerdict {
+        self.consensus.add(self.last_at, inspection, middle);
+        let standing = match self.steady.stillness() {
+            MotionState::Watching | MotionState::Moving => LiveVerdict::Open,
+            MotionState::Steady { since, .. } => {
+                if let Some(agreed) = self.consensus.agreed(since, accept) {
+                    LiveVerdict::Counted(Box::new(unless_out_of_line(agreed, inspection)))
+                } else {
+                    let (num_frames, needed) = self.consensus.gathered(since);
+                    LiveVerdict::Gathering { num_frames, needed }
+                }
+            }
+        };
+        standing.overwrite_verdict(inspection);
+        standing
+    }
+}
+
+impl LiveVerdict {
+    /// Overwrites the verdict, so that a single frame's is not mistaken for one that counts.
+    fn overwrite_verdict(&self, inspection: &mut Inspection) {
+        match self {
+            Self::Counted(agreed) => {
+                inspection.verdict = agreed.verdict.clone();
+                let best = inspection.ranking.entries.first();
+                if best.map(|best| best.part.as_str()) != agreed.verdict.guess() {
+                    // This frame's pose is that of another part.
+                    inspection.pose = None;
+                } else if let (Some(Ok(pose)), Some(mean)) = (&mut inspection.pose, &agreed.pose) {
+                    pose.target_from_source = mean.camera_from_part.inverse();
+                }
+            }
+            Self::Open | Self::Gathering { .. } => {
+                if let Verdict::Part { part, rejected, .. } = &mut inspection.verdict
+                    && rejected.is_none()
+                {
+                    let part = part.clone();
+                    *rejected = Some(match *self {
+                        Self::Gathering { num_frames, needed } => Rejection::FewFrames {
+                            part,
+                            num_frames,
+                            needed,
+                        },
+                        _ => Rejection::NotSteady { part },
+                    });
+                }
+            }
+        }
+    }
+}
+
+/// Rejects the agreed verdict if this frame is one of the few that name another part or find no pose, because the
+/// rest of its inspection would belong to something else.
+fn unless_out_of_line(mut agreed: ConsensusVerdict, inspection: &Inspection) -> ConsensusVerdict {
+    let best = inspection.ranking.entries.first();
+    if let Verdict::Part {
+        part,
+        rejected: rejected @ None,
+        ..
+    } = &mut agreed.verdict
+    {
+        let is_in_line =
+            best.is_some_and(|best| best.part == *part) && !matches!(inspection.pose, Some(Err(_)));
+        if !is_in_line {
+            *rejected = Some(Rejection::Undecided {
+                part: part.clone(),
+                num_agreeing: agreed.num_agreeing,
+                num_frames: agreed.num_frames,
+                needed: agreed.num_frames,
+            });
+        }
+    }
+    agreed
+}
+
+#[cfg(test)]
+mod tests;

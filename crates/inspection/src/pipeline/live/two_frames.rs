@@ -1,0 +1,189 @@
+//! Whether two frames of one part agree, so that a single inspection may be relied upon.
+//!
+//! A part that swings is recognised, and its pose is right, in every frame; but it will not be there any more when a
+//! robot comes. Two frames show this: their poses lie further apart than each may be off.
+
+use nalgebra::Point3;
+
+use super::{ConsensusParams, PoseTolerance};
+use crate::pipeline::{Inspection, Rejection, Verdict};
+use geometry::{
+    rigid::pose_error,
+    units::{Metres, Radians},
+};
+use stages::pose::PoseEstimate;
+
+/// Refuses an accepted part because it moves.
+pub fn refuse_moving(inspection: &mut Inspection) {
+    reject(inspection, |part| Some(Rejection::NotSteady { part }));
+}
+
+/// Refuses an accepted part unless `again`, the inspection of a later frame, accepts it in the same place. `middle` is the
+/// middle of the part, part space, metres.
+pub fn refuse_unless_again(
+    inspection: &mut Inspection,
+    again: &Inspection,
+    middle: Option<Point3<f64>>,
+) {
+    let is_near = is_near(inspection, again, middle.unwrap_or_else(Point3::origin));
+    reject(inspection, |part| match &again.verdict {
+        Verdict::Part {
+            part: other,
+            rejected,
+            ..
+        } if *other == part => match (rejected, is_near) {
+            (Some(why), _) => Some(why.clone()),
+            (None, Some(true)) => None,
+            (None, Some(false)) => Some(Rejection::NotSteady { part }),
+            (None, None) => Some(disagreement(part)),
+        },
+        Verdict::Part { rejected: None, .. } => Some(disagreement(part)),
+        // It has left, or something is in front of it.
+        _ => Some(Rejection::NotSteady { part }),
+    });
+}
+
+fn reject(inspection: &mut Inspection, why: impl FnOnce(String) -> Option<Rejection>) {
+    if let Verdict::Part {
+        part,
+        rejected: rejected @ None,
+        ..
+    } = &mut inspection.verdict
+    {
+        *rejected = why(part.clone());
+    }
+}
+
+fn disagreement(part: String) -> Rejection {
+    Rejection::Undecided {
+        part,
+        num_agreeing: 1,
+        num_frames: 2,
+        needed: 2,
+    }
+}
+
+/// Whether both poses lie as near to each other as each may be off; `None` if they cannot be compared, because they are in
+/// the coordinates of different references. Without poses there is nothing that could be off.
+fn is_near(a: &Inspection, b: &Inspection, middle: Point3<f64>) -> Option<bool> {
+    if a.reference() != b.reference() {
+        return None;
+    }
+    let (Some(of_a), Some(of_b)) = (a.found_pose(), b.found_pose()) else {
+        return Some(a.found_pose().is_none() && b.found_pose().is_none());
+    };
+    let apart = pose_error(&of_a.camera_from_part(), &of_b.camera_from_part(), &middle);
+    let (shift, turn) = if let [Some(a), Some(b)] = [of_a, of_b].map(PoseEstimate::bounds) {
+        (
+            Metres(a.shift.0.max(b.shift.0)),
+            Radians(a.turn.0.max(b.turn.0)),
+        )
+    } else {
+        // A method that gives no bounds.
+        let PoseTolerance { shift, turn } = ConsensusParams::default().tolerance;
+        (shift, turn)
+    };
+    Some(apart.shift <= shift && apart.rotation <= turn)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        fixtures::shipped_library,
+        library::Library,
+        pipeline::{Recipe, Unwatched, run},
+    };
+    use geometry::rigid::RigidTransform;
+    use simulate::{PartKind, SensorNoise, fixtures::HangingPart};
+    use stages::{reference::Reference, scene::scene_from_frame};
+
+    /// The inspection of a frame with the part moved by `x` metres, with the noise of `seed`, and the part's middle.
+    fn seen(
+        library: &Library,
+        part: &HangingPart,
+        x: f64,
+        seed: u64,
+    ) -> (Inspection, Option<Point3<f64>>) {
+        let noise = SensorNoise {
+            seed,
+            ..part.setup.noise
+        };
+        let scene = part.frame(noise, &RigidTransform::translation(x, 0.0, 0.0));
+        let scene = scene_from_frame(&scene);
+        let inspection = run(&scene, library, &Recipe::default(), &Unwatched);
+        let inspection = inspection.expect("not cancelled");
+        assert!(inspection.verdict.is_accepted(), "{:?}", inspection.verdict);
+        let middle = inspection.best_reference(library);
+        let middle = middle.and_then(Reference::middle);
+        (inspection, middle)
+    }
+
+    fn rejection(inspection: &Inspection) -> Option<&Rejection> {
+        inspection.verdict.rejected()
+    }
+
+    #[test]
+    fn a_part_that_moved_between_two_frames_is_refused_and_one_with_other_noise_is_not() {
+        let library = shipped_library();
+        for (kind, noise, seed) in [(PartKind::Grille, 1.0, 4), (PartKind::FrontDoor, 2.0, 5)] {
+            let mut part = HangingPart::new(kind, seed);
+            part.setup.noise.multiplier = noise;
+            let (first, middle) = seen(&library, &part, 0.0, 100);
+            for seed in 101..104 {
+                let mut inspection = first.clone();
+                refuse_unless_again(&mut inspection, &seen(&library, &part, 0.0, seed).0, middle);
+                assert_eq!(rejection(&inspection), None, "{kind} at {noise}");
+            }
+            for x in [0.012, -0.03, 0.2] {
+                let mut inspection = first.clone();
+                refuse_unless_again(&mut inspection, &seen(&library, &part, x, 101).0, middle);
+                let why = rejection(&inspection);
+                assert!(
+                    matches!(why, Some(Rejection::NotSteady { .. })),
+                    "{kind} at {x}: {why:?}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn what_the_later_frame_refuses_is_refused_for_its_reason() {
+        let part = HangingPart::new(PartKind::Fender, 3);
+        let (first, middle) = seen(&shipped_library(), &part, 0.0, 1);
+        let after = |change: &dyn Fn(&mut Inspection)| {
+            let (mut inspection, mut again) = (first.clone(), first.clone());
+            change(&mut again);
+            refuse_unless_again(&mut inspection, &again, middle);
+            rejection(&inspection).cloned()
+        };
+        assert_eq!(after(&|_| ()), None);
+        let why = Rejection::HardlySeen {
+            part: "fender".into(),
+            score: 0.5,
+        };
+        let refused = after(&|again| reject(again, |_| Some(why.clone())));
+        assert_eq!(refused, Some(why.clone()));
+        let other = after(&|again| {
+            if let Verdict::Part { part, .. } = &mut again.verdict {
+                "grille".clone_into(part);
+            }
+        });
+        assert!(
+            matches!(other, Some(Rejection::Undecided { .. })),
+            "{other:?}"
+        );
+        let gone = after(&|again| {
+            again.verdict = Verdict::NoPart(crate::pipeline::Unrecognisable::EmptyLibrary);
+        });
+        assert!(
+            matches!(gone, Some(Rejection::NotSteady { .. })),
+            "{gone:?}"
+        );
+        // A refusal keeps its own reason.
+        let mut refused = first.clone();
+        reject(&mut refused, |_| Some(why.clone()));
+        refuse_moving(&mut refused);
+        assert_eq!(rejection(&refused), Some(&why));
+    }
+}

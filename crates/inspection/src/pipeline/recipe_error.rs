@@ -1,0 +1,128 @@
+//! Errors of recipes and their files.
+
+use std::path::PathBuf;
+
+use super::{
+    named_recipe::{BUILT_IN, MAX_NOTES, SCHEMA},
+    parameters::SettingError,
+};
+use crate::library::BadName;
+use files::{FileError, nearest_name};
+use geometry::error::Advice;
+
+/// Why a recipe cannot be read, written or used.
+#[derive(Debug, thiserror::Error)]
+pub enum RecipeError {
+    /// The file cannot be read or written.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// Not what a recipe file looks like.
+    #[error("{} is not a recipe: {reason}", path.display())]
+    Garbled {
+        /// The file.
+        path: PathBuf,
+        /// What the parser reported.
+        reason: String,
+    },
+    /// The file has another version of the format.
+    #[error("{}: the recipe has schema {found}, this program reads {SCHEMA}", path.display())]
+    OtherSchema {
+        /// The file.
+        path: PathBuf,
+        /// Its schema.
+        found: u32,
+    },
+    /// A parameter does not exist, or cannot have this value.
+    #[error("{}: {source}", path.display())]
+    BadParameter {
+        /// The file.
+        path: PathBuf,
+        /// The underlying error.
+        source: SettingError,
+    },
+    /// The name is not valid.
+    #[error(transparent)]
+    BadName(#[from] BadName),
+    /// Notes too long to keep.
+    #[error("the notes have {found} characters, but at most {MAX_NOTES} are kept")]
+    LongNotes {
+        /// Characters given.
+        found: usize,
+    },
+    /// No recipe of this name.
+    #[error("there is no recipe named {name}")]
+    NotFound {
+        /// The name given.
+        name: String,
+        /// Names of the recipes that exist.
+        available: Vec<String>,
+    },
+    /// The file that names the default recipe cannot be read.
+    #[error("the default recipe is unknown: {0}")]
+    BadDefault(FileError),
+    /// No recipe of the user can have the name of the file.
+    #[error("{} is not used: its name is not one that a recipe can have", path.display())]
+    BadFileName {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The default recipe is missing or cannot be read.
+    #[error("the default recipe {name} cannot be used: {reason}")]
+    NoDefault {
+        /// Its name.
+        name: String,
+        /// Why it cannot be used.
+        reason: String,
+    },
+    /// Another recipe has the name.
+    #[error("there is a recipe named {name} already")]
+    Exists {
+        /// The name.
+        name: String,
+    },
+    /// The program's own recipe cannot be changed.
+    #[error("{BUILT_IN} is the program's own recipe and cannot be changed")]
+    BuiltIn,
+    /// No place for the user's recipes.
+    #[error("this system has no folder for user data")]
+    NoUserFolder,
+}
+
+impl Advice for RecipeError {
+    fn advice(&self) -> String {
+        match self {
+            Self::File(error) => error.advice(),
+            Self::Garbled { .. } => {
+                "Give a file that Partsight exported, or write one as docs/guide/files.md shows".into()
+            }
+            Self::OtherSchema { .. } => {
+                "Use the version of Partsight that wrote it, or save the recipe again with this one".into()
+            }
+            Self::BadParameter { .. } => {
+                "Correct the file (none of it was used); docs/guide/parameters.md lists names, units and \
+                 ranges".into()
+            }
+            Self::BadName(error) => error.advice(),
+            Self::LongNotes { .. } => "Shorten the notes".into(),
+            Self::NotFound { name, available } => {
+                let nearest = nearest_name(available.iter().map(String::as_str), name);
+                let file = format!("to name a file, write ./{name}");
+                match nearest {
+                    Some(nearest) => format!("The nearest name is {nearest}; {file}"),
+                    None if available.is_empty() => {
+                        format!("There are no recipes yet: save one, or use {BUILT_IN}; {file}")
+                    }
+                    None => format!("Give one that partsight recipe list shows; {file}"),
+                }
+            }
+            Self::BadDefault(_) | Self::NoDefault { .. } => {
+                format!("Choose another: partsight recipe default {BUILT_IN}; or name one with --recipe")
+            }
+            Self::BadFileName { .. } => {
+                "Rename the file: lowercase letters, digits, _ and -, for example glossy.toml".into()
+            }
+            Self::Exists { .. } | Self::BuiltIn => "Choose another name".into(),
+            Self::NoUserFolder => "Set HOME, or give the recipe as a file".into(),
+        }
+    }
+}

@@ -1,0 +1,314 @@
+//! GenICam cameras, played on the loopback network by the fake camera of aravis.
+//!
+//! Without it (`apt-get install aravis-tools libaravis-0.8-0`) the tests report that they are skipped; with
+//! `PARTSIGHT_REQUIRE_GENICAM=1` they fail.
+
+use std::{
+    fs, io,
+    path::Path,
+    process::{Child, Command, Stdio},
+    sync::{Mutex, MutexGuard, PoisonError},
+    thread,
+    time::{Duration, Instant},
+};
+
+use capture::{
+    BackpressurePolicy, CameraLibraryError, CaptureError, Captured, DepthSource, Feed, FeedItem,
+    FeedState, GenicamError, GenicamSpec, Image, NextCapture, Recovery, SourceSpec, list, open,
+};
+use geometry::{cloud::Grid, depth_frame::DepthFrame, error::Advice as _};
+
+/// Timeout longer than any step of a test, so that it ends only one that hangs.
+const PATIENCE: Duration = Duration::from_mins(1);
+/// The description of a 3-D camera, with placeholders for its `Scan3dOutputMode` and its `ReverseX`.
+const DEPTH_CAMERA: &str = include_str!("camera.xml");
+const MODE: &str = "THE_MODE";
+const REVERSE: &str = "THE_REVERSE";
+const ID: &str = "Aravis-Fake-PS01";
+
+/// Reports what a test lacks; fails if the environment requires it.
+#[expect(
+    clippy::print_stdout,
+    reason = "a test that checks nothing must say so"
+)]
+fn skipped(what: &str) {
+    let text = format!("skipped: {what}");
+    let is_required =
+        std::env::var_os("PARTSIGHT_REQUIRE_GENICAM").is_some_and(|value| value == "1");
+    assert!(!is_required, "PARTSIGHT_REQUIRE_GENICAM=1, and {text}");
+    println!("{text}");
+}
+
+/// A camera that runs until it is dropped.
+struct FakeCamera(Child);
+
+impl FakeCamera {
+    /// Starts a camera; `None`, with a message, if the program or aravis is missing.
+    fn start(description: Option<&Path>) -> Option<Self> {
+        let mut command = Command::new("arv-fake-gv-camera-0.8");
+        command.args(["-i", "127.0.0.1", "-s", "PS01"]);
+        if let Some(path) = description {
+            command.arg("-g").arg(path);
+        }
+        // It writes a message for every frame whose pixel format it cannot paint.
+        let started = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn();
+        let camera = match started {
+            Ok(child) => Self(child),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                skipped("arv-fake-gv-camera-0.8 is not installed (apt-get install aravis-tools)");
+                return None;
+            }
+            Err(error) => panic!("{error}"),
+        };
+        let until = Instant::now() + PATIENCE;
+        while Instant::now() < until {
+            for listed in list() {
+                if listed.title == format!("GenICam {ID}") {
+                    return Some(camera);
+                }
+                if let Some(CaptureError::Genicam(GenicamError::Library(
+                    CameraLibraryError::NotInstalled { .. },
+                ))) = listed.trouble
+                {
+                    skipped("aravis is not installed (apt-get install libaravis-0.8-0)");
+                    return None;
+                }
+            }
+        }
+        panic!("it does not answer");
+    }
+}
+
+impl Drop for FakeCamera {
+    fn drop(&mut self) {
+        // Killing it acts like a pulled cable; it may have ended by itself.
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+/// Serialises the tests, because all cameras have the same address.
+fn alone() -> MutexGuard<'static, ()> {
+    static ONE: Mutex<()> = Mutex::new(());
+    ONE.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn spec(text: &str) -> SourceSpec {
+    text.parse().expect(text)
+}
+
+/// A source that takes the fake camera's grey values for depth in steps of 0.1 mm.
+fn grey_as_depth(folder: &Path) -> SourceSpec {
+    let path = folder.join("camera.json");
+    let camera = r#"{"width":512,"height":512,"fx":500,"fy":500,"cx":255.5,"cy":255.5,"metres_per_unit":0.0001}"#;
+    fs::write(&path, camera).expect("written");
+    spec(&format!(
+        "genicam,format=Mono16,camera={}:{ID}",
+        path.display()
+    ))
+}
+
+/// Writes the description of a 3-D camera.
+fn describe(path: &Path, mode: &str, reverse: &str) {
+    let text = DEPTH_CAMERA.replace(MODE, mode).replace(REVERSE, reverse);
+    fs::write(path, text).expect("written");
+}
+
+fn trouble(text: &str) -> GenicamError {
+    match open(&spec(text)).err().expect("does not open") {
+        CaptureError::Genicam(error) => error,
+        other => panic!("{other}"),
+    }
+}
+
+fn next_capture(source: &mut dyn DepthSource) -> Captured {
+    let start = Instant::now();
+    while start.elapsed() < PATIENCE {
+        match source.next(Duration::from_millis(50)).expect("no trouble") {
+            NextCapture::Captured(captured) => return captured,
+            NextCapture::NotYet => {}
+            // A busy machine loses packets.
+            NextCapture::Skipped(skipped) => assert!(!skipped.name.is_empty()),
+            NextCapture::End => panic!("it ended"),
+        }
+    }
+    panic!("nothing came");
+}
+
+fn depth_of(captured: Captured) -> DepthFrame {
+    match captured.image {
+        Image::Depth(frame) => frame,
+        Image::Cloud(_) => panic!("a cloud"),
+    }
+}
+
+/// Checks that the frame is the fake camera's pattern: constant along every diagonal, and 256 more from one diagonal
+/// to the next until it wraps.
+fn check_pattern(frame: &DepthFrame) {
+    let width = frame.intrinsics.width;
+    assert_eq!(frame.depth.len(), 512 * 512);
+    let at = |row: usize, column: usize| u32::from(frame.depth[row * width + column]);
+    for row in 1..512 {
+        for column in 0..511 {
+            assert_eq!(at(row, column), at(row - 1, column + 1), "{row} {column}");
+        }
+    }
+    let num_steps = (1..512).filter(|&column| at(0, column) == at(0, column - 1) + 256);
+    assert!(num_steps.count() >= 508, "it begins again at most thrice");
+}
+
+#[test]
+fn every_pixel_of_a_depth_image_arrives() {
+    let _alone = alone();
+    let Some(_camera) = FakeCamera::start(None) else {
+        return;
+    };
+    let folder = tempfile::tempdir().expect("a folder");
+    let spec = grey_as_depth(folder.path());
+    let mut source = open(&spec).expect("opens");
+    assert_eq!(source.title(), format!("GenICam {ID}"));
+    let first = next_capture(source.as_mut());
+    assert_eq!(first.warnings, []);
+    assert!(!first.is_simulated);
+    let second = next_capture(source.as_mut());
+    assert!(second.number > first.number && second.taken_at > first.taken_at);
+    let [first, second] = [first, second].map(depth_of);
+    assert!((first.metres_per_unit - 0.0001).abs() < 1e-12);
+    check_pattern(&first);
+    check_pattern(&second);
+    assert_ne!(first.depth, second.depth, "the pattern moves");
+
+    let Err(CaptureError::Genicam(error)) = open(&spec) else {
+        panic!("opened twice")
+    };
+    assert!(matches!(error, GenicamError::InUse), "{error}");
+    check_pattern(&depth_of(next_capture(source.as_mut())));
+    drop(source);
+    let mut again = open(&spec).expect("opens again");
+    check_pattern(&depth_of(next_capture(again.as_mut())));
+}
+
+#[test]
+fn grey_values_are_no_depth_and_another_camera_is_not_taken() {
+    let _alone = alone();
+    let Some(_camera) = FakeCamera::start(None) else {
+        return;
+    };
+    let error = trouble("genicam");
+    assert!(matches!(error, GenicamError::NoDepthFormat { .. }));
+    assert!(error.to_string().contains("Mono8"), "{error}");
+    assert!(error.advice().contains("format=Mono16"));
+    let error = trouble("genicam,format=Coord3D_C16:127.0.0.1");
+    assert!(
+        matches!(error, GenicamError::FormatNotOffered { .. }),
+        "{error}"
+    );
+    let error = trouble("genicam,format=Mono16");
+    assert!(matches!(error, GenicamError::Untold { .. }), "{error}");
+    let error = trouble("genicam:Other-3D-1");
+    assert!(error.to_string().contains(&format!("only {ID}")), "{error}");
+    assert_eq!(CaptureError::from(error).recovery(), Recovery::Reopen);
+}
+
+#[test]
+fn a_3d_camera_says_itself_what_its_values_stand_for() {
+    let _alone = alone();
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("camera.xml");
+    describe(&path, "1", "0");
+    let Some(camera) = FakeCamera::start(Some(&path)) else {
+        return;
+    };
+    let mut source = open(&spec("genicam")).expect("opens");
+    let captured = next_capture(source.as_mut());
+    assert_eq!(captured.warnings, []);
+    let frame = depth_of(captured);
+    let lens = frame.intrinsics;
+    assert_eq!((lens.width, lens.height), (512, 512));
+    let told = [lens.fx, lens.fy, lens.cx, lens.cy];
+    for (told, expected) in told.into_iter().zip([500.5, 500.5, 255.5, 250.0]) {
+        assert!((told - expected).abs() < 1e-9, "{told}");
+    }
+    // A step of 0.25 mm, plus 100 mm spread over 65535 steps.
+    let expected = 0.000_25 + 0.1 / 65_535.0;
+    assert!((frame.metres_per_unit - expected).abs() < 1e-12);
+    // The fake camera does not paint pixels of this format.
+    assert!(frame.depth.iter().all(|&depth| depth == 0));
+    drop(source);
+
+    let mut source = open(&spec("genicam,format=Coord3D_ABC32f")).expect("opens");
+    let Image::Cloud(cloud) = next_capture(source.as_mut()).image else {
+        panic!("a depth image")
+    };
+    let grid = Grid {
+        width: 512,
+        height: 512,
+    };
+    assert_eq!((cloud.grid, cloud.num_finite()), (Some(grid), 0));
+    drop(source);
+    drop(camera);
+
+    for (mode, reverse, words, advice) in [
+        ("2", "0", "DisparityC", "CalibratedC"),
+        ("1", "1", "ReverseX", "false"),
+    ] {
+        describe(&path, mode, reverse);
+        let Some(_camera) = FakeCamera::start(Some(&path)) else {
+            return;
+        };
+        let error = trouble("genicam");
+        assert!(error.to_string().contains(words), "{error}");
+        assert!(error.advice().contains(advice), "{}", error.advice());
+    }
+}
+
+#[test]
+fn a_camera_that_is_gone_is_lost_and_found_again() {
+    let _alone = alone();
+    let Some(camera) = FakeCamera::start(None) else {
+        return;
+    };
+    let folder = tempfile::tempdir().expect("a folder");
+    let spec = grey_as_depth(folder.path());
+    let feed = Feed::start(spec, BackpressurePolicy::Newest, || {}).expect("a thread");
+    let captured = |feed: &Feed| {
+        let until = Instant::now() + PATIENCE;
+        while Instant::now() < until {
+            if let Some(FeedItem::Captured(captured)) = feed.wait(Duration::from_millis(50)) {
+                return captured;
+            }
+        }
+        panic!("nothing came: {:?}", feed.status());
+    };
+    check_pattern(&depth_of(captured(&feed)));
+    drop(camera);
+    let until = Instant::now() + PATIENCE;
+    let error = loop {
+        if let FeedState::Lost { error } = feed.status().state {
+            break error;
+        }
+        assert!(Instant::now() < until, "{:?}", feed.status());
+        thread::sleep(Duration::from_millis(10));
+    };
+    assert!(
+        matches!(*error, CaptureError::Genicam(GenicamError::Lost { .. })),
+        "{error}"
+    );
+    // Discard the frames captured before.
+    while feed.wait(Duration::ZERO).is_some() {}
+    let _camera = FakeCamera::start(None).expect("it was there before");
+    check_pattern(&depth_of(captured(&feed)));
+}
+
+#[test]
+fn a_place_without_the_library_is_named() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let spec = GenicamSpec {
+        library: Some(folder.path().to_path_buf()),
+        ..GenicamSpec::default()
+    };
+    let error = open(&SourceSpec::Genicam(spec)).err().expect("no library");
+    let place = folder.path().display().to_string();
+    assert!(error.to_string().contains(&place), "{error}");
+    assert!(error.advice().contains("PARTSIGHT_ARAVIS"));
+}

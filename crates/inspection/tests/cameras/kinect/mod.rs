@@ -1,0 +1,98 @@
+//! Kinect tests without a Kinect: a recorded session played by the fakenect build of libfreenect, a stub library that
+//! behaves like the real one with a working or failing camera, and the system's libfreenect itself.
+//!
+//! A loaded library stays in its process with all its state, so every test has a process of its own. Without the
+//! libraries (`apt-get install libfreenect0.5`) or a C compiler the tests report that they are skipped; with
+//! `PARTSIGHT_REQUIRE_KINECT=1` they fail.
+
+mod camera;
+mod cycles;
+mod played;
+mod session;
+mod system;
+
+use std::{
+    path::PathBuf,
+    time::{Duration, Instant},
+};
+
+use capture::{
+    CaptureError, Captured, DepthSource, KinectError, KinectSpec, NextCapture, SourceListing,
+    SourceSpec, list, open,
+};
+
+/// Timeout longer than any step of a test, so that it ends only one that hangs.
+const PATIENCE: Duration = Duration::from_mins(1);
+
+/// Opens the Kinect that the environment provides.
+fn open_kinect() -> Result<Box<dyn DepthSource>, CaptureError> {
+    open(&SourceSpec::Kinect(KinectSpec::default()))
+}
+
+/// Returns why the Kinect does not open.
+fn trouble() -> KinectError {
+    trouble_of(open_kinect().err().expect("does not open"))
+}
+
+/// The Kinects in the list of sources, including those that cannot be opened.
+fn listed() -> Vec<SourceListing> {
+    let is_kinect = |listed: &SourceListing| match &listed.spec {
+        Some(spec) => matches!(spec, SourceSpec::Kinect(_)),
+        None => matches!(listed.trouble, Some(CaptureError::Kinect(_))),
+    };
+    list().into_iter().filter(is_kinect).collect()
+}
+
+fn trouble_of(error: CaptureError) -> KinectError {
+    match error {
+        CaptureError::Kinect(error) => error,
+        other => panic!("{other}"),
+    }
+}
+
+/// The next capture; `None` at the end of the session.
+fn next_capture(source: &mut dyn DepthSource) -> Option<Captured> {
+    let start = Instant::now();
+    while start.elapsed() < PATIENCE {
+        match source.next(Duration::from_millis(20)).expect("no trouble") {
+            NextCapture::Captured(captured) => return Some(captured),
+            NextCapture::End => return None,
+            NextCapture::NotYet => {}
+            NextCapture::Skipped(skipped) => panic!("{skipped:?}"),
+        }
+    }
+    panic!("nothing came");
+}
+
+/// Reports what a test lacks; fails if the environment requires it.
+#[expect(
+    clippy::print_stdout,
+    reason = "a test that checks nothing must say so"
+)]
+fn skipped(what: &str) {
+    let text = format!("skipped: {what}");
+    let is_required =
+        std::env::var_os("PARTSIGHT_REQUIRE_KINECT").is_some_and(|value| value == "1");
+    assert!(!is_required, "PARTSIGHT_REQUIRE_KINECT=1, and {text}");
+    println!("{text}");
+}
+
+/// The folder with the fakenect build; `None`, with a message, if it is not installed.
+fn fakenect() -> Option<PathBuf> {
+    let lib = PathBuf::from("/usr/lib");
+    let of_machine = format!("{}-linux-gnu/fakenect", std::env::consts::ARCH);
+    let folders = [
+        lib.join(of_machine),
+        lib.join("fakenect"),
+        "/usr/lib64/fakenect".into(),
+    ];
+    let folder = folders
+        .into_iter()
+        .find(|folder| folder.join("libfreenect.so.0.5").is_file());
+    if folder.is_none() {
+        skipped(
+            "the fakenect build of libfreenect is not installed (apt-get install libfreenect0.5)",
+        );
+    }
+    folder
+}

@@ -1,0 +1,9 @@
+//! Cameras without a camera: their libraries with played or recorded devices, and stub libraries.
+
+#![cfg(target_os = "linux")]
+
+mod genicam;
+mod kinect;
+mod openni;
+mod own_process;
+mod realsense;

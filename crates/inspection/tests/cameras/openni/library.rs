@@ -1,0 +1,159 @@
+//! The library itself: missing, another one, without drivers, and its effects on the process.
+
+use std::{
+    env, fs,
+    os::unix::fs::symlink,
+    path::Path,
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
+    thread,
+};
+
+use capture::{CameraLibraryError, OpenNiError, OpenNiSpec, SourceSpec, open};
+use geometry::error::Advice as _;
+
+use capture::fixtures::{SHARED, compile_c};
+
+use crate::{
+    openni::{CAMERA, listed, skipped, system_library, trouble_of, with_camera},
+    own_process::{self, is_own},
+};
+
+/// Returns why no camera opens with the library in this folder.
+fn trouble_in(folder: &Path) -> OpenNiError {
+    let spec = OpenNiSpec {
+        library: Some(folder.to_path_buf()),
+        ..OpenNiSpec::default()
+    };
+    trouble_of(
+        open(&SourceSpec::OpenNi(spec))
+            .err()
+            .expect("does not open"),
+    )
+}
+
+#[test]
+fn the_systems_library_is_found_by_itself_and_says_whether_a_camera_is_there() {
+    let test = "library::the_systems_library_is_found_by_itself_and_says_whether_a_camera_is_there";
+    if !is_own(test) {
+        return own_process::run(test, &[]);
+    }
+    let listed = listed();
+    assert!(!listed.is_empty());
+    for camera in listed {
+        let Some(error) = camera.trouble else {
+            assert!(camera.spec.is_some());
+            continue;
+        };
+        assert!(camera.spec.is_none());
+        println!("figures: {}: {error}. {}", camera.title, error.advice());
+        match trouble_of(error) {
+            error @ OpenNiError::Library(CameraLibraryError::NotInstalled { .. }) => {
+                assert!(
+                    error.advice().contains("PARTSIGHT_OPENNI"),
+                    "{}",
+                    error.advice()
+                );
+                skipped("libOpenNI2 is not installed (apt-get install libopenni2-0)");
+            }
+            // The error of a machine without a camera.
+            OpenNiError::NoDevice => {}
+            error => panic!("{error}"),
+        }
+    }
+}
+
+#[test]
+fn a_place_without_the_library_is_named() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let error = trouble_in(folder.path());
+    assert!(
+        matches!(
+            &error,
+            OpenNiError::Library(CameraLibraryError::NotAt { path, .. }) if path == folder.path()
+        ),
+        "{error}"
+    );
+    assert!(
+        error.advice().contains("PARTSIGHT_OPENNI"),
+        "{}",
+        error.advice()
+    );
+
+    fs::write(folder.path().join("libOpenNI2.so.0"), "no library").expect("written");
+    let error = trouble_in(folder.path());
+    assert!(
+        matches!(
+            error,
+            OpenNiError::Library(CameraLibraryError::Unusable { .. })
+        ),
+        "{error}"
+    );
+}
+
+#[test]
+fn another_library_and_one_without_drivers_are_told_apart() {
+    let test = "library::another_library_and_one_without_drivers_are_told_apart";
+    let Some(library) = system_library() else {
+        return skipped("libOpenNI2 is not installed (apt-get install libopenni2-0)");
+    };
+    if !is_own(test) {
+        return own_process::run(test, &[]);
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    symlink(library, folder.path().join("libOpenNI2.so.0")).expect("linked");
+    for _ in 0..2 {
+        let error = trouble_in(folder.path());
+        assert!(matches!(error, OpenNiError::NoDrivers { .. }), "{error}");
+        assert!(error.to_string().contains("OpenNI2/Drivers"), "{error}");
+    }
+
+    let folder = tempfile::tempdir().expect("a folder");
+    let other = folder.path().join("libOpenNI2.so.0");
+    if let Err(why) = compile_c(CAMERA, &other, &SHARED) {
+        return skipped(&why);
+    }
+    let error = trouble_in(folder.path());
+    assert!(
+        error.to_string().contains("no function oniInitialize"),
+        "{error}"
+    );
+}
+
+#[test]
+fn the_working_folder_of_other_threads_stays_while_the_library_starts() {
+    let test = "library::the_working_folder_of_other_threads_stays_while_the_library_starts";
+    with_camera(
+        test,
+        "well",
+        |_| {},
+        || {
+            let here = env::current_dir().expect("a folder");
+            let is_over = Arc::new(AtomicBool::new(false));
+            let watcher = {
+                let (is_over, here) = (Arc::clone(&is_over), here.clone());
+                thread::spawn(move || {
+                    let mut num_elsewhere = 0;
+                    while !is_over.load(Ordering::Relaxed) {
+                        num_elsewhere +=
+                            usize::from(env::current_dir().is_ok_and(|now| now != here));
+                    }
+                    num_elsewhere
+                })
+            };
+            for _ in 0..50 {
+                assert_eq!(listed().len(), 1);
+            }
+            is_over.store(true, Ordering::Relaxed);
+            let num_elsewhere = watcher.join().expect("ended");
+            assert_eq!(env::current_dir().expect("a folder"), here);
+            let status = fs::read_to_string("/proc/self/status").expect("of this process");
+            if num_elsewhere > 0 && !status.contains("Seccomp:\t0") {
+                return skipped("this system may forbid a thread a working folder of its own");
+            }
+            assert_eq!(num_elsewhere, 0);
+        },
+    );
+}

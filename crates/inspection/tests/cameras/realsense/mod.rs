@@ -1,0 +1,128 @@
+//! RealSense tests without a camera: a stub library that plays two, and librealsense itself with files that it
+//! records of a software camera.
+//!
+//! A loaded library stays in its process with all its state, so every test has a process of its own. Without a C
+//! compiler the tests report that they are skipped. Those with librealsense itself need a file that has its
+//! functions, named by `PARTSIGHT_TEST_REALSENSE`: librealsense2.so, or the module `pyrealsense2.*.so` of the Python
+//! package, which contains the library. With `PARTSIGHT_REQUIRE_REALSENSE=1` they fail if it is missing.
+
+mod camera;
+mod library;
+mod recorded;
+
+use crate::own_process;
+use std::{
+    env,
+    ffi::OsStr,
+    time::{Duration, Instant},
+};
+
+use capture::fixtures::{SHARED, compile_c};
+use capture::{
+    CaptureError, Captured, DepthSource, Image, NextCapture, RealsenseError, RealsenseSpec,
+    SourceListing, SourceSpec, list, open,
+};
+use geometry::depth_frame::DepthFrame;
+
+/// Source of a stub library with the functions of librealsense, which plays two cameras.
+const CAMERA: &str = "tests/cameras/realsense/camera.c";
+/// Timeout longer than any step of a test, so that it ends only one that hangs.
+const PATIENCE: Duration = Duration::from_mins(1);
+
+/// Runs a test's body with the cameras in that state; see `camera.c`.
+fn with_cameras(test: &str, state: &str, body: impl FnOnce()) {
+    if own_process::is_own(test) {
+        return body();
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let library = folder.path().join("librealsense2.so.2.55");
+    if let Err(why) = compile_c(CAMERA, &library, &SHARED) {
+        return skipped("PARTSIGHT_REQUIRE_COMPILER", &why);
+    }
+    let environment: [(&str, &OsStr); 2] = [
+        ("PARTSIGHT_REALSENSE", folder.path().as_os_str()),
+        ("STUB", OsStr::new(state)),
+    ];
+    own_process::run(test, &environment);
+}
+
+/// Reports what a test lacks; fails if the environment requires it.
+#[expect(
+    clippy::print_stdout,
+    reason = "a test that checks nothing must say so"
+)]
+fn skipped(variable: &str, what: &str) {
+    let text = format!("skipped: {what}");
+    let is_required = env::var_os(variable).is_some_and(|value| value == "1");
+    assert!(!is_required, "{variable}=1, and {text}");
+    println!("{text}");
+}
+
+/// Opens the first camera.
+fn open_camera() -> Result<Box<dyn DepthSource>, CaptureError> {
+    open(&SourceSpec::Realsense(RealsenseSpec::default()))
+}
+
+fn open_text(text: &str) -> Result<Box<dyn DepthSource>, CaptureError> {
+    open(&text.parse().expect("a source"))
+}
+
+/// The RealSense cameras in the list of sources.
+fn listed() -> Vec<SourceListing> {
+    let is_realsense = |listed: &SourceListing| match &listed.spec {
+        Some(spec) => matches!(spec, SourceSpec::Realsense(_)),
+        None => matches!(listed.trouble, Some(CaptureError::Realsense(_))),
+    };
+    list().into_iter().filter(is_realsense).collect()
+}
+
+fn trouble_of(error: CaptureError) -> RealsenseError {
+    match error {
+        CaptureError::Realsense(error) => error,
+        other => panic!("{other}"),
+    }
+}
+
+/// The next capture; `None` at the end of a file.
+fn next_capture(source: &mut dyn DepthSource) -> Result<Option<Captured>, CaptureError> {
+    let start = Instant::now();
+    while start.elapsed() < PATIENCE {
+        match source.next(Duration::from_millis(20))? {
+            NextCapture::Captured(captured) => return Ok(Some(captured)),
+            NextCapture::End => return Ok(None),
+            NextCapture::NotYet => {}
+            NextCapture::Skipped(skipped) => panic!("{skipped:?}"),
+        }
+    }
+    panic!("nothing came");
+}
+
+fn next_frame(source: &mut dyn DepthSource) -> DepthFrame {
+    let captured = next_capture(source).expect("no trouble").expect("no end");
+    frame_of(captured)
+}
+
+fn frame_of(captured: Captured) -> DepthFrame {
+    match captured.image {
+        Image::Depth(frame) => frame,
+        Image::Cloud(_) => panic!("a camera gives depth images"),
+    }
+}
+
+/// Checks every pixel of a frame except those that `camera.c` changes from frame to frame. Returns the frame's
+/// number.
+fn check(frame: &DepthFrame, width: usize, height: usize) -> u16 {
+    let camera = frame.intrinsics;
+    assert_eq!((camera.width, camera.height), (width, height));
+    assert_eq!(frame.depth.len(), width * height);
+    for (place, &depth) in frame.depth.iter().enumerate() {
+        let (column, row) = (place % width, place / width);
+        let expected = match (column, row) {
+            (5, 7) | (11, 3) => continue,
+            (9, 3) => 0,
+            _ => 1000 + 3 * column + row,
+        };
+        assert_eq!(usize::from(depth), expected, "column {column}, row {row}");
+    }
+    frame.depth[7 * width + 5]
+}

@@ -1,0 +1,155 @@
+//! Bodies of the answers. Compatible changes only add fields.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+use serde_json::{Map, Value};
+
+use geometry::rigid::row_major;
+use robot::{Convention, RobotPose};
+use serve::{Answer, CameraState, LibraryStatus, PathStep, Trouble, VerdictCode};
+
+/// An answer about the last inspection, or why there is none.
+#[derive(Debug, JsonSchema, Serialize)]
+pub(super) struct AnswerBody {
+    /// What to think of it. Only an accepted one has numbers.
+    verdict: VerdictCode,
+    /// The number of the inspection, 1 to 16777215; 0 if there was none.
+    sequence: u32,
+    /// The number of this start of the server, 1 to 16777215; another one once its poses mean something else.
+    boot: u32,
+    /// Milliseconds since the frame was captured, at most 16777215; null without a frame.
+    age_ms: Option<u32>,
+    /// How the camera is; null in the answer to a request that was refused.
+    camera: Option<CameraState>,
+    /// The name of the part; null if it is none of the library.
+    part: Option<String>,
+    /// The number of the reference in whose coordinates the pose is; null if it has none.
+    number: Option<u32>,
+    /// The part may be another model; its pose is only about right.
+    approximate: bool,
+    /// The scene is simulated or replayed, or no camera saw the part when it was enrolled.
+    simulated: bool,
+    /// It was checked that the part hung still, or there is no pose; false if the source does not show it.
+    motion_checked: bool,
+    /// How many points the part's spray path has; 0 without a pose.
+    points: u32,
+    /// The pose in the robot's base frame; null unless the part was accepted and the frame is fresh.
+    pose: Option<PoseBody>,
+    /// Why there is no pose; of the status why the camera gives nothing; null if there is nothing to say.
+    trouble: Option<Trouble>,
+}
+
+/// A pose in the robot's base frame.
+#[derive(Debug, JsonSchema, Serialize)]
+struct PoseBody {
+    #[serde(flatten)]
+    in_convention: RobotPose,
+    /// The same pose, whatever the convention: a 4×4 matrix, row by row, lengths in metres.
+    transform: [f64; 16],
+}
+
+impl AnswerBody {
+    pub(super) fn of(answer: &Answer, convention: Convention) -> Self {
+        let has = |mark| answer.flags() & mark != 0;
+        Self {
+            verdict: answer.verdict,
+            sequence: answer.sequence,
+            boot: answer.boot,
+            age_ms: answer.age_ms,
+            camera: Some(answer.camera),
+            part: (!answer.part.is_empty()).then(|| answer.part.clone()),
+            number: (answer.number > 0).then_some(answer.number),
+            approximate: has(Answer::APPROXIMATE),
+            simulated: has(Answer::SIMULATED),
+            motion_checked: !has(Answer::MOTION_UNCHECKED),
+            points: answer.points,
+            pose: answer.pose.map(|pose| PoseBody {
+                in_convention: convention.write(&pose),
+                transform: row_major(&pose),
+            }),
+            trouble: (answer.trouble != Trouble::default()).then(|| answer.trouble.clone()),
+        }
+    }
+
+    /// An answer that is not about an inspection, because the request was refused or the program failed.
+    pub(super) fn without_inspection(verdict: VerdictCode, boot: u32, trouble: Trouble) -> Self {
+        let answer = Answer {
+            verdict,
+            boot,
+            trouble,
+            ..Answer::default()
+        };
+        Self {
+            camera: None,
+            ..Self::of(&answer, Convention::default())
+        }
+    }
+}
+
+/// How the service is.
+#[derive(Debug, JsonSchema, Serialize)]
+pub(super) struct StatusBody {
+    #[serde(flatten)]
+    pub(super) answer: AnswerBody,
+    /// The library; null unless the service takes new versions of it while it runs.
+    pub(super) library: Option<LibraryStatus>,
+}
+
+/// The last inspection with its spray path.
+#[derive(Debug, JsonSchema, Serialize)]
+pub(super) struct PathBody {
+    #[serde(flatten)]
+    answer: AnswerBody,
+    /// Every point in its order; empty without a pose, or if none is stored.
+    path: Vec<PathPoint>,
+}
+
+/// A point of the spray path as the part hangs now.
+#[derive(Debug, JsonSchema, Serialize)]
+struct PathPoint {
+    /// The nozzle's pose in the robot's base frame: the numbers of the convention, in the order and units of `pose.values`.
+    numbers: Vec<f64>,
+    /// The gun sprays from this point to the next one.
+    gun_on: bool,
+    /// Distance and angle to the surface that the camera saw are within the band.
+    in_band: bool,
+    /// Speed to the next point, mm/s; null where the path sets none.
+    speed_mm_s: Option<f64>,
+}
+
+impl PathBody {
+    pub(super) fn of(answer: &Answer, path: &[PathStep], convention: Convention) -> Self {
+        let points = path.iter().map(|step| {
+            let pose = convention.write(&step.robot_from_nozzle);
+            PathPoint {
+                numbers: pose.numbers(),
+                gun_on: step.marks & Answer::GUN_ON != 0,
+                in_band: step.marks & Answer::IN_BAND != 0,
+                speed_mm_s: step.speed.map(|speed| speed * 1000.0),
+            }
+        });
+        Self {
+            answer: AnswerBody::of(answer, convention),
+            path: points.collect(),
+        }
+    }
+}
+
+/// The last inspection in full.
+#[derive(Debug, JsonSchema, Serialize)]
+pub(super) struct ReportBody {
+    #[serde(flatten)]
+    pub(super) answer: AnswerBody,
+    /// The line of JSON that `partsight serve --json` writes of it; null if nothing was inspected. Unless there is a pose
+    /// above, it has none either.
+    pub(super) report: Option<Map<String, Value>>,
+}
+
+/// The service answers.
+#[derive(Debug, JsonSchema, Serialize)]
+pub(super) struct HealthBody {
+    /// The number of this start of the server, 1 to 16777215.
+    pub(super) boot: u32,
+    /// How the camera is. The service looks for a lost one by itself: there is no need to start it again.
+    pub(super) camera: CameraState,
+}

@@ -1,0 +1,75 @@
+//! Refused requests.
+
+use axum::http::StatusCode;
+use thiserror::Error;
+
+use geometry::error::Advice;
+
+/// Maximum size of a body, bytes. No request needs one.
+pub(super) const MAX_BODY_BYTES: usize = 1024;
+
+/// Why a request is refused.
+#[derive(Clone, Copy, Debug, Error)]
+pub(super) enum Refusal {
+    #[error("no token was sent, or a wrong one")]
+    WrongToken,
+    #[error("the request comes from a web page")]
+    WebPage,
+    #[error("there is no such path")]
+    NoSuchPath,
+    #[error("the path does not support this method")]
+    WrongMethod,
+    #[error("the request does not say whose path is wanted")]
+    NoSequence,
+    #[error("the request was not complete after {seconds} s")]
+    Incomplete { seconds: u64 },
+    #[error("the body is longer than {} bytes", MAX_BODY_BYTES)]
+    TooLong,
+}
+
+impl Refusal {
+    /// The reason word in an answer.
+    pub(super) fn reason(self) -> &'static str {
+        match self {
+            Self::WrongToken => "wrong_token",
+            Self::WebPage => "web_page",
+            Self::NoSuchPath => "unknown_request",
+            Self::WrongMethod => "wrong_method",
+            Self::NoSequence => "no_trigger",
+            Self::Incomplete { .. } => "incomplete",
+            Self::TooLong => "too_long",
+        }
+    }
+
+    pub(super) fn status(self) -> StatusCode {
+        match self {
+            Self::WrongToken => StatusCode::UNAUTHORIZED,
+            Self::WebPage => StatusCode::FORBIDDEN,
+            Self::NoSuchPath => StatusCode::NOT_FOUND,
+            Self::WrongMethod => StatusCode::METHOD_NOT_ALLOWED,
+            Self::NoSequence => StatusCode::BAD_REQUEST,
+            Self::Incomplete { .. } => StatusCode::REQUEST_TIMEOUT,
+            Self::TooLong => StatusCode::PAYLOAD_TOO_LARGE,
+        }
+    }
+}
+
+impl Advice for Refusal {
+    fn advice(&self) -> String {
+        match self {
+            Self::WrongToken => {
+                "Send a line of the file of --http-token-file as Authorization: Bearer TOKEN".into()
+            }
+            Self::WebPage => {
+                "Ask from a program, by 127.0.0.1 or localhost; a page needs a token: start the server with --http-token-file".into()
+            }
+            Self::NoSuchPath => "GET /v1/openapi.json lists the paths".into(),
+            Self::WrongMethod => "POST /v1/trigger, and GET the other paths".into(),
+            Self::NoSequence => {
+                "Give the sequence number of your trigger's answer: GET /v1/path?sequence=41".into()
+            }
+            Self::Incomplete { .. } => "Send the complete request, with its body".into(),
+            Self::TooLong => "Send no body".into(),
+        }
+    }
+}

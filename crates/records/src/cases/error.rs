@@ -1,0 +1,80 @@
+//! Why a case or a folder of cases cannot be used.
+
+use std::{io, path::PathBuf};
+
+use crate::history::HistoryError;
+use files::{advice_on, words_of};
+use geometry::error::Advice;
+
+/// Why a case or a folder of cases cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum CaseError {
+    /// The folder cannot be read.
+    #[error("{}: cannot read the kept cases: {}", path.display(), words_of(source))]
+    Unreadable {
+        /// The folder of cases.
+        path: PathBuf,
+        /// The underlying error.
+        source: io::Error,
+    },
+    /// The folder cannot be written to; its cases are unchanged.
+    #[error("{}: cannot write to the kept cases: {}", path.display(), words_of(source))]
+    Unwritable {
+        /// The folder of cases.
+        path: PathBuf,
+        /// The underlying error.
+        source: io::Error,
+    },
+    /// A case differs from what was written.
+    #[error("the kept case {name} is damaged and was set aside: {what}")]
+    Damaged {
+        /// Name of the case's folder.
+        name: String,
+        /// The damage found.
+        what: String,
+    },
+    /// A case was written by a newer version.
+    #[error(
+        "the kept case {name} was made by a newer version (format {found}, this one reads up to {known})"
+    )]
+    Newer {
+        /// Name of the case's folder.
+        name: String,
+        /// The schema of the case.
+        found: u32,
+        /// The newest schema that this version reads.
+        known: u32,
+    },
+    /// There is no case of that name.
+    #[error("{}: no kept case named {name}", path.display())]
+    NoSuchCase {
+        /// The folder of cases.
+        path: PathBuf,
+        /// The requested name.
+        name: String,
+    },
+    /// The history to be exported as cases cannot be read.
+    #[error(transparent)]
+    History(#[from] HistoryError),
+    /// The system names no folder for a user's data.
+    #[error("this system has no folder for user data")]
+    NoUserFolder,
+}
+
+impl Advice for CaseError {
+    fn advice(&self) -> String {
+        match self {
+            Self::Unreadable { .. } => "Ask for access to this folder, or choose another".into(),
+            Self::Unwritable { source, .. } => {
+                format!("{}, or choose another folder of cases", advice_on(source))
+            }
+            Self::Damaged { .. } => {
+                "Copy it again from where it came from, or delete its folder".into()
+            }
+            Self::Newer { .. } => "Update Partsight on this computer".into(),
+            Self::NoSuchCase { .. } => "Check whether the folder was moved or renamed".into(),
+            Self::History(error) => error.advice(),
+            Self::NoUserFolder => "Choose a folder of cases".into(),
+        }
+    }
+}

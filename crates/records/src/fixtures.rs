@@ -1,0 +1,200 @@
+//! What tests of this crate and of those above it build.
+
+use std::{path::Path, sync::Arc};
+
+use capture::fixtures::moment;
+use geometry::{
+    error::Advice as _,
+    rigid::{from_euler_zyx, row_major},
+};
+use image::RgbImage;
+use inspection::pipeline::{Recipe, RecipeLabel, Refusal, Rejection};
+use stages::fixtures::small_scene;
+
+use crate::history::{
+    History, HungId, InspectionDetail, NewEntry, Record, StoredRefusal, StoredVerdict, Summary,
+    Traceability,
+};
+
+/// A history entry for an inspection at that time.
+pub fn history_entry(seconds: i64, verdict: StoredVerdict, part: &str) -> NewEntry {
+    let is_named = matches!(verdict, StoredVerdict::Accepted | StoredVerdict::Rejected);
+    let recipe = Recipe::default();
+    let camera_from_part = from_euler_zyx([0.1, 0.2, 0.3, 0.01, 0.02, 1.4]);
+    let line = format!(
+        r#"{{"schema":1,"pose":{{"reference":"{part}","camera_from_part":{:?},"rms_m":{}}},"timings_ms":{{"pose":20.5,"total":31.5,"segment":8.0}}}}"#,
+        row_major(&camera_from_part),
+        0.001 + 1e-4 * seconds as f64,
+    );
+    NewEntry {
+        record: Record {
+            summary: Summary {
+                number: 0,
+                at: moment(seconds),
+                scene: format!("frame {seconds}"),
+                source: "simulated".into(),
+                is_simulated: true,
+                verdict,
+                part: is_named.then(|| part.to_owned()),
+                title: part.replace('_', " "),
+                score: (verdict != StoredVerdict::NoPart).then_some([0.97, 0.25]),
+                total_ms: 31.5,
+                remark: String::new(),
+                label: None,
+                frame_bytes: None,
+                trace: Traceability::default(),
+                hung: HungId::new(),
+                parent: None,
+                num_below: 0,
+            },
+            detail: InspectionDetail {
+                nearest: Some(part.to_owned()),
+                // As written by an earlier version of the program.
+                refusal: Some(StoredRefusal {
+                    reason: "too low".into(),
+                    advice: "look again".into(),
+                    why: None,
+                })
+                .filter(|_| verdict != StoredVerdict::Accepted),
+                camera_from_part: Some(camera_from_part),
+                recipe_label: Some(RecipeLabel::default()),
+                recipe_identity: recipe.identity(),
+                recipe: Some(Arc::new(recipe)),
+                library_identity: "0badcafe".into(),
+                program: "0.1.0".into(),
+                line,
+                thumbnail: Vec::new(),
+                origin: Some("{}".into()),
+                frame: None,
+            },
+        },
+        picture: Some(RgbImage::from_pixel(16, 12, image::Rgb([200, 150, 40]))),
+        scene: Some(small_scene(seconds as u16)),
+        shots: Vec::new(),
+        stands_for_part: false,
+    }
+}
+
+/// The reason for a refusal as the history stores it.
+pub fn refusal(why: impl Into<Refusal>) -> StoredRefusal {
+    let why = why.into();
+    StoredRefusal {
+        reason: why.to_string(),
+        advice: why.advice(),
+        why: Some(why),
+    }
+}
+
+/// The refusal of a part whose score is too low.
+pub fn low_score(part: &str, score: f64) -> StoredRefusal {
+    refusal(Rejection::LowScore {
+        part: part.to_owned(),
+        score,
+        threshold: 0.9,
+    })
+}
+
+/// Opens the history in this folder, and checks that it is undamaged.
+pub fn open_history(folder: &Path) -> History {
+    let opened = History::open(folder).expect("opened");
+    assert_eq!(opened.set_aside, None);
+    opened.history
+}
+
+/// Creates a history in a new folder.
+pub fn new_history() -> (tempfile::TempDir, History) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let history = open_history(folder.path());
+    (folder, history)
+}
+
+/// Checks a value against a JSON schema, as far as the published schemas use its keywords.
+pub fn conforms(
+    value: &serde_json::Value,
+    schema: &serde_json::Value,
+    root: &serde_json::Value,
+) -> Result<(), String> {
+    let wrong = |why: &str| Err(format!("{why}: {value} against {schema}"));
+    if let Some(reference) = schema.get("$ref").and_then(|reference| reference.as_str()) {
+        let pointer = reference.trim_start_matches('#');
+        return conforms(
+            value,
+            root.pointer(pointer).ok_or("a dangling reference")?,
+            root,
+        );
+    }
+    for any in ["anyOf", "oneOf"] {
+        if let Some(choices) = schema.get(any).and_then(|choices| choices.as_array()) {
+            return if choices
+                .iter()
+                .any(|choice| conforms(value, choice, root).is_ok())
+            {
+                Ok(())
+            } else {
+                wrong(any)
+            };
+        }
+    }
+    if let Some(only) = schema.get("const") {
+        return if only == value {
+            Ok(())
+        } else {
+            wrong("const")
+        };
+    }
+    if let Some(choices) = schema.get("enum").and_then(|choices| choices.as_array()) {
+        return if choices.contains(value) {
+            Ok(())
+        } else {
+            wrong("enum")
+        };
+    }
+    let is = |name: &str| match name {
+        "object" => value.is_object(),
+        "array" => value.is_array(),
+        "string" => value.is_string(),
+        "number" => value.is_number(),
+        "integer" => value.is_u64(),
+        "boolean" => value.is_boolean(),
+        "null" => value.is_null(),
+        _ => false,
+    };
+    let fits = match schema.get("type") {
+        Some(serde_json::Value::String(name)) => is(name),
+        Some(serde_json::Value::Array(names)) => {
+            names.iter().filter_map(|name| name.as_str()).any(is)
+        }
+        _ => true,
+    };
+    if !fits {
+        return wrong("type");
+    }
+    if let (Some(fields), Some(properties)) = (
+        value.as_object(),
+        schema.get("properties").and_then(|p| p.as_object()),
+    ) {
+        for required in schema
+            .get("required")
+            .and_then(|r| r.as_array())
+            .into_iter()
+            .flatten()
+        {
+            let name = required.as_str().unwrap_or_default();
+            if !fields.contains_key(name) {
+                return wrong(name);
+            }
+        }
+        for (name, field) in fields {
+            let property = properties
+                .get(name)
+                .ok_or_else(|| format!("{name} is not in the schema"))?;
+            conforms(field, property, root)?;
+        }
+    }
+    if let (Some(items), Some(each)) = (value.as_array(), schema.get("items")) {
+        for item in items {
+            conforms(item, each, root)?;
+        }
+    }
+    Ok(())
+}

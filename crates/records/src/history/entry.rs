@@ -1,0 +1,463 @@
+//! An inspection in the history: before it is written, as a row of a list, and in full.
+
+use std::{io::Cursor, sync::Arc};
+
+use image::{
+    ImageFormat, RgbImage,
+    imageops::{FilterType, resize},
+};
+use jiff::Timestamp;
+
+use super::{frames::FrameRecord, hung::HungId, traceability::Traceability};
+use geometry::{
+    error::Advice as _,
+    rigid::{PoseDelta, RigidTransform, row_major},
+    units::{Metres, Radians},
+};
+use inspection::{
+    library::Truth,
+    pipeline::{Inspection, NamedRecipe, Recipe, RecipeLabel, Refusal, RefusalKind, Verdict},
+};
+use stages::{pose::PoseEstimate, scan::Shot, scene::SceneCloud};
+
+/// Verdict of an inspection.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StoredVerdict {
+    /// A part was found and accepted.
+    Accepted,
+    /// An enrolled part was the best match, and was not accepted. It is stored as `not_accepted`, and people read
+    /// *Not accepted*; otherwise, *not accepted* also means [`Unknown`](Self::Unknown) and [`NoPart`](Self::NoPart).
+    Rejected,
+    /// The object is not an enrolled part.
+    Unknown,
+    /// No part was found.
+    NoPart,
+}
+
+impl StoredVerdict {
+    /// All verdicts.
+    pub const ALL: [Self; 4] = [Self::Accepted, Self::Rejected, Self::Unknown, Self::NoPart];
+
+    /// Returns the name for people.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Accepted => "Accepted",
+            Self::Rejected => "Not accepted",
+            Self::Unknown => "Unknown",
+            Self::NoPart => "No part",
+        }
+    }
+
+    /// Returns the name in the file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Accepted => "accepted",
+            Self::Rejected => "not_accepted",
+            Self::Unknown => "unknown",
+            Self::NoPart => "no_part",
+        }
+    }
+
+    /// Returns the verdict with this name in the file.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|verdict| verdict.name() == name)
+    }
+}
+
+impl From<&Verdict> for StoredVerdict {
+    fn from(verdict: &Verdict) -> Self {
+        match verdict {
+            verdict if verdict.is_accepted() => Self::Accepted,
+            verdict if verdict.is_unknown() => Self::Unknown,
+            Verdict::Part { .. } => Self::Rejected,
+            Verdict::NoPart(_) => Self::NoPart,
+        }
+    }
+}
+
+/// Returns true if a part counts as OK: it was accepted, and no true label says that it is another part, or none.
+pub(super) fn is_ok(verdict: StoredVerdict, part: Option<&str>, label: Option<&Truth>) -> bool {
+    verdict == StoredVerdict::Accepted && label.is_none_or(|label| label.part() == part)
+}
+
+/// Start of a mirror image's title; the part's title follows.
+const MIRRORED: &str = "Mirror image of ";
+
+/// An inspection as a row of a list.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Summary {
+    /// Counts from 1 and is never reused; negative while the inspection is not written yet.
+    pub number: i64,
+    /// Time of the inspection, to the microsecond.
+    pub at: Timestamp,
+    /// Name of the scene for people.
+    pub scene: String,
+    /// Origin of the scene: a source that can be reopened, a file, or a description.
+    pub source: String,
+    /// True if the scene does not come from a camera.
+    pub is_simulated: bool,
+    /// The verdict.
+    pub verdict: StoredVerdict,
+    /// Name of the part found, accepted or not; `None` if it is unknown or there is none.
+    pub part: Option<String>,
+    /// The result for people: the part's title, or why there is none.
+    pub title: String,
+    /// Score (0..1) and margin of the best guess.
+    pub score: Option<[f64; 2]>,
+    /// Time from points to verdict, milliseconds.
+    pub total_ms: f64,
+    /// Remark by a person; may be empty.
+    pub remark: String,
+    /// True label, if one was set.
+    pub label: Option<Truth>,
+    /// Size of the kept frames; `None` if none are kept.
+    pub frame_bytes: Option<u64>,
+    /// Serial number, order and operator; a re-inspection inherits those of its part.
+    pub trace: Traceability,
+    /// The hung part that was inspected.
+    pub hung: HungId,
+    /// Number of the inspection that stands for the same part; `None` if this one does.
+    pub parent: Option<i64>,
+    /// Number of re-inspections below this one, if it stands for the part.
+    pub num_below: usize,
+}
+
+impl Summary {
+    /// Returns the title of the part of which it is the mirror image, if it is one.
+    pub fn mirror_of(&self) -> Option<&str> {
+        let is_unknown = self.verdict == StoredVerdict::Unknown;
+        self.title.strip_prefix(MIRRORED).filter(|_| is_unknown)
+    }
+
+    /// True if the part counts as OK.
+    pub fn is_ok(&self) -> bool {
+        is_ok(self.verdict, self.part.as_deref(), self.label.as_ref())
+    }
+
+    /// True if it was accepted and its true label says that it is another part, or none.
+    pub fn is_wrongly_accepted(&self) -> bool {
+        self.verdict == StoredVerdict::Accepted && !self.is_ok()
+    }
+
+    /// Returns the lower-case text in which a filter looks for its words.
+    pub(super) fn search(&self) -> String {
+        let Self {
+            scene,
+            source,
+            part,
+            title,
+            remark,
+            label,
+            trace,
+            ..
+        } = self;
+        let part = part.as_deref().unwrap_or("");
+        let label = label.as_ref().map_or("", Truth::name);
+        let mut text = format!("{title}\n{part}\n{scene}\n{source}\n{remark}\n{label}");
+        for (_, known) in trace.known() {
+            text.push('\n');
+            text.push_str(known);
+        }
+        text.to_lowercase()
+    }
+}
+
+/// Why an inspection was not accepted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StoredRefusal {
+    /// English sentence with the titles of the parts at that time.
+    pub reason: String,
+    /// English advice on what to do.
+    pub advice: String,
+    /// The refusal with its figures and enrolled names; `None` if an earlier version wrote it, or this one cannot read
+    /// it.
+    pub why: Option<Refusal>,
+}
+
+impl StoredRefusal {
+    fn of(why: Refusal, title_of: impl Fn(&str) -> String) -> Self {
+        let told = why.clone().renamed(title_of);
+        Self {
+            reason: told.to_string(),
+            advice: told.advice(),
+            why: Some(why),
+        }
+    }
+
+    /// Returns the kind, by which refusals are counted.
+    pub fn kind(&self) -> Option<RefusalKind> {
+        self.why.as_ref().map(Refusal::kind)
+    }
+}
+
+/// The data of an inspection that are not in its row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InspectionDetail {
+    /// Name of the best guess, whether or not the verdict names it.
+    pub nearest: Option<String>,
+    /// Why it was not accepted.
+    pub refusal: Option<StoredRefusal>,
+    /// The pose, if there is one.
+    pub camera_from_part: Option<RigidTransform>,
+    /// Name of the recipe; `None` if an earlier version wrote the inspection.
+    pub recipe_label: Option<RecipeLabel>,
+    /// Identity of the recipe.
+    pub recipe_identity: String,
+    /// All parameters; `None` if this program cannot read them. Parameters missing in the file have their defaults.
+    pub recipe: Option<Arc<Recipe>>,
+    /// Identity of the library.
+    pub library_identity: String,
+    /// Version of the program that inspected.
+    pub program: String,
+    /// The line that `inspect --json` writes, including the stage times.
+    pub line: String,
+    /// Small picture of the segmentation as PNG; empty for a scene that is not organised.
+    pub thumbnail: Vec<u8>,
+    /// Where the program that wrote the row finds the scene again; meaningless to other programs.
+    pub origin: Option<String>,
+    /// The kept frame, if any.
+    pub frame: Option<FrameRecord>,
+}
+
+/// An inspection in full.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Record {
+    /// The row for lists.
+    pub summary: Summary,
+    /// All other data.
+    pub detail: InspectionDetail,
+}
+
+/// Maximum width and height of a thumbnail, pixels.
+const THUMBNAIL: [u32; 2] = [160, 120];
+
+/// An inspection to be written.
+#[derive(Clone, Debug)]
+pub struct NewEntry {
+    /// The record, without the number and the fields that writing fills in.
+    pub record: Record,
+    /// The thumbnail, not yet encoded as PNG.
+    pub picture: Option<RgbImage>,
+    /// The inspected scene; `None` if it is not to be kept.
+    pub scene: Option<Arc<SceneCloud>>,
+    /// Shots of a scan with their camera poses from the robot; the scene is one of them. Empty otherwise.
+    pub shots: Vec<Shot>,
+    /// True if it stands for its part also where another inspection of it was written before, unless that one alone
+    /// accepts it.
+    pub stands_for_part: bool,
+}
+
+/// Facts about an inspection that [`Inspection`] does not contain.
+pub struct InspectionContext<'a> {
+    /// Time of the inspection.
+    pub at: Timestamp,
+    /// Name of the scene for people.
+    pub scene: String,
+    /// Origin of the scene.
+    pub source: String,
+    /// True if the scene does not come from a camera.
+    pub is_simulated: bool,
+    /// Returns the title of the part enrolled under a name.
+    pub title_of: &'a dyn Fn(&str) -> String,
+    /// The line that `inspect --json` writes.
+    pub line: String,
+    /// Identity of the library.
+    pub library: String,
+    /// Where the program that writes the row finds the scene again.
+    pub origin: Option<String>,
+    /// Picture of the segmentation, of any size.
+    pub picture: Option<&'a RgbImage>,
+    /// The hung part that was inspected.
+    pub hung: HungId,
+}
+
+impl NewEntry {
+    /// Creates the entry of an inspection.
+    pub fn of(
+        about: InspectionContext<'_>,
+        scene: &Arc<SceneCloud>,
+        inspection: &Inspection,
+        recipe: &NamedRecipe,
+    ) -> Self {
+        let verdict = StoredVerdict::from(&inspection.verdict);
+        let nearest = inspection.verdict.guess().map(str::to_owned);
+        let name = nearest.as_deref().map(about.title_of).unwrap_or_default();
+        let title = match verdict {
+            StoredVerdict::Accepted => name,
+            StoredVerdict::Rejected => format!("Not recognised · nearest {name}"),
+            _ if inspection.verdict.is_mirrored() => format!("{MIRRORED}{name}"),
+            StoredVerdict::Unknown => format!("Unknown · nearest {name}"),
+            StoredVerdict::NoPart => "No part".to_owned(),
+        };
+        let pose = inspection.found_pose();
+        let is_named = !matches!(verdict, StoredVerdict::Unknown | StoredVerdict::NoPart);
+        let micro = about.at.as_microsecond();
+        let summary = Summary {
+            number: 0,
+            // Rounded as in the file, so that a row is the same before and after writing.
+            at: Timestamp::from_microsecond(micro).unwrap_or(about.at),
+            scene: about.scene,
+            source: about.source,
+            is_simulated: about.is_simulated,
+            verdict,
+            part: nearest.clone().filter(|_| is_named),
+            title,
+            score: inspection.verdict.score(),
+            total_ms: inspection.timings.total.as_secs_f64() * 1e3,
+            remark: String::new(),
+            label: None,
+            frame_bytes: None,
+            trace: Traceability::default(),
+            hung: about.hung,
+            parent: None,
+            num_below: 0,
+        };
+        let detail = InspectionDetail {
+            nearest,
+            refusal: inspection
+                .verdict
+                .refusal()
+                .map(|why| StoredRefusal::of(why, about.title_of)),
+            camera_from_part: pose.map(PoseEstimate::camera_from_part),
+            recipe_label: Some(recipe.label.clone()),
+            recipe_identity: recipe.identity(),
+            recipe: Some(Arc::clone(&recipe.parameters)),
+            library_identity: about.library,
+            program: env!("CARGO_PKG_VERSION").to_owned(),
+            line: about.line,
+            thumbnail: Vec::new(),
+            origin: about.origin,
+            frame: None,
+        };
+        Self {
+            record: Record { summary, detail },
+            picture: about.picture.map(small),
+            scene: Some(Arc::clone(scene)),
+            shots: Vec::new(),
+            stands_for_part: false,
+        }
+    }
+
+    /// Adds the shots of a scan.
+    #[must_use]
+    pub fn of_scan(self, shots: Vec<Shot>) -> Self {
+        Self { shots, ..self }
+    }
+
+    /// Drops the scenes from which the frames would be written.
+    pub(super) fn drop_frames(&mut self) {
+        self.scene = None;
+        self.shots = Vec::new();
+    }
+
+    /// True if it stands for its part in place of `head`, which was written before: a part that was refused and is
+    /// accepted as it still hangs there is an accepted part. The part stays accepted for good, since a robot may have
+    /// acted on it. Neither verdict is changed.
+    pub(super) fn takes_over_from(&self, head: &Summary) -> bool {
+        let is_accepted = |row: &Summary| row.verdict == StoredVerdict::Accepted;
+        match (is_accepted(head), is_accepted(&self.record.summary)) {
+            (false, true) => true,
+            (true, false) => false,
+            (true, true) | (false, false) => self.stands_for_part,
+        }
+    }
+}
+
+/// Shrinks a picture by nearest neighbour, which keeps flat colours flat and the PNG small.
+fn small(picture: &RgbImage) -> RgbImage {
+    let [width, height] = THUMBNAIL;
+    let share = (f64::from(width) / f64::from(picture.width().max(1)))
+        .min(f64::from(height) / f64::from(picture.height().max(1)))
+        .min(1.0);
+    let side = |length: u32| ((f64::from(length) * share).round() as u32).max(1);
+    let (width, height) = (side(picture.width()), side(picture.height()));
+    resize(picture, width, height, FilterType::Nearest)
+}
+
+/// Encodes a picture as PNG.
+pub(super) fn png_of(picture: &RgbImage) -> Vec<u8> {
+    let mut png = Cursor::new(Vec::new());
+    // Writing to memory does not fail, and PNG allows any size that a picture has here.
+    let written = picture.write_to(&mut png, ImageFormat::Png);
+    written.map_or_else(|_| Vec::new(), |()| png.into_inner())
+}
+
+impl InspectionDetail {
+    /// Returns the recipe, if this program can read it. Without a stored name, its identity serves as the name.
+    pub fn named_recipe(&self) -> Option<NamedRecipe> {
+        let parameters = Arc::clone(self.recipe.as_ref()?);
+        let label = self.recipe_label.clone();
+        Some(NamedRecipe {
+            label: label.unwrap_or_else(|| RecipeLabel {
+                name: self.recipe_identity.clone(),
+                is_changed: false,
+            }),
+            parameters,
+        })
+    }
+
+    /// Returns how far off the pose may be; `None` if the line has no bounds or the pose is unconstrained.
+    pub(super) fn pose_bounds(&self) -> Option<PoseDelta> {
+        #[derive(serde::Deserialize)]
+        struct Posed {
+            pose: Option<Bounded>,
+        }
+        #[derive(serde::Deserialize)]
+        struct Bounded {
+            shift_bound_m: Option<f64>,
+            turn_bound_rad: Option<f64>,
+        }
+        let line = serde_json::from_str::<Posed>(&self.line).ok()?;
+        let pose = line.pose?;
+        Some(PoseDelta {
+            rotation: Radians(pose.turn_bound_rad?),
+            shift: Metres(pose.shift_bound_m?),
+        })
+    }
+
+    /// Returns the recipe's name, if known, and its identity.
+    pub fn recipe_text(&self) -> String {
+        let identity = &self.recipe_identity;
+        match &self.recipe_label {
+            Some(label) => format!("{label}, {identity}"),
+            None => identity.clone(),
+        }
+    }
+}
+
+impl Record {
+    /// Returns the pose as 16 numbers in row-major order, metres.
+    pub fn matrix(&self) -> Option<[f64; 16]> {
+        self.detail.camera_from_part.as_ref().map(row_major)
+    }
+
+    /// Returns the stage times in milliseconds, in the order of the stages; empty if the line has none.
+    pub fn timings(&self) -> Vec<(String, f64)> {
+        #[derive(serde::Deserialize)]
+        struct Timed {
+            timings_ms: Option<serde_json::Map<String, serde_json::Value>>,
+        }
+        let line = serde_json::from_str::<Timed>(&self.detail.line);
+        let times = line.ok().and_then(|line| line.timings_ms);
+        let mut times: Vec<(String, f64)> = times
+            .into_iter()
+            .flatten()
+            .filter_map(|(stage, ms)| Some((stage, ms.as_f64()?)))
+            .collect();
+        // JSON objects are unordered.
+        let place = |stage: &str| ORDER.iter().position(|known| *known == stage);
+        times.sort_by_key(|(stage, _)| place(stage).unwrap_or(ORDER.len()));
+        times
+    }
+}
+
+/// The stages in the order in which they run.
+const ORDER: [&str; 7] = [
+    "segment",
+    "project",
+    "contour",
+    "signature",
+    "rank",
+    "pose",
+    "total",
+];

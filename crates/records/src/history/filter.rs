@@ -1,0 +1,122 @@
+//! Filters for lists of inspections.
+
+use jiff::Timestamp;
+use rusqlite::types::Value;
+
+use super::entry::{StoredVerdict, Summary};
+
+/// Selects the inspections of a list; the default matches all parts.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Filter {
+    /// Inspected at or after this time.
+    pub since: Option<Timestamp>,
+    /// Inspected before this time.
+    pub until: Option<Timestamp>,
+    /// Recognised as this part, accepted or not.
+    pub part: Option<String>,
+    /// With exactly this verdict.
+    pub verdict: Option<StoredVerdict>,
+    /// Accepted, or not accepted for whatever reason: unknown parts and scenes without a part are not accepted either.
+    pub is_accepted: Option<bool>,
+    /// Simulated or not.
+    pub is_simulated: Option<bool>,
+    /// Only from this source.
+    pub source: Option<String>,
+    /// Includes the re-inspections; otherwise the list has one row per part.
+    pub with_below: bool,
+    /// Words that must each occur in the title, in the name of part, scene or source, in the remark, the true label or
+    /// the traceability; case is ignored.
+    pub text: String,
+    /// Pairs of displayed and stored text, in lower case. A word that occurs in the displayed text also matches the
+    /// stored one.
+    pub shown: Vec<[String; 2]>,
+}
+
+impl Filter {
+    /// Returns whether the filter contains words.
+    pub(super) fn has_words(&self) -> bool {
+        self.words().next().is_some()
+    }
+
+    fn words(&self) -> impl Iterator<Item = String> {
+        self.text.split_whitespace().map(str::to_lowercase)
+    }
+
+    /// Returns the texts of which any one matches the word.
+    fn found_by(&self, word: String) -> Vec<String> {
+        let shown = self.shown.iter();
+        let shown = shown.filter(|[shown, _]| shown.contains(&word));
+        let mut texts: Vec<String> = shown.map(|[_, stored]| stored.clone()).collect();
+        texts.push(word);
+        texts
+    }
+
+    /// Returns the SQL condition, `1` if there is none, and its values.
+    pub fn condition(&self) -> (String, Vec<Value>) {
+        let mut parts: Vec<String> = Vec::new();
+        let mut values = Vec::new();
+        let mut add = |part: &str, value: Value| {
+            parts.push(part.to_owned());
+            values.push(value);
+        };
+        if let Some(since) = self.since {
+            add("at >= ?", since.as_microsecond().into());
+        }
+        if let Some(until) = self.until {
+            add("at < ?", until.as_microsecond().into());
+        }
+        if let Some(verdict) = self.verdict {
+            add("verdict = ?", verdict.name().to_owned().into());
+        }
+        if let Some(is_accepted) = self.is_accepted {
+            let condition = if is_accepted {
+                "verdict = ?"
+            } else {
+                "verdict <> ?"
+            };
+            add(condition, StoredVerdict::Accepted.name().to_owned().into());
+        }
+        if let Some(part) = &self.part {
+            add("part = ?", part.clone().into());
+        }
+        if let Some(is_simulated) = self.is_simulated {
+            add("simulated = ?", is_simulated.into());
+        }
+        if let Some(source) = &self.source {
+            add("source = ?", source.clone().into());
+        }
+        for word in self.words() {
+            let texts = self.found_by(word);
+            let any = vec!["instr(search, ?)"; texts.len()].join(" OR ");
+            parts.push(format!("({any})"));
+            values.extend(texts.into_iter().map(Value::from));
+        }
+        if !self.with_below {
+            parts.push("parent IS NULL".into());
+        }
+        if parts.is_empty() {
+            parts.push("1".into());
+        }
+        (parts.join(" AND "), values)
+    }
+
+    /// Returns whether an inspection matches the filter.
+    pub fn passes(&self, row: &Summary) -> bool {
+        let search = row.search();
+        (self.with_below || row.parent.is_none())
+            && self.since.is_none_or(|since| row.at >= since)
+            && self.until.is_none_or(|until| row.at < until)
+            && (self.part.is_none() || self.part == row.part)
+            && self.verdict.is_none_or(|verdict| row.verdict == verdict)
+            && (self.is_accepted).is_none_or(|is| (row.verdict == StoredVerdict::Accepted) == is)
+            && self.is_simulated.is_none_or(|is| row.is_simulated == is)
+            && self
+                .source
+                .as_ref()
+                .is_none_or(|source| row.source == *source)
+            && self.words().all(|word| {
+                let mut texts = self.found_by(word).into_iter();
+                texts.any(|text| search.contains(&text))
+            })
+    }
+}

@@ -1,0 +1,72 @@
+//! The history: a database of past inspections, and their kept frames.
+//!
+//! ```text
+//! history.sqlite        every inspection: verdict, pose, times, recipe, library, a small picture, remark, true label
+//! history-frames/       frames that the retention rule keeps: depth PNGs as in recordings, other clouds as PCD
+//! history.lock          held by every program that has the history open
+//! ```
+//!
+//! ```text
+//! NewEntry ─► Writer ─► HistoryBuffer ─► History ─► history.sqlite
+//!             a thread  keeps in memory what cannot be written
+//! ```
+//!
+//! Killing the program loses at most the inspection that was being written. A file that cannot be opened is never
+//! deleted: a damaged one is renamed and set aside, one of a newer version is refused and left as it is.
+
+mod buffer;
+mod differences;
+mod drift;
+mod entry;
+mod error;
+mod event;
+mod filter;
+mod frames;
+mod hung;
+mod open;
+mod outcomes;
+mod retention;
+mod rows;
+mod schema;
+mod sending;
+mod shots;
+mod store;
+mod table;
+#[cfg(test)]
+mod tests;
+mod traceability;
+mod waiting;
+mod writer;
+
+pub use self::{
+    buffer::HistoryBuffer,
+    differences::{Differences, InspectionSummary, ParameterChange},
+    drift::{MAX_POSES, PoseRecord},
+    entry::{
+        InspectionContext, InspectionDetail, NewEntry, Record, StoredRefusal, StoredVerdict,
+        Summary,
+    },
+    error::HistoryError,
+    event::HistoryEvent,
+    filter::Filter,
+    frames::{
+        FrameError, FrameRecord, read as read_frame, read_by as read_frame_by,
+        write_as as write_frame,
+    },
+    hung::{HungId, HungRows},
+    open::{FILE, OnlyRead, OpenedHistory, SetAside, users_folder},
+    outcomes::{PartOutcome, RefusalReason},
+    retention::{ACCEPTED_KEPT, KeepFrames, PruneResult, Retention, Usage},
+    shots::{ShotRecord, read_shots},
+    store::{History, Page},
+    table::write_table,
+    traceability::{TraceChange, Traceability},
+    writer::Writer,
+};
+pub use self::{
+    sending::{
+        Column, ColumnKind, DETAIL_COLUMNS, INSPECTION_COLUMNS, RECIPE_COLUMNS, RowReader,
+        UnsentRows,
+    },
+    table::write_cells_table,
+};

@@ -1,0 +1,356 @@
+//! Writing and querying inspections.
+
+use std::path::{Path, PathBuf};
+
+use rusqlite::{
+    Connection, OptionalExtension as _, Transaction, TransactionBehavior, params, params_from_iter,
+    types::Value,
+};
+
+use super::{
+    entry::{NewEntry, Record, StoredVerdict, Summary},
+    error::HistoryError,
+    filter::Filter,
+    frames::{self, FrameRecord},
+    hung::HungId,
+    open::{FILE, FRAMES, Lock, file_identity, with_ending},
+    retention::{KeepFrames, Retention},
+    rows::{columns, detail_columns, head_of, insert, json, record_of, summary_of, trace_part},
+    shots,
+    traceability::TraceChange,
+};
+use inspection::library::Truth;
+use stages::{scan::Shot, scene::SceneCloud};
+
+/// The history: a database of inspections and a folder of frames.
+#[derive(Debug)]
+pub struct History {
+    pub(super) file: Connection,
+    pub(super) path: PathBuf,
+    pub(super) frames: PathBuf,
+    lock: Option<Lock>,
+    /// Identity of the file at opening; `None` if unknown.
+    pub(super) identity: Option<[u64; 2]>,
+    /// Identity of its log at opening.
+    pub(super) log: Option<[u64; 2]>,
+}
+
+/// Some rows of a list, with totals.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Page {
+    /// The rows, newest first.
+    pub rows: Vec<Summary>,
+    /// Number of matching rows; they are parts, unless the filter includes re-inspections.
+    pub num_matching: usize,
+    /// Number of all parts.
+    pub num_all: usize,
+}
+
+impl History {
+    pub(super) fn new(file: Connection, folder: &Path) -> Self {
+        let path = folder.join(FILE);
+        Self {
+            identity: file_identity(&path).ok(),
+            log: file_identity(&with_ending(&path, "-wal")).ok(),
+            file,
+            path,
+            frames: folder.join(FRAMES),
+            lock: None,
+        }
+    }
+
+    pub(super) fn hold(&mut self, lock: Lock) {
+        self.lock = Some(lock);
+    }
+
+    pub(super) fn error(&self, source: rusqlite::Error) -> HistoryError {
+        HistoryError::of(&self.path, source)
+    }
+
+    /// Writes an inspection, and its frame if the rule keeps it, completely or not at all. Returns its number.
+    ///
+    /// The frame is written before the row: a kill in between leaves a stray, which the next opening removes.
+    pub fn add(&mut self, entry: &NewEntry, retention: &Retention) -> Result<i64, HistoryError> {
+        let summary = &entry.record.summary;
+        let scene = entry.scene.as_ref();
+        let frame = match scene.filter(|_| retention.keep != KeepFrames::None) {
+            Some(scene) if entry.shots.is_empty() => {
+                frames::write(&self.frames, scene, summary.at)?
+            }
+            Some(scene) => shots::write_shots(&self.frames, scene, &entry.shots, summary.at)?,
+            None => None,
+        };
+        let is_only_recent =
+            retention.keep == KeepFrames::NotAccepted && summary.verdict == StoredVerdict::Accepted;
+        let frame = frame.map(|frame| FrameRecord {
+            is_only_recent,
+            ..frame
+        });
+        let written = match begin(&mut self.file, entry, frame.as_ref()) {
+            // If the commit fails, the row may still be in the log and reappear with the next opening; otherwise that
+            // opening removes the frame.
+            Ok((file, number)) => file.commit().map(|()| number),
+            Err(error) => {
+                for path in frame.iter().flat_map(|frame| frame.paths(&self.frames)) {
+                    let _ = frames::remove(&path);
+                }
+                Err(error)
+            }
+        };
+        written.map_err(|error| self.error(error))
+    }
+
+    /// Writes many inspections at once, without frames: all or none.
+    pub fn add_all(
+        &mut self,
+        entries: impl IntoIterator<Item = NewEntry>,
+    ) -> Result<(), HistoryError> {
+        let written = || -> rusqlite::Result<()> {
+            let file = self
+                .file
+                .transaction_with_behavior(TransactionBehavior::Immediate)?;
+            for entry in entries {
+                insert(&file, &entry, None)?;
+            }
+            file.commit()
+        };
+        written().map_err(|error| HistoryError::of(&self.path, error))
+    }
+
+    /// Returns up to `most` matching rows from this offset on, newest first, and the totals.
+    pub fn page(&self, filter: &Filter, offset: usize, most: usize) -> Result<Page, HistoryError> {
+        let read = || -> rusqlite::Result<Page> {
+            let num_all = self.count_all()?;
+            let (numbers, num_matching) = if filter.has_words() {
+                // Words require a scan of every row, so do it once for rows and count.
+                self.numbers_and_count(filter, offset, most)?
+            } else if *filter == Filter::default() {
+                (self.numbers(filter, offset, most)?, num_all)
+            } else {
+                (self.numbers(filter, offset, most)?, self.count(filter)?)
+            };
+            Ok(Page {
+                rows: self.rows(&numbers)?,
+                num_matching,
+                num_all,
+            })
+        };
+        read().map_err(|error| self.error(error))
+    }
+
+    fn count_all(&self) -> rusqlite::Result<usize> {
+        let asked = "SELECT count(*) FROM inspection WHERE parent IS NULL";
+        let num: i64 = self.file.query_row(asked, [], |row| row.get(0))?;
+        Ok(num as usize)
+    }
+
+    fn count(&self, filter: &Filter) -> rusqlite::Result<usize> {
+        let (condition, values) = filter.condition();
+        let asked = format!("SELECT count(*) FROM {LISTED} WHERE {condition}");
+        let mut asked = self.file.prepare(&asked)?;
+        let num: i64 = asked.query_row(params_from_iter(values), |row| row.get(0))?;
+        Ok(num as usize)
+    }
+
+    /// Returns the numbers of the rows on a page.
+    fn numbers(&self, filter: &Filter, offset: usize, most: usize) -> rusqlite::Result<Vec<i64>> {
+        let (asked, mut values) = listed_query(filter);
+        values.extend([Value::from(most as i64), Value::from(offset as i64)]);
+        let mut asked = self.file.prepare(&format!("{asked} LIMIT ? OFFSET ?"))?;
+        asked
+            .query_map(params_from_iter(values), |row| row.get(0))?
+            .collect()
+    }
+
+    /// As [`numbers`](Self::numbers), with the number of all matching rows.
+    fn numbers_and_count(
+        &self,
+        filter: &Filter,
+        offset: usize,
+        most: usize,
+    ) -> rusqlite::Result<(Vec<i64>, usize)> {
+        let (asked, values) = listed_query(filter);
+        let mut asked = self.file.prepare(&asked)?;
+        let mut found = asked.query(params_from_iter(values))?;
+        let (mut numbers, mut num) = (Vec::new(), 0);
+        while let Some(row) = found.next()? {
+            if num >= offset && numbers.len() < most {
+                numbers.push(row.get(0)?);
+            }
+            num += 1;
+        }
+        Ok((numbers, num))
+    }
+
+    /// Reads these rows in this order.
+    fn rows(&self, numbers: &[i64]) -> rusqlite::Result<Vec<Summary>> {
+        let columns = columns(&self.file)?;
+        let asked = format!("SELECT {columns} FROM inspection WHERE number = ?");
+        let mut asked = self.file.prepare(&asked)?;
+        // Skip rows that another program has deleted meanwhile.
+        let rows = numbers.iter();
+        let rows = rows.map(|number| asked.query_row([number], summary_of).optional());
+        rows.filter_map(Result::transpose).collect()
+    }
+
+    /// Calls `each` with all matching inspections, oldest first, up to the first error.
+    pub fn each<E: From<HistoryError>>(
+        &self,
+        filter: &Filter,
+        mut each: impl FnMut(Record) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let (condition, values) = filter.condition();
+        let asked = format!("SELECT number FROM inspection WHERE {condition} ORDER BY at, number");
+        let numbers = || -> rusqlite::Result<Vec<i64>> {
+            let mut asked = self.file.prepare(&asked)?;
+            let numbers = asked.query_map(params_from_iter(values), |row| row.get(0))?;
+            numbers.collect()
+        };
+        for number in numbers().map_err(|error| self.error(error))? {
+            // Skip rows that another program has deleted meanwhile.
+            if let Some(record) = self.row(number)? {
+                each(record)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns an inspection in full; `None` if it does not exist.
+    pub fn row(&self, number: i64) -> Result<Option<Record>, HistoryError> {
+        let read = || -> rusqlite::Result<Option<Record>> {
+            let (columns, detail) = (columns(&self.file)?, detail_columns(&self.file)?);
+            let asked = format!(
+                "SELECT {columns}, {detail}
+                FROM inspection JOIN detail USING (number) JOIN recipe ON recipe.identity = detail.recipe
+                WHERE number = ?"
+            );
+            self.file.query_row(&asked, [number], record_of).optional()
+        };
+        read().map_err(|error| self.error(error))
+    }
+
+    /// Returns an inspection in full; it is an error if it does not exist.
+    pub fn known(&self, number: i64) -> Result<Record, HistoryError> {
+        self.row(number)?
+            .ok_or(HistoryError::NoSuchInspection { number })
+    }
+
+    /// Reads the scene of an inspection as it was inspected; `None` if its frame is not kept.
+    pub fn scene(&self, record: &Record) -> Result<Option<SceneCloud>, HistoryError> {
+        let frame = record.detail.frame.as_ref();
+        frame
+            .map(|frame| Ok(frames::read(&self.frames, frame)?))
+            .transpose()
+    }
+
+    /// Reads the shots of a scan as they were inspected; `None` if they are not kept, or it was not a scan.
+    pub fn shots(&self, record: &Record) -> Result<Option<Vec<Shot>>, HistoryError> {
+        let frame = record.detail.frame.as_ref();
+        let frame = frame.filter(|frame| !frame.shots.is_empty());
+        frame
+            .map(|frame| Ok(shots::read_shots(&self.frames, frame)?))
+            .transpose()
+    }
+
+    /// Returns the re-inspections below the inspection of this number, oldest first.
+    pub fn below(&self, number: i64) -> Result<Vec<Record>, HistoryError> {
+        let numbers = || -> rusqlite::Result<Vec<i64>> {
+            let asked = "SELECT number FROM inspection WHERE parent = ? ORDER BY at, number";
+            let mut asked = self.file.prepare(asked)?;
+            let numbers = asked.query_map([number], |row| row.get(0))?;
+            numbers.collect()
+        };
+        let mut below = Vec::new();
+        for number in numbers().map_err(|error| self.error(error))? {
+            below.extend(self.row(number)?);
+        }
+        Ok(below)
+    }
+
+    /// Returns the inspection that stands for a part.
+    pub(super) fn head_of(&self, hung: &HungId) -> Result<Option<Summary>, HistoryError> {
+        head_of(&self.file, hung).map_err(|error| self.error(error))
+    }
+
+    /// Returns the folder of the kept frames.
+    pub fn frames_folder(&self) -> &Path {
+        &self.frames
+    }
+
+    /// Sets the remark on an inspection.
+    pub fn set_remark(&mut self, number: i64, remark: &str) -> Result<(), HistoryError> {
+        self.change(number, |row| remark.trim().clone_into(&mut row.remark))
+    }
+
+    /// Changes the traceability of all inspections of a part after its verdict.
+    pub fn trace_part(&mut self, hung: &HungId, change: &TraceChange) -> Result<(), HistoryError> {
+        trace_part(&mut self.file, hung, change).map_err(|error| self.error(error))
+    }
+
+    /// Sets the true label of an inspection; `None` clears it.
+    pub fn set_label(&mut self, number: i64, label: Option<&Truth>) -> Result<(), HistoryError> {
+        self.change(number, |row| row.label = label.cloned())
+    }
+
+    pub(super) fn change(
+        &mut self,
+        number: i64,
+        change: impl FnOnce(&mut Summary),
+    ) -> Result<(), HistoryError> {
+        let changed = || -> rusqlite::Result<bool> {
+            let file = self
+                .file
+                .transaction_with_behavior(TransactionBehavior::Immediate)?;
+            let columns = columns(&file)?;
+            let asked = format!("SELECT {columns} FROM inspection WHERE number = ?");
+            let row = |number| file.query_row(&asked, [number], summary_of).optional();
+            // Remark and label belong to the inspection that stands for the part.
+            let row = match row(number)? {
+                Some(below) => below.parent.map_or_else(|| Ok(Some(below.clone())), row)?,
+                None => None,
+            };
+            let Some(mut row) = row else {
+                return Ok(false);
+            };
+            change(&mut row);
+            file.execute(
+                "UPDATE inspection SET remark = ?, label = ?, search = ? WHERE number = ?",
+                params![
+                    row.remark,
+                    row.label.as_ref().and_then(json),
+                    row.search(),
+                    row.number
+                ],
+            )?;
+            file.commit()?;
+            Ok(true)
+        };
+        match changed() {
+            Ok(true) => Ok(()),
+            Ok(false) => Err(HistoryError::NoSuchInspection { number }),
+            Err(error) => Err(HistoryError::of(&self.path, error)),
+        }
+    }
+}
+
+/// The table with the index that holds all columns of the filters.
+const LISTED: &str = "inspection INDEXED BY listed";
+
+/// Inserts an inspection without committing; returns the transaction and the number.
+fn begin<'a>(
+    file: &'a mut Connection,
+    entry: &NewEntry,
+    frame: Option<&FrameRecord>,
+) -> rusqlite::Result<(Transaction<'a>, i64)> {
+    let begun = file.transaction_with_behavior(TransactionBehavior::Immediate)?;
+    let number = insert(&begun, entry, frame)?;
+    Ok((begun, number))
+}
+
+/// Returns the query for the matching rows, newest first; the index alone answers it.
+pub(super) fn listed_query(filter: &Filter) -> (String, Vec<Value>) {
+    let (condition, values) = filter.condition();
+    let asked =
+        format!("SELECT number FROM {LISTED} WHERE {condition} ORDER BY at DESC, number DESC");
+    (asked, values)
+}

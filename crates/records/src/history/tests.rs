@@ -1,0 +1,1101 @@
+//! Writing, querying, filtering and sweeping.
+
+use std::{sync::Arc, time::Instant};
+
+use rand::{RngExt as _, SeedableRng as _};
+use rusqlite::params_from_iter;
+
+use super::{outcomes::outcomes_query, schema::VERSION, store::listed_query, *};
+use crate::fixtures::{history_entry, low_score, new_history, open_history, refusal};
+use capture::fixtures::moment;
+use files::fixtures::csv_column;
+use geometry::rigid::from_euler_zyx;
+use inspection::{
+    fixtures::{rejections, unrecognisables},
+    library::Truth,
+    pipeline::{Recipe, RecipeLabel, RefusalKind},
+};
+use stages::{fixtures::small_scene, scan::Shot};
+
+const ALL: Retention = Retention {
+    keep: KeepFrames::All,
+    max_days: 30,
+    max_gigabytes: 1.0,
+};
+
+fn numbers(history: &History, filter: &Filter) -> Vec<i64> {
+    let page = history.page(filter, 0, 1000).expect("asked");
+    assert_eq!(page.num_matching, page.rows.len());
+    page.rows.iter().map(|row| row.number).collect()
+}
+
+#[test]
+fn what_is_written_comes_back_whole_also_after_closing() {
+    let (folder, mut history) = new_history();
+    let written = history_entry(1, StoredVerdict::Rejected, "front_door");
+    assert_eq!(history.add(&written, &ALL).expect("written"), 1);
+    history.set_remark(1, " a dent, below ").expect("written");
+    let label = Truth::Part("back_door".into());
+    history.set_label(1, Some(&label)).expect("written");
+    drop(history);
+
+    let history = open_history(folder.path());
+    let record = history.known(1).expect("there");
+    let scene = history.scene(&record).expect("read").expect("kept");
+    assert_eq!(Some(&scene), written.scene.as_deref());
+    assert_eq!(
+        image::load_from_memory(&record.detail.thumbnail)
+            .expect("a PNG")
+            .width(),
+        16
+    );
+    assert_eq!(
+        record.timings(),
+        [
+            ("segment".into(), 8.0),
+            ("pose".into(), 20.5),
+            ("total".into(), 31.5)
+        ]
+    );
+    let frame = record.detail.frame.clone().expect("kept");
+    let mut expected = written.record;
+    expected.summary.number = 1;
+    expected.summary.remark = "a dent, below".into();
+    expected.summary.label = Some(label);
+    expected.summary.frame_bytes = Some(frame.bytes);
+    expected
+        .detail
+        .thumbnail
+        .clone_from(&record.detail.thumbnail);
+    expected.detail.frame = Some(frame);
+    let pose = expected
+        .detail
+        .camera_from_part
+        .take()
+        .zip(record.detail.camera_from_part);
+    let (before, now) = pose.expect("both");
+    assert!((before.to_matrix() - now.to_matrix()).norm() < 1e-12);
+    expected.detail.camera_from_part = Some(now);
+    assert_eq!(record, expected);
+    assert!(matches!(
+        history.known(2),
+        Err(HistoryError::NoSuchInspection { number: 2 })
+    ));
+}
+
+#[test]
+fn the_newest_come_first_page_by_page() {
+    let (_folder, mut history) = new_history();
+    for seconds in [5, 3, 9, 1, 7] {
+        let entry = history_entry(seconds, StoredVerdict::Accepted, "fender");
+        history.add(&entry, &Retention::default()).expect("written");
+    }
+    let page = |offset| {
+        let page = history.page(&Filter::default(), offset, 2).expect("asked");
+        assert_eq!((page.num_matching, page.num_all), (5, 5));
+        page.rows
+            .iter()
+            .map(|row| row.scene.clone())
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(page(0), ["frame 9", "frame 7"]);
+    assert_eq!(page(2), ["frame 5", "frame 3"]);
+    assert_eq!(page(4), ["frame 1"]);
+    assert!(page(6).is_empty());
+}
+
+#[test]
+fn every_filter_lets_through_what_a_plain_look_at_the_rows_does() {
+    let (_folder, mut history) = new_history();
+    let mut random = rand_pcg::Pcg64::seed_from_u64(7);
+    let parts = ["front_door", "Fender", "back_door"];
+    let mut rows = Vec::new();
+    for _ in 0..200 {
+        let verdict = StoredVerdict::ALL[random.random_range(0..4)];
+        let part = parts[random.random_range(0..3)];
+        let mut entry = history_entry(random.random_range(0..500), verdict, part);
+        entry.record.summary.is_simulated = random.random();
+        entry.record.summary.source = ["kinect", "kinect:B"][random.random_range(0..2)].into();
+        entry.record.summary.remark = ["", "Beule Ö", "dent 50%"][random.random_range(0..3)].into();
+        entry.scene = None;
+        let number = history.add(&entry, &Retention::default()).expect("written");
+        entry.record.summary.number = number;
+        rows.push(entry.record.summary);
+    }
+    rows.sort_by_key(|row| std::cmp::Reverse((row.at, row.number)));
+    let mut num_found = 0;
+    for _ in 0..300 {
+        let from = random.random_range(0..500);
+        let filter = Filter {
+            since: random.random::<bool>().then(|| moment(from)),
+            until: random.random::<bool>().then(|| moment(from + 150)),
+            part: random
+                .random_bool(0.3)
+                .then(|| parts[random.random_range(0..3)].to_owned()),
+            verdict: random
+                .random_bool(0.3)
+                .then(|| StoredVerdict::ALL[random.random_range(0..4)]),
+            is_accepted: random.random_bool(0.3).then(|| random.random()),
+            is_simulated: random.random_bool(0.3).then(|| random.random()),
+            source: random.random_bool(0.2).then(|| "kinect".to_owned()),
+            with_below: random.random(),
+            text: [
+                "",
+                "",
+                "door",
+                "FENDER  dent",
+                "ö",
+                "50%",
+                "_door frame",
+                "nothing",
+                "Tür frame",
+            ][random.random_range(0..9)]
+            .into(),
+            shown: vec![["tür".into(), "door".into()]],
+        };
+        let plain: Vec<i64> = rows
+            .iter()
+            .filter(|row| filter.passes(row))
+            .map(|row| row.number)
+            .collect();
+        num_found += plain.len();
+        assert_eq!(numbers(&history, &filter), plain, "{filter:?}");
+    }
+    assert!(num_found > 1000, "{num_found}");
+}
+
+#[test]
+fn a_word_of_what_is_shown_finds_what_is_stored() {
+    let (_folder, mut history) = new_history();
+    for seconds in [1, 2] {
+        let mut entry = history_entry(seconds, StoredVerdict::Accepted, "fender");
+        entry.record.summary.scene = ["Simulated frame 7", "Bild.pcd"][seconds as usize - 1].into();
+        entry.scene = None;
+        history.add(&entry, &Retention::default()).expect("written");
+    }
+    let asked = |text: &str, shown: &[[&str; 2]]| Filter {
+        text: text.into(),
+        shown: shown.iter().map(|both| both.map(str::to_owned)).collect(),
+        ..Filter::default()
+    };
+    let shown = [["simuliertes bild ", "simulated frame "]];
+    for (text, expected) in [
+        ("BILD", &[2, 1][..]),
+        ("simuliertes bild 7", &[1]),
+        ("simulated frame", &[1]),
+        ("bild 8", &[]),
+        ("simuliertes bilder", &[]),
+    ] {
+        assert_eq!(numbers(&history, &asked(text, &shown)), expected, "{text}");
+    }
+    assert_eq!(numbers(&history, &asked("bild", &[])), [2]);
+}
+
+#[test]
+fn a_hundred_thousand_rows_are_asked_right_and_from_the_index_alone() {
+    const NUM: i64 = 100_000;
+    let (_folder, mut history) = new_history();
+    let entries = (0..NUM).map(|i| {
+        let verdict = if i % 10 == 0 {
+            StoredVerdict::Rejected
+        } else {
+            StoredVerdict::Accepted
+        };
+        let mut entry = history_entry(i, verdict, if i % 8 == 0 { "grille" } else { "front_door" });
+        (entry.picture, entry.scene) = (None, None);
+        entry
+    });
+    history.add_all(entries).expect("written");
+    let filters = [
+        (Filter::default(), NUM),
+        (
+            Filter {
+                verdict: Some(StoredVerdict::Rejected),
+                ..Filter::default()
+            },
+            NUM / 10,
+        ),
+        (
+            Filter {
+                part: Some("grille".into()),
+                ..Filter::default()
+            },
+            NUM / 8,
+        ),
+        (
+            Filter {
+                since: Some(moment(NUM - 1000)),
+                ..Filter::default()
+            },
+            1000,
+        ),
+        (
+            Filter {
+                // Also matches 19999, 29999 and so on.
+                text: "frame 9999".into(),
+                ..Filter::default()
+            },
+            19,
+        ),
+        (
+            Filter {
+                text: "grille".into(),
+                verdict: Some(StoredVerdict::Rejected),
+                until: Some(moment(NUM / 2)),
+                ..Filter::default()
+            },
+            NUM / 80,
+        ),
+    ];
+    for (filter, num) in filters {
+        let page = history.page(&filter, 0, 50).expect("asked");
+        assert_eq!(
+            (page.num_matching as i64, page.num_all as i64),
+            (num, NUM),
+            "{filter:?}"
+        );
+        assert_eq!(page.rows.len() as i64, num.min(50));
+        assert!(
+            page.rows
+                .is_sorted_by_key(|row| std::cmp::Reverse(row.number))
+        );
+        let far = history.page(&filter, num as usize - 1, 50).expect("asked");
+        assert_eq!(far.rows.len(), 1);
+        // In index order, without sorting.
+        let plan = plan_of(&history, listed_query(&filter));
+        assert!(plan.contains("COVERING INDEX listed"), "{plan}");
+        assert!(!plan.contains("TEMP B-TREE"), "{plan}");
+        // Statistics read only the kind of a refusal from the rows themselves.
+        let plan = plan_of(&history, outcomes_query(&filter, VERSION));
+        assert!(plan.contains("INDEX listed"), "{plan}");
+        assert!(!plan.contains("TEMP B-TREE"), "{plan}");
+        let outcomes = history.outcomes(&filter).expect("asked");
+        assert_eq!(outcomes.len() as i64, num, "{filter:?}");
+    }
+}
+
+/// Returns the query plan.
+fn plan_of(history: &History, (asked, values): (String, Vec<rusqlite::types::Value>)) -> String {
+    let asked = format!("EXPLAIN QUERY PLAN {asked}");
+    let mut plan = history.file.prepare(&asked).expect("asked");
+    let lines = plan.query_map(params_from_iter(values), |row| row.get("detail"));
+    let lines: rusqlite::Result<Vec<String>> = lines.expect("asked").collect();
+    lines.expect("text").join("\n")
+}
+
+#[test]
+fn frames_go_by_rule_age_and_size_and_marked_ones_stay() {
+    let (folder, mut history) = new_history();
+    let day = 24 * 3600;
+    let keep = |keep| Retention { keep, ..ALL };
+    let mut add = |days: i64, verdict, keep| {
+        let entry = history_entry(days * day, verdict, "grille");
+        let number = history.add(&entry, &keep).expect("written");
+        let frame = history.known(number).expect("there").summary.frame_bytes;
+        (number, frame)
+    };
+    assert!(
+        add(0, StoredVerdict::NoPart, keep(KeepFrames::None))
+            .1
+            .is_none()
+    );
+    let (old, _) = add(1, StoredVerdict::Unknown, keep(KeepFrames::NotAccepted));
+    let (marked, _) = add(2, StoredVerdict::Rejected, ALL);
+    for days in (5..40).step_by(3) {
+        add(days, StoredVerdict::NoPart, keep(KeepFrames::None));
+    }
+    let (next, bytes) = add(40, StoredVerdict::Accepted, ALL);
+    let (newest, _) = add(41, StoredVerdict::Accepted, ALL);
+    history.set_remark(marked, "asked about").expect("written");
+    let is_kept = |history: &History, number| {
+        history
+            .known(number)
+            .expect("there")
+            .summary
+            .frame_bytes
+            .is_some()
+    };
+
+    let swept = history.sweep(&ALL, moment(41 * day)).expect("swept");
+    assert_eq!(swept.num_frames, 1);
+    assert!(!is_kept(&history, old) && is_kept(&history, marked) && is_kept(&history, next));
+
+    let bytes = bytes.expect("kept");
+    let usage = history.usage().expect("asked");
+    assert_eq!(usage.num_frames, 3);
+    assert!(usage.num_bytes_marked > 0 && usage.num_bytes_marked < usage.num_bytes);
+    // Limits below 0.1 GB are clamped, so pretend 60 MB per frame: the limit then fits the marked one and one more.
+    history
+        .file
+        .execute(
+            "UPDATE inspection SET frame_bytes = 60000000 WHERE frame_bytes IS NOT NULL",
+            [],
+        )
+        .expect("changed");
+    let tight = Retention {
+        max_gigabytes: 0.13,
+        ..ALL
+    };
+    history.sweep(&tight, moment(41 * day)).expect("swept");
+    assert!(!is_kept(&history, next) && is_kept(&history, newest) && is_kept(&history, marked));
+    let files = std::fs::read_dir(folder.path().join("history-frames")).expect("listed");
+    // The two frames and their camera.
+    assert_eq!(files.count(), 3, "{bytes}");
+}
+
+#[test]
+fn a_clock_that_is_wrong_removes_no_frames_and_the_age_goes_on_when_it_is_right() {
+    let day = 24 * 3600;
+    let (_folder, mut history) = new_history();
+    let add = |history: &mut History, days: i64, keep| {
+        let entry = history_entry(days * day, StoredVerdict::NoPart, "grille");
+        let retention = Retention { keep, ..ALL };
+        history.add(&entry, &retention).expect("written");
+    };
+    let swept = |history: &mut History, days: i64| {
+        let swept = history.sweep(&ALL, moment(days * day)).expect("swept");
+        swept.num_frames
+    };
+    for days in 1..=20 {
+        add(&mut history, days, KeepFrames::All);
+    }
+    // Ten years ahead, before its first inspection.
+    assert_eq!(swept(&mut history, 3650), 0);
+    // A clock without a battery: the inspection seems years old.
+    add(&mut history, -2000, KeepFrames::All);
+    assert_eq!(swept(&mut history, 21), 0);
+    for days in [3670, 3671] {
+        add(&mut history, days, KeepFrames::All);
+        assert_eq!(swept(&mut history, days), 0);
+    }
+    add(&mut history, 22, KeepFrames::All);
+    assert_eq!(swept(&mut history, 22), 0);
+    for days in 23..=50 {
+        add(&mut history, days, KeepFrames::None);
+    }
+    // The wrong clock made them older by at most a few days.
+    assert_eq!(swept(&mut history, 50), 21);
+
+    // The clock is wrong at every start of the computer until it has asked the network.
+    let (_folder, mut history) = new_history();
+    for days in 1..=20 {
+        add(&mut history, -2000, KeepFrames::All);
+        add(&mut history, days, KeepFrames::All);
+    }
+    assert_eq!(swept(&mut history, 21), 0);
+    for days in 21..=40 {
+        add(&mut history, days, KeepFrames::None);
+    }
+    // A tenth early at most: what is 27 days old stays.
+    assert_eq!(swept(&mut history, 40), 23);
+}
+
+#[test]
+fn only_an_accepted_part_with_the_label_of_another_is_wrongly_accepted() {
+    let mut row = history_entry(1, StoredVerdict::Accepted, "fender")
+        .record
+        .summary;
+    assert!(!row.is_wrongly_accepted());
+    for (label, is_wrong) in [
+        (Truth::Part("fender".into()), false),
+        (Truth::Part("grille".into()), true),
+        (Truth::NotEnrolled, true),
+    ] {
+        row.label = Some(label);
+        assert_eq!(row.is_wrongly_accepted(), is_wrong);
+    }
+    row.verdict = StoredVerdict::Rejected;
+    assert!(!row.is_wrongly_accepted());
+}
+
+#[test]
+fn a_part_that_was_reported_as_wrong_does_not_count_as_ok() {
+    let (_folder, mut history) = new_history();
+    for seconds in 1..=3 {
+        let entry = history_entry(seconds, StoredVerdict::Accepted, "fender");
+        history.add(&entry, &ALL).expect("written");
+    }
+    for (number, label) in [(2, "fender"), (3, "grille")] {
+        let label = Truth::Part(label.into());
+        history.set_label(number, Some(&label)).expect("written");
+    }
+    let outcomes = history.outcomes(&Filter::default()).expect("asked");
+    let are_ok: Vec<bool> = outcomes.iter().map(|outcome| outcome.is_ok).collect();
+    assert_eq!(are_ok, [true, true, false]);
+    for (number, outcome) in (1..).zip(outcomes) {
+        let record = history.known(number).expect("there");
+        assert_eq!(PartOutcome::from(&record), outcome);
+    }
+}
+
+#[test]
+fn the_newest_accepted_parts_keep_their_frames_until_they_are_labelled() {
+    let (_folder, mut history) = new_history();
+    let rule = Retention {
+        keep: KeepFrames::NotAccepted,
+        ..ALL
+    };
+    let num = ACCEPTED_KEPT as i64 + 3;
+    for seconds in 0..num {
+        let entry = history_entry(seconds, StoredVerdict::Accepted, "grille");
+        history.add(&entry, &rule).expect("written");
+    }
+    let refused = history_entry(0, StoredVerdict::Rejected, "grille");
+    let refused = history.add(&refused, &rule).expect("written");
+    // Another program keeps all frames; this one does not know.
+    let all = history_entry(0, StoredVerdict::Accepted, "grille");
+    let all = history.add(&all, &ALL).expect("written");
+    // What was wrongly accepted is said two parts later.
+    let truth = Truth::Part("fender".into());
+    history.set_label(1, Some(&truth)).expect("labelled");
+    let swept = history.sweep(&rule, moment(num)).expect("swept");
+    assert_eq!(swept.num_frames, 2);
+    let has_frame = |history: &History, number| {
+        let summary = history.known(number).expect("there").summary;
+        summary.frame_bytes.is_some()
+    };
+    let kept = [1, 2, 3, 4, num, refused, all].map(|number| has_frame(&history, number));
+    assert_eq!(kept, [true, false, false, true, true, true, true]);
+    // Where space is short they go first, although others are older.
+    let least = Retention {
+        max_gigabytes: 0.1,
+        ..rule
+    };
+    let bytes = 110_000_000 - history.usage().expect("read").num_bytes as i64;
+    history
+        .file
+        .execute(
+            "UPDATE inspection SET frame_bytes = ? WHERE number = ?",
+            [bytes, num],
+        )
+        .expect("grown");
+    history.sweep(&least, moment(num)).expect("swept");
+    assert!(!has_frame(&history, num) && has_frame(&history, all));
+    assert!(has_frame(&history, refused));
+}
+
+#[test]
+fn frames_without_a_row_go_and_rows_without_a_frame_say_so() {
+    let (folder, mut history) = new_history();
+    let number = history
+        .add(&history_entry(1, StoredVerdict::NoPart, "grille"), &ALL)
+        .expect("written");
+    let other = history
+        .add(&history_entry(2, StoredVerdict::NoPart, "grille"), &ALL)
+        .expect("written");
+    let frame = history
+        .known(number)
+        .expect("there")
+        .detail
+        .frame
+        .expect("kept");
+    let frames = history.frames_folder().to_owned();
+    std::fs::remove_file(frames.join(&frame.file)).expect("removed");
+    let stray = frames.join("20260301T060000000-1-999.png");
+    std::fs::write(&stray, "half a frame").expect("written");
+    // While another program has it open nothing is a stray, since its row may be about to be written.
+    let second = open_history(folder.path());
+    assert!(stray.exists());
+    drop((history, second));
+
+    let history = open_history(folder.path());
+    assert!(!stray.exists());
+    assert_eq!(history.known(number).expect("there").detail.frame, None);
+    let kept = history.known(other).expect("there");
+    assert!(history.scene(&kept).expect("read").is_some());
+    assert_eq!(history.usage().expect("asked").num_frames, 1);
+}
+
+#[test]
+fn two_recipes_with_one_identity_are_both_kept() {
+    let (_folder, mut history) = new_history();
+    let mut second = history_entry(2, StoredVerdict::NoPart, "grille");
+    let mut recipe = Recipe::default();
+    recipe.accept.min_score = 0.5;
+    second.record.detail.recipe = Some(Arc::new(recipe.clone()));
+    let label = RecipeLabel {
+        name: "glossy".into(),
+        is_changed: true,
+    };
+    second.record.detail.recipe_label = Some(label.clone());
+    for entry in [history_entry(1, StoredVerdict::NoPart, "grille"), second] {
+        history.add(&entry, &Retention::default()).expect("written");
+    }
+    let recipe_of = |number| history.known(number).expect("there").detail.recipe;
+    assert_eq!(recipe_of(1).as_deref(), Some(&Recipe::default()));
+    assert_eq!(recipe_of(2).as_deref(), Some(&recipe));
+    let label_of = |number| history.known(number).expect("there").detail.recipe_label;
+    assert_eq!(label_of(1), Some(RecipeLabel::default()));
+    assert_eq!(label_of(2), Some(label));
+}
+
+#[test]
+fn the_table_has_a_line_for_each_row_and_as_many_fields_as_its_head() {
+    let (folder, mut history) = new_history();
+    for seconds in 1..=4 {
+        let mut entry = history_entry(seconds, StoredVerdict::Rejected, "grille");
+        if seconds == 4 {
+            entry.record.detail.refusal = Some(low_score("grille", 0.81));
+        }
+        history.add(&entry, &Retention::default()).expect("written");
+    }
+    let path = folder.path().join("all.csv");
+    let written = write_table(&path, |row| history.each(&Filter::default(), row));
+    assert_eq!(written.expect("written"), 4);
+    let table = std::fs::read_to_string(&path).expect("text");
+    let lines: Vec<&str> = table.lines().collect();
+    assert_eq!(lines.len(), 5);
+    assert!(lines[1].starts_with("1,2026-03-01T06:00:01Z,frame 1,simulated,true,not_accepted,grille,grille,0.9700,0.2500,too low,31.500,"));
+    // Commas inside quotation marks do not separate fields.
+    let num_fields = |line: &str| {
+        let bare = line.split('"').step_by(2);
+        bare.map(|piece| piece.matches(',').count()).sum::<usize>()
+    };
+    let wanted = num_fields(lines[0]);
+    assert!(lines.iter().all(|line| num_fields(line) == wanted));
+    // The first rows were written by an earlier version.
+    let kinds = csv_column(&table, "reason_kind");
+    assert_eq!(kinds, ["", "", "", "low_score"]);
+    // If reading fails midway, the existing table is kept.
+    let failed = write_table(&path, |row| {
+        history.each(&Filter::default(), row)?;
+        Err(HistoryError::NoSuchInspection { number: 5 })
+    });
+    failed.expect_err("not whole");
+    assert_eq!(std::fs::read_to_string(&path).expect("text"), table);
+}
+
+/// Creates another inspection of the same part.
+fn again(of: &NewEntry, seconds: i64, verdict: StoredVerdict) -> NewEntry {
+    let mut other = history_entry(seconds, verdict, "grille");
+    other.record.summary.hung = of.record.summary.hung.clone();
+    other
+}
+
+#[test]
+fn a_part_counts_once_however_often_it_was_inspected_and_nothing_of_it_is_lost() {
+    let (folder, mut history) = new_history();
+    let part = history_entry(1, StoredVerdict::Accepted, "grille");
+    let other = history_entry(2, StoredVerdict::Rejected, "grille");
+    for entry in [
+        &part,
+        &again(&part, 3, StoredVerdict::Rejected),
+        &other,
+        &again(&part, 4, StoredVerdict::Accepted),
+    ] {
+        history.add(entry, &ALL).expect("written");
+    }
+    let all = Filter::default();
+    let page = history.page(&all, 0, 10).expect("asked");
+    assert_eq!((page.num_matching, page.num_all), (2, 2));
+    let rows: Vec<_> = page
+        .rows
+        .iter()
+        .map(|row| (row.number, row.num_below))
+        .collect();
+    assert_eq!(rows, [(3, 0), (1, 2)]);
+    let accepted = Filter {
+        verdict: Some(StoredVerdict::Accepted),
+        ..all.clone()
+    };
+    assert_eq!(numbers(&history, &accepted), [1]);
+    let with_below = Filter {
+        with_below: true,
+        ..all.clone()
+    };
+    assert_eq!(numbers(&history, &with_below), [4, 2, 3, 1]);
+    let below = history.below(1).expect("asked");
+    let below: Vec<_> = below
+        .iter()
+        .map(|r| (r.summary.number, r.summary.verdict))
+        .collect();
+    assert_eq!(
+        below,
+        [(2, StoredVerdict::Rejected), (4, StoredVerdict::Accepted)]
+    );
+    let mut exported = 0;
+    let counted = history.each(&all, |_| {
+        exported += 1;
+        Ok::<(), HistoryError>(())
+    });
+    counted.expect("listed");
+    assert_eq!(exported, 2);
+    // Each inspection keeps its own frame.
+    assert_eq!(history.usage().expect("asked").num_frames, 4);
+    drop(history);
+    assert_eq!(
+        open_history(folder.path())
+            .usage()
+            .expect("asked")
+            .num_frames,
+        4
+    );
+}
+
+#[test]
+fn a_refusal_gives_way_to_an_acceptance_and_an_acceptance_stands() {
+    let (_folder, mut history) = new_history();
+    let part = history_entry(1, StoredVerdict::Unknown, "grille");
+    history.add(&part, &ALL).expect("written");
+    history.set_remark(1, "a new grille").expect("written");
+    history
+        .add(&again(&part, 2, StoredVerdict::Rejected), &ALL)
+        .expect("written");
+    assert_eq!(numbers(&history, &Filter::default()), [1]);
+    history
+        .add(&again(&part, 3, StoredVerdict::Accepted), &ALL)
+        .expect("written");
+    history
+        .add(&again(&part, 4, StoredVerdict::Rejected), &ALL)
+        .expect("written");
+    let page = history.page(&Filter::default(), 0, 10).expect("asked");
+    let [row] = page.rows.as_slice() else {
+        panic!("{page:?}");
+    };
+    assert_eq!(
+        (row.number, row.num_below, row.verdict),
+        (3, 3, StoredVerdict::Accepted)
+    );
+    // A remark on the part is found with it; the first result is unchanged.
+    assert_eq!(row.remark, "a new grille");
+    let text = "new".into();
+    let found = Filter {
+        text,
+        ..Filter::default()
+    };
+    assert_eq!(numbers(&history, &found), [3]);
+    history.set_remark(1, "the new grille").expect("written");
+    assert_eq!(
+        history.known(3).expect("there").summary.remark,
+        "the new grille"
+    );
+    let first = history.known(1).expect("there").summary;
+    assert_eq!(
+        (first.verdict, first.parent),
+        (StoredVerdict::Unknown, Some(3))
+    );
+}
+
+#[test]
+fn a_part_stays_a_part_of_its_source_when_a_repeated_inspection_stands_for_it() {
+    let (_folder, mut history) = new_history();
+    let waiting = HistoryBuffer::new(None);
+    let mut part = history_entry(1, StoredVerdict::Rejected, "grille");
+    part.record.summary.source = "kinect".into();
+    let mut repeated = again(&part, 2, StoredVerdict::Accepted);
+    repeated.record.summary.source = "Kinect frame 12".into();
+    for (ticket, entry) in (1..).zip([&part, &repeated]) {
+        history.add(entry, &ALL).expect("written");
+        waiting.add(ticket, entry.clone(), Instant::now());
+    }
+    let of_camera = Filter {
+        source: Some("kinect".into()),
+        ..Filter::default()
+    };
+    assert_eq!(numbers(&history, &of_camera), [2]);
+    let page = waiting.page(&of_camera, 0, 10).expect("asked");
+    assert_eq!(page.num_matching, 1);
+    assert_eq!(page.rows[0].verdict, StoredVerdict::Accepted);
+}
+
+#[test]
+fn what_stands_for_its_part_does_so_above_what_was_written_before_unless_that_alone_accepts_it() {
+    use StoredVerdict::{Accepted, Rejected};
+
+    let standing = |of: &NewEntry, seconds, verdict| {
+        let mut entry = again(of, seconds, verdict);
+        entry.stands_for_part = true;
+        entry.record.summary.trace.serial = format!("TL-{seconds}");
+        entry
+    };
+    let parts = [(1, Accepted), (3, Accepted), (5, Rejected)];
+    let [one, two, three] =
+        parts.map(|(seconds, verdict)| history_entry(seconds, verdict, "grille"));
+    let entries = [
+        one.clone(),
+        standing(&one, 2, Accepted),
+        two.clone(),
+        standing(&two, 4, Rejected),
+        three.clone(),
+        standing(&three, 6, Rejected),
+    ];
+    let (_folder, mut history) = new_history();
+    // Those that wait in memory are listed in the same way.
+    let buffer = HistoryBuffer::default();
+    for (ticket, entry) in entries.into_iter().enumerate() {
+        history.add(&entry, &ALL).expect("written");
+        buffer.add(ticket as u64, entry, std::time::Instant::now());
+    }
+    let all = Filter::default();
+    let written = history.page(&all, 0, 9).expect("asked");
+    let waiting = buffer.page(&all, 0, 9).expect("asked");
+    for page in [written, waiting] {
+        let row = |row: &Summary| (row.scene.clone(), row.num_below, row.trace.serial.clone());
+        let rows: Vec<_> = page.rows.iter().map(row).collect();
+        let expected = [
+            ("frame 6", "TL-6"),
+            ("frame 3", "TL-4"),
+            ("frame 2", "TL-2"),
+        ];
+        let expected = expected.map(|(scene, serial)| (scene.to_owned(), 1, serial.to_owned()));
+        assert_eq!(rows, expected);
+    }
+    // What is traced later is found with the part.
+    let found = Filter {
+        text: "tl-4".into(),
+        ..all
+    };
+    assert_eq!(numbers(&history, &found), [3]);
+}
+
+#[test]
+fn a_file_of_the_first_version_is_brought_up_to_date_with_all_that_was_written() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join(FILE);
+    let file = rusqlite::Connection::open(&path).expect("made");
+    file.execute_batch(include_str!("first_version.sql"))
+        .expect("made");
+    drop(file);
+    let mut history = open_history(folder.path());
+    assert_eq!(numbers(&history, &Filter::default()), [3, 2, 1]);
+    let record = history.known(2).expect("there");
+    assert_eq!(record.summary.title, "Fender, left");
+    assert_eq!(
+        (record.summary.remark.as_str(), record.summary.num_below),
+        ("a dent", 0)
+    );
+    assert_eq!(record.summary.label, Some(Truth::Part("fender".into())));
+    assert_eq!(record.detail.line, "{\"scene\":\"b\"}");
+    assert_eq!(record.detail.recipe_label, None);
+    // Inspecting it again still gives one part.
+    let mut again = history_entry(9, StoredVerdict::Rejected, "fender");
+    again.record.summary.hung = record.summary.hung;
+    history.add(&again, &ALL).expect("written");
+    assert_eq!(numbers(&history, &Filter::default()), [3, 2, 1]);
+    assert_eq!(history.below(2).expect("asked").len(), 1);
+}
+
+#[test]
+fn a_file_of_the_second_version_that_cannot_be_written_is_read_as_it_is() {
+    let (_folder, mut history) = new_history();
+    let written = history_entry(1, StoredVerdict::Accepted, "fender");
+    history.add(&written, &ALL).expect("written");
+    let former = "ALTER TABLE detail DROP COLUMN recipe_name;
+        ALTER TABLE detail DROP COLUMN recipe_changed;
+        PRAGMA user_version = 2;";
+    history.file.execute_batch(former).expect("changed");
+    let record = history.known(1).expect("there");
+    assert_eq!(record.detail.recipe_label, None);
+    assert_eq!(record.detail.recipe, written.record.detail.recipe);
+}
+
+#[test]
+fn a_file_of_the_fourth_version_that_cannot_be_written_is_read_as_it_is() {
+    let (_folder, mut history) = new_history();
+    let mut written = history_entry(1, StoredVerdict::Rejected, "fender");
+    let refused = low_score("fender", 0.81);
+    written.record.detail.refusal = Some(refused.clone());
+    history.add(&written, &ALL).expect("written");
+    let former = "ALTER TABLE detail DROP COLUMN refusal;
+        ALTER TABLE inspection DROP COLUMN reason_kind;
+        PRAGMA user_version = 4;";
+    history.file.execute_batch(former).expect("changed");
+    assert_eq!(numbers(&history, &Filter::default()), [1]);
+    let record = history.known(1).expect("there");
+    let expected = StoredRefusal {
+        why: None,
+        ..refused
+    };
+    assert_eq!(record.detail.refusal, Some(expected));
+    let outcomes = history.outcomes(&Filter::default()).expect("asked");
+    assert_eq!(outcomes, [PartOutcome::from(&record)]);
+}
+
+#[test]
+fn every_refusal_comes_back_with_its_figures_and_is_counted_by_its_kind() {
+    let (_folder, mut history) = new_history();
+    let mut refusals: Vec<StoredRefusal> = rejections().into_iter().map(refusal).collect();
+    refusals.extend(unrecognisables().into_iter().map(refusal));
+    for (seconds, refused) in (1..).zip(&refusals) {
+        let mut entry = history_entry(seconds, StoredVerdict::Rejected, "fender");
+        entry.record.detail.refusal = Some(refused.clone());
+        entry.scene = None;
+        history.add(&entry, &ALL).expect("written");
+    }
+    let outcomes = history.outcomes(&Filter::default()).expect("asked");
+    assert_eq!(outcomes.len(), refusals.len());
+    for (number, (refused, outcome)) in (1..).zip(refusals.into_iter().zip(outcomes)) {
+        let kind = refused.kind().expect("known");
+        assert_eq!(outcome.reason, Some(RefusalReason::Kind(kind)));
+        let record = history.known(number).expect("there");
+        assert_eq!(record.detail.refusal, Some(refused));
+        assert_eq!(PartOutcome::from(&record), outcome);
+    }
+}
+
+#[test]
+fn a_refusal_that_is_damaged_or_of_a_later_kind_falls_back_to_its_text() {
+    let (_folder, mut history) = new_history();
+    for seconds in 1..=3 {
+        let mut entry = history_entry(seconds, StoredVerdict::Rejected, "fender");
+        entry.record.detail.refusal = Some(low_score("fender", 0.81));
+        history.add(&entry, &ALL).expect("written");
+    }
+    let changed = r#"UPDATE detail SET refusal = '{"kind":"low_score","part":"fen' WHERE number = 1;
+        UPDATE detail SET refusal = '{"kind":"bewitched","part":"fender"}' WHERE number = 2;
+        UPDATE inspection SET reason_kind = 'bewitched' WHERE number = 2;
+        UPDATE detail SET refusal = NULL WHERE number = 3;
+        UPDATE inspection SET reason_kind = NULL WHERE number = 3;"#;
+    history.file.execute_batch(changed).expect("changed");
+    let text = low_score("fender", 0.81).reason;
+    for number in 1..=3 {
+        let refused = history.known(number).expect("there").detail.refusal;
+        let refused = refused.expect("refused");
+        assert_eq!(
+            (refused.reason.as_str(), refused.why),
+            (text.as_str(), None)
+        );
+    }
+    let outcomes = history.outcomes(&Filter::default()).expect("asked");
+    let reasons = outcomes.into_iter().map(|outcome| outcome.reason);
+    let reasons: Vec<RefusalReason> = reasons.flatten().collect();
+    let sentence = || RefusalReason::Sentence {
+        text: text.clone(),
+        nearest: Some("fender".into()),
+    };
+    // The kind of the first refusal is stored separately.
+    let first = RefusalReason::Kind(RefusalKind::LowScore);
+    assert_eq!(reasons, [first, sentence(), sentence()]);
+}
+
+#[test]
+fn the_shots_of_a_scan_are_kept_and_go_together() {
+    let (folder, mut history) = new_history();
+    let shots: Vec<Shot> = (0..3)
+        .map(|place: u16| Shot {
+            name: format!("shot {place}"),
+            scene: small_scene(place),
+            base_from_camera: from_euler_zyx([0.0, 0.1, 0.0, 0.2, f64::from(place), 1.0]),
+        })
+        .collect();
+    let mut scan = history_entry(1, StoredVerdict::Rejected, "grille");
+    scan.scene = Some(Arc::clone(&shots[1].scene));
+    history
+        .add(&scan.of_scan(shots.clone()), &ALL)
+        .expect("written");
+    let single = history_entry(2, StoredVerdict::Rejected, "grille");
+    history.add(&single, &ALL).expect("written");
+    let record = history.known(1).expect("there");
+    assert_eq!(
+        history.scene(&record).expect("read").as_ref(),
+        Some(&*shots[1].scene)
+    );
+    let kept = history.shots(&record).expect("read").expect("kept");
+    for (kept, shot) in kept.iter().zip(&shots) {
+        assert_eq!((&kept.name, &kept.scene), (&shot.name, &shot.scene));
+        let off = kept.base_from_camera.to_matrix() - shot.base_from_camera.to_matrix();
+        assert!(off.norm() < 1e-12);
+    }
+    assert_eq!(kept.len(), 3);
+    let other = history.known(2).expect("there");
+    assert!(history.shots(&other).expect("read").is_none());
+    let files = |history: &History| {
+        let files = std::fs::read_dir(history.frames_folder()).expect("listed");
+        files.count()
+    };
+    // All frames share one camera.
+    assert_eq!(files(&history), 5);
+    drop(history);
+    let mut history = open_history(folder.path());
+    assert_eq!(files(&history), 5, "none is a stray");
+    history.set_remark(2, "stays").expect("written");
+    let later = Retention {
+        keep: KeepFrames::None,
+        ..ALL
+    };
+    for days in 1..=31 {
+        let entry = history_entry(days * 24 * 3600, StoredVerdict::NoPart, "grille");
+        history.add(&entry, &later).expect("written");
+    }
+    history.sweep(&ALL, moment(32 * 24 * 3600)).expect("swept");
+    assert_eq!(files(&history), 2);
+    assert!(history.known(1).expect("there").detail.frame.is_none());
+}
+
+#[test]
+fn a_reinspection_is_traced_as_its_part_and_a_serial_number_is_found() {
+    let (_folder, mut history) = new_history();
+    let mut refused = history_entry(1, StoredVerdict::Rejected, "grille");
+    refused.record.summary.trace = Traceability {
+        serial: "TL-4711".into(),
+        order: "A 17".into(),
+        operator: "Kim".into(),
+    };
+    let mut again = history_entry(2, StoredVerdict::Accepted, "grille");
+    again.record.summary.hung = refused.record.summary.hung.clone();
+    again.record.summary.trace.operator = "Lee".into();
+    let other = history_entry(3, StoredVerdict::Accepted, "grille");
+    for entry in [&refused, &again, &other] {
+        history.add(entry, &ALL).expect("written");
+    }
+    let found = Filter {
+        text: "tl-4711".into(),
+        ..Filter::default()
+    };
+    assert_eq!(numbers(&history, &found), [2]);
+    let traced = history.known(2).expect("there").summary.trace;
+    assert_eq!((&*traced.serial, &*traced.operator), ("TL-4711", "Lee"));
+    let refused = history.known(1).expect("there").summary;
+    assert_eq!((refused.parent, &*refused.trace.operator), (Some(2), "Kim"));
+    // Inspections waiting in memory are listed in the same way.
+    let buffer = HistoryBuffer::default();
+    for (ticket, entry) in [again, other].into_iter().enumerate() {
+        buffer.add(ticket as u64, entry, std::time::Instant::now());
+    }
+    let page = buffer.page(&Filter::default(), 0, 9).expect("asked");
+    assert_eq!(
+        page.rows.last().map(|row| &*row.trace.operator),
+        Some("Lee")
+    );
+}
+
+#[test]
+fn a_serial_number_that_comes_later_is_added_to_the_inspections_of_its_part_that_have_none() {
+    let (_folder, mut history) = new_history();
+    let first = history_entry(1, StoredVerdict::Accepted, "grille");
+    let mut traced = history_entry(3, StoredVerdict::Accepted, "grille");
+    traced.record.summary.trace.serial = "TL-1".into();
+    let second = again(&first, 2, StoredVerdict::Accepted);
+    let entries = [first, second, traced];
+    for entry in &entries {
+        history.add(entry, &ALL).expect("written");
+    }
+    let known = TraceChange::Fill(Traceability {
+        serial: "TL-4711".into(),
+        ..Traceability::default()
+    });
+    for entry in &entries {
+        let hung = &entry.record.summary.hung;
+        history.trace_part(hung, &known).expect("written");
+    }
+    history.trace_part(&HungId::new(), &known).expect("no rows");
+    let serial = |number| history.known(number).expect("there").summary.trace.serial;
+    assert_eq!([1, 2, 3].map(serial), ["TL-4711", "TL-4711", "TL-1"]);
+    let found = Filter {
+        text: "tl-4711".into(),
+        ..Filter::default()
+    };
+    assert_eq!(numbers(&history, &found), [1]);
+    // It belongs to another part.
+    let other = TraceChange::ClearSerial("TL-4711".into());
+    for entry in &entries {
+        let hung = &entry.record.summary.hung;
+        history.trace_part(hung, &other).expect("written");
+    }
+    let serial = |number| history.known(number).expect("there").summary.trace.serial;
+    assert_eq!([1, 2, 3].map(serial), ["", "", "TL-1"]);
+    assert!(numbers(&history, &found).is_empty());
+}
+
+#[cfg(unix)]
+#[test]
+fn whichever_call_fails_an_inspection_is_in_the_history_with_its_frame_or_not_at_all() {
+    use files::disk::faults::{Writer, told};
+
+    let add = |folder: &std::path::Path, seconds| -> Result<(), HistoryError> {
+        let mut history = History::open(folder)?.history;
+        let entry = history_entry(seconds, StoredVerdict::Accepted, "fender");
+        history.add(&entry, &ALL).map(|_| ())
+    };
+    Writer {
+        test: "history::tests::whichever_call_fails_an_inspection_is_in_the_history_with_its_frame_or_not_at_all",
+        prepare: &|folder| add(folder, 1).expect("written"),
+        write: &|folder| add(folder, 2).map_err(|error| told(&error)),
+        state: &|folder| {
+            let history = open_history(folder);
+            let page = history.page(&Filter::default(), 0, 10).expect("asked");
+            for row in &page.rows {
+                let record = history.known(row.number).expect("there");
+                assert!(history.scene(&record).expect("read").is_some());
+            }
+            // Files that no row refers to were removed.
+            let frames = std::fs::read_dir(history.frames_folder()).expect("listed");
+            assert_eq!(frames.count(), page.rows.len() + 1);
+            format!("{} inspections", page.num_all)
+        },
+        between: &[],
+    }
+    .fails_at_every_call();
+}
+
+#[test]
+fn poses_of_accepted_parts_come_in_the_order_of_time() {
+    let (_folder, mut history) = new_history();
+    for seconds in [3, 1, 2] {
+        let verdict = match seconds {
+            2 => StoredVerdict::Rejected,
+            _ => StoredVerdict::Accepted,
+        };
+        let entry = history_entry(seconds, verdict, "fender");
+        history.add(&entry, &ALL).expect("written");
+    }
+    let mut older = history_entry(4, StoredVerdict::Accepted, "fender");
+    older.record.detail.line = r#"{"schema":1,"pose":null}"#.into();
+    history.add(&older, &ALL).expect("written");
+    let other = history_entry(5, StoredVerdict::Accepted, "grille");
+    history.add(&other, &ALL).expect("written");
+    let found = |filter: &Filter| {
+        let poses = history.poses(filter).expect("asked");
+        let figures = poses
+            .iter()
+            .map(|pose| (pose.at, pose.reference.clone(), pose.rms_m));
+        figures.collect::<Vec<_>>()
+    };
+    let fender = |seconds: i64| {
+        (
+            moment(seconds),
+            "fender".to_owned(),
+            0.001 + 1e-4 * seconds as f64,
+        )
+    };
+    let of_fender = Filter {
+        part: Some("fender".into()),
+        ..Filter::default()
+    };
+    assert_eq!(found(&of_fender), [fender(1), fender(3)]);
+    assert_eq!(found(&Filter::default()).len(), 3);
+    let until = Filter {
+        until: Some(moment(3)),
+        ..of_fender
+    };
+    assert_eq!(found(&until), [fender(1)]);
+}
+
+#[test]
+fn not_accepted_is_everything_but_accepted_in_the_file_and_before() {
+    let (_folder, mut history) = new_history();
+    let entries = StoredVerdict::ALL
+        .into_iter()
+        .zip(1..)
+        .map(|(verdict, seconds)| history_entry(seconds, verdict, "grille"));
+    for entry in entries {
+        history.add(&entry, &ALL).expect("written");
+        for is_accepted in [true, false] {
+            let filter = Filter {
+                is_accepted: Some(is_accepted),
+                ..Filter::default()
+            };
+            let summary = &entry.record.summary;
+            let is_wanted = (summary.verdict == StoredVerdict::Accepted) == is_accepted;
+            assert_eq!(filter.passes(summary), is_wanted, "{:?}", summary.verdict);
+        }
+    }
+    let num = |is_accepted| {
+        let filter = Filter {
+            is_accepted: Some(is_accepted),
+            ..Filter::default()
+        };
+        history.page(&filter, 0, 10).expect("asked").num_matching
+    };
+    assert_eq!((num(true), num(false)), (1, 3));
+}

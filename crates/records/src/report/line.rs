@@ -1,0 +1,317 @@
+//! An inspection as one line of JSON.
+
+use jiff::Timestamp;
+use serde::Serialize;
+
+use crate::history::Traceability;
+use capture::Captured;
+use geometry::rigid::row_major;
+use inspection::pipeline::{Inspection, NamedRecipe, RecipeBlock, Timings, Verdict};
+use robot::RobotFrame;
+
+/// Version of the JSON lines.
+pub const SCHEMA: u32 = 1;
+
+/// An inspection as one line of JSON, as `inspect --json` writes it. Later versions only add fields.
+#[derive(Debug, Default, Serialize)]
+pub struct InspectionLine<'a> {
+    schema: u32,
+    scene: &'a str,
+    #[serde(flatten)]
+    capture: Option<CaptureLine<'a>>,
+    /// Set for a file marked as simulated; captures from a source have their own field.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    simulated: Option<bool>,
+    status: &'static str,
+    part: Option<&'a str>,
+    accepted: bool,
+    score: Option<f64>,
+    margin: Option<f64>,
+    reason: Option<String>,
+    /// The reason in a form for programs.
+    reason_kind: Option<String>,
+    /// True if the surface taken for the part reaches the picture's edge: some of the part may be missing.
+    touches_edge: bool,
+    pose: Option<PoseLine<'a>>,
+    /// The same pose for the robot, if the cell is calibrated.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    robot: Option<RobotLine<'a>>,
+    ranking: Vec<RankLine<'a>>,
+    timings_ms: Option<TimingsLine>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    recipe: Option<RecipeBlock>,
+    /// Set for several frames inspected together.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    scan: Option<ScanLine<'a>>,
+    /// `serial`, `order` and `operator`, as far as known.
+    #[serde(flatten)]
+    trace: Option<&'a Traceability>,
+    /// What really hung there, if a person reported the acceptance as wrong.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reported_as: Option<&'a str>,
+}
+
+/// Additional fields for several frames that were inspected together.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct ScanLine<'a> {
+    /// Number of frames given.
+    pub frames: usize,
+    /// Number of frames used.
+    pub used: usize,
+    /// The frame whose camera the pose refers to.
+    pub reference_frame: &'a str,
+    /// Pose of the part in the robot's base frame; null unless the part was accepted.
+    pub base_from_part: Option<[f64; 16]>,
+}
+
+/// Poses in the robot's base frame; see [`robot`] for their definitions.
+#[derive(Debug, Serialize)]
+struct RobotLine<'a> {
+    calibration: &'a str,
+    robot_from_camera: [f64; 16],
+    robot_from_part: [f64; 16],
+    robot_offset: [f64; 16],
+}
+
+/// Additional fields for a capture from a source.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct CaptureLine<'a> {
+    /// The source, in the form that opens it again.
+    pub source: &'a str,
+    number: u64,
+    /// Time of the capture.
+    pub taken_at: Timestamp,
+    /// True if the capture does not come from a camera.
+    pub simulated: bool,
+    /// Captures dropped since the source was opened, because others were being inspected.
+    dropped: u64,
+}
+
+impl<'a> CaptureLine<'a> {
+    /// Creates the fields for a capture of this source.
+    pub fn of(source: &'a str, captured: &Captured, num_dropped: u64) -> Self {
+        Self {
+            source,
+            number: captured.number,
+            taken_at: captured.taken_at,
+            simulated: captured.is_simulated,
+            dropped: num_dropped,
+        }
+    }
+}
+
+#[derive(Debug, Serialize)]
+struct PoseLine<'a> {
+    /// The reference that defines part space: several references of one part each have their own.
+    reference: Option<&'a str>,
+    camera_from_part: [f64; 16],
+    method: &'static str,
+    rms_m: f64,
+    overlap: f64,
+    /// Bounds of the pose error in 95 of 100 cases; null if the pose is unconstrained.
+    shift_bound_m: Option<f64>,
+    turn_bound_rad: Option<f64>,
+    /// How the part could move, if the pose is unconstrained.
+    unconstrained: Option<String>,
+    stopped: &'static str,
+    ambiguous: bool,
+    approximate: bool,
+}
+
+#[derive(Debug, Serialize)]
+struct RankLine<'a> {
+    part: &'a str,
+    /// Null if it was not examined but others were.
+    score: Option<f64>,
+    examined: bool,
+    distance: f64,
+}
+
+/// How long each stage took, milliseconds.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+pub struct TimingsLine {
+    /// Segmentation.
+    pub segment: f64,
+    /// Projection.
+    pub project: f64,
+    /// Contour.
+    pub contour: f64,
+    /// Signature.
+    pub signature: f64,
+    /// Ranking.
+    pub rank: f64,
+    /// Pose, confirmation of the best few included.
+    pub pose: f64,
+    /// From the scene's points to the verdict.
+    pub total: f64,
+}
+
+/// Returns `ok`, `unknown` or `no_part`.
+pub(super) fn status_of(verdict: &Verdict) -> &'static str {
+    match verdict {
+        Verdict::Part { .. } if verdict.is_unknown() => "unknown",
+        Verdict::Part { .. } => "ok",
+        Verdict::NoPart(_) => "no_part",
+    }
+}
+
+impl<'a> InspectionLine<'a> {
+    /// Creates the line for a scene that could not be read.
+    pub fn unreadable(scene: &'a str, reason: &dyn std::fmt::Display) -> Self {
+        Self {
+            schema: SCHEMA,
+            scene,
+            status: "unreadable",
+            reason: Some(reason.to_string()),
+            ..Self::default()
+        }
+    }
+
+    /// Creates the line for a trigger after which nothing was inspected. `kind` is the reason in a form for programs.
+    pub fn failed(source: &'a str, kind: &str, reason: &str) -> Self {
+        Self {
+            status: "error",
+            reason_kind: Some(kind.to_owned()),
+            ..Self::unreadable(source, &reason)
+        }
+    }
+
+    /// Adds serial number, order and operator.
+    #[must_use]
+    pub fn traced(self, trace: &'a Traceability) -> Self {
+        Self {
+            trace: Some(trace),
+            ..self
+        }
+    }
+
+    /// Adds what really hung there, if a person reported the acceptance as wrong: a part, `not_enrolled` or `nothing`.
+    #[must_use]
+    pub fn reported_as(self, actual: Option<&'a str>) -> Self {
+        Self {
+            reported_as: actual,
+            ..self
+        }
+    }
+
+    /// Adds the recipe of the inspection.
+    #[must_use]
+    pub fn by(self, recipe: &NamedRecipe) -> Self {
+        Self {
+            recipe: Some(recipe.into()),
+            ..self
+        }
+    }
+
+    /// Adds the fields for several frames inspected together.
+    #[must_use]
+    pub fn of_scan(self, scan: ScanLine<'a>) -> Self {
+        Self {
+            scan: Some(scan),
+            ..self
+        }
+    }
+
+    /// Adds the fields for a capture from a source.
+    #[must_use]
+    pub fn captured(self, capture: Option<CaptureLine<'a>>) -> Self {
+        Self { capture, ..self }
+    }
+
+    /// Marks a file as simulated. Other files have no such field, since nothing is known about them.
+    #[must_use]
+    pub fn of_simulated_file(self) -> Self {
+        Self {
+            simulated: Some(true),
+            ..self
+        }
+    }
+
+    /// Adds the pose in the robot's base frame; without a frame, or unless the part was accepted, nothing is added that
+    /// a robot could move by.
+    #[must_use]
+    pub fn in_robot(self, frame: Option<&'a RobotFrame>, inspection: &Inspection) -> Self {
+        let pose = inspection.found_pose();
+        let accepted = pose.filter(|_| inspection.verdict.is_accepted());
+        let robot = frame.zip(accepted).map(|(frame, pose)| {
+            let camera_from_part = pose.camera_from_part();
+            RobotLine {
+                calibration: &frame.name,
+                robot_from_camera: row_major(&frame.robot_from_camera),
+                robot_from_part: row_major(&frame.robot_from_part(&camera_from_part)),
+                robot_offset: row_major(&frame.robot_offset(&camera_from_part)),
+            }
+        });
+        Self { robot, ..self }
+    }
+
+    /// Creates the line of an inspection of this scene.
+    pub fn of(scene: &'a str, inspection: &'a Inspection) -> Self {
+        let ranking = inspection.ranking.by_part().map(|entry| RankLine {
+            part: &entry.part,
+            score: inspection.ranking.score_of(entry),
+            examined: entry.is_examined,
+            distance: entry.distance,
+        });
+        let pose = inspection.found_pose().map(|pose| PoseLine {
+            reference: inspection.reference(),
+            camera_from_part: row_major(&pose.camera_from_part()),
+            method: pose.method.name(),
+            rms_m: pose.fit.rms_m,
+            overlap: pose.fit.overlap,
+            shift_bound_m: pose.bounds().map(|bounds| bounds.shift.0),
+            turn_bound_rad: pose.bounds().map(|bounds| bounds.turn.0),
+            unconstrained: pose
+                .uncertainty
+                .and_then(|bounds| bounds.freedom)
+                .map(|freedom| freedom.to_string()),
+            stopped: pose.stopped.name(),
+            ambiguous: pose.is_ambiguous(),
+            approximate: inspection.verdict.is_approximate(),
+        });
+        let verdict = &inspection.verdict;
+        Self {
+            status: status_of(verdict),
+            part: verdict.guess().filter(|_| !verdict.is_unknown()),
+            accepted: verdict.is_accepted(),
+            score: verdict.score().map(|[score, _]| score),
+            margin: verdict.score().map(|[_, margin]| margin),
+            reason: verdict.complaint().map(|[why, _]| why),
+            reason_kind: verdict.refusal().map(|why| why.kind().to_string()),
+            touches_edge: inspection.touches_edge(),
+            pose,
+            ranking: ranking.collect(),
+            timings_ms: Some(TimingsLine::of(&inspection.timings)),
+            ..Self::unreadable(scene, &"")
+        }
+    }
+}
+
+impl InspectionLine<'_> {
+    /// Returns `ok`, `unknown`, `no_part`, `unreadable` or `error`.
+    pub fn status(&self) -> &'static str {
+        self.status
+    }
+
+    /// Returns the line without a line end.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string(self).expect("numbers and text have a JSON form")
+    }
+}
+
+impl TimingsLine {
+    pub(super) fn of(timings: &Timings) -> Self {
+        // Whole microseconds: more digits are noise.
+        let ms = |d: std::time::Duration| d.as_micros() as f64 / 1000.0;
+        Self {
+            segment: ms(timings.segment),
+            project: ms(timings.project),
+            contour: ms(timings.contour),
+            signature: ms(timings.signature),
+            rank: ms(timings.rank),
+            pose: ms(timings.pose),
+            total: ms(timings.total),
+        }
+    }
+}

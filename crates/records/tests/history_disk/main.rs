@@ -1,0 +1,263 @@
+//! A history on a disk that fails, wherever `SQLite` itself writes.
+//!
+//! `SQLite` writes by calls of its own. A stub library (`disk.c`) intercepts them and lets the n-th one fail, for
+//! every n: with a full disk, an input/output error once or from then on, or the end of the program. Afterwards the
+//! history read is the old one or the new one, and is never set aside as damaged. Without a C compiler the tests
+//! report that they are skipped; with `PARTSIGHT_REQUIRE_COMPILER=1` they fail.
+
+#![cfg(target_os = "linux")]
+
+use std::{env, ffi::OsString, fs, path::Path, process::Command};
+
+use capture::fixtures::{SHARED, compile_c};
+use geometry::error::Advice as _;
+use records::fixtures::{history_entry, open_history};
+use records::history::{FILE, Filter, History, HistoryError, KeepFrames, Retention, StoredVerdict};
+
+/// Environment variable of the process whose disk fails: its folder.
+const BODY: &str = "PARTSIGHT_HISTORY_DISK_TEST";
+/// More than the calls of any run.
+const MOST_CALLS: usize = 1000;
+
+const ALL: Retention = Retention {
+    keep: KeepFrames::All,
+    max_days: 3650,
+    max_gigabytes: 10.0,
+};
+
+type Step = fn(&mut History) -> Result<(), HistoryError>;
+
+/// The changes made to a history, in order.
+const STEPS: [Step; 3] = [
+    |history| add(history, 2),
+    |history| history.set_remark(1, "seen"),
+    |history| add(history, 3),
+];
+
+fn add(history: &mut History, seconds: i64) -> Result<(), HistoryError> {
+    let entry = history_entry(seconds, StoredVerdict::Accepted, "fender");
+    history.add(&entry, &ALL).map(|_| ())
+}
+
+/// The process on the failing disk: reports after each step that it is done, or why not. Retries a step if the fault
+/// occurs only once.
+#[test]
+fn body() {
+    let Some(folder) = env::var_os(BODY) else {
+        return;
+    };
+    let folder = Path::new(&folder);
+    let fails_once = env::var("DISK_FAULT").is_ok_and(|fault| fault.starts_with("once"));
+    let mut history = None;
+    let mut is_over = false;
+    for (number, step) in STEPS.into_iter().enumerate() {
+        let mut take = || -> Result<(), HistoryError> {
+            if history.is_none() {
+                history = Some(sound(folder)?);
+            }
+            step(history.as_mut().expect("open"))
+        };
+        let mut taken = take();
+        if let Err(error) = &taken {
+            println!("error {error}\nadvice {}", error.advice());
+            if fails_once {
+                taken = take();
+            }
+        }
+        if taken.is_err() {
+            is_over = true;
+            break;
+        }
+        println!("done {number}");
+    }
+    if is_over {
+        drop(history);
+        match History::open_to_read(folder) {
+            Ok(read) => {
+                let page = read.history.page(&Filter::default(), 0, 10).expect("asked");
+                println!("read {}", page.num_all);
+            }
+            Err(error) => println!("error {error}\nadvice {}", error.advice()),
+        }
+    }
+}
+
+fn sound(folder: &Path) -> Result<History, HistoryError> {
+    let opened = History::open(folder)?;
+    assert_eq!(opened.set_aside, None);
+    Ok(opened.history)
+}
+
+/// The report of the other process.
+struct Told {
+    is_killed: bool,
+    num_done: usize,
+    errors: Vec<String>,
+    num_read: Option<usize>,
+}
+
+fn run(folder: &Path, disk: &Path, fault: &str) -> Told {
+    let output = Command::new(env::current_exe().expect("this program"))
+        .args(["body", "--exact", "--nocapture", "--test-threads=1"])
+        .env(BODY, folder)
+        .env("LD_PRELOAD", disk)
+        .env("DISK_FAULT", fault)
+        .env("DISK_MARK", folder.join("mark"))
+        .output()
+        .expect("started");
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    let is_killed = output.status.code().is_none();
+    let complaint = String::from_utf8_lossy(&output.stderr);
+    assert!(
+        is_killed == (fault.starts_with("killed") && folder.join("mark").exists())
+            && (is_killed || output.status.success()),
+        "{fault}: {}\n{said}\n{complaint}",
+        output.status
+    );
+    let mut told = Told {
+        is_killed,
+        num_done: 0,
+        errors: Vec::new(),
+        num_read: None,
+    };
+    // The first line follows the name of the test.
+    for line in said
+        .lines()
+        .map(|line| line.trim_start_matches("test body ... "))
+    {
+        if line.starts_with("done ") {
+            told.num_done += 1;
+        } else if let Some(error) = line.strip_prefix("error ") {
+            told.errors.push(error.to_owned());
+        } else if let Some(advice) = line.strip_prefix("advice ") {
+            told.errors.last_mut().expect("an error").push_str(advice);
+        } else if let Some(num) = line.strip_prefix("read ") {
+            told.num_read = num.parse().ok();
+        }
+    }
+    told
+}
+
+/// Checks the history afterwards: the steps in `told` are done, and nothing else has changed.
+fn check(folder: &Path, num_before: usize, fault: &str, told: &Told) {
+    let mut history = open_history(folder);
+    let page = history.page(&Filter::default(), 0, 10).expect("asked");
+    let first = history.known(1).expect("the first is there");
+    let num_added = page.num_all - num_before;
+    let is_remarked = first.summary.remark == "seen";
+    // The steps are in order: an inspection, a remark, an inspection.
+    let state = match (num_added, is_remarked) {
+        (0, false) => 0,
+        (1, false) => 1,
+        (1, true) => 2,
+        (2, true) => 3,
+        other => panic!("{fault}: {other:?}"),
+    };
+    assert!(
+        (told.num_done..=told.num_done + 1).contains(&state),
+        "{fault}: {} done, {state} there",
+        told.num_done
+    );
+    for row in page
+        .rows
+        .iter()
+        .filter(|row| row.number > num_before as i64)
+    {
+        let record = history.known(row.number).expect("whole");
+        let scene = history.scene(&record).expect("read");
+        assert!(scene.is_some(), "{fault}: {}", row.scene);
+    }
+    add(&mut history, 9).expect("the disk is well again");
+}
+
+/// Lets every call fail, one after the other, starting with a history of `num_before` inspections that `prepare`
+/// makes. With `is_listed`, they must be readable whatever fails.
+fn fails_at_every_call(num_before: usize, is_listed: bool, prepare: impl Fn(&Path)) {
+    let tools = tempfile::tempdir().expect("a folder");
+    let disk = tools.path().join("libdisk.so");
+    if let Err(why) = compile_c("tests/history_disk/disk.c", &disk, &SHARED) {
+        return skipped(&why);
+    }
+    let prepared = tools.path().join("prepared");
+    fs::create_dir(&prepared).expect("made");
+    prepare(&prepared);
+    for kind in ["full", "broken", "once", "killed"] {
+        let mut num_errors = 0;
+        let mut is_through = false;
+        for at in 1..=MOST_CALLS {
+            let fault = format!("{kind} {at}");
+            let folder = tempfile::tempdir().expect("a folder");
+            copy(&prepared, folder.path());
+            let told = run(folder.path(), &disk, &fault);
+            let has_failed = folder.path().join("mark").exists();
+            for error in &told.errors {
+                let is_fitting = error.contains("disk") || error.contains("writable");
+                assert!(is_fitting && !error.contains("move"), "{fault}: {error}");
+            }
+            let is_cut_off = told.is_killed || told.num_done < STEPS.len();
+            assert!(!is_cut_off || has_failed, "{fault}");
+            // A step that fails once succeeds when it is tried again.
+            assert!(kind != "once" || !is_cut_off, "{fault}: {:?}", told.errors);
+            match told.num_read {
+                Some(num) => assert!(num >= num_before, "{fault}: {num} read"),
+                None => assert!(
+                    told.is_killed || !is_cut_off || !is_listed,
+                    "{fault}: {:?}",
+                    told.errors
+                ),
+            }
+            check(folder.path(), num_before, &fault, &told);
+            num_errors += told.errors.len();
+            if !has_failed {
+                is_through = true;
+                assert!(at > 10, "{kind}: only {at} calls");
+                break;
+            }
+        }
+        assert!(is_through, "{kind}: no end");
+        assert!(
+            num_errors > 0 || kind == "killed",
+            "{kind}: nothing was said"
+        );
+    }
+}
+
+fn copy(from: &Path, to: &Path) {
+    for entry in fs::read_dir(from).expect("listed") {
+        let entry = entry.expect("listed");
+        let target = to.join(entry.file_name());
+        if entry.path().is_dir() {
+            fs::create_dir(&target).expect("made");
+            copy(&entry.path(), &target);
+        } else {
+            fs::copy(entry.path(), target).expect("copied");
+        }
+    }
+}
+
+#[expect(
+    clippy::print_stdout,
+    reason = "a test that checks nothing must say so"
+)]
+fn skipped(why: &str) {
+    let text = format!("skipped: {why}");
+    let is_required = env::var_os("PARTSIGHT_REQUIRE_COMPILER") == Some(OsString::from("1"));
+    assert!(!is_required, "PARTSIGHT_REQUIRE_COMPILER=1, and {text}");
+    println!("{text}");
+}
+
+#[test]
+fn whichever_call_fails_the_history_is_the_old_one_or_the_new() {
+    fails_at_every_call(1, true, |folder| {
+        add(&mut open_history(folder), 1).expect("written");
+    });
+}
+
+#[test]
+fn whichever_call_fails_a_history_of_the_first_version_loses_nothing() {
+    fails_at_every_call(3, false, |folder| {
+        let file = rusqlite::Connection::open(folder.join(FILE)).expect("made");
+        file.execute_batch(include_str!("../../src/history/first_version.sql"))
+            .expect("written");
+    });
+}

@@ -1,0 +1,95 @@
+//! Errors of calibration files.
+
+use std::path::PathBuf;
+
+use super::SCHEMA_VERSION;
+use crate::FARTHEST;
+use files::FileError;
+use geometry::{error::Advice, units::Metres};
+
+/// Why a calibration file cannot be read or written.
+#[derive(Debug, thiserror::Error)]
+pub enum CalibrationError {
+    /// The file cannot be read or written.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// The file was made by a newer version of this program.
+    #[error("{}: made by a newer version of Partsight (schema {found}, this one reads up to {SCHEMA_VERSION})", path.display())]
+    Newer {
+        /// The file.
+        path: PathBuf,
+        /// Schema version of the file.
+        found: u32,
+    },
+    /// The file has unexpected content.
+    #[error("{}: not a calibration: {found}", path.display())]
+    Bad {
+        /// The file.
+        path: PathBuf,
+        /// The first error in it.
+        found: String,
+    },
+    /// A matrix is not a rigid transform.
+    #[error("{}: {key} is not a rigid transform: it stretches, mirrors, is not finite or does not end in 0 0 0 1", path.display())]
+    NotRigid {
+        /// The file.
+        path: PathBuf,
+        /// Name of the matrix.
+        key: &'static str,
+    },
+    /// No cell is this large: the unit is wrong.
+    #[error("{}: {key} shifts by {:.0} m, expected at most {} m", path.display(), distance.0, FARTHEST)]
+    TooFar {
+        /// The file.
+        path: PathBuf,
+        /// Name of the matrix.
+        key: &'static str,
+        /// Length of its shift.
+        distance: Metres,
+    },
+    /// The numbers are not those that the program wrote.
+    #[error("{}: the numbers were changed after the calibration: its checksum is missing or does not match", path.display())]
+    Edited {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The numbers would change in the file, so it was not written.
+    #[error("{}: not written: the file would not give back the same numbers", path.display())]
+    NotKept {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The system names no folder for user data.
+    #[error("this system has no folder for user data")]
+    NoUserFolder,
+}
+
+impl Advice for CalibrationError {
+    fn advice(&self) -> String {
+        match self {
+            Self::File(FileError::NotFound { .. }) => {
+                "Check the path, or make a calibration: partsight calibrate hand-eye, or partsight calibrate set".into()
+            }
+            Self::File(error) => error.advice(),
+            Self::Newer { .. } => "Update Partsight, or calibrate again with this version".into(),
+            Self::Bad { .. } => {
+                "Correct the file in a text editor, or calibrate again; partsight calibrate set --help shows how".into()
+            }
+            Self::NotRigid { .. } => {
+                "Enter the matrix again with at least four digits after the decimal point: rows of a rotation, then \
+                 the shift in metres, then 0 0 0 1".into()
+            }
+            Self::TooFar { .. } => {
+                "Give the shift in metres: the first three numbers of the matrix's last column".into()
+            }
+            Self::Edited { path } => format!(
+                "Check the numbers. If they are right, confirm them: partsight calibrate confirm --calibration {}, or Robot… in the window; else calibrate again",
+                path.display()
+            ),
+            Self::NotKept { .. } => {
+                "Check the numbers and their convention: a camera sits within metres of the robot".into()
+            }
+            Self::NoUserFolder => "Name a file with --calibration".into(),
+        }
+    }
+}

@@ -1,0 +1,166 @@
+//! Finds the row spacing and the speed that bring a film to its target.
+//!
+//! The thickness is inversely proportional to the speed, so each spacing is planned once: the factor on the thickness
+//! that brings most of the surface within the tolerance is found exactly, by a window over the sorted thicknesses.
+
+use super::{
+    coat::Coat,
+    error::PaintError,
+    even::Speed,
+    film::{Film, simulate},
+    plan::planned,
+    region::KeepOut,
+    surface::PaintSurface,
+};
+use inspection::library::SprayPath;
+
+/// Spacings to be tried, as shares of the pattern's width at the stand-off, the fastest first.
+const SPACINGS: [f64; 4] = [0.4, 0.35, 0.3, 0.25];
+/// Share of the reachable area within the tolerance that is good enough.
+pub(super) const GOOD: f64 = 0.95;
+/// Share of the reachable area that may be lost for a mean nearer to the target.
+const GIVEN_UP: f64 = 0.005;
+/// Range of a coat's speed, m/s.
+pub(super) const SPEEDS: [f64; 2] = [0.01, 3.0];
+
+/// A coat with the best spacing and speed, its path and film.
+#[derive(Clone, Debug)]
+pub struct Proposal {
+    /// The coat.
+    pub coat: Coat,
+    /// Its path.
+    pub path: SprayPath,
+    /// The film of the path.
+    pub film: Film,
+}
+
+/// Proposes the widest spacing that brings 95 % of the reachable area within the tolerance, else the one that brings
+/// most.
+pub fn propose(
+    surface: &PaintSurface,
+    coat: &Coat,
+    keep_outs: &[KeepOut],
+) -> Result<Proposal, PaintError> {
+    coat.check()?;
+    let width = coat.gun.width * coat.stand_off / coat.gun.distance;
+    let mut best: Option<Proposal> = None;
+    for share in SPACINGS {
+        let spaced = Coat {
+            // In whole millimetres, so that the value shown and stored is the one planned with.
+            spacing: (1e3 * share * width).round() / 1e3,
+            ..*coat
+        };
+        let (path, speed) = planned(surface, &spaced, keep_outs, Speed::ToTarget)?;
+        let coat = Coat { speed, ..spaced };
+        let path = coat.name_in(path);
+        let film = simulate(surface, &path, &coat, keep_outs)?;
+        let within = film.figures.within;
+        if best
+            .as_ref()
+            .is_none_or(|best| within > best.film.figures.within)
+        {
+            best = Some(Proposal { coat, path, film });
+        }
+        if within >= GOOD {
+            break;
+        }
+    }
+    best.ok_or(PaintError::NoRows)
+}
+
+/// Returns the speed that brings most of a film within the coat's tolerance, m/s.
+pub fn best_speed(film: &Film, coat: &Coat) -> f64 {
+    let factor = best_factor(&film.thickness, &film.is_reachable, coat);
+    (coat.speed / factor).clamp(SPEEDS[0], SPEEDS[1])
+}
+
+/// Returns the factor on all thicknesses that brings most of the reachable points within the tolerance. If more than
+/// enough are within it, the factor moves towards a mean at the target: a film at the upper end of its tolerance wastes
+/// paint.
+pub(super) fn best_factor(thickness: &[f64], is_reachable: &[bool], coat: &Coat) -> f64 {
+    let each = thickness.iter().zip(is_reachable);
+    let mut reached: Vec<f64> = each.filter(|(_, is)| **is).map(|(t, _)| *t).collect();
+    reached.sort_by(f64::total_cmp);
+    let [low, high] = [1.0 - coat.tolerance, 1.0 + coat.tolerance];
+    let (mut best, mut factor, mut first) = (0, 1.0, 0);
+    for (last, most) in reached.iter().enumerate() {
+        while *most > reached[first] * high / low {
+            first += 1;
+        }
+        let num = last + 1 - first;
+        if num > best && reached[first] > 0.0 {
+            best = num;
+            // Both ends are equally far from the limits of the tolerance, as ratios.
+            factor = coat.target * (low * high).sqrt() / (reached[first] * most).sqrt();
+        }
+    }
+    let num = reached.len() as f64;
+    let share = |factor: f64| {
+        let limit = |limit: f64| coat.target * limit / factor;
+        let behind = reached.partition_point(|t| *t <= limit(high));
+        (behind - reached.partition_point(|t| *t < limit(low))) as f64 / num
+    };
+    let most = share(factor);
+    let enough = (most - GIVEN_UP).max(most.min(GOOD));
+    let mean = reached.iter().sum::<f64>() / num;
+    let (mut good, mut wanted) = (factor, coat.target / mean);
+    for _ in 0..32 {
+        let between = if share(wanted) >= enough {
+            wanted
+        } else {
+            f64::midpoint(good, wanted)
+        };
+        if share(between) >= enough {
+            good = between;
+        } else {
+            wanted = between;
+        }
+    }
+    good
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use inspection::library::LibraryFolder;
+    use stages::reference::ReferenceParams;
+
+    #[test]
+    fn a_film_that_is_even_but_at_its_edges_is_brought_to_its_target_in_the_middle() {
+        let surface = crate::paint::surface::tests::plate(1.0, 0.6);
+        // No paint beyond the edges, so the film is thinner there.
+        let coat = Coat {
+            overrun: 0.06,
+            ..Coat::default()
+        };
+        let found = propose(&surface, &coat, &[]).expect("proposed");
+        let film = &found.film.figures;
+        assert!(film.within >= 0.95, "{film:?}");
+        assert!((film.mean / coat.target - 1.0).abs() < 0.03, "{film:?}");
+    }
+
+    #[test]
+    fn the_shipped_parts_are_painted_within_tolerance() {
+        let folder =
+            Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("reference_parts");
+        let folder = LibraryFolder::open(&folder).expect("opened");
+        let load = folder.load(&ReferenceParams::default()).expect("loaded");
+        assert_eq!(load.parts.len(), 8);
+        for (reference, part) in load.library.references.iter().zip(&load.parts) {
+            let surface = PaintSurface::of(reference, part.coverage, part.side).expect("a surface");
+            let found = propose(&surface, &Coat::default(), &[]).expect(&reference.name);
+            let film = &found.film.figures;
+            // Ribs of the grille have flanks that neighbouring ribs hide even from the leaned gun.
+            let least = if reference.name.as_str() == "grille" {
+                0.94
+            } else {
+                0.96
+            };
+            assert!(film.within >= least, "{}: {film:?}", reference.name);
+            let mean = film.mean / Coat::default().target;
+            assert!((mean - 1.0).abs() < 0.08, "{}: {mean}", reference.name);
+        }
+    }
+}

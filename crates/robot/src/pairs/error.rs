@@ -1,0 +1,107 @@
+//! Why a file of poses cannot be read.
+
+use std::path::PathBuf;
+
+use crate::{Convention, ConventionError};
+use files::{FileError, shortened};
+use geometry::error::Advice;
+
+/// Why a file of poses cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub enum PairsError {
+    /// The file cannot be read.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// Neither the caller nor the file names the convention of the robot's poses.
+    #[error("{}: the convention of the robot's poses is not given", path.display())]
+    NoConvention {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A line or pair cannot be read.
+    #[error("{}, {place}: {problem}", path.display())]
+    Line {
+        /// The file.
+        path: PathBuf,
+        /// The line or pair.
+        place: String,
+        /// What is wrong with it.
+        problem: LineProblem,
+    },
+    /// Not JSON of pairs.
+    #[error("{}: not a JSON file of pairs: {found}", path.display())]
+    BadJson {
+        /// The file.
+        path: PathBuf,
+        /// The first error in it.
+        found: String,
+    },
+    /// The file has no poses.
+    #[error("{}: no poses", path.display())]
+    NoPoses {
+        /// The file.
+        path: PathBuf,
+    },
+}
+
+/// What is wrong with one line.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum LineProblem {
+    /// A cell is not a number.
+    #[error("{:?} in column {column} is not a number", shortened(cell))]
+    NoNumber {
+        /// The column, from 1.
+        column: usize,
+        /// Content of the cell.
+        cell: String,
+    },
+    /// Too few numbers, or too many.
+    #[error("{found} numbers, expected {needed}: {expected}")]
+    Count {
+        /// Numbers in the line.
+        found: usize,
+        /// Numbers needed.
+        needed: usize,
+        /// What the numbers are, for the message.
+        expected: String,
+    },
+    /// The numbers are not a pose in their convention.
+    #[error(transparent)]
+    Pose(#[from] ConventionError),
+    /// No convention has this name.
+    #[error("no convention is named {:?}", shortened(name))]
+    NoSuchConvention {
+        /// The name in the file.
+        name: String,
+    },
+}
+
+/// The names of all conventions.
+fn names() -> String {
+    Convention::ALL.map(Convention::name).join(", ")
+}
+
+impl Advice for PairsError {
+    fn advice(&self) -> String {
+        match self {
+            Self::File(error) => error.advice(),
+            Self::NoConvention { .. } => format!(
+                "Begin the file with a line such as # robot: kuka, or name it with --robot-convention: {}",
+                names()
+            ),
+            Self::Line { problem, .. } => match problem {
+                LineProblem::Pose(error) => error.advice(),
+                LineProblem::NoSuchConvention { .. } => format!("Use one of {}", names()),
+                LineProblem::NoNumber { .. } | LineProblem::Count { .. } => {
+                    "Correct this line in a text editor; a name may stand in its first cell, and a comment begins with #".into()
+                }
+            },
+            Self::BadJson { .. } => {
+                r#"Write {"robot": "kuka", "camera": "matrix", "pairs": [{"name": "p1", "robot": [...], "camera": [...]}]}"#.into()
+            }
+            Self::NoPoses { .. } => {
+                "Write one line for each pose; partsight calibrate hand-eye --help shows how".into()
+            }
+        }
+    }
+}

@@ -1,0 +1,168 @@
+//! Errors of writing a program.
+
+use std::path::PathBuf;
+
+use super::ProgramFormat;
+use files::FileError;
+use geometry::{error::Advice, units::Metres};
+
+/// Why a program cannot be written.
+#[derive(Debug, thiserror::Error)]
+pub enum ProgramError {
+    /// The file cannot be written.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// The file's ending is not that of a controller's language.
+    #[error("{}: the ending does not stand for a controller's language", path.display())]
+    UnknownEnding {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The controller does not accept a program of this name.
+    #[error("{} does not accept a program named {name:?}", format.title())]
+    Name {
+        /// The language.
+        format: ProgramFormat,
+        /// The name.
+        name: String,
+        /// Most letters of the file's name, from which the names of called programs are made.
+        most: usize,
+    },
+    /// The name is a word of the language.
+    #[error("{name} is a reserved word of {}, so no program can have this name", format.title())]
+    Reserved {
+        /// The language.
+        format: ProgramFormat,
+        /// The name.
+        name: String,
+    },
+    /// The path has no points.
+    #[error("the path has no points")]
+    NoPoints,
+    /// A pose has a number that is not finite.
+    #[error("{} is infinite or not a number", if *point == 0 { "the pose of tool or part".into() } else { format!("the pose of point {point}") })]
+    NotFinite {
+        /// The point, from 1; 0 for tool or part.
+        point: usize,
+    },
+    /// A speed outside the controller's range.
+    #[error("point {point} asks for {:.1} mm/s, but {} accepts {:.0} to {:.0}", speed * 1000.0, format.title(), format.speeds()[0] * 1000.0, format.speeds()[1] * 1000.0)]
+    Speed {
+        /// The language.
+        format: ProgramFormat,
+        /// The point, from 1.
+        point: usize,
+        /// Its speed, m/s.
+        speed: f64,
+    },
+    /// More instructions between two places with the gun off than one program holds.
+    #[error("the gun stays on for {found} instructions, but a program in {} holds at most {most} besides its header", format.title())]
+    TooMany {
+        /// The language.
+        format: ProgramFormat,
+        /// Instructions until the gun closes.
+        found: usize,
+        /// Instructions that a program holds beside its header.
+        most: usize,
+    },
+    /// Not a tool of the controller.
+    #[error("{tool:?} is not a tool of {}", format.title())]
+    Tool {
+        /// The language.
+        format: ProgramFormat,
+        /// The tool given.
+        tool: String,
+    },
+    /// A tool was given, but the program sets the nozzle's pose as its tool, or uses the active one.
+    #[error("a program in {} does not use the tool {tool:?}: it uses the pose of the nozzle{}", format.title(), if *format == ProgramFormat::UrScript { ", or the active TCP" } else { "" })]
+    UnusedTool {
+        /// The language.
+        format: ProgramFormat,
+        /// The tool given.
+        tool: String,
+    },
+    /// The arm moves along a rail, but the language has no axis for it.
+    #[error("{} has no axis for the arm's rail", format.title())]
+    Rail {
+        /// The language.
+        format: ProgramFormat,
+    },
+    /// The arm changes its configuration in a joint move, which the language cannot name for this arm.
+    #[error("on the way to point {point} {arm} changes its configuration, which a program in {} cannot name", format.title())]
+    Configuration {
+        /// The language.
+        format: ProgramFormat,
+        /// The point, from 1.
+        point: usize,
+        /// Name of the arm.
+        arm: String,
+    },
+    /// Not a digital output of the controller.
+    #[error("{} has no digital output {output}", format.title())]
+    Output {
+        /// The language.
+        format: ProgramFormat,
+        /// Number of the output.
+        output: u16,
+    },
+    /// A length of the settings is out of its range.
+    #[error("a {name} of {value}, expected {:.0} to {:.0} mm", low.mm(), high.mm())]
+    Length {
+        /// Name of the length.
+        name: &'static str,
+        /// The value given.
+        value: Metres,
+        /// Least value.
+        low: Metres,
+        /// Greatest value.
+        high: Metres,
+    },
+}
+
+impl Advice for ProgramError {
+    fn advice(&self) -> String {
+        match self {
+            Self::File(error) => error.advice(),
+            Self::UnknownEnding { .. } => {
+                let known = ProgramFormat::ALL.map(|format| format!(".{}", format.ending()));
+                format!(
+                    "End the file's name in {}, or choose the language with --robot-program-format (path export: --as)",
+                    known.join(", ")
+                )
+            }
+            Self::Name { most, .. } => format!(
+                "Name the file with letters A to Z, digits and _, a letter first, at most {most} of them"
+            ),
+            Self::Reserved { name, .. } => {
+                format!("Give the file another name, for example paint_{name}")
+            }
+            Self::NoPoints => "Give a path with at least one point".into(),
+            Self::NotFinite { .. } => "Check the path, the tool and the calibration".into(),
+            Self::Speed { .. } => "Change the speed in the path, or give another with --speed".into(),
+            Self::TooMany { .. } => {
+                "Plan the path with a larger point_spacing, or close the gun in between: a long path is cut where the gun is off".into()
+            }
+            Self::Tool { format, .. } => match format.most_tools() {
+                Some(most) => format!("Give a number from 1 to {most} with --tool"),
+                None => "Give the tool's name on the controller with --tool: letters, digits and _, a letter first".into(),
+            },
+            Self::UnusedTool { format: ProgramFormat::UrScript, .. } => {
+                "Leave out the tool (--tool). Give the nozzle's pose (--nozzle), or activate the TCP on the controller".into()
+            }
+            Self::UnusedTool { .. } => {
+                "Leave out the tool (--tool), or the nozzle's pose (--nozzle) to use the controller's tool".into()
+            }
+            Self::Output { format, .. } => {
+                let [low, high] = format.outputs();
+                format!("Give a number from {low} to {high} with --gun-output")
+            }
+            Self::Configuration { .. } => {
+                "Write the program for the controller of the arm's maker, or move the arm's base until no such move is needed".into()
+            }
+            Self::Rail { .. } => {
+                "Leave out the rail's speed so that it stands still, or write the program for KUKA, FANUC, ABB or Yaskawa".into()
+            }
+            Self::Length { .. } => "Give a length in millimetres within this range".into(),
+        }
+    }
+}

@@ -1,0 +1,175 @@
+//! The files of a program: written whole, split if too long, and removed before the next.
+
+use std::{
+    fs,
+    io::Read as _,
+    path::{Path, PathBuf},
+};
+
+use super::{
+    MARK, Program, ProgramError, ProgramFormat, jbi, krl, ls, rapid,
+    steps::{self, Step},
+    text::Lines,
+    urscript_drl,
+};
+use files::{FileError, crc32, disk, folder_of, open_regular, write_text};
+
+/// The text of a program, and of the programs that it calls if one would be too long.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ProgramTexts {
+    /// The main program, which has the file's name.
+    pub main: String,
+    /// Names and texts of the called programs, in order.
+    pub parts: Vec<(String, String)>,
+}
+
+/// No program of ours is longer, bytes.
+const MAX_BYTES: u64 = 64 << 20;
+/// Hexadecimal digits of the checksum in the name of a part, as in `paint_1a2b3c4d_2`.
+const CHECKSUM_DIGITS: usize = 8;
+
+/// Removes an earlier program of this name, then the parts that it called, so that no robot runs it for the next part.
+/// Returns true if there was one. Other files of these names stay.
+pub fn remove_previous_program(path: &Path) -> Result<bool, FileError> {
+    let mut is_found = false;
+    let main = std::iter::once(path.to_owned());
+    for path in main.chain(parts_beside(path)) {
+        if is_own_program(&path) {
+            disk::remove_file(&path).map_err(|source| FileError::writing(&path, source))?;
+            is_found = true;
+        }
+    }
+    Ok(is_found)
+}
+
+fn is_own_program(path: &Path) -> bool {
+    let mut bytes = Vec::new();
+    let read = open_regular(path).and_then(|file| file.take(MAX_BYTES).read_to_end(&mut bytes));
+    // If it cannot be read, writing the next program will report the error.
+    read.is_ok()
+        && bytes
+            .windows(MARK.len())
+            .any(|part| part == MARK.as_bytes())
+}
+
+/// Files beside a program that are named like its parts, including those of an interrupted save.
+fn parts_beside(path: &Path) -> Vec<PathBuf> {
+    let is_named_so = |file: &Path| {
+        let (name, stem) = (file.file_stem()?.to_str()?, path.file_stem()?.to_str()?);
+        let numbers = name.strip_prefix(stem)?.strip_prefix('_')?;
+        let (checksum, number) = numbers.split_once('_')?;
+        let is_checksum =
+            checksum.len() == CHECKSUM_DIGITS && checksum.bytes().all(|c| c.is_ascii_hexdigit());
+        let is_number = !number.is_empty() && number.bytes().all(|c| c.is_ascii_digit());
+        Some(is_checksum && is_number && file.extension() == path.extension())
+    };
+    let entries = fs::read_dir(folder_of(path));
+    let files = entries.into_iter().flatten().flatten();
+    let mut files: Vec<PathBuf> = files
+        .map(|entry| entry.path())
+        .filter(|file| is_named_so(file) == Some(true))
+        .collect();
+    files.sort();
+    files
+}
+
+/// The path of a file in the same folder with the same ending.
+pub(super) fn beside(path: &Path, name: &str) -> PathBuf {
+    let mut file = path.with_file_name(name);
+    if let Some(ending) = path.extension() {
+        file.set_extension(ending);
+    }
+    file
+}
+
+impl Program<'_> {
+    /// Writes the program, whole or not at all, with the file's name as its own. Programs that it calls are written
+    /// beside it first; returns their number.
+    pub fn save(&self, path: &Path, format: ProgramFormat) -> Result<usize, ProgramError> {
+        let name = path.file_stem().unwrap_or_default().to_string_lossy();
+        let ProgramTexts { main, parts } = self.texts(format, &name)?;
+        if !parts.is_empty() {
+            // While the parts are written, there must be no main program that calls them.
+            remove_previous_program(path)?;
+        }
+        let mut all = parts.iter();
+        let saved = all
+            .try_for_each(|(name, text)| write_text(&beside(path, name), text))
+            .and_then(|()| write_text(path, &main));
+        if saved.is_err() && !parts.is_empty() {
+            // If this fails too, they are removed before the next program is written.
+            drop(remove_previous_program(path));
+        }
+        saved?;
+        Ok(parts.len())
+    }
+
+    /// Returns the program's text, split into several programs if one would be too long.
+    pub fn texts(&self, format: ProgramFormat, name: &str) -> Result<ProgramTexts, ProgramError> {
+        self.check(format, name)?;
+        let mut steps = self.steps(format);
+        let header = self.header(format, &steps);
+        let whole = self.write(format, &steps, &header, name);
+        let is_too_long = |most: &usize| whole.num_instructions() > *most;
+        let Some(most) = format.most_lines().filter(is_too_long) else {
+            return Ok(ProgramTexts {
+                main: whole.finish(format),
+                parts: Vec::new(),
+            });
+        };
+        let checksum = crc32(whole.finish(format).as_bytes());
+        let called = |number: usize| format!("{name}_{checksum:08x}_{number}");
+        let header_of = |number: usize, all: usize| {
+            let mut header = header.clone();
+            let line = format!("part {number} of {all}, called by {name}, not by itself");
+            header.insert(1, line);
+            header
+        };
+        // With larger numbers than there will be, so that no header is longer.
+        let empty = self.write(format, &[], &header_of(most, most), name);
+        // A job of JBI may have to wait for its last move.
+        let most = most.saturating_sub(empty.num_instructions() + 1);
+        let ranges =
+            steps::split(&mut steps, format, most).map_err(|found| ProgramError::TooMany {
+                format,
+                found,
+                most,
+            })?;
+        let names: Vec<String> = (1..=ranges.len()).map(called).collect();
+        let longest = names.last().map_or(0, String::len);
+        if longest > format.longest_name() {
+            return Err(ProgramError::Name {
+                format,
+                name: called(ranges.len()),
+                most: format.longest_name().saturating_sub(longest - name.len()),
+            });
+        }
+        // Only LS and JBI have a limit.
+        let main = if format == ProgramFormat::Ls {
+            ls::write_calls(self, &names, &header, name)
+        } else {
+            jbi::write_calls(self, &names, &header, name)
+        };
+        let texts = ranges.iter().zip(&names).enumerate();
+        let texts = texts.map(|(i, (range, name))| {
+            let header = header_of(i + 1, ranges.len());
+            self.write(format, &steps[range.clone()], &header, name)
+                .finish(format)
+        });
+        Ok(ProgramTexts {
+            main: main.finish(format),
+            parts: names.iter().cloned().zip(texts).collect(),
+        })
+    }
+
+    fn write(&self, format: ProgramFormat, steps: &[Step], header: &[String], name: &str) -> Lines {
+        match format {
+            ProgramFormat::Krl => krl::write(self, steps, header, name),
+            ProgramFormat::Ls => ls::write(self, steps, header, name),
+            ProgramFormat::Rapid => rapid::write(self, steps, header, name),
+            ProgramFormat::UrScript => urscript_drl::write_urscript(self, steps, header, name),
+            ProgramFormat::Jbi => jbi::write(self, steps, header, name),
+            ProgramFormat::Drl => urscript_drl::write_drl(self, steps, header),
+        }
+    }
+}

@@ -1,0 +1,195 @@
+//! The steps of a program, independent of the language.
+
+use std::ops::Range;
+
+use nalgebra::Translation3;
+
+use super::{Program, ProgramFormat, ProgramPoint, configuration::configuration};
+use crate::arm::{PointCheck, Way};
+use geometry::rigid::RigidTransform;
+
+/// One step of a program.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Step {
+    /// Pose of the nozzle at its end, in the robot's base frame.
+    pub(super) to: RigidTransform,
+    /// Configuration of the arm there, in the controller's notation; none if not checked or not known.
+    pub(super) configuration: Option<String>,
+    /// Position of the rail that moves along the path, metres; none without one.
+    pub(super) rail: Option<f64>,
+    pub(super) motion: Motion,
+}
+
+/// Kind of move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Motion {
+    /// Joint move, slow, with the gun off; gun state from its end on, if it changes there.
+    Joints(Option<bool>),
+    /// Linear move.
+    Line(Line),
+}
+
+/// A linear move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Line {
+    /// Speed, m/s.
+    pub(super) speed: f64,
+    /// Blend radius at its end, metres; 0 to stop at the point.
+    pub(super) blend: f64,
+    /// Gun state from its end on, if it changes there.
+    pub(super) gun: Option<bool>,
+}
+
+impl Step {
+    /// Gun state from its end on, if it changes there.
+    pub(super) fn gun(&self) -> Option<bool> {
+        match self.motion {
+            Motion::Joints(gun) => gun,
+            Motion::Line(line) => line.gun,
+        }
+    }
+
+    /// Instructions of the step: a move of LS also switches the gun, JBI has an instruction for it.
+    fn num_instructions(&self, format: ProgramFormat) -> usize {
+        1 + usize::from(self.gun().is_some() && format != ProgramFormat::Ls)
+    }
+}
+
+/// Limit of a blend as a share of the way to the next point, so that two blends do not touch.
+const BLEND_SHARE: f64 = 0.45;
+
+/// Returns the steps of a program with at least one point.
+pub(super) fn steps_of(program: &Program<'_>, format: ProgramFormat) -> Vec<Step> {
+    let Program {
+        points, settings, ..
+    } = program;
+    let (Some(first), Some(last)) = (points.first(), points.last()) else {
+        return Vec::new();
+    };
+    let checked = program.reach.map(|(arm, check)| (&arm.arm, check));
+    let ends = checked.and_then(|(_, check)| check.ends.as_ref());
+    let is_named = program.names_configurations(format);
+    let stands = |point: Option<&PointCheck>| {
+        let (arm, _) = checked.filter(|_| is_named)?;
+        configuration(format, arm, &point?.joints?)
+    };
+    let rail = |point: Option<&PointCheck>| {
+        let (arm, _) = checked?;
+        arm.moving_rail()?;
+        Some(point?.rail)
+    };
+    let at = |index: usize| checked.and_then(|(_, check)| check.points.get(index));
+    // The pose behind a point, turned and tilted as in the check.
+    let behind = |point: &ProgramPoint, end: Option<&PointCheck>| {
+        let away = Translation3::new(0.0, 0.0, -settings.approach.0);
+        end.map_or(point.robot_from_nozzle * away, |end| end.robot_from_nozzle)
+    };
+    let place = |point: &ProgramPoint| point.robot_from_nozzle.translation.vector;
+    let begin = ends.map(|[begin, _]| begin);
+    let mut steps = vec![Step {
+        to: behind(first, begin),
+        configuration: stands(begin),
+        rail: rail(begin),
+        motion: Motion::Joints(None),
+    }];
+    let way = |point: Option<&PointCheck>| point.map_or(Way::Planned, |point| point.way);
+    let mut is_on = false;
+    // The way to a point has the speed of the point before it.
+    let mut speed = first.speed.unwrap_or(settings.speed);
+    for (i, point) in points.iter().enumerate() {
+        let is_last = i + 1 == points.len();
+        let wanted = point.is_gun_on && !is_last;
+        let neighbours = match (i.checked_sub(1), points.get(i + 1)) {
+            (Some(before), Some(next)) => {
+                let to = |other: &ProgramPoint| (place(other) - place(point)).norm();
+                to(&points[before]).min(to(next))
+            }
+            // The first and the last point are not blended.
+            _ => 0.0,
+        };
+        let is_joint_move_next = way(at(i + 1)) == Way::Joints;
+        let gun = (wanted != is_on).then_some(wanted);
+        let most = if gun.is_some() {
+            format.switching_blend()
+        } else {
+            f64::INFINITY
+        };
+        let line = Line {
+            speed,
+            blend: if is_joint_move_next {
+                0.0
+            } else {
+                settings.blend.0.min(BLEND_SHARE * neighbours).min(most)
+            },
+            gun,
+        };
+        steps.push(Step {
+            to: point.robot_from_nozzle,
+            configuration: stands(at(i)),
+            rail: rail(at(i)),
+            motion: match way(at(i)) {
+                Way::Planned => Motion::Line(line),
+                Way::Slower(speed) => Motion::Line(Line { speed, ..line }),
+                Way::Joints => Motion::Joints(gun),
+            },
+        });
+        is_on = wanted;
+        speed = point.speed.unwrap_or(settings.speed);
+    }
+    let end = ends.map(|[_, end]| end);
+    steps.push(Step {
+        to: behind(last, end),
+        configuration: stands(end),
+        rail: rail(end),
+        motion: Motion::Line(Line {
+            speed: match way(end) {
+                Way::Slower(slower) => slower,
+                _ => speed,
+            },
+            blend: 0.0,
+            gun: None,
+        }),
+    });
+    steps
+}
+
+/// Cuts the steps where the gun is off into parts of at most `most` instructions; the robot stops there. Fails with the
+/// number of instructions if there are more between two such places.
+pub(super) fn split(
+    steps: &mut [Step],
+    format: ProgramFormat,
+    most: usize,
+) -> Result<Vec<Range<usize>>, usize> {
+    let mut parts: Vec<Range<usize>> = Vec::new();
+    let (mut used, mut is_on) = (0, false);
+    let strokes = steps.split_inclusive(|step| {
+        is_on = step.gun().unwrap_or(is_on);
+        !is_on
+    });
+    for stroke in strokes {
+        let needed: usize = stroke
+            .iter()
+            .map(|step| step.num_instructions(format))
+            .sum();
+        if needed > most {
+            return Err(needed);
+        }
+        let begin = parts.last().map_or(0, |part| part.end);
+        match parts.last_mut() {
+            Some(part) if used + needed <= most => {
+                part.end += stroke.len();
+                used += needed;
+            }
+            _ => {
+                parts.push(begin..begin + stroke.len());
+                used = needed;
+            }
+        }
+    }
+    for part in &parts {
+        if let Motion::Line(line) = &mut steps[part.end - 1].motion {
+            line.blend = 0.0;
+        }
+    }
+    Ok(parts)
+}

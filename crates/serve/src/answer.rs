@@ -1,0 +1,682 @@
+//! Requests that a client may send, and the answers to them.
+
+use std::{
+    sync::OnceLock,
+    time::{Duration, Instant},
+};
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use geometry::{
+    error::Advice,
+    rigid::{RigidTransform, row_major},
+};
+
+/// A client's request.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Request {
+    /// Capture a frame from now on, and inspect it.
+    Trigger,
+    /// Send the camera's state, and the last verdict without its numbers.
+    Status,
+    /// Send the last inspection again.
+    Last,
+    /// Send a point of the part's spray path, moved by the pose of an inspection.
+    Path {
+        /// The point's number from 1, or 0 for the number of points.
+        point: u32,
+        /// The inspection's sequence number; `None` for that of the client's own last trigger.
+        sequence: Option<u32>,
+    },
+}
+
+impl Request {
+    /// The word in text protocols, and the code in binary frames.
+    pub(super) fn name(self) -> (&'static str, u16) {
+        match self {
+            Self::Trigger => ("TRIGGER", 1),
+            Self::Status => ("STATUS", 2),
+            Self::Last => ("LAST", 3),
+            Self::Path { .. } => ("PATH", 4),
+        }
+    }
+
+    /// Finds a request by its word, ignoring case; a path request is one for the number of points.
+    pub(super) fn of_name(word: &str) -> Option<Self> {
+        let path = Self::Path {
+            point: 0,
+            sequence: None,
+        };
+        let all = [Self::Trigger, Self::Status, Self::Last, path];
+        let mut all = all.into_iter();
+        all.find(|request| request.name().0.eq_ignore_ascii_case(word))
+    }
+}
+
+/// Verdict of an inspection in an answer. The numbers are part of the protocols.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum VerdictCode {
+    /// Nothing was inspected since the start.
+    #[default]
+    None = 0,
+    /// A part with a pose that a robot may use.
+    Accepted = 1,
+    /// Something hangs there, but its verdict or its pose does not count.
+    Refused = 2,
+    /// Nothing to recognise.
+    NoPart = 3,
+    /// It was accepted, but the frame is too old by now.
+    Stale = 4,
+    /// There was nothing to inspect: no frame, or a fault of the program.
+    Error = 5,
+    /// As many clients are connected as are allowed.
+    Full = 6,
+    /// The request could not be read or asks for something that is not there.
+    BadRequest = 7,
+}
+
+impl VerdictCode {
+    /// The word in text protocols.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Accepted => "accepted",
+            Self::Refused => "refused",
+            Self::NoPart => "no_part",
+            Self::Stale => "stale",
+            Self::Error => "error",
+            Self::Full => "full",
+            Self::BadRequest => "bad_request",
+        }
+    }
+
+    /// The code in binary protocols.
+    pub fn code(self) -> u16 {
+        self as u16
+    }
+}
+
+/// How the camera is, in one word. The numbers are part of the protocols.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum CameraState {
+    /// It is being opened.
+    #[default]
+    Opening = 0,
+    /// Frames come.
+    Running = 1,
+    /// It is gone, and looked for by itself.
+    Lost = 2,
+    /// It ended or failed; the next trigger opens it again.
+    Over = 3,
+}
+
+impl CameraState {
+    /// The word in text protocols.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Opening => "opening",
+            Self::Running => "running",
+            Self::Lost => "lost",
+            Self::Over => "over",
+        }
+    }
+
+    /// The code in binary protocols.
+    pub fn code(self) -> u16 {
+        self as u16
+    }
+}
+
+/// How the camera is.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct CameraStatus {
+    /// In one word.
+    pub state: CameraState,
+    /// Why it gives nothing; null while it does.
+    pub trouble: Option<Trouble>,
+}
+
+/// Why there is no pose: for programs and for people.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct Trouble {
+    /// A word that stays the same in later versions; empty if there is nothing to say.
+    pub reason: String,
+    /// What happened and what to do.
+    pub message: String,
+}
+
+impl Trouble {
+    /// Joins what happened and what to do about it in one line.
+    pub(super) fn new(reason: impl Into<String>, what: &str, advice: &str) -> Self {
+        Self {
+            reason: reason.into(),
+            message: format!("{what} (to do: {advice})"),
+        }
+    }
+
+    /// Puts an error and its advice into words.
+    pub fn of<E: std::fmt::Display + Advice>(reason: impl Into<String>, error: &E) -> Self {
+        Self::new(reason, &error.to_string(), &error.advice())
+    }
+
+    /// A person has reported that the part is another one.
+    pub fn reported_wrong() -> Self {
+        Self::new(
+            "reported_wrong",
+            "the part was reported as wrong by the operator",
+            "Hang the next part, or correct the report in the history",
+        )
+    }
+
+    /// The robot's frame or the kind of pose was changed.
+    pub(super) fn numbers_changed() -> Self {
+        Self::new(
+            "numbers_changed",
+            "the calibration, or which pose is sent, has changed since",
+            "Check that the program expects these poses, and TRIGGER again",
+        )
+    }
+
+    /// The client asks for the path of its own trigger, but has none.
+    pub(super) fn no_trigger() -> Self {
+        Self::new(
+            "no_trigger",
+            "this client has not triggered, so no path is its own",
+            "TRIGGER on this connection, or give the sequence number of the trigger's answer, as in PATH 1 41",
+        )
+    }
+
+    /// The inspection is not kept any more, or never was.
+    pub(super) fn no_such_inspection(sequence: u32) -> Self {
+        Self::new(
+            "no_such_inspection",
+            &format!("inspection {sequence} is not kept"),
+            "TRIGGER again, and give the sequence number of its answer",
+        )
+    }
+
+    /// The maximum number of clients is connected.
+    pub(super) fn full(max_clients: usize) -> Self {
+        Self::new(
+            "full",
+            &format!("{max_clients} clients are connected"),
+            "Close a connection that is not used, or raise --max-clients",
+        )
+    }
+}
+
+/// The library of a service that takes new versions of it while it runs.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct LibraryStatus {
+    /// The version in use; null if it was not taken from a store.
+    pub version: Option<u32>,
+    /// Why a newer version could not be taken or used; null if there is none.
+    pub trouble: Option<Trouble>,
+}
+
+/// A nozzle pose of the spray path, for the part as it hangs now.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PathStep {
+    /// Pose of the tool, see [`robot::spray`], in the robot's base frame.
+    pub robot_from_nozzle: RigidTransform,
+    /// [`Answer::GUN_ON`]: the gun is on from here to the next point; [`Answer::IN_BAND`]: within the band.
+    pub marks: u16,
+    /// Speed from here to the next point, m/s; none if the path sets none.
+    pub speed: Option<f64>,
+}
+
+/// The result of an inspection.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Found {
+    /// [`VerdictCode::Accepted`], [`VerdictCode::Refused`], [`VerdictCode::NoPart`] or [`VerdictCode::Error`].
+    pub verdict: VerdictCode,
+    /// When the frame was captured; none without a frame.
+    pub captured: Option<Instant>,
+    /// Name of the part; empty if it is not in the library.
+    pub part: String,
+    /// Number of the reference in whose coordinates the pose is; 0 if it has none.
+    pub number: u32,
+    /// Any of [`Answer::APPROXIMATE`], [`Answer::SIMULATED`] and [`Answer::MOTION_UNCHECKED`].
+    pub marks: u16,
+    /// The pose in the robot's base frame. Sent only while the verdict is accepted.
+    pub pose: Option<RigidTransform>,
+    /// The part's stored spray path, moved by that pose.
+    pub path: Vec<PathStep>,
+    /// The inspection as a JSON line; empty if there was none.
+    pub report: String,
+    /// Why there is no pose.
+    pub trouble: Trouble,
+}
+
+impl Found {
+    /// A result for a trigger after which nothing could be inspected.
+    pub fn error(trouble: Trouble) -> Self {
+        Self {
+            verdict: VerdictCode::Error,
+            trouble,
+            ..Self::default()
+        }
+    }
+
+    /// Refuses a part that was accepted, and withholds its pose and its path.
+    pub fn refuse(&mut self, trouble: Trouble) {
+        self.verdict = VerdictCode::Refused;
+        self.marks &= !Answer::OF_ACCEPTED;
+        self.pose = None;
+        self.path.clear();
+        self.trouble = trouble;
+    }
+}
+
+/// Maximum of sequence and boot numbers, and of ages in milliseconds: up to here a 32-bit real of a controller holds whole
+/// numbers exactly.
+pub const MAX_COUNT: u32 = (1 << 24) - 1;
+
+/// An inspection with its numbers.
+#[derive(Debug, Default)]
+pub(super) struct Inspected {
+    /// From 1; 0 before the first one.
+    pub(super) sequence: u32,
+    /// The boot number when it was made.
+    pub(super) boot: u32,
+    pub(super) found: Found,
+    /// Why its pose and its path may not be sent any more, if it was accepted.
+    pub(super) revoked: OnceLock<Trouble>,
+}
+
+impl Inspected {
+    /// The verdict as it holds now, with the reason if it differs from the original.
+    fn judged(&self, age: Option<Duration>, max_age: Duration) -> (VerdictCode, Trouble) {
+        match self.revoked.get() {
+            Some(trouble) if self.found.verdict == VerdictCode::Accepted => {
+                (VerdictCode::Refused, trouble.clone())
+            }
+            _ => judged(&self.found, age, max_age),
+        }
+    }
+}
+
+/// What an answer depends on besides the inspection.
+#[derive(Clone, Debug)]
+pub(super) struct Situation {
+    /// The present boot number, 1..=[`MAX_COUNT`].
+    pub(super) boot: u32,
+    /// Maximum age of a frame before it is stale.
+    pub(super) max_age: Duration,
+    pub(super) camera: CameraStatus,
+    pub(super) now: Instant,
+}
+
+/// An answer to a client, independent of the protocol.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Answer {
+    /// The request answered; none if it could not be read, or if the client was refused before it sent one.
+    pub request: Option<Request>,
+    /// What the inspection, or else the request, came to.
+    pub verdict: VerdictCode,
+    /// Sequence number of the inspection, 1..=[`MAX_COUNT`]; 0 if there was none.
+    pub sequence: u32,
+    /// Boot number of this start of the server, 1..=[`MAX_COUNT`]; another one once the meaning of its poses has changed.
+    pub boot: u32,
+    /// Age of the frame, at most [`MAX_COUNT`] milliseconds; none without a frame.
+    pub age_ms: Option<u32>,
+    /// The camera's state.
+    pub camera: CameraState,
+    /// Name of the part; may be empty.
+    pub part: String,
+    /// Number of the reference; 0 if it has none.
+    pub number: u32,
+    /// The flags of this type except [`Answer::POSE`], which [`Answer::flags`] adds.
+    pub marks: u16,
+    /// Number of the path's point, from 1; 0 in other answers.
+    pub point: u32,
+    /// Number of points of the path.
+    pub points: u32,
+    /// Speed from this point to the next, mm/s.
+    pub speed_mm_s: Option<f64>,
+    /// Pose in the robot's base frame; only with an accepted verdict.
+    pub pose: Option<RigidTransform>,
+    /// Why there is no pose; in an answer to a status request, the camera's trouble.
+    pub trouble: Trouble,
+}
+
+impl Answer {
+    /// Flag: the answer contains a pose.
+    pub const POSE: u16 = 1;
+    /// Flag: the part may be another model; its pose is only about right.
+    pub const APPROXIMATE: u16 = 2;
+    /// Flag: the scene is simulated or replayed, or the part was enrolled from a simulation.
+    pub const SIMULATED: u16 = 4;
+    /// Flag of a point of the path: the gun sprays from here to the next point.
+    pub const GUN_ON: u16 = 8;
+    /// Flag of a point of the path: distance and angle to the surface seen by the camera are within the band.
+    pub const IN_BAND: u16 = 16;
+    /// Flag: the source has no second frame, so whether the part hung still was not checked.
+    pub const MOTION_UNCHECKED: u16 = 32;
+
+    /// Flags that only an accepted part has.
+    const OF_ACCEPTED: u16 = Self::APPROXIMATE | Self::MOTION_UNCHECKED;
+
+    /// All flags that are set, with [`Answer::POSE`] if there is a pose.
+    pub fn flags(&self) -> u16 {
+        let pose = if self.pose.is_some() { Self::POSE } else { 0 };
+        self.marks | pose
+    }
+
+    /// The age in milliseconds; -1 without a frame.
+    pub(super) fn age_or_none(&self) -> i32 {
+        self.age_ms
+            .and_then(|age| i32::try_from(age).ok())
+            .unwrap_or(-1)
+    }
+
+    /// An answer to a client that is refused, or whose request could not be read.
+    pub(super) fn turned_away(verdict: VerdictCode, trouble: Trouble, at: &Situation) -> Self {
+        Self {
+            verdict,
+            boot: at.boot,
+            camera: at.camera.state,
+            trouble,
+            ..Self::default()
+        }
+    }
+
+    /// Answers a request from an inspection.
+    pub(super) fn of(request: Request, inspected: &Inspected, at: &Situation) -> Self {
+        let found = &inspected.found;
+        let age = found
+            .captured
+            .map(|captured| at.now.saturating_duration_since(captured));
+        let (verdict, trouble) = inspected.judged(age, at.max_age);
+        let marks = match verdict {
+            VerdictCode::Refused => found.marks & !Self::OF_ACCEPTED,
+            _ => found.marks,
+        };
+        let mut answer = Self {
+            request: Some(request),
+            verdict,
+            sequence: inspected.sequence,
+            // Its numbers have the meaning that they had then.
+            boot: inspected.boot,
+            age_ms: age.map(in_milliseconds),
+            camera: at.camera.state,
+            part: found.part.clone(),
+            number: found.number,
+            marks,
+            trouble,
+            ..Self::default()
+        };
+        if let (Request::Status, Some(trouble)) = (request, &at.camera.trouble) {
+            answer.trouble = trouble.clone();
+        }
+        // The only place where numbers get into an answer.
+        if verdict == VerdictCode::Accepted {
+            answer.points = u32::try_from(found.path.len()).unwrap_or(u32::MAX);
+            match request {
+                Request::Trigger | Request::Last => answer.pose = found.pose,
+                Request::Status | Request::Path { point: 0, .. } => {}
+                Request::Path { point, .. } => answer.take_point(point, &found.path),
+            }
+        }
+        answer
+    }
+
+    fn take_point(&mut self, point: u32, path: &[PathStep]) {
+        let step = usize::try_from(point).ok().and_then(|i| path.get(i - 1));
+        let Some(step) = step else {
+            self.verdict = VerdictCode::BadRequest;
+            let what = format!("there is no point {point} in a path of {}", path.len());
+            let advice = if path.is_empty() {
+                "Store a path: partsight library path NAME path.csv, and start the server again"
+            } else {
+                "Ask for points from 1 to the number of points in PATH's answer"
+            };
+            self.trouble = Trouble::new("no_such_point", &what, advice);
+            return;
+        };
+        self.point = point;
+        self.marks |= step.marks;
+        self.speed_mm_s = step.speed.map(|speed| speed * 1000.0);
+        self.pose = Some(step.robot_from_nozzle);
+    }
+}
+
+fn in_milliseconds(age: Duration) -> u32 {
+    let age = u32::try_from(age.as_millis()).unwrap_or(MAX_COUNT);
+    age.min(MAX_COUNT)
+}
+
+/// The verdict as it holds now, with the reason if it differs from the original.
+pub(super) fn judged(
+    found: &Found,
+    age: Option<Duration>,
+    max_age: Duration,
+) -> (VerdictCode, Trouble) {
+    if found.verdict != VerdictCode::Accepted {
+        return (found.verdict, found.trouble.clone());
+    }
+    let is_fresh = age.is_some_and(|age| age <= max_age);
+    let poses = found.path.iter().map(|step| &step.robot_from_nozzle);
+    let mut poses = poses.chain(&found.pose);
+    let is_finite = poses.all(|pose| row_major(pose).iter().all(|number| number.is_finite()));
+    if !is_fresh {
+        let what = format!("the frame is older than {} s", max_age.as_secs_f64());
+        let advice = "TRIGGER again; if a path takes longer to fetch, raise --max-age";
+        (VerdictCode::Stale, Trouble::new("stale", &what, advice))
+    } else if found.pose.is_none() || !is_finite {
+        let what = "the part was accepted without a pose";
+        let advice = "Start the server without --pose none, and TRIGGER again";
+        (VerdictCode::Refused, Trouble::new("no_pose", what, advice))
+    } else {
+        (VerdictCode::Accepted, found.trouble.clone())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use geometry::rigid::from_euler_zyx;
+
+    fn pose() -> RigidTransform {
+        from_euler_zyx([0.1, -0.2, 0.3, 1.2, -0.4, 1.9])
+    }
+
+    fn found(captured: Instant) -> Found {
+        Found {
+            verdict: VerdictCode::Accepted,
+            captured: Some(captured),
+            part: "fender".into(),
+            number: 3,
+            marks: Answer::SIMULATED,
+            pose: Some(pose()),
+            path: vec![PathStep {
+                robot_from_nozzle: pose(),
+                marks: Answer::GUN_ON,
+                speed: Some(0.25),
+            }],
+            report: "{}".into(),
+            trouble: Trouble::default(),
+        }
+    }
+
+    fn situation(now: Instant) -> Situation {
+        Situation {
+            boot: 7,
+            max_age: Duration::from_secs(10),
+            camera: CameraStatus {
+                state: CameraState::Running,
+                trouble: None,
+            },
+            now,
+        }
+    }
+
+    const fn path(point: u32) -> Request {
+        Request::Path {
+            point,
+            sequence: None,
+        }
+    }
+
+    const ALL: [Request; 6] = [
+        Request::Trigger,
+        Request::Status,
+        Request::Last,
+        path(0),
+        path(1),
+        path(2),
+    ];
+
+    fn inspected(sequence: u32, found: Found) -> Inspected {
+        Inspected {
+            sequence,
+            boot: 7,
+            found,
+            ..Inspected::default()
+        }
+    }
+
+    #[test]
+    fn numbers_go_out_with_an_accepted_verdict_only() {
+        let start = Instant::now();
+        let inspected = |found| inspected(5, found);
+        let at = situation(start + Duration::from_millis(1500));
+        for verdict in [
+            VerdictCode::None,
+            VerdictCode::Refused,
+            VerdictCode::NoPart,
+            VerdictCode::Error,
+        ] {
+            let last = inspected(Found {
+                verdict,
+                ..found(start)
+            });
+            for request in ALL {
+                let answer = Answer::of(request, &last, &at);
+                assert_eq!(answer.verdict, verdict);
+                assert_eq!((answer.pose, answer.points), (None, 0), "{request:?}");
+                assert_eq!(answer.flags() & Answer::POSE, 0);
+                assert_eq!(answer.speed_mm_s, None);
+            }
+        }
+        let last = inspected(found(start));
+        for request in ALL {
+            let answer = Answer::of(request, &last, &at);
+            let has_pose = request != Request::Status && request != path(0) && request != path(2);
+            assert_eq!(answer.pose.is_some(), has_pose, "{request:?}");
+            assert_eq!(answer.age_ms, Some(1500));
+            assert_eq!((answer.sequence, answer.boot), (5, 7));
+        }
+        let step = Answer::of(path(1), &last, &at);
+        assert_eq!(
+            (step.point, step.points, step.speed_mm_s),
+            (1, 1, Some(250.0))
+        );
+        assert_eq!(
+            step.flags(),
+            Answer::POSE | Answer::SIMULATED | Answer::GUN_ON
+        );
+        let beyond = Answer::of(path(2), &last, &at);
+        assert_eq!(beyond.verdict, VerdictCode::BadRequest);
+        assert_eq!(beyond.trouble.reason, "no_such_point");
+    }
+
+    #[test]
+    fn what_was_accepted_becomes_stale_and_loses_its_numbers() {
+        let start = Instant::now();
+        let last = inspected(1, found(start));
+        let fresh = situation(start + Duration::from_secs(10));
+        assert!(Answer::of(Request::Last, &last, &fresh).pose.is_some());
+        let late = situation(start + Duration::from_millis(10_001));
+        for request in ALL {
+            let answer = Answer::of(request, &last, &late);
+            assert_eq!(answer.verdict, VerdictCode::Stale, "{request:?}");
+            assert_eq!((answer.pose, answer.points), (None, 0));
+            assert_eq!(answer.trouble.reason, "stale");
+            assert_eq!(answer.part, "fender");
+        }
+    }
+
+    #[test]
+    fn a_pose_that_is_missing_or_not_finite_is_refused() {
+        let start = Instant::now();
+        let mut endless = pose();
+        endless.translation.vector.x = f64::NAN;
+        let step = PathStep {
+            robot_from_nozzle: endless,
+            marks: 0,
+            speed: None,
+        };
+        for wrong in [
+            Found {
+                pose: None,
+                ..found(start)
+            },
+            Found {
+                pose: Some(endless),
+                ..found(start)
+            },
+            Found {
+                path: vec![step],
+                ..found(start)
+            },
+        ] {
+            let last = inspected(1, wrong);
+            for request in ALL {
+                let answer = Answer::of(request, &last, &situation(start));
+                assert_eq!(answer.verdict, VerdictCode::Refused);
+                assert_eq!(answer.pose, None);
+                assert_eq!(answer.trouble.reason, "no_pose");
+            }
+        }
+    }
+
+    #[test]
+    fn a_status_tells_why_the_camera_gives_nothing() {
+        let now = Instant::now();
+        let trouble = Trouble {
+            reason: "camera_lost".into(),
+            message: "the Kinect is gone (to do: Plug it in)".into(),
+        };
+        let at = Situation {
+            camera: CameraStatus {
+                state: CameraState::Lost,
+                trouble: Some(trouble.clone()),
+            },
+            ..situation(now)
+        };
+        let answer = Answer::of(Request::Status, &Inspected::default(), &at);
+        assert_eq!(answer.trouble, trouble);
+        assert_eq!(answer.camera, CameraState::Lost);
+        let none = (answer.verdict, answer.sequence, answer.age_or_none());
+        assert_eq!(none, (VerdictCode::None, 0, -1));
+    }
+
+    #[test]
+    fn an_age_is_never_longer_than_the_longest_number() {
+        assert_eq!(in_milliseconds(Duration::MAX), MAX_COUNT);
+    }
+
+    #[test]
+    fn what_is_revoked_is_refused_with_the_boot_number_of_its_numbers() {
+        let now = Instant::now();
+        let mut wrong = found(now);
+        wrong.marks |= Answer::APPROXIMATE | Answer::MOTION_UNCHECKED;
+        let last = inspected(5, wrong);
+        last.revoked.set(Trouble::reported_wrong()).expect("once");
+        let at = Situation {
+            boot: 8,
+            ..situation(now)
+        };
+        for request in ALL {
+            let answer = Answer::of(request, &last, &at);
+            assert_eq!(answer.verdict, VerdictCode::Refused, "{request:?}");
+            assert_eq!((answer.pose, answer.points), (None, 0));
+            assert_eq!((answer.flags(), answer.boot), (Answer::SIMULATED, 7));
+            assert_eq!(answer.trouble.reason, "reported_wrong");
+        }
+    }
+}

@@ -1,0 +1,145 @@
+//! ASCII answers: one line of fields, for PLCs.
+//!
+//! ```text
+//! TRIGGER;accepted;41;1234567;215;running;fender;4;5;0;0;;1200.500;-400.125;1900.000;86.0000;-5.0000;120.0000;;
+//! ```
+//!
+//! The fields: request, verdict, sequence, boot, age in ms (-1: no frame), camera, part, number, flags, point, points,
+//! speed in mm/s, the numbers of the convention, reason, message. Every answer has every field; without a pose the numbers
+//! are empty.
+
+use super::{MAX_MESSAGE, plain};
+use crate::answer::{Answer, Request};
+use robot::{Convention, RobotValue};
+
+pub(super) fn write(answer: &Answer, convention: Convention) -> String {
+    let request = answer.request.map_or("NONE", name_of);
+    let speed = answer.speed_mm_s.map(|speed| format!("{speed:.1}"));
+    let mut fields = vec![
+        request.to_owned(),
+        answer.verdict.name().to_owned(),
+        answer.sequence.to_string(),
+        answer.boot.to_string(),
+        answer.age_or_none().to_string(),
+        answer.camera.name().to_owned(),
+        plain(&answer.part, MAX_MESSAGE),
+        answer.number.to_string(),
+        answer.flags().to_string(),
+        answer.point.to_string(),
+        answer.points.to_string(),
+        speed.unwrap_or_default(),
+    ];
+    match &answer.pose {
+        Some(pose) => {
+            let written = convention.write(pose);
+            fields.extend(written.values.iter().map(RobotValue::rounded));
+        }
+        None => fields.extend(convention.names().iter().map(|_| String::new())),
+    }
+    fields.push(plain(&answer.trouble.reason, MAX_MESSAGE));
+    fields.push(plain(&answer.trouble.message, MAX_MESSAGE));
+    let mut line = fields.join(";");
+    line.push('\n');
+    line
+}
+
+/// The word for a request.
+pub(super) fn name_of(request: Request) -> &'static str {
+    request.name().0
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Point3;
+
+    use super::*;
+    use crate::{
+        answer::{Trouble, VerdictCode},
+        protocol::tests::refused,
+    };
+    use geometry::rigid::{RigidTransform, from_euler_zyx, pose_error};
+
+    fn accepted() -> (Answer, RigidTransform) {
+        let pose = from_euler_zyx([0.4, -0.2, 1.3, 1.2005, -0.4, 1.9]);
+        let answer = Answer {
+            verdict: VerdictCode::Accepted,
+            pose: Some(pose),
+            trouble: Trouble::default(),
+            ..refused()
+        };
+        (answer, pose)
+    }
+
+    #[test]
+    fn an_accepted_part_has_the_numbers_of_the_convention_in_their_order() {
+        let (answer, pose) = accepted();
+        for convention in Convention::ALL {
+            let line = write(&answer, convention);
+            let line = line.strip_suffix('\n').expect("a line");
+            let fields: Vec<&str> = line.split(';').collect();
+            let count = convention.names().len();
+            assert_eq!(fields.len(), 14 + count, "{line}");
+            assert_eq!(
+                fields[..12],
+                [
+                    "TRIGGER",
+                    "accepted",
+                    "41",
+                    "1234567",
+                    "215",
+                    "running",
+                    "front_door",
+                    "3",
+                    "5",
+                    "0",
+                    "0",
+                    ""
+                ]
+            );
+            assert_eq!(fields[12 + count..], ["", ""]);
+            let numbers: Vec<f64> = fields[12..12 + count]
+                .iter()
+                .map(|field| field.parse().expect("a number"))
+                .collect();
+            let read = convention.read(&numbers).expect("a pose");
+            let off = pose_error(&read, &pose, &Point3::origin());
+            assert!(
+                off.shift.mm() < 0.01 && off.rotation.degrees() < 0.001,
+                "{line}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_refused_part_has_empty_numbers_and_a_reason() {
+        let line = write(&refused(), Convention::Abb);
+        assert_eq!(line.matches('\n').count(), 1);
+        assert!(line.is_ascii() && line.ends_with('\n'), "{line}");
+        let fields: Vec<&str> = line.trim_end().split(';').collect();
+        assert_eq!(fields.len(), 21, "{line}");
+        assert_eq!(fields[1], "refused");
+        assert_eq!(fields[12..19], [""; 7]);
+        assert_eq!(fields[19], "low_score");
+        assert!(fields[20].starts_with("it scores, <0.5>"));
+    }
+
+    #[test]
+    fn a_point_of_the_path_has_its_number_and_its_speed() {
+        let (answer, _) = accepted();
+        let answer = Answer {
+            request: Some(Request::Path {
+                point: 2,
+                sequence: None,
+            }),
+            point: 2,
+            points: 9,
+            speed_mm_s: Some(250.0),
+            marks: Answer::GUN_ON,
+            ..answer
+        };
+        let line = write(&answer, Convention::Kuka);
+        let fields: Vec<&str> = line.split(';').collect();
+        assert_eq!(fields[0], "PATH");
+        assert_eq!(fields[8..12], ["9", "2", "9", "250.0"]);
+    }
+}

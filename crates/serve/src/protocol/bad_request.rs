@@ -1,0 +1,143 @@
+//! Why bytes are not a request.
+
+use thiserror::Error;
+
+use super::{
+    ByteOrder,
+    binary::{PATH_REQUEST_BYTES, REQUEST_BYTES, VERSION},
+    plain,
+};
+use geometry::error::Advice;
+
+/// Why bytes are not a request. The client gets this as an answer and is disconnected, because the start of the next
+/// request is unknown.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum BadRequest {
+    /// The request is longer than any valid one.
+    #[error("the request is longer than {limit} bytes")]
+    TooLong {
+        /// Maximum length, bytes.
+        limit: usize,
+    },
+    /// The request did not end in time.
+    #[error("the request was not complete after {seconds} s")]
+    Incomplete {
+        /// How long its end was waited for, seconds.
+        seconds: u64,
+    },
+    /// The word is not a request.
+    #[error("not a request: {found:?}")]
+    Unknown {
+        /// The text found, in printable characters.
+        found: String,
+    },
+    /// The text after `PATH` is not a number.
+    #[error("not the number of a point or of an inspection: {found:?}")]
+    NoPoint {
+        /// The text found, in printable characters.
+        found: String,
+    },
+    /// The frame does not begin with the expected bytes.
+    #[error("the frame does not begin with PSRQ")]
+    Magic,
+    /// The frame has another version, or the other byte order.
+    #[error("the frame has version {found}, expected {VERSION}")]
+    Version {
+        /// The version found.
+        found: u16,
+        /// The byte order in which it was read.
+        order: ByteOrder,
+    },
+    /// The frame's length field is not the length of a request.
+    #[error(
+        "the frame gives its length as {found} bytes, expected {REQUEST_BYTES} or {PATH_REQUEST_BYTES}"
+    )]
+    Length {
+        /// The length found.
+        found: u16,
+    },
+    /// The frame was corrupted, or its sender computes the checksum differently.
+    #[error("the frame's checksum is {found:08x}, expected {expected:08x}")]
+    Checksum {
+        /// The checksum found.
+        found: u32,
+        /// The checksum computed from the frame's bytes.
+        expected: u32,
+    },
+    /// The request is not the expected XML.
+    #[error("not the expected XML: {found:?}")]
+    NotXml {
+        /// The text found, in printable characters.
+        found: String,
+    },
+}
+
+/// Number of characters of a bad request that are shown.
+const SHOWN: usize = 40;
+
+impl BadRequest {
+    pub(super) fn unknown(found: &[u8]) -> Self {
+        let found = shown(found);
+        Self::Unknown { found }
+    }
+
+    pub(super) fn no_point(found: &[u8]) -> Self {
+        let found = shown(found);
+        Self::NoPoint { found }
+    }
+
+    pub(super) fn not_xml(found: &[u8]) -> Self {
+        let found = shown(found);
+        Self::NotXml { found }
+    }
+
+    /// The reason word in an answer.
+    pub fn reason(&self) -> &'static str {
+        match self {
+            Self::TooLong { .. } => "too_long",
+            Self::Incomplete { .. } => "incomplete",
+            Self::Unknown { .. } => "unknown_request",
+            Self::NoPoint { .. } => "no_point",
+            Self::Magic => "magic",
+            Self::Version { .. } => "version",
+            Self::Length { .. } => "length",
+            Self::Checksum { .. } => "checksum",
+            Self::NotXml { .. } => "not_xml",
+        }
+    }
+}
+
+fn shown(bytes: &[u8]) -> String {
+    plain(&String::from_utf8_lossy(bytes), SHOWN)
+}
+
+impl Advice for BadRequest {
+    fn advice(&self) -> String {
+        match self {
+            Self::TooLong { .. } | Self::Unknown { .. } => {
+                "Send TRIGGER, STATUS, LAST or PATH, in the protocol of this port".into()
+            }
+            Self::Incomplete { .. } => "Send the complete request, with its terminator".into(),
+            Self::NoPoint { .. } => "Send PATH, or PATH and the number of a point from 1, and behind it, if need be, the sequence number of a trigger's answer".into(),
+            Self::Magic => "Begin the frame with the bytes 50 53 52 51".into(),
+            Self::Version { found, order } => {
+                let other = match order {
+                    ByteOrder::Little => "binary-be",
+                    ByteOrder::Big => "binary",
+                };
+                if found.swap_bytes() == VERSION {
+                    format!("The other byte order: listen with {other}")
+                } else {
+                    "Update the older of the two programs".into()
+                }
+            }
+            Self::Length { .. } => "Send the length of the whole frame with its checksum".into(),
+            Self::Checksum { .. } => {
+                "Calculate CRC-32 (ISO 3309, as in ZIP) over all bytes before the checksum".into()
+            }
+            Self::NotXml { .. } => {
+                "Send <Robot><Request>TRIGGER</Request><Point>0</Point></Robot>".into()
+            }
+        }
+    }
+}

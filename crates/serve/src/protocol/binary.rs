@@ -1,0 +1,384 @@
+//! Frames of fixed length, for PLCs that cannot easily parse text.
+//!
+//! Integers and reals (IEEE 754) are in the byte order chosen for the port. Texts are UTF-8, padded with zeros. The
+//! checksum is CRC-32 (ISO 3309, as in ZIP and PNG) over all bytes before it.
+//!
+//! | request: from | bytes | |
+//! | --- | --- | --- |
+//! | 0 | 4 | `PSRQ` |
+//! | 4 | 2 | version, 1 |
+//! | 6 | 2 | length, 20; or 24 with a sequence number |
+//! | 8 | 2 | 1 trigger, 2 status, 3 last, 4 path |
+//! | 10 | 2 | reserved, 0 |
+//! | 12 | 4 | path: number of the point from 1, or 0 |
+//! | 16 | 4 | only in a frame of 24 bytes: sequence number of the inspection whose path is wanted, or 0 |
+//! | 16 or 20 | 4 | checksum |
+//!
+//! | answer: from | bytes | |
+//! | --- | --- | --- |
+//! | 0 | 4 | `PSAN` |
+//! | 4 | 2 | version, 1 |
+//! | 6 | 2 | length, 256 |
+//! | 8 | 2 | code of the request; 0: it could not be read |
+//! | 10 | 2 | verdict |
+//! | 12 | 4 | boot |
+//! | 16 | 4 | sequence |
+//! | 20 | 4 | age in ms, signed; -1: no frame |
+//! | 24 | 2 | camera |
+//! | 26 | 2 | flags; bit 0: there is a pose |
+//! | 28 | 4 | number of the part |
+//! | 32 | 4 | point |
+//! | 36 | 4 | points |
+//! | 40 | 2 | number of the pose's reals; 0: no pose |
+//! | 42 | 6 | reserved, 0 |
+//! | 48 | 8 | speed in mm/s; 0: none |
+//! | 56 | 56 | seven reals: the numbers of the convention, then zeros |
+//! | 112 | 64 | name of the part |
+//! | 176 | 24 | reason |
+//! | 200 | 52 | message, cut off |
+//! | 252 | 4 | checksum |
+
+use super::{ByteOrder, Parsed, bad_request::BadRequest, line::path_request};
+use crate::answer::{Answer, Request};
+use files::crc32;
+use robot::Convention;
+
+/// Version of the frames.
+pub(super) const VERSION: u16 = 1;
+/// Length of a request, bytes.
+pub const REQUEST_BYTES: usize = 20;
+/// Length of a request that names an inspection, bytes.
+pub(super) const PATH_REQUEST_BYTES: usize = REQUEST_BYTES + 4;
+/// Length of an answer, bytes.
+pub const ANSWER_BYTES: usize = 256;
+/// Maximum number of a pose's reals.
+pub const MAX_NUMBERS: usize = 7;
+
+const REQUEST_MAGIC: [u8; 4] = *b"PSRQ";
+const ANSWER_MAGIC: [u8; 4] = *b"PSAN";
+const CHECKSUM_BYTES: usize = 4;
+
+pub(super) fn parse(bytes: &[u8], order: ByteOrder) -> Parsed {
+    let begun = bytes.len().min(REQUEST_MAGIC.len());
+    if bytes[..begun] != REQUEST_MAGIC[..begun] {
+        return Parsed::bad(BadRequest::Magic);
+    }
+    let Some(begin) = bytes.first_chunk::<REQUEST_BYTES>() else {
+        return Parsed::skipped(0);
+    };
+    let num_bytes = match length_in(begin, order) {
+        Ok(num_bytes) => num_bytes,
+        Err(why) => return Parsed::bad(why),
+    };
+    match bytes.get(..num_bytes) {
+        Some(frame) => Parsed::read(num_bytes, request_in(frame, order)),
+        None => Parsed::skipped(0),
+    }
+}
+
+/// The length of a request by its first bytes.
+fn length_in(begin: &[u8], order: ByteOrder) -> Result<usize, BadRequest> {
+    let found = u16_of(begin, 4, order);
+    if found != VERSION {
+        return Err(BadRequest::Version { found, order });
+    }
+    let found = u16_of(begin, 6, order);
+    match usize::from(found) {
+        num_bytes @ (REQUEST_BYTES | PATH_REQUEST_BYTES) => Ok(num_bytes),
+        _ => Err(BadRequest::Length { found }),
+    }
+}
+
+fn request_in(frame: &[u8], order: ByteOrder) -> Result<Request, BadRequest> {
+    let end = frame.len() - CHECKSUM_BYTES;
+    let expected = crc32(&frame[..end]);
+    let found = u32_of(frame, end, order);
+    if found != expected {
+        return Err(BadRequest::Checksum { found, expected });
+    }
+    let sequence = if frame.len() == PATH_REQUEST_BYTES {
+        u32_of(frame, 16, order)
+    } else {
+        0
+    };
+    match u16_of(frame, 8, order) {
+        1 => Ok(Request::Trigger),
+        2 => Ok(Request::Status),
+        3 => Ok(Request::Last),
+        4 => Ok(path_request(u32_of(frame, 12, order), sequence)),
+        other => Err(BadRequest::unknown(other.to_string().as_bytes())),
+    }
+}
+
+/// Converts a number's bytes from little-endian to this order, or back.
+fn ordered<const N: usize>(mut bytes: [u8; N], order: ByteOrder) -> [u8; N] {
+    if order == ByteOrder::Big {
+        bytes.reverse();
+    }
+    bytes
+}
+
+fn u16_of(bytes: &[u8], at: usize, order: ByteOrder) -> u16 {
+    u16::from_le_bytes(ordered([bytes[at], bytes[at + 1]], order))
+}
+
+fn u32_of(bytes: &[u8], at: usize, order: ByteOrder) -> u32 {
+    let bytes = [bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]];
+    u32::from_le_bytes(ordered(bytes, order))
+}
+
+pub(super) fn write(answer: &Answer, convention: Convention, order: ByteOrder) -> Vec<u8> {
+    let pose = answer.pose.as_ref().map(|pose| convention.write(pose));
+    let numbers = pose.map_or_else(Vec::new, |pose| pose.numbers());
+    assert!(
+        numbers.len() <= MAX_NUMBERS,
+        "conventions of more numbers are refused at the start"
+    );
+    let mut frame = FrameWriter {
+        bytes: Vec::with_capacity(ANSWER_BYTES),
+        order,
+    };
+    frame.bytes.extend(ANSWER_MAGIC);
+    frame.short(VERSION);
+    frame.short(ANSWER_BYTES as u16);
+    frame.short(answer.request.map_or(0, |request| request.name().1));
+    frame.short(answer.verdict.code());
+    frame.long(answer.boot);
+    frame.long(answer.sequence);
+    frame.long(answer.age_or_none().cast_unsigned());
+    frame.short(answer.camera.code());
+    frame.short(answer.flags());
+    frame.long(answer.number);
+    frame.long(answer.point);
+    frame.long(answer.points);
+    frame.short(numbers.len() as u16);
+    frame.zeros(6);
+    frame.real(answer.speed_mm_s.unwrap_or(0.0));
+    for i in 0..MAX_NUMBERS {
+        frame.real(numbers.get(i).copied().unwrap_or(0.0));
+    }
+    frame.text(&answer.part, 64);
+    frame.text(&answer.trouble.reason, 24);
+    frame.text(&answer.trouble.message, 52);
+    let checksum = crc32(&frame.bytes);
+    frame.long(checksum);
+    frame.bytes
+}
+
+/// A frame under construction.
+struct FrameWriter {
+    bytes: Vec<u8>,
+    order: ByteOrder,
+}
+
+impl FrameWriter {
+    fn short(&mut self, value: u16) {
+        self.bytes.extend(ordered(value.to_le_bytes(), self.order));
+    }
+
+    fn long(&mut self, value: u32) {
+        self.bytes.extend(ordered(value.to_le_bytes(), self.order));
+    }
+
+    fn real(&mut self, value: f64) {
+        self.bytes.extend(ordered(value.to_le_bytes(), self.order));
+    }
+
+    fn zeros(&mut self, num_bytes: usize) {
+        self.bytes.resize(self.bytes.len() + num_bytes, 0);
+    }
+
+    /// Writes a text into a field of this size, truncated at a character boundary and padded with zeros.
+    fn text(&mut self, text: &str, num_bytes: usize) {
+        let end = text.floor_char_boundary(num_bytes);
+        self.bytes.extend(&text.as_bytes()[..end]);
+        self.zeros(num_bytes - end);
+    }
+}
+
+/// Encodes a request as a frame.
+pub fn request(request: Request, order: ByteOrder) -> Vec<u8> {
+    let mut frame = FrameWriter {
+        bytes: REQUEST_MAGIC.to_vec(),
+        order,
+    };
+    let (point, sequence) = match request {
+        Request::Path { point, sequence } => (point, sequence),
+        _ => (0, None),
+    };
+    let num_bytes = sequence.map_or(REQUEST_BYTES, |_| PATH_REQUEST_BYTES);
+    frame.short(VERSION);
+    frame.short(num_bytes as u16);
+    frame.short(request.name().1);
+    frame.zeros(2);
+    frame.long(point);
+    if let Some(sequence) = sequence {
+        frame.long(sequence);
+    }
+    let checksum = crc32(&frame.bytes);
+    frame.long(checksum);
+    frame.bytes
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Point3;
+
+    use super::*;
+    use crate::{
+        answer::{Trouble, VerdictCode},
+        protocol::tests::refused,
+    };
+    use geometry::rigid::{from_euler_zyx, pose_error};
+
+    const ORDERS: [ByteOrder; 2] = [ByteOrder::Little, ByteOrder::Big];
+
+    fn real(frame: &[u8], at: usize, order: ByteOrder) -> f64 {
+        let bytes = frame[at..at + 8].try_into().expect("eight");
+        match order {
+            ByteOrder::Little => f64::from_le_bytes(bytes),
+            ByteOrder::Big => f64::from_be_bytes(bytes),
+        }
+    }
+
+    #[test]
+    fn requests_come_back_in_either_byte_order() {
+        for order in ORDERS {
+            for wanted in [
+                Request::Trigger,
+                Request::Status,
+                Request::Last,
+                path_request(0, 0),
+                path_request(70_000, 0),
+                path_request(70_000, 16_777_215),
+            ] {
+                let frame = request(wanted, order);
+                let num_bytes = match wanted {
+                    Request::Path {
+                        sequence: Some(_), ..
+                    } => 24,
+                    _ => 20,
+                };
+                assert_eq!(frame.len(), num_bytes);
+                assert_eq!(parse(&frame, order), Parsed::read(num_bytes, Ok(wanted)));
+                let short = parse(&frame[..num_bytes - 1], order);
+                assert_eq!(short, Parsed::skipped(0));
+            }
+        }
+        // As in the guide.
+        assert_eq!(
+            request(Request::Trigger, ByteOrder::Little)[..16],
+            *b"PSRQ\x01\x00\x14\x00\x01\x00\x00\x00\x00\x00\x00\x00"
+        );
+    }
+
+    #[test]
+    fn whatever_is_wrong_with_a_frame_is_named() {
+        let reason = |frame: &[u8], order| {
+            let read = parse(frame, order).request.expect("whole");
+            read.expect_err("refused").reason()
+        };
+        for order in ORDERS {
+            let whole = request(path_request(3, 0), order);
+            let other = ORDERS[usize::from(order == ByteOrder::Little)];
+            assert_eq!(reason(&whole, other), "version");
+            // Each byte counts.
+            for at in 0..REQUEST_BYTES {
+                let mut changed = whole.clone();
+                changed[at] ^= 0x40;
+                let expected = match at {
+                    0..4 => "magic",
+                    4..6 => "version",
+                    6..8 => "length",
+                    _ => "checksum",
+                };
+                assert_eq!(reason(&changed, order), expected, "byte {at}");
+            }
+            let mut unknown = whole.clone();
+            unknown[8..10].copy_from_slice(&[9, 9]);
+            let checksum = crc32(&unknown[..16]);
+            let checksum = match order {
+                ByteOrder::Little => checksum.to_le_bytes(),
+                ByteOrder::Big => checksum.to_be_bytes(),
+            };
+            unknown[16..].copy_from_slice(&checksum);
+            assert_eq!(reason(&unknown, order), "unknown_request");
+        }
+        assert_eq!(reason(b"GET / HTTP/1.1", ByteOrder::Little), "magic");
+        assert_eq!(reason(b"P\0", ByteOrder::Little), "magic");
+        assert_eq!(parse(b"PSR", ByteOrder::Little), Parsed::skipped(0));
+        let advice = |why: BadRequest| geometry::error::Advice::advice(&why);
+        let swapped = BadRequest::Version {
+            found: 0x0100,
+            order: ByteOrder::Little,
+        };
+        assert!(advice(swapped).contains("binary-be"));
+    }
+
+    #[test]
+    fn an_answer_has_its_fields_where_the_guide_says() {
+        let pose = from_euler_zyx([0.4, -0.2, 1.3, 1.2005, -0.4, 1.9]);
+        let answer = Answer {
+            request: Some(path_request(2, 0)),
+            verdict: VerdictCode::Accepted,
+            point: 2,
+            points: 9,
+            speed_mm_s: Some(250.0),
+            marks: Answer::GUN_ON,
+            pose: Some(pose),
+            trouble: Trouble::default(),
+            ..refused()
+        };
+        for order in ORDERS {
+            for (convention, count) in [(Convention::Fanuc, 6), (Convention::Abb, 7)] {
+                let frame = write(&answer, convention, order);
+                assert_eq!(frame.len(), ANSWER_BYTES);
+                assert_eq!(frame[..4], ANSWER_MAGIC);
+                let short = |at| u16_of(&frame, at, order);
+                let long = |at| u32_of(&frame, at, order);
+                assert_eq!([4, 6, 8, 10].map(short), [1, 256, 4, 1]);
+                assert_eq!([12, 16, 20].map(long), [1_234_567, 41, 215]);
+                assert_eq!([24, 26].map(short), [1, 9]);
+                assert_eq!([28, 32, 36].map(long), [3, 2, 9]);
+                assert_eq!(short(40), count);
+                assert!((real(&frame, 48, order) - 250.0).abs() < 1e-9);
+                let numbers: Vec<f64> = (0..usize::from(count))
+                    .map(|i| real(&frame, 56 + 8 * i, order))
+                    .collect();
+                let read = convention.read(&numbers).expect("a pose");
+                let off = pose_error(&read, &pose, &Point3::origin());
+                assert!(off.shift.mm() < 1e-6 && off.rotation.degrees() < 1e-4);
+                assert_eq!(frame[112..122], *b"front_door");
+                assert!(frame[122..252].iter().all(|&byte| byte == 0));
+                assert_eq!(long(252), crc32(&frame[..252]));
+            }
+        }
+    }
+
+    #[test]
+    fn without_a_pose_every_real_is_zero() {
+        for order in ORDERS {
+            let frame = write(&refused(), Convention::Abb, order);
+            assert_eq!(frame.len(), ANSWER_BYTES);
+            assert!(frame[40..112].iter().all(|&byte| byte == 0));
+            assert_eq!(u16_of(&frame, 26, order), Answer::SIMULATED);
+            assert_eq!(frame[176..185], *b"low_score");
+            let never = Answer {
+                age_ms: None,
+                ..refused()
+            };
+            let frame = write(&never, Convention::Abb, order);
+            assert_eq!(frame[20..24], [0xff; 4]);
+        }
+    }
+
+    #[test]
+    fn a_text_that_is_too_long_is_cut_off_between_two_letters() {
+        let mut frame = FrameWriter {
+            bytes: Vec::new(),
+            order: ByteOrder::Little,
+        };
+        frame.text("aüü", 4);
+        assert_eq!(frame.bytes, b"a\xc3\xbc\0");
+    }
+}

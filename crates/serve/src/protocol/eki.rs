@@ -1,0 +1,246 @@
+//! XML as read and written by KUKA's option package Ethernet KRL (EKI).
+//!
+//! ```text
+//! <Robot><Request>TRIGGER</Request><Point>0</Point></Robot>
+//!
+//! <Partsight><Request>TRIGGER</Request><Verdict>accepted</Verdict><Code>1</Code>…<Pose X="1200.500" …/>…</Partsight>
+//! ```
+//!
+//! Only the form that EKI sends with the guide's configuration is read, not every equivalent XML: no attributes, comments
+//! or references. The pose is an element of EKI's type FRAME; without a pose it is missing.
+
+use super::{
+    MAX_MESSAGE, Parsed,
+    ascii::name_of,
+    bad_request::BadRequest,
+    is_filler,
+    line::{named, path_request},
+    plain,
+};
+use crate::answer::{Answer, Request};
+use robot::Convention;
+
+/// Maximum length of a request, bytes, with room for an XML declaration and line breaks.
+const MAX_REQUEST: usize = 512;
+const END: &[u8] = b"</Robot>";
+
+pub(super) fn parse(bytes: &[u8]) -> Parsed {
+    let start = bytes.iter().position(|&byte| !is_filler(byte));
+    let Some(start) = start else {
+        return Parsed::skipped(bytes.len());
+    };
+    let text = &bytes[start..];
+    if text[0] != b'<' {
+        let shown = &text[..text.len().min(MAX_REQUEST)];
+        return Parsed::bad(BadRequest::not_xml(shown));
+    }
+    let searched = &text[..text.len().min(MAX_REQUEST)];
+    let end = searched.windows(END.len()).position(|part| part == END);
+    match end {
+        Some(end) => {
+            let end = end + END.len();
+            Parsed::read(start + end, request(&text[..end]))
+        }
+        None if text.len() < MAX_REQUEST => Parsed::skipped(start),
+        None => Parsed::bad(BadRequest::TooLong { limit: MAX_REQUEST }),
+    }
+}
+
+fn request(bytes: &[u8]) -> Result<Request, BadRequest> {
+    let wrong = || BadRequest::not_xml(bytes);
+    let text = std::str::from_utf8(bytes).ok().ok_or_else(wrong)?;
+    let text = match text.strip_prefix("<?xml") {
+        Some(rest) => rest.split_once("?>").ok_or_else(wrong)?.1.trim_start(),
+        None => text,
+    };
+    let inner = text
+        .strip_prefix("<Robot>")
+        .and_then(|text| text.strip_suffix("</Robot>"))
+        .ok_or_else(wrong)?;
+    let word = content_of(inner, "Request").ok_or_else(wrong)?;
+    // EKI sends every element with every request; only a path request uses the numbers.
+    let path = path_request(0, 0);
+    let is_path = word.eq_ignore_ascii_case(name_of(path));
+    let number = |tag| {
+        let number = content_of(inner, tag).map(str::as_bytes);
+        number.filter(|number| is_path && !number.is_empty())
+    };
+    let (point, sequence) = (number("Point"), number("Sequence"));
+    named(word.as_bytes(), point, sequence).ok_or_else(|| BadRequest::unknown(word.as_bytes()))?
+}
+
+/// Returns the trimmed text between an element's tags.
+fn content_of<'a>(text: &'a str, tag: &str) -> Option<&'a str> {
+    let (_, rest) = text.split_once(&format!("<{tag}>"))?;
+    let (content, _) = rest.split_once(&format!("</{tag}>"))?;
+    Some(content.trim())
+}
+
+pub(super) fn write(answer: &Answer) -> String {
+    let elements = [
+        ("Request", answer.request.map_or("NONE", name_of).to_owned()),
+        ("Verdict", answer.verdict.name().to_owned()),
+        ("Code", answer.verdict.code().to_string()),
+        ("Sequence", answer.sequence.to_string()),
+        ("Boot", answer.boot.to_string()),
+        ("Age", answer.age_or_none().to_string()),
+        ("Camera", answer.camera.code().to_string()),
+        ("Part", escaped(&answer.part)),
+        ("Number", answer.number.to_string()),
+        ("Flags", answer.flags().to_string()),
+        ("Point", answer.point.to_string()),
+        ("Points", answer.points.to_string()),
+        ("Speed", format!("{:.1}", answer.speed_mm_s.unwrap_or(0.0))),
+        ("Reason", escaped(&answer.trouble.reason)),
+        ("Message", escaped(&answer.trouble.message)),
+    ];
+    let elements = elements.map(|(tag, content)| format!("<{tag}>{content}</{tag}>"));
+    let pose = answer.pose.as_ref().map(|pose| {
+        let values = Convention::Kuka.write(pose).values;
+        let numbers = values.iter();
+        let numbers = numbers.map(|value| format!("{}=\"{}\"", value.name, value.rounded()));
+        format!("<Pose {}/>", numbers.collect::<Vec<_>>().join(" "))
+    });
+    let (elements, pose) = (elements.concat(), pose.unwrap_or_default());
+    format!("<Partsight>{elements}{pose}</Partsight>\n")
+}
+
+fn escaped(text: &str) -> String {
+    let text = plain(text, MAX_MESSAGE).replace('&', "&amp;");
+    let text = text.replace('<', "&lt;").replace('>', "&gt;");
+    text.replace('"', "&quot;").replace('\'', "&apos;")
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Point3;
+
+    use super::*;
+    use crate::{
+        answer::{Trouble, VerdictCode},
+        protocol::tests::refused,
+    };
+    use geometry::rigid::{from_euler_zyx, pose_error};
+
+    fn only(text: &str) -> Result<Request, BadRequest> {
+        let parsed = parse(text.as_bytes());
+        parsed
+            .request
+            .unwrap_or_else(|| panic!("{text:?} is whole"))
+    }
+
+    #[test]
+    fn a_request_is_read_as_eki_sends_it() {
+        for (text, request) in [
+            (
+                "<Robot><Request>TRIGGER</Request><Point>0</Point></Robot>",
+                Request::Trigger,
+            ),
+            (
+                "<Robot><Point>4</Point><Request>PATH</Request></Robot>",
+                path_request(4, 0),
+            ),
+            (
+                "<Robot><Request>PATH</Request><Point>4</Point><Sequence>41</Sequence></Robot>",
+                path_request(4, 41),
+            ),
+            (
+                "<Robot><Request>PATH</Request><Point>4</Point><Sequence>0</Sequence></Robot>",
+                path_request(4, 0),
+            ),
+            (
+                "<Robot><Request>LAST</Request><Point>0</Point><Sequence>0</Sequence></Robot>",
+                Request::Last,
+            ),
+            ("<Robot><Request>PATH</Request></Robot>", path_request(0, 0)),
+            ("<Robot><Request>LAST</Request></Robot>", Request::Last),
+            (
+                "\r\n<?xml version=\"1.0\"?>\r\n<Robot>\r\n  <Request> STATUS </Request>\r\n  <Point>7</Point>\r\n</Robot>",
+                Request::Status,
+            ),
+        ] {
+            assert_eq!(only(text), Ok(request), "{text}");
+        }
+        let two =
+            b"<Robot><Request>LAST</Request></Robot>\r\n<Robot><Request>STATUS</Request></Robot>";
+        let first = parse(two);
+        assert_eq!((first.used, first.request), (38, Some(Ok(Request::Last))));
+        assert_eq!(parse(&two[38..]).request, Some(Ok(Request::Status)));
+    }
+
+    #[test]
+    fn anything_else_is_refused_and_never_kept_for_long() {
+        for (text, reason) in [
+            ("TRIGGER\n", "not_xml"),
+            ("<Robot></Robot>", "not_xml"),
+            ("<Request>TRIGGER</Request></Robot>", "not_xml"),
+            ("<Robot><Request>TRIGGER</Robot>", "not_xml"),
+            ("<Robot><Request>GO</Request></Robot>", "unknown_request"),
+            ("<Robot><Request></Request></Robot>", "unknown_request"),
+            (
+                "<Robot><Request>PATH</Request><Point>-3</Point></Robot>",
+                "no_point",
+            ),
+            (
+                "<Robot><Request>PATH</Request><Point>3</Point><Sequence>x</Sequence></Robot>",
+                "no_point",
+            ),
+            ("<?xml <Robot><Request>LAST</Request></Robot>", "not_xml"),
+        ] {
+            assert_eq!(only(text).expect_err(text).reason(), reason, "{text}");
+        }
+        let mut endless = b"<Robot>".to_vec();
+        endless.resize(MAX_REQUEST, b' ');
+        let refused = parse(&endless).request.expect("refused");
+        assert_eq!(refused.expect_err("too long").reason(), "too_long");
+        assert_eq!(parse(&endless[..MAX_REQUEST - 1]), Parsed::skipped(0));
+    }
+
+    #[test]
+    fn the_pose_is_a_frame_of_krl_and_is_missing_without_one() {
+        let pose = from_euler_zyx([0.4, -0.2, 1.3, 1.2005, -0.4, 1.9]);
+        let accepted = Answer {
+            verdict: VerdictCode::Accepted,
+            pose: Some(pose),
+            trouble: Trouble::default(),
+            ..refused()
+        };
+        let text = write(&accepted);
+        let (_, frame) = text.split_once("<Pose ").expect("a frame");
+        let (frame, _) = frame.split_once("/>").expect("its end");
+        let values: Vec<&str> = frame.split('"').collect();
+        let names: Vec<&str> = values.iter().step_by(2).map(|name| name.trim()).collect();
+        assert_eq!(names, ["X=", "Y=", "Z=", "A=", "B=", "C=", ""]);
+        let numbers = values.iter().skip(1).step_by(2);
+        let numbers: Vec<f64> = numbers
+            .map(|number| number.parse().expect("a number"))
+            .collect();
+        let read = Convention::Kuka.read(&numbers).expect("a pose");
+        let off = pose_error(&read, &pose, &Point3::origin());
+        assert!(off.shift.mm() < 0.01 && off.rotation.degrees() < 0.001);
+        for (tag, content) in [
+            ("Request", "TRIGGER"),
+            ("Verdict", "accepted"),
+            ("Code", "1"),
+            ("Sequence", "41"),
+            ("Boot", "1234567"),
+            ("Age", "215"),
+            ("Camera", "1"),
+            ("Part", "front_door"),
+            ("Number", "3"),
+            ("Flags", "5"),
+            ("Point", "0"),
+            ("Points", "0"),
+            ("Speed", "0.0"),
+        ] {
+            assert_eq!(content_of(&text, tag), Some(content), "{tag}");
+        }
+        let text = write(&refused());
+        assert!(!text.contains("<Pose"), "{text}");
+        assert_eq!(content_of(&text, "Code"), Some("2"));
+        assert_eq!(content_of(&text, "Reason"), Some("low_score"));
+        let message = content_of(&text, "Message").expect("why");
+        assert!(message.starts_with("it scores, &lt;0.5&gt; &amp; &quot;less&quot;??than"));
+        assert!(text.is_ascii() && text.ends_with("</Partsight>\n"));
+    }
+}

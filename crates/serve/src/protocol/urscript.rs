@@ -1,0 +1,99 @@
+//! Answers as a list of numbers in parentheses, as read by Universal Robots' `socket_read_ascii_float`.
+//!
+//! ```text
+//! (16, 1, 41, 1234567, 215, 1, 5, 3, 0, 0, 0.0, 1.200500, -0.400000, 1.900000, 0.412000, -0.131000, 1.287000)
+//! ```
+//!
+//! The numbers: count of those that follow, verdict, sequence, boot, age in ms (-1: no frame), camera, flags, number of the
+//! part, point, points, speed in mm/s; with a pose also x, y, z in metres and the rotation vector. Without a pose the list
+//! ends earlier and the function returns a smaller count, so that a program cannot take missing numbers for a pose.
+
+use crate::answer::Answer;
+use robot::{Convention, RobotValue};
+
+pub(super) fn write(answer: &Answer) -> String {
+    let mut numbers = vec![
+        answer.verdict.code().to_string(),
+        answer.sequence.to_string(),
+        answer.boot.to_string(),
+        answer.age_or_none().to_string(),
+        answer.camera.code().to_string(),
+        answer.flags().to_string(),
+        answer.number.to_string(),
+        answer.point.to_string(),
+        answer.points.to_string(),
+        format!("{:.1}", answer.speed_mm_s.unwrap_or(0.0)),
+    ];
+    if let Some(pose) = &answer.pose {
+        let written = Convention::UniversalRobots.write(pose);
+        numbers.extend(written.values.iter().map(RobotValue::rounded));
+    }
+    format!("({}, {})\n", numbers.len(), numbers.join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Point3;
+
+    use super::*;
+    use crate::{answer::VerdictCode, protocol::tests::refused};
+    use geometry::rigid::{from_euler_zyx, pose_error};
+
+    /// Parses as the function does: the numbers between the parentheses.
+    fn read(text: &str) -> Vec<f64> {
+        let inner = text
+            .strip_prefix('(')
+            .and_then(|text| text.strip_suffix(")\n"));
+        let inner = inner.unwrap_or_else(|| panic!("{text:?}"));
+        let numbers = inner.split(", ");
+        numbers
+            .map(|number| number.parse().expect("a number"))
+            .collect()
+    }
+
+    #[test]
+    fn an_accepted_part_has_sixteen_numbers_and_a_refused_one_ten() {
+        let pose = from_euler_zyx([0.4, -0.2, 1.3, 1.2005, -0.4, 1.9]);
+        let accepted = Answer {
+            verdict: VerdictCode::Accepted,
+            pose: Some(pose),
+            ..refused()
+        };
+        let numbers = read(&write(&accepted));
+        assert_eq!(numbers.len(), 17);
+        let head = vec![
+            16.0,
+            1.0,
+            41.0,
+            1_234_567.0,
+            215.0,
+            1.0,
+            5.0,
+            3.0,
+            0.0,
+            0.0,
+            0.0,
+        ];
+        assert_eq!(numbers[..11].to_vec(), head);
+        let found = Convention::UniversalRobots
+            .read(&numbers[11..])
+            .expect("a pose");
+        let off = pose_error(&found, &pose, &Point3::origin());
+        assert!(off.shift.mm() < 0.01 && off.rotation.degrees() < 0.001);
+        let numbers = read(&write(&refused()));
+        let head = vec![
+            10.0,
+            2.0,
+            41.0,
+            1_234_567.0,
+            215.0,
+            1.0,
+            4.0,
+            3.0,
+            0.0,
+            0.0,
+            0.0,
+        ];
+        assert_eq!(numbers, head);
+    }
+}

@@ -1,0 +1,46 @@
+//! A simulated cell: parametric car parts in front of wall and floor, seen by a depth camera with a Kinect's noise.
+//!
+//! Everything is derived from seeds: the same [`CellSetup`] gives the same bits on every machine of one architecture.
+//!
+//! ```text
+//! PartModel / ObjectKind ─► TriangleMesh ─┐
+//! Placement ─► camera_from_part ──────────┼─► Cell ─► Rendering ─► DepthFrame + Truth
+//! Stand, Clutter, wall, floor ────────────┘  cell    rasteriser    sensor
+//! ```
+//!
+//! [`Surroundings::Booth`] replaces the lower two inputs by a paint booth, seen by a camera on the robot's flange.
+
+mod assembly;
+mod beam;
+mod booth;
+mod cell;
+mod clutter;
+#[cfg(any(test, feature = "fixtures"))]
+pub mod fixtures;
+mod object;
+mod part;
+mod parts;
+mod placement;
+mod plan_curve;
+mod rasteriser;
+mod region;
+mod scan;
+mod sensor;
+mod sheet;
+mod shot;
+mod stand;
+mod standing_cell;
+mod variation;
+
+pub use cell::{CellSetup, PartPose, SimulatedObject, Surroundings};
+pub use clutter::Clutter;
+pub use object::ObjectKind;
+pub use part::{PartKind, PartModel, Side};
+pub use placement::{PoseRange, SampledPose};
+pub use rasteriser::SurfaceLabel;
+pub use scan::{ScanSetup, SimulatedScan, SimulatedShot};
+pub use sensor::SensorNoise;
+pub use shot::{FrameTruth, SimulatedFrame, frame, frame_of_mesh};
+pub use stand::Stand;
+pub use standing_cell::StandingCell;
+pub use variation::FIRST_OTHER_MAKE;

@@ -1,0 +1,274 @@
+//! A reference as a virtual camera sees it from one side.
+
+use std::sync::OnceLock;
+
+use nalgebra::{Isometry2, Point2, Point3};
+
+use super::{ReferenceParams, viewpoints::visible_from};
+use crate::{
+    contour::{Contour, find_contour},
+    pose::edge_points::EdgePoints,
+    project::{PlaneImage, project_weighted},
+    signature::{FanSignature, describe},
+};
+use geometry::{
+    cloud::PointCloud,
+    raster::{BinaryImage, PackedImage, RunLengthImage},
+    rigid::RigidTransform,
+    units::{Metres, Radians},
+};
+
+/// Pixel size of the packed image, metres: finer than the spacing of the points looked up in it, at a quarter of the
+/// memory that every inspection reads.
+const PACKED_PIXEL: f64 = 0.01;
+
+/// The reference as seen from one side.
+#[derive(Clone, Debug)]
+pub struct ReferenceView {
+    /// Position of the virtual camera, part space.
+    pub(super) viewpoint: Point3<f64>,
+    /// Transform from part space to this view's plane space.
+    pub plane_from_part: RigidTransform,
+    /// Image and contour.
+    shape: PackedShape,
+    /// The image as packed bits, with pixels of about a centimetre.
+    pub pixels: PackedImage,
+    /// Area of the set pixels, square metres.
+    pub image_area: f64,
+    /// The outline's signature.
+    pub signature: FanSignature,
+    /// Outline and openings on the surface, part space; built when a pose is first tried from this view.
+    pub(super) edges: OnceLock<EdgePoints>,
+}
+
+/// Image and contour of a view in a thirtieth of their memory. Ranking uses neither, and most references of a large library are
+/// never looked at more closely.
+#[derive(Clone, Debug)]
+struct PackedShape {
+    image: RunLengthImage,
+    pixel: Metres,
+    /// Plane coordinates of the centre of pixel (0, 0).
+    origin: Point2<f64>,
+    deviations: [f64; 3],
+    /// The outline, then the openings.
+    borders: Box<[PackedBorder]>,
+    /// True if the outline's pixels were followed in the other direction.
+    is_outline_reversed: bool,
+    area: f64,
+}
+
+/// A border by the pixels of its points.
+#[derive(Clone, Debug)]
+struct PackedBorder {
+    /// Column and row.
+    pixels: Box<[[u16; 2]]>,
+    /// NaN where there is none.
+    heights: Box<[f32]>,
+}
+
+impl PackedShape {
+    fn new(plane: &PlaneImage, contour: &Contour) -> Self {
+        let borders = contour.borders().map(|border| PackedBorder {
+            pixels: (border.points.iter())
+                .map(|point| {
+                    let (column, row) = plane.pixel_of(point);
+                    [column, row].map(|place| place.round() as u16)
+                })
+                .collect(),
+            heights: (border.heights.iter())
+                .map(|height| height.unwrap_or(f32::NAN))
+                .collect(),
+        });
+        let borders: Box<[PackedBorder]> = borders.collect();
+        let is_in_order = |outline: &PackedBorder| {
+            let followed = contour.outline_pixels.iter().copied();
+            followed.eq(outline.pixels.iter().map(wide))
+        };
+        Self {
+            image: RunLengthImage::new(&plane.image),
+            pixel: plane.pixel,
+            origin: plane.origin,
+            deviations: plane.deviations,
+            is_outline_reversed: !borders.first().is_some_and(is_in_order),
+            borders,
+            area: contour.area,
+        }
+    }
+}
+
+fn wide(pixel: &[u16; 2]) -> [u32; 2] {
+    pixel.map(u32::from)
+}
+
+impl ReferenceView {
+    pub(super) fn new(
+        viewpoint: Point3<f64>,
+        plane: &PlaneImage,
+        contour: &Contour,
+        signature: FanSignature,
+    ) -> Self {
+        Self {
+            shape: PackedShape::new(plane, contour),
+            viewpoint,
+            edges: OnceLock::new(),
+            pixels: plane
+                .image
+                .packed((PACKED_PIXEL / plane.pixel.0).round() as usize),
+            image_area: plane.image.num_set() as f64 * plane.pixel.0.powi(2),
+            plane_from_part: plane.plane_from_camera,
+            signature,
+        }
+    }
+
+    /// Returns the projection of the visible points, without the heights: those at the borders are in the contour.
+    pub fn plane(&self) -> PlaneImage {
+        self.plane_of(self.shape.image.unpacked())
+    }
+
+    /// Returns the projection's geometry, with an image without pixels.
+    pub fn empty_plane(&self) -> PlaneImage {
+        self.plane_of(BinaryImage::new(0, 0))
+    }
+
+    fn plane_of(&self, image: BinaryImage) -> PlaneImage {
+        PlaneImage {
+            heights: vec![f32::NAN; image.pixels.len()],
+            image,
+            pixel: self.shape.pixel,
+            origin: self.shape.origin,
+            plane_from_camera: self.plane_from_part,
+            deviations: self.shape.deviations,
+        }
+    }
+
+    /// Returns outline and openings.
+    pub fn contour(&self) -> Contour {
+        let plane = self.empty_plane();
+        let points = |border: &PackedBorder| {
+            let pixels = border.pixels.iter();
+            let point =
+                |[column, row]: &[u16; 2]| plane.plane_point((*column).into(), (*row).into());
+            pixels.map(point).collect::<Vec<_>>()
+        };
+        let heights = |border: &PackedBorder| {
+            let heights = border.heights.iter();
+            heights.map(|z| z.is_finite().then_some(*z)).collect()
+        };
+        let mut borders = self.shape.borders.iter();
+        let outline = borders.next();
+        let mut outline_pixels: Vec<[u32; 2]> = outline
+            .map(|border| border.pixels.iter().map(wide).collect())
+            .unwrap_or_default();
+        if self.shape.is_outline_reversed {
+            outline_pixels.reverse();
+        }
+        Contour {
+            outline: outline.map(points).unwrap_or_default(),
+            openings: borders.map(points).collect(),
+            outline_pixels,
+            heights: self.shape.borders.iter().map(heights).collect(),
+            area: self.shape.area,
+        }
+    }
+
+    /// Drops image and contour, for references that are only ranked.
+    pub fn drop_shape(&mut self) {
+        self.shape.image = RunLengthImage::default();
+        self.shape.borders = Box::default();
+    }
+
+    pub(super) fn from_viewpoint(
+        cloud: &PointCloud,
+        bounds: (Point3<f32>, Point3<f32>),
+        viewpoint: &Point3<f64>,
+        params: &ReferenceParams,
+    ) -> Option<Self> {
+        let visible = visible_from(cloud, bounds, viewpoint);
+        let points: Vec<Point3<f32>> = visible.iter().map(|v| cloud.points[v.0]).collect();
+        // The cloud is evenly spaced on the surface, but a camera sees a tilted surface with fewer pixels.
+        let weight = |i: usize, _: &Point3<f32>| visible[i].1;
+        let plane = project_weighted(&points, weight, viewpoint, &params.project).ok()?;
+        let contour = find_contour(&plane, &params.contour).ok()?;
+        let signature = describe(&contour, &params.signature).ok()?;
+        Some(Self::new(*viewpoint, &plane, &contour, signature))
+    }
+
+    /// Returns the transform, in the plane, from view-plane space to a scene's plane space that rotates by `turn` and
+    /// moves the view's centroid to the scene's.
+    pub fn scene_plane_from_view_plane(
+        &self,
+        turn: Radians,
+        scene_centroid: &Point2<f64>,
+    ) -> Isometry2<f64> {
+        let rotation = nalgebra::UnitComplex::new(turn.0);
+        let shift = scene_centroid - rotation * self.signature.centroid;
+        Isometry2::from_parts(shift.into(), rotation)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    use std::{fs, path::Path};
+
+    use files::FileContent;
+
+    use super::super::{Coverage, Reference};
+    use crate::reference::ReferenceParams;
+
+    fn shipped_references() -> Vec<Reference> {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reference_parts");
+        let mut references = Vec::new();
+        for part in fs::read_dir(folder).expect("a folder") {
+            let path = part.expect("a part").path().join("cloud.ply");
+            let Ok(FileContent::Cloud(cloud)) = files::open(&path) else {
+                panic!("{} is no cloud", path.display());
+            };
+            let params = ReferenceParams::default();
+            let reference = Reference::prepare("part", cloud, Coverage::OneSide, &params);
+            references.push(reference.expect("an outline"));
+        }
+        assert_eq!(references.len(), 8);
+        references
+    }
+
+    #[test]
+    fn a_view_unpacks_to_the_image_and_the_contour_that_it_was_made_of() {
+        let params = ReferenceParams::default();
+        for reference in shipped_references() {
+            let bounds = reference.cloud.bounds().expect("points");
+            for view in &reference.views {
+                let visible = visible_from(&reference.cloud, bounds, &view.viewpoint);
+                let points: Vec<Point3<f32>> = visible
+                    .iter()
+                    .map(|v| reference.cloud.points[v.0])
+                    .collect();
+                let weight = |i: usize, _: &Point3<f32>| visible[i].1;
+                let plane = project_weighted(&points, weight, &view.viewpoint, &params.project);
+                let plane = plane.expect("a plane");
+                let contour = find_contour(&plane, &params.contour).expect("a contour");
+                assert_eq!(view.contour(), contour, "{}", reference.name);
+                let unpacked = view.plane();
+                assert_eq!(unpacked.image, plane.image);
+                assert_eq!(
+                    (unpacked.origin, unpacked.pixel, unpacked.plane_from_camera),
+                    (plane.origin, plane.pixel, plane.plane_from_camera)
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn the_views_of_a_reference_take_less_memory_than_its_points() {
+        for reference in shipped_references() {
+            let of_view = |view: &ReferenceView| {
+                let borders = view.shape.borders.iter();
+                let points: usize = borders.map(|border| border.pixels.len()).sum();
+                8 * points + view.shape.image.num_bytes()
+            };
+            let num_bytes: usize = reference.views.iter().map(of_view).sum();
+            assert!(num_bytes < 120_000, "{}: {num_bytes}", reference.name);
+        }
+    }
+}

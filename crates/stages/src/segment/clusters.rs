@@ -1,0 +1,396 @@
+//! Connected surfaces: groups of neighbouring points that lie close together.
+//!
+//! On an organised cloud, neighbours are pixels; runs of them are joined row by row with a union-find, bridging a few
+//! pixels without a reading. An unorganised cloud is divided into voxels, and adjacent voxels are joined.
+
+use std::collections::HashMap;
+
+use nalgebra::Point3;
+
+use super::{PointLabel, SegmentParams};
+use crate::scene::SceneCloud;
+use geometry::{
+    cloud::{Grid, is_finite},
+    units::Metres,
+};
+
+/// A connected surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cluster {
+    /// Number of points.
+    pub num_points: usize,
+    /// Area as seen from the camera, square metres.
+    pub area: f64,
+    /// True if it reaches the border of the field of view.
+    pub touches_edge: bool,
+    /// Share of its border to other surfaces along which it is the nearer one, 0..1: near 1 for an unoccluded part,
+    /// near 0 for a wall. 1 if it borders on none, or without a picture.
+    pub in_front: f64,
+    /// Number of sides of the view that cut it off, 0..4; 0 without a picture.
+    pub sides_cut: usize,
+}
+
+pub(super) struct Members {
+    pub(super) cluster: Cluster,
+    /// Indices of its points in the scene, ascending.
+    pub(super) indices: Vec<u32>,
+}
+
+/// Maximum number of pixels without a reading that a surface may span: dropouts are rarely wider.
+pub(super) const BRIDGED_PIXELS: usize = 4;
+/// Smaller clusters are specks and are not listed, points.
+const MIN_CLUSTER_POINTS: usize = 50;
+
+/// Returns the connected surfaces among the points labelled `Rest`, largest area first.
+pub(super) fn connect(
+    scene: &SceneCloud,
+    labels: &[PointLabel],
+    noise_at_1m: Metres,
+    params: &SegmentParams,
+) -> Vec<Members> {
+    let link = Link::new(scene, noise_at_1m, params);
+    let groups = match scene.cloud.grid {
+        Some(grid) => connect_pixels(&scene.cloud.points, labels, grid, link),
+        None => connect_voxels(&scene.cloud.points, labels),
+    };
+    let groups: Vec<Vec<u32>> = groups
+        .into_iter()
+        .filter(|indices| indices.len() >= MIN_CLUSTER_POINTS)
+        .collect();
+    let group_of = groups_of_points(labels, &groups);
+    let borders = borders_of(scene, &group_of, groups.len() + 1, link);
+    let mut members: Vec<Members> = groups
+        .into_iter()
+        .zip(borders)
+        .map(|(indices, border)| Members {
+            cluster: describe(scene, &indices, border),
+            indices,
+        })
+        .collect();
+    members.sort_by(|a, b| b.cluster.area.total_cmp(&a.cluster.area));
+    members
+}
+
+#[derive(Clone, Copy)]
+struct Link {
+    base: f32,
+    /// Side of a pixel at 1 m.
+    pixel: f32,
+    noise: f32,
+}
+
+impl Link {
+    fn new(scene: &SceneCloud, noise_at_1m: Metres, params: &SegmentParams) -> Self {
+        Self {
+            base: params.link_distance.0 as f32,
+            pixel: scene
+                .intrinsics
+                .map_or(0.0, |camera| 1.0 / camera.fx as f32),
+            // The difference of two noisy depths has √2 times their deviation; four deviations include all but outliers.
+            noise: (4.0 * std::f64::consts::SQRT_2 * noise_at_1m.0) as f32,
+        }
+    }
+
+    fn joins(self, a: &Point3<f32>, b: &Point3<f32>) -> bool {
+        let reach = self.base + (self.pixel + self.noise * a.z) * a.z;
+        (a - b).norm_squared() < reach * reach
+    }
+}
+
+/// Union-find over runs of pixels.
+struct UnionFind {
+    parents: Vec<u32>,
+}
+
+impl UnionFind {
+    fn add(&mut self) -> u32 {
+        let id = self.parents.len() as u32;
+        self.parents.push(id);
+        id
+    }
+
+    fn root(&mut self, mut id: u32) -> u32 {
+        while self.parents[id as usize] != id {
+            let grandparent = self.parents[self.parents[id as usize] as usize];
+            self.parents[id as usize] = grandparent;
+            id = grandparent;
+        }
+        id
+    }
+
+    fn join(&mut self, a: u32, b: u32) {
+        let (a, b) = (self.root(a), self.root(b));
+        // The lower id stays the root, so the result does not depend on the order of joins.
+        self.parents[a.max(b) as usize] = a.min(b);
+    }
+}
+
+const NO_RUN: u32 = u32::MAX;
+
+fn connect_pixels(
+    points: &[Point3<f32>],
+    labels: &[PointLabel],
+    grid: Grid,
+    link: Link,
+) -> Vec<Vec<u32>> {
+    /// Number of rows whose runs can still meet: the current row and those above it within the bridged distance.
+    const ROWS: usize = BRIDGED_PIXELS + 2;
+    let Grid { width, height } = grid;
+    // A circular buffer of ROWS rows, small enough for the processor's fastest cache.
+    let mut run_of = vec![NO_RUN; ROWS * width];
+    let mut forest = UnionFind {
+        parents: Vec::new(),
+    };
+    // Reserve for all pixels: only the memory written costs time, and growing would copy repeatedly.
+    let mut rest: Vec<u32> = Vec::with_capacity(labels.len());
+    let mut runs: Vec<u32> = Vec::with_capacity(labels.len());
+    for row in 0..height {
+        let start = row * width;
+        // Start of this row and of those above it in `run_of`.
+        let begins: [usize; ROWS] = std::array::from_fn(|up| (row + ROWS - up) % ROWS * width);
+        let num_above = (BRIDGED_PIXELS + 1).min(row);
+        run_of[begins[0]..][..width].fill(NO_RUN);
+        let mut previous: Option<usize> = None;
+        let mut last_meeting = (NO_RUN, NO_RUN);
+        let first = rest.len();
+        let is_rest = |(_, label): &(u32, &PointLabel)| **label == PointLabel::Rest;
+        let in_row = (start as u32..).zip(&labels[start..start + width]);
+        rest.extend(in_row.filter(is_rest).map(|(i, _)| i));
+        for i in rest[first..].iter().map(|i| *i as usize) {
+            let run = previous
+                .filter(|&p| i - p <= BRIDGED_PIXELS + 1 && link.joins(&points[p], &points[i]))
+                .map(|p| run_of[begins[0] + p - start]);
+            let run = run.unwrap_or_else(|| forest.add());
+            run_of[begins[0] + i - start] = run;
+            runs.push(run);
+            previous = Some(i);
+            // The nearest reading above, bridging rows without one.
+            let above = (1..=num_above)
+                .map(|rows| (i - rows * width, run_of[begins[rows] + i - start]))
+                .find(|(_, above)| *above != NO_RUN);
+            if let Some((pixel, above)) = above {
+                // Along a surface the same two runs meet at pixel after pixel; joining them once is enough.
+                let meeting = (above, run);
+                if meeting != last_meeting
+                    && meeting.0 != run
+                    && link.joins(&points[pixel], &points[i])
+                {
+                    forest.join(meeting.0, run);
+                    last_meeting = meeting;
+                }
+            }
+        }
+    }
+    let mut group_of_root = vec![NO_RUN; forest.parents.len()];
+    let mut groups: Vec<Vec<u32>> = Vec::new();
+    for (i, run) in rest.into_iter().zip(runs) {
+        let root = forest.root(run) as usize;
+        if group_of_root[root] == NO_RUN {
+            group_of_root[root] = groups.len() as u32;
+            groups.push(Vec::new());
+        }
+        groups[group_of_root[root] as usize].push(i);
+    }
+    groups
+}
+
+/// Side of a voxel, metres: an unorganised cloud may be far sparser than a picture.
+const VOXEL: f32 = 0.04;
+
+fn connect_voxels(points: &[Point3<f32>], labels: &[PointLabel]) -> Vec<Vec<u32>> {
+    let voxel_of = |p: &Point3<f32>| [p.x, p.y, p.z].map(|x| (x / VOXEL).floor() as i64);
+    let mut forest = UnionFind {
+        parents: Vec::new(),
+    };
+    let mut id_of: HashMap<[i64; 3], u32> = HashMap::new();
+    let mut members: Vec<Vec<u32>> = Vec::new();
+    for (i, p) in points
+        .iter()
+        .enumerate()
+        .filter(|(i, _)| labels[*i] == PointLabel::Rest)
+    {
+        let id = *id_of.entry(voxel_of(p)).or_insert_with(|| {
+            members.push(Vec::new());
+            forest.add()
+        });
+        members[id as usize].push(i as u32);
+    }
+    // Iterate over `members`, which is in the order of the points: the map's order must not matter.
+    for (id, group) in members.iter().enumerate() {
+        let [x, y, z] = voxel_of(&points[group[0] as usize]);
+        for step in 0..27 {
+            let neighbour = [x + step % 3 - 1, y + step / 3 % 3 - 1, z + step / 9 - 1];
+            if let Some(&other) = id_of.get(&neighbour) {
+                forest.join(id as u32, other);
+            }
+        }
+    }
+    let mut groups: Vec<Vec<u32>> = vec![Vec::new(); members.len()];
+    for (id, group) in members.into_iter().enumerate() {
+        groups[forest.root(id as u32) as usize].extend(group);
+    }
+    groups.retain(|g| !g.is_empty());
+    for group in &mut groups {
+        group.sort_unstable();
+    }
+    groups
+}
+
+fn describe(scene: &SceneCloud, indices: &[u32], border: Border) -> Cluster {
+    let points = &scene.cloud.points;
+    let area = if let Some(camera) = scene.intrinsics {
+        // A pixel at depth z covers z²/(fx fy).
+        let depths = indices.iter().map(|&i| f64::from(points[i as usize].z));
+        depths.map(|z| z * z).sum::<f64>() / (camera.fx * camera.fy)
+    } else {
+        // Without a camera: one square per occupied voxel.
+        let mut voxels: Vec<[i64; 3]> = indices
+            .iter()
+            .map(|&i| points[i as usize])
+            .map(|p| [p.x, p.y, p.z].map(|x| (x / VOXEL).floor() as i64))
+            .collect();
+        voxels.sort_unstable();
+        voxels.dedup();
+        voxels.len() as f64 * f64::from(VOXEL).powi(2)
+    };
+    Cluster {
+        num_points: indices.len(),
+        area,
+        touches_edge: touches_edge(scene, indices),
+        in_front: border.in_front,
+        sides_cut: border.sides_cut,
+    }
+}
+
+/// Step between the rows and columns that are searched for borders between surfaces, pixels.
+const LINE_STEP: usize = 4;
+/// Maximum number of pixels without a reading between two surfaces that border on each other: the shadow of one on the other.
+const SHADOW: usize = 40;
+/// Marks readings that belong to no surface: pixels that mix the depths of two.
+const NO_GROUP: u32 = u32::MAX;
+
+/// Distance to the end of the view up to which a reading counts as being at it, pixels.
+pub(super) const MARGIN: u32 = 2;
+
+/// Minimum number of searched lines that end with the view for a surface to be cut off on that side: about 20 pixels.
+const LEAST_CUT: f64 = 5.0;
+
+/// Properties of a surface's border.
+#[derive(Clone, Copy)]
+struct Border {
+    /// See [`Cluster::in_front`].
+    in_front: f64,
+    /// See [`Cluster::sides_cut`].
+    sides_cut: usize,
+}
+
+impl Border {
+    const UNKNOWN: Self = Self {
+        in_front: 1.0,
+        sides_cut: 0,
+    };
+}
+
+/// Examines the borders in a scene's picture; `group_of` gives the surface of each point, below `num_groups`.
+fn borders_of(scene: &SceneCloud, group_of: &[u32], num_groups: usize, link: Link) -> Vec<Border> {
+    let Some(Grid { width, height }) = scene.cloud.grid else {
+        return vec![Border::UNKNOWN; num_groups];
+    };
+    let points = &scene.cloud.points;
+    let view = scene.field_of_view();
+    // Per group: the border length where it is nearer and where it is farther, and the number of lines that end with
+    // the view on the left, on the right, at the top and at the bottom.
+    let mut all = vec![[0.0_f64; 6]; num_groups];
+    let mut walk = |sides: [usize; 2], pixels: &mut dyn Iterator<Item = usize>| {
+        let mut before: Option<(usize, usize)> = None;
+        let end_at = |all: &mut Vec<[f64; 6]>, side: usize, i: usize| {
+            if view.is_some_and(|view| view.ends_at(i % width, i / width, MARGIN)) {
+                all[group_of[i] as usize][side] += 1.0;
+            }
+        };
+        for (step, i) in pixels.enumerate().filter(|(_, i)| group_of[*i] != NO_GROUP) {
+            match before {
+                None => end_at(&mut all, sides[0], i),
+                Some((last_step, j)) => {
+                    let is_border = group_of[i] != group_of[j]
+                        && step - last_step <= SHADOW
+                        && !link.joins(&points[i], &points[j]);
+                    if is_border {
+                        let is_nearer = points[i].z < points[j].z;
+                        let (near, far) = if is_nearer { (i, j) } else { (j, i) };
+                        all[group_of[near] as usize][0] += 1.0;
+                        all[group_of[far] as usize][1] += 1.0;
+                    }
+                }
+            }
+            before = Some((step, i));
+        }
+        if let Some((_, i)) = before {
+            end_at(&mut all, sides[1], i);
+        }
+    };
+    for row in (0..height).step_by(LINE_STEP) {
+        walk([2, 3], &mut (row * width..(row + 1) * width));
+    }
+    for column in (0..width).step_by(LINE_STEP) {
+        walk([4, 5], &mut (0..height).map(|row| row * width + column));
+    }
+    all.iter()
+        .map(|&[near, far, ref ends @ ..]| Border {
+            in_front: if near + far > 0.0 {
+                near / (near + far)
+            } else {
+                1.0
+            },
+            sides_cut: ends.iter().filter(|num| **num >= LEAST_CUT).count(),
+        })
+        .collect()
+}
+
+/// Returns the surface of each point as an index into `groups`; `groups.len()` stands for the background.
+fn groups_of_points(labels: &[PointLabel], groups: &[Vec<u32>]) -> Vec<u32> {
+    let of_label = |label: &PointLabel| match label {
+        PointLabel::Background(_) => groups.len() as u32,
+        _ => NO_GROUP,
+    };
+    let mut group_of: Vec<u32> = labels.iter().map(of_label).collect();
+    for (group, indices) in groups.iter().enumerate() {
+        for &i in indices {
+            group_of[i as usize] = group as u32;
+        }
+    }
+    group_of
+}
+
+/// Returns the figures of some points of a scene; all others count as one other surface.
+pub(super) fn figures_of(
+    scene: &SceneCloud,
+    indices: &[u32],
+    noise_at_1m: Metres,
+    params: &SegmentParams,
+) -> Cluster {
+    let is_other = |p: &Point3<f32>| if is_finite(p) { 1 } else { NO_GROUP };
+    let mut group_of: Vec<u32> = scene.cloud.points.iter().map(is_other).collect();
+    for &i in indices {
+        group_of[i as usize] = 0;
+    }
+    let border = borders_of(scene, &group_of, 2, Link::new(scene, noise_at_1m, params))[0];
+    describe(scene, indices, border)
+}
+
+/// Returns true if the points reach the border of the field of view.
+pub(super) fn touches_edge(scene: &SceneCloud, indices: &[u32]) -> bool {
+    // A few stray pixels at the edge do not count.
+    const LEAST: usize = 10;
+    let view = scene.cloud.grid.zip(scene.field_of_view());
+    view.is_some_and(|(grid, view)| {
+        let mut num = 0;
+        grid.by_row(indices).any(|(row, start, of_row)| {
+            let columns = of_row.iter().map(|i| *i as usize - start);
+            num += columns
+                .filter(|column| view.ends_at(*column, row, MARGIN))
+                .count();
+            num >= LEAST
+        })
+    })
+}

@@ -1,0 +1,317 @@
+//! Selects the connected surface that is the part, and extracts its points.
+
+use nalgebra::Point3;
+
+use super::{
+    Cluster, MIN_POINTS, NoPart, PointLabel, SegmentParams, Segmentation, clusters, label_readings,
+    noise_of_picture,
+    stand::{Bars, remove_stand},
+    strip,
+};
+use crate::scene::SceneCloud;
+use geometry::{
+    cloud::{PointCloud, is_finite},
+    plane::Plane,
+    principal::principal_axes,
+    units::Metres,
+};
+
+/// The points of the part.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SegmentedPart {
+    /// The part's points, metres, camera space, unorganised, in the scene's order.
+    pub cloud: PointCloud,
+    /// Index of each point in the scene, ascending.
+    pub indices: Vec<u32>,
+    /// Indices in the scene, ascending, of points that touch the part but belong to a stand; not among its points.
+    pub stand: Vec<u32>,
+    /// Standard deviation of a point's depth at 1 m; it grows with depth².
+    pub noise_at_1m: Metres,
+    /// True if the part reaches the edge of the view, so that some of it may be missing.
+    pub touches_edge: bool,
+    /// True if the part is to be searched for as a piece regardless of its outline, which a clamp or a hole changes.
+    pub is_piece: bool,
+    /// Figures of the surface; `None` if the cloud holds only the part.
+    pub surface: Option<Cluster>,
+}
+
+/// Reason why a surface is more likely background than a part.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum BackgroundSign {
+    /// Other surfaces are in front of it.
+    #[error("it lies behind other surfaces along {:.0} % of its border", share * 100.0)]
+    Behind {
+        /// Share of its border to other surfaces along which those are nearer, 0..1.
+        share: f64,
+    },
+    /// The view cuts it off on most sides.
+    #[error("the view cuts it off on {sides} sides")]
+    Cut {
+        /// Number of sides of the view that it reaches.
+        sides: usize,
+    },
+    /// It is large and as flat as a wall.
+    #[error("it is a flat surface of {area:.2} m²")]
+    Flat {
+        /// Area, square metres.
+        area: f64,
+    },
+}
+
+/// Number of sides cut off from which a surface is as likely a wall.
+const MOST_CUT: usize = 3;
+/// Area from which a flat surface is as likely a wall, square metres.
+const LARGE: f64 = 0.4;
+/// Maximum deviation of a flat surface from its plane, beyond the noise, metres (standard deviation): car body
+/// sheets are curved by centimetres.
+const FLAT: f64 = 0.003;
+
+impl SegmentedPart {
+    /// Returns the reason why the part is more likely background, if there is one.
+    pub fn background_sign(&self) -> Option<BackgroundSign> {
+        let surface = self.surface?;
+        if surface.in_front < IN_FRONT {
+            let share = 1.0 - surface.in_front;
+            return Some(BackgroundSign::Behind { share });
+        }
+        if surface.sides_cut >= MOST_CUT {
+            return Some(BackgroundSign::Cut {
+                sides: surface.sides_cut,
+            });
+        }
+        let area = surface.area;
+        (area > LARGE && self.is_flat()).then_some(BackgroundSign::Flat { area })
+    }
+
+    fn is_flat(&self) -> bool {
+        let points = self.cloud.points.iter().step_by(7);
+        is_flat(points.map(|p| p.cast()), self.noise_at_1m)
+    }
+
+    /// Creates a part from a cloud that holds nothing else.
+    pub fn whole(cloud: &PointCloud) -> Self {
+        let indices: Vec<u32> = cloud.finite().map(|(i, _)| i as u32).collect();
+        Self::of(cloud, indices, SegmentParams::default().noise_at_1m, false)
+    }
+
+    /// Selects the readings of a scene at the given indices, in any order.
+    pub fn selected(scene: &SceneCloud, indices: &[u32], params: &SegmentParams) -> Self {
+        let is_reading = |i: &u32| {
+            let point = scene.cloud.points.get(*i as usize);
+            point.is_some_and(is_finite)
+        };
+        let mut indices: Vec<u32> = indices.iter().copied().filter(is_reading).collect();
+        indices.sort_unstable();
+        indices.dedup();
+        let noise = noise_of_picture(scene).unwrap_or(params.noise_at_1m);
+        let surface = clusters::figures_of(scene, &indices, noise, params);
+        Self {
+            surface: Some(surface),
+            ..Self::of(&scene.cloud, indices, noise, surface.touches_edge)
+        }
+    }
+
+    /// Returns the same part in the mirrored scene.
+    #[must_use]
+    pub fn mirrored(&self, mirrored_scene: &SceneCloud) -> Self {
+        let indices = match mirrored_scene.cloud.grid {
+            Some(grid) => {
+                let mut indices = Vec::with_capacity(self.indices.len());
+                for (_, start, of_row) in grid.by_row(&self.indices) {
+                    let ends = (2 * start + grid.width - 1) as u32;
+                    indices.extend(of_row.iter().rev().map(|i| ends - i));
+                }
+                indices
+            }
+            None => self.indices.clone(),
+        };
+        Self::of(
+            &mirrored_scene.cloud,
+            indices,
+            self.noise_at_1m,
+            self.touches_edge,
+        )
+    }
+
+    fn of(scene: &PointCloud, indices: Vec<u32>, noise_at_1m: Metres, touches_edge: bool) -> Self {
+        let pick = |i: &u32| *i as usize;
+        Self {
+            cloud: PointCloud {
+                points: indices.iter().map(|i| scene.points[pick(i)]).collect(),
+                normals: scene
+                    .normals
+                    .as_ref()
+                    .map(|all| indices.iter().map(|i| all[pick(i)]).collect()),
+                colours: scene
+                    .colours
+                    .as_ref()
+                    .map(|all| indices.iter().map(|i| all[pick(i)]).collect()),
+                labels: None,
+                grid: None,
+                is_simulated: scene.is_simulated,
+                surplus_bytes: scene.surplus_bytes,
+            },
+            indices,
+            stand: Vec::new(),
+            noise_at_1m,
+            touches_edge,
+            is_piece: false,
+            surface: None,
+        }
+    }
+
+    /// Creates a part from a connected surface, without the stand that touches it.
+    fn of_surface(
+        scene: &SceneCloud,
+        members: Vec<u32>,
+        surface: Cluster,
+        noise_at_1m: Metres,
+        bars: Bars,
+    ) -> Self {
+        let (indices, stand) = remove_stand(scene, members, bars);
+        let touches_edge = clusters::touches_edge(scene, &indices);
+        Self {
+            stand,
+            surface: Some(surface),
+            ..Self::of(&scene.cloud, indices, noise_at_1m, touches_edge)
+        }
+    }
+
+    /// Returns the lowest index among the part and its stand, which is the first index of its connected surface.
+    fn first_of_surface(&self) -> Option<&u32> {
+        self.indices
+            .first()
+            .into_iter()
+            .chain(self.stand.first())
+            .min()
+    }
+}
+
+/// Returns the point indices of every connected surface of a scene without background, largest first.
+pub fn pieces(scene: &SceneCloud, params: &SegmentParams) -> Vec<Vec<u32>> {
+    let labels = label_readings(&scene.cloud.points);
+    let found = clusters::connect(scene, &labels, params.noise_at_1m, params);
+    found.into_iter().map(|members| members.indices).collect()
+}
+
+/// Minimum area of another surface, as a share of the largest.
+const LEAST_SHARE: f64 = 0.1;
+
+/// Returns up to `limit` surfaces other than the selected part, the likeliest first.
+pub fn other_segments(
+    scene: &SceneCloud,
+    segmentation: &Segmentation,
+    params: &SegmentParams,
+    limit: usize,
+) -> Vec<SegmentedPart> {
+    let largest = segmentation.clusters.first().map_or(0.0, |c| c.area);
+    let least = params.min_part_area.max(LEAST_SHARE * largest);
+    let is_candidate =
+        |cluster: &Cluster| cluster.area >= least && cluster.num_points >= MIN_POINTS;
+    if segmentation
+        .clusters
+        .iter()
+        .filter(|c| is_candidate(c))
+        .count()
+        < 2
+    {
+        return Vec::new();
+    }
+    let part = segmentation.part.as_ref().ok();
+    let taken = part.and_then(SegmentedPart::first_of_surface);
+    let surfaces = segmentation.clusters.iter().zip(&segmentation.surfaces);
+    let mut others: Vec<(&Cluster, &Vec<u32>)> = surfaces
+        .filter(|(cluster, indices)| is_candidate(cluster) && indices.first() != taken)
+        // The camera looks at the part, not at what is behind other things.
+        .filter(|(cluster, _)| cluster.in_front >= IN_FRONT)
+        .collect();
+    others.sort_by(|a, b| part_prior(b.0).total_cmp(&part_prior(a.0)));
+    others
+        .into_iter()
+        .take(limit)
+        .map(|(cluster, members)| {
+            SegmentedPart::of_surface(
+                scene,
+                members.clone(),
+                *cluster,
+                segmentation.noise_at_1m,
+                Bars::OffSurface,
+            )
+        })
+        .collect()
+}
+
+/// Minimum share of its border along which a surface is the nearer one; below it, the surface lies behind others.
+const IN_FRONT: f64 = 0.5;
+
+/// Minimum share of the part's points that removing its bars must take off.
+const LEAST_ON_BARS: f64 = 0.05;
+
+/// Removes bars from the part and its stand; `None` if that removes hardly any more points.
+pub fn without_bars(scene: &SceneCloud, part: &SegmentedPart, bars: Bars) -> Option<SegmentedPart> {
+    let mut members = part.indices.clone();
+    members.extend(&part.stand);
+    #[expect(
+        clippy::stable_sort_primitive,
+        reason = "the stable sort merges two ascending runs"
+    )]
+    members.sort();
+    let least = part.indices.len() as f64 * LEAST_ON_BARS;
+    let bare = SegmentedPart::of_surface(scene, members, part.surface?, part.noise_at_1m, bars);
+    let num_taken = part.indices.len() as f64 - bare.indices.len() as f64;
+    (num_taken > least && bare.indices.len() >= MIN_POINTS).then_some(bare)
+}
+
+/// Rates how likely a surface is the part: the more of the view it fills, the more likely, since the camera looks at the
+/// part. A surface cut off by the view is more often a strip of floor or a neighbour, and one behind others is a wall.
+fn part_prior(cluster: &Cluster) -> f64 {
+    let in_front = (cluster.in_front / IN_FRONT).min(1.0).powi(2);
+    cluster.num_points as f64 * in_front * if cluster.touches_edge { 0.4 } else { 1.0 }
+}
+
+/// Returns true if points lie on a plane, within the noise.
+pub(super) fn is_flat(
+    points: impl ExactSizeIterator<Item = Point3<f64>> + Clone,
+    noise_at_1m: Metres,
+) -> bool {
+    let depth_sq = points.clone().map(|p| p.z.powi(2)).sum::<f64>();
+    let noise = noise_at_1m.0 * depth_sq / points.len().max(1) as f64;
+    let principal = principal_axes(points.map(|p| (p, 1.0)));
+    principal.is_some_and(|principal| principal.variances[2].sqrt() < FLAT + noise)
+}
+
+pub(super) fn select_part(
+    scene: &SceneCloud,
+    clusters: &[clusters::Members],
+    labels: &mut [PointLabel],
+    planes: &[Plane],
+    noise_at_1m: Metres,
+    params: &SegmentParams,
+) -> Result<SegmentedPart, NoPart> {
+    let is_strip =
+        |c: &&clusters::Members| strip::is_strip(scene, c, labels, planes, noise_at_1m, params);
+    let largest = clusters
+        .iter()
+        .filter(|c| !is_strip(c))
+        .max_by(|a, b| part_prior(&a.cluster).total_cmp(&part_prior(&b.cluster)));
+    match largest {
+        Some(largest)
+            if largest.cluster.area >= params.min_part_area
+                && largest.indices.len() >= MIN_POINTS =>
+        {
+            let (members, cluster) = (largest.indices.clone(), largest.cluster);
+            let part =
+                SegmentedPart::of_surface(scene, members, cluster, noise_at_1m, Bars::OffSurface);
+            for &i in &part.indices {
+                labels[i as usize] = PointLabel::Part;
+            }
+            Ok(part)
+        }
+        _ => Err(NoPart::OnlyBackground {
+            knows_cell: scene.empty_cell.is_some(),
+            planes: planes.len(),
+            found: largest.map_or(0.0, |l| l.cluster.area),
+            needed: params.min_part_area,
+        }),
+    }
+}

@@ -1,0 +1,571 @@
+//! Files that a robot acts on: a carried path as poses, or as a program for its controller.
+//!
+//! [`RobotFile::write`] is the only way to such a file, for the commands and the window alike. A file of an earlier part
+//! never remains, a file with doubts is only written if that is forced, and it contains each of them, as well as what
+//! was not checked.
+
+use std::path::Path;
+
+use super::{Currency, Doubt, doubts};
+use files::FileError;
+use geometry::{cloud::PointCloud, error::Advice, rigid::RigidTransform, units::counted};
+use inspection::{
+    library::{Side, SprayPath},
+    pipeline::Inspection,
+};
+use robot::{
+    Convention, RobotFrame,
+    arm::{ArmError, PathCheck, PlacedArm},
+    paint::{Coat, WrittenFilm},
+    program::{
+        Program, ProgramError, ProgramFormat, ProgramPoint, ProgramSettings, check_reach,
+        program_points, remove_previous_program,
+    },
+    spray::{BandStatus, CarriedPath, OffThePart, SprayExport, remove_previous_export},
+};
+use stages::{reference::Coverage, stand_off::StandOffParams};
+
+/// A path to be written for a robot.
+#[derive(Clone, Debug)]
+pub struct RobotFile<'a> {
+    /// The file.
+    pub file: &'a Path,
+    /// What it contains.
+    pub content: RobotFileContent<'a>,
+    /// The path, carried to the part.
+    pub carried: &'a CarriedPath,
+    /// The robot's frame.
+    pub frame: &'a RobotFrame,
+    /// Name of the part.
+    pub part: &'a str,
+    /// Cloud that the part was enrolled with, part frame.
+    pub part_cloud: &'a PointCloud,
+    /// The sides of the part that were enrolled.
+    pub coverage: Coverage,
+    /// The side that the part is painted from; none for its own.
+    pub side: Option<Side>,
+    /// The path, part frame, of which a program's accelerations and film are computed; none if it is not known.
+    pub path: Option<&'a SprayPath>,
+    /// Whether the path does not aim at the part.
+    pub off: Option<OffThePart>,
+    /// The capture that shows the part; none for its standard position.
+    pub capture: Option<CapturedPart<'a>>,
+    /// The part's pose.
+    pub camera_from_part: RigidTransform,
+    /// True for the part's stored path, false for the default point of a part without one.
+    pub is_stored: bool,
+    /// True if the scene, or the enrolled part, was simulated.
+    pub is_simulated: bool,
+    /// True to write the file despite doubts.
+    pub is_forced: bool,
+}
+
+/// What a file for a robot contains.
+#[derive(Clone, Copy, Debug)]
+pub enum RobotFileContent<'a> {
+    /// Poses: JSON if the file's name ends in `.json`, else CSV.
+    Poses {
+        /// Convention of the poses.
+        convention: Convention,
+        /// The band with which the path was compared.
+        params: &'a StandOffParams,
+    },
+    /// A program for the robot's controller.
+    Program {
+        /// The language.
+        format: ProgramFormat,
+        /// Tool, gun and moves.
+        settings: &'a ProgramSettings,
+        /// The arm whose reach is checked, without the part among its obstacles; none to check no reach.
+        arm: Option<&'a PlacedArm>,
+    },
+}
+
+/// The capture that a part was found in.
+#[derive(Clone, Copy, Debug)]
+pub struct CapturedPart<'a> {
+    /// Name of the scene.
+    pub scene: &'a str,
+    /// The result.
+    pub inspection: &'a Inspection,
+    /// How it relates to what hangs there now.
+    pub currency: &'a Currency,
+}
+
+/// What was written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WrittenRobotFile {
+    /// Number of programs that the main program calls, which lie beside it.
+    pub num_called: usize,
+    /// Doubts despite which it was written.
+    pub doubts: Vec<Doubt>,
+    /// Figures of a program's film and of the planned one; none for poses, or if the path names no coat.
+    pub film: Option<String>,
+    /// What was not checked.
+    pub unchecked: Vec<Unchecked>,
+}
+
+/// Why no file was written.
+#[derive(Debug, thiserror::Error)]
+pub enum RobotFileError {
+    /// There are doubts, the one to show first.
+    #[error("{}", .0.first().map_or_else(String::new, ToString::to_string))]
+    Doubts(Vec<Doubt>),
+    /// A file cannot be removed or written.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// The program cannot be written.
+    #[error(transparent)]
+    Program(#[from] ProgramError),
+    /// The arm cannot be checked.
+    #[error(transparent)]
+    Arm(#[from] ArmError),
+}
+
+impl Advice for RobotFileError {
+    fn advice(&self) -> String {
+        match self {
+            Self::Doubts(doubts) => doubts.first().map_or_else(String::new, Advice::advice),
+            Self::File(error) => error.advice(),
+            Self::Program(error) => error.advice(),
+            Self::Arm(error) => error.advice(),
+        }
+    }
+}
+
+/// Something about a path that was not checked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Unchecked {
+    /// No arm is known.
+    #[error("reach and collisions")]
+    Arm,
+    /// No boxes and no floor of the cell are known.
+    #[error("collisions with anything but part and arm, such as the part's stand")]
+    Surroundings,
+    /// The coat of a program's path is not known.
+    #[error("the film that the program leaves, because the path names no coat")]
+    Film,
+    /// Limits that the arm's file lacks: `joints`, `rail` or `joints and rail`.
+    #[error("accelerations of {0}, whose limits are not known")]
+    Accelerations(&'static str),
+    /// Points in front of which the camera saw no surface.
+    #[error("the stand-off at {num} of {}, where the camera saw no surface", counted(*num_points, "point", "points"))]
+    NotSeen {
+        /// Their number.
+        num: usize,
+        /// Number of all points.
+        num_points: usize,
+    },
+}
+
+impl Advice for Unchecked {
+    fn advice(&self) -> String {
+        match self {
+            Self::Arm => {
+                "Write a program and name its arm, with the nozzle's pose on the flange, or watch the robot's first run at low speed".into()
+            }
+            Self::Surroundings => {
+                "Describe the boxes and the floor of the cell in a file, or watch the robot's first run at low speed".into()
+            }
+            Self::Film => "Plan the path again, so that it names its coat".into(),
+            Self::Accelerations(_) => "Add the limits to the arm's file".into(),
+            Self::NotSeen { .. } => {
+                "Capture the part so that the camera sees more of it, or scan it, if the path should aim at it there".into()
+            }
+        }
+    }
+}
+
+impl Unchecked {
+    /// What is not checked about a path that this arm is to follow.
+    pub fn of_arm(arm: Option<&PlacedArm>) -> Vec<Self> {
+        let Some(arm) = arm else {
+            return vec![Self::Arm];
+        };
+        let is_alone = arm.obstacles.file().is_none();
+        let surroundings = is_alone.then_some(Self::Surroundings);
+        let accelerations = arm.arm.unchecked_accelerations().map(Self::Accelerations);
+        surroundings.into_iter().chain(accelerations).collect()
+    }
+
+    /// The points of a path that could not be compared with what the camera saw; `None` if all could.
+    pub fn of_points(carried: &CarriedPath) -> Option<Self> {
+        let num = carried.count(BandStatus::NotSeen);
+        (num > 0).then_some(Self::NotSeen {
+            num,
+            num_points: carried.points.len(),
+        })
+    }
+}
+
+/// Removes an earlier file for a robot of this name, so that no robot acts on it for the next part. Other files of this
+/// name stay.
+pub fn remove_previous(file: &Path) -> Result<(), FileError> {
+    remove_previous_program(file)?;
+    remove_previous_export(file)?;
+    Ok(())
+}
+
+impl RobotFile<'_> {
+    /// Removes an earlier file of that name, collects the doubts, and writes the file if there are none or if it is
+    /// forced.
+    pub fn write(&self) -> Result<WrittenRobotFile, RobotFileError> {
+        remove_previous(self.file)?;
+        let reach = self.reach()?;
+        let points = program_points(
+            self.carried,
+            self.frame,
+            reach.as_ref().map(|(_, check)| check),
+        );
+        let film = self.film(&points, reach.as_ref());
+        let doubts = self.doubts(reach.as_ref(), film.as_ref());
+        if !self.is_forced && !doubts.is_empty() {
+            return Err(RobotFileError::Doubts(doubts));
+        }
+        let unchecked = self.unchecked(film.as_ref());
+        let film = film.as_ref().map(WrittenFilm::line);
+        let num_called = self.save(
+            &points,
+            reach.as_ref(),
+            film.as_deref(),
+            &doubts,
+            &unchecked,
+        )?;
+        Ok(WrittenRobotFile {
+            num_called,
+            doubts,
+            film,
+            unchecked,
+        })
+    }
+
+    /// The arm with the part among its obstacles, and which points it reaches; `None` without an arm.
+    fn reach(&self) -> Result<Option<(PlacedArm, PathCheck)>, ArmError> {
+        let RobotFileContent::Program {
+            settings,
+            arm: Some(arm),
+            ..
+        } = self.content
+        else {
+            return Ok(None);
+        };
+        let robot_from_part = self.frame.robot_from_part(&self.camera_from_part);
+        let arm = arm
+            .clone()
+            .with_part(&self.part_cloud.points, &robot_from_part);
+        let check = check_reach(&arm, self.carried, self.frame, settings)?;
+        Ok(Some((arm, check)))
+    }
+
+    /// The film that a program leaves; `None` for poses, and if the path names no coat.
+    fn film(
+        &self,
+        points: &[ProgramPoint],
+        reach: Option<&(PlacedArm, PathCheck)>,
+    ) -> Option<WrittenFilm> {
+        let RobotFileContent::Program {
+            format, settings, ..
+        } = self.content
+        else {
+            return None;
+        };
+        WrittenFilm::of(
+            &self.program(settings, points, reach),
+            format,
+            self.path?,
+            self.part_cloud,
+            self.coverage,
+            self.side,
+        )
+    }
+
+    /// The program, without its doubts and figures.
+    fn program<'p>(
+        &'p self,
+        settings: &'p ProgramSettings,
+        points: &'p [ProgramPoint],
+        reach: Option<&'p (PlacedArm, PathCheck)>,
+    ) -> Program<'p> {
+        Program {
+            points,
+            settings,
+            acceleration: self.path.and_then(Coat::acceleration_of),
+            film: None,
+            reach,
+            part: self.part,
+            scene: self.capture.map(|capture| capture.scene),
+            robot_from_part: self.frame.robot_from_part(&self.camera_from_part),
+            calibration: &self.frame.name,
+            is_simulated: self.is_simulated,
+            doubts: &[],
+            unchecked: &[],
+            at: geometry::clock::now(),
+        }
+    }
+
+    /// All doubts. That the path does not aim at the part comes first: neither another capture nor another place of the
+    /// arm helps against it.
+    fn doubts(
+        &self,
+        reach: Option<&(PlacedArm, PathCheck)>,
+        film: Option<&WrittenFilm>,
+    ) -> Vec<Doubt> {
+        let of_capture = self
+            .capture
+            .iter()
+            .flat_map(|capture| doubts(capture.inspection, capture.currency, Some(self.frame)));
+        let missed = reach.and_then(|(arm, check)| check.missed(&arm.arm.name));
+        let off = self.off.map(Doubt::OffThePart);
+        off.into_iter()
+            .chain(of_capture)
+            .chain(missed.map(Doubt::NotReached))
+            .chain(film.and_then(WrittenFilm::doubt).map(Doubt::FilmOffPlan))
+            .collect()
+    }
+
+    fn unchecked(&self, film: Option<&WrittenFilm>) -> Vec<Unchecked> {
+        let (arm, is_program) = match self.content {
+            RobotFileContent::Poses { .. } => (None, false),
+            RobotFileContent::Program { arm, .. } => (arm, true),
+        };
+        let mut unchecked = Unchecked::of_arm(arm);
+        if is_program && film.is_none() {
+            unchecked.push(Unchecked::Film);
+        }
+        // In the standard position, nothing was to be seen.
+        if self.capture.is_some() {
+            unchecked.extend(Unchecked::of_points(self.carried));
+        }
+        unchecked
+    }
+
+    /// Writes the file; returns the number of programs that it calls.
+    fn save(
+        &self,
+        points: &[ProgramPoint],
+        reach: Option<&(PlacedArm, PathCheck)>,
+        film: Option<&str>,
+        doubts: &[Doubt],
+        unchecked: &[Unchecked],
+    ) -> Result<usize, RobotFileError> {
+        let doubts: Vec<String> = doubts.iter().map(ToString::to_string).collect();
+        let unchecked: Vec<String> = unchecked.iter().map(ToString::to_string).collect();
+        let scene = self.capture.map(|capture| capture.scene);
+        match self.content {
+            RobotFileContent::Poses { convention, params } => {
+                let is_accepted = self
+                    .capture
+                    .is_none_or(|capture| capture.inspection.verdict.is_accepted());
+                let export = SprayExport {
+                    path: self.carried,
+                    part: self.part,
+                    scene: scene.unwrap_or("standard position"),
+                    frame: self.frame,
+                    convention,
+                    params,
+                    is_stored: self.is_stored,
+                    is_accepted,
+                    is_simulated: self.is_simulated,
+                    doubts: &doubts,
+                    unchecked: &unchecked,
+                    at: geometry::clock::now(),
+                };
+                export.save(self.file)?;
+                Ok(0)
+            }
+            RobotFileContent::Program {
+                format, settings, ..
+            } => {
+                let program = Program {
+                    film,
+                    doubts: &doubts,
+                    unchecked: &unchecked,
+                    ..self.program(settings, points, reach)
+                };
+                Ok(program.save(self.file, format)?)
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::{
+        fs,
+        time::{Duration, SystemTime},
+    };
+
+    use super::*;
+    use inspection::{
+        fixtures::shipped_library,
+        library::Library,
+        pipeline::{Recipe, Unwatched, run},
+    };
+    use robot::spray::{carry, default_path};
+    use simulate::{PartKind, Side};
+    use stages::{fixtures::facing_part, pose::RunnerUp};
+
+    /// A fender that was found, and the default point of its path.
+    struct Bench {
+        path: SprayPath,
+        library: Library,
+        inspection: Inspection,
+        carried: CarriedPath,
+        frame: RobotFrame,
+        params: StandOffParams,
+        settings: ProgramSettings,
+    }
+
+    impl Bench {
+        fn new() -> Self {
+            let library = shipped_library();
+            let scene = facing_part(PartKind::Fender, Side::Left, 5);
+            let inspection = run(&scene, &library, &Recipe::default(), &Unwatched).expect("run");
+            let params = StandOffParams::default();
+            let path = default_path(inspection.best_reference(&library).expect("one"), &params);
+            let path = path.expect("a path");
+            let pose = inspection.found_pose().expect("a pose");
+            let seen = inspection.segmentation.part.as_ref().expect("a part");
+            let hangs = pose.camera_from_part();
+            Self {
+                carried: carry(&path, &hangs, &seen.cloud, &params),
+                path,
+                library,
+                inspection,
+                frame: RobotFrame {
+                    robot_from_camera: RigidTransform::identity(),
+                    name: "cell 1".into(),
+                },
+                params,
+                settings: ProgramSettings::default(),
+            }
+        }
+
+        fn content(&self, file: &Path) -> RobotFileContent<'_> {
+            match ProgramFormat::of(file) {
+                Ok(format) => RobotFileContent::Program {
+                    format,
+                    settings: &self.settings,
+                    arm: None,
+                },
+                Err(_) => RobotFileContent::Poses {
+                    convention: Convention::Matrix,
+                    params: &self.params,
+                },
+            }
+        }
+
+        fn file<'a>(&'a self, file: &'a Path, currency: &'a Currency) -> RobotFile<'a> {
+            let best = self.inspection.best_reference(&self.library);
+            RobotFile {
+                file,
+                content: self.content(file),
+                carried: &self.carried,
+                frame: &self.frame,
+                part: "fender",
+                part_cloud: &best.expect("one").cloud,
+                coverage: Coverage::OneSide,
+                side: None,
+                path: Some(&self.path),
+                off: None,
+                capture: Some(CapturedPart {
+                    scene: "fender.pcd",
+                    inspection: &self.inspection,
+                    currency,
+                }),
+                camera_from_part: self
+                    .inspection
+                    .found_pose()
+                    .expect("a pose")
+                    .camera_from_part(),
+                is_stored: true,
+                is_simulated: true,
+                is_forced: false,
+            }
+        }
+    }
+
+    const NAMES: [&str; 3] = ["out.csv", "out.json", "paint.src"];
+
+    /// The letters and digits of a text, which a header may break into lines anywhere.
+    fn letters(text: &str) -> String {
+        text.chars().filter(char::is_ascii_alphanumeric).collect()
+    }
+
+    fn contains(file: &Path, words: &str) -> bool {
+        let text = fs::read_to_string(file).expect("read");
+        letters(&text).contains(&letters(words))
+    }
+
+    #[test]
+    fn with_a_doubt_no_file_of_any_kind_remains_and_a_forced_one_names_every_doubt() {
+        let mut bench = Bench::new();
+        let folder = tempfile::tempdir().expect("a folder");
+        let now = Currency::CapturedAt(SystemTime::now());
+        let old = Currency::CapturedAt(SystemTime::now() - Duration::from_hours(1));
+        for name in NAMES {
+            let path = folder.path().join(name);
+            let written = bench.file(&path, &now).write().expect("no doubts");
+            assert_eq!(written.doubts, []);
+            assert!(path.exists());
+        }
+        let Some(Ok(pose)) = &mut bench.inspection.pose else {
+            panic!("a pose");
+        };
+        pose.runner_up = Some(RunnerUp {
+            target_from_source: pose.target_from_source,
+            ratio: 1.01,
+        });
+        let off = OffThePart {
+            num_spraying: 5,
+            num_aiming: 0,
+            num_too_near: 0,
+        };
+        for name in NAMES {
+            let path = folder.path().join(name);
+            let mut file = bench.file(&path, &old);
+            file.off = Some(off);
+            let Err(RobotFileError::Doubts(doubts)) = file.write() else {
+                panic!("{name} was written");
+            };
+            let kinds: Vec<&str> = doubts.iter().map(Doubt::kind).collect();
+            assert_eq!(kinds, ["off_the_part", "old", "ambiguous_pose"]);
+            assert!(!path.exists(), "{name}: the file of the part before");
+            file.is_forced = true;
+            let written = file.write().expect("forced");
+            assert_eq!(written.doubts, doubts);
+            for doubt in &doubts {
+                assert!(contains(&path, &doubt.to_string()), "{name}: {doubt}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_was_not_checked_is_returned_and_in_every_kind_of_file() {
+        let mut bench = Bench::new();
+        let unseen = CarriedPath {
+            points: vec![bench.carried.points[0]; 3],
+        };
+        bench.carried = unseen;
+        bench.carried.points[1].band = BandStatus::NotSeen;
+        let folder = tempfile::tempdir().expect("a folder");
+        let now = Currency::CapturedAt(SystemTime::now());
+        for name in NAMES {
+            let path = folder.path().join(name);
+            let written = bench.file(&path, &now).write().expect("written");
+            let not_seen = Unchecked::NotSeen {
+                num: 1,
+                num_points: 3,
+            };
+            let mut expected = vec![Unchecked::Arm, not_seen];
+            if ProgramFormat::of(&path).is_ok() {
+                expected.insert(1, Unchecked::Film);
+            }
+            assert_eq!(written.unchecked, expected);
+            for unchecked in &written.unchecked {
+                let words = unchecked.to_string();
+                assert!(contains(&path, &words), "{name}: {words}");
+            }
+        }
+    }
+}

@@ -1,0 +1,241 @@
+//! The HTTP interface of the server, tested over real sockets on the loopback address with an inspector that needs no
+//! camera.
+//!
+//! Requests are written and answers parsed by hand, and checked against the published description.
+
+mod access;
+mod answers;
+mod client;
+mod command;
+mod limits;
+mod schema;
+
+use std::{
+    net::SocketAddr,
+    ops::ControlFlow,
+    path::{Path, PathBuf},
+    sync::{
+        Arc, Mutex,
+        atomic::{AtomicBool, AtomicU32, Ordering},
+    },
+    thread::{self, JoinHandle},
+    time::{Duration, Instant},
+};
+
+use partsight::{
+    RigidTransform,
+    plant::http::{HttpServer, HttpSettings, Tls, Tokens},
+    robot::Convention,
+    serve::{
+        Answer, Asked, CameraState, CameraStatus, ClientEvent, ClientNews, Found, Inspector,
+        PathStep, Server, ServerSettings, Trouble, VerdictCode,
+    },
+};
+
+use self::client::Client;
+
+/// Timeout with room for a busy machine; what is awaited normally comes at once.
+const PATIENCE: Duration = Duration::from_mins(2);
+
+/// An accepted part, `number` millimetres from the robot, so that answers cannot be mixed up.
+fn accepted(number: u32) -> Found {
+    let at = |x| RigidTransform::translation(x, 0.25, 1.5);
+    let step = |x, marks, speed| PathStep {
+        robot_from_nozzle: at(x),
+        marks,
+        speed,
+    };
+    Found {
+        verdict: VerdictCode::Accepted,
+        captured: Some(Instant::now()),
+        part: "fender".into(),
+        number: 4,
+        marks: Answer::SIMULATED,
+        pose: Some(at(f64::from(number) / 1000.0)),
+        path: vec![
+            step(0.007, Answer::GUN_ON, Some(0.25)),
+            step(0.008, Answer::IN_BAND, None),
+        ],
+        report: r#"{"schema":1,"status":"ok","pose":{"rms_m":0.5},"robot":{"calibration":"cell"},"ranking":[]}"#
+            .into(),
+        trouble: Trouble::default(),
+    }
+}
+
+fn refused(number: u32) -> Found {
+    Found {
+        verdict: VerdictCode::Refused,
+        trouble: Trouble {
+            reason: "low_score".into(),
+            message: "too low (to do: Look again)".into(),
+        },
+        // The server must not send these.
+        ..accepted(number)
+    }
+}
+
+/// An inspector that returns what it is told to, and counts.
+struct Fake {
+    number: u32,
+    find: Box<dyn FnMut(u32) -> Found + Send>,
+    is_ending: Arc<AtomicBool>,
+    num_inspected: Arc<AtomicU32>,
+}
+
+impl Inspector for Fake {
+    fn inspect(&mut self, _: &Asked) -> Found {
+        self.number += 1;
+        self.num_inspected.fetch_add(1, Ordering::SeqCst);
+        (self.find)(self.number)
+    }
+
+    fn answered(&mut self) {}
+
+    fn turn(&mut self) -> ControlFlow<()> {
+        if self.is_ending.load(Ordering::SeqCst) {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    }
+}
+
+/// State of a service's camera; `None` makes the program panic when it is asked.
+type Camera = Arc<Mutex<Option<CameraStatus>>>;
+
+/// A running server with HTTP only.
+struct Service {
+    http: Option<HttpServer>,
+    address: SocketAddr,
+    camera: Camera,
+    events: Arc<Mutex<Vec<ClientEvent>>>,
+    num_inspected: Arc<AtomicU32>,
+    is_ending: Arc<AtomicBool>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Service {
+    fn start(find: impl FnMut(u32) -> Found + Send + 'static) -> Self {
+        Self::start_with(patient(), http_settings(), find)
+    }
+
+    fn start_with(
+        settings: ServerSettings,
+        http: HttpSettings,
+        find: impl FnMut(u32) -> Found + Send + 'static,
+    ) -> Self {
+        let camera: Camera = Arc::new(Mutex::new(Some(CameraStatus {
+            state: CameraState::Running,
+            trouble: None,
+        })));
+        let events = Arc::new(Mutex::new(Vec::new()));
+        let (of_clients, told) = (Arc::clone(&camera), Arc::clone(&events));
+        let mut server = Server::start(
+            &[],
+            settings,
+            move || {
+                let status = of_clients.lock().map(|status| status.clone());
+                status.expect("whole").expect("the camera is asked")
+            },
+            move |event| told.lock().expect("whole").push(event),
+        )
+        .expect("started");
+        let http = HttpServer::start(http, server.handle()).expect("started");
+        let is_ending = Arc::new(AtomicBool::new(false));
+        let num_inspected = Arc::new(AtomicU32::new(0));
+        let mut fake = Fake {
+            number: 0,
+            find: Box::new(find),
+            is_ending: Arc::clone(&is_ending),
+            num_inspected: Arc::clone(&num_inspected),
+        };
+        Self {
+            address: http.address(),
+            http: Some(http),
+            camera,
+            events,
+            num_inspected,
+            is_ending,
+            thread: Some(thread::spawn(move || server.run(&mut fake))),
+        }
+    }
+
+    fn client(&self) -> Client {
+        Client::connect(self.address)
+    }
+
+    fn num_inspected(&self) -> u32 {
+        self.num_inspected.load(Ordering::SeqCst)
+    }
+
+    fn num_events(&self, news: &ClientNews) -> usize {
+        let events = self.events.lock().expect("whole");
+        events.iter().filter(|event| event.news == *news).count()
+    }
+
+    fn end(&mut self) {
+        self.is_ending.store(true, Ordering::SeqCst);
+        if let Some(thread) = self.thread.take() {
+            thread.join().expect("ended");
+        }
+        self.http = None;
+    }
+}
+
+impl Drop for Service {
+    fn drop(&mut self) {
+        self.end();
+    }
+}
+
+/// Settings that do not disconnect a client, even on a slow machine.
+fn patient() -> ServerSettings {
+    ServerSettings {
+        request_timeout: PATIENCE,
+        ..ServerSettings::default()
+    }
+}
+
+/// Settings for any free port of the loopback address.
+fn http_settings() -> HttpSettings {
+    HttpSettings {
+        address: "127.0.0.1:0".parse().expect("an address"),
+        convention: Convention::Fanuc,
+        tokens: Tokens::default(),
+        tls: None,
+    }
+}
+
+/// Reads tokens from a file with this text.
+fn tokens(text: &str) -> Tokens {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("tokens");
+    std::fs::write(&path, text).expect("written");
+    Tokens::load(&path).expect("tokens")
+}
+
+/// A self-signed certificate for the loopback address, for tests only.
+fn certificate() -> PathBuf {
+    own_file("localhost.cert.pem")
+}
+
+fn key() -> PathBuf {
+    own_file("localhost.key.pem")
+}
+
+fn own_file(name: &str) -> PathBuf {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    root.join("tests/plant/http/http").join(name)
+}
+
+fn tls() -> Tls {
+    Tls::load(&certificate(), &key()).expect("a certificate and its key")
+}
+
+fn wait_until(what: impl Fn() -> bool) {
+    let until = Instant::now() + PATIENCE;
+    while !what() {
+        assert!(Instant::now() < until, "it took too long");
+        thread::sleep(Duration::from_millis(5));
+    }
+}
