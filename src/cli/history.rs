@@ -448,7 +448,7 @@ fn cells(row: &Summary) -> [String; 10] {
             (None, 0) => "-".into(),
             (None, num) => num.to_string(),
         },
-        marked_simulated(&row.scene, row.is_simulated),
+        marked_simulated(&row.scene.to_string(), row.is_simulated),
         row.frame_bytes.map_or("-", |_| "kept").to_owned(),
         row.label.as_ref().map_or("-", Truth::name).to_owned(),
         row.remark.clone(),

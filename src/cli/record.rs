@@ -18,7 +18,7 @@ use inspection::{
 use plant::database::HistorySender;
 use records::{
     history::{
-        HistoryBuffer, HistoryError, HistoryEvent, HungId, InspectionContext, NewEntry,
+        HistoryBuffer, HistoryError, HistoryEvent, HungId, InspectionContext, NewEntry, SceneTitle,
         Traceability, Writer, users_folder,
     },
     report::segmentation_picture,
@@ -123,7 +123,7 @@ impl HistoryRecorder {
         let picture = segmentation_picture(scene, &inspection.segmentation);
         let about = InspectionContext {
             at: geometry::clock::now(),
-            scene: taken.scene.to_owned(),
+            scene: SceneTitle::of_frame(taken.scene, taken.is_simulated),
             source: taken.source.to_owned(),
             is_simulated: taken.is_simulated,
             title_of: &title_of,

@@ -15,7 +15,7 @@ use partsight::{
     geometry::rigid::RigidTransform,
     history::{
         Filter, History, HistoryBuffer, HistoryEvent, HungId, InspectionContext, KeepFrames,
-        NewEntry, Retention,
+        NewEntry, Retention, SceneTitle,
     },
     library::Library,
     pipeline::{self, NamedRecipe, Unwatched},
@@ -520,7 +520,7 @@ fn entries() -> impl Iterator<Item = NewEntry> {
     (1..).map(move |number| {
         let about = InspectionContext {
             at: Timestamp::now(),
-            scene: format!("frame {number}"),
+            scene: SceneTitle::Named(format!("frame {number}")),
             source: "simulated".into(),
             is_simulated: true,
             title_of: &str::to_owned,
@@ -583,11 +583,11 @@ fn a_full_disk_is_said_once_and_inspections_are_kept_until_there_is_room() {
         .history
         .page(&Filter::default(), 0, 100)
         .expect("asked");
-    let scenes: Vec<&str> = page
+    let scenes: Vec<String> = page
         .rows
         .iter()
         .rev()
-        .map(|row| row.scene.as_str())
+        .map(|row| row.scene.to_string())
         .collect();
     let expected: Vec<String> = (1..=num).map(|number| format!("frame {number}")).collect();
     assert_eq!(scenes, expected);

@@ -145,7 +145,7 @@ fn a_kill_at_any_moment_loses_at_most_the_inspection_in_flight() {
         for number in known + 1..=newest {
             let record = history.known(number).expect("whole");
             assert_eq!(record.detail.line, line_of(number));
-            assert_eq!(record.summary.scene, format!("frame {number}"));
+            assert_eq!(record.summary.scene.to_string(), format!("frame {number}"));
             let kept = history.scene(&record).expect("whole").expect("kept");
             let written = small_scene(number as u16);
             assert!(kept.cloud.points == written.cloud.points, "another frame");

@@ -178,19 +178,6 @@ compare-in-use-hint = Szenen werden bereits mit diesem Rezept geprüft
 ## Why a case is refused
 compare-refused = Abgewiesen: { $reason }
 compare-refused-apart = Abgewiesen: { $reason }; Abstand der Umrisse { $distance }
-compare-low-score = Score { $score } liegt unter { $threshold }
-compare-small-margin = der Vorsprung vor { $part } beträgt { $margin }, weniger als { $threshold }
-compare-unconfirmed = das Verfahren des Artikels allein kann es nicht von einem unbekannten Teil unterscheiden
-compare-piece = Score { $score } liegt unter { $threshold }: nur ein Stück ist sichtbar
-compare-another-model = die Oberfläche weicht um { $relief } ab, der Umriss um { $outline }, { $missing } % fehlen: anderes Modell
-compare-another-make = vom gleichen Typ mit Wahrscheinlichkeit { $likeness }: anderes Fabrikat
-compare-ambiguous-pose = der Vorsprung vor einer anderen Pose beträgt { $margin }, weniger als { $threshold }
-compare-hardly-seen = Score { $score }: kaum sichtbar
-compare-unknown = Score { $score }: unbekannt
-compare-mirrored = sieht aus wie das Spiegelbild von { $part }
-compare-mirrored-image = passt zu { $part } nur als Spiegelbild: das Bild ist vermutlich gespiegelt
-compare-unconstrained = die Pose ist nicht bestimmt: { $freedom }
-compare-uncertain = die Pose ist um { $shift } unsicher, zulässig sind { $limit }
 
 ## The plots
 compare-calibration = Kalibrierung

@@ -13,7 +13,6 @@ operator-no-result-next = Den Einrichter rufen oder mit „Aufnehmen“ erneut v
 operator-unreadable = { $file } ist nicht lesbar
 operator-unreadable-next = Die Aufnahme erneut im Ordner speichern; bleibt es dabei, den Einrichter rufen
 operator-no-parts = Keine Teile eingelernt
-operator-no-parts-why = In der Bibliothek ist kein Teil eingelernt
 operator-ask-to-enrol = Den Einrichter bitten, die Teile einzulernen
 operator-no-new-file = Noch keine neue Datei im Ordner
 operator-save-capture = Eine Aufnahme im Ordner speichern: Sie wird automatisch geprüft
@@ -36,48 +35,10 @@ operator-last-parts = Letzte Teile dieser Schicht
 operator-none-yet = Noch keine
 operator-counting = Wird gezählt…
 
-## Why a part is not accepted
-
-operator-low-score = Passt nicht gut genug zu: { $nearest }
-operator-piece = Nur ein Stück sichtbar von: { $nearest }
-operator-hardly-seen = Zu wenig vom Teil ist sichtbar
-operator-another-model = Ähnlich wie { $nearest }, aber andere Form
-operator-another-make = Ähnlich wie { $nearest }, aber andere Maße
-operator-uncertain-pose = Erkannt, aber die Pose ist unsicher
-operator-unknown = Kein eingelerntes Teil ist ähnlich
-operator-mirrored = Sieht aus wie das Spiegelbild von { $nearest }
-operator-mirrored-image = Das Kamerabild ist gespiegelt
-operator-small-margin = Zwei eingelernte Teile passen fast gleich gut
-operator-unconfirmed = Nur der Umriss wurde verglichen
-operator-out-of-range = Es ist zu nah an der Kamera oder zu weit entfernt
-operator-damaged-file = Die aufgenommene Datei ist beschädigt
-operator-no-pose = Vielleicht { $nearest }, aber keine Pose gefunden
-operator-not-steady = Das Teil hängt noch nicht still
-operator-few-frames = Bisher zu wenige Bilder geprüft
-operator-undecided = Die Bilder stimmen nicht überein
-operator-nothing-hangs = Vor der Kamera hängt kein Teil
-operator-hardly-a-reading = Die Kamera sieht fast nichts
-operator-too-wide = Die Szene ist viel größer als eine Zelle
-operator-fault = Das Programm ist an diesem Bild gescheitert
-
 ## What an operator can do about it
 
-operator-uncover = Entfernen, was das Teil verdeckt
-operator-all-in-picture = Die Sichtseite ganz im Bild zur Kamera drehen
-operator-turn = Die Sichtseite zur Kamera drehen
-operator-hang = Das Teil mindestens 10 cm vor der Wand vor die Kamera hängen
-operator-uncover-camera = Entfernen, was die Kamera verdeckt
 operator-then-capture = Dann „Aufnehmen“ drücken
 operator-next-file = Die nächste Datei wird automatisch geprüft
-operator-if-it-persists = Bleibt es dabei, den Einrichter rufen
-operator-if-two-alike = Bleibt es dabei, den Einrichter bitten, eines der beiden aus der Bibliothek zu entfernen
-operator-if-it-hangs-there = Hängt es schon dort, den Einrichter bitten, die leere Zelle neu aufzunehmen
-operator-enrol-if-painted-next = Soll es lackiert werden, den Einrichter bitten, es einzulernen
-operator-mirrored-next = Nicht wie { $nearest } lackieren: Den Einrichter bitten, das Teil dieser Seite einzulernen
-operator-mirrored-image-next = Roboter nicht starten: Den Einrichter bitten, die Kamera richtig einzustellen
-operator-unconfirmed-next = Den Einrichter bitten, auch die Pose schätzen zu lassen
-operator-check-camera-next = Den Einrichter bitten, Kamera und Dateien zu prüfen
-operator-ask = Den Einrichter rufen
 operator-reaches-edge = Es reicht bis an den Bildrand: So aufhängen, dass es ganz im Bild ist
 operator-reaches-edge-ok = Nicht ganz im Bild
 operator-approximate-ok = Vielleicht anderes Modell

@@ -178,19 +178,6 @@ compare-in-use-hint = Scenes are inspected with this recipe already
 ## Why a case is refused
 compare-refused = Refused: { $reason }
 compare-refused-apart = Refused: { $reason }; the outlines lie { $distance } apart
-compare-low-score = score { $score } is below { $threshold }
-compare-small-margin = its lead over { $part } is { $margin }, below { $threshold }
-compare-unconfirmed = the paper's matcher alone cannot tell it from an unknown part
-compare-piece = score { $score } is below { $threshold }: only a piece is in sight
-compare-another-model = its surface is off by { $relief }, its outline by { $outline }, { $missing } % of it is missing: another model
-compare-another-make = of the same type with a probability of { $likeness }: another make
-compare-ambiguous-pose = its lead over another pose is { $margin }, below { $threshold }
-compare-hardly-seen = score { $score }: hardly in sight
-compare-unknown = score { $score }: unknown
-compare-mirrored = it looks like the mirror image of { $part }
-compare-mirrored-image = it fits { $part } only as its mirror image: the image is probably mirrored
-compare-unconstrained = the pose is unconstrained: { $freedom }
-compare-uncertain = the pose is uncertain by { $shift }, and { $limit } is allowed
 
 ## The plots
 compare-calibration = Calibration

@@ -13,7 +13,6 @@ operator-no-result-next = Ask the engineer, or press Capture to try again
 operator-unreadable = { $file } cannot be read
 operator-unreadable-next = Save the capture to the folder again; if it persists, ask the engineer
 operator-no-parts = No parts enrolled
-operator-no-parts-why = No part is enrolled in the library
 operator-ask-to-enrol = Ask the engineer to enrol the parts
 operator-no-new-file = No new file in the folder yet
 operator-save-capture = Save a capture to the folder: it is inspected automatically
@@ -36,48 +35,10 @@ operator-last-parts = Last parts of this shift
 operator-none-yet = None yet
 operator-counting = Counting…
 
-## Why a part is not accepted
-
-operator-low-score = It does not match { $nearest } well enough
-operator-piece = Only a piece of { $nearest } is in sight
-operator-hardly-seen = Too little of the part is in sight
-operator-another-model = It resembles { $nearest }, but its shape differs
-operator-another-make = It resembles { $nearest }, but its dimensions differ
-operator-uncertain-pose = Recognised, but its pose is uncertain
-operator-unknown = No enrolled part resembles it
-operator-mirrored = It looks like the mirror image of { $nearest }
-operator-mirrored-image = The camera's picture is mirrored
-operator-small-margin = Two enrolled parts match almost equally well
-operator-unconfirmed = Only its outline was compared
-operator-out-of-range = It is too near to the camera or too far away
-operator-damaged-file = The captured file is damaged
-operator-no-pose = It may be { $nearest }, but no pose was found
-operator-not-steady = It is not hanging still yet
-operator-few-frames = Too few frames were inspected so far
-operator-undecided = The frames do not agree
-operator-nothing-hangs = No part hangs in front of the camera
-operator-hardly-a-reading = The camera sees hardly anything
-operator-too-wide = The scene is far larger than a cell
-operator-fault = The program failed at this frame
-
 ## What an operator can do about it
 
-operator-uncover = Take away what covers the part
-operator-all-in-picture = Turn its face to the camera, all of it inside the picture
-operator-turn = Turn its face to the camera
-operator-hang = Hang the part in front of the camera, at least 10 cm away from the wall
-operator-uncover-camera = Take away what covers the camera
 operator-then-capture = Then press Capture
 operator-next-file = The next file is inspected automatically
-operator-if-it-persists = If it persists, ask the engineer
-operator-if-two-alike = If it persists, ask the engineer to remove one of the two from the library
-operator-if-it-hangs-there = If it already hangs there, ask the engineer to capture the empty cell again
-operator-enrol-if-painted-next = If it is to be painted, ask the engineer to enrol it
-operator-mirrored-next = Do not paint it as { $nearest }: ask the engineer to enrol the part of this side
-operator-mirrored-image-next = Do not start the robot: ask the engineer to set the camera right
-operator-unconfirmed-next = Ask the engineer to have the pose estimated too
-operator-check-camera-next = Ask the engineer to check the camera and its files
-operator-ask = Ask the engineer
 operator-reaches-edge = It reaches the edge of the picture: hang it so that all of it is in the picture
 operator-reaches-edge-ok = Not all of it is in the picture
 operator-approximate-ok = Maybe another model

@@ -207,19 +207,6 @@ compare-in-use-hint = Las escenas ya se inspeccionan con esta receta
 ## Why a case is refused
 compare-refused = Rechazada: { $reason }
 compare-refused-apart = Rechazada: { $reason }; los contornos distan { $distance }
-compare-low-score = la puntuación { $score } está por debajo de { $threshold }
-compare-small-margin = su margen sobre { $part } es { $margin }, por debajo de { $threshold }
-compare-unconfirmed = el comparador del artículo por sí solo no la distingue de una pieza desconocida
-compare-piece = la puntuación { $score } está por debajo de { $threshold }: solo se ve una parte
-compare-another-model = la superficie se desvía { $relief }, el contorno { $outline }, y falta el { $missing } %: otro modelo
-compare-another-make = del mismo tipo con una probabilidad de { $likeness }: otra marca
-compare-ambiguous-pose = su margen sobre otra pose es { $margin }, por debajo de { $threshold }
-compare-hardly-seen = puntuación { $score }: apenas se ve
-compare-unknown = puntuación { $score }: desconocida
-compare-mirrored = parece la imagen reflejada de { $part }
-compare-mirrored-image = solo encaja con { $part } como imagen reflejada: es probable que la imagen esté reflejada
-compare-unconstrained = la pose no está determinada: { $freedom }
-compare-uncertain = la pose tiene una incertidumbre de { $shift }; se admiten { $limit }
 
 ## The plots
 compare-calibration = Calibración

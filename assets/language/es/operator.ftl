@@ -13,7 +13,6 @@ operator-no-result-next = Avisar al técnico, o pulsar Capturar para volver a in
 operator-unreadable = No se puede leer { $file }
 operator-unreadable-next = Guardar de nuevo la captura en la carpeta; si persiste, avisar al técnico
 operator-no-parts = Sin piezas registradas
-operator-no-parts-why = No hay ninguna pieza registrada en la biblioteca
 operator-ask-to-enrol = Pedir al técnico que registre las piezas
 operator-no-new-file = Aún no hay ningún archivo nuevo en la carpeta
 operator-save-capture = Guardar una captura en la carpeta: se inspecciona automáticamente
@@ -36,48 +35,10 @@ operator-last-parts = Últimas piezas de este turno
 operator-none-yet = Ninguna todavía
 operator-counting = Contando…
 
-## Why a part is not accepted
-
-operator-low-score = No coincide lo suficiente con: { $nearest }
-operator-piece = Solo se ve una parte de: { $nearest }
-operator-hardly-seen = Se ve demasiado poco de la pieza
-operator-another-model = Se parece a { $nearest }, pero su forma es distinta
-operator-another-make = Se parece a { $nearest }, pero sus dimensiones son distintas
-operator-uncertain-pose = Reconocida, pero su pose es incierta
-operator-unknown = Ninguna pieza registrada se le parece
-operator-mirrored = Parece la imagen reflejada de { $nearest }
-operator-mirrored-image = La imagen de la cámara está reflejada
-operator-small-margin = Dos piezas registradas coinciden casi por igual
-operator-unconfirmed = Solo se comparó su contorno
-operator-out-of-range = Está demasiado cerca o demasiado lejos de la cámara
-operator-damaged-file = El archivo capturado está dañado
-operator-no-pose = Puede ser { $nearest }, pero no se encontró la pose
-operator-not-steady = Todavía no cuelga inmóvil
-operator-few-frames = Hasta ahora se han inspeccionado pocas imágenes
-operator-undecided = Las imágenes no concuerdan
-operator-nothing-hangs = No cuelga ninguna pieza delante de la cámara
-operator-hardly-a-reading = La cámara apenas ve nada
-operator-too-wide = La escena es mucho mayor que una celda
-operator-fault = El programa ha fallado con esta imagen
-
 ## What an operator can do about it
 
-operator-uncover = Retirar lo que tapa la pieza
-operator-all-in-picture = Orientar la cara hacia la cámara, toda dentro de la imagen
-operator-turn = Orientar la cara hacia la cámara
-operator-hang = Colgar la pieza delante de la cámara, a 10 cm o más de la pared
-operator-uncover-camera = Retirar lo que tapa la cámara
 operator-then-capture = Después, pulsar Capturar
 operator-next-file = El próximo archivo se inspecciona automáticamente
-operator-if-it-persists = Si persiste, avisar al técnico
-operator-if-two-alike = Si persiste, pedir al técnico que elimine una de las dos de la biblioteca
-operator-if-it-hangs-there = Si ya cuelga ahí, pedir al técnico que capture de nuevo la celda vacía
-operator-enrol-if-painted-next = Si hay que pintarla, pedir al técnico que la registre
-operator-mirrored-next = No pintarla como { $nearest }: pedir al técnico que registre la pieza de este lado
-operator-mirrored-image-next = No arrancar el robot: pedir al técnico que ajuste la cámara
-operator-unconfirmed-next = Pedir al técnico que active también la estimación de la pose
-operator-check-camera-next = Pedir al técnico que compruebe la cámara y sus archivos
-operator-ask = Avisar al técnico
 operator-reaches-edge = Llega al borde de la imagen: colgarla de modo que quede entera en la imagen
 operator-reaches-edge-ok = No está entera en la imagen
 operator-approximate-ok = Quizá otro modelo

@@ -177,19 +177,6 @@ compare-in-use-hint = 场景已在使用此配方检测
 ## Why a case is refused
 compare-refused = 拒绝：{ $reason }
 compare-refused-apart = 拒绝：{ $reason }；轮廓相距 { $distance }
-compare-low-score = 得分 { $score } 低于 { $threshold }
-compare-small-margin = 相对 { $part } 的裕度为 { $margin }，低于 { $threshold }
-compare-unconfirmed = 仅凭论文的匹配器无法将其与未知零件区分
-compare-piece = 得分 { $score } 低于 { $threshold }：只能看到一部分
-compare-another-model = 表面偏差 { $relief }，轮廓偏差 { $outline }，缺失 { $missing } %：其他型号
-compare-another-make = 属于同类型的概率为 { $likeness }：其他品牌
-compare-ambiguous-pose = 相对另一位姿的裕度为 { $margin }，低于 { $threshold }
-compare-hardly-seen = 得分 { $score }：几乎不可见
-compare-unknown = 得分 { $score }：未知
-compare-mirrored = 看起来像 { $part } 的镜像
-compare-mirrored-image = 仅其镜像与 { $part } 匹配：图像可能是镜像的
-compare-unconstrained = 位姿未约束：{ $freedom }
-compare-uncertain = 位姿不确定度为 { $shift }，允许 { $limit }
 
 ## The plots
 compare-calibration = 校准

@@ -13,7 +13,6 @@ operator-no-result-next = 请联系工程师，或按“采集”重试
 operator-unreadable = 无法读取 { $file }
 operator-unreadable-next = 请重新将采集保存到文件夹；若仍如此，请联系工程师
 operator-no-parts = 未注册零件
-operator-no-parts-why = 零件库中没有已注册的零件
 operator-ask-to-enrol = 请工程师注册零件
 operator-no-new-file = 文件夹中尚无新文件
 operator-save-capture = 将采集保存到文件夹：会自动检测
@@ -36,48 +35,10 @@ operator-last-parts = 本班最近的零件
 operator-none-yet = 暂无
 operator-counting = 正在统计…
 
-## Why a part is not accepted
-
-operator-low-score = 与“{ $nearest }”的匹配度不足
-operator-piece = 只能看到“{ $nearest }”的一部分
-operator-hardly-seen = 零件可见部分太少
-operator-another-model = 与“{ $nearest }”相似，但形状不同
-operator-another-make = 与“{ $nearest }”相似，但尺寸不同
-operator-uncertain-pose = 已识别，但位姿不确定
-operator-unknown = 没有与之相似的已注册零件
-operator-mirrored = 看起来是“{ $nearest }”的镜像
-operator-mirrored-image = 相机图像是镜像的
-operator-small-margin = 有两个已注册零件的匹配度几乎相同
-operator-unconfirmed = 仅比较了轮廓
-operator-out-of-range = 距相机太近或太远
-operator-damaged-file = 采集文件已损坏
-operator-no-pose = 可能是“{ $nearest }”，但未找到位姿
-operator-not-steady = 零件尚未静止
-operator-few-frames = 已检测的帧数不足
-operator-undecided = 各帧结果不一致
-operator-nothing-hangs = 相机前没有悬挂零件
-operator-hardly-a-reading = 相机几乎看不到任何东西
-operator-too-wide = 场景远大于工位
-operator-fault = 程序处理此帧时出错
-
 ## What an operator can do about it
 
-operator-uncover = 移开遮挡零件的物体
-operator-all-in-picture = 将零件正面朝向相机并完全置于画面内
-operator-turn = 将零件正面朝向相机
-operator-hang = 将零件挂在相机前，距墙至少 10 cm
-operator-uncover-camera = 移开遮挡相机的物体
 operator-then-capture = 然后按“采集”
 operator-next-file = 下一个文件会自动检测
-operator-if-it-persists = 若仍如此，请联系工程师
-operator-if-two-alike = 若仍如此，请工程师从零件库中移除其中一个
-operator-if-it-hangs-there = 若零件已挂好，请工程师重新采集空工位
-operator-enrol-if-painted-next = 若需喷涂，请工程师注册该零件
-operator-mirrored-next = 请勿按“{ $nearest }”喷涂：请工程师注册这一侧的零件
-operator-mirrored-image-next = 请勿启动机器人：请工程师纠正相机设置
-operator-unconfirmed-next = 请工程师启用位姿估计
-operator-check-camera-next = 请工程师检查相机及其文件
-operator-ask = 请联系工程师
 operator-reaches-edge = 零件到达画面边缘：请将其完全挂在画面内
 operator-reaches-edge-ok = 未完全在画面内
 operator-approximate-ok = 可能是其他型号

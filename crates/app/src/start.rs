@@ -10,7 +10,7 @@ use std::{
 use eframe::NativeOptions;
 
 use super::{
-    language::Language,
+    language::language_of_system,
     shell::settings,
     ui::viewport::{ViewError, ViewportGpu},
     window::{Window, WindowOptions},
@@ -84,7 +84,7 @@ pub fn run(given: WindowOptions) -> Result<(), WindowError> {
         return Err(WindowError::NoDisplay);
     }
     let mut given = WindowOptions {
-        language: given.language.or_else(|| Some(Language::of_system())),
+        language: given.language.or_else(|| Some(language_of_system())),
         ..given
     };
     let mut is_reopened = false;

@@ -5,11 +5,11 @@ use std::{sync::Arc, time::Instant};
 use jiff::{SignedDuration, Timestamp};
 use serde::Serialize;
 
-use geometry::{error::Advice as _, statistics::quantile};
+use geometry::statistics::quantile;
 use inspection::pipeline::{Recipe, RecipeLabel, Refusal, Rejection};
 use records::history::{
     Filter, History, HistoryError, HungId, InspectionDetail, KeepFrames, NewEntry, Record,
-    Retention, StoredRefusal, StoredVerdict, Summary,
+    Retention, SceneTitle, StoredVerdict, Summary,
 };
 use simulate::{CellSetup, PartKind, Side, frame};
 use stages::scene::{SceneCloud, scene_from_frame};
@@ -152,19 +152,6 @@ fn time(what: &'static str, num: usize, ms: &[f64], budget_ms: f64) -> HistoryTi
     }
 }
 
-fn refusal(part: &str) -> StoredRefusal {
-    let why = Rejection::LowScore {
-        part: part.to_owned(),
-        score: 0.81,
-        threshold: 0.9,
-    };
-    StoredRefusal {
-        reason: why.to_string(),
-        advice: why.advice(),
-        why: Some(Refusal::Rejected(why)),
-    }
-}
-
 fn entry(
     i: usize,
     at: Timestamp,
@@ -178,17 +165,25 @@ fn entry(
     } else {
         StoredVerdict::Rejected
     };
+    let refusal = (!is_accepted).then(|| {
+        Refusal::from(Rejection::LowScore {
+            part: part.name().to_owned(),
+            score: 0.81,
+            threshold: 0.9,
+        })
+    });
     NewEntry {
         record: Record {
             summary: Summary {
                 number: 0,
                 at,
-                scene: format!("simulated frame {i}"),
+                scene: SceneTitle::SimulatedFrame(i as u64),
                 source: "simulated".into(),
                 is_simulated: true,
                 verdict,
                 part: Some(part.name().into()),
                 title: part.title().into(),
+                reason: refusal.as_ref().map(Refusal::kind),
                 score: Some([0.97, 0.3]),
                 total_ms: 40.0,
                 remark: String::new(),
@@ -201,9 +196,9 @@ fn entry(
             },
             detail: InspectionDetail {
                 nearest: Some(part.name().into()),
-                refusal: (!is_accepted).then(|| refusal(part.name())),
+                refusal,
                 camera_from_part: None,
-                recipe_label: Some(RecipeLabel::default()),
+                recipe_label: RecipeLabel::default(),
                 recipe_identity: recipe.identity(),
                 recipe: Some(Arc::clone(recipe)),
                 library_identity: "0badcafe".into(),

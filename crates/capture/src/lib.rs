@@ -40,7 +40,7 @@ pub use self::read::may_be_capture;
 pub use self::read::read_image;
 pub use self::realsense::RealsenseError;
 pub use self::recording::{Recorder, Replay};
-pub use self::simulated::SimulatedCell;
+pub use self::simulated::{SimulatedCell, simulated_frame_number};
 pub use self::source::{Captured, DepthSource, Image, NextCapture, SkippedCapture};
 pub use self::spec::{
     CellScene, GenicamFormat, GenicamSpec, KinectSpec, OpenNiSpec, Pace, RealsenseSpec,

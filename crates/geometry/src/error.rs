@@ -6,6 +6,8 @@ use std::{
     sync::{Mutex, MutexGuard, PoisonError},
 };
 
+use texts::{Described, Message};
+
 /// Tells the user what to do about an error; kept apart from the error's message.
 ///
 /// The message states what was found and what was expected; the advice is one imperative sentence,
@@ -15,9 +17,14 @@ pub trait Advice {
     fn advice(&self) -> String;
 }
 
+impl<T: Described> Advice for T {
+    fn advice(&self) -> String {
+        self.message().command_advice()
+    }
+}
+
 /// A panic, which is a bug in the program, while working on one input.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, serde::Serialize, serde::Deserialize)]
-#[error("internal error of the program: {message}")]
 pub struct Fault {
     /// The message of the panic.
     message: String,
@@ -33,12 +40,13 @@ impl Fault {
     }
 }
 
-impl Advice for Fault {
-    fn advice(&self) -> String {
-        "Keep the file or frame and report it with this message; later inspections are not affected"
-            .into()
+impl Described for Fault {
+    fn message(&self) -> Message {
+        Message::new("refusal-fault").with_fields(self)
     }
 }
+
+texts::display!(Fault);
 
 /// Runs `work` and turns a panic in it into an error, so that one bad input does not stop the following ones.
 ///

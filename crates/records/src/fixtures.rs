@@ -3,16 +3,13 @@
 use std::{path::Path, sync::Arc};
 
 use capture::fixtures::moment;
-use geometry::{
-    error::Advice as _,
-    rigid::{from_euler_zyx, row_major},
-};
+use geometry::rigid::{from_euler_zyx, row_major};
 use image::RgbImage;
-use inspection::pipeline::{Recipe, RecipeLabel, Refusal, Rejection};
-use stages::fixtures::small_scene;
+use inspection::pipeline::{Recipe, RecipeLabel, Refusal, Rejection, Unrecognisable};
+use stages::{fixtures::small_scene, segment::NoPart};
 
 use crate::history::{
-    History, HungId, InspectionDetail, NewEntry, Record, StoredRefusal, StoredVerdict, Summary,
+    History, HungId, InspectionDetail, NewEntry, Record, SceneTitle, StoredVerdict, Summary,
     Traceability,
 };
 
@@ -26,17 +23,24 @@ pub fn history_entry(seconds: i64, verdict: StoredVerdict, part: &str) -> NewEnt
         row_major(&camera_from_part),
         0.001 + 1e-4 * seconds as f64,
     );
+    let refusal = match verdict {
+        StoredVerdict::Accepted => None,
+        StoredVerdict::Rejected => Some(low_score(part, 0.81)),
+        StoredVerdict::Unknown => Some(unknown(part, 0.81)),
+        StoredVerdict::NoPart => Some(no_part()),
+    };
     NewEntry {
         record: Record {
             summary: Summary {
                 number: 0,
                 at: moment(seconds),
-                scene: format!("frame {seconds}"),
+                scene: SceneTitle::Named(format!("frame {seconds}")),
                 source: "simulated".into(),
                 is_simulated: true,
                 verdict,
                 part: is_named.then(|| part.to_owned()),
                 title: part.replace('_', " "),
+                reason: refusal.as_ref().map(Refusal::kind),
                 score: (verdict != StoredVerdict::NoPart).then_some([0.97, 0.25]),
                 total_ms: 31.5,
                 remark: String::new(),
@@ -49,15 +53,9 @@ pub fn history_entry(seconds: i64, verdict: StoredVerdict, part: &str) -> NewEnt
             },
             detail: InspectionDetail {
                 nearest: Some(part.to_owned()),
-                // As written by an earlier version of the program.
-                refusal: Some(StoredRefusal {
-                    reason: "too low".into(),
-                    advice: "look again".into(),
-                    why: None,
-                })
-                .filter(|_| verdict != StoredVerdict::Accepted),
+                refusal,
                 camera_from_part: Some(camera_from_part),
-                recipe_label: Some(RecipeLabel::default()),
+                recipe_label: RecipeLabel::default(),
                 recipe_identity: recipe.identity(),
                 recipe: Some(Arc::new(recipe)),
                 library_identity: "0badcafe".into(),
@@ -75,23 +73,37 @@ pub fn history_entry(seconds: i64, verdict: StoredVerdict, part: &str) -> NewEnt
     }
 }
 
-/// The reason for a refusal as the history stores it.
-pub fn refusal(why: impl Into<Refusal>) -> StoredRefusal {
+/// Makes it the reason why the inspection was not accepted.
+pub fn refuse(entry: &mut NewEntry, why: impl Into<Refusal>) {
+    let Record { summary, detail } = &mut entry.record;
     let why = why.into();
-    StoredRefusal {
-        reason: why.to_string(),
-        advice: why.advice(),
-        why: Some(why),
-    }
+    summary.reason = Some(why.kind());
+    detail.refusal = Some(why);
 }
 
 /// The refusal of a part whose score is too low.
-pub fn low_score(part: &str, score: f64) -> StoredRefusal {
-    refusal(Rejection::LowScore {
-        part: part.to_owned(),
+pub fn low_score(part: &str, score: f64) -> Refusal {
+    let part = part.to_owned();
+    let threshold = 0.9;
+    Rejection::LowScore {
+        part,
         score,
-        threshold: 0.9,
+        threshold,
+    }
+    .into()
+}
+
+fn unknown(nearest: &str, score: f64) -> Refusal {
+    let nearest = nearest.to_owned();
+    Rejection::Unknown { nearest, score }.into()
+}
+
+fn no_part() -> Refusal {
+    Unrecognisable::from(NoPart::TooFewPoints {
+        found: 12,
+        needed: 200,
     })
+    .into()
 }
 
 /// Opens the history in this folder, and checks that it is undamaged.

@@ -9,7 +9,7 @@ use super::answer::{Answer, Found, PathStep, Trouble, VerdictCode};
 use geometry::rigid::RigidTransform;
 use inspection::{
     library::SprayPath,
-    pipeline::{Inspection, Recipe, RefusalKind, Verdict},
+    pipeline::{Inspection, Recipe, Refusal, Rejection, Verdict},
 };
 use robot::{
     RobotFrame,
@@ -52,7 +52,7 @@ pub struct FrameOrigin {
     pub is_motion_checked: bool,
 }
 
-/// The reason word of a part that moves: shorter than its [`RefusalKind`], for programs that compare it.
+/// The reason word of a part that moves: shorter than its kind of refusal, for programs that compare it.
 const MOVING: &str = "moving";
 
 /// Converts inspections into results for clients.
@@ -89,9 +89,10 @@ impl PartFinder {
                 Verdict::Part { .. } => VerdictCode::Refused,
                 Verdict::NoPart(_) => VerdictCode::NoPart,
             };
-            let reason = match why.kind() {
-                RefusalKind::NotSteady => MOVING.to_owned(),
-                kind => kind.to_string(),
+            let reason = if matches!(why, Refusal::Rejected(Rejection::NotSteady { .. })) {
+                MOVING.to_owned()
+            } else {
+                why.kind().to_string()
             };
             found.trouble = Trouble::new(reason, &what, &advice);
             return found;

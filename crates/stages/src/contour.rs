@@ -8,7 +8,7 @@
 use nalgebra::{Point2, Point3, Vector3};
 
 use crate::project::PlaneImage;
-use geometry::{error::Advice, polygon, raster::BinaryImage};
+use geometry::{polygon, raster::BinaryImage};
 
 /// Parameters of [`find_contour`].
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -68,19 +68,13 @@ pub struct Contour {
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum ContourError {
     /// No shape in the image encloses an area.
-    #[error("the binary image holds no shape with an area ({num_set} pixels set)")]
     NoShape {
         /// Number of set pixels.
         num_set: usize,
     },
 }
 
-impl Advice for ContourError {
-    fn advice(&self) -> String {
-        "Raise the gap that is closed, or move the part nearer to the camera, and capture again"
-            .into()
-    }
-}
+texts::described!(ContourError: "refusal" by "kind");
 
 /// Finds the part's outline (the border that encloses the largest area) and its openings.
 pub fn find_contour(plane: &PlaneImage, params: &ContourParams) -> Result<Contour, ContourError> {

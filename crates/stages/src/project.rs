@@ -18,7 +18,6 @@ use nalgebra::{
 
 use crate::segment::SegmentedPart;
 use geometry::{
-    error::Advice,
     principal::{PrincipalAxes, principal_axes},
     raster::BinaryImage,
     rigid::RigidTransform,
@@ -98,7 +97,6 @@ impl PlaneImage {
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum ProjectError {
     /// The points span no plane.
-    #[error("the part's {num_points} points lie on a line or a spot ({width:.4} m wide)")]
     NoPlane {
         /// Number of points.
         num_points: usize,
@@ -107,7 +105,6 @@ pub enum ProjectError {
         width: f64,
     },
     /// The points extend too far for an image.
-    #[error("the part spans {found:.1} m, an image covers {limit:.1} m")]
     TooLarge {
         /// Extent, metres.
         #[serde(rename = "found_m")]
@@ -118,18 +115,7 @@ pub enum ProjectError {
     },
 }
 
-impl Advice for ProjectError {
-    fn advice(&self) -> String {
-        match self {
-            Self::NoPlane { .. } => "Turn the part to face the camera and capture again".into(),
-            Self::TooLarge { .. } => {
-                "Check that the file is in metres, or clear everything but the part from the scene; for a depth image, \
-                 correct metres_per_unit in the JSON beside it"
-                    .into()
-            }
-        }
-    }
-}
+texts::described!(ProjectError: "refusal" by "kind");
 
 /// Unset pixels around the part, so that closing and border following never reach the edge.
 const MARGIN: usize = 2;

@@ -28,8 +28,8 @@ use crate::{
     signature::{FanSignature, LiteralSignature, SignatureParams},
 };
 use geometry::{
-    cloud::PointCloud, error::Advice, nearest::KdTree, nearest_field::NearestField,
-    rigid::RigidTransform, units::Metres,
+    cloud::PointCloud, nearest::KdTree, nearest_field::NearestField, rigid::RigidTransform,
+    units::Metres,
 };
 
 /// The sides from which the reference cloud was seen.
@@ -57,16 +57,15 @@ pub struct ReferenceParams {
 }
 
 /// Reason why a cloud cannot be a reference.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error, serde::Serialize)]
+#[serde(tag = "error", rename_all = "snake_case")]
 pub enum ReferenceError {
     /// None of the views has an outline.
-    #[error("the cloud of {num_points} points has no outline from any side")]
     NoOutline {
         /// Number of points in the cloud.
         num_points: usize,
     },
     /// The cloud is larger than any car part.
-    #[error("the part spans {:.1} m, expected at most {:.0} m", found.0, limit.0)]
     TooLarge {
         /// The cloud's largest extent.
         found: Metres,
@@ -75,16 +74,7 @@ pub enum ReferenceError {
     },
 }
 
-impl Advice for ReferenceError {
-    fn advice(&self) -> String {
-        match self {
-            Self::NoOutline { .. } => "Check that the cloud shows the surface of one part and is in metres".into(),
-            Self::TooLarge { .. } => {
-                "Export it in metres (these look like millimetres), or cut the one part out of its scene".into()
-            }
-        }
-    }
-}
+texts::described!(ReferenceError: "reference" by "error");
 
 /// Maximum extent of a car part, metres; anything larger is a file in millimetres or a whole scene.
 const MAX_EXTENT: f64 = 5.0;

@@ -8,7 +8,7 @@
 use nalgebra::{Point2, Vector2};
 
 use crate::contour::Contour;
-use geometry::{error::Advice, polygon, units::Metres};
+use geometry::{polygon, units::Metres};
 
 /// Parameters of [`describe`].
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -67,18 +67,13 @@ pub struct LiteralSignature {
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum SignatureError {
     /// The outline has no length.
-    #[error("the outline of {num_points} points has no length")]
     NoOutline {
         /// Number of points of the outline.
         num_points: usize,
     },
 }
 
-impl Advice for SignatureError {
-    fn advice(&self) -> String {
-        "Move the part nearer to the camera and capture again".into()
-    }
-}
+texts::described!(SignatureError: "refusal" by "kind");
 
 /// Computes the fan signature of an outline.
 pub fn describe(

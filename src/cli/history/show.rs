@@ -15,9 +15,10 @@ use inspection::{
     pipeline::{RefusalKind, is_like},
 };
 use records::history::{
-    Differences, FrameRecord, History, InspectionDetail, InspectionSummary, Record, StoredRefusal,
-    Summary, Traceability,
+    Differences, FrameRecord, History, InspectionDetail, InspectionSummary, Record, Summary,
+    Traceability,
 };
+use texts::Language;
 
 /// Version of the JSON lines.
 const SCHEMA: u32 = 1;
@@ -28,7 +29,7 @@ struct RowLine<'a> {
     schema: u32,
     number: i64,
     at: String,
-    scene: &'a str,
+    scene: String,
     source: &'a str,
     simulated: bool,
     verdict: &'static str,
@@ -59,7 +60,7 @@ impl<'a> RowLine<'a> {
             schema: SCHEMA,
             number: row.number,
             at: row.at.to_string(),
-            scene: &row.scene,
+            scene: row.scene.to_string(),
             source: &row.source,
             simulated: row.is_simulated,
             verdict: row.verdict.name(),
@@ -94,10 +95,9 @@ struct RecordLine<'a> {
     #[serde(flatten)]
     row: RowLine<'a>,
     nearest: Option<&'a str>,
-    reason: Option<&'a str>,
-    /// Also null if an earlier version wrote the inspection.
-    reason_kind: Option<RefusalKind>,
-    advice: Option<&'a str>,
+    reason: Option<String>,
+    reason_kind: Option<&'a RefusalKind>,
+    advice: Option<String>,
     camera_from_part: Option<[f64; 16]>,
     #[serde(flatten)]
     used: UsedLine<'a>,
@@ -128,7 +128,7 @@ struct BelowLine<'a> {
 #[derive(Serialize)]
 struct UsedLine<'a> {
     recipe: &'a str,
-    recipe_name: Option<&'a str>,
+    recipe_name: &'a str,
     recipe_changed: bool,
     library: &'a str,
     program: &'a str,
@@ -136,11 +136,10 @@ struct UsedLine<'a> {
 
 impl<'a> UsedLine<'a> {
     fn of(detail: &'a InspectionDetail) -> Self {
-        let label = detail.recipe_label.as_ref();
         Self {
             recipe: &detail.recipe_identity,
-            recipe_name: label.map(|label| label.name.as_str()),
-            recipe_changed: label.is_some_and(|label| label.is_changed),
+            recipe_name: &detail.recipe_label.name,
+            recipe_changed: detail.recipe_label.is_changed,
             library: &detail.library_identity,
             program: &detail.program,
         }
@@ -212,14 +211,14 @@ pub(super) fn record_line(
         differs: again::AgainLine::of(&differences(record, other)),
     });
     let detail = &record.detail;
-    let refusal = detail.refusal.as_ref();
+    let refusal = record.titled_refusal(str::to_owned);
     let frame = detail.frame.as_ref();
     json(&RecordLine {
         row: RowLine::of(&record.summary, from.cell),
         nearest: detail.nearest.as_deref(),
-        reason: refusal.map(|refusal| refusal.reason.as_str()),
-        reason_kind: refusal.and_then(StoredRefusal::kind),
-        advice: refusal.map(|refusal| refusal.advice.as_str()),
+        reason: refusal.as_ref().map(|why| why.text(Language::English)),
+        reason_kind: record.summary.reason.as_ref(),
+        advice: refusal.map(|why| why.command_advice()),
         camera_from_part: record.matrix(),
         used: UsedLine::of(detail),
         frame: frame.and_then(|frame| from.path(frame)),
@@ -269,7 +268,7 @@ fn record_table(from: ReadFrom<'_>, record: &Record) -> Table {
     );
     row(
         "scene",
-        marked_simulated(&summary.scene, summary.is_simulated),
+        marked_simulated(&summary.scene.to_string(), summary.is_simulated),
     );
     row("source", summary.source.clone());
     for (name, text) in summary.trace.known() {
@@ -283,9 +282,11 @@ fn record_table(from: ReadFrom<'_>, record: &Record) -> Table {
     if let Some([score, margin]) = summary.score {
         row("score", format!("{score:.3}, margin {margin:.3}"));
     }
-    if let Some(refusal) = &detail.refusal {
-        row("why not", refusal.reason.clone());
-        row("to do", refusal.advice.clone());
+    if let Some(why) = record.titled_refusal(str::to_owned) {
+        row("why not", why.text(Language::English));
+        row("to do", why.command_advice());
+    } else if let Some(kind) = &summary.reason {
+        row("why not", kind.to_string());
     }
     if let Some(numbers) = record.matrix() {
         for (i, line) in numbers.chunks(4).enumerate() {

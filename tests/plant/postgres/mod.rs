@@ -12,7 +12,7 @@ use std::{fs, ops::Range, path::Path, thread};
 use partsight::{
     history::{
         Column, ColumnKind, DETAIL_COLUMNS, FILE, Filter, History, INSPECTION_COLUMNS, KeepFrames,
-        NewEntry, RECIPE_COLUMNS, Record, Retention, StoredVerdict, Traceability,
+        NewEntry, RECIPE_COLUMNS, Record, Retention, SceneTitle, StoredVerdict, Traceability,
     },
     library::Truth,
     plant::database::{
@@ -164,12 +164,8 @@ fn everything_arrives_value_by_value_and_so_does_every_later_change() {
     let whose = cell_of(&mut history, cell);
     let mut hostile = history_entry(9000, StoredVerdict::Rejected, "fender");
     let summary = &mut hostile.record.summary;
-    for text in [
-        &mut summary.scene,
-        &mut summary.source,
-        &mut summary.title,
-        &mut summary.remark,
-    ] {
+    summary.scene = SceneTitle::Named(HOSTILE.into());
+    for text in [&mut summary.source, &mut summary.title, &mut summary.remark] {
         HOSTILE.clone_into(text);
     }
     summary.part = Some(HOSTILE.into());

@@ -2,7 +2,7 @@
 
 use std::{fs, path::Path, process::Command};
 
-use partsight::history::StoredVerdict;
+use partsight::history::{SceneTitle, StoredVerdict};
 use serde_json::{Value, json};
 
 use crate::kit::{csv_column, history_entry, open_history};
@@ -46,7 +46,7 @@ fn an_overview_over_cells_is_listed_and_exported() {
         let mut history = open_history(&folder.path().join(place.to_string()));
         add_some(&mut history, 0..3 + place as i64);
         let mut late = history_entry(100 + place as i64, StoredVerdict::Accepted, "grille");
-        late.record.summary.scene = "\u{1b}[31mred, \"quoted\"".into();
+        late.record.summary.scene = SceneTitle::Named("\u{1b}[31mred, \"quoted\"".into());
         add(&mut history, &late);
         let whose = cell_of(&mut history, cell);
         send(&mut database, &mut history, &whose).expect("sent");

@@ -60,7 +60,8 @@ impl FusedShots {
     /// Origin of the scan.
     pub fn origin(&self) -> Origin {
         Origin::Scan {
-            name: self.title(),
+            name: self.choice.set.files.title(),
+            num_shots: self.num_used(),
             is_simulated: self.scan.cloud.cloud.is_simulated,
             files: self.choice.files(),
         }

@@ -378,7 +378,7 @@ impl FinishedInspection {
             // An origin without a JSON form cannot be opened again anyway.
             origin: serde_json::to_string(&origin).ok(),
             picture: figures.segmentation.as_ref(),
-            scene: title,
+            scene: origin.scene_title(),
             source,
             hung: HungId::new(),
         };

@@ -227,7 +227,11 @@ fn scene_name(origin: &Origin) -> PathBuf {
     match origin {
         Origin::File { path, .. } => path.clone(),
         Origin::Simulated { number, .. } => format!("simulated_{number}").into(),
-        Origin::Scan { name, .. } | Origin::Frame { name, .. } => name.replace(' ', "_").into(),
+        Origin::Scan { .. } => {
+            let title = origin.scene_title().to_string();
+            title.replace(' ', "_").into()
+        }
+        Origin::Frame { name, .. } => name.replace(' ', "_").into(),
     }
 }
 

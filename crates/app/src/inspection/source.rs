@@ -12,7 +12,10 @@ use super::{
     scan_choice::{ScanFiles, ScanOrder},
 };
 use crate::{
-    language::{history::stored_scene, results::object, text},
+    language::{
+        results::{object, scene_title},
+        text,
+    },
     task::TaskError,
     ui::widgets::sentence,
     user_error::UserError,
@@ -20,7 +23,7 @@ use crate::{
 use capture::{self, CaptureWarning, CellScene, Image, SimulatedSpec, SourceSpec};
 use files::{self, FileContent, FileError, file_of};
 use geometry::error::Advice;
-use records::history::{FrameError, FrameRecord, read_frame};
+use records::history::{FrameError, FrameRecord, SceneTitle, read_frame};
 use simulate::{
     CellSetup, ObjectKind, PartKind, PartPose, PoseRange, Side, SimulatedObject, frame,
 };
@@ -115,6 +118,9 @@ impl CellChoice {
     }
 }
 
+/// The source of single frames of the simulated cell, as the history stores it.
+pub(crate) const CELL_SOURCE: &str = "simulated cell";
+
 /// Origin of a scene.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -135,8 +141,10 @@ pub enum Origin {
     },
     /// The shots of a scan, put together.
     Scan {
-        /// Name shown to the user.
+        /// Name of their folder or files.
         name: String,
+        /// Number of shots that were used.
+        num_shots: usize,
         /// True if it is simulated.
         is_simulated: bool,
         /// Files of the shots.
@@ -155,29 +163,34 @@ pub enum Origin {
 impl Origin {
     /// Returns the title in the language of the window.
     pub(crate) fn shown_title(&self) -> String {
-        stored_scene(&self.title(), self.is_simulated())
+        scene_title(&self.scene_title(), self.is_simulated())
     }
 
-    /// Returns the title in English, as history, cases and reports store it.
-    pub fn title(&self) -> String {
+    /// Returns what the scene is called, as the history stores it.
+    pub(crate) fn scene_title(&self) -> SceneTitle {
         match self {
-            Self::Simulated { number, .. } => format!("Simulated frame {number}"),
-            Self::File {
-                path,
-                is_simulated: true,
-            } => format!("{}, simulated", file_name(path)),
-            Self::File { path, .. } => file_name(path),
-            Self::Frame {
-                name,
-                is_simulated: true,
-            } if !name.contains("simulated") => format!("{}, simulated", sentence(name)),
+            Self::Simulated { number, .. } => SceneTitle::SimulatedFrame(*number),
+            Self::File { path, .. } => SceneTitle::Named(file_name(path)),
             Self::Scan {
-                name,
-                is_simulated: true,
-                ..
-            } => format!("{name}, simulated"),
-            Self::Scan { name, .. } => name.clone(),
-            Self::Frame { name, .. } => sentence(name),
+                name, num_shots, ..
+            } => SceneTitle::Scan {
+                name: name.clone(),
+                num_shots: *num_shots,
+            },
+            Self::Frame { name, is_simulated } => match SceneTitle::of_frame(name, *is_simulated) {
+                SceneTitle::Named(name) => SceneTitle::Named(sentence(&name)),
+                numbered => numbered,
+            },
+        }
+    }
+
+    /// Returns the title in English, as cases and reports store it.
+    pub fn title(&self) -> String {
+        let title = self.scene_title();
+        match (&title, self.is_simulated()) {
+            (SceneTitle::SimulatedFrame(_), _) => sentence(&title.to_string()),
+            (_, true) => format!("{title}, simulated"),
+            (_, false) => title.to_string(),
         }
     }
 
@@ -324,12 +337,12 @@ impl SceneSource {
     /// Returns the name of the source for the history.
     pub fn in_words(&self) -> String {
         match self {
-            Self::Cell { .. } => "simulated cell".into(),
+            Self::Cell { .. } => CELL_SOURCE.into(),
             Self::File(path) => path.display().to_string(),
             Self::Camera(spec) => spec.to_string(),
             Self::Before(_, source) => source.in_words(),
-            Self::AtHand(_, origin) => origin.title(),
-            Self::Kept(kept) => kept.origin.title(),
+            Self::AtHand(_, origin) => origin.scene_title().to_string(),
+            Self::Kept(kept) => kept.origin.scene_title().to_string(),
         }
     }
 
@@ -462,7 +475,8 @@ mod tests {
             ),
             (
                 Origin::Scan {
-                    name: "door · 3 shots".into(),
+                    name: "door".into(),
+                    num_shots: 3,
                     is_simulated: true,
                     files: ScanFiles::default(),
                 },

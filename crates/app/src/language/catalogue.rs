@@ -1,14 +1,7 @@
-//! The messages of each language, parsed when its first text is requested.
+//! The messages of the window.
 
-use std::sync::OnceLock;
-
-use fluent_bundle::{FluentArgs, FluentResource, FluentValue, concurrent::FluentBundle};
-use unic_langid::LanguageIdentifier;
-
-use super::Language;
-
-/// The areas of a language with the contents of their files.
-pub(super) type Files = &'static [(&'static str, &'static str)];
+use fluent_bundle::{FluentArgs, FluentValue};
+use texts::{Catalogue, Files, Language};
 
 macro_rules! files {
     ($language:literal) => {
@@ -29,32 +22,17 @@ pub(super) fn files(language: Language) -> Files {
     }
 }
 
-type Bundle = FluentBundle<FluentResource>;
-
-/// Returns the parsed messages of a language.
-fn bundle(language: Language) -> &'static Bundle {
-    static BUNDLES: [OnceLock<Bundle>; Language::ALL.len()] =
-        [const { OnceLock::new() }; Language::ALL.len()];
-    BUNDLES[language as usize].get_or_init(|| parsed(language))
-}
-
-fn parsed(language: Language) -> Bundle {
-    // Plural rules depend on it.
-    let identifier: LanguageIdentifier = language.code().parse().unwrap_or_default();
-    let mut bundle = Bundle::new_concurrent(vec![identifier]);
-    // Our fonts lack the isolation marks for right-to-left text.
-    bundle.set_use_isolating(false);
-    for (_, file) in files(language) {
-        // Keep the other messages; a test fails if one cannot be parsed.
-        let resource = FluentResource::try_new((*file).to_owned()).unwrap_or_else(|(rest, _)| rest);
-        let _ = bundle.add_resource(resource);
-    }
-    bundle
-}
+static WINDOW: Catalogue = Catalogue::new(files);
 
 /// Formats a message without variables.
 pub(crate) fn plain(id: &str) -> String {
     formatted(id, None)
+}
+
+/// Returns a text that the library has in English.
+pub(super) fn translated(id: &str, english: &str) -> String {
+    let text = WINDOW.text(Language::current(), id, None, None);
+    text.unwrap_or_else(|| english.to_owned())
 }
 
 /// Formats a message with the values of its variables.
@@ -66,13 +44,8 @@ pub(crate) fn with<const N: usize>(
 }
 
 fn formatted(id: &str, variables: Option<&FluentArgs<'_>>) -> String {
-    let in_language = |language| {
-        let bundle = bundle(language);
-        let pattern = bundle.get_message(id)?.value()?;
-        let text = bundle.format_pattern(pattern, variables, &mut Vec::new());
-        Some(text.into_owned())
-    };
-    in_language(Language::current())
-        .or_else(|| in_language(Language::English))
+    let text = |language| WINDOW.text(language, id, None, variables);
+    text(Language::current())
+        .or_else(|| text(Language::English))
         .unwrap_or_else(|| id.to_owned())
 }

@@ -1,4 +1,5 @@
-//! The texts of the window in every language, in Mozilla's Fluent format: `assets/language/<language>/<area>.ftl`.
+//! The texts of the window in every language, in Mozilla's Fluent format: `assets/language/<language>/<area>.ftl`. Those of
+//! the library are in the crate `texts`, see [`described`].
 //!
 //! `text!` takes a message id and variables. The language is a property of the thread: the window sets it at the start of each
 //! frame, and a task's thread inherits it from whoever starts the task. A message missing in a language is shown in English; a
@@ -17,98 +18,48 @@ macro_rules! text {
 pub(crate) use text;
 
 mod catalogue;
-pub(crate) mod enrolment;
-pub(crate) mod history;
 pub(crate) mod parameters;
 pub(crate) mod results;
 pub(crate) mod robot;
 
-use std::cell::Cell;
+use inspection::pipeline::RefusalKind;
+use texts::{Described, Message};
 
-use serde::{Deserialize, Serialize};
+pub use texts::Language;
 
 pub(crate) use self::catalogue::{plain, with};
 
-/// A language of the window.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Language {
-    /// English, which has every text.
-    #[default]
-    English,
-    /// German.
-    German,
-    /// Spanish.
-    Spanish,
-    /// Chinese in simplified characters.
-    Chinese,
+/// The first language of the system that is supported, else English.
+pub(crate) fn language_of_system() -> Language {
+    let mut locales = sys_locale::get_locales();
+    let spoken = locales.find_map(|locale| Language::from_locale(&locale));
+    spoken.unwrap_or_default()
 }
 
-thread_local! {
-    static CURRENT: Cell<Language> = const { Cell::new(Language::English) };
+/// Returns the text of what the library describes.
+pub(crate) fn described(what: &impl Described) -> String {
+    what.message().text(Language::current())
 }
 
-impl Language {
-    /// All languages, in the order of the menu.
-    pub const ALL: [Self; 4] = [Self::English, Self::German, Self::Spanish, Self::Chinese];
+/// Returns what to do about what the library describes.
+pub(crate) fn advised(what: &impl Described) -> String {
+    what.message().advice(Language::current())
+}
 
-    /// The language's own name.
-    pub fn own_name(self) -> &'static str {
-        match self {
-            Self::English => "English",
-            Self::German => "Deutsch",
-            Self::Spanish => "Español",
-            Self::Chinese => "中文",
-        }
-    }
+/// Returns the text of what the library describes, and what to do about it.
+pub(crate) fn what_and_advice(what: &impl Described) -> [String; 2] {
+    [described(what), advised(what)]
+}
 
-    /// An abbreviation for use where there is no room for the name.
-    pub(crate) fn sign(self) -> &'static str {
-        match self {
-            Self::English => "EN",
-            Self::German => "DE",
-            Self::Spanish => "ES",
-            Self::Chinese => "中文",
-        }
-    }
+/// Returns a text of the library's catalogue that has no variables.
+pub(crate) fn library_text(id: &str) -> String {
+    Message::new(id).text(Language::current())
+}
 
-    /// The ISO 639-1 code, which is also the name of the folder.
-    fn code(self) -> &'static str {
-        match self {
-            Self::English => "en",
-            Self::German => "de",
-            Self::Spanish => "es",
-            Self::Chinese => "zh",
-        }
-    }
-
-    /// The language of a locale such as `de_AT.UTF-8` or `zh-Hans-CN`; `None` if it is not supported.
-    pub fn from_locale(locale: &str) -> Option<Self> {
-        let code = locale.split(['-', '_', '.', '@']).next()?;
-        let of_code = |language: &Self| language.code().eq_ignore_ascii_case(code);
-        match code {
-            // The locale without a language, whose messages are English.
-            "C" | "POSIX" => Some(Self::English),
-            _ => Self::ALL.into_iter().find(of_code),
-        }
-    }
-
-    /// The first language of the system that is supported, else English.
-    pub(crate) fn of_system() -> Self {
-        let mut locales = sys_locale::get_locales();
-        let spoken = locales.find_map(|locale| Self::from_locale(&locale));
-        spoken.unwrap_or_default()
-    }
-
-    /// The language of this thread.
-    pub(crate) fn current() -> Self {
-        CURRENT.get()
-    }
-
-    /// Sets the language of this thread.
-    pub(crate) fn make_current(self) {
-        CURRENT.set(self);
-    }
+/// Returns the name of a kind of refusal, for counts.
+pub(crate) fn refusal_kind(kind: &RefusalKind) -> String {
+    let name = kind.message().attribute(Language::current(), "kind");
+    name.unwrap_or_else(|| kind.to_string())
 }
 
 /// Adapts a title for use within a sentence: lower case, except in German, where nouns keep their capitals.

@@ -1,7 +1,7 @@
-//! Texts of the parameters of recipes and coats. In English they equal those of the tables ([`Parameters::ALL`]), which the
-//! command line shows.
+//! Texts of the parameters of recipes and coats. In English, names and helps are those of the tables ([`Parameters::ALL`]),
+//! which the command line shows too.
 
-use super::plain;
+use super::catalogue::translated;
 use inspection::pipeline::{
     Recipe,
     parameters::{Group, Kind, Parameter, Parameters},
@@ -62,12 +62,12 @@ impl TranslatedParameters for Coat {
 
 /// Returns the name of a parameter.
 pub(crate) fn name<R: TranslatedParameters>(parameter: &Parameter<R>) -> String {
-    plain(&name_id(parameter))
+    translated(&name_id(parameter), parameter.name)
 }
 
 /// Describes what a parameter does, and what raising it costs.
 pub(crate) fn help<R: TranslatedParameters>(parameter: &Parameter<R>) -> String {
-    plain(&help_id(parameter))
+    translated(&help_id(parameter), parameter.help)
 }
 
 /// The message with the name of a parameter: that of `segment.plane_distance` is `results-segment-plane-distance`.
@@ -110,7 +110,7 @@ pub(crate) fn value<R: Parameters>(parameter: &Parameter<R>, recipe: &R) -> Stri
     option.unwrap_or_else(|| parameter.text(recipe))
 }
 
-/// The messages with the names and helps of all parameters.
+/// The messages with the names and helps of all parameters, in all languages but English.
 #[cfg(test)]
 pub(super) fn message_ids() -> Vec<String> {
     fn of_table<R: TranslatedParameters>() -> impl Iterator<Item = String> {
@@ -131,6 +131,9 @@ mod tests {
         for parameter in R::ALL {
             assert_eq!(name(parameter), parameter.name);
             assert_eq!(help(parameter), parameter.help);
+            Language::Chinese.make_current();
+            assert_ne!(help(parameter), parameter.help);
+            Language::English.make_current();
             if let Kind::Choice(choice) = &parameter.kind {
                 assert_eq!(options(parameter), choice.options);
             }

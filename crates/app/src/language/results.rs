@@ -3,18 +3,19 @@
 //!
 //! Each kind of result is matched exhaustively, so that a new one does not compile without its text.
 
-use geometry::error::Advice as _;
-use inspection::pipeline::{AcceptParams, RecipeLabel, Rejection, Unrecognisable, is_like};
-use records::history::{KeepFrames, StoredVerdict};
+use super::{advised, described};
+use crate::inspection::source::CELL_SOURCE;
+use capture::SourceSpec;
+use inspection::{
+    library::Side,
+    pipeline::{AcceptParams, RecipeLabel, is_like},
+};
+use records::history::{KeepFrames, SceneTitle, StoredVerdict, Summary};
 use robot::cell_check::{CellFinding, CellViewError};
 use simulate::ObjectKind;
 use stages::{
-    contour::ContourError,
-    pose::{Axis, CloudRole, FreeMotion, PoseError, PoseWarning, Stopped},
-    project::ProjectError,
+    pose::Stopped,
     scan::{Doubt, Excluded},
-    segment::NoPart,
-    signature::SignatureError,
     stand_off::StandOffError,
 };
 
@@ -58,348 +59,95 @@ pub(crate) fn is_recognised([score, margin]: [f64; 2], accept: &AcceptParams) ->
     score >= accept.min_score && margin >= accept.min_margin
 }
 
-/// Explains why a best match is not accepted.
-#[expect(clippy::too_many_lines, reason = "one text for each reason")]
-pub(crate) fn rejection(why: &Rejection) -> String {
-    match why {
-        Rejection::LowScore {
-            part,
-            score,
-            threshold,
-        } => text!(
-            "results-low-score",
-            part = part,
-            score = fixed!(score, 2),
-            threshold = fixed!(threshold, 2)
-        ),
-        Rejection::Piece {
-            part,
-            score,
-            threshold,
-            hidden,
-            outside,
-        } => text!(
-            "results-piece",
-            part = part,
-            hidden = fixed!(hidden * 100.0, 0),
-            outside = fixed!(outside * 100.0, 0),
-            score = fixed!(score, 2),
-            threshold = fixed!(threshold, 2)
-        ),
-        Rejection::HardlySeen { part, score: _ } => text!("results-hardly-seen", part = part),
-        Rejection::AnotherModel {
-            part,
-            relief,
-            outline,
-            missing,
-        } => text!(
-            "results-another-model",
-            part = part,
-            relief = relief.to_string(),
-            outline = outline.to_string(),
-            missing = fixed!(missing * 100.0, 1)
-        ),
-        Rejection::AnotherMake { part, likeness: _ } => {
-            text!("results-another-make", part = part)
+/// Returns the title of an inspection.
+pub(crate) fn inspection_title(past: &Summary) -> String {
+    if let Some(part) = recognised_part(past) {
+        return text!("results-title-refused", part = part);
+    }
+    if let Some(part) = past.mirror_of() {
+        return text!("results-title-mirrored", part = part);
+    }
+    let part = &past.title;
+    match past.verdict {
+        StoredVerdict::Accepted => part.clone(),
+        StoredVerdict::Rejected => text!("results-title-not-recognised", part = part),
+        StoredVerdict::Unknown if past.score.is_some_and(|[score, _]| !is_like(score)) => {
+            text!("inspect-unknown-part")
         }
-        Rejection::AmbiguousPose {
-            part,
-            margin,
-            threshold,
-        } => text!(
-            "results-ambiguous-pose",
-            part = part,
-            margin = fixed!(margin, 2),
-            threshold = fixed!(threshold, 2)
-        ),
-        Rejection::Unconstrained { part, freedom } => text!(
-            "results-unconstrained",
-            part = part,
-            freedom = free_motion(*freedom)
-        ),
-        Rejection::Uncertain { part, shift, limit } => text!(
-            "results-uncertain",
-            part = part,
-            shift = shift.to_string(),
-            limit = limit.to_string()
-        ),
-        // Do not name a part that it almost certainly is not.
-        Rejection::Unknown { score, .. } if !is_like(*score) => text!("results-unknown-alone"),
-        Rejection::Unknown { nearest, score } => text!(
-            "results-unknown-nearest",
-            nearest = nearest,
-            score = fixed!(score, 2)
-        ),
-        Rejection::Mirrored { part, score } => {
-            text!("results-mirrored", part = part, score = fixed!(score, 2))
-        }
-        Rejection::MirroredImage { part, score } => text!(
-            "results-mirrored-image",
-            part = part,
-            score = fixed!(score, 2)
-        ),
-        Rejection::SmallMargin {
-            part,
-            other,
-            margin,
-            threshold,
-        } => text!(
-            "results-small-margin",
-            part = part,
-            other = other,
-            margin = fixed!(margin, 2),
-            threshold = fixed!(threshold, 2)
-        ),
-        Rejection::Unconfirmed { part } => text!("results-unconfirmed", part = part),
-        Rejection::OutOfRange { part, depth } => text!(
-            "results-out-of-range",
-            part = part,
-            depth = fixed!(depth.0, 2)
-        ),
-        Rejection::BehindCamera { part, share } => text!(
-            "results-behind-camera",
-            part = part,
-            share = fixed!(share * 100.0, 1)
-        ),
-        Rejection::SurplusBytes { part, num } => {
-            text!("results-surplus-bytes", part = part, num = *num)
-        }
-        Rejection::NoPose(error) => text!("results-no-pose", why = pose_error(error)),
-        Rejection::NotSteady { part } => text!("results-not-steady", part = part),
-        Rejection::FewFrames {
-            part,
-            num_frames,
-            needed,
-        } => text!(
-            "results-few-frames",
-            part = part,
-            num = *num_frames,
-            needed = *needed
-        ),
-        Rejection::Undecided {
-            part,
-            num_agreeing,
-            num_frames,
-            needed,
-        } => text!(
-            "results-undecided",
-            part = part,
-            agreeing = *num_agreeing,
-            num = *num_frames,
-            needed = *needed
-        ),
-        Rejection::PosesApart {
-            part,
-            num_agreeing,
-            num_frames,
-            needed,
-        } => text!(
-            "results-poses-apart",
-            part = part,
-            agreeing = *num_agreeing,
-            num = *num_frames,
-            needed = *needed
-        ),
+        StoredVerdict::Unknown => text!("results-title-unknown", part = part),
+        StoredVerdict::NoPart => text!("results-no-part"),
     }
 }
 
-/// Advises what to do about a rejection.
-pub(crate) fn rejection_advice(why: &Rejection) -> String {
-    match why {
-        Rejection::LowScore { .. } => text!("results-low-score-advice"),
-        Rejection::SmallMargin { .. } => text!("results-small-margin-advice"),
-        Rejection::Piece {
-            hidden, outside, ..
-        } => match (*hidden >= 0.005, *outside >= 0.005) {
-            (true, false) => text!("results-hidden-piece-advice"),
-            (false, true) => text!("results-outside-piece-advice"),
-            _ => text!("results-piece-advice"),
-        },
-        Rejection::HardlySeen { .. } => text!("results-hardly-seen-advice"),
-        Rejection::AmbiguousPose { .. }
-        | Rejection::Unconstrained { .. }
-        | Rejection::Uncertain { .. } => text!("results-see-an-edge-advice"),
-        Rejection::AnotherModel { part, .. } | Rejection::AnotherMake { part, .. } => {
-            text!("results-another-model-advice", part = part)
-        }
-        Rejection::Unknown { .. } => text!("results-unknown-advice"),
-        Rejection::Mirrored { .. } => text!("results-mirrored-advice"),
-        Rejection::MirroredImage { .. } => text!("results-mirrored-image-advice"),
-        Rejection::Unconfirmed { .. } => text!("results-unconfirmed-advice"),
-        Rejection::OutOfRange { .. } => text!("results-out-of-range-advice"),
-        Rejection::BehindCamera { .. } => text!("results-behind-camera-advice"),
-        Rejection::SurplusBytes { .. } => text!("results-surplus-bytes-advice"),
-        Rejection::NoPose(error) => pose_error_advice(error),
-        Rejection::NotSteady { .. } => text!("results-not-steady-advice"),
-        Rejection::FewFrames { .. } => text!("results-few-frames-advice"),
-        Rejection::Undecided { .. } => text!("results-undecided-advice"),
-        Rejection::PosesApart { .. } => text!("results-poses-apart-advice"),
-    }
+/// Returns the title of a part that was recognised and yet not accepted. The limits of its recipe are not in the row: those
+/// of the built-in recipe decide.
+pub(crate) fn recognised_part(past: &Summary) -> Option<&str> {
+    let is_recognised = is_recognised(past.score?, &AcceptParams::default());
+    let is_refused = past.verdict == StoredVerdict::Rejected;
+    (is_refused && is_recognised).then_some(past.title.as_str())
 }
 
-/// Explains why nothing could be recognised. A fault of the program keeps its own message.
-pub(crate) fn unrecognisable(why: &Unrecognisable) -> String {
-    match why {
-        Unrecognisable::NoPart(NoPart::TooFewPoints { found, needed }) => {
-            text!("results-too-few-readings", found = *found, needed = *needed)
+/// Returns the title of a scene.
+pub(crate) fn scene_title(scene: &SceneTitle, is_simulated: bool) -> String {
+    let title = match scene {
+        SceneTitle::SimulatedFrame(number) => {
+            return text!("shell-simulated-frame", number = *number);
         }
-        Unrecognisable::NoPart(NoPart::TooWide { extent }) => {
-            text!("results-too-wide", extent = fixed!(extent, 0))
+        SceneTitle::Named(name) => name.clone(),
+        SceneTitle::Scan { name, num_shots } => {
+            format!("{name} · {}", text!("shots-all-used", num = *num_shots))
         }
-        Unrecognisable::NoPart(NoPart::OnlyBackground {
-            planes,
-            found,
-            needed,
-            knows_cell: _,
-        }) => text!(
-            "results-only-background",
-            planes = *planes,
-            found = fixed!(found, 3),
-            needed = fixed!(needed, 3)
-        ),
-        Unrecognisable::Project(ProjectError::NoPlane { num_points, width }) => text!(
-            "results-no-plane",
-            num = *num_points,
-            width = fixed!(width, 4)
-        ),
-        Unrecognisable::Project(ProjectError::TooLarge { found, limit }) => text!(
-            "results-too-large",
-            found = fixed!(found, 1),
-            limit = fixed!(limit, 1)
-        ),
-        Unrecognisable::Contour(ContourError::NoShape { num_set }) => {
-            text!("results-no-shape", num = *num_set)
-        }
-        Unrecognisable::Signature(SignatureError::NoOutline { num_points }) => {
-            text!("results-no-outline", num = *num_points)
-        }
-        Unrecognisable::EmptyLibrary => text!("results-empty-library"),
-        Unrecognisable::Fault(fault) => fault.to_string(),
-    }
-}
-
-/// Advises what to do when nothing could be recognised.
-pub(crate) fn unrecognisable_advice(why: &Unrecognisable) -> String {
-    match why {
-        Unrecognisable::NoPart(NoPart::TooFewPoints { .. }) => {
-            text!("results-too-few-readings-advice")
-        }
-        Unrecognisable::NoPart(NoPart::TooWide { .. }) => text!("results-too-wide-advice"),
-        Unrecognisable::NoPart(NoPart::OnlyBackground {
-            knows_cell: true, ..
-        }) => text!("results-known-cell-advice"),
-        Unrecognisable::NoPart(NoPart::OnlyBackground { .. }) => {
-            text!("results-only-background-advice")
-        }
-        Unrecognisable::Project(ProjectError::NoPlane { .. }) => text!("results-no-plane-advice"),
-        Unrecognisable::Project(ProjectError::TooLarge { .. }) => {
-            text!("results-too-large-advice")
-        }
-        Unrecognisable::Contour(ContourError::NoShape { .. }) => text!("results-no-shape-advice"),
-        Unrecognisable::Signature(SignatureError::NoOutline { .. }) => {
-            text!("results-no-outline-advice")
-        }
-        Unrecognisable::EmptyLibrary => text!("results-empty-library-advice"),
-        Unrecognisable::Fault(fault) => fault.advice(),
-    }
-}
-
-/// Describes how a part could move and still fit.
-pub(crate) fn free_motion(freedom: FreeMotion) -> String {
-    match freedom {
-        FreeMotion::Slide(Axis::Long) => text!("results-slide-long"),
-        FreeMotion::Slide(Axis::Short) => text!("results-slide-short"),
-        FreeMotion::Slide(Axis::Normal) => text!("results-slide-normal"),
-        FreeMotion::Turn(Axis::Long) => text!("results-turn-long"),
-        FreeMotion::Turn(Axis::Short) => text!("results-turn-short"),
-        FreeMotion::Turn(Axis::Normal) => text!("results-turn-normal"),
-        FreeMotion::Anyhow => text!("results-anyhow"),
-    }
-}
-
-/// Explains why no pose could be estimated.
-pub(crate) fn pose_error(error: &PoseError) -> String {
-    let cloud = |which: &CloudRole| match which {
-        CloudRole::Source => text!("results-source"),
-        CloudRole::Target => text!("results-target"),
     };
-    match error {
-        PoseError::TooFewPoints {
-            which,
-            found,
-            needed,
-        } => text!(
-            "results-few-points",
-            which = cloud(which),
-            found = *found,
-            needed = *needed
-        ),
-        PoseError::Degenerate { which, width } => text!(
-            "results-degenerate",
-            which = cloud(which),
-            width = fixed!(width, 5)
-        ),
-        PoseError::OneSidedPairs { num_pairs, rms } => text!(
-            "results-one-sided-pairs",
-            num = *num_pairs,
-            rms = rms.to_string()
-        ),
-        PoseError::NoOverlap {
-            found,
-            needed,
-            reach,
-        } => text!(
-            "results-no-overlap",
-            found = *found,
-            needed = *needed,
-            reach = reach.to_string()
-        ),
-        PoseError::SizesDiffer { ratio } => {
-            text!("results-sizes-differ", ratio = fixed!(ratio, 0))
-        }
-        PoseError::TooFarOut { which, distance } => text!(
-            "results-too-far-out",
-            which = cloud(which),
-            distance = fixed!(distance.0, 0)
-        ),
-        PoseError::NoReferenceCloud => text!("results-no-reference-cloud"),
-        PoseError::Cancelled => text!("results-pose-cancelled"),
+    if is_simulated {
+        text!("shell-of-simulator", name = title)
+    } else {
+        title
     }
 }
 
-/// Advises what to do about a failed estimation of the pose.
-pub(crate) fn pose_error_advice(error: &PoseError) -> String {
-    match error {
-        PoseError::TooFewPoints { .. } => text!("results-few-points-advice"),
-        PoseError::Degenerate { .. } => text!("results-degenerate-advice"),
-        PoseError::OneSidedPairs { .. } | PoseError::NoOverlap { .. } => {
-            text!("results-no-overlap-advice")
-        }
-        PoseError::SizesDiffer { .. } => text!("results-sizes-differ-advice"),
-        PoseError::TooFarOut { .. } => text!("results-too-far-out-advice"),
-        PoseError::NoReferenceCloud => text!("results-no-reference-cloud-advice"),
-        PoseError::Cancelled => text!("results-pose-cancelled-advice"),
+/// Returns the title of a source; only the simulated cell has a name of its own.
+pub(crate) fn source_title(source: &str, is_simulated: bool) -> String {
+    let cell = || text!("shell-simulated-cell");
+    if source == CELL_SOURCE {
+        return cell();
+    }
+    match source.parse() {
+        Ok(SourceSpec::Simulated(_)) if is_simulated => match source.split_once([',', ':']) {
+            Some((_, settings)) => format!("{} · {settings}", cell()),
+            None => cell(),
+        },
+        _ => source.to_owned(),
     }
 }
 
-/// Explains why a pose is not reliable.
-pub(crate) fn pose_warning(warning: &PoseWarning) -> String {
-    match warning {
-        PoseWarning::LittleOverlap { overlap, needed } => text!(
-            "results-little-overlap",
-            overlap = fixed!(overlap * 100.0, 0),
-            needed = fixed!(needed * 100.0, 0)
+/// Returns the texts that the list shows for data, in lower case, each with what the search text has for them.
+pub(crate) fn searched_texts() -> Vec<[String; 2]> {
+    let verdict = |verdict: StoredVerdict| format!("={}", verdict.name());
+    let both = [
+        (
+            text!("shell-simulated-frame", number = ""),
+            "=simulated_frame ".to_owned(),
         ),
-        PoseWarning::Ambiguous { ratio } => {
-            text!("results-another-pose", ratio = fixed!(ratio, 2))
-        }
-        PoseWarning::Loose { freedom } => {
-            text!("results-loose", freedom = free_motion(*freedom))
-        }
-        PoseWarning::Unsettled { num_iterations } => {
-            text!("results-unsettled", num = *num_iterations)
-        }
-    }
+        (
+            text!("shell-of-simulator", name = ""),
+            "=simulated".to_owned(),
+        ),
+        (text!("shots-all-used", num = ""), "=shots ".to_owned()),
+        (text!("shell-simulated-cell"), format!("\n{CELL_SOURCE}")),
+        (text!("shell-simulated-cell"), "\nsimulated".to_owned()),
+        (
+            text!("results-not-accepted"),
+            verdict(StoredVerdict::Rejected),
+        ),
+        (text!("results-unknown"), verdict(StoredVerdict::Unknown)),
+        (
+            text!("results-title-mirrored", part = ""),
+            "=mirrored".to_owned(),
+        ),
+        (text!("results-no-part"), verdict(StoredVerdict::NoPart)),
+    ];
+    both.map(|(shown, searched)| [shown.to_lowercase(), searched])
+        .into()
 }
 
 /// Explains why an estimation ended.
@@ -463,7 +211,7 @@ pub(crate) fn cell_view_error(error: &CellViewError) -> String {
             text!(
                 "results-cell-pose",
                 frame = *frame,
-                error = pose_error(error)
+                error = described(error)
             )
         }
     }
@@ -475,7 +223,7 @@ pub(crate) fn cell_view_error_advice(error: &CellViewError) -> String {
         CellViewError::NoFrame => text!("results-cell-no-frame-advice"),
         CellViewError::Moving { .. } => text!("results-cell-moving-advice"),
         CellViewError::OtherPart { .. } => text!("results-cell-other-part-advice"),
-        CellViewError::Pose { error, .. } => pose_error_advice(error),
+        CellViewError::Pose { error, .. } => advised(error),
     }
 }
 
@@ -547,6 +295,18 @@ pub(crate) fn excluded_advice(why: &Excluded) -> String {
     }
 }
 
+/// States the side that a part is painted from.
+pub(crate) fn painted_from(side: Side) -> String {
+    match side {
+        Side::Front => text!("enrol-painted-from-front"),
+        Side::Back => text!("enrol-painted-from-back"),
+        Side::Left => text!("enrol-painted-from-left"),
+        Side::Right => text!("enrol-painted-from-right"),
+        Side::Top => text!("enrol-painted-from-top"),
+        Side::Bottom => text!("enrol-painted-from-bottom"),
+    }
+}
+
 /// Returns the label of a traceability field.
 pub(crate) fn traced(name: &str) -> String {
     match name {
@@ -582,37 +342,27 @@ pub(crate) fn object(kind: ObjectKind) -> String {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeSet;
+
     use super::*;
+    use crate::language::{Language, refusal_kind};
+    use geometry::error::Advice as _;
     use geometry::{
         rigid::PoseDelta,
         units::{Metres, Radians},
     };
-    use inspection::fixtures::{rejections, unrecognisables};
-    use stages::fixtures::{FREEDOMS, pose_errors};
-
-    /// Checks that the window gives the library's advice, or advice of its own for the library's command.
-    fn check_advice(own: &str, of_library: &str) {
-        let names_command = |advice: &str| advice.contains("--") || advice.contains("partsight");
-        assert!(!names_command(own), "{own}");
-        if !names_command(of_library) {
-            assert_eq!(own, of_library);
-        }
-    }
+    use inspection::{
+        fixtures::rejections,
+        pipeline::{Refusal, RefusalKind, Rejection},
+    };
+    use records::{
+        fixtures::history_entry,
+        history::{Filter, Record},
+    };
+    use stages::fixtures::pose_errors;
 
     #[test]
     fn in_english_the_window_says_what_the_library_says() {
-        for why in rejections() {
-            assert_eq!(rejection(&why), why.to_string());
-            check_advice(&rejection_advice(&why), &why.advice());
-        }
-        for why in unrecognisables() {
-            assert_eq!(unrecognisable(&why), why.to_string());
-            check_advice(&unrecognisable_advice(&why), &why.advice());
-        }
-        for error in pose_errors() {
-            assert_eq!(pose_error(&error), error.to_string());
-            assert_eq!(pose_error_advice(&error), error.advice());
-        }
         for finding in [
             CellFinding::InPlace,
             CellFinding::PartMoved,
@@ -643,18 +393,6 @@ mod tests {
             assert_eq!(cell_view_error(&error), error.to_string());
             assert_eq!(cell_view_error_advice(&error), error.advice());
         }
-        let mut warnings = vec![
-            PoseWarning::LittleOverlap {
-                overlap: 0.1234,
-                needed: 0.25,
-            },
-            PoseWarning::Ambiguous { ratio: 1.056 },
-            PoseWarning::Unsettled { num_iterations: 30 },
-        ];
-        warnings.extend(FREEDOMS.map(|freedom| PoseWarning::Loose { freedom }));
-        for warning in warnings {
-            assert_eq!(pose_warning(&warning), warning.to_string());
-        }
         for verdict in StoredVerdict::ALL {
             assert_eq!(stored_verdict(verdict), verdict.title());
         }
@@ -673,5 +411,180 @@ mod tests {
         ] {
             assert_eq!(stopped(why), name(why));
         }
+    }
+
+    /// A refused front door whose title was "Door, left" at that time.
+    fn refused_door(verdict: StoredVerdict) -> Record {
+        let mut past = history_entry(1, verdict, "front_door").record;
+        past.summary.title = "Door, left".into();
+        past
+    }
+
+    #[test]
+    fn the_title_of_an_unknown_part_names_no_part_that_it_is_not_like() {
+        let mut past = refused_door(StoredVerdict::Unknown);
+        let mut shown = |score| {
+            past.summary.score = Some([score, score]);
+            inspection_title(&past.summary)
+        };
+        assert!(shown(0.3).contains("Door, left"));
+        assert!(!shown(0.004).contains("Door, left"));
+    }
+
+    #[test]
+    fn a_part_that_is_only_in_doubt_where_it_is_has_its_name_in_the_title() {
+        let mut past = refused_door(StoredVerdict::Rejected);
+        let mut shown = |score| {
+            past.summary.score = Some(score);
+            inspection_title(&past.summary)
+        };
+        assert_eq!(shown([0.97, 0.97]), "Door, left · not accepted");
+        for score in [[0.89, 0.97], [0.97, 0.43]] {
+            assert_eq!(shown(score), "Not recognised · nearest Door, left");
+        }
+    }
+
+    #[test]
+    fn a_stored_scene_is_shown_in_the_language_of_the_window_and_files_keep_their_names() {
+        let named = |name: &str| SceneTitle::Named(name.to_owned());
+        let scan = || SceneTitle::Scan {
+            name: "shots".into(),
+            num_shots: 3,
+        };
+        let titles = [
+            (
+                SceneTitle::SimulatedFrame(7),
+                true,
+                "Simulated frame 7",
+                "Simuliertes Bild 7",
+            ),
+            (
+                named("door.pcd"),
+                true,
+                "door.pcd, simulated",
+                "door.pcd, simuliert",
+            ),
+            (scan(), false, "shots · 3 shots", "shots · 3 Aufnahmen"),
+            (
+                scan(),
+                true,
+                "shots · 3 shots, simulated",
+                "shots · 3 Aufnahmen, simuliert",
+            ),
+            (
+                named("Simulated frame 7"),
+                false,
+                "Simulated frame 7",
+                "Simulated frame 7",
+            ),
+            (
+                named("Kinect frame 12"),
+                false,
+                "Kinect frame 12",
+                "Kinect frame 12",
+            ),
+        ];
+        for (language, place) in [(Language::English, 0), (Language::German, 1)] {
+            language.make_current();
+            for (title, is_simulated, english, german) in &titles {
+                let expected = [english, german][place];
+                assert_eq!(scene_title(title, *is_simulated), *expected);
+            }
+        }
+        Language::English.make_current();
+    }
+
+    #[test]
+    fn the_simulated_cell_has_one_name_whether_it_is_followed_or_captured() {
+        Language::German.make_current();
+        let sources = [
+            CELL_SOURCE,
+            "simulated",
+            "simulated,side=right:fender",
+            "/data/door.pcd",
+        ];
+        let shown = sources.map(|source| source_title(source, true));
+        let both = searched_texts();
+        Language::English.make_current();
+        let cell = "Simulierte Zelle";
+        assert_eq!(
+            shown,
+            [
+                cell,
+                cell,
+                "Simulierte Zelle · side=right:fender",
+                "/data/door.pcd"
+            ]
+        );
+        let mut row = history_entry(1, StoredVerdict::Accepted, "fender")
+            .record
+            .summary;
+        row.source = "simulated".into();
+        let filter = Filter {
+            text: "Zelle".into(),
+            shown: both,
+            ..Filter::default()
+        };
+        assert!(filter.passes(&row));
+    }
+
+    #[test]
+    fn the_words_that_the_list_has_for_a_verdict_find_it() {
+        let rows = StoredVerdict::ALL.map(|verdict| refused_door(verdict).summary);
+        for language in Language::ALL {
+            language.make_current();
+            for (verdict, row) in StoredVerdict::ALL.into_iter().zip(&rows) {
+                let filter = Filter {
+                    text: stored_verdict(verdict),
+                    shown: searched_texts(),
+                    ..Filter::default()
+                };
+                let is_accepted = verdict == StoredVerdict::Accepted;
+                assert_eq!(filter.passes(row), !is_accepted, "{language:?} {verdict:?}");
+            }
+        }
+        Language::English.make_current();
+    }
+
+    #[test]
+    fn a_stored_refusal_is_shown_in_the_language_of_the_window_and_names_parts_as_the_list_does() {
+        let mut past = refused_door(StoredVerdict::Rejected);
+        past.detail.refusal = Some(Refusal::Rejected(Rejection::SmallMargin {
+            part: "front_door".into(),
+            other: "back_door".into(),
+            margin: 0.12,
+            threshold: 0.6,
+        }));
+        let title_of = |name: &str| format!("the {name} of today");
+        let shown = || {
+            let why = past.titled_refusal(title_of).expect("refused");
+            [described(&why), advised(&why)]
+        };
+        assert_eq!(
+            shown()[0],
+            "Door, left and the back_door of today fit almost equally well (margin 0.12, needed 0.60)"
+        );
+        Language::German.make_current();
+        let [reason, advice] = shown();
+        Language::English.make_current();
+        assert!(reason.starts_with("Door, left "), "{reason}");
+        for part in [" the back_door of today ", "Vorsprung 0.12"] {
+            assert!(reason.contains(part), "{reason}");
+        }
+        assert!(advice.contains("Sichtseite"), "{advice}");
+    }
+
+    #[test]
+    fn no_two_kinds_of_rejection_have_the_same_name() {
+        let kinds: BTreeSet<RefusalKind> = rejections()
+            .into_iter()
+            .map(|why| Refusal::Rejected(why).kind())
+            .collect();
+        for language in Language::ALL {
+            language.make_current();
+            let names: BTreeSet<String> = kinds.iter().map(refusal_kind).collect();
+            assert_eq!(names.len(), kinds.len(), "{language:?}");
+        }
+        Language::English.make_current();
     }
 }

@@ -20,7 +20,7 @@ use super::{
 };
 use crate::{
     inspection::inspected::Inspected,
-    language::{history::stored_title, text},
+    language::{results::inspection_title, text},
     ui::{
         theme::space,
         widgets::{line_edit, text_button},
@@ -241,7 +241,7 @@ fn names_part(serial: &str, part: &Summary) -> String {
     text!(
         "operator-serial-of-part",
         serial = serial,
-        part = stored_title(part),
+        part = inspection_title(part),
         time = at.strftime("%H:%M").to_string()
     )
 }

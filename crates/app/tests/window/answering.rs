@@ -251,7 +251,7 @@ fn a_robot_is_told_the_pose_that_the_window_shows_and_the_history_keeps_it() {
     wait_for_rows(&mut harness, num_rows, 1);
     let newest = history_of(&harness).row(0).expect("kept");
     assert_eq!(newest.part.as_deref(), Some("fender"));
-    assert!(newest.is_simulated && newest.scene.contains("teady frame"));
+    assert!(newest.is_simulated && newest.scene.to_string().contains("teady frame"));
     assert!(says(&harness, "Answers robots · 127.0.0.1:"));
 }
 

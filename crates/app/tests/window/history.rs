@@ -27,10 +27,12 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use files::save_cloud;
 use inspection::{library::Truth, pipeline::Recipe};
 use jiff::Timestamp;
-use records::history::{History, HungId, KeepFrames, NewEntry, Retention, StoredVerdict};
+use records::history::{
+    History, HungId, KeepFrames, NewEntry, Retention, SceneTitle, StoredVerdict,
+};
 use simulate::{ObjectKind, PartKind, Side};
 
-use records::fixtures::{history_entry, low_score, open_history};
+use records::fixtures::{history_entry, low_score, open_history, refuse};
 use stages::fixtures::facing_part;
 
 use super::{
@@ -155,8 +157,9 @@ fn the_reason_of_a_refusal_begins_with_a_capital_letter() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut history = open_history(folder.path());
     let mut entry = history_entry(1, StoredVerdict::Rejected, "fender");
-    entry.record.summary.title = "Not recognised · nearest Fender, left".into();
-    entry.record.detail.refusal = Some(low_score("fender", 0.81));
+    entry.record.summary.title = "Fender, left".into();
+    entry.record.summary.score = Some([0.81, 0.97]);
+    refuse(&mut entry, low_score("fender", 0.81));
     history.add(&entry, &Retention::default()).expect("written");
     drop(history);
     let mut harness = open_with(USUAL, keeping(folder.path()));
@@ -511,7 +514,7 @@ fn of_a_hundred_thousand_inspections_only_those_in_sight_are_fetched() {
     let first = history.known(1).expect("written");
     let many = (0..100_000).map(|i| {
         let mut record = first.clone();
-        record.summary.scene = format!("frame {i}");
+        record.summary.scene = SceneTitle::Named(format!("frame {i}"));
         record.summary.hung = HungId::new();
         NewEntry {
             record,
@@ -870,7 +873,7 @@ fn refusals_with_other_figures_count_as_one_reason() {
         (3, "fender", 0.62),
     ] {
         let mut entry = records::fixtures::history_entry(seconds, StoredVerdict::Rejected, part);
-        entry.record.detail.refusal = Some(records::fixtures::low_score(part, score));
+        refuse(&mut entry, low_score(part, score));
         history.add(&entry, &Retention::default()).expect("written");
     }
     drop(history);

@@ -30,7 +30,7 @@ use super::{
         settle, wait_until,
     },
 };
-use records::fixtures::{history_entry, low_score};
+use records::fixtures::{history_entry, low_score, refuse};
 
 fn open_in(language: Language, size: Vec2) -> WindowHarness {
     let options = WindowOptions {
@@ -117,8 +117,8 @@ fn a_refusal_of_the_history_is_read_in_the_language_of_the_window() {
     let mut history = records::fixtures::open_history(folder.path());
     for (seconds, score) in [(1, 0.81), (2, 0.75)] {
         let mut entry = history_entry(seconds, StoredVerdict::Rejected, "fender");
-        entry.record.summary.title = "Not recognised · nearest Fender, left".into();
-        entry.record.detail.refusal = Some(low_score("fender", score));
+        entry.record.summary.title = "Fender, left".into();
+        refuse(&mut entry, low_score("fender", score));
         history.add(&entry, &Retention::default()).expect("written");
     }
     drop(history);

@@ -22,11 +22,12 @@ use app::{
 use egui::{Key, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use files::save_cloud;
+use inspection::pipeline::Rejection;
 use jiff::Timestamp;
 use records::history::{Retention, StoredVerdict};
 use simulate::{CellSetup, PartKind, SensorNoise, Side, SimulatedObject};
 
-use records::fixtures::{history_entry, open_history};
+use records::fixtures::{history_entry, open_history, refuse};
 use stages::fixtures::{facing_part, scene_of};
 
 use super::{
@@ -218,7 +219,12 @@ fn the_list_of_parts_says_of_which_part_something_is_the_mirror_image() {
     let mut history = open_history(folder.path());
     let mut part = history_entry(1, StoredVerdict::Unknown, "fender");
     part.record.summary.at = Timestamp::now();
-    part.record.summary.title = "Mirror image of Fender, left".into();
+    part.record.summary.title = "Fender, left".into();
+    let mirrored = Rejection::Mirrored {
+        part: "fender".into(),
+        score: 0.9,
+    };
+    refuse(&mut part, mirrored);
     part.record.summary.trace.serial = "TL471".into();
     history.add(&part, &Retention::default()).expect("written");
     drop(history);
@@ -758,7 +764,7 @@ fn a_file_that_is_opened_again_is_the_wrong_part_and_not_what_was_inspected_sinc
     settle(&mut harness);
     harness.get_by_label("Choose the actual part");
     let opened = history_of(&harness).record.as_ref().expect("opened");
-    assert_eq!(opened.record.summary.scene, "again.pcd, simulated");
+    assert_eq!(opened.record.summary.scene.to_string(), "again.pcd");
 }
 
 /// Opens a window in the operator's view that follows its camera to answer robots, calibrated by this file, if any.

@@ -124,6 +124,14 @@ fn mixed(seed: u64, number: u64) -> u64 {
     z ^ (z >> 31)
 }
 
+/// Name of a frame, before its number.
+const FRAME: &str = "simulated frame ";
+
+/// Returns the number of the frame of the simulated cell that has this name.
+pub fn simulated_frame_number(name: &str) -> Option<u64> {
+    name.strip_prefix(FRAME)?.parse().ok()
+}
+
 impl DepthSource for SimulatedCell {
     fn title(&self) -> String {
         self.spec.title()
@@ -141,7 +149,7 @@ impl DepthSource for SimulatedCell {
         }
         self.number = number;
         let (image, truth) = self.frame(number);
-        let name = format!("simulated frame {number}");
+        let name = format!("{FRAME}{number}");
         Ok(NextCapture::Captured(Captured {
             truth: Some(Arc::new(truth)),
             ..Captured::now(number, name, image)

@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use geometry::error::Advice;
+use texts::{Described, Message};
 
 /// A name of 1 to 64 lowercase letters, digits, `_` and `-`, beginning with a letter or digit; device names of Windows
 /// are excluded.
@@ -21,13 +21,12 @@ const RESERVED: [&str; 22] = [
 ];
 
 /// Why a text is not a valid name.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, Serialize)]
+#[serde(tag = "fault", rename_all = "snake_case")]
 pub enum BadName {
     /// The name is empty.
-    #[error("the name is empty")]
     Empty,
     /// The name is too long.
-    #[error("the name has {found} characters, at most {limit} are allowed")]
     TooLong {
         /// Number of characters given.
         found: usize,
@@ -35,7 +34,6 @@ pub enum BadName {
         limit: usize,
     },
     /// The name contains a character that is not allowed.
-    #[error("{name:?} is not a valid name: it contains {character:?}")]
     BadCharacter {
         /// The name given.
         name: String,
@@ -43,7 +41,6 @@ pub enum BadName {
         character: char,
     },
     /// The name begins with a character that is not allowed there.
-    #[error("{name:?} is not a valid name: it begins with {character:?}")]
     BadBeginning {
         /// The name given.
         name: String,
@@ -51,7 +48,6 @@ pub enum BadName {
         character: char,
     },
     /// The name is a device name of Windows.
-    #[error("{name:?} is not a valid name: Windows reserves it for a device")]
     Reserved {
         /// The name given.
         name: String,
@@ -72,15 +68,25 @@ impl BadName {
     }
 }
 
-impl Advice for BadName {
-    fn advice(&self) -> String {
-        format!(
-            "Use up to {} lowercase letters, digits, _ and -, for example {}",
-            PartName::MAX_LENGTH,
-            self.example()
-        )
+impl Described for BadName {
+    fn message(&self) -> Message {
+        let message = Message::tagged("name", "fault", self)
+            .with("most", PartName::MAX_LENGTH as f64)
+            .with("example", self.example().as_str());
+        // Quoted, with letters that cannot be seen spelled out.
+        match self {
+            Self::BadCharacter { name, character } | Self::BadBeginning { name, character } => {
+                message
+                    .with("name", format!("{name:?}").as_str())
+                    .with("character", format!("{character:?}").as_str())
+            }
+            Self::Reserved { name } => message.with("name", format!("{name:?}").as_str()),
+            Self::Empty | Self::TooLong { .. } => message,
+        }
     }
 }
+
+texts::display!(BadName);
 
 fn is_allowed(character: char) -> bool {
     matches!(character, 'a'..='z' | '0'..='9' | '_' | '-')
@@ -196,6 +202,7 @@ impl From<PartName> for String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use geometry::error::Advice as _;
 
     #[test]
     fn plain_names_are_taken() {

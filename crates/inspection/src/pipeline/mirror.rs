@@ -32,6 +32,7 @@ use stages::{
     reference::Reference,
     segment::SegmentedPart,
 };
+use texts::{Language, Message};
 
 /// Least lead of a mirror image's score over that of the part itself.
 const MIRROR_LEAD: f64 = 0.3;
@@ -290,14 +291,10 @@ pub struct OnlyMirrored {
 
 impl Advice for OnlyMirrored {
     fn advice(&self) -> String {
-        format!("If these are the enrolled parts and not those of the other side: {PUT_RIGHT}")
+        let put_right = Message::new("put-right").text(Language::English);
+        format!("If these are the enrolled parts and not those of the other side: {put_right}")
     }
 }
-
-/// How an image is put right whose left and right are exchanged.
-pub(super) const PUT_RIGHT: &str = "compare an image with the part, and if left and right are swapped, add \
-    \"mirrored\": true \
-     to the JSON with the camera's intrinsics (see partsight help inspect)";
 
 impl MirrorTally {
     /// Counts a verdict.

@@ -4,141 +4,71 @@
 
 use std::fmt;
 
-use serde::{
-    Deserialize, Serialize,
-    de::value::{Error, StrDeserializer},
-};
+use serde::{Deserialize, Serialize};
 
 use super::rejection::{Rejection, Unrecognisable};
-use geometry::error::Advice;
-use stages::{
-    contour::ContourError, project::ProjectError, segment::NoPart, signature::SignatureError,
-};
+use texts::{Described, Message};
 
 /// Why a scene was not accepted.
 #[derive(Clone, Debug, PartialEq, thiserror::Error, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Refusal {
     /// The best guess was rejected.
-    #[error(transparent)]
     Rejected(#[from] Rejection),
     /// Nothing could be recognised.
-    #[error(transparent)]
     Unrecognisable(#[from] Unrecognisable),
 }
 
-/// The kind of a [`Rejection`] or [`Unrecognisable`], without its figures.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-#[expect(missing_docs, reason = "the variants of both have them")]
-pub enum RefusalKind {
-    LowScore,
-    Piece,
-    HardlySeen,
-    AnotherModel,
-    AnotherMake,
-    AmbiguousPose,
-    Unconstrained,
-    Uncertain,
-    Unknown,
-    Mirrored,
-    MirroredImage,
-    SmallMargin,
-    Unconfirmed,
-    OutOfRange,
-    BehindCamera,
-    SurplusBytes,
-    NoPose,
-    NotSteady,
-    FewFrames,
-    Undecided,
-    PosesApart,
-    TooFewPoints,
-    TooWide,
-    OnlyBackground,
-    NoPlane,
-    TooLarge,
-    NoShape,
-    NoOutline,
-    EmptyLibrary,
-    Fault,
-}
+/// The kind of a [`Rejection`] or [`Unrecognisable`], without its figures: its name in the JSON. A history may hold kinds of
+/// later versions.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct RefusalKind(String);
 
 impl RefusalKind {
-    /// The kind of this name; `None` if this version of the program does not know it.
-    pub fn named(name: &str) -> Option<Self> {
-        Self::deserialize(StrDeserializer::<Error>::new(name)).ok()
+    /// The kind of this name.
+    pub fn named(name: impl Into<String>) -> Self {
+        Self(name.into())
+    }
+
+    /// Returns the name as in the JSON.
+    pub fn name(&self) -> &str {
+        &self.0
+    }
+
+    /// Returns the message of a refusal of this kind, without figures.
+    pub fn message(&self) -> Message {
+        Message::new(format!("refusal-{}", self.0.replace('_', "-")))
+    }
+
+    /// True if an enrolled part fits only as its mirror image.
+    pub fn is_mirrored(&self) -> bool {
+        ["mirrored", "mirrored_image"].contains(&self.name())
     }
 }
 
 impl fmt::Display for RefusalKind {
-    /// Writes the name as in the JSON.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.serialize(f)
+        f.write_str(&self.0)
     }
 }
+
+impl Described for Refusal {
+    fn message(&self) -> Message {
+        match self {
+            Self::Rejected(why) => why.message(),
+            Self::Unrecognisable(why) => why.message(),
+        }
+    }
+}
+
+texts::display!(Refusal);
 
 impl Refusal {
-    /// Replaces the names of the parts, for instance by their titles.
-    #[must_use]
-    pub fn renamed(self, word_of: impl Fn(&str) -> String) -> Self {
-        match self {
-            Self::Rejected(why) => Self::Rejected(why.renamed(word_of)),
-            Self::Unrecognisable(_) => self,
-        }
-    }
-
     /// The kind, by which statistics count refusals.
     pub fn kind(&self) -> RefusalKind {
-        match self {
-            Self::Rejected(why) => match why {
-                Rejection::LowScore { .. } => RefusalKind::LowScore,
-                Rejection::Piece { .. } => RefusalKind::Piece,
-                Rejection::HardlySeen { .. } => RefusalKind::HardlySeen,
-                Rejection::AnotherModel { .. } => RefusalKind::AnotherModel,
-                Rejection::AnotherMake { .. } => RefusalKind::AnotherMake,
-                Rejection::AmbiguousPose { .. } => RefusalKind::AmbiguousPose,
-                Rejection::Unconstrained { .. } => RefusalKind::Unconstrained,
-                Rejection::Uncertain { .. } => RefusalKind::Uncertain,
-                Rejection::Unknown { .. } => RefusalKind::Unknown,
-                Rejection::Mirrored { .. } => RefusalKind::Mirrored,
-                Rejection::MirroredImage { .. } => RefusalKind::MirroredImage,
-                Rejection::SmallMargin { .. } => RefusalKind::SmallMargin,
-                Rejection::Unconfirmed { .. } => RefusalKind::Unconfirmed,
-                Rejection::OutOfRange { .. } => RefusalKind::OutOfRange,
-                Rejection::BehindCamera { .. } => RefusalKind::BehindCamera,
-                Rejection::SurplusBytes { .. } => RefusalKind::SurplusBytes,
-                Rejection::NoPose(_) => RefusalKind::NoPose,
-                Rejection::NotSteady { .. } => RefusalKind::NotSteady,
-                Rejection::FewFrames { .. } => RefusalKind::FewFrames,
-                Rejection::Undecided { .. } => RefusalKind::Undecided,
-                Rejection::PosesApart { .. } => RefusalKind::PosesApart,
-            },
-            Self::Unrecognisable(why) => match why {
-                Unrecognisable::EmptyLibrary => RefusalKind::EmptyLibrary,
-                Unrecognisable::Fault(_) => RefusalKind::Fault,
-                Unrecognisable::NoPart(NoPart::TooFewPoints { .. }) => RefusalKind::TooFewPoints,
-                Unrecognisable::NoPart(NoPart::TooWide { .. }) => RefusalKind::TooWide,
-                Unrecognisable::NoPart(NoPart::OnlyBackground { .. }) => {
-                    RefusalKind::OnlyBackground
-                }
-                Unrecognisable::Project(ProjectError::NoPlane { .. }) => RefusalKind::NoPlane,
-                Unrecognisable::Project(ProjectError::TooLarge { .. }) => RefusalKind::TooLarge,
-                Unrecognisable::Contour(ContourError::NoShape { .. }) => RefusalKind::NoShape,
-                Unrecognisable::Signature(SignatureError::NoOutline { .. }) => {
-                    RefusalKind::NoOutline
-                }
-            },
-        }
-    }
-}
-
-impl Advice for Refusal {
-    fn advice(&self) -> String {
-        match self {
-            Self::Rejected(why) => why.advice(),
-            Self::Unrecognisable(why) => why.advice(),
-        }
+        let json = serde_json::to_value(self).unwrap_or_default();
+        RefusalKind::named(json["kind"].as_str().unwrap_or_default())
     }
 }
 
@@ -150,8 +80,15 @@ mod tests {
 
     use super::*;
     use crate::fixtures::{rejections, unrecognisables};
-    use geometry::{error::guarded, units::Metres};
-    use stages::pose::{Axis, CloudRole, FreeMotion, PoseError};
+    use geometry::{
+        error::{Advice as _, guarded},
+        units::Metres,
+    };
+    use stages::{
+        pose::{Axis, CloudRole, FreeMotion, PoseError},
+        segment::NoPart,
+    };
+    use texts::Language;
 
     /// A refusal of every kind.
     fn refusals() -> Vec<Refusal> {
@@ -174,11 +111,10 @@ mod tests {
             let written: Value = serde_json::from_str(&json).expect("JSON");
             let kind = why.kind();
             assert_eq!(written["kind"], kind.to_string(), "{json}");
-            assert_eq!(RefusalKind::named(&kind.to_string()), Some(kind));
             kinds.insert(kind.to_string());
         }
-        // serde's error for an unknown kind lists all kinds.
-        let unknown = serde_json::from_str::<RefusalKind>("\"\"").expect_err("no kind");
+        // serde's error for an unknown kind lists those that a part can be rejected for.
+        let unknown = from_value::<Rejection>(json!({"kind": ""})).expect_err("no kind");
         let unknown = unknown.to_string();
         let all: BTreeSet<String> = unknown
             .split('`')
@@ -186,16 +122,38 @@ mod tests {
             .step_by(2)
             .map(str::to_owned)
             .collect();
-        assert!(
-            all.contains("low_score") && all.contains("fault"),
-            "{all:?}"
-        );
-        assert_eq!(kinds, all);
+        assert!(all.contains("low_score"), "{all:?}");
+        assert!(kinds.is_superset(&all), "{all:?} and {kinds:?}");
+        let texts = texts::LIBRARY.files(Language::English).iter();
+        let texts = texts.flat_map(|(_, text)| text.lines());
+        let described = texts.filter_map(|line| line.strip_prefix("refusal-")?.split_once(" ="));
+        let described: BTreeSet<String> =
+            described.map(|(kind, _)| kind.replace('-', "_")).collect();
+        assert_eq!(kinds, described);
         let guide = include_str!("../../../../docs/guide/files.md");
-        for kind in all {
+        for kind in kinds {
             assert!(guide.contains(&format!("`{kind}`")), "{kind} in the guide");
         }
-        assert_eq!(RefusalKind::named("bewitched"), None);
+    }
+
+    #[test]
+    fn every_refusal_has_its_texts_in_every_language() {
+        for why in refusals() {
+            let message = why.message().with("nearest", "fender");
+            for language in Language::ALL {
+                assert!(!message.text(language).is_empty());
+                assert!(!message.advice(language).is_empty(), "{why:?}");
+                let has = |name| message.attribute(language, name).is_some();
+                assert!(has("short"), "{why:?}");
+                assert!(!(has("step") && has("next")), "{why:?}");
+                assert_eq!(has("kind"), matches!(why, Refusal::Rejected(_)), "{why:?}");
+                // Checks its variables.
+                has("otherwise");
+                has("compared");
+            }
+            assert_eq!(why.to_string(), message.text(Language::English));
+            assert_eq!(why.advice(), message.command_advice());
+        }
     }
 
     /// Histories store these names: they become unreadable if one changes.

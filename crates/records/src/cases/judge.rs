@@ -45,11 +45,7 @@ impl From<&Record> for FoundVerdict {
             score: summary.score.map(|[score, _]| score),
             margin: summary.score.map(|[_, margin]| margin),
             accepted: summary.verdict == StoredVerdict::Accepted,
-            // Use the enrolled names, as a verdict does: the stored sentence has the titles of its time.
-            reason: detail.refusal.as_ref().map(|refusal| {
-                let why = refusal.why.as_ref();
-                why.map_or_else(|| refusal.reason.clone(), ToString::to_string)
-            }),
+            reason: detail.refusal.as_ref().map(ToString::to_string),
         }
     }
 }

@@ -41,7 +41,7 @@ impl CaseDescription {
     pub fn of(record: &Record, truth: Truth) -> Self {
         let summary = &record.summary;
         Self {
-            origin: summary.scene.clone(),
+            origin: summary.scene.to_string(),
             simulated: summary.is_simulated,
             kept_at: summary.at,
             remark: summary.remark.clone(),

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use nalgebra::Point3;
 
-use super::entry::{Record, StoredRefusal, StoredVerdict};
+use super::entry::{Record, StoredVerdict};
 use geometry::rigid::{PoseDelta, RigidTransform, pose_error};
 use inspection::pipeline::{Inspection, Recipe, RefusalKind, Verdict, parameters::PARAMETERS};
 use stages::pose::PoseEstimate;
@@ -77,7 +77,7 @@ impl From<&Record> for InspectionSummary {
             verdict: summary.verdict,
             nearest: detail.nearest.clone(),
             score: summary.score,
-            reason: detail.refusal.as_ref().and_then(StoredRefusal::kind),
+            reason: summary.reason.clone(),
             bounds: detail.pose_bounds(),
             camera_from_part: detail.camera_from_part,
             recipe: detail.recipe_identity.clone(),
@@ -155,7 +155,7 @@ impl Differences {
     /// Returns whether verdict, best guess and reason are the same, and the poses as far as their bounds tell. The pose of a
     /// part seen in Live is a mean over frames, so that of one of its frames differs from it by noise.
     pub fn has_same_outcome(&self) -> bool {
-        let reasons = self.before.reason.zip(self.now.reason);
+        let reasons = self.before.reason.as_ref().zip(self.now.reason.as_ref());
         let has_reason = reasons.is_none_or(|(before, now)| before == now);
         self.has_same_result() && has_reason && self.has_same_pose()
     }
@@ -252,13 +252,13 @@ mod tests {
         assert!(!far.has_same_outcome() && far.has_same_result());
         let unbounded = Differences::between(finding(0.0), bounded(0.0005), None);
         assert!(unbounded.has_same_outcome());
-        let refused = |reason| InspectionSummary {
+        let refused = |reason: Option<&str>| InspectionSummary {
             verdict: StoredVerdict::Rejected,
-            reason,
+            reason: reason.map(RefusalKind::named),
             ..bounded(0.0)
         };
-        let [low, piece] = [RefusalKind::LowScore, RefusalKind::Piece].map(Some);
-        for (now, is_same) in [(low, true), (piece, false), (None, true)] {
+        let low = Some("low_score");
+        for (now, is_same) in [(low, true), (Some("piece"), false), (None, true)] {
             let found = Differences::between(refused(low), refused(now), None);
             assert_eq!(found.has_same_outcome(), is_same, "{now:?}");
         }

@@ -8,9 +8,10 @@ use image::{
 };
 use jiff::Timestamp;
 
-use super::{frames::FrameRecord, hung::HungId, traceability::Traceability};
+use super::{
+    frames::FrameRecord, hung::HungId, scene_title::SceneTitle, traceability::Traceability,
+};
 use geometry::{
-    error::Advice as _,
     rigid::{PoseDelta, RigidTransform, row_major},
     units::{Metres, Radians},
 };
@@ -19,6 +20,7 @@ use inspection::{
     pipeline::{Inspection, NamedRecipe, Recipe, RecipeLabel, Refusal, RefusalKind, Verdict},
 };
 use stages::{pose::PoseEstimate, scan::Shot, scene::SceneCloud};
+use texts::{Described as _, Message};
 
 /// Verdict of an inspection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,9 +82,6 @@ pub(super) fn is_ok(verdict: StoredVerdict, part: Option<&str>, label: Option<&T
     verdict == StoredVerdict::Accepted && label.is_none_or(|label| label.part() == part)
 }
 
-/// Start of a mirror image's title; the part's title follows.
-const MIRRORED: &str = "Mirror image of ";
-
 /// An inspection as a row of a list.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Summary {
@@ -90,8 +89,8 @@ pub struct Summary {
     pub number: i64,
     /// Time of the inspection, to the microsecond.
     pub at: Timestamp,
-    /// Name of the scene for people.
-    pub scene: String,
+    /// What the scene is called.
+    pub scene: SceneTitle,
     /// Origin of the scene: a source that can be reopened, a file, or a description.
     pub source: String,
     /// True if the scene does not come from a camera.
@@ -100,8 +99,10 @@ pub struct Summary {
     pub verdict: StoredVerdict,
     /// Name of the part found, accepted or not; `None` if it is unknown or there is none.
     pub part: Option<String>,
-    /// The result for people: the part's title, or why there is none.
+    /// Title that the best match had at that time, whether or not the verdict names it; empty if there is none.
     pub title: String,
+    /// Kind of the refusal; `None` if it was accepted.
+    pub reason: Option<RefusalKind>,
     /// Score (0..1) and margin of the best guess.
     pub score: Option<[f64; 2]>,
     /// Time from points to verdict, milliseconds.
@@ -125,8 +126,8 @@ pub struct Summary {
 impl Summary {
     /// Returns the title of the part of which it is the mirror image, if it is one.
     pub fn mirror_of(&self) -> Option<&str> {
-        let is_unknown = self.verdict == StoredVerdict::Unknown;
-        self.title.strip_prefix(MIRRORED).filter(|_| is_unknown)
+        let is_mirrored = self.reason.as_ref().is_some_and(RefusalKind::is_mirrored);
+        is_mirrored.then_some(self.title.as_str())
     }
 
     /// True if the part counts as OK.
@@ -139,7 +140,8 @@ impl Summary {
         self.verdict == StoredVerdict::Accepted && !self.is_ok()
     }
 
-    /// Returns the lower-case text in which a filter looks for its words.
+    /// Returns the lower-case text in which a filter looks for its words. What the row shows in words of its own begins
+    /// with `=` here, see [`Filter::shown`](super::Filter::shown).
     pub(super) fn search(&self) -> String {
         let Self {
             scene,
@@ -149,11 +151,21 @@ impl Summary {
             remark,
             label,
             trace,
+            verdict,
+            reason,
             ..
         } = self;
         let part = part.as_deref().unwrap_or("");
         let label = label.as_ref().map_or("", Truth::name);
+        let scene = scene.search();
         let mut text = format!("{title}\n{part}\n{scene}\n{source}\n{remark}\n{label}");
+        if self.is_simulated {
+            text.push_str("\n=simulated");
+        }
+        if *verdict != StoredVerdict::Accepted {
+            let reason = reason.as_ref().map_or("", RefusalKind::name);
+            text.push_str(&format!("\n={}\n={reason}", verdict.name()));
+        }
         for (_, known) in trace.known() {
             text.push('\n');
             text.push_str(known);
@@ -162,45 +174,17 @@ impl Summary {
     }
 }
 
-/// Why an inspection was not accepted.
-#[derive(Clone, Debug, PartialEq)]
-pub struct StoredRefusal {
-    /// English sentence with the titles of the parts at that time.
-    pub reason: String,
-    /// English advice on what to do.
-    pub advice: String,
-    /// The refusal with its figures and enrolled names; `None` if an earlier version wrote it, or this one cannot read
-    /// it.
-    pub why: Option<Refusal>,
-}
-
-impl StoredRefusal {
-    fn of(why: Refusal, title_of: impl Fn(&str) -> String) -> Self {
-        let told = why.clone().renamed(title_of);
-        Self {
-            reason: told.to_string(),
-            advice: told.advice(),
-            why: Some(why),
-        }
-    }
-
-    /// Returns the kind, by which refusals are counted.
-    pub fn kind(&self) -> Option<RefusalKind> {
-        self.why.as_ref().map(Refusal::kind)
-    }
-}
-
 /// The data of an inspection that are not in its row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InspectionDetail {
     /// Name of the best guess, whether or not the verdict names it.
     pub nearest: Option<String>,
-    /// Why it was not accepted.
-    pub refusal: Option<StoredRefusal>,
+    /// Why it was not accepted, with enrolled names of parts; `None` also if this program cannot read it.
+    pub refusal: Option<Refusal>,
     /// The pose, if there is one.
     pub camera_from_part: Option<RigidTransform>,
-    /// Name of the recipe; `None` if an earlier version wrote the inspection.
-    pub recipe_label: Option<RecipeLabel>,
+    /// Name of the recipe.
+    pub recipe_label: RecipeLabel,
     /// Identity of the recipe.
     pub recipe_identity: String,
     /// All parameters; `None` if this program cannot read them. Parameters missing in the file have their defaults.
@@ -251,8 +235,8 @@ pub struct NewEntry {
 pub struct InspectionContext<'a> {
     /// Time of the inspection.
     pub at: Timestamp,
-    /// Name of the scene for people.
-    pub scene: String,
+    /// What the scene is called.
+    pub scene: SceneTitle,
     /// Origin of the scene.
     pub source: String,
     /// True if the scene does not come from a camera.
@@ -281,14 +265,7 @@ impl NewEntry {
     ) -> Self {
         let verdict = StoredVerdict::from(&inspection.verdict);
         let nearest = inspection.verdict.guess().map(str::to_owned);
-        let name = nearest.as_deref().map(about.title_of).unwrap_or_default();
-        let title = match verdict {
-            StoredVerdict::Accepted => name,
-            StoredVerdict::Rejected => format!("Not recognised · nearest {name}"),
-            _ if inspection.verdict.is_mirrored() => format!("{MIRRORED}{name}"),
-            StoredVerdict::Unknown => format!("Unknown · nearest {name}"),
-            StoredVerdict::NoPart => "No part".to_owned(),
-        };
+        let refusal = inspection.verdict.refusal();
         let pose = inspection.found_pose();
         let is_named = !matches!(verdict, StoredVerdict::Unknown | StoredVerdict::NoPart);
         let micro = about.at.as_microsecond();
@@ -301,7 +278,8 @@ impl NewEntry {
             is_simulated: about.is_simulated,
             verdict,
             part: nearest.clone().filter(|_| is_named),
-            title,
+            title: nearest.as_deref().map(about.title_of).unwrap_or_default(),
+            reason: refusal.as_ref().map(Refusal::kind),
             score: inspection.verdict.score(),
             total_ms: inspection.timings.total.as_secs_f64() * 1e3,
             remark: String::new(),
@@ -314,12 +292,9 @@ impl NewEntry {
         };
         let detail = InspectionDetail {
             nearest,
-            refusal: inspection
-                .verdict
-                .refusal()
-                .map(|why| StoredRefusal::of(why, about.title_of)),
+            refusal,
             camera_from_part: pose.map(PoseEstimate::camera_from_part),
-            recipe_label: Some(recipe.label.clone()),
+            recipe_label: recipe.label.clone(),
             recipe_identity: recipe.identity(),
             recipe: Some(Arc::clone(&recipe.parameters)),
             library_identity: about.library,
@@ -383,16 +358,11 @@ pub(super) fn png_of(picture: &RgbImage) -> Vec<u8> {
 }
 
 impl InspectionDetail {
-    /// Returns the recipe, if this program can read it. Without a stored name, its identity serves as the name.
+    /// Returns the recipe, if this program can read it.
     pub fn named_recipe(&self) -> Option<NamedRecipe> {
-        let parameters = Arc::clone(self.recipe.as_ref()?);
-        let label = self.recipe_label.clone();
         Some(NamedRecipe {
-            label: label.unwrap_or_else(|| RecipeLabel {
-                name: self.recipe_identity.clone(),
-                is_changed: false,
-            }),
-            parameters,
+            label: self.recipe_label.clone(),
+            parameters: Arc::clone(self.recipe.as_ref()?),
         })
     }
 
@@ -415,13 +385,9 @@ impl InspectionDetail {
         })
     }
 
-    /// Returns the recipe's name, if known, and its identity.
+    /// Returns the recipe's name and its identity.
     pub fn recipe_text(&self) -> String {
-        let identity = &self.recipe_identity;
-        match &self.recipe_label {
-            Some(label) => format!("{label}, {identity}"),
-            None => identity.clone(),
-        }
+        format!("{}, {}", self.recipe_label, self.recipe_identity)
     }
 }
 
@@ -429,6 +395,20 @@ impl Record {
     /// Returns the pose as 16 numbers in row-major order, metres.
     pub fn matrix(&self) -> Option<[f64; 16]> {
         self.detail.camera_from_part.as_ref().map(row_major)
+    }
+
+    /// Returns why it was not accepted, with titles of parts. The best match keeps the title that it had at that time: it
+    /// may have been renamed since.
+    pub fn titled_refusal(&self, title_of: impl Fn(&str) -> String) -> Option<Message> {
+        let Self { summary, detail } = self;
+        let why = detail.refusal.as_ref()?.message();
+        Some(why.with_titles(|name| {
+            if detail.nearest.as_deref() == Some(name) {
+                summary.title.clone()
+            } else {
+                title_of(name)
+            }
+        }))
     }
 
     /// Returns the stage times in milliseconds, in the order of the stages; empty if the line has none.

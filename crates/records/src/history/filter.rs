@@ -27,8 +27,8 @@ pub struct Filter {
     /// Words that must each occur in the title, in the name of part, scene or source, in the remark, the true label or
     /// the traceability; case is ignored.
     pub text: String,
-    /// Pairs of displayed and stored text, in lower case. A word that occurs in the displayed text also matches the
-    /// stored one.
+    /// Texts that a list shows, in lower case, each with what the search text has for it: a verdict, a kind of refusal,
+    /// `simulated`, `simulated_frame ` or `shots `, after `=`. A word of the former also matches the latter.
     pub shown: Vec<[String; 2]>,
 }
 

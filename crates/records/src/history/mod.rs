@@ -12,7 +12,8 @@
 //! ```
 //!
 //! Killing the program loses at most the inspection that was being written. A file that cannot be opened is never
-//! deleted: a damaged one is renamed and set aside, one of a newer version is refused and left as it is.
+//! deleted: a damaged one and one of a development build are renamed and set aside, one of a newer version is refused and
+//! left as it is.
 
 mod buffer;
 mod differences;
@@ -27,6 +28,7 @@ mod open;
 mod outcomes;
 mod retention;
 mod rows;
+mod scene_title;
 mod schema;
 mod sending;
 mod shots;
@@ -42,10 +44,7 @@ pub use self::{
     buffer::HistoryBuffer,
     differences::{Differences, InspectionSummary, ParameterChange},
     drift::{MAX_POSES, PoseRecord},
-    entry::{
-        InspectionContext, InspectionDetail, NewEntry, Record, StoredRefusal, StoredVerdict,
-        Summary,
-    },
+    entry::{InspectionContext, InspectionDetail, NewEntry, Record, StoredVerdict, Summary},
     error::HistoryError,
     event::HistoryEvent,
     filter::Filter,
@@ -55,8 +54,9 @@ pub use self::{
     },
     hung::{HungId, HungRows},
     open::{FILE, OnlyRead, OpenedHistory, SetAside, users_folder},
-    outcomes::{PartOutcome, RefusalReason},
+    outcomes::PartOutcome,
     retention::{ACCEPTED_KEPT, KeepFrames, PruneResult, Retention, Usage},
+    scene_title::SceneTitle,
     shots::{ShotRecord, read_shots},
     store::{History, Page},
     table::write_table,

@@ -1,5 +1,5 @@
-//! Opens the file: creates a missing one, migrates an older one, refuses a newer one and the database of another
-//! program, and sets aside a damaged one.
+//! Opens the file: creates a missing one, refuses a newer one and the database of another program, and sets aside a
+//! damaged one and one of a development build.
 //!
 //! Write-ahead logging lets the window and a command write at the same time. With `synchronous = FULL` an inspection
 //! that was reported as written survives a power failure, not only a kill; a commit then waits for the disk, which is
@@ -24,7 +24,7 @@ use files::{disk, open_lock, open_regular, refuse_special, user_data};
 
 use super::{
     error::HistoryError,
-    schema::{APPLICATION, VERSION, WITH_PARTS, migrate, version},
+    schema::{APPLICATION, VERSION, create_tables, version},
     store::History,
 };
 
@@ -163,7 +163,7 @@ impl History {
             let flags = OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_URI;
             let file = Connection::open_with_flags(address(&path, how), flags)?;
             file.busy_timeout(PATIENCE)?;
-            let is_known = is_ours(&file)? && (WITH_PARTS..=VERSION).contains(&version(&file)?);
+            let is_known = is_ours(&file)? && version(&file)? == VERSION;
             Ok(is_known.then(|| Self::new(file, folder)))
         };
         if let Ok(history) = read("mode=ro") {
@@ -239,23 +239,29 @@ impl Lock {
     }
 }
 
-fn refuse_newer(path: &Path, found: u32) -> Result<(), HistoryError> {
-    if found <= VERSION {
-        return Ok(());
+/// Refuses a file of another version; a new file has version 0.
+fn refuse_other_version(path: &Path, found: u32) -> Result<(), HistoryError> {
+    let path = path.to_owned();
+    match found {
+        0 | VERSION => Ok(()),
+        ..VERSION => Err(HistoryError::Damaged {
+            path,
+            what: format!("a development build wrote it (format {found})"),
+        }),
+        _ => Err(HistoryError::Newer {
+            path,
+            found,
+            known: VERSION,
+        }),
     }
-    Err(HistoryError::Newer {
-        path: path.to_owned(),
-        found,
-        known: VERSION,
-    })
 }
 
-/// Opens the file and migrates it to the current version.
+/// Opens the file, and creates the tables in a new one.
 fn connect(path: &Path) -> Result<Connection, HistoryError> {
     let of = |error| HistoryError::of(path, error);
     // Check before SQLite opens the file for writing: opening alone may write to it.
     let found = open_without_log(path)?.and_then(|file| version(&file).ok());
-    refuse_newer(path, found.unwrap_or(0))?;
+    refuse_other_version(path, found.unwrap_or(0))?;
     let flags = OpenFlags::SQLITE_OPEN_READ_WRITE
         | OpenFlags::SQLITE_OPEN_CREATE
         | OpenFlags::SQLITE_OPEN_NO_MUTEX;
@@ -264,14 +270,14 @@ fn connect(path: &Path) -> Result<Connection, HistoryError> {
     let found = version(&file).map_err(of)?;
     // In this order, since another instance of the program may be creating the tables right now.
     let is_foreign = has_tables(&file).map_err(of)? && !is_ours(&file).map_err(of)?;
-    if is_foreign || found > VERSION {
+    if is_foreign || ![0, VERSION].contains(&found) {
         // The newest pages may still be in the log; leave them there.
         file.set_db_config(DbConfig::SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, true)
             .map_err(of)?;
         if is_foreign {
             return Err(foreign(path));
         }
-        refuse_newer(path, found)?;
+        refuse_other_version(path, found)?;
     }
     let set = || -> rusqlite::Result<()> {
         file.pragma_update(None, "journal_mode", "WAL")?;
@@ -279,7 +285,7 @@ fn connect(path: &Path) -> Result<Connection, HistoryError> {
         file.pragma_update(None, "foreign_keys", true)
     };
     set().map_err(of)?;
-    migrate(&mut file).map_err(of)?;
+    create_tables(&mut file).map_err(of)?;
     Ok(file)
 }
 
@@ -354,7 +360,7 @@ fn lacking(file: &Connection) -> rusqlite::Result<Option<String>> {
         names.collect()
     };
     let mut whole = Connection::open_in_memory()?;
-    migrate(&mut whole)?;
+    create_tables(&mut whole)?;
     let found = names(file)?;
     // Tables before their indexes.
     let mut expected = names(&whole)?.into_iter().rev();
@@ -474,7 +480,7 @@ fn check(path: &Path, was_left_open: bool) -> Result<(), HistoryError> {
     let Some(header) = Header::read(path)? else {
         return Ok(());
     };
-    refuse_newer(path, header.version)?;
+    refuse_other_version(path, header.version)?;
     let size = fs::metadata(path).map_or(0, |file| file.len());
     if size < header.num_bytes && !was_left_open {
         let expected = header.num_bytes;

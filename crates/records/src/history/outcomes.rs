@@ -3,13 +3,12 @@
 use std::collections::BTreeMap;
 
 use jiff::Timestamp;
-use rusqlite::{OptionalExtension as _, params_from_iter, types::Value};
+use rusqlite::{params_from_iter, types::Value};
 
 use super::{
-    entry::{InspectionDetail, Record, StoredVerdict, is_ok},
+    entry::{Record, StoredVerdict, is_ok},
     error::HistoryError,
     filter::Filter,
-    schema::{WITH_REFUSALS, version},
     store::History,
 };
 use inspection::{library::Truth, pipeline::RefusalKind};
@@ -26,60 +25,27 @@ pub struct PartOutcome {
     /// Name of the part found, accepted or not; `None` if it is unknown or there is none.
     pub part: Option<String>,
     /// Why it was not accepted.
-    pub reason: Option<RefusalReason>,
-}
-
-/// The reason by which refusals are counted.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum RefusalReason {
-    /// The kind of the refusal.
-    Kind(RefusalKind),
-    /// An English sentence, if an earlier version wrote it or this one does not know its kind.
-    Sentence {
-        /// The sentence.
-        text: String,
-        /// Name of the best guess.
-        nearest: Option<String>,
-    },
-}
-
-impl RefusalReason {
-    fn of(detail: &InspectionDetail) -> Option<Self> {
-        let refusal = detail.refusal.as_ref()?;
-        Some(match refusal.kind() {
-            Some(kind) => Self::Kind(kind),
-            None => Self::Sentence {
-                text: refusal.reason.clone(),
-                nearest: detail.nearest.clone(),
-            },
-        })
-    }
+    pub reason: Option<RefusalKind>,
 }
 
 impl From<&Record> for PartOutcome {
     fn from(record: &Record) -> Self {
-        let Record { summary, detail } = record;
+        let summary = &record.summary;
         Self {
             at: summary.at,
             verdict: summary.verdict,
             is_ok: summary.is_ok(),
             part: summary.part.clone(),
-            reason: RefusalReason::of(detail),
+            reason: summary.reason.clone(),
         }
     }
 }
 
-/// Returns the query for a file of this version. The index has all columns but the kind, so only the rows of refusals
-/// themselves are read.
-pub(super) fn outcomes_query(filter: &Filter, version: u32) -> (String, Vec<Value>) {
+/// Returns the query. The index has all columns but the kind, so only the rows of refusals themselves are read.
+pub(super) fn outcomes_query(filter: &Filter) -> (String, Vec<Value>) {
     let (condition, values) = filter.condition();
-    let kind = if version >= WITH_REFUSALS {
-        "reason_kind"
-    } else {
-        "NULL"
-    };
     let asked = format!(
-        "SELECT number, at, verdict, part, CASE WHEN verdict <> 'accepted' THEN {kind} END
+        "SELECT number, at, verdict, part, CASE WHEN verdict <> 'accepted' THEN reason_kind END
             FROM inspection WHERE {condition} ORDER BY at, number"
     );
     (asked, values)
@@ -94,11 +60,8 @@ impl History {
 
     fn read_outcomes(&self, filter: &Filter) -> rusqlite::Result<Vec<PartOutcome>> {
         let labels = self.labels(filter)?;
-        let (asked, values) = outcomes_query(filter, version(&self.file)?);
+        let (asked, values) = outcomes_query(filter);
         let mut asked = self.file.prepare(&asked)?;
-        let mut sentence = self.file.prepare(
-            "SELECT reason, nearest FROM detail WHERE number = ? AND reason IS NOT NULL",
-        )?;
         let mut rows = asked.query(params_from_iter(values))?;
         let mut outcomes = Vec::new();
         while let Some(row) = rows.next()? {
@@ -106,26 +69,14 @@ impl History {
             let at = Timestamp::from_microsecond(row.get(1)?);
             let verdict: String = row.get(2)?;
             let verdict = StoredVerdict::named(&verdict).unwrap_or(StoredVerdict::Rejected);
-            let kind: Option<String> = row.get(4)?;
-            let reason = match kind.as_deref().and_then(RefusalKind::named) {
-                Some(kind) => Some(RefusalReason::Kind(kind)),
-                None if verdict == StoredVerdict::Accepted => None,
-                None => sentence
-                    .query_row([number], |row| {
-                        Ok(RefusalReason::Sentence {
-                            text: row.get(0)?,
-                            nearest: row.get(1)?,
-                        })
-                    })
-                    .optional()?,
-            };
+            let reason: Option<String> = row.get(4)?;
             let part: Option<String> = row.get(3)?;
             outcomes.push(PartOutcome {
                 at: at.unwrap_or(Timestamp::UNIX_EPOCH),
                 verdict,
                 is_ok: is_ok(verdict, part.as_deref(), labels.get(&number)),
                 part,
-                reason,
+                reason: reason.map(RefusalKind::named),
             });
         }
         Ok(outcomes)

@@ -6,53 +6,27 @@ use jiff::Timestamp;
 use rusqlite::{Connection, OptionalExtension as _, Row, TransactionBehavior, params};
 
 use super::{
-    entry::{InspectionDetail, NewEntry, Record, StoredRefusal, StoredVerdict, Summary, png_of},
+    entry::{InspectionDetail, NewEntry, Record, StoredVerdict, Summary, png_of},
     frames::FrameRecord,
     hung::HungId,
-    schema::{WITH_RECIPE_NAMES, WITH_REFUSALS, WITH_TRACEABILITY, version},
+    scene_title::SceneTitle,
     traceability::{TraceChange, Traceability},
 };
 use geometry::sixteen_numbers;
-use inspection::pipeline::{Recipe, RecipeLabel};
+use inspection::pipeline::{Recipe, RecipeLabel, RefusalKind};
 
-/// Returns the columns of a list row. A file that cannot be written is not migrated, so it may lack some.
-pub(super) fn columns(file: &Connection) -> rusqlite::Result<String> {
-    let trace = if version(file)? >= WITH_TRACEABILITY {
-        "serial, job_order, operator"
-    } else {
-        "'' AS serial, '' AS job_order, '' AS operator"
-    };
-    Ok(format!("{COLUMNS_OF_EVERY_VERSION}, {trace}"))
-}
+/// The columns of a list row.
+pub(super) const COLUMNS: &str = "number, at, scene, simulated_frame, num_shots, source, simulated, verdict, part, title, \
+    reason_kind, score, margin, total_ms, remark, label, frame_bytes, hung, parent, serial, job_order, operator, \
+    (SELECT count(*) FROM inspection AS other WHERE other.parent = inspection.number) AS num_below";
 
-/// Returns the columns of the rest of an inspection, with its recipe.
-pub(super) fn detail_columns(file: &Connection) -> rusqlite::Result<String> {
-    let found = version(file)?;
-    let recipe = if found >= WITH_RECIPE_NAMES {
-        "recipe_name, recipe_changed"
-    } else {
-        "NULL AS recipe_name, 0 AS recipe_changed"
-    };
-    let refusal = if found >= WITH_REFUSALS {
-        "refusal"
-    } else {
-        "NULL AS refusal"
-    };
-    Ok(format!(
-        "nearest, reason, advice, {refusal}, camera_from_part, recipe.identity, recipe.json, {recipe}, library, program, \
-            line, thumbnail, origin, frame"
-    ))
-}
-
-/// The columns of a list row that every file has, migrated or not. Those that were added later are in [`columns`].
-const COLUMNS_OF_EVERY_VERSION: &str = "number, at, scene, source, simulated, verdict, part, title, score, margin, \
-    total_ms, remark, label, frame_bytes, hung, parent, (SELECT count(*) FROM inspection AS other WHERE other.parent = inspection.number)
-    AS num_below";
+/// The columns of the rest of an inspection, with its recipe.
+pub(super) const DETAIL_COLUMNS: &str = "nearest, refusal, camera_from_part, recipe.identity, recipe.json, recipe_name, \
+    recipe_changed, library, program, line, thumbnail, origin, frame";
 
 /// Returns the inspection that stands for a part.
 pub(super) fn head_of(file: &Connection, hung: &HungId) -> rusqlite::Result<Option<Summary>> {
-    let columns = columns(file)?;
-    let asked = format!("SELECT {columns} FROM inspection WHERE hung = ? AND parent IS NULL");
+    let asked = format!("SELECT {COLUMNS} FROM inspection WHERE hung = ? AND parent IS NULL");
     file.query_row(&asked, [&hung.0], summary_of).optional()
 }
 
@@ -87,15 +61,21 @@ pub(super) fn insert(
         summary.label = summary.label.or_else(|| head.label.clone());
     }
     let [score, margin] = summary.score.map_or([None; 2], |both| both.map(Some));
-    let refusal = detail.refusal.as_ref();
+    let (scene, simulated_frame, num_shots) = match &summary.scene {
+        SceneTitle::Named(name) => (name.as_str(), None, None),
+        SceneTitle::SimulatedFrame(number) => ("", Some(*number as i64), None),
+        SceneTitle::Scan { name, num_shots } => (name.as_str(), None, Some(*num_shots as i64)),
+    };
     let recipe = recipe_key(file, &detail.recipe_identity, detail.recipe.as_deref())?;
     file.execute(
-        "INSERT INTO inspection (at, scene, source, simulated, verdict, part, title, score, margin, total_ms,
-            remark, label, frame_bytes, search, hung, parent, serial, job_order, operator, reason_kind)
-            VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+        "INSERT INTO inspection (at, scene, simulated_frame, num_shots, source, simulated, verdict, part, title, score,
+            margin, total_ms, remark, label, frame_bytes, search, hung, parent, serial, job_order, operator, reason_kind)
+            VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
         params![
             summary.at.as_microsecond(),
-            summary.scene,
+            scene,
+            simulated_frame,
+            num_shots,
             summary.source,
             summary.is_simulated,
             summary.verdict.name(),
@@ -113,7 +93,7 @@ pub(super) fn insert(
             summary.trace.serial,
             summary.trace.order,
             summary.trace.operator,
-            refusal.and_then(StoredRefusal::kind).map(|kind| kind.to_string()),
+            summary.reason.as_ref().map(RefusalKind::name),
         ],
     )?;
     let number = file.last_insert_rowid();
@@ -124,25 +104,23 @@ pub(super) fn insert(
         )?;
     }
     file.execute(
-        "INSERT INTO detail (number, nearest, reason, advice, camera_from_part, recipe, library, program, line,
-            thumbnail, origin, frame, recipe_name, recipe_changed, refusal)
-            VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+        "INSERT INTO detail (number, nearest, refusal, camera_from_part, recipe, recipe_name, recipe_changed, library,
+            program, line, thumbnail, origin, frame)
+            VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
         params![
             number,
             detail.nearest,
-            refusal.map(|refusal| &refusal.reason),
-            refusal.map(|refusal| &refusal.advice),
+            detail.refusal.as_ref().and_then(json),
             entry.record.matrix().as_ref().and_then(json),
             recipe,
+            detail.recipe_label.name,
+            detail.recipe_label.is_changed,
             detail.library_identity,
             detail.program,
             detail.line,
             entry.picture.as_ref().map(png_of),
             detail.origin,
             frame.and_then(json),
-            detail.recipe_label.as_ref().map(|label| &label.name),
-            detail.recipe_label.as_ref().is_some_and(|label| label.is_changed),
-            refusal.and_then(|refusal| json(refusal.why.as_ref()?)),
         ],
     )?;
     Ok(number)
@@ -155,8 +133,7 @@ pub(super) fn trace_part(
     change: &TraceChange,
 ) -> rusqlite::Result<()> {
     let file = file.transaction_with_behavior(TransactionBehavior::Immediate)?;
-    let columns = columns(&file)?;
-    let asked = format!("SELECT {columns} FROM inspection WHERE hung = ?");
+    let asked = format!("SELECT {COLUMNS} FROM inspection WHERE hung = ?");
     let mut asked = file.prepare(&asked)?;
     let rows = asked.query_map([&hung.0], summary_of)?;
     let rows = rows.collect::<rusqlite::Result<Vec<Summary>>>()?;
@@ -223,16 +200,29 @@ pub(super) fn summary_of(row: &Row<'_>) -> rusqlite::Result<Summary> {
     let verdict: String = row.get("verdict")?;
     let at = Timestamp::from_microsecond(row.get("at")?);
     let bytes: Option<i64> = row.get("frame_bytes")?;
+    let reason: Option<String> = row.get("reason_kind")?;
+    let name: String = row.get("scene")?;
+    let frame: Option<i64> = row.get("simulated_frame")?;
+    let shots: Option<i64> = row.get("num_shots")?;
+    let scene = match (frame, shots) {
+        (Some(number), _) => SceneTitle::SimulatedFrame(number as u64),
+        (None, Some(num)) => SceneTitle::Scan {
+            name,
+            num_shots: num as usize,
+        },
+        (None, None) => SceneTitle::Named(name),
+    };
     Ok(Summary {
         number: row.get("number")?,
         at: at.unwrap_or(Timestamp::UNIX_EPOCH),
-        scene: row.get("scene")?,
+        scene,
         source: row.get("source")?,
         is_simulated: row.get("simulated")?,
         // An unreadable verdict is not an acceptance.
         verdict: StoredVerdict::named(&verdict).unwrap_or(StoredVerdict::Rejected),
         part: row.get("part")?,
         title: row.get("title")?,
+        reason: reason.map(RefusalKind::named),
         score: score.zip(margin).map(|(score, margin)| [score, margin]),
         total_ms: row.get("total_ms")?,
         remark: row.get("remark")?,
@@ -252,26 +242,22 @@ pub(super) fn summary_of(row: &Row<'_>) -> rusqlite::Result<Summary> {
 pub(super) fn record_of(row: &Row<'_>) -> rusqlite::Result<Record> {
     let text = |name| row.get::<_, Option<String>>(name);
     let (pose, frame, why) = (text("camera_from_part")?, text("frame")?, text("refusal")?);
-    let (reason, advice) = (text("reason")?, text("advice")?);
     let pose = pose.and_then(|pose| {
         let mut numbers = serde_json::Deserializer::from_str(&pose);
         sixteen_numbers::deserialize(&mut numbers).ok()
     });
     let recipe: String = row.get("json")?;
-    let recipe_name: Option<String> = row.get("recipe_name")?;
-    let is_changed = row.get("recipe_changed")?;
     let thumbnail: Option<Vec<u8>> = row.get("thumbnail")?;
     Ok(Record {
         summary: summary_of(row)?,
         detail: InspectionDetail {
             nearest: row.get("nearest")?,
-            refusal: reason.map(|reason| StoredRefusal {
-                reason,
-                advice: advice.unwrap_or_default(),
-                why: why.and_then(|why| serde_json::from_str(&why).ok()),
-            }),
+            refusal: why.and_then(|why| serde_json::from_str(&why).ok()),
             camera_from_part: pose,
-            recipe_label: recipe_name.map(|name| RecipeLabel { name, is_changed }),
+            recipe_label: RecipeLabel {
+                name: row.get("recipe_name")?,
+                is_changed: row.get("recipe_changed")?,
+            },
             recipe_identity: row.get("identity")?,
             recipe: serde_json::from_str(&recipe).ok().map(Arc::new),
             library_identity: row.get("library")?,

@@ -38,10 +38,12 @@ pub enum ColumnKind {
 pub type Column = (&'static str, ColumnKind);
 
 /// All columns of `inspection`; the first is the key.
-pub const INSPECTION_COLUMNS: [Column; 21] = [
+pub const INSPECTION_COLUMNS: [Column; 23] = [
     ("number", Integer),
     ("at", Integer),
     ("scene", Text),
+    ("simulated_frame", Integer),
+    ("num_shots", Integer),
     ("source", Text),
     ("simulated", Boolean),
     ("verdict", Text),
@@ -63,22 +65,20 @@ pub const INSPECTION_COLUMNS: [Column; 21] = [
 ];
 
 /// All columns of `detail`; the first is the key.
-pub const DETAIL_COLUMNS: [Column; 15] = [
+pub const DETAIL_COLUMNS: [Column; 13] = [
     ("number", Integer),
     ("nearest", Text),
-    ("reason", Text),
-    ("advice", Text),
+    ("refusal", Text),
     ("camera_from_part", Text),
     ("recipe", Text),
+    ("recipe_name", Text),
+    ("recipe_changed", Boolean),
     ("library", Text),
     ("program", Text),
     ("line", Text),
     ("thumbnail", Bytes),
     ("origin", Text),
     ("frame", Text),
-    ("recipe_name", Text),
-    ("recipe_changed", Boolean),
-    ("refusal", Text),
 ];
 
 /// All columns of `recipe`; the first is the key.
@@ -304,7 +304,7 @@ mod tests {
     use super::*;
     use crate::{
         fixtures::{history_entry, new_history, open_history},
-        history::{FILE, KeepFrames, Retention, StoredVerdict, TraceChange, Traceability},
+        history::{KeepFrames, Retention, StoredVerdict, TraceChange, Traceability},
     };
     use capture::fixtures::moment;
     use inspection::library::Truth;
@@ -443,22 +443,6 @@ mod tests {
         assert_eq!(history.num_unsent().expect("asked"), 0);
         assert_eq!(history.note_changes().expect("noted"), identity);
         assert_eq!(history.num_unsent().expect("asked"), 1);
-    }
-
-    #[test]
-    fn a_history_of_the_first_version_is_noted_whole_and_opened_again() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let file = Connection::open(folder.path().join(FILE)).expect("made");
-        file.execute_batch(include_str!("first_version.sql"))
-            .expect("written");
-        drop(file);
-        let mut history = open_history(folder.path());
-        let identity = history.note_changes().expect("noted");
-        assert_eq!(numbers(&history.unsent(10).expect("read")), [1, 2, 3]);
-        drop(history);
-        let mut history = open_history(folder.path());
-        assert_eq!(history.note_changes().expect("noted"), identity);
-        assert_eq!(history.num_unsent().expect("asked"), 3);
     }
 
     #[test]

@@ -15,7 +15,7 @@ use super::{
     hung::HungId,
     open::{FILE, FRAMES, Lock, file_identity, with_ending},
     retention::{KeepFrames, Retention},
-    rows::{columns, detail_columns, head_of, insert, json, record_of, summary_of, trace_part},
+    rows::{COLUMNS, DETAIL_COLUMNS, head_of, insert, json, record_of, summary_of, trace_part},
     shots,
     traceability::TraceChange,
 };
@@ -184,8 +184,7 @@ impl History {
 
     /// Reads these rows in this order.
     fn rows(&self, numbers: &[i64]) -> rusqlite::Result<Vec<Summary>> {
-        let columns = columns(&self.file)?;
-        let asked = format!("SELECT {columns} FROM inspection WHERE number = ?");
+        let asked = format!("SELECT {COLUMNS} FROM inspection WHERE number = ?");
         let mut asked = self.file.prepare(&asked)?;
         // Skip rows that another program has deleted meanwhile.
         let rows = numbers.iter();
@@ -218,9 +217,8 @@ impl History {
     /// Returns an inspection in full; `None` if it does not exist.
     pub fn row(&self, number: i64) -> Result<Option<Record>, HistoryError> {
         let read = || -> rusqlite::Result<Option<Record>> {
-            let (columns, detail) = (columns(&self.file)?, detail_columns(&self.file)?);
             let asked = format!(
-                "SELECT {columns}, {detail}
+                "SELECT {COLUMNS}, {DETAIL_COLUMNS}
                 FROM inspection JOIN detail USING (number) JOIN recipe ON recipe.identity = detail.recipe
                 WHERE number = ?"
             );
@@ -301,8 +299,7 @@ impl History {
             let file = self
                 .file
                 .transaction_with_behavior(TransactionBehavior::Immediate)?;
-            let columns = columns(&file)?;
-            let asked = format!("SELECT {columns} FROM inspection WHERE number = ?");
+            let asked = format!("SELECT {COLUMNS} FROM inspection WHERE number = ?");
             let row = |number| file.query_row(&asked, [number], summary_of).optional();
             // Remark and label belong to the inspection that stands for the part.
             let row = match row(number)? {

@@ -5,12 +5,10 @@ use std::{
     path::Path,
 };
 
-use super::{
-    entry::{Record, StoredRefusal},
-    error::HistoryError,
-};
+use super::{entry::Record, error::HistoryError};
 use files::{FileError, write_atomically};
-use inspection::library::Truth;
+use inspection::{library::Truth, pipeline::RefusalKind};
+use texts::Language;
 
 /// Header line.
 const HEAD: &str = "number,time,scene,source,simulated,verdict,part,nearest,score,margin,reason,total_ms,\
@@ -78,19 +76,15 @@ fn write_row(writer: &mut dyn Write, record: &Record, columns: &str) -> io::Resu
     let [score, margin] = summary
         .score
         .map_or_else(Default::default, |both| both.map(|x| format!("{x:.4}")));
-    let refusal = detail.refusal.as_ref();
-    let reason = refusal.map_or("", |refusal| &refusal.reason);
-    let kind = refusal
-        .and_then(StoredRefusal::kind)
-        .map_or_else(String::new, |kind| kind.to_string());
+    let reason = record.titled_refusal(str::to_owned);
+    let reason = reason.map_or_else(String::new, |why| why.text(Language::English));
+    let kind = summary.reason.as_ref().map_or("", RefusalKind::name);
     let pose = match record.matrix() {
         Some(numbers) => numbers.map(|x| format!(",{x:.9}")).concat(),
         None => ",".repeat(16),
     };
-    let recipe = detail.recipe_label.as_ref().map_or_else(
-        || ",".into(),
-        |label| format!("{},{}", quoted(&label.name), label.is_changed),
-    );
+    let recipe = &detail.recipe_label;
+    let recipe = format!("{},{}", quoted(&recipe.name), recipe.is_changed);
     let label = summary.label.as_ref().map_or("", Truth::name);
     let trace = &summary.trace;
     let [serial, order, operator] =
@@ -100,13 +94,13 @@ fn write_row(writer: &mut dyn Write, record: &Record, columns: &str) -> io::Resu
         "{},{},{},{},{},{},{},{},{score},{margin},{},{:.3},{},{},{},{},{},{},{}{pose},{recipe},{serial},{order},{operator},{kind}{columns}",
         summary.number,
         summary.at,
-        quoted(&summary.scene),
+        quoted(&summary.scene.to_string()),
         quoted(&summary.source),
         summary.is_simulated,
         summary.verdict.name(),
         summary.part.as_deref().unwrap_or(""),
         detail.nearest.as_deref().unwrap_or(""),
-        quoted(reason),
+        quoted(&reason),
         summary.total_ms,
         label,
         quoted(&summary.remark),

@@ -12,7 +12,7 @@ use std::{env, ffi::OsString, fs, path::Path, process::Command};
 use capture::fixtures::{SHARED, compile_c};
 use geometry::error::Advice as _;
 use records::fixtures::{history_entry, open_history};
-use records::history::{FILE, Filter, History, HistoryError, KeepFrames, Retention, StoredVerdict};
+use records::history::{Filter, History, HistoryError, KeepFrames, Retention, StoredVerdict};
 
 /// Environment variable of the process whose disk fails: its folder.
 const BODY: &str = "PARTSIGHT_HISTORY_DISK_TEST";
@@ -250,14 +250,5 @@ fn skipped(why: &str) {
 fn whichever_call_fails_the_history_is_the_old_one_or_the_new() {
     fails_at_every_call(1, true, |folder| {
         add(&mut open_history(folder), 1).expect("written");
-    });
-}
-
-#[test]
-fn whichever_call_fails_a_history_of_the_first_version_loses_nothing() {
-    fails_at_every_call(3, false, |folder| {
-        let file = rusqlite::Connection::open(folder.join(FILE)).expect("made");
-        file.execute_batch(include_str!("../../src/history/first_version.sql"))
-            .expect("written");
     });
 }

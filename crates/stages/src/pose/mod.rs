@@ -201,10 +201,10 @@ impl PoseEstimate {
 const LEAST_OVERLAP: f64 = 0.25;
 
 /// Why a pose should not be relied upon.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error, serde::Serialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
 pub enum PoseWarning {
     /// The source hardly lies on the target.
-    #[error("only {:.0} % of the source lies on the target, at least {:.0} % are needed", overlap * 100.0, needed * 100.0)]
     LittleOverlap {
         /// Share of the source on the target.
         overlap: f64,
@@ -212,39 +212,23 @@ pub enum PoseWarning {
         needed: f64,
     },
     /// A different pose fits (nearly) as well.
-    #[error("another pose fits as well (its cost is {ratio:.2} times as high)")]
     Ambiguous {
         /// Cost of the other pose over this one's.
         ratio: f64,
     },
     /// The source could slide or turn, and still lie on the target.
-    #[error("the pose is unconstrained: {freedom}")]
     Loose {
         /// How it could move most easily.
         freedom: FreeMotion,
     },
     /// The search was still moving when its iterations were used up.
-    #[error("the pose was still moving after {num_iterations} iterations")]
     Unsettled {
         /// Iterations used.
         num_iterations: usize,
     },
 }
 
-impl geometry::error::Advice for PoseWarning {
-    fn advice(&self) -> String {
-        match self {
-            Self::LittleOverlap { .. } => {
-                "Check that both clouds show the same thing and share at least half of it".into()
-            }
-            Self::Ambiguous { .. } => "Give a start near the right pose".into(),
-            Self::Loose { .. } => {
-                "Use clouds that show more of the part: an edge, a bend, a corner".into()
-            }
-            Self::Unsettled { .. } => "Run it again with the pose found as its start".into(),
-        }
-    }
-}
+texts::described!(PoseWarning: "pose" by "kind");
 
 /// One of the two clouds that are aligned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -270,7 +254,6 @@ impl fmt::Display for CloudRole {
 #[serde(tag = "cause", rename_all = "snake_case")]
 pub enum PoseError {
     /// One of the clouds has too few points.
-    #[error("the {which} cloud has {found} points, at least {needed} are needed")]
     TooFewPoints {
         /// Source or target.
         which: CloudRole,
@@ -280,9 +263,6 @@ pub enum PoseError {
         needed: usize,
     },
     /// The closest points leave the pose free.
-    #[error(
-        "the {which} cloud does not determine the pose: its points lie on a line or a spot ({width:.5} m wide)"
-    )]
     Degenerate {
         /// Source or target.
         which: CloudRole,
@@ -291,7 +271,6 @@ pub enum PoseError {
         width: f64,
     },
     /// All closest points of ICP lie on a spot or a line.
-    #[error("the closest points of all {num_pairs} pairs lie on a spot or a line, {rms} apart")]
     OneSidedPairs {
         /// Pairs used.
         num_pairs: usize,
@@ -300,10 +279,6 @@ pub enum PoseError {
         rms: Metres,
     },
     /// No closest points within reach.
-    #[error(
-        "the clouds have only {found} pairs of points within {}, at least {needed} are needed",
-        reach
-    )]
     NoOverlap {
         /// Pairs found.
         found: usize,
@@ -314,13 +289,11 @@ pub enum PoseError {
         reach: Metres,
     },
     /// One cloud is many times the other.
-    #[error("one cloud is {ratio:.0} times as large as the other")]
     SizesDiffer {
         /// Size of the larger over that of the smaller.
         ratio: f64,
     },
     /// The coordinates are so large that they do not resolve the cloud.
-    #[error("the {which} cloud lies {:.0} m from the origin, too far to resolve its points", distance.0)]
     TooFarOut {
         /// Source or target.
         which: CloudRole,
@@ -329,33 +302,9 @@ pub enum PoseError {
         distance: Metres,
     },
     /// The reference has no cloud.
-    #[error("the reference is a flat shape without a cloud")]
     NoReferenceCloud,
     /// The caller cancelled.
-    #[error("the estimation was cancelled")]
     Cancelled,
 }
 
-impl geometry::error::Advice for PoseError {
-    fn advice(&self) -> String {
-        match self {
-            Self::TooFewPoints { .. } => {
-                "Capture the part again from closer, or enrol it again".into()
-            }
-            Self::Degenerate { .. } => {
-                "Use a cloud that shows a surface, not a line or a single spot".into()
-            }
-            Self::OneSidedPairs { .. } | Self::NoOverlap { .. } => {
-                "Check that both clouds show the same part in metres".into()
-            }
-            Self::SizesDiffer { .. } => {
-                "Export both in metres: one of them looks like millimetres".into()
-            }
-            Self::TooFarOut { .. } => {
-                "Subtract a common offset from both clouds before exporting them".into()
-            }
-            Self::NoReferenceCloud => "Enrol the part from a capture, a cloud or a mesh".into(),
-            Self::Cancelled => "Start it again".into(),
-        }
-    }
-}
+texts::described!(PoseError: "pose" by "cause");

@@ -31,7 +31,7 @@ pub use self::{
     stand::Bars,
 };
 use crate::scene::SceneCloud;
-use geometry::{error::Advice, plane::Plane, units::Metres};
+use geometry::{plane::Plane, units::Metres};
 
 /// Parameters of [`segment`]. The defaults suit a Kinect-like camera.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -110,7 +110,6 @@ pub struct Segmentation {
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum NoPart {
     /// The scene has too few points.
-    #[error("the scene has {found} readings, at least {needed} are needed")]
     TooFewPoints {
         /// Number of finite points in the scene.
         found: usize,
@@ -118,17 +117,12 @@ pub enum NoPart {
         needed: usize,
     },
     /// The scene is far larger than any cell.
-    #[error("the scene spans {extent:.0} m and holds nothing the size of a part")]
     TooWide {
         /// Largest extent, metres.
         #[serde(rename = "extent_m")]
         extent: f64,
     },
     /// Nothing of a part's size remains without the background.
-    #[error(
-        "nothing the size of a part stands in front of the background ({planes} {} removed, largest rest {found:.3} m², needed {needed:.3} m²)",
-        if *planes == 1 { "plane" } else { "planes" }
-    )]
     OnlyBackground {
         /// Number of planes removed.
         planes: usize,
@@ -143,30 +137,7 @@ pub enum NoPart {
     },
 }
 
-impl Advice for NoPart {
-    fn advice(&self) -> String {
-        match self {
-            Self::TooFewPoints { .. } => {
-                "Check that the camera is connected, uncovered and 0.6 to 3 m from the part, then capture again".into()
-            }
-            Self::TooWide { .. } => {
-                "Read it as millimetres (--units mm), or export it in metres; for a depth image, correct metres_per_unit \
-                 in the JSON beside it"
-                    .into()
-            }
-            Self::OnlyBackground {
-                knows_cell: true, ..
-            } => {
-                "Hang the part in front of the camera, at least 10 cm away from the wall, and capture again; if it \
-                 hung there when the empty cell was captured, capture that again without it"
-                    .into()
-            }
-            Self::OnlyBackground { .. } => {
-                "Hang the part in front of the camera, at least 10 cm away from the wall, and capture again".into()
-            }
-        }
-    }
-}
+texts::described!(NoPart: "refusal" by "kind");
 
 /// Minimum number of readings: a hand-sized patch at 2 m already gives more.
 const MIN_POINTS: usize = 200;

@@ -36,27 +36,33 @@ pub struct SegmentedPart {
 }
 
 /// Reason why a surface is more likely background than a part.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[serde(tag = "sign", rename_all = "snake_case")]
 pub enum BackgroundSign {
     /// Other surfaces are in front of it.
-    #[error("it lies behind other surfaces along {:.0} % of its border", share * 100.0)]
     Behind {
         /// Share of its border to other surfaces along which those are nearer, 0..1.
         share: f64,
     },
     /// The view cuts it off on most sides.
-    #[error("the view cuts it off on {sides} sides")]
     Cut {
         /// Number of sides of the view that it reaches.
         sides: usize,
     },
     /// It is large and as flat as a wall.
-    #[error("it is a flat surface of {area:.2} m²")]
     Flat {
         /// Area, square metres.
         area: f64,
     },
 }
+
+impl texts::Described for BackgroundSign {
+    fn message(&self) -> texts::Message {
+        texts::Message::new("background-sign").with_fields(self)
+    }
+}
+
+texts::display!(BackgroundSign);
 
 /// Number of sides cut off from which a surface is as likely a wall.
 const MOST_CUT: usize = 3;

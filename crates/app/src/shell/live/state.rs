@@ -16,7 +16,7 @@ use super::{
 };
 use crate::{
     inspection::{inspected::Inspected, library_cache::LibraryCache},
-    language::text,
+    language::{library_text, text},
     shell::{
         action::{DialogRequest, Effect, notify, remove_notices},
         current_trace::CurrentTrace,
@@ -386,8 +386,8 @@ fn take_record(state: &mut State, record: LiveRecord) -> Option<Event> {
                 state.session.live.unseen = None;
                 state.session.failed = Some(if is_fault {
                     UserError {
-                        what: text!("operator-fault"),
-                        advice: text!("operator-ask"),
+                        what: library_text("short-fault"),
+                        advice: library_text("step-ask"),
                     }
                 } else {
                     UserError {

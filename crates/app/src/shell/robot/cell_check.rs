@@ -15,10 +15,8 @@ use crate::{
         source::{Captured, Origin, SceneError, SceneSource},
     },
     language::{
-        results::{
-            cell_finding, cell_view_error, cell_view_error_advice, unrecognisable,
-            unrecognisable_advice,
-        },
+        advised, described,
+        results::{cell_finding, cell_view_error, cell_view_error_advice},
         text,
     },
     shell::{
@@ -32,7 +30,7 @@ use crate::{
 };
 use capture::SourceSpec;
 use files::write_atomically;
-use inspection::pipeline::{ProgressObserver as _, Unrecognisable};
+use inspection::pipeline::ProgressObserver as _;
 use robot::cell_check::{
     CellBaseline, CellCheck, CellCheckError, CellCheckFolder, CellLimits, CellViewError, CellViews,
     USUAL_FRAMES, write_csv,
@@ -307,12 +305,9 @@ impl Look {
         } in &frames
         {
             context.check()?;
-            views.add(scene).map_err(|none| {
-                let why = Unrecognisable::NoPart(none);
-                UserError {
-                    what: format!("{}: {}", origin.shown_title(), unrecognisable(&why)),
-                    advice: unrecognisable_advice(&why),
-                }
+            views.add(scene).map_err(|why| UserError {
+                what: format!("{}: {}", origin.shown_title(), described(&why)),
+                advice: advised(&why),
             })?;
             let told = warnings.iter().map(UserError::of);
             notices.extend(told.map(Notice::from));

@@ -7,7 +7,7 @@ use std::{
 
 use super::pair::Pair;
 use crate::{
-    language::{results, text},
+    language::{advised, described, text},
     ui::widgets::sentence,
     user_error::UserError,
 };
@@ -174,10 +174,10 @@ pub(super) fn in_the_window(error: &PoseError) -> UserError {
         PoseError::OneSidedPairs { .. } | PoseError::NoOverlap { .. } => {
             text!("align-nearer-or-same-part")
         }
-        other => results::pose_error_advice(other),
+        other => advised(other),
     };
     UserError {
-        what: sentence(&results::pose_error(error)),
+        what: sentence(&described(error)),
         advice,
     }
 }
@@ -205,10 +205,10 @@ pub(super) fn doubted(doubt: &PoseWarning, track: &Track) -> UserError {
         PoseWarning::LittleOverlap { .. } if track.true_error.is_some() => {
             text!("align-nearer-start")
         }
-        PoseWarning::LittleOverlap { .. } => text!("results-little-overlap-advice"),
+        PoseWarning::LittleOverlap { .. } => advised(doubt),
     };
     UserError {
-        what: sentence(&results::pose_warning(doubt)),
+        what: sentence(&described(doubt)),
         advice,
     }
 }

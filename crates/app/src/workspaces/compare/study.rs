@@ -5,19 +5,20 @@ use std::sync::Arc;
 use super::comparison::OutlineComparison;
 use crate::{
     inspection::{inspected::Inspected, library_cache::LibraryCache, unit_system::UnitSystem},
-    language::{results, text},
+    language::{Language, advised, described, text},
     task::TaskError,
     user_error::UserError,
 };
 use inspection::{
     library::Library,
-    pipeline::{self, Inspection, NamedRecipe, ProgressObserver, Refusal, Rejection, Verdict},
+    pipeline::{self, Inspection, NamedRecipe, ProgressObserver, Verdict},
 };
 use records::cases::{CaseFolder, FoundVerdict, KeptCase, Truth};
 use stages::{
     rank::{MatchRanking, Matcher, Query, RankParams, rank},
     signature::LiteralSignature,
 };
+use texts::{Described as _, Message};
 
 /// The scene of a case.
 #[derive(Clone, Debug)]
@@ -60,7 +61,7 @@ pub struct CaseStudy {
     /// Title of the found part.
     pub found_title: String,
     /// Why it was refused, with the titles of the parts; named when drawn, because the language may change.
-    pub refused: Option<Refusal>,
+    pub refused: Option<Message>,
     /// Time of the inspection, milliseconds.
     pub time_ms: f64,
     /// The distance of every enrolled reference, nearest by the matcher in use first.
@@ -101,11 +102,7 @@ impl CaseStudy {
 
     /// What to do about a refusal; empty if it was accepted.
     pub fn advice(&self) -> String {
-        match &self.refused {
-            Some(Refusal::Rejected(why)) => results::rejection_advice(why),
-            Some(Refusal::Unrecognisable(why)) => results::unrecognisable_advice(why),
-            None => String::new(),
-        }
+        self.refused.as_ref().map_or_else(String::new, advised)
     }
 
     /// Why it was refused, in one sentence.
@@ -171,7 +168,7 @@ pub fn study(
         refused: inspection
             .verdict
             .refusal()
-            .map(|why| why.renamed(title_of)),
+            .map(|why| why.message().with_titles(title_of)),
         time_ms: inspection.timings.total.as_secs_f64() * 1000.0,
         distances: Vec::new(),
         comparison: None,
@@ -236,92 +233,10 @@ fn against(
     chosen.map(str::to_owned).or_else(best)
 }
 
-/// A share or probability with two decimals.
-fn fixed(value: f64) -> String {
-    format!("{value:.2}")
-}
-
 /// The reason of a refusal with the figure that decided.
-fn refused(why: &Refusal) -> String {
-    match why {
-        Refusal::Rejected(why) => match why {
-            Rejection::LowScore {
-                score, threshold, ..
-            } => text!(
-                "compare-low-score",
-                score = fixed(*score),
-                threshold = fixed(*threshold),
-            ),
-            Rejection::SmallMargin {
-                other,
-                margin,
-                threshold,
-                ..
-            } => text!(
-                "compare-small-margin",
-                part = other,
-                margin = fixed(*margin),
-                threshold = fixed(*threshold),
-            ),
-            Rejection::Unconfirmed { .. } => text!("compare-unconfirmed"),
-            Rejection::Piece {
-                score, threshold, ..
-            } => text!(
-                "compare-piece",
-                score = fixed(*score),
-                threshold = fixed(*threshold),
-            ),
-            Rejection::AnotherModel {
-                relief,
-                outline,
-                missing,
-                ..
-            } => text!(
-                "compare-another-model",
-                relief = relief.to_string(),
-                outline = outline.to_string(),
-                missing = format!("{:.1}", missing * 100.0),
-            ),
-            Rejection::AnotherMake { likeness, .. } => {
-                text!("compare-another-make", likeness = fixed(*likeness))
-            }
-            Rejection::AmbiguousPose {
-                margin, threshold, ..
-            } => text!(
-                "compare-ambiguous-pose",
-                margin = fixed(*margin),
-                threshold = fixed(*threshold),
-            ),
-            Rejection::HardlySeen { score, .. } => {
-                text!("compare-hardly-seen", score = fixed(*score))
-            }
-            Rejection::Unknown { score, .. } => text!("compare-unknown", score = fixed(*score)),
-            Rejection::Mirrored { part, .. } => text!("compare-mirrored", part = part),
-            Rejection::MirroredImage { part, .. } => text!("compare-mirrored-image", part = part),
-            Rejection::Unconstrained { freedom, .. } => {
-                text!(
-                    "compare-unconstrained",
-                    freedom = results::free_motion(*freedom)
-                )
-            }
-            Rejection::Uncertain { shift, limit, .. } => {
-                text!(
-                    "compare-uncertain",
-                    shift = shift.to_string(),
-                    limit = limit.to_string()
-                )
-            }
-            other @ (Rejection::NoPose(_)
-            | Rejection::OutOfRange { .. }
-            | Rejection::BehindCamera { .. }
-            | Rejection::SurplusBytes { .. }
-            | Rejection::NotSteady { .. }
-            | Rejection::FewFrames { .. }
-            | Rejection::Undecided { .. }
-            | Rejection::PosesApart { .. }) => results::rejection(other),
-        },
-        Refusal::Unrecognisable(why) => results::unrecognisable(why),
-    }
+fn refused(why: &Message) -> String {
+    let reason = why.attribute(Language::current(), "compared");
+    reason.unwrap_or_else(|| described(why))
 }
 
 /// The distances of the placed references; `titles` are those of the library's.

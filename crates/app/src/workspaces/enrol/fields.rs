@@ -4,7 +4,7 @@ use egui::{RichText, TextEdit, Ui, vec2};
 
 use super::draft::{Field, Form};
 use crate::{
-    language::{enrolment::bad_name, text},
+    language::{text, what_and_advice},
     ui::{
         theme::{Theme, space},
         widgets::{Mark, line_mark},
@@ -56,7 +56,7 @@ pub(super) fn ui(ui: &mut Ui, form: &Form) -> Option<Field> {
     if !(form.name.is_empty() && form.title.is_empty())
         && let Err(error) = form.words()
     {
-        let [what, advice] = bad_name(&error);
+        let [what, advice] = what_and_advice(&error);
         complaint(ui, &what, &advice);
     }
     if let Some(notes) = line(

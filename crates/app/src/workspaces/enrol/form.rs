@@ -12,10 +12,7 @@ use super::{
     title_of,
 };
 use crate::{
-    language::{
-        enrolment::{enrol_error, enrol_warning, painted_from},
-        keys, text,
-    },
+    language::{keys, results::painted_from, text, what_and_advice},
     shell::session::Session,
     shots::summary,
     ui::{
@@ -80,7 +77,7 @@ pub(super) fn ui(
         likeness(ui, draft, session, actions);
         let warnings = draft.ready().map(|checked| &checked.enrolled.warnings);
         for warning in warnings.into_iter().flatten() {
-            let [what, advice] = enrol_warning(warning);
+            let [what, advice] = what_and_advice(warning);
             complaint(ui, &what, &advice);
         }
         fixed(ui, session);
@@ -169,7 +166,7 @@ fn stored(
     }
     match &draft.checked {
         Some(Err(error)) => {
-            let [what, advice] = enrol_error(error);
+            let [what, advice] = what_and_advice(error);
             complaint(ui, &what, &advice);
         }
         None if !is_working => {

@@ -13,7 +13,7 @@ use super::{
 };
 use crate::{
     inspection::{library_cache::LibraryView, scan_choice::ShotChoice},
-    language::{enrolment::bad_name, text},
+    language::{text, what_and_advice},
     shell::{
         context::ShellContext,
         file_dialog::FileDialog,
@@ -428,7 +428,7 @@ impl EnrolState {
             return;
         };
         match (draft.form.words(), draft.ready()) {
-            (Err(error), _) => cx.notify(UserError::from(bad_name(&error))),
+            (Err(error), _) => cx.notify(UserError::from(what_and_advice(&error))),
             (Ok(_), None) => cx.notify(Notice::look(
                 text!("enrol-nothing-to-save"),
                 text!("enrol-nothing-to-save-advice"),
@@ -455,7 +455,7 @@ impl EnrolState {
                 let rename = LibraryChange::Rename(open.name.clone(), words);
                 self.change(rename, DraftEffect::Stays, cx);
             }
-            Err(error) => cx.notify(UserError::from(bad_name(&error))),
+            Err(error) => cx.notify(UserError::from(what_and_advice(&error))),
         }
     }
 

@@ -15,7 +15,7 @@ use crate::{
         scan_choice::{ScanOrder, ScanRequest},
         source::SceneSource,
     },
-    language::enrolment::enrol_error,
+    language::what_and_advice,
     task::{TaskContext, TaskError},
     user_error::UserError,
 };
@@ -60,7 +60,7 @@ pub(super) fn take_scene(
     let params = params_of(recipe);
     let is_cancelled = || context.is_cancelled();
     let read = EnrolInput::read(source, &params, library_cache.camera(), &is_cancelled)?;
-    let subject = read.map_err(|error| UserError::from(enrol_error(&error)))?;
+    let subject = read.map_err(|error| UserError::from(what_and_advice(&error)))?;
     take(subject, &params, library_cache, context)
 }
 

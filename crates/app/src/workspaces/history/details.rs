@@ -11,9 +11,11 @@ use super::{
 use crate::{
     inspection::unit_system::UnitSystem,
     language::{
-        history::{stored_refusal, stored_scene, stored_title},
-        keys,
-        results::{accepted_or_not, recipe_label, stored_verdict},
+        advised, described, keys, refusal_kind,
+        results::{
+            accepted_or_not, inspection_title, recipe_label, scene_title, source_title,
+            stored_verdict,
+        },
         text,
     },
     shell::session::Session,
@@ -136,7 +138,7 @@ fn verdict(ui: &mut Ui, record: &Record, of_part: &Record, session: &Session) {
         ..record.summary.clone()
     };
     let summary = &summary;
-    let title = RichText::new(stored_title(summary)).font(font::title());
+    let title = RichText::new(inspection_title(summary)).font(font::title());
     ui.label(title);
     let (sign, colour) = if summary.is_ok() {
         (Mark::Good, theme.accepted)
@@ -163,10 +165,12 @@ fn verdict(ui: &mut Ui, record: &Record, of_part: &Record, session: &Session) {
         Some(library) => library.title_of(name).to_owned(),
         None => name.to_owned(),
     };
-    if let Some([reason, advice]) = stored_refusal(record, title_of) {
-        ui.label(sentence(&reason));
-        let advice = RichText::new(advice).font(font::body_strong());
+    if let Some(why) = record.titled_refusal(title_of) {
+        ui.label(sentence(&described(&why)));
+        let advice = RichText::new(advised(&why)).font(font::body_strong());
         ui.label(advice.color(Theme::of(ui).warning));
+    } else if let Some(kind) = &summary.reason {
+        ui.label(refusal_kind(kind));
     }
 }
 
@@ -220,11 +224,12 @@ fn part(ui: &mut Ui, past: &OpenedInspection, units: UnitSystem, actions: &mut V
 
 fn figures(ui: &mut Ui, record: &Record) {
     let Record { summary, detail } = record;
-    let shown = |title: &str| stored_scene(title, summary.is_simulated);
-    let (scene, source) = (&summary.scene, &summary.source);
-    path_row(ui, &text!("inspect-scene"), &shown(scene));
-    if source != scene {
-        path_row(ui, &text!("history-figure-source"), &shown(source));
+    let (source, is_simulated) = (&summary.source, summary.is_simulated);
+    let scene = scene_title(&summary.scene, is_simulated);
+    path_row(ui, &text!("inspect-scene"), &scene);
+    if *source != summary.scene.to_string() {
+        let source = source_title(source, is_simulated);
+        path_row(ui, &text!("history-figure-source"), &source);
     }
     let mut row = |name: String, value: &str| row(ui, &name, &shortened(value, 32));
     let time = local_time(summary.at, DAY_AND_TIME);
@@ -297,14 +302,13 @@ fn stage_title(stage: String) -> String {
     }
 }
 
-/// Name of the recipe, if known, and its identity.
+/// Name of the recipe and its identity.
 fn recipe_text(detail: &InspectionDetail) -> String {
-    match &detail.recipe_label {
-        Some(label) if label.is_changed => {
-            format!("{}, {}", recipe_label(label), detail.recipe_identity)
-        }
-        _ => detail.recipe_text(),
-    }
+    format!(
+        "{}, {}",
+        recipe_label(&detail.recipe_label),
+        detail.recipe_identity
+    )
 }
 
 fn buttons(ui: &mut Ui, history: &HistoryState, record: &Record, actions: &mut Vec<HistoryAction>) {

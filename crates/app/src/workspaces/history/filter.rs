@@ -3,8 +3,7 @@
 use jiff::{Span, Timestamp, Zoned, civil};
 
 use crate::language::{
-    history::shown_for_stored,
-    results::{accepted_or_not, stored_verdict},
+    results::{accepted_or_not, searched_texts, stored_verdict},
     text,
 };
 use records::history::{Filter, StoredVerdict};
@@ -126,7 +125,7 @@ impl ListFilter {
         let shown = if self.text.trim().is_empty() {
             Vec::new()
         } else {
-            shown_for_stored()
+            searched_texts()
         };
         Filter {
             since,

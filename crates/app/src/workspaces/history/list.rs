@@ -11,8 +11,7 @@ use super::{HistoryAction, HistoryState, bar, label::in_one_line};
 use crate::{
     inspection::library_cache::LibraryView,
     language::{
-        history::{stored_scene, stored_title},
-        results::stored_verdict,
+        results::{inspection_title, scene_title, stored_verdict},
         text,
     },
     shell::{session::Session, truth_menu::truth_title},
@@ -160,8 +159,12 @@ const COLUMNS: [Column; 5] = [
         width: Width::Share(0.58),
         is_path: false,
         text: |past, _| match past.num_below {
-            0 => stored_title(past),
-            num => text!("history-part-again", part = stored_title(past), count = num),
+            0 => inspection_title(past),
+            num => text!(
+                "history-part-again",
+                part = inspection_title(past),
+                count = num
+            ),
         },
         look: |theme| (font::body_strong(), theme.text),
     },
@@ -171,7 +174,7 @@ const COLUMNS: [Column; 5] = [
         is_path: true,
         // Show a remark first: it is what most people look for.
         text: |past, _| {
-            let scene = stored_scene(&past.scene, past.is_simulated);
+            let scene = scene_title(&past.scene, past.is_simulated);
             match past.remark.as_str() {
                 "" => scene,
                 remark => {
@@ -328,14 +331,14 @@ fn row(
             "history-row",
             count = past.num_below,
             number = past.number.abs(),
-            part = stored_title(past),
+            part = inspection_title(past),
             verdict = verdict,
         );
         let mut info = egui::WidgetInfo::selected(egui::Role::Button, true, is_selected, label);
         info.current_text_value.clone_from(&actual);
         info
     });
-    let scene = stored_scene(&past.scene, past.is_simulated);
+    let scene = scene_title(&past.scene, past.is_simulated);
     let path = scene.contains(['/', '\\']).then_some(scene);
     let says: Vec<String> = actual.into_iter().chain(path).collect();
     let response = if says.is_empty() {
@@ -405,6 +408,7 @@ mod tests {
 
     use super::*;
     use records::fixtures::history_entry;
+    use records::history::SceneTitle;
 
     /// The texts of a row of a narrow list that are not cut off.
     fn written(past: &Summary) -> Vec<String> {
@@ -453,7 +457,7 @@ mod tests {
     fn a_remark_of_any_length_leaves_room_for_the_scene_and_has_no_line_breaks() {
         let texts = |remark: &str| {
             let past = Summary {
-                scene: "a.pcd".into(),
+                scene: SceneTitle::Named("a.pcd".into()),
                 is_simulated: false,
                 remark: remark.into(),
                 ..accepted()

@@ -12,7 +12,7 @@ use crate::{
         scan_choice::{ScanOrder, ScanRequest},
         source::{HistoryFrame, Origin, SceneSource},
     },
-    language::{history::stored_scene, text},
+    language::{results::scene_title, text},
     shell::{
         context::ShellContext,
         message::{Message, ReinspectionPurpose},
@@ -146,7 +146,7 @@ impl HistoryState {
 
 /// Title of its scene, in the language of the window.
 fn scene_of(record: &Record) -> String {
-    stored_scene(&record.summary.scene, record.summary.is_simulated)
+    scene_title(&record.summary.scene, record.summary.is_simulated)
 }
 
 /// The origin that the window stored; a command stores none.
@@ -154,7 +154,7 @@ fn origin_of(record: &Record) -> Origin {
     let written = record.detail.origin.as_deref();
     let written = written.and_then(|origin| serde_json::from_str(origin).ok());
     written.unwrap_or_else(|| Origin::Frame {
-        name: record.summary.scene.clone(),
+        name: record.summary.scene.to_string(),
         is_simulated: record.summary.is_simulated,
     })
 }

@@ -11,16 +11,16 @@ use jiff::{Zoned, tz::TimeZone};
 use super::drift::{self, Drift};
 use crate::{
     inspection::unit_system::UnitSystem,
-    language::{history::refusal_kind, results::stored_verdict, text},
+    language::{refusal_kind, results::stored_verdict, text},
     shell::shift::ShiftStarts,
     ui::{
         plot::{Axes, Axis, legend},
         theme::{ROUNDING, Theme, font, space},
-        widgets::{fitted_middle, heading, sentence},
+        widgets::{fitted_middle, heading},
     },
 };
 use inspection::pipeline::RefusalKind;
-use records::history::{PartOutcome, RefusalReason, StoredVerdict};
+use records::history::{PartOutcome, StoredVerdict};
 
 /// Number of shifts that fit the plot; the last ones are shown.
 const MAX_SHIFTS: usize = 21;
@@ -65,27 +65,14 @@ impl Tally {
 pub enum ReasonGroup {
     /// By kind.
     Kind(RefusalKind),
-    /// By an English sentence without names and figures, where the kind is unknown.
-    Sentence(String),
     /// Accepted, but reported as wrong.
     ReportedWrong,
 }
 
 impl ReasonGroup {
-    fn of(reason: &RefusalReason, title_of: impl Fn(&str) -> String) -> Self {
-        match reason {
-            RefusalReason::Kind(kind) => Self::Kind(*kind),
-            RefusalReason::Sentence { text, nearest } => {
-                let name = nearest.as_deref().unwrap_or_default();
-                Self::Sentence(without_figures(text, &[&title_of(name), name]))
-            }
-        }
-    }
-
     fn title(&self) -> String {
         match self {
-            Self::Kind(kind) => refusal_kind(*kind),
-            Self::Sentence(text) => text.clone(),
+            Self::Kind(kind) => refusal_kind(kind),
             Self::ReportedWrong => text!("operator-reported-wrong"),
         }
     }
@@ -158,7 +145,7 @@ pub(super) fn count(
             _ => Some(title_of(outcome.part.as_deref().unwrap_or_default())),
         };
         let reason = match &outcome.reason {
-            Some(reason) => Some(ReasonGroup::of(reason, &title_of)),
+            Some(reason) => Some(ReasonGroup::Kind(reason.clone())),
             None if outcome.verdict == StoredVerdict::Accepted && !outcome.is_ok => {
                 Some(ReasonGroup::ReportedWrong)
             }
@@ -191,29 +178,6 @@ pub(super) fn most_accepted(outcomes: &[PartOutcome]) -> Option<String> {
         .into_iter()
         .max_by_key(|(part, num)| (*num, Reverse(*part)));
     most.map(|(part, _)| part.to_owned())
-}
-
-/// Removes what differs from part to part: names, figures and what is in brackets.
-fn without_figures(reason: &str, names: &[&str]) -> String {
-    let mut text = String::new();
-    let mut depth = 0_usize;
-    for letter in reason.chars() {
-        match letter {
-            '(' => depth += 1,
-            ')' => depth = depth.saturating_sub(1),
-            _ if depth == 0 => text.push(letter),
-            _ => {}
-        }
-    }
-    for name in names.iter().filter(|name| !name.is_empty()) {
-        text = text.replace(name, "the part");
-    }
-    let words = text.split_whitespace().map(|word| {
-        let has_digit = word.chars().any(|letter| letter.is_ascii_digit());
-        if has_digit { "…" } else { word }
-    });
-    let text: Vec<&str> = words.collect();
-    sentence(&text.join(" ").replace(" ,", ",").replace(" ;", ";"))
 }
 
 /// Draws the statistics.
@@ -385,7 +349,7 @@ mod tests {
         time: &str,
         verdict: StoredVerdict,
         part: &str,
-        reason: Option<RefusalReason>,
+        reason: Option<RefusalKind>,
     ) -> PartOutcome {
         PartOutcome {
             at: format!("2026-11-21T{time}Z").parse().expect("a moment"),
@@ -406,7 +370,7 @@ mod tests {
 
     #[test]
     fn parts_are_counted_by_shift_and_by_part() {
-        let refused = || Some(RefusalReason::Kind(RefusalKind::LowScore));
+        let refused = || Some(RefusalKind::named("low_score"));
         let (ok, not_ok) = (StoredVerdict::Accepted, StoredVerdict::Rejected);
         let found = counted(&[
             outcome("05:59:00", ok, "door", None),
@@ -495,29 +459,16 @@ mod tests {
     }
 
     #[test]
-    fn refusals_are_counted_by_kind_and_sentences_without_one_by_what_they_say() {
-        let sentence = |score: &str, part: &str, nearest: &str| {
-            let text =
-                format!("the best match, {part}, scores {score}, below the threshold of 0.90");
-            let nearest = Some(nearest.to_owned());
-            Some(RefusalReason::Sentence { text, nearest })
+    fn refusals_are_counted_by_kind() {
+        let refused = |kind: &str| {
+            let reason = Some(RefusalKind::named(kind));
+            outcome("06:00:00", StoredVerdict::Rejected, "door", reason)
         };
-        let kind = |kind| Some(RefusalReason::Kind(kind));
-        let refused = |reason| outcome("06:00:00", StoredVerdict::Rejected, "door", reason);
-        let found = counted(&[
-            refused(sentence("0.81", "Door, left", "door")),
-            refused(kind(RefusalKind::Piece)),
-            refused(kind(RefusalKind::LowScore)),
-            refused(sentence("0.75", "fender", "fender")),
-            refused(kind(RefusalKind::LowScore)),
-            refused(kind(RefusalKind::LowScore)),
-        ]);
-        let text = "The best match, the part, scores … below the threshold of …";
-        let expected = [
-            (ReasonGroup::Kind(RefusalKind::LowScore), 3),
-            (ReasonGroup::Sentence(text.to_owned()), 2),
-            (ReasonGroup::Kind(RefusalKind::Piece), 1),
-        ];
-        assert_eq!(found.reasons, expected);
+        let found = counted(&[refused("piece"), refused("low_score"), refused("low_score")]);
+        let group = |kind: &str| ReasonGroup::Kind(RefusalKind::named(kind));
+        assert_eq!(
+            found.reasons,
+            [(group("low_score"), 2), (group("piece"), 1)]
+        );
     }
 }

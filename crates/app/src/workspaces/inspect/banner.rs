@@ -5,11 +5,11 @@ use egui::Color32;
 use super::{
     headline::{Headline, HeadlineState},
     hold::{Hold, inspect_current},
-    operator_words::{in_short, next_step, next_without_part, no_part_in_short},
+    operator_words::{in_short, next_step},
 };
 use crate::{
     inspection::{inspected::Inspected, source::Origin},
-    language::text,
+    language::{library_text, text},
     shell::{
         live::SourceState,
         session::{Session, Source, UserRole},
@@ -23,6 +23,7 @@ use capture::SourceSpec;
 use inspection::pipeline::{Unrecognisable, Verdict};
 use records::history::StoredVerdict;
 use station::Currency;
+use texts::Described as _;
 
 /// State that the banner shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -142,7 +143,7 @@ impl Banner {
                 );
             }
             if library.parts.is_empty() {
-                let why = text!("operator-no-parts-why");
+                let why = library_text("short-no-parts-why");
                 return Self::new(Tone::Trouble, text!("operator-no-parts"), why, ask);
             }
         }
@@ -272,20 +273,22 @@ impl Banner {
             Verdict::NoPart(why @ Unrecognisable::EmptyLibrary) => Self::new(
                 Tone::Trouble,
                 text!("operator-no-parts"),
-                no_part_in_short(why),
+                in_short(&why.message()),
                 text!("operator-ask-to-enrol"),
             ),
             // An empty cell is not a bad part.
             Verdict::NoPart(why) => {
-                let next = next_without_part(why, session);
-                Self::new(Tone::Open, title, no_part_in_short(why), next)
+                let why = why.message();
+                let next = next_step(&why, session);
+                Self::new(Tone::Open, title, in_short(&why), next)
             }
             Verdict::Part {
                 rejected: Some(why),
                 ..
             } => {
-                let next = next_step(why, &nearest, session);
-                Self::new(Tone::NotOk, title, in_short(why, &nearest), next)
+                let why = why.message().with("nearest", nearest.as_str());
+                let next = next_step(&why, session);
+                Self::new(Tone::NotOk, title, in_short(&why), next)
             }
             Verdict::Part { rejected: None, .. } => {
                 Self::new(Tone::NotOk, title, sentence(&reason), advice)

@@ -14,7 +14,8 @@ use super::{
 use crate::{
     inspection::{inspected::Inspected, unit_system::UnitSystem},
     language::{
-        results::{free_motion, recipe_label, stopped, traced},
+        described,
+        results::{recipe_label, stopped, traced},
         text,
     },
     shell::{
@@ -310,7 +311,7 @@ fn fit(ui: &mut Ui, pose: &PoseEstimate, units: UnitSystem) {
     );
     if let Some(bounds) = pose.uncertainty {
         if let Some(freedom) = bounds.freedom {
-            let text = text!("inspect-unconstrained", freedom = free_motion(freedom));
+            let text = text!("inspect-unconstrained", freedom = described(&freedom));
             ui.colored_label(theme.warning, text);
         } else {
             let (shift, turn) = (units.length(bounds.shift.0), units.angle(bounds.turn.0));

@@ -6,10 +6,8 @@ use super::hold::Hold;
 use crate::{
     inspection::inspected::Inspected,
     language::{
-        results::{
-            accepted_or_not, is_recognised, rejection, rejection_advice, unrecognisable,
-            unrecognisable_advice,
-        },
+        advised, described,
+        results::{accepted_or_not, is_recognised},
         text,
     },
     shell::{session::Session, truth_menu::truth_title},
@@ -20,6 +18,7 @@ use crate::{
 };
 use inspection::pipeline::{Rejection, Verdict, is_like, live::MotionState};
 use station::Currency;
+use texts::Described as _;
 
 /// State that the headline shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -97,7 +96,7 @@ impl Headline {
                 return Self {
                     title: text!("results-no-part"),
                     state: HeadlineState::NoPart,
-                    complaint: Some((unrecognisable(reason), unrecognisable_advice(reason))),
+                    complaint: Some((described(reason), advised(reason))),
                     ..Self::default()
                 };
             }
@@ -121,8 +120,6 @@ impl Headline {
                 ..Self::default()
             };
         };
-        let title_of = |name: &str| inspected.library.title_of(name).to_owned();
-        let reason = &reason.clone().renamed(title_of);
         let (title, nearest) = match reason {
             // The type is certain; model or make differs.
             Rejection::AnotherMake { .. } => (text!("inspect-another-make", part = nearest), None),
@@ -143,10 +140,12 @@ impl Headline {
                 (title, is_nearest_named.then_some(nearest))
             }
         };
+        let title_of = |name: &str| inspected.library.title_of(name).to_owned();
+        let why = reason.message().with_titles(title_of);
         Self {
             title,
             nearest,
-            complaint: Some((rejection(reason), rejection_advice(reason))),
+            complaint: Some((described(&why), advised(&why))),
             ..Self::default()
         }
     }

@@ -6,7 +6,7 @@ use egui::Ui;
 
 use crate::{
     inspection::{inspected::Inspected, source::Origin},
-    language::{robot::doubt, text},
+    language::{library_text, robot::doubt, text},
     shell::session::{Session, Source, UserRole},
     ui::widgets::sentence,
     user_error::UserError,
@@ -98,7 +98,7 @@ impl Hold {
             (Doubt::NotAccepted, _) => text!("inspect-no-pose-advice"),
             // What only the engineer can do.
             (Doubt::ReportedWrong, UserRole::Operator) => text!("operator-reported-wrong-next"),
-            (Doubt::NoPose, UserRole::Operator) => text!("operator-unconfirmed-next"),
+            (Doubt::NoPose, UserRole::Operator) => library_text("step-unconfirmed-next"),
             (Doubt::NotCalibrated, UserRole::Operator) => {
                 text!("inspect-hold-not-calibrated-operator")
             }

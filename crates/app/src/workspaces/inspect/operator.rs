@@ -12,7 +12,10 @@ use super::{
     hold,
 };
 use crate::{
-    language::{history::recognised_part, results::stored_verdict, text},
+    language::{
+        results::{recognised_part, stored_verdict},
+        text,
+    },
     shell::{current_trace, operator_bars::column_width, session::Session},
     ui::{
         theme::{Theme, font, space},

@@ -13,7 +13,7 @@ use super::{
     work::Planned,
 };
 use crate::{
-    language::{enrolment::painted_from, parameters, text, within_sentence},
+    language::{parameters, results::painted_from, text, within_sentence},
     shell::session::Session,
     ui::{
         parameter_control::{self, fold},

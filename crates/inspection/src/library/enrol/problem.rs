@@ -1,41 +1,32 @@
 //! Warnings about an enrolled part, and errors of enrolling.
 
 use crate::library::Side;
-use geometry::error::Advice;
 use stages::{
     pose::FreeMotion,
     reference::ReferenceError,
     segment::{BackgroundSign, NoPart},
 };
+use texts::{Described, Message};
 
 /// A warning about an enrolled part.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error, serde::Serialize)]
+#[serde(tag = "warning", rename_all = "snake_case")]
 pub enum EnrolWarning {
     /// The part reaches the border of the field of view.
-    #[error("the part reaches the border of the view, so some of it may be missing")]
     TouchesEdge,
     /// The chosen surface may be background.
-    #[error("this may be background: {0}")]
     Background(BackgroundSign),
     /// Some of the selected points lie on a plane that segmentation removed.
-    #[error(
-        "{percent} % of what is kept lies on the wall, the floor or another plane that was removed"
-    )]
     OnBackground {
         /// Share of the selected points, rounded.
         percent: u8,
     },
     /// The selected points are in separate pieces.
-    #[error("{percent} % of what is kept lies apart from the rest")]
     Apart {
         /// Share of the selected points outside the largest piece, rounded.
         percent: u8,
     },
     /// Not even an inspection of this same view would accept it.
-    #[error(
-        "there is too little of the part to recognise it by: this same view would score {score:.2}, and {needed:.2} is \
-         needed"
-    )]
     TooLittle {
         /// Score of the reference in its own standard view, 0..1.
         score: f64,
@@ -43,74 +34,45 @@ pub enum EnrolWarning {
         needed: f64,
     },
     /// The shape does not fix the pose.
-    #[error("the shape does not fix the pose: {0}")]
     Unconstrained(FreeMotion),
     /// The part looks the same in another pose.
-    #[error(
-        "the part looks the same turned by {degrees}°, so its pose cannot be told from that one"
-    )]
     Symmetric {
         /// Angle between the two poses, rounded.
         degrees: u16,
     },
     /// The part is as open from both sides, or bulges against the winding of an open sheet.
-    #[error("it is not clear which side of the part is the outside")]
     SideUnclear {
         /// The two sides of its thinnest extent.
         sides: [Side; 2],
     },
     /// The surface of a scan continues beyond the view of every frame.
-    #[error(
-        "{percent} % of the scanned surface's outline is where the view of every frame ends: the part may continue \
-         there"
-    )]
     GoesOnUnseen {
         /// Share of the outline, rounded.
         percent: u8,
     },
 }
 
-impl Advice for EnrolWarning {
-    fn advice(&self) -> String {
+impl Described for EnrolWarning {
+    fn message(&self) -> Message {
+        let message = Message::tagged("enrol", "warning", self);
         match self {
-            Self::TouchesEdge => "Move the camera back or centre the part, then enrol it again",
-            Self::Background(_) => "Check the picture, and take the part instead if it is not",
-            Self::OnBackground { .. } => {
-                "Drop what is background: an inspection removes it and compares the rest"
-            }
-            Self::Apart { .. } => "Drop what does not belong to the part",
-            Self::TooLittle { .. } => {
-                "Enrol more of the part: move the camera back, or enrol several frames as a scan"
-            }
-            Self::Unconstrained(_) => {
-                "Enrol more of the part, so that corners or openings constrain its pose"
-            }
-            Self::Symmetric { .. } => {
-                "Paint it with a path that suits both poses, or hang it so that it cannot be turned"
-            }
-            Self::SideUnclear { sides } => {
-                let [one, other] = sides.map(Side::name);
-                return format!("Give the side to be painted: --side {one} or --side {other}");
-            }
-            Self::GoesOnUnseen { .. } => {
-                "Add frames that show the missing sides, then enrol it again"
-            }
+            Self::SideUnclear {
+                sides: [one, other],
+            } => message.with("one", one.name()).with("other", other.name()),
+            _ => message,
         }
-        .into()
     }
 }
 
 /// Why a part could not be enrolled.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error, serde::Serialize)]
+#[serde(tag = "error", rename_all = "snake_case")]
 pub enum EnrolError {
     /// There is no part in the scene.
-    #[error(transparent)]
     NoPart(#[from] NoPart),
     /// The surface found is more likely background.
-    #[error("the surface found may be background: {0}")]
     Background(BackgroundSign),
     /// There is no surface with this number.
-    #[error("the scene has no surface {wanted}; {found} were found")]
     NoSuchSurface {
         /// The number asked for, from 1.
         wanted: usize,
@@ -118,10 +80,8 @@ pub enum EnrolError {
         found: usize,
     },
     /// The cloud cannot be used as a reference.
-    #[error(transparent)]
     Reference(#[from] ReferenceError),
     /// The cloud has too few points.
-    #[error("the cloud has {found} points, at least {needed} are needed")]
     TooFewPoints {
         /// Number of finite points.
         found: usize,
@@ -129,7 +89,6 @@ pub enum EnrolError {
         needed: usize,
     },
     /// Too few points were selected.
-    #[error("{found} points are kept, at least {needed} are needed")]
     TooFewKept {
         /// Number of selected points.
         found: usize,
@@ -137,38 +96,120 @@ pub enum EnrolError {
         needed: usize,
     },
     /// No frame of a scan shows a part.
-    #[error("no part was found in any of the {num_frames} frames")]
     NoPartInScan {
         /// Number of frames used.
         num_frames: usize,
     },
     /// The mesh has no surface.
-    #[error("the mesh of {num_triangles} triangles has no area")]
     NoArea {
         /// Number of triangles.
         num_triangles: usize,
     },
 }
 
-impl Advice for EnrolError {
-    fn advice(&self) -> String {
+impl Described for EnrolError {
+    fn message(&self) -> Message {
         match self {
-            Self::NoPart(error) => error.advice(),
-            Self::Reference(error) => error.advice(),
-            Self::Background(_) => {
-                "Select the surface that is the part with --segment N, or choose it in the window's Enrol \
-                 workspace".into()
-            }
-            Self::NoSuchSurface { .. } => "Choose one of those found".into(),
-            Self::TooFewPoints { .. } => {
-                "Capture the part from closer, or export the cloud with more points".into()
-            }
-            Self::TooFewKept { .. } => "Take back what was dropped: Undo, Reset, or Add".into(),
-            Self::NoPartInScan { .. } => {
-                "Look at the fused cloud (partsight scan DIR --out scan.ply), and capture the part at least 10 cm in \
-                 front of the background".into()
-            }
-            Self::NoArea { .. } => "Export the mesh again with its faces".into(),
+            Self::NoPart(why) => why.message(),
+            Self::Reference(why) => why.message(),
+            _ => Message::tagged("not-enrolled", "error", self),
         }
+    }
+}
+
+texts::display!(EnrolWarning, EnrolError);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use geometry::{error::Advice as _, units::Metres};
+    use stages::fixtures::FREEDOMS;
+    use texts::Language;
+
+    fn warnings() -> Vec<EnrolWarning> {
+        let signs = [
+            BackgroundSign::Behind { share: 0.4 },
+            BackgroundSign::Cut { sides: 3 },
+            BackgroundSign::Flat { area: 0.5 },
+        ];
+        let mut all: Vec<EnrolWarning> = signs.map(EnrolWarning::Background).into();
+        all.extend(FREEDOMS.map(EnrolWarning::Unconstrained));
+        all.extend([
+            EnrolWarning::TouchesEdge,
+            EnrolWarning::OnBackground { percent: 12 },
+            EnrolWarning::Apart { percent: 7 },
+            EnrolWarning::TooLittle {
+                score: 0.7,
+                needed: 0.9,
+            },
+            EnrolWarning::Symmetric { degrees: 180 },
+            EnrolWarning::SideUnclear {
+                sides: [Side::Top, Side::Bottom],
+            },
+            EnrolWarning::GoesOnUnseen { percent: 21 },
+        ]);
+        all
+    }
+
+    fn errors() -> Vec<EnrolError> {
+        let (found, needed) = (5, 200);
+        vec![
+            NoPart::TooFewPoints { found, needed }.into(),
+            ReferenceError::NoOutline { num_points: 9 }.into(),
+            ReferenceError::TooLarge {
+                found: Metres(1732.0),
+                limit: Metres(5.0),
+            }
+            .into(),
+            EnrolError::Background(BackgroundSign::Cut { sides: 3 }),
+            EnrolError::NoSuchSurface {
+                wanted: 3,
+                found: 2,
+            },
+            EnrolError::TooFewPoints { found, needed },
+            EnrolError::TooFewKept { found, needed },
+            EnrolError::NoPartInScan { num_frames: 4 },
+            EnrolError::NoArea { num_triangles: 3 },
+        ]
+    }
+
+    #[test]
+    fn every_warning_and_error_has_its_texts_in_every_language() {
+        let warnings = warnings().into_iter().map(|warning| warning.message());
+        let errors = errors().into_iter().map(|error| error.message());
+        for message in warnings.chain(errors) {
+            for language in Language::ALL {
+                assert!(
+                    message.attribute(language, "advice").is_some(),
+                    "{message:?}"
+                );
+                // Checks its variables.
+                assert!(message.text(language).len() > 5);
+            }
+        }
+    }
+
+    #[test]
+    fn commands_name_their_options_and_figures_are_rounded() {
+        let unclear = EnrolWarning::SideUnclear {
+            sides: [Side::Top, Side::Bottom],
+        };
+        assert_eq!(
+            unclear.advice(),
+            "Give the side to be painted: --side top or --side bottom"
+        );
+        let background = EnrolWarning::Background(BackgroundSign::Behind { share: 0.4 });
+        assert_eq!(
+            background.to_string(),
+            "this may be background: it lies behind other surfaces along 40 % of its border"
+        );
+        let large = EnrolError::from(ReferenceError::TooLarge {
+            found: Metres(1732.04),
+            limit: Metres(5.0),
+        });
+        assert_eq!(
+            large.to_string(),
+            "the part spans 1732.0 m, expected at most 5 m"
+        );
     }
 }

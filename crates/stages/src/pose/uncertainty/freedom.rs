@@ -1,7 +1,5 @@
 //! The direction in which a pose is unconstrained, in words.
 
-use std::fmt;
-
 use nalgebra::{Matrix3, Matrix6, Point3, Vector3, Vector6};
 
 use geometry::rigid::RigidTransform;
@@ -17,6 +15,14 @@ pub enum FreeMotion {
     /// Too little of the part lies on the reference to tell.
     Anyhow,
 }
+
+impl texts::Described for FreeMotion {
+    fn message(&self) -> texts::Message {
+        texts::Message::new("free-motion").with_fields(self)
+    }
+}
+
+texts::display!(FreeMotion);
 
 impl FreeMotion {
     /// Describes a transform of some points as its main component: a turn about their middle, or a shift.
@@ -53,20 +59,6 @@ pub enum Axis {
 
 impl Axis {
     const ALL: [Self; 3] = [Self::Long, Self::Short, Self::Normal];
-}
-
-impl fmt::Display for FreeMotion {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Slide(Axis::Long) => "it can slide along its long side",
-            Self::Slide(Axis::Short) => "it can slide along its short side",
-            Self::Slide(Axis::Normal) => "it can move square to its surface",
-            Self::Turn(Axis::Long) => "it can turn about its long side",
-            Self::Turn(Axis::Short) => "it can turn about its short side",
-            Self::Turn(Axis::Normal) => "it can turn about the axis square to its surface",
-            Self::Anyhow => "it can slide or turn",
-        })
-    }
 }
 
 /// The principal axes of what was seen, and its size.

@@ -486,7 +486,7 @@ impl AnsweringSession<'_> {
         let picture = segmentation_picture(&scene, &inspection.segmentation);
         let about = InspectionContext {
             at: geometry::clock::now(),
-            scene: origin.title(),
+            scene: origin.scene_title(),
             source,
             is_simulated: origin.is_simulated(),
             title_of: &|name| library.title_of(name).to_owned(),

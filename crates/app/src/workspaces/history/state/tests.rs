@@ -13,7 +13,7 @@ use crate::{
 };
 use records::{
     fixtures::history_entry,
-    history::{HistoryEvent, HungId, StoredVerdict},
+    history::{HistoryEvent, HungId, SceneTitle, StoredVerdict},
 };
 
 fn inspected(number: u64) -> Arc<Inspected> {
@@ -238,7 +238,7 @@ fn rows_out_of_sight_are_asked_for_once() {
 #[test]
 fn a_frame_that_is_gone_is_called_as_the_list_calls_it() {
     let mut record = history_entry(1, StoredVerdict::Accepted, "fender").record;
-    record.summary.scene = "Simulated frame 7".into();
+    record.summary.scene = SceneTitle::SimulatedFrame(7);
     let bench = Bench::new();
     Language::German.make_current();
     let why = bench.history.why_no_scene(&record);
