@@ -14,7 +14,7 @@ use super::{
     console::{Advised as _, Console, Table, advised_error, marked_simulated},
     read_part,
 };
-use geometry::units::counted;
+use geometry::units::{Metres, counted};
 use inspection::library::{
     EntryError, LibraryError, LibraryFolder, LibraryListing, LibraryPlace, PartMeta, PartName,
     PartNaming, PartNumbers, SharedTitle, StoredPart,
@@ -207,7 +207,7 @@ fn show(choice: &LibraryChoice, name: &PartName, console: &mut Console) -> anyho
             "{} mm, width x height x depth as enrolled",
             reference
                 .size()
-                .map_or_else(|| "-".into(), |sides| in_words(sides.map(|side| side.mm())))
+                .map_or_else(|| "-".into(), |sides| in_words(sides.map(Metres::mm)))
         ),
     );
     row("points", reference.cloud.points.len().to_string());

@@ -209,7 +209,7 @@ impl Realsense {
         });
         let name = format!("RealSense frame {}", self.num_frames);
         Captured {
-            taken_at: recorded_at.unwrap_or_else(Timestamp::now),
+            taken_at: recorded_at.unwrap_or_else(geometry::clock::now),
             ..Captured::now(self.num_frames, name, image)
         }
     }

@@ -262,7 +262,7 @@ fn enrol(paths: &[PathBuf], library: &Path) {
         name: PartName::new("fender").expect("a name"),
         title: "Fender".into(),
         notes: String::new(),
-        from: "scan".into(),
+        from: "fender".into(),
         at: geometry::clock::now(),
         simulated: scan.cloud.cloud.is_simulated,
     };

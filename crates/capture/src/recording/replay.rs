@@ -288,7 +288,7 @@ impl DepthSource for Replay {
                 taken_at: frame
                     .taken_at
                     .or_else(|| written_at(&frame.path))
-                    .unwrap_or_else(Timestamp::now),
+                    .unwrap_or_else(geometry::clock::now),
                 arrived: Instant::now(),
                 is_simulated: frame.is_simulated || image.is_simulated(),
                 image,

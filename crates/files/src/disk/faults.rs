@@ -112,6 +112,7 @@ pub struct Writer<'a> {
 
 impl Writer<'_> {
     /// Makes every call fail in every way, and checks the state afterwards.
+    #[allow(clippy::print_stderr, reason = "figures of a test are to be read")]
     pub fn fails_at_every_call(&self) {
         if let Ok(told) = env::var(KILLED) {
             let (at, folder) = told.split_once(' ').expect("a number and a folder");
