@@ -47,7 +47,7 @@ fn depth_of(captured: &Captured) -> &DepthFrame {
 fn frames_arrive_with_the_depth_that_was_seen_and_the_session_ends() {
     let write = |folder: &Path| session::write(folder, &session::frames(), 0.01);
     with_session(
-        "played::frames_arrive_with_the_depth_that_was_seen_and_the_session_ends",
+        "kinect::played::frames_arrive_with_the_depth_that_was_seen_and_the_session_ends",
         write,
         || {
             let mut kinect = open_kinect().expect("a session");
@@ -102,7 +102,7 @@ fn compare(found: &DepthFrame, seen: &DepthFrame) {
 fn a_part_is_recognised_in_what_the_library_gives() {
     let write = |folder: &Path| session::write(folder, &session::frames()[..1], 0.0);
     with_session(
-        "played::a_part_is_recognised_in_what_the_library_gives",
+        "kinect::played::a_part_is_recognised_in_what_the_library_gives",
         write,
         || {
             let mut kinect = open_kinect().expect("a session");
@@ -129,7 +129,7 @@ fn a_part_is_recognised_in_what_the_library_gives() {
 #[test]
 fn stopping_works_from_any_state() {
     let write = |folder: &Path| session::write_endless(folder, &session::frames()[1]);
-    with_session("played::stopping_works_from_any_state", write, || {
+    with_session("kinect::played::stopping_works_from_any_state", write, || {
         // Opened, but no frame requested.
         drop(open_kinect().expect("a session"));
         // Running; it cannot be opened twice.
@@ -156,7 +156,7 @@ fn stopping_works_from_any_state() {
 fn a_session_that_is_over_ends_the_feed_and_stays_over() {
     let write = |folder: &Path| session::write(folder, &session::frames()[1..2], 0.0);
     with_session(
-        "played::a_session_that_is_over_ends_the_feed_and_stays_over",
+        "kinect::played::a_session_that_is_over_ends_the_feed_and_stays_over",
         write,
         || {
             let (sender, receiver) = mpsc::channel();
@@ -189,7 +189,7 @@ fn a_session_that_is_over_ends_the_feed_and_stays_over() {
 fn a_session_that_would_end_the_program_is_refused_and_a_repaired_one_opens() {
     let write = |folder: &Path| session::write(folder, &session::frames()[1..2], 0.0);
     with_session(
-        "played::a_session_that_would_end_the_program_is_refused_and_a_repaired_one_opens",
+        "kinect::played::a_session_that_would_end_the_program_is_refused_and_a_repaired_one_opens",
         write,
         || {
             let folder = std::env::var_os("FAKENECT_PATH").expect("a session");
@@ -211,7 +211,7 @@ fn a_session_that_would_end_the_program_is_refused_and_a_repaired_one_opens() {
 
 #[test]
 fn without_a_session_there_is_a_word_about_it() {
-    let test = "played::without_a_session_there_is_a_word_about_it";
+    let test = "kinect::played::without_a_session_there_is_a_word_about_it";
     if is_own(test) {
         let error = trouble();
         assert!(matches!(error, KinectError::NoSession { .. }), "{error}");

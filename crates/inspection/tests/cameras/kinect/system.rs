@@ -10,7 +10,7 @@ use crate::{
 
 #[test]
 fn the_systems_library_is_found_by_itself_and_says_whether_a_kinect_is_there() {
-    let test = "system::the_systems_library_is_found_by_itself_and_says_whether_a_kinect_is_there";
+    let test = "kinect::system::the_systems_library_is_found_by_itself_and_says_whether_a_kinect_is_there";
     if !is_own(test) {
         return own_process::run(test, &[]);
     }

@@ -39,7 +39,7 @@ fn shows_what_it_saw(test: &str, state: &str, metres_per_unit: f64) {
 #[test]
 fn depth_comes_in_metres_and_the_right_way_round() {
     shows_what_it_saw(
-        "camera::depth_comes_in_metres_and_the_right_way_round",
+        "openni::camera::depth_comes_in_metres_and_the_right_way_round",
         "well",
         0.001,
     );
@@ -48,7 +48,7 @@ fn depth_comes_in_metres_and_the_right_way_round() {
 #[test]
 fn a_picture_that_stays_mirrored_is_turned_back() {
     shows_what_it_saw(
-        "camera::a_picture_that_stays_mirrored_is_turned_back",
+        "openni::camera::a_picture_that_stays_mirrored_is_turned_back",
         "stuck",
         0.001,
     );
@@ -57,7 +57,7 @@ fn a_picture_that_stays_mirrored_is_turned_back() {
 #[test]
 fn a_picture_that_is_not_mirrored_stays_as_it_is() {
     shows_what_it_saw(
-        "camera::a_picture_that_is_not_mirrored_stays_as_it_is",
+        "openni::camera::a_picture_that_is_not_mirrored_stays_as_it_is",
         "upright",
         0.001,
     );
@@ -65,13 +65,13 @@ fn a_picture_that_is_not_mirrored_stays_as_it_is() {
 
 #[test]
 fn tenths_of_a_millimetre_are_read() {
-    shows_what_it_saw("camera::tenths_of_a_millimetre_are_read", "fine", 0.0001);
+    shows_what_it_saw("openni::camera::tenths_of_a_millimetre_are_read", "fine", 0.0001);
 }
 
 #[test]
 fn a_camera_is_listed_and_opened_by_its_uri() {
     with_camera(
-        "camera::a_camera_is_listed_and_opened_by_its_uri",
+        "openni::camera::a_camera_is_listed_and_opened_by_its_uri",
         "well",
         |_| {},
         || {
@@ -107,7 +107,7 @@ fn a_camera_is_listed_and_opened_by_its_uri() {
 #[test]
 fn an_unplugged_camera_is_lost_and_found_again() {
     with_camera(
-        "camera::an_unplugged_camera_is_lost_and_found_again",
+        "openni::camera::an_unplugged_camera_is_lost_and_found_again",
         "unplugged",
         |_| {},
         || {
@@ -137,7 +137,7 @@ fn an_unplugged_camera_is_lost_and_found_again() {
 #[test]
 fn a_camera_that_sends_nothing_is_waited_for() {
     with_camera(
-        "camera::a_camera_that_sends_nothing_is_waited_for",
+        "openni::camera::a_camera_that_sends_nothing_is_waited_for",
         "silent",
         |_| {},
         || {
@@ -174,7 +174,7 @@ fn refused(test: &str, state: &str, words: &str, advice: &str) {
 #[test]
 fn no_camera() {
     refused(
-        "camera::no_camera",
+        "openni::camera::no_camera",
         "no camera",
         "no OpenNI camera is plugged in",
         "Plug the camera in",
@@ -184,7 +184,7 @@ fn no_camera() {
 #[test]
 fn busy() {
     refused(
-        "camera::busy",
+        "openni::camera::busy",
         "busy",
         "cannot be opened",
         "Close other programs",
@@ -194,7 +194,7 @@ fn busy() {
 #[test]
 fn no_bandwidth() {
     refused(
-        "camera::no_bandwidth",
+        "openni::camera::no_bandwidth",
         "no bandwidth",
         "cannot be started",
         "another USB socket",
@@ -204,7 +204,7 @@ fn no_bandwidth() {
 #[test]
 fn steps_of_disparity() {
     refused(
-        "camera::steps_of_disparity",
+        "openni::camera::steps_of_disparity",
         "shifts",
         "neither in millimetres",
         "in millimetres",
@@ -214,7 +214,7 @@ fn steps_of_disparity() {
 #[test]
 fn no_field_of_view() {
     refused(
-        "camera::no_field_of_view",
+        "openni::camera::no_field_of_view",
         "no view",
         "field of view",
         "driver",
@@ -224,7 +224,7 @@ fn no_field_of_view() {
 #[test]
 fn mirroring_that_is_not_told() {
     refused(
-        "camera::mirroring_that_is_not_told",
+        "openni::camera::mirroring_that_is_not_told",
         "untold",
         "is mirrored",
         "wrong poses",
@@ -234,7 +234,7 @@ fn mirroring_that_is_not_told() {
 #[test]
 fn mirroring_that_changes() {
     refused(
-        "camera::mirroring_that_changes",
+        "openni::camera::mirroring_that_changes",
         "turned",
         "has changed",
         "as they are",
@@ -244,7 +244,7 @@ fn mirroring_that_changes() {
 #[test]
 fn a_part_of_the_picture() {
     refused(
-        "camera::a_part_of_the_picture",
+        "openni::camera::a_part_of_the_picture",
         "cropped",
         "a part of its picture",
         "cropping off",

@@ -36,7 +36,7 @@ fn trouble_in(folder: &Path) -> OpenNiError {
 
 #[test]
 fn the_systems_library_is_found_by_itself_and_says_whether_a_camera_is_there() {
-    let test = "library::the_systems_library_is_found_by_itself_and_says_whether_a_camera_is_there";
+    let test = "openni::library::the_systems_library_is_found_by_itself_and_says_whether_a_camera_is_there";
     if !is_own(test) {
         return own_process::run(test, &[]);
     }
@@ -95,7 +95,7 @@ fn a_place_without_the_library_is_named() {
 
 #[test]
 fn another_library_and_one_without_drivers_are_told_apart() {
-    let test = "library::another_library_and_one_without_drivers_are_told_apart";
+    let test = "openni::library::another_library_and_one_without_drivers_are_told_apart";
     let Some(library) = system_library() else {
         return skipped("libOpenNI2 is not installed (apt-get install libopenni2-0)");
     };
@@ -124,7 +124,7 @@ fn another_library_and_one_without_drivers_are_told_apart() {
 
 #[test]
 fn the_working_folder_of_other_threads_stays_while_the_library_starts() {
-    let test = "library::the_working_folder_of_other_threads_stays_while_the_library_starts";
+    let test = "openni::library::the_working_folder_of_other_threads_stays_while_the_library_starts";
     with_camera(
         test,
         "well",

@@ -88,7 +88,7 @@ fn plays_whole(test: &str, state: &str, size: [usize; 2], metres_per_unit: f64) 
 #[test]
 fn a_file_of_a_mirrored_picture_is_turned_back() {
     plays_whole(
-        "played::a_file_of_a_mirrored_picture_is_turned_back",
+        "openni::played::a_file_of_a_mirrored_picture_is_turned_back",
         "well",
         [16, 12],
         0.001,
@@ -97,14 +97,14 @@ fn a_file_of_a_mirrored_picture_is_turned_back() {
 
 #[test]
 fn a_file_of_a_picture_that_is_not_mirrored_stays_as_it_is() {
-    let test = "played::a_file_of_a_picture_that_is_not_mirrored_stays_as_it_is";
+    let test = "openni::played::a_file_of_a_picture_that_is_not_mirrored_stays_as_it_is";
     plays_whole(test, "upright", [16, 12], 0.001);
 }
 
 #[test]
 fn a_file_in_tenths_of_a_millimetre_is_read() {
     plays_whole(
-        "played::a_file_in_tenths_of_a_millimetre_is_read",
+        "openni::played::a_file_in_tenths_of_a_millimetre_is_read",
         "fine",
         [64, 48],
         0.0001,
@@ -113,7 +113,7 @@ fn a_file_in_tenths_of_a_millimetre_is_read() {
 
 #[test]
 fn a_feed_plays_a_file_at_its_own_pace_and_ends() {
-    let test = "played::a_feed_plays_a_file_at_its_own_pace_and_ends";
+    let test = "openni::played::a_feed_plays_a_file_at_its_own_pace_and_ends";
     with_camera(
         test,
         "no camera",
@@ -136,7 +136,7 @@ fn a_feed_plays_a_file_at_its_own_pace_and_ends() {
 
 #[test]
 fn a_file_that_does_not_tell_its_mirroring_is_refused() {
-    let test = "played::a_file_that_does_not_tell_its_mirroring_is_refused";
+    let test = "openni::played::a_file_that_does_not_tell_its_mirroring_is_refused";
     with_camera(
         test,
         "well",
@@ -154,7 +154,7 @@ fn a_file_that_does_not_tell_its_mirroring_is_refused() {
 
 #[test]
 fn a_file_that_is_damaged_or_none_is_named() {
-    let test = "played::a_file_that_is_damaged_or_none_is_named";
+    let test = "openni::played::a_file_that_is_damaged_or_none_is_named";
     with_camera(
         test,
         "well",
@@ -186,7 +186,7 @@ fn a_file_that_is_damaged_or_none_is_named() {
 
 #[test]
 fn a_file_that_was_cut_off_is_refused_before_the_library_has_it() {
-    let test = "played::a_file_that_was_cut_off_is_refused_before_the_library_has_it";
+    let test = "openni::played::a_file_that_was_cut_off_is_refused_before_the_library_has_it";
     with_camera(
         test,
         "well",

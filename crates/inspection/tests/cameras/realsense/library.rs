@@ -14,7 +14,7 @@ use crate::{
 
 #[test]
 fn the_systems_library_is_found_by_itself_or_told_to_be_absent() {
-    let test = "library::the_systems_library_is_found_by_itself_or_told_to_be_absent";
+    let test = "realsense::library::the_systems_library_is_found_by_itself_or_told_to_be_absent";
     if !is_own(test) {
         return own_process::run(test, &[]);
     }
@@ -42,7 +42,7 @@ fn the_systems_library_is_found_by_itself_or_told_to_be_absent() {
 
 #[test]
 fn a_place_without_the_library_and_other_libraries_are_told_apart() {
-    let test = "library::a_place_without_the_library_and_other_libraries_are_told_apart";
+    let test = "realsense::library::a_place_without_the_library_and_other_libraries_are_told_apart";
     if !is_own(test) {
         return own_process::run(test, &[]);
     }

@@ -100,7 +100,7 @@ fn open_file() -> Result<Box<dyn DepthSource>, CaptureError> {
 
 #[test]
 fn every_frame_of_a_file_comes_as_it_was_recorded_and_then_the_end() {
-    let test = "recorded::every_frame_of_a_file_comes_as_it_was_recorded_and_then_the_end";
+    let test = "realsense::recorded::every_frame_of_a_file_comes_as_it_was_recorded_and_then_the_end";
     with_file(test, BROWN_CONRADY, || {
         for _ in 0..2 {
             let mut played = open_file().expect("opens");
@@ -137,7 +137,7 @@ fn every_frame_of_a_file_comes_as_it_was_recorded_and_then_the_end() {
 
 #[test]
 fn a_file_is_let_go_before_its_end() {
-    let test = "recorded::a_file_is_let_go_before_its_end";
+    let test = "realsense::recorded::a_file_is_let_go_before_its_end";
     with_file(test, BROWN_CONRADY, || {
         for num in [0, 1, 2, 5, 20, 40] {
             let mut played = open_file().expect("opens");
@@ -151,7 +151,7 @@ fn a_file_is_let_go_before_its_end() {
 
 #[test]
 fn a_feed_plays_a_file_at_its_own_pace_and_ends() {
-    let test = "recorded::a_feed_plays_a_file_at_its_own_pace_and_ends";
+    let test = "realsense::recorded::a_feed_plays_a_file_at_its_own_pace_and_ends";
     with_file(test, BROWN_CONRADY, || {
         for pace in [Pace::AsTaken, Pace::PerSecond(60.0)] {
             let spec = spec(Some(pace));
@@ -171,7 +171,7 @@ fn a_feed_plays_a_file_at_its_own_pace_and_ends() {
 
 #[test]
 fn a_file_of_a_lens_that_cannot_be_held_is_refused() {
-    let test = "recorded::a_file_of_a_lens_that_cannot_be_held_is_refused";
+    let test = "realsense::recorded::a_file_of_a_lens_that_cannot_be_held_is_refused";
     with_file(test, KANNALA_BRANDT, || {
         let error = trouble_of(open_file().err().expect("refused"));
         let text = error.to_string();
@@ -185,7 +185,7 @@ fn a_file_of_a_lens_that_cannot_be_held_is_refused() {
 
 #[test]
 fn a_file_that_is_damaged_cut_off_or_none_is_named() {
-    let test = "recorded::a_file_that_is_damaged_cut_off_or_none_is_named";
+    let test = "realsense::recorded::a_file_that_is_damaged_cut_off_or_none_is_named";
     with_file(test, BROWN_CONRADY, || {
         let path = file();
         let name = path.display().to_string();
@@ -224,7 +224,7 @@ fn a_file_that_is_damaged_cut_off_or_none_is_named() {
 
 #[test]
 fn librealsense_without_a_camera_says_so() {
-    let test = "recorded::librealsense_without_a_camera_says_so";
+    let test = "realsense::recorded::librealsense_without_a_camera_says_so";
     with_file(test, BROWN_CONRADY, || {
         let error = list().into_iter().find_map(|listed| match listed.trouble {
             Some(CaptureError::Realsense(error)) => Some(error),
