@@ -1,4 +1,4 @@
-//! The enrolled parts ([`library`]), and the inspection of a scene with them ([`pipeline`]): recipe, run, verdict, live.
+//! The enrolled parts, and the inspection of a scene with them: recipe, run, verdict, live.
 
 #[cfg(any(test, feature = "fixtures"))]
 pub mod fixtures;
