@@ -5,7 +5,7 @@
 //!           scene        segment         project        contour    signature       rank            confirm, or pose
 //! ```
 //!
-//! - [`reference`] prepares an enrolled part for `rank` and `pose`; [`shape_summary`] rules out most references of a large
+//! - [`mod@reference`] prepares an enrolled part for `rank` and `pose`; [`shape_summary`] rules out most references of a large
 //!   library; [`correlation`] is the signal processing of `rank`.
 //! - [`confirm`] scores the best references by surface, outline and openings; [`locate`] runs `pose` as the paper does.
 //! - [`scan`] combines several frames; [`stand_off`] is the distance of the nozzle, computed where it is shown.
