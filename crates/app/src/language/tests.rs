@@ -51,7 +51,7 @@ fn messages(files: Files) -> BTreeMap<String, Variables> {
 fn asked_for() -> BTreeMap<String, Variables> {
     let mut sources = Vec::new();
     rust_files(
-        &Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("src/app"),
+        &Path::new(env!("CARGO_MANIFEST_DIR")).join("src"),
         &mut sources,
     );
     let mut asked: BTreeMap<String, Variables> = BTreeMap::new();

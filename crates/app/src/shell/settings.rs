@@ -567,7 +567,7 @@ mod tests {
             ..Settings::default()
         };
         files::disk::faults::Writer {
-            test: "app::shell::settings::tests::whichever_call_fails_the_settings_are_the_old_ones_or_the_new",
+            test: "shell::settings::tests::whichever_call_fails_the_settings_are_the_old_ones_or_the_new",
             prepare: &|folder| save(&place(folder), &averaged(2)).expect("written"),
             write: &|folder| {
                 let saved = save(&place(folder), &averaged(5));

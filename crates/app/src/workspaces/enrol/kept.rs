@@ -440,7 +440,7 @@ mod tests {
     fn whichever_call_fails_the_draft_is_the_old_one_or_the_new() {
         let place = |folder: &Path| folder.join("deep").join("draft.json");
         files::disk::faults::Writer {
-            test: "app::workspaces::enrol::kept::tests::whichever_call_fails_the_draft_is_the_old_one_or_the_new",
+            test: "workspaces::enrol::kept::tests::whichever_call_fails_the_draft_is_the_old_one_or_the_new",
             prepare: &|folder| save(&place(folder), Some(draft("Old")), None).expect("written"),
             write: &|folder| {
                 let saved = save(&place(folder), Some(draft("New")), None);
