@@ -31,16 +31,18 @@ pub fn captured(number: u64, taken_at: Timestamp) -> Captured {
 /// Options of [`compile_c`] that make a shared library.
 pub const SHARED: [&str; 2] = ["-shared", "-fPIC"];
 
-/// Compiles a C file of this package to a program, or with [`SHARED`] to a library. The error says what this machine
-/// lacks.
+/// Compiles a C file, named from the root of the workspace, to a program, or with [`SHARED`] to a library. The error names
+/// what this machine lacks.
 pub fn compile_c(source: &str, made: &Path, options: &[&str]) -> Result<(), String> {
+    let source = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join(source);
+    assert!(source.exists(), "{}", source.display());
     let compiler = env::var_os("CC").unwrap_or_else(|| OsString::from("cc"));
     let output = Command::new(compiler)
         .args(["-Wall", "-Wextra", "-Werror", "-pthread"])
         .args(options)
         .arg("-o")
         .arg(made)
-        .arg(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join(source))
+        .arg(source)
         .arg("-ldl")
         .output()
         .map_err(|error| format!("no C compiler: {error}"))?;
