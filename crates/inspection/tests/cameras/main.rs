@@ -2,6 +2,7 @@
 
 #![cfg(target_os = "linux")]
 
+mod errors;
 mod genicam;
 mod kinect;
 mod openni;
