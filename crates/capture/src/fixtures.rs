@@ -49,8 +49,8 @@ pub fn compile_c(source: &str, made: &Path, options: &[&str]) -> Result<(), Stri
     if output.status.success() {
         return Ok(());
     }
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
     // Missing headers of the C library are a fault of the machine; any other error is a fault of the file.
-    assert!(said.contains("No such file or directory"), "{said}");
+    assert!(message.contains("No such file or directory"), "{message}");
     Err("no C headers".into())
 }

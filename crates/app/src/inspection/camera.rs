@@ -42,7 +42,7 @@ struct OpenedCamera {
 
 /// Why there is no frame.
 #[derive(Debug, thiserror::Error)]
-pub enum CameraError {
+pub enum NoFrame {
     /// The source reported an error.
     #[error(transparent)]
     Capture(Arc<CaptureError>),
@@ -57,7 +57,7 @@ pub enum CameraError {
     Cancelled,
 }
 
-impl Advice for CameraError {
+impl Advice for NoFrame {
     fn advice(&self) -> String {
         match self {
             Self::Capture(error) => error.advice(),
@@ -87,7 +87,7 @@ impl Camera {
     }
 
     /// Returns the feed of a source. If another source is open, closes it first. Wait for frames with [`Feed::wait`].
-    pub fn feed(&self, spec: &SourceSpec) -> Result<Arc<Feed>, CameraError> {
+    pub fn feed(&self, spec: &SourceSpec) -> Result<Arc<Feed>, NoFrame> {
         let mut opened = self.lock();
         if let Some(OpenedCamera { spec: known, feed }) = &*opened
             && known == spec
@@ -103,7 +103,7 @@ impl Camera {
             BackpressurePolicy::for_source(spec),
             || {},
         )
-        .map_err(|error| CameraError::Capture(Arc::new(error)))?;
+        .map_err(|error| NoFrame::Capture(Arc::new(error)))?;
         let feed = Arc::new(feed);
         *opened = Some(OpenedCamera {
             spec: spec.clone(),
@@ -117,7 +117,7 @@ impl Camera {
         &self,
         spec: &SourceSpec,
         is_cancelled: &dyn Fn() -> bool,
-    ) -> Result<Captured, CameraError> {
+    ) -> Result<Captured, NoFrame> {
         let feed = self.feed(spec)?;
         let mut found = wait(&feed, spec, is_cancelled);
         // What hangs there now is on the newest file, even if that cannot be read.
@@ -142,7 +142,7 @@ impl Camera {
         num: usize,
         is_cancelled: &dyn Fn() -> bool,
         on_frame: &dyn Fn(usize),
-    ) -> Result<Vec<Captured>, CameraError> {
+    ) -> Result<Vec<Captured>, NoFrame> {
         let feed = self.feed(spec)?;
         let mut frames = Vec::with_capacity(num);
         let mut failed = None;
@@ -152,7 +152,7 @@ impl Camera {
                     frames.push(frame);
                     on_frame(frames.len());
                 }
-                Err(CameraError::AtItsEnd { .. }) if !frames.is_empty() => break,
+                Err(NoFrame::AtItsEnd { .. }) if !frames.is_empty() => break,
                 Err(error) => failed = Some(error),
             }
         }
@@ -199,10 +199,10 @@ impl Camera {
     }
 }
 
-fn taken(item: FeedItem) -> Result<Captured, CameraError> {
+fn taken(item: FeedItem) -> Result<Captured, NoFrame> {
     match item {
         FeedItem::Captured(captured) => Ok(captured),
-        FeedItem::Skipped(skipped) => Err(CameraError::Capture(skipped.error)),
+        FeedItem::Skipped(skipped) => Err(NoFrame::Capture(skipped.error)),
     }
 }
 
@@ -210,20 +210,20 @@ fn wait(
     feed: &Feed,
     spec: &SourceSpec,
     is_cancelled: &dyn Fn() -> bool,
-) -> Result<Captured, CameraError> {
+) -> Result<Captured, NoFrame> {
     loop {
         if is_cancelled() {
-            return Err(CameraError::Cancelled);
+            return Err(NoFrame::Cancelled);
         }
         match feed.wait(TURN) {
             Some(item) => return taken(item),
             None => match feed.status().state {
                 FeedState::Failed(error) | FeedState::Lost { error, .. } => {
-                    return Err(CameraError::Capture(error));
+                    return Err(NoFrame::Capture(error));
                 }
                 FeedState::Ended | FeedState::Stopped => {
                     let title = spec.title();
-                    return Err(CameraError::AtItsEnd { title });
+                    return Err(NoFrame::AtItsEnd { title });
                 }
                 FeedState::Opening | FeedState::Running => {}
             },
@@ -348,6 +348,6 @@ mod tests {
         let text = format!("watch:{}", folder.path().display());
         let spec: SourceSpec = text.parse().expect("a source");
         let given_up = Camera::default().next(&spec, &|| true);
-        assert!(matches!(given_up, Err(CameraError::Cancelled)));
+        assert!(matches!(given_up, Err(NoFrame::Cancelled)));
     }
 }

@@ -7,7 +7,7 @@ use std::{
 };
 
 use super::{
-    camera::{Camera, CameraError},
+    camera::{Camera, NoFrame},
     inspected::SceneOrScan,
     scan_choice::{ScanFiles, ScanOrder},
 };
@@ -286,7 +286,7 @@ pub enum SceneError {
     File(#[from] FileError),
     /// The camera delivered no frame.
     #[error(transparent)]
-    Camera(#[from] CameraError),
+    Camera(#[from] NoFrame),
     /// The frame in the history cannot be read.
     #[error(transparent)]
     Kept(#[from] FrameError),
@@ -314,7 +314,7 @@ impl Advice for SceneError {
 impl From<SceneError> for TaskError {
     fn from(error: SceneError) -> Self {
         match error {
-            SceneError::Camera(CameraError::Cancelled) => Self::Cancelled,
+            SceneError::Camera(NoFrame::Cancelled) => Self::Cancelled,
             error => UserError::of(&error).into(),
         }
     }

@@ -3,7 +3,7 @@
 //! In JSON each is an object with its `kind`. Histories store it, so a kind and its fields must keep their names and
 //! units.
 
-use super::{mirror::PUT_RIGHT, unsound::RANGE};
+use super::{mirror::PUT_RIGHT, unsound::CAMERA_RANGE};
 use geometry::{
     error::{Advice, Fault},
     units::Metres,
@@ -17,11 +17,11 @@ use stages::{
 };
 
 /// Score below which an unknown part is like no enrolled one, and the best match is not named.
-const LIKE_FROM: f64 = 0.05;
+const MIN_LIKE_SCORE: f64 = 0.05;
 
 /// Returns whether the best match of an unknown part, with this score, is worth naming.
 pub fn is_like(score: f64) -> bool {
-    score >= LIKE_FROM
+    score >= MIN_LIKE_SCORE
 }
 
 fn nearest_words(nearest: &str, score: f64) -> String {
@@ -208,8 +208,8 @@ pub enum Rejection {
     #[error(
         "what may be {part} is {:.2} m from the camera: depth cameras read from {} to {} m",
         depth.0,
-        RANGE[0].0,
-        RANGE[1].0
+        CAMERA_RANGE[0].0,
+        CAMERA_RANGE[1].0
     )]
     OutOfRange {
         /// Best match.

@@ -3,6 +3,7 @@
 #![allow(clippy::disallowed_methods, reason = "tests change files")]
 #![cfg(target_os = "linux")]
 
+mod errors;
 mod genicam;
 mod kinect;
 mod openni;

@@ -2,15 +2,13 @@
 
 use std::{env, ffi::OsStr, fs, time::Duration};
 
-use capture::{
-    CaptureError, Image, KinectError, KinectSpec, NextCapture, Recovery, SourceSpec, open,
-};
+use capture::{CameraErrorKind, Image, KinectSpec, NextCapture, Recovery, SourceSpec, open};
 use geometry::error::Advice as _;
 
 use capture::fixtures::{SHARED, compile_c};
 
 use crate::{
-    kinect::{listed, next_capture, open_kinect, skipped, trouble, trouble_of},
+    kinect::{listed, next_capture, open_error, open_kinect, skipped},
     own_process::{self, is_own},
 };
 
@@ -26,11 +24,7 @@ fn with_camera(test: &str, state: &str, body: impl FnOnce()) {
     let library = folder.path().join("libfreenect.so.0.5");
     let mut options = SHARED.to_vec();
     options.extend((state == "old").then_some("-DOLD"));
-    if let Err(why) = compile_c(
-        "crates/inspection/tests/cameras/kinect/camera.c",
-        &library,
-        &options,
-    ) {
+    if let Err(why) = compile_c("tests/cameras/kinect/camera.c", &library, &options) {
         return skipped(&why);
     }
     let log = folder.path().join("calls");
@@ -52,7 +46,8 @@ fn calls() -> String {
 
 #[test]
 fn the_newest_frame_comes_in_millimetres_with_the_cameras_own_focal_length() {
-    let test = "kinect::camera::the_newest_frame_comes_in_millimetres_with_the_cameras_own_focal_length";
+    let test =
+        "kinect::camera::the_newest_frame_comes_in_millimetres_with_the_cameras_own_focal_length";
     with_camera(test, "well", || {
         let mut kinect = open_kinect().expect("opens");
         assert_eq!(kinect.title(), "Kinect");
@@ -116,13 +111,10 @@ fn while_it_is_open_here_it_is_listed_as_in_use() {
     let test = "kinect::camera::while_it_is_open_here_it_is_listed_as_in_use";
     with_camera(test, "well", || {
         let kinect = open_kinect().expect("opens");
-        let error = listed()
-            .pop()
-            .and_then(|last| last.trouble)
-            .expect("in use");
-        assert!(matches!(trouble_of(error), KinectError::InUse));
+        let error = listed().pop().and_then(|last| last.error).expect("in use");
+        assert_eq!(error.kind, CameraErrorKind::InUse);
         drop(kinect);
-        assert!(listed().pop().is_some_and(|last| last.trouble.is_none()));
+        assert!(listed().pop().is_some_and(|last| last.error.is_none()));
     });
 }
 
@@ -161,8 +153,8 @@ fn a_camera_that_sends_nothing_is_waited_for() {
 }
 
 #[test]
-fn a_signal_is_no_trouble() {
-    with_camera("kinect::camera::a_signal_is_no_trouble", "signals", || {
+fn a_signal_is_no_open_error() {
+    with_camera("kinect::camera::a_signal_is_no_open_error", "signals", || {
         let mut kinect = open_kinect().expect("opens");
         for _ in 0..3 {
             next_capture(kinect.as_mut()).expect("a frame");
@@ -173,18 +165,24 @@ fn a_signal_is_no_trouble() {
 /// Checks message, advice and calls in a state in which the camera does not open.
 fn refused(test: &str, state: &str, words: &str, advice: &str, expected_calls: &str) {
     with_camera(test, state, || {
-        let error = trouble();
+        let error = open_error();
         assert!(error.to_string().contains(words), "{error}");
         assert!(error.advice().contains(advice), "{}", error.advice());
         assert_eq!(calls(), expected_calls);
         // The second attempt fails in the same way: nothing is left behind.
-        assert_eq!(trouble().to_string(), error.to_string());
+        assert_eq!(open_error().to_string(), error.to_string());
     });
 }
 
 #[test]
 fn no_usb() {
-    refused("kinect::camera::no_usb", "no usb", "USB error -99", "USB", "init 0");
+    refused(
+        "kinect::camera::no_usb",
+        "no usb",
+        "USB error -99",
+        "USB",
+        "init 0",
+    );
 }
 
 #[test]
@@ -213,17 +211,18 @@ fn no_permission() {
 
 #[test]
 fn no_permission_is_listed() {
-    with_camera("kinect::camera::no_permission_is_listed", "no permission", || {
-        let kinects = listed();
-        assert_eq!(kinects.len(), 2);
-        for kinect in kinects {
-            let error: CaptureError = kinect.trouble.expect("not permitted");
-            assert!(matches!(
-                trouble_of(error),
-                KinectError::NoPermission { .. }
-            ));
-        }
-    });
+    with_camera(
+        "kinect::camera::no_permission_is_listed",
+        "no permission",
+        || {
+            let kinects = listed();
+            assert_eq!(kinects.len(), 2);
+            for kinect in kinects {
+                let error = kinect.error.expect("not permitted");
+                assert!(matches!(error.kind, CameraErrorKind::NoPermission { .. }));
+            }
+        },
+    );
 }
 
 #[test]
@@ -278,7 +277,7 @@ fn no_bandwidth() {
 fn a_library_without_a_function_that_is_needed_is_named_with_it() {
     let test = "kinect::camera::a_library_without_a_function_that_is_needed_is_named_with_it";
     with_camera(test, "old", || {
-        let error = trouble();
+        let error = open_error();
         assert!(
             error
                 .to_string()

@@ -3,8 +3,8 @@
 use std::{ffi::OsStr, fs, path::Path, sync::mpsc, time::Duration};
 
 use capture::{
-    BackpressurePolicy, CaptureWarning, Captured, Feed, FeedState, Image, KinectError, KinectSpec,
-    KinectWarning, NextCapture, SourceSpec,
+    BackpressurePolicy, CameraErrorKind, CaptureWarning, Captured, Feed, FeedState, Image,
+    KinectSpec, NextCapture, SourceSpec,
 };
 use geometry::{depth_frame::DepthFrame, error::Advice as _};
 use inspection::pipeline::{Recipe, Unwatched, Verdict, run};
@@ -14,9 +14,8 @@ use inspection::fixtures::shipped_library;
 
 use crate::{
     kinect::{
-        PATIENCE, fakenect, next_capture, open_kinect,
+        PATIENCE, fakenect, next_capture, open_error, open_kinect,
         session::{self, CAMERA, step_width},
-        trouble,
     },
     own_process::{self, is_own},
 };
@@ -59,7 +58,7 @@ fn frames_arrive_with_the_depth_that_was_seen_and_the_session_ends() {
                 assert!(
                     captured
                         .warnings
-                        .contains(&CaptureWarning::Kinect(KinectWarning::DepthScaleAssumed))
+                        .contains(&CaptureWarning::AssumedDepthScale)
                 );
                 compare(depth_of(&captured), seen);
             }
@@ -129,27 +128,32 @@ fn a_part_is_recognised_in_what_the_library_gives() {
 #[test]
 fn stopping_works_from_any_state() {
     let write = |folder: &Path| session::write_endless(folder, &session::frames()[1]);
-    with_session("kinect::played::stopping_works_from_any_state", write, || {
-        // Opened, but no frame requested.
-        drop(open_kinect().expect("a session"));
-        // Running; it cannot be opened twice.
-        let mut kinect = open_kinect().expect("opened again");
-        next_capture(kinect.as_mut()).expect("a frame");
-        let error = trouble();
-        assert!(matches!(error, KinectError::InUse), "{error}");
-        next_capture(kinect.as_mut()).expect("the first is not disturbed");
-        drop(kinect);
-        // On the camera's own thread: before the first frame, between frames, and after its end.
-        let spec = || SourceSpec::Kinect(KinectSpec::default());
-        for num_before in [0, 3] {
-            let feed = Feed::start(spec(), BackpressurePolicy::Newest, || {}).expect("a thread");
-            for _ in 0..num_before {
-                feed.wait(PATIENCE).expect("a frame");
+    with_session(
+        "kinect::played::stopping_works_from_any_state",
+        write,
+        || {
+            // Opened, but no frame requested.
+            drop(open_kinect().expect("a session"));
+            // Running; it cannot be opened twice.
+            let mut kinect = open_kinect().expect("opened again");
+            next_capture(kinect.as_mut()).expect("a frame");
+            let error = open_error();
+            assert_eq!(error.kind, CameraErrorKind::InUse, "{error}");
+            next_capture(kinect.as_mut()).expect("the first is not disturbed");
+            drop(kinect);
+            // On the camera's own thread: before the first frame, between frames, and after its end.
+            let spec = || SourceSpec::Kinect(KinectSpec::default());
+            for num_before in [0, 3] {
+                let feed =
+                    Feed::start(spec(), BackpressurePolicy::Newest, || {}).expect("a thread");
+                for _ in 0..num_before {
+                    feed.wait(PATIENCE).expect("a frame");
+                }
+                drop(feed);
             }
-            drop(feed);
-        }
-        drop(open_kinect().expect("the camera was let go"));
-    });
+            drop(open_kinect().expect("the camera was let go"));
+        },
+    );
 }
 
 #[test]
@@ -196,7 +200,7 @@ fn a_session_that_would_end_the_program_is_refused_and_a_repaired_one_opens() {
             let index = Path::new(&folder).join("INDEX.txt");
             let whole = fs::read_to_string(&index).expect("an index");
             fs::write(&index, format!("{whole}d-1290000001.000000-7.pgm\n")).expect("written");
-            let error = trouble();
+            let error = open_error();
             assert!(
                 error.to_string().contains("d-1290000001.000000-7.pgm"),
                 "{error}"
@@ -213,8 +217,13 @@ fn a_session_that_would_end_the_program_is_refused_and_a_repaired_one_opens() {
 fn without_a_session_there_is_a_word_about_it() {
     let test = "kinect::played::without_a_session_there_is_a_word_about_it";
     if is_own(test) {
-        let error = trouble();
-        assert!(matches!(error, KinectError::NoSession { .. }), "{error}");
+        let error = open_error();
+        let text = error.to_string();
+        assert!(text.contains("FAKENECT_PATH names none"), "{text}");
+        assert!(
+            matches!(error.kind, CameraErrorKind::Unsuitable { .. }),
+            "{text}"
+        );
         return;
     }
     let Some(library) = fakenect() else { return };

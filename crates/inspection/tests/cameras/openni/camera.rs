@@ -3,14 +3,12 @@
 use std::time::Duration;
 
 use capture::{
-    BackpressurePolicy, Feed, FeedItem, NextCapture, OpenNiError, OpenNiSpec, Recovery, SourceSpec,
-    open,
+    BackpressurePolicy, CameraErrorKind, Feed, FeedItem, NextCapture, OpenNiSpec, Recovery,
+    SourceSpec, open,
 };
 use geometry::error::Advice as _;
 
-use crate::openni::{
-    PATIENCE, check, listed, next_capture, next_frame, open_camera, trouble_of, with_camera,
-};
+use crate::openni::{PATIENCE, check, listed, next_capture, next_frame, open_camera, with_camera};
 
 /// Checks frames of a camera whose mirroring is on at first, whether or not it can be switched off.
 fn shows_what_it_saw(test: &str, state: &str, metres_per_unit: f64) {
@@ -65,7 +63,11 @@ fn a_picture_that_is_not_mirrored_stays_as_it_is() {
 
 #[test]
 fn tenths_of_a_millimetre_are_read() {
-    shows_what_it_saw("openni::camera::tenths_of_a_millimetre_are_read", "fine", 0.0001);
+    shows_what_it_saw(
+        "openni::camera::tenths_of_a_millimetre_are_read",
+        "fine",
+        0.0001,
+    );
 }
 
 #[test]
@@ -83,11 +85,8 @@ fn a_camera_is_listed_and_opened_by_its_uri() {
             let mut camera = open(&spec).expect("opens");
             next_frame(camera.as_mut());
 
-            let error = listed()
-                .pop()
-                .and_then(|last| last.trouble)
-                .expect("in use");
-            assert!(matches!(trouble_of(error), OpenNiError::InUse));
+            let error = listed().pop().and_then(|last| last.error).expect("in use");
+            assert_eq!(error.kind, CameraErrorKind::InUse);
             next_frame(camera.as_mut());
             drop(camera);
 

@@ -9,14 +9,15 @@ use std::{
 };
 
 use capture::{
-    BackpressurePolicy, CaptureError, DepthSource, Feed, FeedItem, FeedState, NextCapture,
-    OpenNiError, OpenNiSpec, Pace, Recovery, SourceSpec, open,
+    BackpressurePolicy, CameraErrorKind, CaptureError, DepthSource, Feed, FeedItem, FeedState,
+    NextCapture, OpenNiSpec, Pace, Recovery, SourceSpec, open,
 };
 use geometry::error::Advice as _;
 
 use capture::fixtures::compile_c;
 
-use crate::openni::{PATIENCE, check, frame_of, next_capture, trouble_of, with_camera};
+use crate::errors::camera_error;
+use crate::openni::{PATIENCE, check, frame_of, next_capture, with_camera};
 
 const NUM_FRAMES: usize = 12;
 
@@ -35,8 +36,8 @@ fn record(folder: &Path, state: &str) {
         .env("STUB", OsStr::new(state))
         .output()
         .expect("started");
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{said}");
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{errors}");
 }
 
 fn file() -> PathBuf {
@@ -142,12 +143,14 @@ fn a_file_that_does_not_tell_its_mirroring_is_refused() {
         "well",
         |folder| record(folder, "untold"),
         || {
-            let error = trouble_of(open_file().err().expect("refused"));
+            let error = camera_error(open_file().err().expect("refused"));
             assert!(
-                matches!(error, OpenNiError::MirroringUnknown { .. }),
+                matches!(error.kind, CameraErrorKind::Unsuitable { .. }),
                 "{error}"
             );
-            assert!(error.to_string().contains("a.oni"), "{error}");
+            let text = error.to_string();
+            assert!(text.contains("a.oni"), "{text}");
+            assert!(text.contains("whether its picture is mirrored"), "{text}");
         },
     );
 }

@@ -3,14 +3,15 @@
 use std::time::Duration;
 
 use capture::{
-    BackpressurePolicy, Feed, FeedItem, NextCapture, RealsenseError, RealsenseSpec, Recovery,
+    BackpressurePolicy, CameraErrorKind, Feed, FeedItem, NextCapture, RealsenseSpec, Recovery,
     SourceSpec,
 };
 use geometry::error::Advice as _;
 
+use crate::errors::camera_error;
 use crate::realsense::{
     PATIENCE, check, frame_of, listed, next_capture, next_frame, open_camera, open_text,
-    trouble_of, with_cameras,
+    with_cameras,
 };
 
 /// The pixel that shows the number of the camera.
@@ -85,8 +86,11 @@ fn a_camera_without_depth_is_passed_over_and_listed_as_such() {
 
         let [tracking, depth] = <[_; 2]>::try_from(listed()).expect("two cameras");
         assert!(tracking.spec.is_none());
-        let error = trouble_of(tracking.trouble.expect("a reason"));
-        assert!(matches!(error, RealsenseError::NoDepth { .. }), "{error}");
+        let error = tracking.error.expect("a reason");
+        assert!(
+            matches!(error.kind, CameraErrorKind::NoDepth { .. }),
+            "{error}"
+        );
         let spec = depth.spec.expect("can be opened");
         assert_eq!(spec.to_string(), "realsense:B2");
     });
@@ -150,8 +154,11 @@ fn a_camera_that_sends_nothing_is_waited_for_then_opened_again() {
         assert!(matches!(next, NextCapture::NotYet), "{next:?}");
         let error = next_capture(camera.as_mut()).expect_err("silent");
         assert_eq!(error.recovery(), Recovery::Reopen);
-        let error = trouble_of(error);
-        assert!(matches!(error, RealsenseError::Silent { .. }), "{error}");
+        let error = camera_error(error);
+        assert!(
+            matches!(error.kind, CameraErrorKind::NoFrames { .. }),
+            "{error}"
+        );
     });
 }
 
@@ -198,8 +205,8 @@ fn a_camera_that_does_not_open_is_listed_with_the_reason() {
         assert_eq!(found.len(), 2);
         for camera in found {
             assert!(camera.spec.is_none());
-            let error = trouble_of(camera.trouble.expect("a reason"));
-            assert!(matches!(error, RealsenseError::NotOpened { .. }), "{error}");
+            let error = camera.error.expect("a reason");
+            assert_eq!(error.kind, CameraErrorKind::NotOpened, "{error}");
         }
     });
 }
@@ -207,18 +214,33 @@ fn a_camera_that_does_not_open_is_listed_with_the_reason() {
 #[test]
 fn busy() {
     let words = "cannot be started: Device or resource busy";
-    refused("realsense::camera::busy", "busy", words, "Close other programs");
+    refused(
+        "realsense::camera::busy",
+        "busy",
+        words,
+        "Close other programs",
+    );
 }
 
 #[test]
 fn no_bandwidth() {
     let words = "cannot be started: not enough bandwidth";
-    refused("realsense::camera::no_bandwidth", "no bandwidth", words, "same hub");
+    refused(
+        "realsense::camera::no_bandwidth",
+        "no bandwidth",
+        words,
+        "same hub",
+    );
 }
 
 #[test]
 fn no_depth() {
-    refused("realsense::camera::no_depth", "no depth", "has no depth", "firmware");
+    refused(
+        "realsense::camera::no_depth",
+        "no depth",
+        "has no depth",
+        "firmware",
+    );
 }
 
 #[test]
@@ -239,7 +261,12 @@ fn a_lens_that_cannot_be_held() {
 #[test]
 fn no_unit_of_depth() {
     let words = "a unit of depth of 0 m";
-    refused("realsense::camera::no_unit_of_depth", "no unit", words, "calibration");
+    refused(
+        "realsense::camera::no_unit_of_depth",
+        "no unit",
+        words,
+        "calibration",
+    );
 }
 
 #[test]
@@ -257,7 +284,12 @@ fn a_frame_without_all_its_bytes() {
 #[test]
 fn a_queue_that_fails() {
     let words = "was lost: the queue is broken";
-    refused("realsense::camera::a_queue_that_fails", "crash", words, "cable");
+    refused(
+        "realsense::camera::a_queue_that_fails",
+        "crash",
+        words,
+        "cable",
+    );
 }
 
 #[test]

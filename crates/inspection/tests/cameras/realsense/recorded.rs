@@ -11,16 +11,17 @@ use std::{
 };
 
 use capture::{
-    BackpressurePolicy, CaptureError, DepthSource, Feed, FeedItem, FeedState, NextCapture, Pace,
-    RealsenseError, RealsenseSpec, Recovery, SourceSpec, list, open,
+    BackpressurePolicy, CameraErrorKind, CaptureError, DepthSource, Feed, FeedItem, FeedState,
+    NextCapture, Pace, RealsenseSpec, Recovery, SourceSpec, open,
 };
 use geometry::{distortion::Distortion, error::Advice as _};
 
 use capture::fixtures::{SHARED, compile_c};
 
 use crate::{
+    errors::camera_error,
     own_process,
-    realsense::{PATIENCE, check, frame_of, next_capture, skipped, trouble_of},
+    realsense::{PATIENCE, check, frame_of, listed, next_capture, skipped},
 };
 
 const NUM_FRAMES: u16 = 60;
@@ -53,17 +54,9 @@ fn record(folder: &Path, model: &str) -> Result<(), String> {
     let library = library.ok_or("PARTSIGHT_TEST_REALSENSE names no library")?;
     let library = fs::canonicalize(library).expect("PARTSIGHT_TEST_REALSENSE is there");
     let python = folder.join(PYTHON);
-    compile_c(
-        "crates/inspection/tests/cameras/realsense/python.c",
-        &python,
-        &SHARED,
-    )?;
+    compile_c("tests/cameras/realsense/python.c", &python, &SHARED)?;
     let program = folder.join("record");
-    compile_c(
-        "crates/inspection/tests/cameras/realsense/record.c",
-        &program,
-        &[],
-    )?;
+    compile_c("tests/cameras/realsense/record.c", &program, &[])?;
     let linked = folder.join("librealsense2.so");
     symlink(library, &linked).expect("linked");
     let output = Command::new(program)
@@ -73,8 +66,8 @@ fn record(folder: &Path, model: &str) -> Result<(), String> {
         .env("LD_PRELOAD", python)
         .output()
         .expect("started");
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{said}");
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{errors}");
     Ok(())
 }
 
@@ -100,7 +93,8 @@ fn open_file() -> Result<Box<dyn DepthSource>, CaptureError> {
 
 #[test]
 fn every_frame_of_a_file_comes_as_it_was_recorded_and_then_the_end() {
-    let test = "realsense::recorded::every_frame_of_a_file_comes_as_it_was_recorded_and_then_the_end";
+    let test =
+        "realsense::recorded::every_frame_of_a_file_comes_as_it_was_recorded_and_then_the_end";
     with_file(test, BROWN_CONRADY, || {
         for _ in 0..2 {
             let mut played = open_file().expect("opens");
@@ -173,13 +167,13 @@ fn a_feed_plays_a_file_at_its_own_pace_and_ends() {
 fn a_file_of_a_lens_that_cannot_be_held_is_refused() {
     let test = "realsense::recorded::a_file_of_a_lens_that_cannot_be_held_is_refused";
     with_file(test, KANNALA_BRANDT, || {
-        let error = trouble_of(open_file().err().expect("refused"));
+        let error = camera_error(open_file().err().expect("refused"));
         let text = error.to_string();
         assert!(
-            matches!(error, RealsenseError::UnknownLens { .. }),
+            matches!(error.kind, CameraErrorKind::Unsuitable { .. }),
             "{text}"
         );
-        assert!(text.contains("Kannala-Brandt"), "{text}");
+        assert!(text.contains("by the Kannala-Brandt model"), "{text}");
     });
 }
 
@@ -226,14 +220,13 @@ fn a_file_that_is_damaged_cut_off_or_none_is_named() {
 fn librealsense_without_a_camera_says_so() {
     let test = "realsense::recorded::librealsense_without_a_camera_says_so";
     with_file(test, BROWN_CONRADY, || {
-        let error = list().into_iter().find_map(|listed| match listed.trouble {
-            Some(CaptureError::Realsense(error)) => Some(error),
-            _ => None,
-        });
         // A machine with a camera lists it instead.
-        if let Some(error) = error {
-            assert!(matches!(error, RealsenseError::NoDevice), "{error}");
-            assert_eq!(CaptureError::from(error).recovery(), Recovery::Reopen);
+        if let Some(error) = listed().into_iter().find_map(|listed| listed.error) {
+            assert!(
+                matches!(error.kind, CameraErrorKind::NoDevice { wanted: None, .. }),
+                "{error}"
+            );
+            assert_eq!(error.recovery(), Recovery::Reopen);
         }
         let mut played = open_file().expect("opens");
         let next = played.next(Duration::from_secs(5)).expect("no trouble");
