@@ -11,7 +11,7 @@ use super::{
     film::{Film, simulate},
     surface::PaintSurface,
 };
-use crate::program::{MotionPiece, Program, ProgramFormat};
+use crate::program::{MotionPiece, Program, RobotLanguage};
 use geometry::{cloud::PointCloud, error::Advice};
 use inspection::library::{PathPoint, Side, SprayPath};
 use stages::reference::Coverage;
@@ -40,7 +40,7 @@ impl WrittenFilm {
     /// no coat, never sprays, or cannot be written as a program, which saving it reports.
     pub fn of(
         program: &Program<'_>,
-        format: ProgramFormat,
+        language: &'static RobotLanguage,
         path: &SprayPath,
         enrolled: &PointCloud,
         coverage: Coverage,
@@ -48,7 +48,7 @@ impl WrittenFilm {
     ) -> Option<Self> {
         let coat = Coat::of_path(path)?;
         let surface = PaintSurface::of_cloud(enrolled, coverage, side).ok()?;
-        let pieces = program.motion(format).ok()?;
+        let pieces = program.motion(language).ok()?;
         let moved = moved(&pieces, path, program, &coat)?;
         Some(Self {
             coat,
