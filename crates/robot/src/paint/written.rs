@@ -19,7 +19,7 @@ use stages::reference::Coverage;
 /// Least share of the reachable surface within the tolerance for a film to be good.
 pub const LEAST_WITHIN: f64 = 0.9;
 /// Largest loss of that share which is no reason for a doubt about a program of a path that is below the limit itself.
-const MOST_LOST: f64 = 0.05;
+const MAX_LOST_SHARE: f64 = 0.05;
 
 /// The films of a path and of a program of it.
 #[derive(Clone, Debug)]
@@ -83,7 +83,7 @@ impl WrittenFilm {
         let least = if planned.within >= LEAST_WITHIN {
             LEAST_WITHIN
         } else {
-            planned.within - MOST_LOST
+            planned.within - MAX_LOST_SHARE
         };
         (written.within < least).then_some(FilmOffPlan {
             within: [planned.within, written.within],
