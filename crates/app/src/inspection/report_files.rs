@@ -28,7 +28,7 @@ use records::{
 use robot::{
     Convention, RobotFrame,
     arm::{PathCheck, PlacedArm},
-    program::{ProgramFormat, ProgramSettings},
+    program::{ProgramSettings, RobotLanguage},
 };
 use station::{
     Currency, Doubt,
@@ -70,9 +70,9 @@ pub(crate) struct ProgramTarget {
 
 impl ProgramTarget {
     /// The content of a program in this language.
-    pub(crate) fn content(&self, format: ProgramFormat) -> RobotFileContent<'_> {
+    pub(crate) fn content(&self, language: &'static RobotLanguage) -> RobotFileContent<'_> {
         RobotFileContent::Program {
-            format,
+            language,
             settings: &self.settings,
             arm: self.arm.as_ref(),
         }
@@ -101,12 +101,12 @@ pub(crate) fn spray_path(
             advice: text!("inspect-no-spray-path-advice"),
         });
     };
-    let program = match ProgramFormat::of(path) {
-        Ok(format) => Some((format, target?)),
+    let program = match RobotLanguage::from_file(path) {
+        Ok(language) => Some((language, target?)),
         Err(_) => None,
     };
     let content = match &program {
-        Some((format, target)) => target.content(*format),
+        Some((language, target)) => target.content(*language),
         None => RobotFileContent::Poses {
             convention,
             params: &inspected.recipe.stand_off,
@@ -156,18 +156,18 @@ pub(crate) fn robot_file(file: &RobotFile<'_>) -> Result<WrittenForRobot, UserEr
             num = file.carried.num_seen(),
             convention = convention_title(convention)
         ),
-        RobotFileContent::Program { format, .. } if written.num_called > 0 => text!(
+        RobotFileContent::Program { language, .. } if written.num_called > 0 => text!(
             "program-written-parts",
             path = path,
             parts = written.num_called,
             count = count,
-            format = format.title()
+            format = language.title
         ),
-        RobotFileContent::Program { format, .. } => text!(
+        RobotFileContent::Program { language, .. } => text!(
             "program-written",
             path = path,
             count = count,
-            format = format.title()
+            format = language.title
         ),
     };
     Ok(WrittenForRobot {

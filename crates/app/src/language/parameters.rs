@@ -1,12 +1,15 @@
-//! Texts of the parameters of recipes and coats. In English they equal those of the tables ([`Parameters::ALL`]), which the
-//! command line shows.
+//! Texts of the parameters of recipes, coats and programs. In English they equal those of the tables
+//! ([`Parameters::ALL`]), which the command line shows.
 
 use super::plain;
 use inspection::pipeline::{
     Recipe,
     parameters::{Group, Kind, Parameter, Parameters},
 };
-use robot::paint::{Coat, CoatGroup};
+use robot::{
+    paint::{Coat, CoatGroup},
+    program::ProgramParams,
+};
 
 /// Returns the title of a group of recipe parameters.
 pub(crate) fn group(group: Group) -> String {
@@ -58,6 +61,10 @@ impl TranslatedParameters for Recipe {
 
 impl TranslatedParameters for Coat {
     const AREA: &'static str = "coat";
+}
+
+impl TranslatedParameters for ProgramParams {
+    const AREA: &'static str = "program";
 }
 
 /// Returns the name of a parameter.
@@ -118,7 +125,9 @@ pub(super) fn message_ids() -> Vec<String> {
             .iter()
             .flat_map(|parameter| [name_id(parameter), help_id(parameter)])
     }
-    of_table::<Recipe>().chain(of_table::<Coat>()).collect()
+    let of_inspection = of_table::<Recipe>();
+    let of_paint = of_table::<Coat>().chain(of_table::<ProgramParams>());
+    of_inspection.chain(of_paint).collect()
 }
 
 #[cfg(test)]
@@ -154,6 +163,7 @@ mod tests {
     fn every_parameter_is_translated_from_what_the_command_line_shows() {
         check_table::<Recipe>();
         check_table::<Coat>();
+        check_table::<ProgramParams>();
         for of in Group::ALL {
             assert_eq!(group(of), of.title());
         }

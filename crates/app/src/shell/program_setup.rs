@@ -11,19 +11,17 @@ use crate::{
     user_error::UserError,
 };
 use files::file_name;
-use geometry::{
-    rigid::RigidTransform,
-    units::{Metres, Radians},
-};
+use geometry::rigid::RigidTransform;
+use inspection::pipeline::parameters::Parameters as _;
 use robot::{
     Convention,
-    arm::{ARM_NAMES, Arm, ArmError, GUN_RADIUS, Obstacles, PlacedArm},
+    arm::{ARM_NAMES, Arm, ArmError, Obstacles},
     parse_nozzle,
-    program::{PROGRAM_ENDINGS, ProgramFormat, ProgramSettings, ranges},
+    program::{ProgramParams, ProgramSettings, RobotLanguage},
 };
 
 /// Settings for robot programs; kept with the settings.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct ProgramSetup {
     /// Name or TOML file of the arm; `None`: reach is not checked.
@@ -37,49 +35,17 @@ pub struct ProgramSetup {
     pub rail: String,
     /// TOML file with the boxes of the cell and its floor; `None`: only the part is an obstacle.
     pub obstacles: Option<String>,
-    /// Minimum clearance of gun and arm from part, boxes and floor, mm.
-    pub clearance_mm: f64,
-    /// Radius of the gun around the line from the flange to the nozzle tip, mm.
-    pub gun_radius_mm: f64,
     /// The tool on the controller; empty: the controller's first.
     pub tool: String,
-    /// Number of the digital output that opens the gun.
-    pub gun_output: u16,
-    /// Speed where the path sets none, mm/s.
-    pub speed_mm_s: f64,
-    /// Distance of the approach points from the first and the last point, mm.
-    pub approach_mm: f64,
-    /// Blend radius of the robot at corners, mm.
-    pub blend_mm: f64,
-    /// Maximum tilt of the nozzle, used only where the arm cannot otherwise follow the path, degrees.
-    pub max_tilt_deg: f64,
-}
-
-impl Default for ProgramSetup {
-    fn default() -> Self {
-        let settings = ProgramSettings::default();
-        Self {
-            arm: None,
-            nozzle: String::new(),
-            base: [0.0; 6],
-            rail: String::new(),
-            obstacles: None,
-            clearance_mm: 1000.0 * Obstacles::default().clearance,
-            gun_radius_mm: 1000.0 * GUN_RADIUS,
-            tool: String::new(),
-            gun_output: settings.gun_output,
-            speed_mm_s: 1000.0 * settings.speed,
-            approach_mm: settings.approach.mm(),
-            blend_mm: settings.blend.mm(),
-            max_tilt_deg: settings.max_tilt.degrees(),
-        }
-    }
+    /// The numbers.
+    #[serde(flatten)]
+    pub params: ProgramParams,
 }
 
 impl ProgramSetup {
-    /// Valid values of the number of `base` at this place.
-    pub fn base_range(place: usize) -> RangeInclusive<f64> {
-        if place < 3 {
+    /// Valid values of the number of `base` at this index.
+    pub fn base_range(index: usize) -> RangeInclusive<f64> {
+        if index < 3 {
             -100_000.0..=100_000.0
         } else {
             -180.0..=180.0
@@ -90,53 +56,17 @@ impl ProgramSetup {
     ///
     /// NaN never equals itself, so that settings would be written and the reach checked without end.
     pub(crate) fn replace_unusable(&mut self) -> Vec<&'static str> {
-        let usual = Self::default();
+        let default = ProgramParams::default();
         let mut replaced = Vec::new();
-        for (key, value, range, usual) in [
-            (
-                "clearance_mm",
-                &mut self.clearance_mm,
-                ranges::CLEARANCE_MM,
-                usual.clearance_mm,
-            ),
-            (
-                "gun_radius_mm",
-                &mut self.gun_radius_mm,
-                ranges::GUN_RADIUS_MM,
-                usual.gun_radius_mm,
-            ),
-            (
-                "speed_mm_s",
-                &mut self.speed_mm_s,
-                ranges::SPEED_MM_S,
-                usual.speed_mm_s,
-            ),
-            (
-                "approach_mm",
-                &mut self.approach_mm,
-                ranges::APPROACH_MM,
-                usual.approach_mm,
-            ),
-            (
-                "blend_mm",
-                &mut self.blend_mm,
-                ranges::BLEND_MM,
-                usual.blend_mm,
-            ),
-            (
-                "max_tilt_deg",
-                &mut self.max_tilt_deg,
-                ranges::MAX_TILT_DEG,
-                usual.max_tilt_deg,
-            ),
-        ] {
-            if !range.contains(value) {
-                *value = usual;
-                replaced.push(key);
+        for row in ProgramParams::ALL {
+            let value = row.value(&self.params);
+            if row.set(&mut self.params, value).is_err() {
+                row.copy(&default, &mut self.params);
+                replaced.push(row.key);
             }
         }
-        for (place, value) in self.base.iter_mut().enumerate() {
-            if !Self::base_range(place).contains(value) {
+        for (index, value) in self.base.iter_mut().enumerate() {
+            if !Self::base_range(index).contains(value) {
                 *value = 0.0;
                 replaced.push("base");
             }
@@ -165,11 +95,8 @@ impl ProgramSetup {
     fn boxes(&self) -> Result<Obstacles, UserError> {
         let file = self.obstacles.as_deref().map(Path::new);
         let read = file.map(Obstacles::read).transpose();
-        let mut obstacles = read
-            .map_err(|error| UserError::of(&error))?
-            .unwrap_or_default();
-        obstacles.clearance = self.clearance_mm / 1000.0;
-        Ok(obstacles)
+        let read = read.map_err(|error| UserError::of(&error))?;
+        Ok(read.unwrap_or_default())
     }
 
     /// Loads an arm and puts it on the rail.
@@ -212,26 +139,21 @@ impl ProgramSetup {
         let flange_from_nozzle = self.flange_from_nozzle()?;
         let arm = match self.arm.as_deref().zip(flange_from_nozzle) {
             None => None,
-            Some((name, flange_from_nozzle)) => Some(PlacedArm {
-                arm: self
-                    .arm_on_rail(name)
-                    .map_err(|error| UserError::of(&error))?,
-                robot_from_base: Convention::Kuka
-                    .read(&self.base)
-                    .map_err(|error| UserError::of(&error))?,
-                flange_from_nozzle,
-                gun_radius: self.gun_radius_mm / 1000.0,
-                obstacles: self.boxes()?,
-            }),
+            Some((name, flange_from_nozzle)) => {
+                let arm = self.arm_on_rail(name);
+                let base = Convention::Kuka.read(&self.base);
+                Some(self.params.place(
+                    arm.map_err(|error| UserError::of(&error))?,
+                    base.map_err(|error| UserError::of(&error))?,
+                    flange_from_nozzle,
+                    self.boxes()?,
+                ))
+            }
         };
         let settings = ProgramSettings {
             tool: (!tool.is_empty()).then(|| tool.to_owned()),
             flange_from_nozzle,
-            gun_output: self.gun_output,
-            speed: self.speed_mm_s / 1000.0,
-            approach: Metres::from_mm(self.approach_mm),
-            max_tilt: Radians::from_degrees(self.max_tilt_deg),
-            blend: Metres::from_mm(self.blend_mm),
+            params: self.params,
         };
         Ok(ProgramTarget { settings, arm })
     }
@@ -239,7 +161,7 @@ impl ProgramSetup {
 
 /// Returns the filter for robot programs in a file dialog.
 pub(crate) fn program_files() -> FileFilter {
-    (text!("program-files"), &PROGRAM_ENDINGS)
+    (text!("program-files"), &RobotLanguage::ENDINGS)
 }
 
 /// Suggests the name of a program, with the ending that the arm's maker uses, else the robot that the convention belongs to.
@@ -248,15 +170,16 @@ pub(crate) fn program_file_name(
     setup: &ProgramSetup,
     convention: Convention,
 ) -> String {
-    // The titles of arms and of languages begin with the maker.
-    let maker = |title: &str| title.split(' ').next().map(str::to_lowercase);
-    let arm = setup.arm_title().and_then(|title| maker(&title));
-    let all = || ProgramFormat::ALL.into_iter();
-    let of_arm = all().find(|format| arm.is_some() && maker(format.title()) == arm);
-    let format = of_arm
-        .or_else(|| all().find(|format| format.convention() == convention))
-        .unwrap_or(ProgramFormat::Krl);
-    format!("{part}.{}", format.ending())
+    // The titles of arms begin with the maker.
+    let arm = setup.arm_title().unwrap_or_default();
+    let maker = arm.split(' ').next().unwrap_or_default();
+    let [default, ..] = RobotLanguage::ALL;
+    let all = || RobotLanguage::ALL.into_iter();
+    let of_arm = all().find(|language| language.maker.eq_ignore_ascii_case(maker));
+    let language = of_arm
+        .or_else(|| all().find(|language| language.convention == convention))
+        .unwrap_or(default);
+    format!("{part}.{}", language.ending)
 }
 
 #[cfg(test)]

@@ -375,6 +375,8 @@ mod tests {
 
     use super::*;
     use crate::inspection::scan_choice::ScanFiles;
+    use geometry::units::Metres;
+    use robot::program::ProgramParams;
     use serve::PoseKind;
 
     fn unusual() -> Settings {
@@ -534,17 +536,20 @@ mod tests {
     fn numbers_of_a_robot_program_that_cannot_be_are_named_and_the_usual_ones() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("settings.toml");
-        let text = "[program]\narm = \"gp25\"\nspeed_mm_s = nan\nblend_mm = inf\nclearance_mm = 30.0\n\
+        let text = "[program]\narm = \"gp25\"\nspeed = nan\nblend = inf\nclearance = 0.03\n\
                     base = [nan, -800.0, 0.0, 500.0, 0.0, 90.0]\n";
         fs::write(&path, text).expect("written");
         let (settings, trouble) = load(&path);
-        let named = "program.speed_mm_s, program.blend_mm, program.base in ";
+        let named = "program.speed, program.blend, program.base in ";
         let trouble = trouble.expect("said");
         assert!(trouble.what.starts_with(named), "{trouble:?}");
         let wanted = ProgramSetup {
             arm: Some("gp25".into()),
-            clearance_mm: 30.0,
             base: [0.0, -800.0, 0.0, 0.0, 0.0, 90.0],
+            params: ProgramParams {
+                clearance: Metres(0.03),
+                ..ProgramParams::default()
+            },
             ..ProgramSetup::default()
         };
         assert_eq!(settings.program, wanted);

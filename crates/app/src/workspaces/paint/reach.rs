@@ -37,7 +37,7 @@ use robot::{
         ArmError, Body, Obstacle, Obstacles, PathCheck, PlaceSuggestion, PointProblem,
         suggest_base, suggest_rail,
     },
-    program::{ProgramFormat, arm_points, check_reach},
+    program::{RobotLanguage, arm_points, check_reach},
     spray::{CarriedPath, OffThePart, carry, off_the_part},
 };
 use stages::{reference::Coverage, stand_off::StandOffParams};
@@ -260,8 +260,8 @@ fn found(
     context.check()?;
     let robot_from_part = request.robot.robot_from_part(&RigidTransform::identity());
     let arm = arm.with_part(&path.part_cloud.points, &robot_from_part);
-    let points = arm_points(&path.carried, &request.robot, settings.speed);
-    let params = settings.check_params();
+    let points = arm_points(&path.carried, &request.robot, settings.params.speed);
+    let params = settings.params.check_params();
     let failed = |error: ArmError| match error {
         ArmError::Cancelled => TaskError::Cancelled,
         error => TaskError::Failed(UserError::of(&error)),
@@ -338,12 +338,12 @@ pub(super) fn write_program(
     library_cache: &LibraryCache,
 ) -> Result<WrittenForRobot, UserError> {
     remove_earlier(file)?;
-    let format = ProgramFormat::of(file).map_err(|error| UserError::of(&error))?;
+    let language = RobotLanguage::from_file(file).map_err(|error| UserError::of(&error))?;
     let path = in_standard_position(planned, library_cache)?;
     let target = setup.target()?;
     report_files::robot_file(&RobotFile {
         file,
-        content: target.content(format),
+        content: target.content(language),
         carried: &path.carried,
         frame: robot,
         part: planned.part.as_str(),

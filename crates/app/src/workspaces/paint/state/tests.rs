@@ -606,10 +606,10 @@ fn another_base_is_checked_written_and_an_undoable_step() {
     bench.run_set_up(PaintAction::SetUp(moved.clone()));
     assert_eq!(bench.reached().check.num_reached(), better.num_reached);
     // Nothing else is undone.
-    bench.shell.session.program.gun_output = 7;
-    let with_output = |setup: ProgramSetup| ProgramSetup {
-        gun_output: 7,
-        ..setup
+    bench.shell.session.program.params.gun_output = 7;
+    let with_output = |mut setup: ProgramSetup| {
+        setup.params.gun_output = 7;
+        setup
     };
     for (action, wanted) in [
         (PaintAction::Undo, far),
