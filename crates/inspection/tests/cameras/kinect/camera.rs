@@ -154,12 +154,16 @@ fn a_camera_that_sends_nothing_is_waited_for() {
 
 #[test]
 fn a_signal_is_no_open_error() {
-    with_camera("kinect::camera::a_signal_is_no_open_error", "signals", || {
-        let mut kinect = open_kinect().expect("opens");
-        for _ in 0..3 {
-            next_capture(kinect.as_mut()).expect("a frame");
-        }
-    });
+    with_camera(
+        "kinect::camera::a_signal_is_no_open_error",
+        "signals",
+        || {
+            let mut kinect = open_kinect().expect("opens");
+            for _ in 0..3 {
+                next_capture(kinect.as_mut()).expect("a frame");
+            }
+        },
+    );
 }
 
 /// Checks message, advice and calls in a state in which the camera does not open.
