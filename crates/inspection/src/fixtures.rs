@@ -6,7 +6,6 @@ use geometry::units::Metres;
 use stages::{
     contour::ContourError,
     fixtures::{FREEDOMS, pose_errors},
-    pose::PoseError,
     project::ProjectError,
     reference::ReferenceParams,
     segment::NoPart,
