@@ -63,6 +63,7 @@ pub use serve;
 pub use simulate;
 #[doc(hidden)]
 pub use stages::{self, scan};
+#[cfg(feature = "cli")]
 #[doc(hidden)]
 pub use station;
 

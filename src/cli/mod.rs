@@ -9,8 +9,6 @@ mod calibrate;
 mod capture;
 mod cell;
 mod console;
-#[cfg(feature = "plant")]
-mod database;
 mod enrol;
 mod evaluate;
 mod first_look;
@@ -20,11 +18,10 @@ mod input;
 mod inspect;
 mod interrupt;
 mod library;
-#[cfg(feature = "plant")]
-mod mqtt;
 mod numbers;
 mod output;
 mod path;
+mod plant;
 mod program;
 mod recipe;
 mod recipes;
@@ -245,6 +242,7 @@ fn window(
             .ok()
             .map(|folder| folder.path().to_owned()),
         scene,
+        taken_version: Some(plant::version_of),
         ..app::WindowOptions::default()
     };
     match (app::run(options), opened) {

@@ -6,7 +6,11 @@ use eframe::egui_wgpu::RenderState;
 use egui::{CentralPanel, Frame, LayerId, Ui};
 
 use super::{
-    inspection::{camera::Camera, inspected::Inspected, library_cache::LibraryCache},
+    inspection::{
+        camera::Camera,
+        inspected::Inspected,
+        library_cache::{LibraryCache, ReadTakenVersion},
+    },
     shell::{
         action::{Action, DialogRequest, Effect, apply, remove_notices},
         closing::{self, Closing},
@@ -78,6 +82,8 @@ pub struct WindowOptions {
     pub camera: Camera,
     /// Language unless one was chosen in the window; `None` for English.
     pub language: Option<Language>,
+    /// Reads from which published version a library was taken; `None` in a build that takes none.
+    pub taken_version: Option<ReadTakenVersion>,
 }
 
 /// The window.
@@ -117,6 +123,7 @@ impl Window {
             cell_checks,
             camera,
             language,
+            taken_version,
         } = options;
         let is_first_start = settings.as_ref().is_some_and(|path| !path.exists());
         language.unwrap_or_default().make_current();
@@ -131,7 +138,8 @@ impl Window {
         let history_writer = Writer::start(Arc::clone(&kept), move || repaint.request_repaint())?;
         let library_cache =
             LibraryCache::new(library.or_else(|| remembered.library.clone()), camera)
-                .with_history(Arc::clone(&kept));
+                .with_history(Arc::clone(&kept))
+                .with_versions(taken_version);
         let gpu = render_state
             .map(ViewportGpu::of_window)
             .ok_or_else(|| ViewError::NoDevice {

@@ -1,6 +1,6 @@
 //! `partsight inspect --program`: writes the part's spray path as a program for the robot's controller.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
@@ -16,6 +16,7 @@ use robot::{RobotFrame, program::RobotLanguage, spray::carry};
 use station::{
     Currency,
     robot_file::{CapturedPart, remove_previous},
+    written_at,
 };
 
 /// Whether and how a program is written.
@@ -116,7 +117,7 @@ impl CapturedProgram {
         };
         let camera_from_part = pose.camera_from_part();
         let carried = carry(&path, &camera_from_part, &part.cloud, seen.params);
-        let currency = Currency::File(seen.scene.into());
+        let currency = Currency::CapturedAt(written_at([Path::new(seen.scene)]));
         let subject = ProgramSubject {
             part: name,
             reference: &seen.library.references[first.reference],

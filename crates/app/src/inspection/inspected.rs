@@ -5,6 +5,7 @@ use std::{
     time::{Instant, SystemTime},
 };
 
+use image::RgbImage;
 use jiff::Timestamp;
 use nalgebra::Point3;
 
@@ -32,10 +33,7 @@ use inspection::{
         scan::{ScanInspection, run_scan, unseen_points},
     },
 };
-use records::{
-    history::{HungId, InspectionContext, NewEntry, Traceability},
-    report::InspectionLine,
-};
+use records::history::{HungId, NewEntry, Traceability};
 use robot::{
     RobotFrame,
     spray::{CarriedPath, OffThePart, carry},
@@ -46,6 +44,7 @@ use stages::{
     scene::SceneCloud,
     stand_off::{StandOff, StandOffError, stand_off},
 };
+use station::{self, LibraryNames, Subject};
 
 /// Something to inspect or enrol.
 #[derive(Clone, Debug)]
@@ -111,6 +110,10 @@ pub struct Inspected {
     pub followed: Option<LiveFrameContext>,
     /// The scan that was inspected, if it is one; `scene` is then its first shot.
     pub scan: Option<InspectedScan>,
+    /// What was inspected, as records name it.
+    pub subject: Subject,
+    /// The robot frame: from the scan itself, else from the calibration of the cell in use then; `None` if there was none.
+    pub robot: Option<Arc<RobotFrame>>,
     /// The entry for the history.
     pub entry: NewEntry,
 }
@@ -119,6 +122,33 @@ impl Inspected {
     /// The hung part that it belongs to.
     pub(crate) fn hung(&self) -> &HungId {
         &self.entry.record.summary.hung
+    }
+
+    /// Sets the hung part that it belongs to, and the traceability of that part.
+    pub(crate) fn set_part(&mut self, hung: HungId, trace: Traceability) {
+        self.entry.record.detail.line = self.line(&trace, None);
+        let summary = &mut self.entry.record.summary;
+        (summary.hung, summary.trace) = (hung, trace);
+    }
+
+    /// The entry for the history with this traceability.
+    pub(crate) fn entry_of(&self, trace: Traceability) -> NewEntry {
+        let mut entry = self.entry.clone();
+        entry.record.detail.line = self.line(&trace, None);
+        entry.record.summary.trace = trace;
+        entry
+    }
+
+    /// The line of JSON, as the commands write it; with what really hung there, if a person has reported that.
+    pub(crate) fn line(&self, trace: &Traceability, reported_as: Option<&str>) -> String {
+        let inspected = station::Inspected {
+            subject: &self.subject,
+            scene: &self.scene,
+            inspection: &self.inspection,
+            recipe: &self.recipe,
+            robot: self.robot.as_deref(),
+        };
+        inspected.reported_line(trace, reported_as)
     }
 
     /// Title of the part that the verdict names, whichever of its references was found; `None` without a part.
@@ -201,6 +231,7 @@ pub fn inspect(
         followed: None,
         scan: None,
         source: request.source.in_words(),
+        robot: library_cache.robot(),
     };
     Ok(found.prepared(&fitted, &loaded.shown))
 }
@@ -238,13 +269,14 @@ pub(crate) fn inspect_scan(
         inspection,
         followed: None,
         source: fused.title(),
+        robot: Some(Arc::new(RobotFrame {
+            robot_from_camera: shot.base_from_camera,
+            name: "the poses of the scan".into(),
+        })),
         scan: Some(FoundScan {
-            robot: Arc::new(RobotFrame {
-                robot_from_camera: shot.base_from_camera,
-                name: "the poses of the scan".into(),
-            }),
-            base_from_part,
             fused,
+            first,
+            base_from_part,
         }),
     };
     Ok(Ok(found.prepared(&fitted, &loaded.shown)))
@@ -260,6 +292,8 @@ pub(crate) struct FinishedInspection {
     pub(crate) followed: Option<LiveFrameContext>,
     /// Name of the source for the history.
     pub(crate) source: String,
+    /// The robot frame, if the cell is calibrated.
+    pub(crate) robot: Option<Arc<RobotFrame>>,
     /// The scan that was inspected, if it is one.
     pub(crate) scan: Option<FoundScan>,
 }
@@ -267,11 +301,29 @@ pub(crate) struct FinishedInspection {
 /// The scan of an inspection, before the data of the panels is prepared.
 pub(crate) struct FoundScan {
     fused: Arc<FusedShots>,
-    robot: Arc<RobotFrame>,
+    /// Index of the shot whose camera the pose refers to.
+    first: usize,
     base_from_part: Option<RigidTransform>,
 }
 
 impl FoundScan {
+    /// What was inspected, as records name it.
+    fn subject(&self, origin: &Origin, source: String) -> Subject {
+        let Subject {
+            scene,
+            title,
+            source,
+            is_simulated,
+            ..
+        } = origin.subject(source);
+        let scan = &self.fused.scan;
+        Subject {
+            title,
+            is_simulated,
+            ..Subject::of_scan(scene, source, scan, self.first, self.base_from_part)
+        }
+    }
+
     /// The part's points in the camera frame, each with its index among all points.
     fn part(&self) -> impl Iterator<Item = (usize, Point3<f32>)> {
         let figure = &self.fused.figure;
@@ -303,6 +355,24 @@ impl FoundScan {
     }
 }
 
+/// Creates the entry of an inspection for the history, as one of a part of its own.
+pub(crate) fn entry_of(
+    inspected: &station::Inspected<'_>,
+    origin: &Origin,
+    library: &LibraryView,
+    trace: Traceability,
+    picture: Option<&RgbImage>,
+) -> NewEntry {
+    let names = LibraryNames {
+        identity: &library.identity,
+        title_of: &|name| library.title_of(name).to_owned(),
+    };
+    let mut entry = inspected.entry(HungId::new(), trace, names, picture);
+    // An origin without a JSON form cannot be opened again anyway.
+    entry.record.detail.origin = serde_json::to_string(origin).ok();
+    entry
+}
+
 impl FinishedInspection {
     /// Prepares the data of the panels; goes through every point.
     pub(crate) fn prepared(self, library: &Library, shown: &Arc<LibraryView>) -> Inspected {
@@ -314,6 +384,7 @@ impl FinishedInspection {
             inspection,
             followed,
             source,
+            robot,
             scan,
         } = self;
         let best = inspection.best_reference(library);
@@ -360,37 +431,30 @@ impl FinishedInspection {
             figures.num_points = found.fused.figure.positions.len();
             figures.num_part = part.points.len();
         }
-        let scan = scan.map(|found| InspectedScan {
-            unseen: best.and_then(|best| found.unseen(&inspection, best, &recipe)),
-            fused: found.fused,
-            robot: found.robot,
-        });
-        let at = geometry::clock::now();
-        let title = origin.title();
-        let about = InspectionContext {
-            at,
-            line: InspectionLine::of(&title, &inspection)
-                .by(&recipe)
-                .to_json(),
-            is_simulated: origin.is_simulated(),
-            title_of: &|name| shown.title_of(name).to_owned(),
-            library: shown.identity.clone(),
-            // An origin without a JSON form cannot be opened again anyway.
-            origin: serde_json::to_string(&origin).ok(),
-            picture: figures.segmentation.as_ref(),
-            scene: title,
-            source,
-            hung: HungId::new(),
+        let subject = match &scan {
+            Some(found) => found.subject(&origin, source),
+            None => origin.subject(source),
         };
-        let entry = NewEntry::of(about, &scene, &inspection, &recipe);
-        let entry = match &scan {
-            Some(scan) => entry.of_scan(scan.fused.scan.given()),
-            None => entry,
+        let recorded = station::Inspected {
+            subject: &subject,
+            scene: &scene,
+            inspection: &inspection,
+            recipe: &recipe,
+            robot: robot.as_deref(),
         };
+        let picture = figures.segmentation.as_ref();
+        let entry = entry_of(&recorded, &origin, shown, Traceability::default(), picture);
+        let scan = scan
+            .zip(robot.as_ref())
+            .map(|(found, robot)| InspectedScan {
+                unseen: best.and_then(|best| found.unseen(&inspection, best, &recipe)),
+                fused: found.fused,
+                robot: Arc::clone(robot),
+            });
         Inspected {
             captured_at: origin.captured_at(),
+            at: entry.record.summary.at,
             origin,
-            at,
             scene,
             recipe,
             inspection,
@@ -405,6 +469,8 @@ impl FinishedInspection {
             view,
             followed,
             scan,
+            subject,
+            robot,
             entry,
         }
     }
@@ -426,6 +492,40 @@ mod tests {
     use super::*;
     use crate::inspection::source::CellChoice;
     use inspection::fixtures::shipped_library;
+
+    #[test]
+    fn the_line_in_the_history_has_the_part_that_it_is_of_and_the_pose_for_the_robot() {
+        let library_cache = LibraryCache::default();
+        library_cache.use_robot(Some(Arc::new(RobotFrame {
+            robot_from_camera: RigidTransform::identity(),
+            name: "cell 1".into(),
+        })));
+        let request = InspectRequest {
+            source: SceneSource::Cell {
+                choice: CellChoice::InTurn,
+                number: 1,
+            },
+            recipe: Arc::default(),
+        };
+        let inspected = inspect(&request, &library_cache, &pipeline::Unwatched);
+        let mut inspected = inspected.expect("inspected");
+        let trace = Traceability {
+            serial: "4711".into(),
+            ..Traceability::default()
+        };
+        inspected.set_part(HungId::new(), trace.clone());
+        for entry in [inspected.entry.clone(), inspected.entry_of(trace)] {
+            let line = serde_json::from_str::<serde_json::Value>(&entry.record.detail.line);
+            let line = line.expect("JSON");
+            assert_eq!(line["scene"], "simulated frame 1");
+            assert_eq!(
+                (&line["simulated"], &line["serial"]),
+                (&true.into(), &"4711".into())
+            );
+            assert_eq!(line["robot"]["calibration"], "cell 1");
+            assert_eq!(line["recipe"]["identity"], *inspected.recipe.identity());
+        }
+    }
 
     #[test]
     fn a_captured_frame_comes_back_inspected() {

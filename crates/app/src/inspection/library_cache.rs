@@ -15,21 +15,23 @@ use crate::{language::text, user_error::UserError};
 use geometry::error::{Advice as _, lock};
 use inspection::library::{
     Library, LibraryError, LibraryFolder, LibraryLoad, LibraryPlace, PartMeta, PartName,
-    PartNumbers, SprayPath, open_library,
+    PartNumbers, SprayPath, TakenVersion, open_library,
 };
-#[cfg(feature = "plant")]
-use plant::bundle::{BundleError, TakenBundle};
 use records::history::HistoryBuffer;
-use robot::spray::{OffThePart, off_the_part};
+use robot::{
+    RobotFrame,
+    spray::{OffThePart, off_the_part},
+};
 use stages::reference::ReferenceParams;
 
-/// A handle to the library, the camera, the recording and the history in use; clones share them.
+/// A handle to the library, the camera, the recording, the history and the robot frame in use; clones share them.
 #[derive(Clone, Debug)]
 pub struct LibraryCache {
     choice: Arc<Mutex<Choice>>,
     camera: Camera,
     recording: SharedRecording,
     history: Arc<HistoryBuffer>,
+    robot: Arc<Mutex<Option<Arc<RobotFrame>>>>,
 }
 
 #[derive(Debug, Default)]
@@ -39,7 +41,11 @@ struct Choice {
     loaded: Option<Arc<LoadedLibrary>>,
     /// The numbers that the window itself gave to the parts.
     own_numbers: Option<PartNumbers>,
+    taken_version: Option<ReadTakenVersion>,
 }
+
+/// Reads the published version that a library was taken from; the error and its advice.
+pub type ReadTakenVersion = fn(&LibraryPlace) -> Result<Option<TakenVersion>, [String; 2]>;
 
 /// A loaded library.
 #[derive(Debug)]
@@ -92,7 +98,6 @@ pub struct LibraryView {
     /// Entries that had to be set aside, and other oddities.
     pub troubles: Vec<UserError>,
     /// The published version that it was taken from, if it was, in words.
-    #[cfg(feature = "plant")]
     pub version: Option<String>,
 }
 
@@ -121,11 +126,8 @@ impl LibraryView {
     }
 
     fn is_same_but_numbers(&self, other: &Self) -> bool {
-        #[cfg(feature = "plant")]
-        if self.version != other.version {
-            return false;
-        }
-        self.path == other.path
+        self.version == other.version
+            && self.path == other.path
             && self.identity == other.identity
             && self.parts == other.parts
             && self.damaged == other.damaged
@@ -194,7 +196,25 @@ impl LibraryCache {
             camera,
             recording: SharedRecording::default(),
             history: Arc::default(),
+            robot: Arc::default(),
         }
+    }
+
+    /// Reads by this function from which published version a library was taken.
+    #[must_use]
+    pub fn with_versions(self, taken_version: Option<ReadTakenVersion>) -> Self {
+        self.lock().taken_version = taken_version;
+        self
+    }
+
+    /// The robot frame in use, with the camera's pose in the robot's base, if the cell is calibrated.
+    pub fn robot(&self) -> Option<Arc<RobotFrame>> {
+        lock(&self.robot).clone()
+    }
+
+    /// Sets the robot frame in use.
+    pub fn use_robot(&self, robot: Option<Arc<RobotFrame>>) {
+        *lock(&self.robot) = robot;
     }
 
     /// Replaces the history.
@@ -240,9 +260,11 @@ impl LibraryCache {
     /// Loads the library again if another program has changed it; `None` if it is unchanged or another one was chosen. If it
     /// cannot be loaded, the present one stays in use.
     pub fn refresh(&self) -> Result<Option<Arc<LoadedLibrary>>, LibraryError> {
-        let given = self.lock().given.clone();
+        let choice = self.lock();
+        let (given, taken_version) = (choice.given.clone(), choice.taken_version);
+        drop(choice);
         // The lock is released while loading, so that no other thread waits for the disk.
-        let found = Arc::new(load(given.as_deref())?);
+        let found = Arc::new(load(given.as_deref(), taken_version)?);
         let mut choice = self.lock();
         let known = choice.loaded.as_ref();
         let is_known = known.is_some_and(|known| known.shown.is_same(&found.shown));
@@ -283,7 +305,7 @@ impl LibraryCache {
 
 impl Choice {
     fn load(&mut self) -> Result<Arc<LoadedLibrary>, LibraryError> {
-        let loaded = Arc::new(load(self.given.as_deref())?);
+        let loaded = Arc::new(load(self.given.as_deref(), self.taken_version)?);
         self.loaded = Some(Arc::clone(&loaded));
         Ok(loaded)
     }
@@ -317,7 +339,10 @@ impl Choice {
     }
 }
 
-fn load(given: Option<&Path>) -> Result<LoadedLibrary, LibraryError> {
+fn load(
+    given: Option<&Path>,
+    taken_version: Option<ReadTakenVersion>,
+) -> Result<LoadedLibrary, LibraryError> {
     let place = open_library(given)?;
     let load = place.load(&ReferenceParams::default())?;
     let identity = load.identity();
@@ -373,11 +398,14 @@ fn load(given: Option<&Path>) -> Result<LoadedLibrary, LibraryError> {
     };
     let without_parts = place.folder().filter(|_| parts.is_empty());
     troubles.extend(without_parts.and_then(no_library));
-    #[cfg(feature = "plant")]
-    let version = version_of(&place).unwrap_or_else(|error| {
-        troubles.push(UserError::of(&error));
-        None
-    });
+    let taken = taken_version.map(|version_of| version_of(&place));
+    let version = match taken.transpose() {
+        Ok(version) => version.flatten().map(|version| in_words(&version)),
+        Err([what, advice]) => {
+            troubles.push(UserError { what, advice });
+            None
+        }
+    };
     let shown = Arc::new(LibraryView {
         path: place.location().into(),
         identity,
@@ -389,7 +417,6 @@ fn load(given: Option<&Path>) -> Result<LoadedLibrary, LibraryError> {
         is_fixed,
         parts,
         troubles,
-        #[cfg(feature = "plant")]
         version,
     });
     Ok(LoadedLibrary {
@@ -400,30 +427,18 @@ fn load(given: Option<&Path>) -> Result<LoadedLibrary, LibraryError> {
     })
 }
 
-/// The published version that a library was taken from, in words.
-#[cfg(feature = "plant")]
-fn version_of(place: &LibraryPlace) -> Result<Option<String>, BundleError> {
-    let Some(folder) = place.folder() else {
-        return Ok(None);
-    };
-    let Some(taken) = TakenBundle::of(folder)? else {
-        return Ok(None);
-    };
-    let is_changed = !taken.differences(folder)?.is_empty();
-    let version = taken.manifest.version.to_string();
-    Ok(Some(if is_changed {
+fn in_words(taken: &TakenVersion) -> String {
+    let version = taken.version.to_string();
+    let store = &taken.store;
+    if taken.is_changed {
         text!(
             "shell-library-version-changed",
             version = version,
-            store = taken.store
+            store = store
         )
     } else {
-        text!(
-            "shell-library-version",
-            version = version,
-            store = taken.store
-        )
-    }))
+        text!("shell-library-version", version = version, store = store)
+    }
 }
 
 /// What to say of a folder without parts: something else lies there, so probably another one was meant.

@@ -20,7 +20,7 @@ use files::{file_name, write_atomically};
 use records::{
     history::Traceability,
     report::{
-        InspectionLine, ReportError, ReportFolder,
+        ReportError, ReportFolder,
         pose_report::{PdfPictures, PoseReport, ReportSubject, SeenBy, append_csv, pose_pdf},
         stage_pictures,
     },
@@ -242,11 +242,9 @@ pub(crate) fn report(
 ) -> Result<String, UserError> {
     let trouble = |error: ReportError| UserError::of(&error);
     let name = scene_name(&inspected.origin);
-    let scene = name.display().to_string();
     let name = unused_name(folder, &name);
-    let line = InspectionLine::of(&scene, &inspected.inspection)
-        .reported_as(report.verdict.reported_as.as_deref())
-        .to_json();
+    let reported_as = report.verdict.reported_as.as_deref();
+    let line = inspected.line(&report.traceability, reported_as);
     let stages = stage_pictures(&inspected.scene, &inspected.inspection);
     let mut out = ReportFolder::make(folder).map_err(trouble)?;
     let path = out.write(&name, &line, &stages).map_err(trouble)?;
@@ -331,6 +329,7 @@ mod tests {
         let frame = |is_simulated| Origin::Frame {
             name: "kinect frame 12".into(),
             is_simulated,
+            capture: None,
         };
         let file = Origin::File {
             path: "/data/door.pcd".into(),

@@ -1,10 +1,6 @@
 //! Sources of scenes: the simulated cell, files, and cameras.
 
-use std::{
-    path::{Path, PathBuf},
-    sync::Arc,
-    time::SystemTime,
-};
+use std::{path::PathBuf, sync::Arc, time::SystemTime};
 
 use super::{
     camera::{Camera, NoFrame},
@@ -18,13 +14,14 @@ use crate::{
     user_error::UserError,
 };
 use capture::{self, CaptureWarning, CellScene, Image, SimulatedSpec, SourceSpec};
-use files::{self, FileContent, FileError, file_of};
+use files::{self, FileContent, FileError};
 use geometry::error::Advice;
 use records::history::{FrameError, FrameRecord, read_frame};
 use simulate::{
     CellSetup, ObjectKind, PartKind, PartPose, PoseRange, Side, SimulatedObject, frame,
 };
 use stages::scene::{EmptyCell, SceneCloud, scene_from_frame, scene_from_image};
+use station::{CaptureFacts, Subject, written_at};
 
 pub(crate) use files::file_name;
 
@@ -149,10 +146,38 @@ pub enum Origin {
         name: String,
         /// True if it is simulated, or was when it was recorded.
         is_simulated: bool,
+        /// The capture, if it is known.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        capture: Option<CaptureFacts>,
     },
 }
 
 impl Origin {
+    /// The origin of a capture of this source.
+    pub(crate) fn of_capture(captured: &capture::Captured, source: &str, num_dropped: u64) -> Self {
+        Self::Frame {
+            name: captured.name.clone(),
+            is_simulated: captured.is_simulated,
+            capture: Some(CaptureFacts::new(captured, source, num_dropped)),
+        }
+    }
+
+    /// What was inspected, as records name it; `source` is the name of the source for the history.
+    pub(crate) fn subject(&self, source: String) -> Subject {
+        // The names in the line of JSON are those that the commands write.
+        let (scene, capture) = match self {
+            Self::Simulated { number, .. } => (format!("simulated frame {number}"), None),
+            Self::File { path, .. } => (path.display().to_string(), None),
+            Self::Scan { name, .. } => (name.clone(), None),
+            Self::Frame { name, capture, .. } => (name.clone(), capture.clone()),
+        };
+        Subject {
+            title: self.title(),
+            capture,
+            ..Subject::of_scene(scene, source, self.is_simulated())
+        }
+    }
+
     /// Returns the title in the language of the window.
     pub(crate) fn shown_title(&self) -> String {
         stored_scene(&self.title(), self.is_simulated())
@@ -170,6 +195,7 @@ impl Origin {
             Self::Frame {
                 name,
                 is_simulated: true,
+                ..
             } if !name.contains("simulated") => format!("{}, simulated", sentence(name)),
             Self::Scan {
                 name,
@@ -191,30 +217,16 @@ impl Origin {
         }
     }
 
-    /// When a scene of this origin that was just taken was captured: for files when they were last written, the earliest if
-    /// there are several, and the beginning of time if that is not known; else now.
+    /// When a scene of this origin that was just taken was captured: see [`written_at`] for files; else now.
     pub(crate) fn captured_at(&self) -> SystemTime {
-        let written = |path: &Path| {
-            file_of(path)
-                .metadata()
-                .and_then(|meta| meta.modified())
-                .ok()
-        };
-        let all = match self {
-            Self::Simulated { .. } | Self::Frame { .. } => return SystemTime::now(),
-            Self::File { path, .. } => written(path),
+        match self {
+            Self::Simulated { .. } | Self::Frame { .. } => SystemTime::now(),
+            Self::File { path, .. } => written_at([path.as_path()]),
             Self::Scan { files, .. } => {
                 let added = files.added.iter().map(|(frame, _)| frame);
-                let times: Vec<_> = files
-                    .frames
-                    .iter()
-                    .chain(added)
-                    .map(|path| written(path))
-                    .collect();
-                times.into_iter().min().flatten()
+                written_at(files.frames.iter().chain(added).map(PathBuf::as_path))
             }
-        };
-        all.unwrap_or(SystemTime::UNIX_EPOCH)
+        }
     }
 
     /// Returns a source that gives the same scene again, by simulating the same frame or reading the files again. `None` for a
@@ -376,7 +388,12 @@ impl SceneSource {
                 })
             }
             Self::Camera(spec) => {
-                let mut captured: Captured = camera.next(spec, is_cancelled)?.into();
+                let captured = camera.next(spec, is_cancelled)?;
+                let origin = Origin::of_capture(&captured, &spec.to_string(), 0);
+                let mut captured = Captured {
+                    origin,
+                    ..captured.into()
+                };
                 camera.share_view(spec, &mut captured.scene);
                 Ok(captured)
             }
@@ -408,6 +425,7 @@ impl From<capture::Captured> for Captured {
             origin: Origin::Frame {
                 name: frame.name,
                 is_simulated: frame.is_simulated,
+                capture: None,
             },
             warnings: frame.warnings,
         }
@@ -435,6 +453,7 @@ mod tests {
         let frame = |name: &str, is_simulated| Origin::Frame {
             name: name.into(),
             is_simulated,
+            capture: None,
         };
         let origins = [
             (

@@ -439,24 +439,21 @@ fn run(
         PartAtHand::MaybeSeen(_) => seen_before(&inspected, library_cache.history()),
         _ => None,
     };
-    let summary = &mut inspected.entry.record.summary;
-    match part {
+    let summary = &inspected.entry.record.summary;
+    let shows_part = summary.verdict != StoredVerdict::NoPart;
+    let (hung, trace) = match part {
         PartAtHand::Followed(parts, current) => {
-            let shows_part = summary.verdict != StoredVerdict::NoPart;
-            (summary.hung, summary.trace) =
-                lock(&parts).of_capture(&summary.source, shows_part, &current);
+            lock(&parts).of_capture(&summary.source, shows_part, &current)
         }
-        PartAtHand::Known(hung, trace) => (summary.hung, summary.trace) = (hung, trace),
-        PartAtHand::Past(trace) => summary.trace = trace,
-        PartAtHand::MaybeSeen(current) => {
-            // With a serial number it is another part.
-            if let Some(seen) = seen.filter(|_| !current.has_complete_serial()) {
-                (summary.hung, summary.trace) = (seen.hung, seen.trace);
-            } else {
-                summary.trace = current.take(summary.verdict != StoredVerdict::NoPart);
-            }
-        }
-    }
+        PartAtHand::Known(hung, trace) => (hung, trace),
+        PartAtHand::Past(trace) => (summary.hung.clone(), trace),
+        // With a serial number it is another part.
+        PartAtHand::MaybeSeen(current) => match seen.filter(|_| !current.has_complete_serial()) {
+            Some(seen) => (seen.hung, seen.trace),
+            None => (summary.hung.clone(), current.take(shows_part)),
+        },
+    };
+    inspected.set_part(hung, trace);
     Ok(InspectorResult::Inspected(Arc::new(inspected)))
 }
 

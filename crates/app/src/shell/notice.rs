@@ -253,6 +253,7 @@ mod tests {
         let origin = Origin::Frame {
             name: "left2_00.png".into(),
             is_simulated: false,
+            capture: None,
         };
         let warning = CaptureWarning::File(FileWarning::SurplusBytes { num: 7 });
         let notice = Notice::of_scene(&origin, &warning);

@@ -141,7 +141,7 @@ impl Session {
     pub(crate) fn current_result(&self) -> Option<&Inspected> {
         let inspected = &**self.latest(|_| true)?;
         let counts = match self.currency(inspected) {
-            Currency::Current | Currency::CapturedAt(_) | Currency::File(_) => !inspected.is_open(),
+            Currency::Current | Currency::CapturedAt(_) => !inspected.is_open(),
             Currency::Moving | Currency::SourceLost | Currency::Superseded => false,
         };
         // An empty cell that is followed is not recorded.

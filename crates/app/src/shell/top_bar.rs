@@ -265,7 +265,6 @@ fn library_menu(
         ui.set_min_width(260.0);
         ui.label(RichText::new(text!("shell-library-in-use")).font(font::heading()));
         ui.label(library.path.display().to_string());
-        #[cfg(feature = "plant")]
         if let Some(version) = &library.version {
             ui.label(version);
         }

@@ -103,6 +103,7 @@ impl Window {
             Message::UseRecipe(recipe) => self.state.session.recipe = recipe,
             Message::UseCalibration(cell, robot) => {
                 self.state.session.cell = cell;
+                self.services.library_cache.use_robot(robot.clone());
                 self.state.session.robot = robot;
             }
             Message::UseAnswering(setup) => {

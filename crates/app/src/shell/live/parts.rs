@@ -3,20 +3,23 @@
 
 use std::{
     mem,
-    sync::mpsc::{Receiver, Sender, channel},
+    sync::{
+        Arc,
+        mpsc::{Receiver, Sender, channel},
+    },
     time::Instant,
 };
 
-use crate::shell::current_trace::CurrentTrace;
+use crate::{inspection::inspected::Inspected, shell::current_trace::CurrentTrace};
 use capture::SourceSpec;
 use inspection::library::Truth;
-use records::history::{HungId, HungRows, NewEntry, TraceChange, Traceability};
+use records::history::{HungId, HungRows, TraceChange, Traceability};
 
 /// The parts before a source, one after the other.
 #[derive(Debug, Default)]
 pub(crate) struct FollowedParts {
     source: String,
-    pub(super) rows: HungRows,
+    pub(super) rows: HungRows<Arc<Inspected>>,
     /// The part whose verdict counted last, and its traceability.
     pub(super) counted: Option<(HungId, Traceability)>,
     /// The last part with a true label.
@@ -35,7 +38,7 @@ struct AskedFrame {
 impl FollowedParts {
     /// Starts over if this is not the same source as before. Returns the inspection of the part that hangs before the
     /// former source, if its verdict does not count yet.
-    pub(super) fn begin(&mut self, source: &SourceSpec) -> Option<NewEntry> {
+    pub(super) fn begin(&mut self, source: &SourceSpec) -> Option<Arc<Inspected>> {
         let source = source.to_string();
         if self.source == source {
             return None;
@@ -148,7 +151,7 @@ impl FollowedParts {
     }
 
     /// The source has ended: the inspection of a part that still hangs there without a verdict that counts.
-    pub(super) fn end(&mut self) -> Option<NewEntry> {
+    pub(super) fn end(&mut self) -> Option<Arc<Inspected>> {
         self.seen(Instant::now(), false);
         self.rows.end()
     }

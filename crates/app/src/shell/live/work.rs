@@ -13,7 +13,7 @@ use crate::{
         inspected::{FinishedInspection, InspectRequest, Inspected, LiveFrameContext, inspect},
         library_cache::LibraryCache,
         recording::Recorded,
-        source::{Captured as SceneOrigin, SceneSource},
+        source::{Captured as SceneOrigin, Origin, SceneSource},
     },
     shell::current_trace::CurrentTrace,
     task::{TaskContext, TaskError},
@@ -55,7 +55,7 @@ pub(super) struct LiveStart {
 
 impl LiveStart {
     /// Records a part that left before its verdict counted.
-    fn record_left(&self, left: Option<NewEntry>) {
+    fn record_left(&self, left: Option<Arc<Inspected>>) {
         record_left(left, &self.recorder, || self.trace.take(true));
     }
 }
@@ -96,13 +96,13 @@ fn send(recorder: &SyncSender<LiveRecord>, record: LiveRecord) {
 
 /// Records a part whose verdict did not count, with this traceability.
 fn record_left(
-    left: Option<NewEntry>,
+    left: Option<Arc<Inspected>>,
     recorder: &SyncSender<LiveRecord>,
     trace: impl FnOnce() -> Traceability,
 ) {
-    if let Some(mut left) = left {
-        left.record.summary.trace = trace();
-        send(recorder, LiveRecord::Left(Box::new(left)));
+    if let Some(left) = left {
+        let entry = left.entry_of(trace());
+        send(recorder, LiveRecord::Left(Box::new(entry)));
     }
 }
 
@@ -278,7 +278,8 @@ impl<'a> LiveSession<'a> {
                 Some(FeedItem::Captured(captured)) => {
                     self.write(&captured, feed);
                     let name = captured.name.clone();
-                    match guarded(|| self.take(captured)) {
+                    let num_dropped = feed.status().num_dropped;
+                    match guarded(|| self.take(captured, num_dropped)) {
                         Ok(taken) => taken?,
                         Err(fault) => self.fails_at(name, &fault),
                     }
@@ -345,27 +346,26 @@ impl<'a> LiveSession<'a> {
         let watching = SilentContext(self.context);
         let mut inspected = inspect(&request, self.library_cache, &watching)?;
         inspected.captured_at = before.captured_at;
-        let summary = &mut inspected.entry.record.summary;
-        summary.source = self.request.spec.to_string();
-        summary.hung = before.hung().clone();
-        summary.trace = before.trace().clone();
+        inspected.entry.record.summary.source = self.request.spec.to_string();
+        inspected.set_part(before.hung().clone(), before.trace().clone());
         self.num_inspected += 1;
         self.record_counted(Arc::new(inspected));
         Ok(())
     }
 
     /// Inspects a frame.
-    fn take(&mut self, captured: Captured) -> Result<(), TaskError> {
+    fn take(&mut self, captured: Captured, num_dropped: u64) -> Result<(), TaskError> {
         let loaded = self.library_cache.get();
         let watching = SilentContext(self.context);
         let recipe = &self.request.recipe;
         let fitted = loaded.fitting(recipe, &watching);
         let fitted = fitted.ok_or(TaskError::Cancelled)?;
         let (arrived, at) = (captured.arrived, seconds(&captured));
+        let origin = Origin::of_capture(&captured, &self.request.spec.to_string(), num_dropped);
         let SceneOrigin {
             mut scene,
-            origin,
             warnings,
+            ..
         } = captured.into();
         if let Some(cell) = &self.request.empty_cell {
             Arc::make_mut(&mut scene).empty_cell = Some(Arc::clone(cell));
@@ -418,6 +418,7 @@ impl<'a> LiveSession<'a> {
             inspection,
             followed,
             source: self.request.spec.to_string(),
+            robot: self.library_cache.robot(),
         };
         let inspected = found.prepared(&fitted, &loaded.shown);
         if self.watch.is_some() && role != FrameRole::Nothing {
@@ -452,35 +453,29 @@ impl<'a> LiveSession<'a> {
         // What a trigger found out about the part before lies below.
         inspected.entry.stands_for_part = matches!(role, FrameRole::First | FrameRole::Best);
         let mut parts = lock(&self.request.parts);
-        let summary = &mut inspected.entry.record.summary;
-        if self.watch.is_some() {
-            summary.hung = parts.rows.id().clone();
-        }
-        match role {
+        let hung = match self.watch {
+            Some(_) => parts.rows.id().clone(),
+            None => inspected.hung().clone(),
+        };
+        let trace = match role {
             FrameRole::First => {
-                let is_part = summary.verdict != StoredVerdict::NoPart;
-                summary.trace = self.request.trace.take(is_part);
-                parts.counted = Some((summary.hung.clone(), summary.trace.clone()));
+                let is_part = inspected.entry.record.summary.verdict != StoredVerdict::NoPart;
+                let trace = self.request.trace.take(is_part);
+                parts.counted = Some((hung.clone(), trace.clone()));
+                Some(trace)
             }
-            FrameRole::Again => {
-                if let Some((_, trace)) = &parts.counted {
-                    summary.trace = trace.clone();
-                }
-            }
-            FrameRole::Nothing => {
-                if let Some(trace) = parts.trace_of_hanging() {
-                    summary.trace = trace.clone();
-                }
-            }
-            FrameRole::Best => {}
-        }
+            FrameRole::Again => parts.counted.as_ref().map(|(_, trace)| trace.clone()),
+            FrameRole::Nothing => parts.trace_of_hanging().cloned(),
+            FrameRole::Best => None,
+        };
+        inspected.set_part(hung, trace.unwrap_or_default());
+        let inspected = Arc::new(inspected);
         if self.watch.is_none() {
             parts.seen_alone(arrived, inspected.hung());
         } else if role == FrameRole::Best {
-            parts.rows.hold(inspected.entry.clone());
+            parts.rows.hold(Arc::clone(&inspected));
         }
         drop(parts);
-        let inspected = Arc::new(inspected);
         if matches!(role, FrameRole::First | FrameRole::Again) {
             self.record_counted(inspected);
         } else {

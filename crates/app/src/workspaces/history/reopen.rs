@@ -156,6 +156,7 @@ fn origin_of(record: &Record) -> Origin {
     written.unwrap_or_else(|| Origin::Frame {
         name: record.summary.scene.clone(),
         is_simulated: record.summary.is_simulated,
+        capture: None,
     })
 }
 

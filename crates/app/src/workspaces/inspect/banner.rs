@@ -528,6 +528,7 @@ mod tests {
         Origin::Frame {
             name: "kinect frame 1".into(),
             is_simulated: false,
+            capture: None,
         }
     }
 }

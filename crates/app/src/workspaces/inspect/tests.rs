@@ -209,6 +209,7 @@ fn captured() -> Inspected {
     inspected.origin = Origin::Frame {
         name: "kinect frame 1".into(),
         is_simulated: false,
+        capture: None,
     };
     let path = SprayPath::new(vec![PathPoint {
         nozzle: Point3::new(0.0, 0.1, 1.05),

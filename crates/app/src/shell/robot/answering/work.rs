@@ -16,6 +16,7 @@ use jiff::Timestamp;
 use super::rows::TriggerRows;
 use crate::{
     inspection::{
+        inspected::entry_of,
         library_cache::{LibraryCache, LibraryView, LoadedLibrary},
         source::{Captured, Origin},
     },
@@ -28,21 +29,20 @@ use capture::{self, CaptureError, Feed, SourceSpec};
 use geometry::error::{Advice as _, guarded, lock};
 use inspection::{
     library::{GivenNumbers, LibraryPlace, PartNumbers},
-    pipeline::{self, Inspection, NamedRecipe, ProgressObserver as _, Unwatched},
+    pipeline::{NamedRecipe, ProgressObserver as _, Unwatched},
 };
 use records::{
-    history::{HungId, InspectionContext, NewEntry, Traceability, Writer},
-    report::{CaptureLine, InspectionLine, segmentation_picture},
+    history::{HungId, Traceability, Writer},
+    report::segmentation_picture,
 };
 use robot::RobotFrame;
 use serve::{
-    Answer, Asked, Camera, CameraState, ClientEvent, Found, InspectionRecord, Inspector,
-    ListenAddress, Listener, NewFrame, NumberedPart, PartFinder, PoseKind, ServeError, Server,
-    ServerHandle, ServerSettings, Trouble, VerdictCode,
+    Answer, Asked, CameraState, ClientEvent, Found, InspectionRecord, Inspector, ListenAddress,
+    Listener, PoseKind, ServeError, Server, ServerHandle, ServerSettings, Trouble, VerdictCode,
 };
-use stages::{
-    reference::Reference,
-    scene::{EmptyCell, SceneCloud},
+use stages::scene::{EmptyCell, SceneCloud};
+use station::{
+    Answered, Answering, Camera, Inspected, NewFrame, NumberedPart, PartFinder, Subject,
 };
 
 /// How long a trigger waits for its frame, as in `partsight serve`.
@@ -245,14 +245,11 @@ struct AnsweringSession<'a> {
 /// An inspection to be kept in the history.
 struct AnsweredFrame {
     origin: Origin,
-    source: String,
-    scene: Arc<SceneCloud>,
-    inspection: Inspection,
+    subject: Subject,
+    answered: Answered,
     recipe: Arc<NamedRecipe>,
     library: Arc<LibraryView>,
     trace: Traceability,
-    /// The JSON line.
-    line: String,
     /// Tells which part it is.
     part: Receiver<HungId>,
 }
@@ -286,9 +283,8 @@ impl Inspector for AnsweringSession<'_> {
         let is_ending = || self.is_ending();
         let captured = match self.camera.frame_after(asked, FRAME_TIMEOUT, is_ending) {
             Ok(captured) => captured,
-            Err(why) => return Found::error(Trouble::of(why.reason(), &why)),
+            Err(why) => return Found::error((&why).into()),
         };
-        let mut origin = self.camera.origin_of(&captured);
         let source = inputs.followed.as_ref();
         let source = source.map_or_else(String::new, ToString::to_string);
         // At once: by the end of the inspection another part may hang there.
@@ -297,56 +293,43 @@ impl Inspector for AnsweringSession<'_> {
         let [part, told] = [(); 2].map(|()| parts.part_of_frame(source.clone(), captured.arrived));
         drop(parts);
         let num_dropped = self.camera.feed_status().num_dropped;
-        let capture = CaptureLine::of(&source, &captured, num_dropped);
-        let (scene, seen) = self.scene_of(captured, &inputs);
+        let origin = Origin::of_capture(&captured, &source, num_dropped);
+        let subject = origin.subject(source);
         let loaded = self.library_cache.get();
         self.know(&loaded, &inputs);
         let recipe = &inputs.recipe;
         let fitted = loaded.fitting(recipe, &Unwatched);
-        let fitted = fitted.expect("not cancelled");
-        let inspected = |scene: &SceneCloud| {
-            pipeline::run(scene, &fitted, recipe, &Unwatched).expect("not cancelled")
+        let answering = Answering {
+            camera: &self.camera,
+            finder: &self.finder,
+            library: &fitted.expect("not cancelled"),
+            recipe,
+            at_most: FRAME_TIMEOUT,
+            is_ending: &|| self.is_ending(),
         };
-        let mut inspection = inspected(&scene);
-        let middle = inspection.best_reference(&fitted);
-        let middle = middle.and_then(Reference::middle);
-        if let Err(why) = self.camera.refuse_if_moving(
-            &mut origin,
-            &mut inspection,
-            middle,
-            FRAME_TIMEOUT,
-            || self.is_ending(),
-            |later| inspected(&self.scene_of(later, &inputs).0),
-        ) {
-            return Found::error(Trouble::of(why.reason(), &why));
-        }
-        let mut found = self.finder.found(&inspection, recipe, origin);
-        let mut answered = AnsweredPart {
+        let trace = inputs.trace.remembered();
+        let scene_of = |captured| self.scene_of(captured, &inputs);
+        let answered = match answering.answer(captured, &subject, &trace, scene_of) {
+            Ok(answered) => answered,
+            Err(why) => return Found::error((&why).into()),
+        };
+        let mut found = answered.found.clone();
+        let mut answered_part = AnsweredPart {
             name: found.part.clone(),
             hung,
             told,
         };
-        if found.verdict == VerdictCode::Accepted && answered.is_reported(self.parts) {
+        if found.verdict == VerdictCode::Accepted && answered_part.is_reported(self.parts) {
             found.refuse(Trouble::reported_wrong());
         }
-        self.part = Some(answered);
-        let trace = inputs.trace.remembered();
-        let line = InspectionLine::of(&seen.title(), &inspection)
-            .by(recipe)
-            .traced(&trace)
-            .captured(Some(capture))
-            .in_robot(Some(&self.finder.robot), &inspection)
-            .to_json();
-        found.report.clone_from(&line);
+        self.part = Some(answered_part);
         self.last = Some(AnsweredFrame {
-            origin: seen,
-            source,
-            scene,
-            inspection,
+            origin,
+            subject,
+            answered,
             recipe: Arc::clone(recipe),
             library: Arc::clone(&loaded.shown),
             trace,
-            line,
             part,
         });
         found
@@ -409,22 +392,16 @@ impl AnsweringSession<'_> {
         inputs
     }
 
-    /// The scene to inspect of a frame, and where it comes from.
-    fn scene_of(
-        &self,
-        captured: capture::Captured,
-        inputs: &AnswerInputs,
-    ) -> (Arc<SceneCloud>, Origin) {
-        let Captured {
-            mut scene, origin, ..
-        } = captured.into();
+    /// The scene to inspect of a frame.
+    fn scene_of(&self, captured: capture::Captured, inputs: &AnswerInputs) -> Arc<SceneCloud> {
+        let Captured { mut scene, .. } = captured.into();
         if let Some(cell) = &inputs.empty_cell {
             Arc::make_mut(&mut scene).empty_cell = Some(Arc::clone(cell));
         }
         if let Some(spec) = &inputs.followed {
             self.library_cache.camera().share_view(spec, &mut scene);
         }
-        (scene, origin)
+        scene
     }
 
     /// Updates the finder with the library, the calibration and the kind of pose. If poses mean something else than before,
@@ -474,31 +451,25 @@ impl AnsweringSession<'_> {
     fn keep(&mut self, last: AnsweredFrame) {
         let AnsweredFrame {
             origin,
-            source,
-            scene,
-            inspection,
+            subject,
+            answered,
             recipe,
             library,
             trace,
-            line,
             part,
         } = last;
-        let picture = segmentation_picture(&scene, &inspection.segmentation);
-        let about = InspectionContext {
-            at: geometry::clock::now(),
-            scene: origin.title(),
-            source,
-            is_simulated: origin.is_simulated(),
-            title_of: &|name| library.title_of(name).to_owned(),
-            line,
-            library: library.identity.clone(),
-            // An origin without a JSON form cannot be opened again anyway.
-            origin: serde_json::to_string(&origin).ok(),
-            picture: picture.as_ref(),
-            hung: HungId::new(),
+        let Answered {
+            scene, inspection, ..
+        } = &answered;
+        let inspected = Inspected {
+            subject: &subject,
+            scene,
+            inspection,
+            recipe: &recipe,
+            robot: Some(&self.finder.robot),
         };
-        let mut entry = NewEntry::of(about, &scene, &inspection, &recipe);
-        entry.record.summary.trace = trace;
+        let picture = segmentation_picture(scene, &inspection.segmentation);
+        let entry = entry_of(&inspected, &origin, &library, trace, picture.as_ref());
         self.rows.add(entry, part);
         self.tell_dropped();
     }

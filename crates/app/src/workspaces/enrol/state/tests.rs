@@ -627,6 +627,7 @@ fn of_a_draft_whose_scene_is_gone_the_words_come_back_with_the_next() {
     let camera = Origin::Frame {
         name: "Kinect frame 12".into(),
         is_simulated: false,
+        capture: None,
     };
     let gone = Origin::File {
         path: "no such folder/door.pcd".into(),
@@ -663,6 +664,7 @@ fn without_its_scene_a_draft_is_no_reference_of_another_part_any_more() {
         origin: Origin::Frame {
             name: "Kinect frame 12".into(),
             is_simulated: false,
+            capture: None,
         },
         form,
         ..kept

@@ -10,7 +10,7 @@ use robot::Convention;
 use serve::{ServerHandle, parse_address};
 
 #[derive(Debug, Args)]
-pub(super) struct HttpArgs {
+pub(in crate::cli) struct HttpArgs {
     /// Answer HTTP requests, with JSON: a port, or IP address and port; poses in the convention of --as. Other protocols are
     /// answered only with --listen
     #[arg(long, value_name = "[IP:]PORT", value_parser = parse_http)]
@@ -33,7 +33,7 @@ fn parse_http(text: &str) -> Result<SocketAddr, String> {
 
 impl HttpArgs {
     /// True if HTTP is requested.
-    pub(super) fn is_wanted(&self) -> bool {
+    pub(in crate::cli) fn is_wanted(&self) -> bool {
         self.http.is_some()
     }
 
@@ -81,4 +81,27 @@ pub(super) fn start(
         console.warn(&doubt, &doubt);
     }
     Ok(Some(http))
+}
+
+/// HTTP beside the other protocols of `bench serve`.
+pub(in crate::cli) struct BenchHttp(HttpServer);
+
+impl BenchHttp {
+    /// Starts to answer at any port.
+    pub(in crate::cli) fn start(server: ServerHandle) -> anyhow::Result<Option<Self>> {
+        let settings = HttpSettings {
+            address: parse_address("0").advised()?,
+            convention: Convention::Kuka,
+            tokens: Tokens::default(),
+            tls: None,
+        };
+        HttpServer::start(settings, server)
+            .advised()
+            .map(|http| Some(Self(http)))
+    }
+
+    /// Its address.
+    pub(in crate::cli) fn address(&self) -> SocketAddr {
+        self.0.address()
+    }
 }

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::console::{Advised as _, Console, advised_error, with_advice};
-use plant::database::{CellName, DatabaseAccess, DatabaseAddress, HistorySender, SendNews};
+use crate::cli::console::{Advised as _, Console, advised_error, with_advice};
+use plant::database::{self, CellName, DatabaseAccess, DatabaseAddress, SendNews};
 use records::history::HistoryEvent;
 
 /// What lets the program in.
@@ -57,7 +57,7 @@ pub(super) fn parse_cell(text: &str) -> Result<CellName, String> {
 
 /// Where the history is sent while it is written.
 #[derive(Clone, Debug, Args)]
-pub(super) struct HistoryToChoice {
+pub(in crate::cli) struct HistoryToChoice {
     /// Also send the history to this PostgreSQL database, under the name given by --cell; inspections do not wait for
     /// it
     #[arg(
@@ -75,14 +75,17 @@ pub(super) struct HistoryToChoice {
 }
 
 /// A database to which the history is sent.
-pub(super) struct ChosenDatabase {
-    pub(super) access: DatabaseAccess,
-    pub(super) cell: CellName,
+pub(in crate::cli) struct ChosenDatabase {
+    access: DatabaseAccess,
+    cell: CellName,
 }
 
 impl HistoryToChoice {
     /// Returns the chosen database; reads password and certificates.
-    pub(super) fn chosen(&self, console: &Console) -> anyhow::Result<Option<ChosenDatabase>> {
+    pub(in crate::cli) fn chosen(
+        &self,
+        console: &Console,
+    ) -> anyhow::Result<Option<ChosenDatabase>> {
         let Some((address, cell)) = self.history_to.as_ref().zip(self.cell.clone()) else {
             self.files.refuse_without("--history-to")?;
             return Ok(None);
@@ -92,34 +95,44 @@ impl HistoryToChoice {
     }
 }
 
-/// Shows the events of the sender; passes those of the history itself to `tell`.
-pub(super) fn show_news(
-    sender: &HistorySender,
-    console: &Console,
-    tell: impl Fn(HistoryEvent, &Console),
-) {
-    while let Some(news) = sender.news() {
-        match news {
-            SendNews::Connected { num_waiting } => console.note(&format_args!(
-                "Database: connected; inspections waiting: {num_waiting}"
-            )),
-            SendNews::Failed(trouble) => {
-                console.warn(&format_args!("Database: {trouble}"), &trouble);
+/// Sends the history to a database, on a thread of its own.
+pub(in crate::cli) struct HistorySender(database::HistorySender);
+
+impl HistorySender {
+    /// Starts to send the history in this folder.
+    pub(in crate::cli) fn start(
+        folder: PathBuf,
+        ChosenDatabase { access, cell }: ChosenDatabase,
+    ) -> anyhow::Result<Self> {
+        let sender = database::HistorySender::start(folder, access, cell);
+        sender.advised().map(Self)
+    }
+
+    /// Shows what happened since the last call; passes the events of the history itself to `tell`.
+    pub(in crate::cli) fn show_news(
+        &self,
+        console: &Console,
+        tell: impl Fn(HistoryEvent, &Console),
+    ) {
+        while let Some(news) = self.0.news() {
+            match news {
+                SendNews::Connected { num_waiting } => console.note(&format_args!(
+                    "Database: connected; inspections waiting: {num_waiting}"
+                )),
+                SendNews::Failed(trouble) => {
+                    console.warn(&format_args!("Database: {trouble}"), &trouble);
+                }
+                SendNews::SetAside(aside) => tell(HistoryEvent::SetAside(aside), console),
             }
-            SendNews::SetAside(aside) => tell(HistoryEvent::SetAside(aside), console),
         }
     }
-}
 
-/// Sends unsent rows for a few seconds at most, and shows the events until then.
-pub(super) fn end_sender(
-    mut sender: HistorySender,
-    console: &Console,
-    tell: impl Fn(HistoryEvent, &Console),
-) {
-    let ended = sender.end();
-    show_news(&sender, console, tell);
-    if let Err(unsent) = ended {
-        console.warn(&format_args!("Database: {unsent}"), &unsent);
+    /// Sends unsent rows for a few seconds at most, and shows the events until then.
+    pub(in crate::cli) fn end(mut self, console: &Console, tell: impl Fn(HistoryEvent, &Console)) {
+        let ended = self.0.end();
+        self.show_news(console, tell);
+        if let Err(unsent) = ended {
+            console.warn(&format_args!("Database: {unsent}"), &unsent);
+        }
     }
 }

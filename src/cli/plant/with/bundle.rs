@@ -2,14 +2,17 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{Args, Subcommand};
 use jiff::Timestamp;
 use serde::Serialize;
 
-use super::{Console, LibraryChoice, Outcome, Table};
-use crate::cli::console::Advised as _;
+use crate::cli::{
+    LibraryChoice, Outcome,
+    console::{Advised as _, Console, Table},
+};
 use files::file_name;
-use inspection::library::{LibraryFolder, LibraryPlace, PartName, PartNumbers};
+use geometry::error::Advice as _;
+use inspection::library::{LibraryFolder, LibraryPlace, PartName, PartNumbers, TakenVersion};
 use plant::bundle::{
     self, BundleError, BundleStore, Installed, KeyFiles, LocalPart, LocalParts, Manifest,
     PublishedVersion, SigningKey, StoreAddress, Take, TakenBundle, TrustedKey, make_keys,
@@ -23,7 +26,7 @@ Examples:
 
 Writes library.key, the private key, which stays with the publisher and which only its owner can read, and library.pub,
 the public key, which every cell gets. Existing keys are never replaced.")]
-pub(super) struct KeysArgs {
+pub(in crate::cli) struct KeysArgs {
     /// The folder for both; created if missing
     #[arg(value_name = "DIR")]
     folder: PathBuf,
@@ -39,7 +42,7 @@ Examples:
 A store is an existing folder, or s3://BUCKET/PREFIX. S3 takes endpoint, region and credentials from AWS_ENDPOINT,
 AWS_REGION, AWS_ACCESS_KEY_ID and AWS_SECRET_ACCESS_KEY; over plain HTTP only with AWS_ALLOW_HTTP=true.
 Every part is loaded first, so that only a library that can be taken is published.")]
-pub(super) struct PublishArgs {
+pub(in crate::cli) struct PublishArgs {
     /// The store
     #[arg(long, value_name = "STORE")]
     to: String,
@@ -63,7 +66,7 @@ Signature, digest and every part are checked before anything is changed. Parts t
 library's .trash. A spray path that was stored here stays with its part if the version has the same reference of the part
 and no path for it. Inspections do not need the store: they use the installed library. A running program keeps the library
 that it read at its start; only the window, and serve --take, notice the change by themselves.")]
-pub(super) struct TakeArgs {
+pub(in crate::cli) struct TakeArgs {
     /// The store, as for publish (partsight library publish --help)
     #[arg(long, value_name = "STORE")]
     from: String,
@@ -87,7 +90,7 @@ Examples:
 
 KEY is the beginning of the public key's SHA-256, as library keys shows it: only library take checks it against the key
 that you trust. HERE marks the version that the library was taken from.")]
-pub(super) struct VersionsArgs {
+pub(in crate::cli) struct VersionsArgs {
     /// The store, as for publish (partsight library publish --help)
     #[arg(value_name = "STORE")]
     store: String,
@@ -96,7 +99,33 @@ pub(super) struct VersionsArgs {
     json: bool,
 }
 
-pub(super) fn make(args: &KeysArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+/// Subcommands of `library`.
+#[derive(Debug, Subcommand)]
+pub(in crate::cli) enum LibraryCommand {
+    Keys(KeysArgs),
+    Publish(PublishArgs),
+    Take(TakeArgs),
+    /// Show which published version the library was taken from, and what has changed since
+    Version,
+    Versions(VersionsArgs),
+}
+
+/// Runs the subcommand.
+pub(in crate::cli) fn run(
+    command: &LibraryCommand,
+    library: &LibraryChoice,
+    console: &mut Console,
+) -> anyhow::Result<Outcome> {
+    match command {
+        LibraryCommand::Keys(asked) => make(asked, console),
+        LibraryCommand::Publish(asked) => publish(library, asked, console),
+        LibraryCommand::Take(asked) => take(library, asked, console),
+        LibraryCommand::Version => version(library, console),
+        LibraryCommand::Versions(asked) => versions(library, asked, console),
+    }
+}
+
+fn make(args: &KeysArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     let KeyFiles { private, public } = make_keys(&args.folder).advised()?;
     let key = TrustedKey::load(&public).advised()?;
     console.line(&format_args!("Made the key {key}"));
@@ -108,7 +137,7 @@ pub(super) fn make(args: &KeysArgs, console: &mut Console) -> anyhow::Result<Out
     Ok(Outcome::Accepted)
 }
 
-pub(super) fn publish(
+fn publish(
     choice: &LibraryChoice,
     args: &PublishArgs,
     console: &mut Console,
@@ -131,11 +160,7 @@ pub(super) fn publish(
     Ok(Outcome::Accepted)
 }
 
-pub(super) fn take(
-    choice: &LibraryChoice,
-    args: &TakeArgs,
-    console: &mut Console,
-) -> anyhow::Result<Outcome> {
+fn take(choice: &LibraryChoice, args: &TakeArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     let store = open_store(&args.from)?;
     let trusted = TrustedKey::load(&args.trust).advised()?;
     let library = choice.open_or_create()?;
@@ -205,7 +230,7 @@ fn note_other_numbers(
     Ok(())
 }
 
-pub(super) fn version(choice: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outcome> {
+fn version(choice: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outcome> {
     let place = choice.open(console)?;
     let taken = place.folder().map(TakenBundle::of).transpose().advised()?;
     let (Some(folder), Some(taken)) = (place.folder(), taken.flatten()) else {
@@ -250,7 +275,7 @@ struct VersionLine<'a> {
     damage: Option<String>,
 }
 
-pub(super) fn versions(
+fn versions(
     choice: &LibraryChoice,
     args: &VersionsArgs,
     console: &mut Console,
@@ -319,33 +344,49 @@ fn first_line(note: &str) -> &str {
 
 /// Which published version a library was taken from, in words. Without one that can be read, it is not shown.
 pub(in crate::cli) fn taken_version(place: &LibraryPlace, console: &Console) -> Option<String> {
-    let folder = place.folder()?;
-    let shown = || -> Result<Option<String>, BundleError> {
-        let Some(taken) = TakenBundle::of(folder)? else {
-            return Ok(None);
-        };
-        let changed = if taken.differences(folder)?.is_empty() {
-            ""
-        } else {
-            ", changed here since"
-        };
-        let version = taken.manifest.version;
-        Ok(Some(format!(
-            "version {version} of {}{changed}",
-            taken.store
-        )))
-    };
-    shown().unwrap_or_else(|error| {
+    let version = read_version(place).unwrap_or_else(|error| {
         console.warn(&error, &error);
         None
-    })
+    })?;
+    let TakenVersion {
+        version,
+        store,
+        is_changed,
+    } = version;
+    let changed = if is_changed {
+        ", changed here since"
+    } else {
+        ""
+    };
+    Some(format!("version {version} of {store}{changed}"))
+}
+
+/// The published version that a library was taken from; the error and its advice.
+pub(in crate::cli) fn version_of(
+    place: &LibraryPlace,
+) -> Result<Option<TakenVersion>, [String; 2]> {
+    read_version(place).map_err(|error| [error.to_string(), error.advice()])
+}
+
+fn read_version(place: &LibraryPlace) -> Result<Option<TakenVersion>, BundleError> {
+    let Some(folder) = place.folder() else {
+        return Ok(None);
+    };
+    let Some(taken) = TakenBundle::of(folder)? else {
+        return Ok(None);
+    };
+    Ok(Some(TakenVersion {
+        version: taken.manifest.version,
+        is_changed: !taken.differences(folder)?.is_empty(),
+        store: taken.store,
+    }))
 }
 
 /// To the minute, in UTC.
 const MINUTE: &str = "%Y-%m-%d %H:%M UTC";
 
 /// Not parsed by clap, whose message would show a password in the address.
-pub(in crate::cli) fn open_store(address: &str) -> anyhow::Result<BundleStore> {
+pub(super) fn open_store(address: &str) -> anyhow::Result<BundleStore> {
     let address: StoreAddress = address.parse().advised()?;
     BundleStore::open(address).advised()
 }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::console::{Advised as _, Console, advised_error};
+use crate::cli::console::{Advised as _, Console, advised_error};
 use inspection::library::LibraryLoad;
 use plant::mqtt::{
     BrokerAccess, BrokerAddress, LibraryMessage, LinkNews, LinkSubject, MqttLink, PoseFormat,
@@ -15,7 +15,7 @@ use serve::PoseKind;
 
 /// Where verdicts and states are published.
 #[derive(Clone, Debug, Args)]
-pub(super) struct MqttChoice {
+pub(in crate::cli) struct MqttChoice {
     /// Publish every verdict and the state of the cell to this MQTT broker; poses in the convention of --as
     #[arg(long, value_name = "mqtt[s]://[USER@]HOST[:PORT]/PREFIX")]
     mqtt: Option<String>,

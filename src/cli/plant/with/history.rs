@@ -1,23 +1,23 @@
 //! `partsight history send`, and `list`, `show` and `export` over the cells of a plant.
 
-use clap::Args;
+use clap::{Args, Subcommand};
 
-use super::{
-    CellRow, ExportArgs, HistoryCommand, ListArgs, ShowArgs, here, note_counts,
-    show::{ReadFrom, card, record_line},
-    show_rows,
-};
+use super::database::{DatabaseFiles, parse_cell};
 use crate::cli::{
     Outcome,
     console::{Advised as _, Console, advised_error},
-    database::{DatabaseFiles, parse_cell},
+    history::{
+        CellRow, Command, ExportArgs, ListArgs, ShowArgs, here, note_counts,
+        show::{ReadFrom, card, record_line},
+        show_rows,
+    },
 };
 use plant::database::{BATCH, CellHistory, CellName, Database, TransferError};
 use records::history::{History, HistoryError, Record, write_cells_table};
 
 /// Which database is read instead of the history here.
 #[derive(Debug, Args)]
-pub(super) struct FromChoice {
+pub(in crate::cli) struct FromChoice {
     /// Inspections of all cells that send their histories to this PostgreSQL database, instead of the history here
     #[arg(long, value_name = "postgres://USER@HOST[:PORT]/DATABASE")]
     from: Option<String>,
@@ -40,8 +40,15 @@ impl FromChoice {
     }
 }
 
+/// Subcommands of `history`.
+#[derive(Debug, Subcommand)]
+pub(in crate::cli) enum HistoryCommand {
+    /// Send the plant's PostgreSQL database the inspections that it does not have yet
+    Send(SendArgs),
+}
+
 #[derive(Debug, Args)]
-pub(super) struct SendArgs {
+pub(in crate::cli) struct SendArgs {
     /// The PostgreSQL database
     #[arg(long, value_name = "postgres://USER@HOST[:PORT]/DATABASE")]
     to: String,
@@ -58,11 +65,11 @@ pub(super) struct SendArgs {
     all: bool,
 }
 
-/// Sends the unsent rows.
-pub(super) fn send(
+/// Runs the subcommand.
+pub(in crate::cli) fn run(
+    HistoryCommand::Send(asked): &HistoryCommand,
     history: &mut History,
-    asked: &SendArgs,
-    console: &mut Console,
+    console: &Console,
 ) -> anyhow::Result<Outcome> {
     let access = asked.files.access(&asked.to, console)?;
     let whose = CellHistory {
@@ -94,20 +101,20 @@ pub(super) fn send(
 }
 
 /// Runs `list`, `show` or `export` on a database; returns `None` if they are to use the local history.
-pub(super) fn overview(
-    command: &HistoryCommand,
+pub(in crate::cli) fn overview(
+    command: &Command,
     console: &mut Console,
 ) -> anyhow::Result<Option<Outcome>> {
     match command {
-        HistoryCommand::List(asked) => match asked.from.database(console)? {
+        Command::List(asked) => match asked.from.database(console)? {
             Some(database) => list(&database, asked, console).map(Some),
             None => Ok(None),
         },
-        HistoryCommand::Show(asked) => match asked.from.database(console)? {
+        Command::Show(asked) => match asked.from.database(console)? {
             Some(database) => show(&database, asked, console).map(Some),
             None => Ok(None),
         },
-        HistoryCommand::Export(asked) => match asked.from.database(console)? {
+        Command::Export(asked) => match asked.from.database(console)? {
             Some(database) => export(&database, asked, console).map(Some),
             None => Ok(None),
         },

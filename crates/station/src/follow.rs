@@ -1,4 +1,4 @@
-//! The parts that hang in front of a followed source one after the other: one inspection of each is kept and published.
+//! The parts that hang before a followed camera one after the other: one inspection of each is recorded and published.
 
 use std::{sync::Arc, time::Duration};
 
@@ -10,61 +10,58 @@ use inspection::pipeline::{
     live::{FrameRole, HungFrame, LiveParams, LiveTracker, MotionState, refuse_moving},
 };
 use records::history::{HungId, HungRows, NewEntry};
-use stages::{field_of_view::FieldOfView, scene::SceneCloud};
+use stages::scene::SceneCloud;
 
-/// Tells successive parts apart.
-pub(in crate::cli) struct FollowedParts<E = NewEntry> {
+/// Follows one camera whose every frame is shown with its own verdict. `E` is what is recorded of a part.
+pub struct PartFollower<E = NewEntry> {
     tracker: LiveTracker,
     rows: HungRows<E>,
+    at: Duration,
     /// The verdict of the last frame by itself.
     own: Option<Verdict>,
 }
 
-/// A frame and its own inspection.
-pub(in crate::cli) struct FollowedFrame<'a> {
-    pub(in crate::cli) scene: &'a Arc<SceneCloud>,
-    pub(in crate::cli) taken_at: Timestamp,
-    /// Middle of the named part, part space, metres.
-    pub(in crate::cli) middle: Option<Point3<f64>>,
-    pub(in crate::cli) accept: &'a AcceptParams,
-}
-
-impl<E> FollowedParts<E> {
-    /// Creates the state before the first frame.
-    pub(in crate::cli) fn new() -> Self {
+impl<E> Default for PartFollower<E> {
+    fn default() -> Self {
         Self {
             tracker: LiveTracker::new(&LiveParams::default()),
             rows: HungRows::default(),
+            at: Duration::ZERO,
             own: None,
         }
     }
+}
 
-    /// Returns the camera's field of view as far as the frames have shown it.
-    pub(in crate::cli) fn known_view(&self) -> Option<Arc<FieldOfView>> {
-        self.tracker.known_view()
+impl<E> PartFollower<E> {
+    /// Takes in a frame, and returns the scene to inspect. Call it for every frame.
+    pub fn look(&mut self, scene: Arc<SceneCloud>, taken_at: Timestamp) -> Arc<SceneCloud> {
+        self.at = Duration::try_from(taken_at.as_duration()).unwrap_or_default();
+        self.own = None;
+        self.tracker.look(scene, self.at)
     }
 
-    /// Takes in a frame, and refuses the part of its own inspection if it moves. Call it for every frame.
-    pub(in crate::cli) fn look(&mut self, frame: &FollowedFrame<'_>, inspection: &mut Inspection) {
-        let at = time_of(frame);
-        self.tracker.look(Arc::clone(frame.scene), at);
+    /// Refuses the part of the frame's own inspection if it moves.
+    pub fn refuse_if_moving(&mut self, inspection: &mut Inspection) {
         self.own = Some(inspection.verdict.clone());
-        if self.is_moving() {
+        self.refuse(inspection);
+    }
+
+    fn refuse(&self, inspection: &mut Inspection) {
+        if self.tracker.stillness() == MotionState::Moving {
             refuse_moving(inspection);
         }
     }
 
-    fn is_moving(&self) -> bool {
-        self.tracker.stillness() == MotionState::Moving
-    }
-
-    /// Returns what to write now, after [`Self::look`] at the same frame. The verdict that counts is formed from several
-    /// frames; for a part that leaves before, the frame that shows it best is used with its own verdict. `entry` also gets
-    /// whether the part is known to have hung still.
-    pub(in crate::cli) fn take(
+    /// Returns what to record now, after [`Self::refuse_if_moving`] for the same frame. The verdict that counts is formed
+    /// from several frames; for a part that leaves before, the frame that shows it best is recorded with its own verdict.
+    /// `middle` is the middle of the named part, part space, metres. `entry` also gets whether the part is known to have
+    /// hung still.
+    pub fn take(
         &mut self,
-        frame: &FollowedFrame<'_>,
+        scene: &SceneCloud,
         mut inspection: Inspection,
+        middle: Option<Point3<f64>>,
+        accept: &AcceptParams,
         entry: impl Fn(&Inspection, HungId, bool) -> E,
     ) -> [Option<E>; 2] {
         // Frames are counted by their own verdicts.
@@ -72,15 +69,13 @@ impl<E> FollowedParts<E> {
             inspection.verdict = own;
         }
         let own = inspection.verdict.clone();
-        let verdict = self
-            .tracker
-            .judge(&mut inspection, frame.middle, frame.accept);
+        let verdict = self.tracker.judge(&mut inspection, middle, accept);
         let (left, role) = self.rows.see(&HungFrame {
-            scene: frame.scene,
-            at: time_of(frame),
+            scene,
+            at: self.at,
             inspection: &inspection,
             verdict: &verdict,
-            middle: frame.middle,
+            middle,
             // Recipe and library do not change between frames.
             inputs: "",
         });
@@ -89,9 +84,7 @@ impl<E> FollowedParts<E> {
             FrameRole::Nothing => None,
             FrameRole::Best => {
                 inspection.verdict = own;
-                if self.is_moving() {
-                    refuse_moving(&mut inspection);
-                }
+                self.refuse(&mut inspection);
                 self.rows.hold(entry(&inspection, id, false));
                 None
             }
@@ -100,14 +93,10 @@ impl<E> FollowedParts<E> {
         [left, now]
     }
 
-    /// Ends the source. Returns what is still to be written.
-    pub(in crate::cli) fn end(mut self) -> Option<E> {
+    /// Ends the source. Returns what is still to be recorded.
+    pub fn end(mut self) -> Option<E> {
         self.rows.end()
     }
-}
-
-fn time_of(frame: &FollowedFrame<'_>) -> Duration {
-    Duration::try_from(frame.taken_at.as_duration()).unwrap_or_default()
 }
 
 #[cfg(test)]
@@ -134,20 +123,16 @@ mod tests {
         let seen = run(&scene_at(46), &shipped_library(), &recipe, &Unwatched);
         let seen = seen.expect("not cancelled");
         assert!(seen.verdict.is_accepted());
-        let mut followed = FollowedParts::new();
+        let mut followed = PartFollower::default();
         let mut kept = Vec::new();
         for number in 1..=73_u64 {
             let scene = scene_at(number);
             let seconds = (number - 1) as f64 / 15.0;
-            let frame = FollowedFrame {
-                scene: &scene,
-                taken_at: Timestamp::UNIX_EPOCH + SignedDuration::from_secs_f64(seconds),
-                middle: None,
-                accept: &recipe.accept,
-            };
+            let taken_at = Timestamp::UNIX_EPOCH + SignedDuration::from_secs_f64(seconds);
+            let scene = followed.look(scene, taken_at);
             // As if every frame by itself were accepted.
             let mut inspection = seen.clone();
-            followed.look(&frame, &mut inspection);
+            followed.refuse_if_moving(&mut inspection);
             let is_accepted = inspection.verdict.is_accepted();
             match seconds {
                 // It comes in, and then swings by less and less.
@@ -155,9 +140,9 @@ mod tests {
                 4.4.. => assert!(is_accepted, "after {seconds} s"),
                 _ => {}
             }
-            let entries = followed.take(&frame, inspection, |inspection, _, is_still| {
-                (inspection.verdict.is_accepted(), is_still)
-            });
+            let entry =
+                |inspection: &Inspection, _, is_still| (inspection.verdict.is_accepted(), is_still);
+            let entries = followed.take(&scene, inspection, None, &recipe.accept, entry);
             kept.extend(entries.into_iter().flatten().map(|entry| (seconds, entry)));
         }
         // One verdict that counts, formed at rest from frames by their own verdicts.

@@ -9,10 +9,10 @@ use std::{
 
 use clap::Args;
 
+use super::bundle::open_store;
 use crate::cli::{
     console::{Advised as _, Console, advice_of, advised_error},
     input::within,
-    library::open_store,
     numbers::NumbersChoice,
 };
 use geometry::error::guarded;
@@ -20,14 +20,15 @@ use inspection::library::{LibraryFolder, LibraryLoad, LibraryPlace};
 use plant::bundle::{
     self, BundleError, BundleStore, Installed, LocalParts, Manifest, Take, TakenBundle, TrustedKey,
 };
-use serve::{LibraryStatus, NumberedPart, ServeError, ServerHandle, Trouble};
+use serve::{LibraryStatus, ServeError, ServerHandle, Trouble};
 use stages::reference::ReferenceParams;
+use station::NumberedPart;
 
 /// The reason in the status if a version could not be taken.
 const NOT_TAKEN: &str = "library_not_taken";
 
 #[derive(Debug, Args)]
-pub(super) struct TakeArgs {
+pub(in crate::cli) struct TakeArgs {
     /// Take new versions of the library from this store while running (partsight library take --help)
     #[arg(long, value_name = "STORE", requires = "trust")]
     take: Option<String>,
@@ -123,9 +124,9 @@ pub(super) struct LibraryTaker<'a> {
 }
 
 /// A library and its parts for robots, to be used in place of the present ones.
-pub(super) struct TakenLibrary {
-    pub(super) load: LibraryLoad,
-    pub(super) parts: Vec<NumberedPart>,
+pub(in crate::cli) struct TakenLibrary {
+    pub(in crate::cli) load: LibraryLoad,
+    pub(in crate::cli) parts: Vec<NumberedPart>,
 }
 
 impl<'a> LibraryTaker<'a> {

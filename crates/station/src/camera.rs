@@ -1,4 +1,4 @@
-//! The server's source: captures a frame after a trigger, and reports the camera's state in between.
+//! A source for triggers: captures a frame after each, and reports the camera's state in between.
 //!
 //! The source runs all the time, so that no trigger waits for it to open; frames that nobody requested are dropped. A frame
 //! that arrives just after a trigger may have been exposed before it. From a camera, the second frame to arrive is
@@ -18,10 +18,8 @@ use nalgebra::Point3;
 use thiserror::Error;
 
 use super::{
-    answer::{CameraState, CameraStatus, Trouble},
     finder::FrameOrigin,
     motion::{MotionWatch, time_of},
-    server::Asked,
 };
 use capture::{
     BackpressurePolicy, CaptureError, Captured, Feed, FeedItem, FeedState, FeedStatus, SourceSpec,
@@ -34,6 +32,7 @@ use inspection::pipeline::{
     Inspection,
     live::{MotionState, SteadyParams, refuse_moving, refuse_unless_again},
 };
+use serve::{Asked, CameraState, CameraStatus, Trouble, Unanswered};
 
 /// Least time between the two frames that must agree, if the scene was still until the first one. A part that begins to
 /// move at 0.1 m/s² or more has then come further than its pose may be off, unless it was hardly off in the first one.
@@ -183,11 +182,8 @@ pub enum NoFrame {
         ahead: Duration,
     },
     /// The service is ending.
-    #[error("the service is stopping")]
-    Stopping,
-    /// Nobody waits for the frame any more.
-    #[error("the client closed the connection before it was its turn")]
-    Withdrawn,
+    #[error(transparent)]
+    Unanswered(#[from] Unanswered),
 }
 
 impl NoFrame {
@@ -200,8 +196,7 @@ impl NoFrame {
             Self::Late { .. } => "no_frame",
             Self::Unreadable { .. } => "unreadable",
             Self::ClockAhead { .. } => "clock_ahead",
-            Self::Stopping => "stopping",
-            Self::Withdrawn => "withdrawn",
+            Self::Unanswered(why) => why.reason(),
         }
     }
 }
@@ -221,31 +216,29 @@ impl Advice for NoFrame {
                 "Check that the camera delivers frames; a slow one needs a longer --frame-timeout"
                     .into()
             }
-            Self::Stopping => "Connect again once the service is running".into(),
-            Self::Withdrawn => {
-                "TRIGGER again, and keep the connection open, for sending too, until the answer has come"
-                    .into()
-            }
+            Self::Unanswered(why) => why.advice(),
         }
     }
 }
 
 /// Converts a source's state into the answer for a client.
-impl From<&FeedState> for CameraStatus {
-    fn from(state: &FeedState) -> Self {
-        let gone = |reason: &str, error: &Arc<CaptureError>| Some(Trouble::of(reason, &**error));
-        let (state, trouble) = match state {
-            FeedState::Opening => (CameraState::Opening, None),
-            FeedState::Running => (CameraState::Running, None),
-            FeedState::Lost { error } => (CameraState::Lost, gone("camera_lost", error)),
-            FeedState::Failed(error) => (CameraState::Over, gone("camera_failed", error)),
-            FeedState::Ended | FeedState::Stopped => {
-                let ended = NoFrame::Ended;
-                let trouble = Trouble::of(ended.reason(), &ended);
-                (CameraState::Over, Some(trouble))
-            }
-        };
-        Self { state, trouble }
+pub fn camera_status(state: &FeedState) -> CameraStatus {
+    let gone = |reason: &str, error: &Arc<CaptureError>| Some(Trouble::of(reason, &**error));
+    let (state, trouble) = match state {
+        FeedState::Opening => (CameraState::Opening, None),
+        FeedState::Running => (CameraState::Running, None),
+        FeedState::Lost { error } => (CameraState::Lost, gone("camera_lost", error)),
+        FeedState::Failed(error) => (CameraState::Over, gone("camera_failed", error)),
+        FeedState::Ended | FeedState::Stopped => {
+            (CameraState::Over, Some((&NoFrame::Ended).into()))
+        }
+    };
+    CameraStatus { state, trouble }
+}
+
+impl From<&NoFrame> for Trouble {
+    fn from(why: &NoFrame) -> Self {
+        Self::of(why.reason(), why)
     }
 }
 
@@ -296,7 +289,7 @@ impl Camera {
 
     /// The source's status for a client.
     pub fn status(&self) -> CameraStatus {
-        CameraStatus::from(&self.feed_status().state)
+        camera_status(&self.feed_status().state)
     }
 
     /// Returns the next frame captured after a trigger. A source that is over is opened again first; a lost one is an error
@@ -429,7 +422,7 @@ impl Opened {
                 return Err(unreadable.unwrap_or(NoFrame::Late { waited: at_most }));
             }
         }
-        Err(NoFrame::Stopping)
+        Err(Unanswered::Stopping.into())
     }
 }
 

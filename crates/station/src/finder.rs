@@ -2,10 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
-use super::answer::{Answer, Found, PathStep, Trouble, VerdictCode};
+use super::Doubt;
 use geometry::rigid::RigidTransform;
 use inspection::{
     library::SprayPath,
@@ -15,18 +12,8 @@ use robot::{
     RobotFrame,
     spray::{BandStatus, carry},
 };
+use serve::{Answer, Found, PathStep, PoseKind, Trouble, VerdictCode};
 use stages::pose::PoseEstimate;
-
-/// Which of the poses goes out; see [`robot`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum PoseKind {
-    /// Where the part is: for paths in the part's own frame.
-    #[default]
-    RobotFromPart,
-    /// How far it is from its standard position: for paths taught in the base frame.
-    RobotOffset,
-}
 
 /// Data about a reference of the library that a client gets besides its name.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -99,11 +86,7 @@ impl PartFinder {
         let pose = inspection.found_pose();
         if pose.is_some_and(PoseEstimate::is_ambiguous) {
             found.verdict = VerdictCode::Refused;
-            found.trouble = Trouble::new(
-                "ambiguous_pose",
-                "another pose fits nearly as well",
-                "Turn the part's face to the camera, all of it inside the picture",
-            );
+            found.trouble = Trouble::of(Doubt::Ambiguous.kind(), &Doubt::Ambiguous);
             return found;
         }
         found.verdict = VerdictCode::Accepted;

@@ -1,9 +1,12 @@
 //! What `inspect --source --mqtt` publishes: the inspection of each part that the history keeps, and the camera's
 //! status.
 
+use clap::Args;
+
+use super::mqtt::{ChosenBroker, MqttChoice, end_link, show_news};
 use crate::cli::{
     console::{Console, advised_error},
-    mqtt::{ChosenBroker, end_link, show_news},
+    numbers::NumbersChoice,
 };
 use capture::{Captured, FeedState, SkippedCapture, SourceSpec};
 use geometry::error::Fault;
@@ -14,41 +17,48 @@ use inspection::{
 use plant::mqtt::MqttLink;
 use records::history::Traceability;
 use robot::RobotFrame;
-use serve::{
-    CameraStatus, Found, FrameOrigin, InspectionRecorder, NewFrame, NoFrame, PartFinder,
-    ServerSettings, Trouble,
-};
+use serve::{CameraStatus, Found, InspectionRecorder, ServerSettings, Trouble};
+use station::{FrameOrigin, NewFrame, NoFrame, PartFinder, camera_status};
 
-use super::InspectArgs;
+/// Where `inspect` publishes.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct PublishArgs {
+    #[command(flatten)]
+    mqtt: MqttChoice,
+    #[command(flatten)]
+    numbers: NumbersChoice,
+}
 
-/// Refuses options that would be ignored.
-pub(super) fn check(args: &InspectArgs) -> anyhow::Result<()> {
-    let is_wanted = args.mqtt.is_wanted();
-    if is_wanted && args.source.is_none() {
-        return Err(advised_error(
-            "--mqtt needs --source",
-            "Follow a camera, a recording or a folder, such as --source watch:DIR",
-        ));
+impl PublishArgs {
+    /// Refuses options that would be ignored.
+    pub(in crate::cli) fn check(&self, source: Option<&SourceSpec>) -> anyhow::Result<()> {
+        let is_wanted = self.mqtt.is_wanted();
+        if is_wanted && source.is_none() {
+            return Err(advised_error(
+                "--mqtt needs --source",
+                "Follow a camera, a recording or a folder, such as --source watch:DIR",
+            ));
+        }
+        if !is_wanted && self.numbers != NumbersChoice::default() {
+            return Err(advised_error(
+                "--as, --transform and --number need --mqtt",
+                "Leave them out, or give a broker with --mqtt",
+            ));
+        }
+        Ok(())
     }
-    if !is_wanted && args.numbers.is_given() {
-        return Err(advised_error(
-            "--as, --transform and --number need --mqtt",
-            "Leave them out, or give a broker with --mqtt",
-        ));
-    }
-    Ok(())
 }
 
 /// A broker, and the form of the published results.
-pub(super) struct ChosenPublisher {
+pub(in crate::cli) struct ChosenPublisher {
     broker: ChosenBroker,
     finder: PartFinder,
 }
 
 impl ChosenPublisher {
     /// Returns the chosen publisher, if any.
-    pub(super) fn of(
-        args: &InspectArgs,
+    pub(in crate::cli) fn new(
+        args: &PublishArgs,
         place: &LibraryPlace,
         load: &LibraryLoad,
         robot: Option<&RobotFrame>,
@@ -72,7 +82,7 @@ impl ChosenPublisher {
     }
 
     /// Connects without waiting for the broker.
-    pub(super) fn start(
+    pub(in crate::cli) fn start(
         self,
         source: &SourceSpec,
         load: &LibraryLoad,
@@ -94,7 +104,7 @@ impl ChosenPublisher {
 }
 
 /// Publishes inspections as a server does.
-pub(super) struct Publisher {
+pub(in crate::cli) struct Publisher {
     link: MqttLink,
     finder: PartFinder,
     recorder: InspectionRecorder,
@@ -106,20 +116,20 @@ pub(super) struct Publisher {
 
 impl Publisher {
     /// Publishes changes of the camera's status, and shows events of the connection.
-    pub(super) fn look(&mut self, state: &FeedState, console: &Console) {
-        self.camera = state.into();
+    pub(in crate::cli) fn look(&mut self, state: &FeedState, console: &Console) {
+        self.camera = camera_status(state);
         self.link.set_camera(self.camera.clone());
         show_news(&self.link, console);
     }
 
     /// Sets the frame that is inspected next.
-    pub(super) fn begin(&mut self, captured: &Captured) {
+    pub(in crate::cli) fn begin(&mut self, captured: &Captured) {
         self.origin = Some(self.new_frame.origin_of(captured));
     }
 
     /// Returns the result of inspecting that frame. `is_still`: frames of the source, if it shows motion at all, have shown
     /// that the part hung still.
-    pub(super) fn found(
+    pub(in crate::cli) fn found(
         &self,
         inspection: &Inspection,
         recipe: &Recipe,
@@ -131,27 +141,27 @@ impl Publisher {
     }
 
     /// Publishes an inspection.
-    pub(super) fn publish(&mut self, found: Found) {
+    pub(in crate::cli) fn publish(&mut self, found: Found) {
         let record = self.recorder.record(found, self.camera.clone());
         self.link.inspected(record);
     }
 
     /// Publishes that something could not be read.
-    pub(super) fn skipped(&mut self, skipped: &SkippedCapture) {
+    pub(in crate::cli) fn skipped(&mut self, skipped: &SkippedCapture) {
         let why = NoFrame::Unreadable {
             name: skipped.name.clone(),
             error: skipped.error.clone(),
         };
-        self.publish(Found::error(Trouble::of(why.reason(), &why)));
+        self.publish(Found::error((&why).into()));
     }
 
     /// Publishes that the program failed at a frame.
-    pub(super) fn failed(&mut self, fault: &Fault) {
+    pub(in crate::cli) fn failed(&mut self, fault: &Fault) {
         self.publish(Found::error(Trouble::of("fault", fault)));
     }
 
     /// Sends what is queued, for a few seconds at most, and disconnects.
-    pub(super) fn end(self, console: &Console) {
+    pub(in crate::cli) fn end(self, console: &Console) {
         show_news(&self.link, console);
         end_link(self.link, console);
     }
