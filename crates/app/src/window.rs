@@ -5,50 +5,54 @@ use std::{io, path::PathBuf, sync::Arc, time::Duration};
 use eframe::egui_wgpu::RenderState;
 use egui::{CentralPanel, Frame, LayerId, Ui};
 
-use super::{
-    inspection::{camera::Camera, inspected::Inspected, library_cache::LibraryCache},
-    shell::{
-        action::{Action, DialogRequest, Effect, apply, remove_notices},
-        closing::{self, Closing},
-        context::Services,
-        current_trace, dialogs,
-        file_dialog::{DialogLock, FileDialog},
-        inspector, keys,
-        live::{self, LiveAction},
-        message::{Event, Message},
-        notice::{Notice, NoticeTopic},
-        notices, operator_bars, path_entry, rail,
-        robot::RobotCell,
-        roles::{self, RoleAction},
-        scanner::{self, KeyTarget},
-        session::{Source, ThemeChoice, UserRole, WorkspaceKind},
-        settings,
-        settings_file::Memory,
-        shift,
-        state::State,
-        top_bar,
-        workspace::Workspace,
-    },
-    task::TaskRunner,
-    ui::{
-        theme::Theme,
-        viewport::{ViewError, ViewportGpu},
-    },
-    user_error::UserError,
-    workspaces::{
-        align::AlignWorkspace,
-        compare::CompareWorkspace,
-        enrol::EnrolWorkspace,
-        history::HistoryWorkspace,
-        inspect::{InspectWorkspace, WorkCounts},
-        paint::PaintWorkspace,
-    },
+use super::workspaces::{
+    align::AlignWorkspace,
+    compare::CompareWorkspace,
+    enrol::EnrolWorkspace,
+    history::HistoryWorkspace,
+    inspect::{InspectWorkspace, WorkCounts},
+    paint::PaintWorkspace,
 };
-use crate::language::{Language, text};
 use files::file_of;
 use inspection::pipeline::{RecipeFolder, open_recipe};
 use records::history::{HistoryBuffer, Writer};
 use robot::{cell_check::CellCheckFolder, frame_poses::FRAME_POSES};
+use shell::{
+    action::{Action, DialogRequest, Effect, apply, remove_notices},
+    cell::RobotCell,
+    context::Services,
+    file_dialog::{DialogLock, FileDialog},
+    frame::{
+        closing::{self, Closing},
+        dialogs, keys, notices, operator_bars, rail, top_bar,
+    },
+    inspection::{camera::Camera, inspected::Inspected, library_cache::LibraryCache},
+    message::{Event, Message},
+    notice::{Notice, NoticeTopic},
+    path_entry,
+    roles::{self, RoleAction},
+    session::{Source, ThemeChoice, UserRole, WorkspaceKind},
+    settings,
+    settings_file::Memory,
+    shift,
+    source::{
+        inspector,
+        live::{self, LiveAction},
+    },
+    state::State,
+    trace::{
+        current_trace,
+        scanner::{self, KeyTarget},
+    },
+    workspace::Workspace,
+};
+use ui::{
+    language::{Language, text},
+    task::TaskRunner,
+    theme::Theme,
+    user_error::UserError,
+    viewport::{ViewError, ViewportGpu},
+};
 
 mod data_lock;
 mod hosting;

@@ -12,12 +12,12 @@ use super::{
     take::{LibraryTaker, TakenLibrary},
 };
 #[cfg(feature = "plant")]
-use crate::cli::mqtt::{end_link, show_news};
 use crate::cli::{
     Outcome,
     console::{Console, advised_error},
     input::before,
     interrupt::Interrupt,
+    mqtt::{end_link, show_news},
     output::OutputFormat,
     record::{HistoryRecorder, SceneOrigin},
 };

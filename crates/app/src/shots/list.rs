@@ -12,22 +12,20 @@ use super::{
     overlay::percent,
     state::{ShotsAction, ShotsFile, ShotsState, StripTab},
 };
-use crate::{
+use shell::{
     inspection::{
         fuse::FusedShots,
         scan_choice::ShotChoice,
         scan_figure::{ShotFate, ShotRow},
         unit_system::UnitSystem,
     },
-    language::{
-        results::{excluded, excluded_advice, excluded_in_short},
-        text,
-    },
-    shell::session::{Session, WorkspaceKind},
-    ui::{
-        theme::{ROUNDING, Theme, font, space},
-        widgets::{Mark, focus_ring, grouped, labelled, line_mark, sentence, shortened},
-    },
+    language::results::{excluded, excluded_advice, excluded_in_short},
+    session::{Session, WorkspaceKind},
+};
+use ui::{
+    language::text,
+    theme::{ROUNDING, Theme, font, space},
+    widgets::{Mark, focus_ring, grouped, labelled, line_mark, sentence, shortened},
 };
 
 /// Width of a shot in the list, logical pixels.

@@ -2,15 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::{
+use shell::{
+    file_dialog::{FileChoice, FileRequest, all_files},
     inspection::scan_choice::{ScanFiles, ScanOrder, ShotChoice},
+    notice::Notice,
+    session::Source,
+};
+use ui::{
     language::text,
-    shell::{
-        file_dialog::{FileChoice, FileRequest, all_files},
-        notice::Notice,
-        session::Source,
-        undo_stack::{UndoDirection, UndoStack},
-    },
+    undo_stack::{UndoDirection, UndoStack},
 };
 
 /// State that a workspace keeps for its scan, besides the result.

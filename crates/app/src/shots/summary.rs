@@ -2,16 +2,14 @@
 
 use egui::{RichText, Ui};
 
-use crate::{
+use shell::{
     inspection::{fuse::FusedShots, scan_figure::ShotFate, unit_system::UnitSystem},
-    language::{
-        results::{doubt, excluded, excluded_advice},
-        text,
-    },
-    ui::{
-        theme::{Theme, font, space},
-        widgets::{grouped, heading, row, sentence},
-    },
+    language::results::{doubt, excluded, excluded_advice},
+};
+use ui::{
+    language::text,
+    theme::{Theme, font, space},
+    widgets::{grouped, heading, row, sentence},
 };
 
 /// Draws the section.

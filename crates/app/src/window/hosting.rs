@@ -3,16 +3,16 @@
 use std::any::Any;
 
 use super::Window;
-use crate::shell::{
+use shell::{
     action::{Action, DialogRequest, remove_notices},
+    cell::RobotCell,
     context::ShellContext,
-    live::LiveAction,
+    frame::top_bar::Progress,
     message::{Message, ReinspectionPurpose},
     notice::NoticeKind,
-    robot::RobotCell,
     roles,
     session::WorkspaceKind,
-    top_bar::Progress,
+    source::live::LiveAction,
     workspace::Workspace,
 };
 

@@ -12,13 +12,6 @@ use std::{
 
 use app::{
     Window, WindowOptions,
-    inspection::camera::Camera,
-    shell::{
-        action::{Action, DialogRequest},
-        closing::Closing,
-        robot::{AnswerSetup, RobotAction, RobotDialog, RobotPage},
-        roles::RoleAction,
-    },
     workspaces::history::{HistoryAction, HistoryWorkspace},
 };
 use capture::{CaptureError, Captured, DepthSource, Image, NextCapture};
@@ -30,6 +23,13 @@ use jiff::{SignedDuration, Timestamp};
 use records::history::{Filter, HistoryBuffer, StoredVerdict};
 use robot::Convention;
 use serve::{PoseKind, VerdictCode};
+use shell::{
+    action::{Action, DialogRequest},
+    cell::{AnswerSetup, RobotAction, RobotDialog, RobotPage},
+    frame::closing::Closing,
+    inspection::camera::Camera,
+    roles::RoleAction,
+};
 use simulate::{PartKind, SensorNoise};
 
 use inspection::fixtures::copy_library;

@@ -4,9 +4,6 @@ use std::{fs, path::Path};
 
 use app::{
     WindowOptions,
-    inspection::source::CellChoice,
-    shell::{action::Action, live::SourceState, session::WorkspaceKind, state::State},
-    ui::viewport::DrawnShape,
     workspaces::{
         enrol::{EnrolAction, EnrolWorkspace, draft::Field},
         history::HistoryWorkspace,
@@ -19,7 +16,12 @@ use inspection::{
     library::{LibraryFolder, PartName},
     pipeline::Verdict,
 };
+use shell::{
+    action::Action, inspection::source::CellChoice, session::WorkspaceKind,
+    source::live::SourceState, state::State,
+};
 use simulate::{PartKind, PartModel, Side};
+use ui::viewport::DrawnShape;
 
 use inspection::fixtures::copy_library;
 use stages::fixtures::facing_part;

@@ -10,13 +10,6 @@ use std::{
 
 use app::{
     WindowOptions,
-    inspection::{source::CellChoice, unit_system::UnitSystem},
-    shell::{
-        action::Action,
-        message::Message,
-        roles::RoleAction,
-        session::{ThemeChoice, WorkspaceKind},
-    },
     workspaces::{
         history::{HistoryAction, HistoryFile, HistoryWorkspace, ListFilter},
         inspect::InspectFile,
@@ -28,6 +21,13 @@ use files::save_cloud;
 use inspection::{library::Truth, pipeline::Recipe};
 use jiff::Timestamp;
 use records::history::{History, HungId, KeepFrames, NewEntry, Retention, StoredVerdict};
+use shell::{
+    action::Action,
+    inspection::{source::CellChoice, unit_system::UnitSystem},
+    message::Message,
+    roles::RoleAction,
+    session::{ThemeChoice, WorkspaceKind},
+};
 use simulate::{ObjectKind, PartKind, Side};
 
 use records::fixtures::{history_entry, low_score, open_history};

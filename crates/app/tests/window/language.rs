@@ -2,14 +2,6 @@
 
 use app::{
     WindowOptions,
-    language::Language,
-    shell::{
-        action::Action,
-        live::{LiveAction, SourceState},
-        robot::{CheckAction, RobotAction, RobotPage},
-        roles::RoleAction,
-        session::WorkspaceKind,
-    },
     workspaces::{
         enrol::{EnrolAction, EnrolWorkspace, draft::Field},
         history::{HistoryAction, HistoryWorkspace, ListFilter},
@@ -22,6 +14,14 @@ use egui::{
 };
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use records::history::{Retention, StoredVerdict};
+use shell::{
+    action::Action,
+    cell::{CheckAction, RobotAction, RobotPage},
+    roles::RoleAction,
+    session::WorkspaceKind,
+    source::live::{LiveAction, SourceState},
+};
+use ui::language::Language;
 
 use super::{
     live::{Step, sees, wired_options},

@@ -18,4 +18,3 @@ mod roles;
 mod set_up;
 mod shots;
 mod view;
-mod viewport;

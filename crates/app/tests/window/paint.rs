@@ -5,15 +5,17 @@ use std::{f64::consts::FRAC_PI_2, path::Path};
 use ::robot::paint::KeepOut;
 use app::{
     WindowOptions,
-    shell::{
-        action::Action, program_setup::ProgramSetup, robot::RobotAction, session::WorkspaceKind,
-    },
     workspaces::paint::{PaintAction, PaintFile, PaintState, PaintWorkspace, Playback, ShownPath},
 };
 use egui::{Key, Modifiers, Role, Vec2};
 use egui_kittest::{Node, kittest::Queryable as _};
 use geometry::rigid::from_euler_zyx;
 use inspection::library::{LibraryFolder, SprayPath};
+use shell::{
+    action::Action,
+    cell::{RobotAction, program_setup::ProgramSetup},
+    session::WorkspaceKind,
+};
 
 use inspection::fixtures::copy_library;
 

@@ -8,18 +8,6 @@ use std::{fs, path::PathBuf, sync::Arc, time::Duration};
 
 use app::{
     Window, WindowOptions,
-    inspection::{
-        camera::Camera,
-        inspected::{InspectRequest, Inspected, inspect},
-        library_cache::LibraryCache,
-        source::{CellChoice, SceneSource},
-    },
-    shell::{
-        action::Action,
-        robot::{RobotAction, RobotPage},
-        roles::RoleAction,
-        session::WorkspaceKind,
-    },
     workspaces::{
         align::{AlignWorkspace, MethodRun},
         paint::{PaintAction, PaintWorkspace},
@@ -37,6 +25,18 @@ use inspection::{
     library::{LibraryFolder, PartName},
     pipeline::{Timings, Unwatched},
 };
+use shell::{
+    action::Action,
+    cell::{RobotAction, RobotPage},
+    inspection::{
+        camera::Camera,
+        inspected::{InspectRequest, Inspected, inspect},
+        library_cache::LibraryCache,
+        source::{CellChoice, SceneSource},
+    },
+    roles::RoleAction,
+    session::WorkspaceKind,
+};
 
 use inspection::fixtures::copy_library;
 
@@ -53,7 +53,7 @@ const MAX_DIFFERENT: usize = 100;
 #[expect(clippy::print_stderr, reason = "a test that skips must say why")]
 fn draws_in_software() -> bool {
     let is_required = std::env::var_os("PARTSIGHT_REQUIRE_GPU").is_some();
-    if let Err(error) = app::ui::viewport::ViewportGpu::headless() {
+    if let Err(error) = ui::viewport::ViewportGpu::headless() {
         assert!(!is_required, "{error}");
         eprintln!("skipped: {error}");
         return false;

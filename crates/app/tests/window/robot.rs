@@ -4,13 +4,6 @@ use std::{fmt::Write as _, fs, path::Path, sync::Arc};
 
 use app::{
     WindowOptions,
-    shell::{
-        action::Action,
-        program_setup::ProgramSetup,
-        robot::{RobotAction, RobotPage},
-        session::{RememberedCell, ThemeChoice, WorkspaceKind},
-        state::State,
-    },
     workspaces::{
         enrol::{EnrolAction, EnrolFile, EnrolWorkspace},
         inspect::{InspectFile, ViewPart},
@@ -25,6 +18,12 @@ use nalgebra::{Point3, Vector3};
 use robot::{
     Convention,
     calibration::{CameraPlace, CellCalibration, Origin},
+};
+use shell::{
+    action::Action,
+    cell::{RobotAction, RobotPage, program_setup::ProgramSetup},
+    session::{RememberedCell, ThemeChoice, WorkspaceKind},
+    state::State,
 };
 
 use inspection::fixtures::copy_library;

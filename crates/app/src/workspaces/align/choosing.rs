@@ -10,15 +10,12 @@ use super::{
     start::Start,
     state::{AlignState, Pairing},
 };
-use crate::{
-    inspection::source::file_name,
+use shell::{inspection::source::file_name, session::Session};
+use ui::{
     language::text,
-    shell::session::Session,
-    ui::{
-        theme::{Theme, font, space},
-        viewport::ViewDirection,
-        widgets::{button_width, fitted_middle, labelled, menu_list, shortened, text_button},
-    },
+    theme::{Theme, font, space},
+    viewport::ViewDirection,
+    widgets::{button_width, fitted_middle, labelled, menu_list, shortened, text_button},
 };
 
 /// Longest file name shown, characters.

@@ -8,15 +8,13 @@ use egui::{
 };
 
 use super::{AlignAction, AlignFile, AlignState, Start, TableRow, series};
-use crate::{
-    language::text,
-    shell::session::Session,
-    ui::{
-        theme::{ROUNDING, Theme, font, space},
-        widgets::{focus_ring, heading, labelled},
-    },
-};
+use shell::session::Session;
 use stages::pose::{PoseMethod, Uncertainty};
+use ui::{
+    language::text,
+    theme::{ROUNDING, Theme, font, space},
+    widgets::{focus_ring, heading, labelled},
+};
 
 /// Largest width of a column of numbers, logical pixels.
 const COLUMN: f32 = 88.0;

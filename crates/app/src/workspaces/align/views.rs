@@ -11,19 +11,17 @@ use super::{
     state::AlignState,
     track::{MethodRun, Track, doubted, in_the_window},
 };
-use crate::{
+use geometry::units::Metres;
+use shell::session::{Session, ThemeChoice};
+use stages::pose::PoseMethod;
+use ui::{
     language::text,
-    shell::session::{Session, ThemeChoice},
-    ui::{
-        theme::{ROUNDING, Theme, font, space},
-        viewport::{
-            Role, RoleColour, ViewCamera, ViewColours, ViewDirection, ViewError, ViewScene,
-            ViewStyle, Viewport, ViewportGpu, scene::mat4,
-        },
+    theme::{ROUNDING, Theme, font, space},
+    viewport::{
+        Role, RoleColour, ViewCamera, ViewColours, ViewDirection, ViewError, ViewScene, ViewStyle,
+        Viewport, ViewportGpu, scene::mat4,
     },
 };
-use geometry::units::Metres;
-use stages::pose::PoseMethod;
 
 /// Height of the text above a wide and a narrow view, logical pixels.
 const HEAD: [f32; 2] = [66.0, 98.0];

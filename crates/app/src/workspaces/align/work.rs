@@ -9,15 +9,15 @@ use super::{
     table::{TableCell, TableRow},
     track::MethodRun,
 };
-use crate::{
-    inspection::library_cache::LibraryCache,
+use files::write_text;
+use inspection::pipeline::ProgressObserver as _;
+use shell::inspection::library_cache::LibraryCache;
+use stages::pose::PoseMethod;
+use ui::{
     language::text,
     task::{TaskContext, TaskError},
     user_error::UserError,
 };
-use files::write_text;
-use inspection::pipeline::ProgressObserver as _;
-use stages::pose::PoseMethod;
 
 /// Aligns a pair by every method.
 pub(super) fn pair(

@@ -3,18 +3,16 @@
 use egui::{Button, RichText, Ui, WidgetInfo};
 
 use super::{CompareAction, CompareState, Front, Undo};
-use crate::{
-    language::{keys, text},
-    shell::{
-        session::Session,
-        truth_menu::{truth_entries, truth_title},
-    },
-    ui::{
-        theme::{Theme, font, space},
-        widgets::{Mark, labelled, line_edit, line_mark, menu_list, shortened, text_button},
-    },
-};
 use records::cases::{CaseOutcome, FoundVerdict, Truth};
+use shell::{
+    session::Session,
+    truth_menu::{truth_entries, truth_title},
+};
+use ui::{
+    language::{keys, text},
+    theme::{Theme, font, space},
+    widgets::{Mark, labelled, line_edit, line_mark, menu_list, shortened, text_button},
+};
 
 /// A bar wider than this has room for a long remark.
 const WIDE: f32 = 800.0;

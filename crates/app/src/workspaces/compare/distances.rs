@@ -3,16 +3,13 @@
 use egui::{Align2, Rect, RichText, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
 
 use super::{CompareAction, CompareState, study::PartDistance};
-use crate::{
-    inspection::unit_system::UnitSystem,
-    language::text,
-    shell::session::Session,
-    ui::{
-        theme::{ROUNDING, Theme, font, space},
-        widgets::{fitted_middle, focus_ring},
-    },
-};
+use shell::{inspection::unit_system::UnitSystem, session::Session};
 use stages::rank::Matcher;
+use ui::{
+    language::text,
+    theme::{ROUNDING, Theme, font, space},
+    widgets::{fitted_middle, focus_ring},
+};
 
 /// Height of a row.
 const ROW: f32 = 40.0;

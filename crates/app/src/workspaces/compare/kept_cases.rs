@@ -12,17 +12,14 @@ use super::{
     matrix::{Matrix, MatrixCell, column_title, row_title},
     score_plots,
 };
-use crate::{
-    inspection::library_cache::LibraryView,
-    language::text,
-    shell::session::Session,
-    ui::{
-        theme::{ROUNDING, Theme, font, space},
-        widgets::{focus_ring, labelled, shortened, text_button},
-    },
-    user_error::UserError,
-};
 use records::cases::{CaseAnswer, CaseOutcome, KeptCase};
+use shell::{inspection::library_cache::LibraryView, session::Session};
+use ui::{
+    language::text,
+    theme::{ROUNDING, Theme, font, space},
+    user_error::UserError,
+    widgets::{focus_ring, labelled, shortened, text_button},
+};
 
 /// Width of the rows' names.
 const NAMES: f32 = 118.0;

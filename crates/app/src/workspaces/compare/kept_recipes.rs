@@ -6,13 +6,6 @@ use std::{
     sync::Arc,
 };
 
-use crate::{
-    inspection::folder_watch::FolderWatch,
-    language::text,
-    shell::{context::ShellContext, settings::set_aside, undo_stack::UndoDirection},
-    task::{Task, TaskRunner},
-    user_error::UserError,
-};
 use files::disk;
 use inspection::{
     library::PartName,
@@ -20,6 +13,13 @@ use inspection::{
         BUILT_IN, NamedRecipe, Recipe, RecipeError, RecipeFile, RecipeFolder, RecipeLabel,
         RecipeList, Replace,
     },
+};
+use shell::{context::ShellContext, inspection::folder_watch::FolderWatch, settings::set_aside};
+use ui::{
+    language::text,
+    task::{Task, TaskRunner},
+    undo_stack::UndoDirection,
+    user_error::UserError,
 };
 
 /// The changed recipe on trial when the window was closed, in the folder of recipes; hidden, as it is none of them.

@@ -10,17 +10,14 @@ use super::{
     CompareState,
     comparison::{AxisQuantity, Correlated, Correlation, OutlineComparison},
 };
-use crate::{
-    inspection::unit_system::UnitSystem,
-    language::text,
-    shell::session::Session,
-    ui::{
-        plot::{Axes, Axis, RayCurves, curve, range_of},
-        theme::{ROUNDING, Theme, font},
-        widgets::{fitted_middle, plane_in},
-    },
-};
+use shell::{inspection::unit_system::UnitSystem, session::Session};
 use stages::rank::Matcher;
+use ui::{
+    language::text,
+    plot::{Axes, Axis, RayCurves, curve, range_of},
+    theme::{ROUNDING, Theme, font},
+    widgets::{fitted_middle, plane_in},
+};
 
 /// Height of a picture's title.
 const TITLE: f32 = 19.0;

@@ -7,16 +7,6 @@ use super::{
     action::RecipeAction,
     kept_recipes::{Naming, NamingPurpose},
 };
-use crate::{
-    language::{parameters, results::recipe_label, text},
-    shell::session::Session,
-    ui::{
-        theme::{Theme, space},
-        widgets::{
-            self, button_width, labelled, line_edit, shortened, show_scroll_bar, text_button,
-        },
-    },
-};
 use geometry::error::Advice as _;
 use inspection::{
     library::PartName,
@@ -24,6 +14,12 @@ use inspection::{
         BUILT_IN, Recipe, RecipeLabel,
         parameters::{changed, num_changed},
     },
+};
+use shell::{language::results::recipe_label, session::Session};
+use ui::{
+    language::{parameters, text},
+    theme::{Theme, space},
+    widgets::{self, button_width, labelled, line_edit, shortened, show_scroll_bar, text_button},
 };
 
 /// A longer name is shortened to this many letters.

@@ -9,20 +9,14 @@ use super::{
     schedule::StudyNeed,
     state::{CompareState, Undo},
 };
-use crate::{
-    language::text,
-    shell::{
-        context::ShellContext, message::Message, notice::Notice, session::UserRole,
-        undo_stack::UndoDirection,
-    },
-    user_error::UserError,
-};
 use inspection::{
     library::PartName,
     pipeline::{
         BUILT_IN, NamedRecipe, Recipe, RecipeError, RecipeFile, RecipeLabel, RecipeList, Replace,
     },
 };
+use shell::{context::ShellContext, message::Message, notice::Notice, session::UserRole};
+use ui::{language::text, undo_stack::UndoDirection, user_error::UserError};
 
 impl CompareState {
     /// Carries out an action on the kept recipes.

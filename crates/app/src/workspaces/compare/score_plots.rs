@@ -3,14 +3,12 @@
 use egui::{Align2, Sense, Ui, WidgetInfo, pos2, vec2};
 use egui_plot::{Line, LineStyle, PlotTransform, PlotUi, Points, VLine};
 
-use crate::{
-    language::text,
-    ui::{
-        plot::{Axes, Axis, legend},
-        theme::{ROUNDING, Theme, font, space},
-    },
-};
 use records::cases::{Calibration, ThresholdCounts, TradeOff};
+use ui::{
+    language::text,
+    plot::{Axes, Axis, legend},
+    theme::{ROUNDING, Theme, font, space},
+};
 
 /// Width of a plot with its labels.
 pub(super) const WIDTH: f32 = 238.0;

@@ -17,16 +17,15 @@ use super::{
     state::EnrolState,
     subject::InitialSelection,
 };
-use crate::{
-    inspection::source::Origin,
-    language::text,
-    shell::settings::set_aside,
-    task::{Task, TaskRunner},
-    user_error::UserError,
-};
 use files::{self, FileError, advice_on, disk, folder_of, write_text};
 use geometry::error::{Advice as _, lock};
 use inspection::library::MAX_TITLE;
+use shell::{inspection::source::Origin, settings::set_aside};
+use ui::{
+    language::text,
+    task::{Task, TaskRunner},
+    user_error::UserError,
+};
 
 /// Version of the file format.
 const SCHEMA: u32 = 1;
@@ -285,22 +284,20 @@ mod tests {
 
     use glam::{Mat4, Vec2};
 
-    use super::{
-        super::{
-            action::EnrolAction,
-            draft::Field,
-            outline::{DrawnOutline, DrawnOver},
-            segments::PointAction,
-            selection::{Edit, OutlineMode},
-        },
-        *,
+    use super::*;
+    use crate::workspaces::enrol::{
+        action::EnrolAction,
+        draft::Field,
+        outline::{DrawnOutline, DrawnOver},
+        segments::PointAction,
+        selection::{Edit, OutlineMode},
     };
-    use crate::{
+    use shell::{
+        context::TestShell,
         inspection::{
             inspected::SceneOrScan,
             source::{CellChoice, SceneSource},
         },
-        shell::context::TestShell,
     };
 
     fn outline(over: DrawnOver) -> DrawnOutline {
@@ -440,7 +437,7 @@ mod tests {
     fn whichever_call_fails_the_draft_is_the_old_one_or_the_new() {
         let place = |folder: &Path| folder.join("deep").join("draft.json");
         files::disk::faults::Writer {
-            test: "app::workspaces::enrol::kept::tests::whichever_call_fails_the_draft_is_the_old_one_or_the_new",
+            test: "workspaces::enrol::kept::tests::whichever_call_fails_the_draft_is_the_old_one_or_the_new",
             prepare: &|folder| save(&place(folder), Some(draft("Old")), None).expect("written"),
             write: &|folder| {
                 let saved = save(&place(folder), Some(draft("New")), None);

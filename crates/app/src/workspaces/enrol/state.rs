@@ -11,23 +11,24 @@ use super::{
     undo::{DraftEffect, LastChangedPart, LibraryStep, SavedDraft, UndoStep},
     work::{self, DraftEvent},
 };
-use crate::{
-    inspection::{library_cache::LibraryView, scan_choice::ShotChoice},
-    language::{enrolment::bad_name, text},
-    shell::{
-        context::ShellContext,
-        file_dialog::FileDialog,
-        message::{Event, Message},
-        notice::Notice,
-        session::{Session, UserRole, WorkspaceKind},
-        undo_stack::{UndoDirection, UndoStack},
-    },
-    shots::{Asked, ShotsAction, ShotsFile, ShotsState},
-    task::{Running, Task, TaskContext, TaskError, TaskRunner},
-    ui::viewport::DrawnShape,
-    user_error::UserError,
-};
+use crate::shots::{Asked, ShotsAction, ShotsFile, ShotsState};
 use inspection::library::PartName;
+use shell::{
+    context::ShellContext,
+    file_dialog::FileDialog,
+    inspection::{library_cache::LibraryView, scan_choice::ShotChoice},
+    language::enrolment::bad_name,
+    message::{Event, Message},
+    notice::Notice,
+    session::{Session, UserRole, WorkspaceKind},
+};
+use ui::{
+    language::text,
+    task::{Running, Task, TaskContext, TaskError, TaskRunner},
+    undo_stack::{UndoDirection, UndoStack},
+    user_error::UserError,
+    viewport::DrawnShape,
+};
 
 /// State of the workspace.
 #[derive(Debug)]

@@ -6,22 +6,19 @@ use super::{
     export, filter::ListFilter, state::HistoryState, statistics::StatisticsView,
     work::HistoryResult,
 };
-use crate::{
-    inspection::{inspected::Inspected, source::file_name},
-    language::text,
-    shell::{
-        context::ShellContext,
-        file_dialog::{FileChoice, FileRequest},
-        message::{Event, Message, ReinspectionPurpose},
-        notice::Notice,
-        session::{UserRole, WorkspaceKind},
-    },
-    user_error::UserError,
-};
 use inspection::library::Truth;
 use records::history::{
     HistoryEvent, HungId, NewEntry, PruneResult, Retention, SetAside, TraceChange,
 };
+use shell::{
+    context::ShellContext,
+    file_dialog::{FileChoice, FileRequest},
+    inspection::{inspected::Inspected, source::file_name},
+    message::{Event, Message, ReinspectionPurpose},
+    notice::Notice,
+    session::{UserRole, WorkspaceKind},
+};
+use ui::{language::text, user_error::UserError};
 
 /// An action in the workspace.
 #[derive(Debug)]

@@ -8,20 +8,21 @@ use egui::{
 use jiff::{Timestamp, tz::TimeZone};
 
 use super::{HistoryAction, HistoryState, bar, label::in_one_line};
-use crate::{
+use records::history::{StoredVerdict, Summary};
+use shell::{
     inspection::library_cache::LibraryView,
     language::{
         history::{stored_scene, stored_title},
         results::stored_verdict,
-        text,
     },
-    shell::{session::Session, truth_menu::truth_title},
-    ui::{
-        theme::{ROUNDING, Theme, font, space},
-        widgets::{Mark, fitted_middle, fitted_path, focus_ring, mark, shortened, text_width},
-    },
+    session::Session,
+    truth_menu::truth_title,
 };
-use records::history::{StoredVerdict, Summary};
+use ui::{
+    language::text,
+    theme::{ROUNDING, Theme, font, space},
+    widgets::{Mark, fitted_middle, fitted_path, focus_ring, mark, shortened, text_width},
+};
 
 /// Height of a row, logical pixels: a target for a gloved finger.
 const ROW: f32 = 40.0;

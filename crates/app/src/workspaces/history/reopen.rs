@@ -6,21 +6,20 @@ use super::{
     state::{HistoryState, ReinspectionJob, RemakeFor},
     work::OpenedInspection,
 };
-use crate::{
+use records::history::{Differences, InspectionSummary, Record};
+use shell::{
+    context::ShellContext,
     inspection::{
         inspected::{InspectJob, InspectRequest, Inspected, SceneOrScan},
         scan_choice::{ScanOrder, ScanRequest},
         source::{HistoryFrame, Origin, SceneSource},
     },
-    language::{history::stored_scene, text},
-    shell::{
-        context::ShellContext,
-        message::{Message, ReinspectionPurpose},
-        notice::Notice,
-        session::WorkspaceKind,
-    },
+    language::history::stored_scene,
+    message::{Message, ReinspectionPurpose},
+    notice::Notice,
+    session::WorkspaceKind,
 };
-use records::history::{Differences, InspectionSummary, Record};
+use ui::language::text;
 
 impl HistoryState {
     /// Shows an inspection with every stage: from memory, or repeated with its own recipe.

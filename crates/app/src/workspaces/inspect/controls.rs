@@ -8,14 +8,11 @@ use super::{
     state::{InspectState, ViewPart},
     view::SceneView,
 };
-use crate::{
-    inspection::inspected::Inspected,
+use shell::{inspection::inspected::Inspected, session::Session};
+use ui::{
     language::text,
-    shell::session::Session,
-    ui::{
-        theme::space,
-        viewport::{Colouring, FitRequest, StandardView, ViewTool},
-    },
+    theme::space,
+    viewport::{Colouring, FitRequest, StandardView, ViewTool},
 };
 
 /// Below this width of the view, logical pixels, the view directions are in a menu.

@@ -8,15 +8,13 @@ use super::{
     action::InspectAction,
     plots::{Pictures, PlotDetail},
 };
-use crate::{
-    inspection::figures::StagePanel,
-    language::text,
-    ui::{
-        theme::{font, space},
-        widgets::focus_ring,
-    },
-};
 use inspection::pipeline::Timings;
+use shell::inspection::figures::StagePanel;
+use ui::{
+    language::text,
+    theme::{font, space},
+    widgets::focus_ring,
+};
 
 /// Below this width, logical pixels, a picture's time is below its title instead of beside it.
 const NARROW: f32 = 150.0;

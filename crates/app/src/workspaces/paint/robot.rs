@@ -9,21 +9,19 @@ use super::{
     side::{TITLE, menu},
     state::PaintState,
 };
-use crate::{
-    language::{robot::not_checked, text},
-    shell::{program_setup::ProgramSetup, session::Session},
-    ui::{
-        parameter_control::fold,
-        theme::Theme,
-        widgets::{grouped, heading, labelled, line_edit, row, shortened, text_button},
-    },
-};
 use robot::{
     Convention,
     arm::{ARM_NAMES, Arm, PointProblem},
     program::ranges,
 };
+use shell::{cell::program_setup::ProgramSetup, language::robot::not_checked, session::Session};
 use station::robot_file::Unchecked;
+use ui::{
+    language::text,
+    parameter_control::fold,
+    theme::Theme,
+    widgets::{grouped, heading, labelled, line_edit, row, shortened, text_button},
+};
 
 /// Draws the section.
 pub(super) fn ui(

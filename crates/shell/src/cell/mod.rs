@@ -1,0 +1,22 @@
+//! The robot's cell in the window: the calibration in use, the dialog that makes another one, the check of whether the cell
+//! still stands as it was calibrated, and the server that robots ask.
+
+mod answer_page;
+pub mod answering;
+mod by_hand;
+pub mod cell_check;
+mod check_page;
+mod dialog;
+mod from_pairs;
+mod in_use;
+pub mod program_setup;
+pub mod state;
+pub mod work;
+
+pub(crate) use self::answer_page::chip;
+pub use self::{
+    answering::{AnswerSetup, Answering, AnsweringStatus, LastAnswer},
+    cell_check::{CellChecks, CheckAction, CheckFolderContent},
+    state::{RobotAction, RobotCell, RobotDialog, RobotFile, RobotPage},
+    work::{CellInUse, RobotResult, SolvedPairs},
+};

@@ -1,0 +1,25 @@
+//! Live: follows a camera and inspects as many of its frames as possible; a verdict counts once the part hangs still.
+//!
+//! The camera's thread hands over its newest frame, the task's thread inspects it, and the window shows the latest result. No
+//! thread waits for another: frames that arrive during an inspection are dropped.
+
+mod parts;
+mod set_up;
+pub mod state;
+mod status;
+mod work;
+
+pub(crate) use self::{
+    parts::FollowedParts,
+    state::{
+        apply, give_way, outdate_shown, restart_consensus, show_unseen, source_changed,
+        tell_if_lost,
+    },
+    status::{chip, words},
+};
+pub use self::{
+    set_up::set_up,
+    state::{Follower, LiveAction, LiveState, close, update},
+    status::card,
+    work::{LiveAnswer, LiveStatus, LiveStatusUpdate, SourceState},
+};

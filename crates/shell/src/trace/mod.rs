@@ -1,0 +1,4 @@
+//! Traceability: serial number, production order and operator, typed or scanned.
+
+pub mod current_trace;
+pub mod scanner;
