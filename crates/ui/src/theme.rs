@@ -297,15 +297,15 @@ impl Theme {
     /// Installs the embedded fonts, with egui's own as fallbacks for missing glyphs.
     pub fn install_fonts(ctx: &egui::Context) {
         let mut fonts = FontDefinitions::default();
-        let regular = include_bytes!("../../../../assets/fonts/Inter-Regular.otf");
-        let strong = include_bytes!("../../../../assets/fonts/Inter-SemiBold.otf");
+        let regular = include_bytes!("../../../assets/fonts/Inter-Regular.otf");
+        let strong = include_bytes!("../../../assets/fonts/Inter-SemiBold.otf");
         for (name, bytes) in [("Inter", &regular[..]), ("Inter SemiBold", &strong[..])] {
             fonts
                 .font_data
                 .insert(name.into(), Arc::new(FontData::from_owned(bytes.to_vec())));
         }
         // For Chinese in any language: titles of parts may be written in it.
-        let chinese = include_bytes!("../../../../assets/fonts/NotoSansSC-Subset.otf");
+        let chinese = include_bytes!("../../../assets/fonts/NotoSansSC-Subset.otf");
         let chinese_name = "Noto Sans SC";
         fonts.font_data.insert(
             chinese_name.into(),

@@ -57,7 +57,7 @@ pub fn ui(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
 }
 
 /// Draws a name below a sign, in a smaller font if it is too long.
-pub(super) fn label(painter: &Painter, rect: Rect, name: &str, colour: Color32) {
+pub(crate) fn label(painter: &Painter, rect: Rect, name: &str, colour: Color32) {
     let laid_out = |font| painter.layout_no_wrap(name.to_owned(), font, colour);
     let mut galley = laid_out(font::small());
     if galley.size().x > rect.width() - space::SMALL {

@@ -8,6 +8,7 @@ use inspection::{
     pipeline::Unrecognisable,
 };
 use stages::{reference::ReferenceError, segment::BackgroundSign};
+use ui::language::text;
 
 /// Explains why a text is not a valid name.
 pub fn bad_name(error: &BadName) -> [String; 2] {

@@ -5,6 +5,7 @@ use super::results::{
 };
 use inspection::pipeline::{AcceptParams, Refusal, RefusalKind, is_like};
 use records::history::{Record, StoredVerdict, Summary};
+use ui::language::text;
 
 /// Prefix of the title of a frame of the simulated cell, before its number.
 const FRAME: &str = "Simulated frame ";

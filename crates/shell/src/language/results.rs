@@ -17,6 +17,7 @@ use stages::{
     signature::SignatureError,
     stand_off::StandOffError,
 };
+use ui::language::text;
 
 /// Formats a number with a fixed number of decimals.
 macro_rules! fixed {

@@ -4,6 +4,7 @@ use robot::{
     Convention, ConventionError, FARTHEST, NOZZLE_DISTANCE, WrittenPoseError, calibration::UNNAMED,
 };
 use station::{Doubt, robot_file::Unchecked};
+use ui::language::text;
 
 /// Returns the name of a convention.
 pub fn convention_title(convention: Convention) -> String {

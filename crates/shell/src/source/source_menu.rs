@@ -69,7 +69,7 @@ fn column(ui: &mut Ui, height: f32, name: &str, content: impl FnOnce(&mut Ui)) {
 }
 
 /// Returns the name of the source in use.
-pub(super) fn now(source: &Source) -> String {
+pub(crate) fn now(source: &Source) -> String {
     match source {
         Source::Cell(CellChoice::InTurn) => text!("shell-simulated-cell"),
         Source::Cell(choice) => text!("shell-simulated", what = choice.title()),

@@ -47,7 +47,7 @@ pub fn coat_notes(notes: &str) -> String {
 }
 
 /// Parameters whose texts are in the files of the window's languages.
-pub(crate) trait TranslatedParameters: Parameters {
+pub trait TranslatedParameters: Parameters {
     /// The area of the texts.
     const AREA: &'static str;
 }
