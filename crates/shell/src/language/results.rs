@@ -560,10 +560,19 @@ pub fn traced(name: &str) -> String {
 
 /// Returns the name of a recipe, marked if it was modified; the name itself is not translated.
 pub fn recipe_label(label: &RecipeLabel) -> String {
+    let name = recipe_name(&label.name);
     if label.is_changed {
-        text!("results-recipe-modified", name = &label.name)
+        text!("results-recipe-modified", name = name)
     } else {
-        label.name.clone()
+        name
+    }
+}
+
+/// Returns the name of a recipe: a text for the paper's, else what the user named it.
+pub fn recipe_name(name: &str) -> String {
+    match name {
+        AS_IN_THE_PAPER => text!("results-recipe-as-in-the-paper"),
+        name => name.to_owned(),
     }
 }
 

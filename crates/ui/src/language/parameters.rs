@@ -75,10 +75,9 @@ fn name_id<R: TranslatedParameters>(parameter: &Parameter<R>) -> String {
     format!("{}-{}", R::AREA, parameter.key.replace(['.', '_'], "-"))
 }
 
-/// The message with the help of a parameter. The two searches of ICP-GA have the same parameters, and share their help.
+/// The message with the help of a parameter that the window shows.
 fn help_id<R: TranslatedParameters>(parameter: &Parameter<R>) -> String {
-    let id = name_id(parameter).replace("-icp-ga-elsewhere-", "-icp-ga-vicinity-");
-    format!("{id}-help")
+    format!("{}-help", name_id(parameter))
 }
 
 /// Returns the options of a choice, in order; none for a number.
@@ -110,13 +109,15 @@ pub fn value<R: Parameters>(parameter: &Parameter<R>, recipe: &R) -> String {
     option.unwrap_or_else(|| parameter.text(recipe))
 }
 
-/// The messages with the names and helps of all parameters.
+/// The messages with the names of all parameters, and the helps of those that the window shows.
 #[cfg(test)]
 pub(super) fn message_ids() -> Vec<String> {
     fn of_table<R: TranslatedParameters>() -> impl Iterator<Item = String> {
-        R::ALL
-            .iter()
-            .flat_map(|parameter| [name_id(parameter), help_id(parameter)])
+        R::ALL.iter().flat_map(|parameter| {
+            let is_shown = parameter.place != Place::Hidden;
+            let help = is_shown.then(|| help_id(parameter));
+            [name_id(parameter)].into_iter().chain(help)
+        })
     }
     of_table::<Recipe>().chain(of_table::<Coat>()).collect()
 }
@@ -130,7 +131,9 @@ mod tests {
     fn check_table<R: TranslatedParameters>() {
         for parameter in R::ALL {
             assert_eq!(name(parameter), parameter.name);
-            assert_eq!(help(parameter), parameter.help);
+            if parameter.place != Place::Hidden {
+                assert_eq!(help(parameter), parameter.help);
+            }
             if let Kind::Choice(choice) = &parameter.kind {
                 assert_eq!(options(parameter), choice.options);
             }

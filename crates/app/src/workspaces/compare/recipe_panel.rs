@@ -71,6 +71,10 @@ fn group_ui(
         let all = PARAMETERS.iter();
         all.filter(move |p| p.group == group && p.place == place)
     };
+    let num = of(Place::Fold).count();
+    if num + of(Place::Front).count() == 0 {
+        return;
+    }
     ui.add_space(space::SMALL);
     ui.label(
         RichText::new(parameters::group(group))
@@ -80,7 +84,6 @@ fn group_ui(
     for parameter in of(Place::Front) {
         control(ui, parameter, recipe, default, acts);
     }
-    let num = of(Place::Fold).count();
     if num == 0 {
         return;
     }
