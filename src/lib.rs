@@ -32,6 +32,8 @@
 //! the algorithms build. Off by default: `plant`, HTTP and MQTT beside the protocols of the server, the history in PostgreSQL,
 //! and one library for many cells.
 
+#![cfg_attr(test, allow(clippy::disallowed_methods, reason = "tests change files"))]
+
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;

@@ -11,6 +11,8 @@
 //!
 //! Panels only draw the last result and never compute.
 
+#![cfg_attr(test, allow(clippy::disallowed_methods, reason = "tests change files"))]
+
 pub mod headless;
 pub mod shots;
 mod start;

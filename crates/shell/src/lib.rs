@@ -9,6 +9,8 @@
 //! A control outside the workspaces causes an [`action`], which changes the window's [`state`]. Workspaces are above: the shell
 //! knows each as a [`workspace::Workspace`].
 
+#![cfg_attr(test, allow(clippy::disallowed_methods, reason = "tests change files"))]
+
 pub mod action;
 pub mod cell;
 pub mod context;

@@ -19,7 +19,6 @@ use egui::Key;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use files::save_cloud;
 use inspection::{library::Truth, pipeline::Recipe};
-use jiff::Timestamp;
 use records::history::{History, HungId, KeepFrames, NewEntry, Retention, StoredVerdict};
 use shell::{
     action::Action,
@@ -708,7 +707,7 @@ fn the_list_opens_at_the_row_that_the_program_has_selected_however_old_it_is() {
     let mut history = open_history(&place);
     for _ in 0..300 {
         let mut entry = history_entry(1, StoredVerdict::Accepted, "fender");
-        entry.record.summary.at = Timestamp::now();
+        entry.record.summary.at = geometry::clock::now();
         entry.scene = None;
         history.add(&entry, &Retention::default()).expect("written");
     }

@@ -252,7 +252,10 @@ fn the_figures_of_a_pose_are_shown_only_with_the_name_of_their_part() {
             source: SceneSource::Cell { choice, number: 1 },
             recipe: Arc::default(),
         };
-        let library_cache = LibraryCache::new(Some("reference_parts".into()), Camera::default());
+        let library_cache = LibraryCache::new(
+            Some(::inspection::fixtures::SHIPPED_PARTS.into()),
+            Camera::default(),
+        );
         let mut found = inspect(&request, &library_cache, &Unwatched).expect("inspected");
         let unknown = Rejection::Unknown {
             nearest: "front_door".into(),

@@ -12,7 +12,6 @@ use app::{
 use egui::{Key, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use files::save_cloud;
-use jiff::Timestamp;
 use records::history::{Retention, StoredVerdict};
 use shell::{
     action::Action,
@@ -135,7 +134,7 @@ fn the_parts_of_this_shift_are_counted_and_what_is_only_tried_is_not() {
     let place = folder.path().join("history");
     // One that hung in the cell before the window was opened.
     let mut refused = history_entry(1, StoredVerdict::Rejected, "fender");
-    refused.record.summary.at = Timestamp::now();
+    refused.record.summary.at = geometry::clock::now();
     let mut history = open_history(&place);
     history
         .add(&refused, &Retention::default())
@@ -196,7 +195,7 @@ fn the_serial_number_of_a_vehicle_is_readable_in_a_small_window() {
     let long = format!("{vehicle}/{vehicle}/{vehicle}");
     for serial in [vehicle, long.as_str()] {
         let mut part = history_entry(1, StoredVerdict::Accepted, "radiator_support");
-        part.record.summary.at = Timestamp::now();
+        part.record.summary.at = geometry::clock::now();
         part.record.summary.trace.serial = serial.into();
         history.add(&part, &Retention::default()).expect("written");
     }
@@ -217,7 +216,7 @@ fn the_list_of_parts_says_of_which_part_something_is_the_mirror_image() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut history = open_history(folder.path());
     let mut part = history_entry(1, StoredVerdict::Unknown, "fender");
-    part.record.summary.at = Timestamp::now();
+    part.record.summary.at = geometry::clock::now();
     part.record.summary.title = "Mirror image of Fender, left".into();
     part.record.summary.trace.serial = "TL471".into();
     history.add(&part, &Retention::default()).expect("written");

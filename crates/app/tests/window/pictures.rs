@@ -70,7 +70,7 @@ fn draws_in_software() -> bool {
 /// The inspection of the cell's first frame, with fixed times and date.
 fn inspected() -> Inspected {
     inspected_by(&LibraryCache::new(
-        Some("reference_parts".into()),
+        Some(::inspection::fixtures::SHIPPED_PARTS.into()),
         Camera::default(),
     ))
 }
@@ -235,7 +235,7 @@ fn the_operators_view_looks_as_it_did() {
     ] {
         let mut found = inspected();
         // In the present shift; without starts, every shift is "since 00:00", which has the same width all day.
-        found.entry.record.summary.at = jiff::Timestamp::now();
+        found.entry.record.summary.at = geometry::clock::now();
         // As if the cell was followed: only then its parts are counted.
         found.entry.record.summary.source = "simulated".into();
         fs::write(&settings, "shifts = []").expect("written");

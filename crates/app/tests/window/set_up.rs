@@ -45,7 +45,7 @@ pub(crate) fn open_with(size: Vec2, options: WindowOptions) -> WindowHarness {
 /// Options for a window with the shipped parts, without the user's library and settings.
 pub(crate) fn plain_options() -> WindowOptions {
     WindowOptions {
-        library: Some("reference_parts".into()),
+        library: Some(::inspection::fixtures::SHIPPED_PARTS.into()),
         ..WindowOptions::default()
     }
 }

@@ -126,7 +126,11 @@ fn coarse(frame: &DepthFrame) -> DepthFrame {
 fn open_at(size: Vec2, scene: &Path, library: Option<&Path>) -> WindowHarness {
     let options = WindowOptions {
         scene: Some(scene.to_owned()),
-        library: Some(library.unwrap_or(Path::new("reference_parts")).to_owned()),
+        library: Some(
+            library
+                .unwrap_or(Path::new(::inspection::fixtures::SHIPPED_PARTS))
+                .to_owned(),
+        ),
         ..plain_options()
     };
     open_with(size, options)

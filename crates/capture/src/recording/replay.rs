@@ -78,7 +78,7 @@ const LONGEST_PAUSE: Duration = Duration::from_secs(10);
 const PAUSE: Duration = Duration::from_millis(100);
 
 /// True if the folder has a list with the time of each frame.
-pub fn is_sequence(folder: &Path) -> bool {
+pub(crate) fn is_sequence(folder: &Path) -> bool {
     folder.join(MANIFEST).is_file() || folder.join(LIST).is_file()
 }
 

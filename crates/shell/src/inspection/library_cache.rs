@@ -175,7 +175,10 @@ impl LibraryView {
 #[cfg(any(test, feature = "fixtures"))]
 impl Default for LibraryCache {
     fn default() -> Self {
-        Self::new(Some("reference_parts".into()), Camera::default())
+        Self::new(
+            Some(::inspection::fixtures::SHIPPED_PARTS.into()),
+            Camera::default(),
+        )
     }
 }
 
@@ -501,8 +504,9 @@ mod tests {
         };
         let other = said(folder.path());
         assert!(other[0].what.contains("holds no library"), "{other:?}");
-        let part = said(Path::new("reference_parts/fender"));
-        let above = Path::new("reference_parts").canonicalize().expect("there");
+        let shipped = Path::new(::inspection::fixtures::SHIPPED_PARTS);
+        let part = said(&shipped.join("fender"));
+        let above = shipped.canonicalize().expect("there");
         let advice = &part[0].advice;
         assert!(advice.contains(&above.display().to_string()), "{advice}");
     }

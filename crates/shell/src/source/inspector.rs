@@ -643,7 +643,10 @@ mod tests {
                 }
                 // It is loaded, and then the scene is inspected again.
                 _ => {
-                    let chosen = Action::Chosen(DialogRequest::Library, "reference_parts".into());
+                    let chosen = Action::Chosen(
+                        DialogRequest::Library,
+                        ::inspection::fixtures::SHIPPED_PARTS.into(),
+                    );
                     apply(&mut state, chosen);
                     assert!(state.inspector.run_waiting());
                     assert!(update(&mut state).is_none());

@@ -222,6 +222,9 @@ mod tests {
         let mut references = Vec::new();
         for part in fs::read_dir(folder).expect("a folder") {
             let path = part.expect("a part").path().join("cloud.ply");
+            if !path.is_file() {
+                continue;
+            }
             let Ok(FileContent::Cloud(cloud)) = files::open(&path) else {
                 panic!("{} is no cloud", path.display());
             };

@@ -3,6 +3,8 @@
 //! Without a device these tests report it and pass, unless `PARTSIGHT_REQUIRE_GPU=1` is set. With
 //! `PARTSIGHT_VIEW_PICTURES=DIR` they keep the pictures in that folder.
 
+#![allow(clippy::disallowed_methods, reason = "tests write pictures")]
+
 mod pictures;
 mod shown;
 mod speed;

@@ -27,7 +27,7 @@ use capture::{
 use geometry::depth_frame::DepthFrame;
 
 /// Source of a stub driver for OpenNI's library, which plays a camera.
-const CAMERA: &str = "tests/cameras/openni/camera.c";
+const CAMERA: &str = "crates/inspection/tests/cameras/openni/camera.c";
 /// Timeout longer than any step of a test, so that it ends only one that hangs.
 const PATIENCE: Duration = Duration::from_mins(1);
 

@@ -23,7 +23,12 @@ const NUM_FRAMES: usize = 12;
 /// Records the camera in that state, in its default mode and mirroring.
 fn record(folder: &Path, state: &str) {
     let program = folder.join("record");
-    compile_c("tests/cameras/openni/record.c", &program, &[]).expect("as the driver was");
+    compile_c(
+        "crates/inspection/tests/cameras/openni/record.c",
+        &program,
+        &[],
+    )
+    .expect("as the driver was");
     let output = Command::new(program)
         .args([folder.join("libOpenNI2.so.0"), folder.join("a.oni")])
         .arg(NUM_FRAMES.to_string())

@@ -76,7 +76,11 @@ fn a_place_without_the_library_and_other_libraries_are_told_apart() {
 
     // The newer library takes precedence.
     let library = folder.path().join("librealsense2.so.2.55");
-    if let Err(why) = compile_c("tests/cameras/realsense/python.c", &library, &SHARED) {
+    if let Err(why) = compile_c(
+        "crates/inspection/tests/cameras/realsense/python.c",
+        &library,
+        &SHARED,
+    ) {
         return skipped("PARTSIGHT_REQUIRE_COMPILER", &why);
     }
     let error = trouble();

@@ -25,7 +25,7 @@ use capture::{
 use geometry::depth_frame::DepthFrame;
 
 /// Source of a stub library with the functions of librealsense, which plays two cameras.
-const CAMERA: &str = "tests/cameras/realsense/camera.c";
+const CAMERA: &str = "crates/inspection/tests/cameras/realsense/camera.c";
 /// Timeout longer than any step of a test, so that it ends only one that hangs.
 const PATIENCE: Duration = Duration::from_mins(1);
 

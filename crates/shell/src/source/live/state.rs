@@ -608,7 +608,8 @@ mod tests {
                 number: 0,
             }))
         });
-        let library_cache = LibraryCache::new(Some("reference_parts".into()), camera);
+        let library_cache =
+            LibraryCache::new(Some(::inspection::fixtures::SHIPPED_PARTS.into()), camera);
         let mut state = State::new(&TaskRunner::without_threads(), &library_cache);
         let spec: SourceSpec = spec.parse().expect("a source");
         state.session.source = Source::Camera(Box::new(spec));
