@@ -290,8 +290,8 @@ mod tests {
         apply(&mut state, Action::Open("door.pcd".into()));
         let remembered = Settings::of(&state, None).source;
         assert_eq!(remembered, Source::File(here.join("door.pcd")));
-        apply(&mut state, Action::Open("tests".into()));
-        let scan = ScanFiles::of_folder(here.join("tests"));
+        apply(&mut state, Action::Open("src".into()));
+        let scan = ScanFiles::of_folder(here.join("src"));
         let remembered = Settings::of(&state, None).source;
         assert_eq!(remembered, Source::Scan(scan));
         let watched = Action::Chosen(DialogRequest::WatchedFolder, "captures".into());
@@ -301,12 +301,12 @@ mod tests {
             panic!("{remembered:?}");
         };
         assert_eq!(spec.folder, here.join("captures"));
-        let library = Action::Chosen(DialogRequest::Library, "tests".into());
+        let library = Action::Chosen(DialogRequest::Library, "src".into());
         apply(&mut state, library);
         assert!(state.inspector.run_waiting());
         crate::source::inspector::update(&mut state);
         let remembered = Settings::of(&state, None).library;
-        assert_eq!(remembered, Some(here.join("tests")));
+        assert_eq!(remembered, Some(here.join("src")));
     }
 
     #[test]
