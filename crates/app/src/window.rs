@@ -18,12 +18,13 @@ use inspection::pipeline::{RecipeFolder, open_recipe};
 use records::history::{HistoryBuffer, Writer};
 use robot::{cell_check::CellCheckFolder, frame_poses::FRAME_POSES};
 use shell::{
-    action::{Action, DialogRequest, Effect, apply, remove_notices},
+    action::{Action, DialogRequest, Effect},
+    apply::apply,
     cell::RobotCell,
     context::Services,
     file_dialog::{DialogLock, FileDialog},
     frame::{
-        closing::{self, Closing},
+        closing::{self},
         dialogs, keys, notices, operator_bars, rail, top_bar,
     },
     inspection::{camera::Camera, inspected::Inspected, library_cache::LibraryCache},
@@ -34,14 +35,13 @@ use shell::{
     session::{Source, ThemeChoice, UserRole, WorkspaceKind},
     settings,
     settings_file::Memory,
-    shift,
     source::{
         inspector,
         live::{self, LiveAction},
     },
-    state::State,
+    state::{Closing, State, remove_notices},
     trace::{
-        current_trace,
+        entry,
         scanner::{self, KeyTarget},
     },
     workspace::Workspace,
@@ -423,7 +423,7 @@ impl Window {
         self.state.inspector.loader.may_reload = !(is_enrolling && has_draft);
         let inspected = inspector::update(&mut self.state);
         let counted = live::update(&mut self.state);
-        let traced = current_trace::update(&self.state.session, ctx);
+        let traced = entry::update(&self.state.session, ctx);
         for event in inspected.into_iter().chain(counted).chain(traced) {
             self.tell(&event, ctx);
         }
@@ -433,9 +433,12 @@ impl Window {
         let history = self.workspace::<HistoryWorkspace>();
         let is_failing = history.is_some_and(|history| history.state.trouble.is_some());
         self.state.session.is_history_failing = is_failing;
-        shift::update(&mut self.state, self.services.library_cache.history(), ctx);
+        let history = self.services.library_cache.history();
+        self.state
+            .shift_watch
+            .update(&mut self.state.session, history, ctx);
         if let Some(action) = self.with_robot(ctx, RobotCell::update) {
-            self.act(Action::Robot(action), ctx);
+            self.act(Action::Make(Effect::Robot(action)), ctx);
         }
         match self.dialog.poll() {
             Some((ask, Ok(path))) => self.act(Action::Chosen(ask, path), ctx),
@@ -499,7 +502,11 @@ impl Window {
         roles::dialog(&ctx, &self.state, &mut actions);
         closing::dialog(&ctx, &self.state, &mut actions);
         let of_robot = self.robot.ui(&ctx, &self.state.session);
-        actions.extend(of_robot.into_iter().map(Action::Robot));
+        actions.extend(
+            of_robot
+                .into_iter()
+                .map(|action| Action::Make(Effect::Robot(action))),
+        );
         path_entry::ui(&ctx, &self.services.dialogs);
         keys::help(&ctx, &self.state, &keys, &mut actions);
         notices::ui(&ctx, room, &self.state, &mut actions);
@@ -562,7 +569,7 @@ impl eframe::App for Window {
         // Nothing is drawn any more.
         let ctx = egui::Context::default();
         let mut events = live::close(&mut self.state);
-        events.extend(current_trace::settle(&self.state.session, f64::INFINITY));
+        events.extend(entry::settle(&self.state.session, f64::INFINITY));
         for event in events {
             self.lend(WorkspaceKind::History, &ctx, |history, cx| {
                 history.on_event(&event, cx);

@@ -12,6 +12,7 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods, reason = "tests change files"))]
 
 pub mod action;
+pub mod apply;
 pub mod cell;
 pub mod context;
 pub mod file_dialog;

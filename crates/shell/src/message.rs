@@ -4,19 +4,21 @@ use std::sync::Arc;
 
 use super::{
     notice::{Notice, NoticeTopic},
-    session::{RememberedCell, Source, WorkspaceKind},
+    session::{ReinspectionPurpose, RememberedCell, Source},
 };
 use crate::{
+    action::Action,
     cell::{AnswerSetup, program_setup::ProgramSetup},
     inspection::{
-        inspected::{InspectJob, Inspected, SceneOrScan},
+        inspected::{InspectJob, Inspected},
         library_cache::LibraryView,
         scan_choice::ScanOrder,
+        source::SceneOrScan,
     },
 };
 use inspection::pipeline::NamedRecipe;
 use records::history::{HungId, NewEntry, TraceChange, Traceability};
-use robot::{Convention, RobotFrame};
+use robot::RobotFrame;
 
 /// A request of a workspace to the shell.
 #[derive(Clone, Debug)]
@@ -31,24 +33,18 @@ pub enum Message {
     WithdrawUndo,
     /// Copy this to the clipboard.
     CopyText(String),
-    /// Bring this workspace to the front.
-    GoTo(WorkspaceKind),
+    /// Carry out this action, if the role permits it.
+    Act(Action),
     /// Take scenes from this source from the next capture on.
     UseSource(Source),
-    /// Ask the user for the folder of a scan, then handle it like a capture.
-    OpenScan,
     /// Use this recipe from now on.
     UseRecipe(Arc<NamedRecipe>),
     /// Use this calibration of the robot's cell, with the robot frame that it gives.
     UseCalibration(RememberedCell, Option<Arc<RobotFrame>>),
     /// Answer robots with these settings.
     UseAnswering(AnswerSetup),
-    /// Show, copy and write poses in this convention.
-    UseConvention(Convention),
     /// Write robot programs for this arm and gun.
     UseProgramSetup(ProgramSetup),
-    /// Start or stop recording the followed source.
-    ToggleRecording,
     /// The library was changed: use it. If Live is on, it starts over; else inspect `saved`, or the scene in front unless
     /// another inspection is running.
     LibraryChanged {
@@ -79,19 +75,6 @@ pub enum Message {
     ShowPast(Arc<Inspected>),
     /// Ask for the engineer's view; [`Event::EngineerIn`] follows once it is granted.
     AskEngineer,
-}
-
-/// Purpose of an inspection, returned with its result.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ReinspectionPurpose {
-    /// A new inspection.
-    New,
-    /// Repeats the inspection of the scene in front because something that it depends on has changed.
-    Repeated,
-    /// Repeats a past inspection.
-    Past,
-    /// Uses other shots of the scan that Inspect shows.
-    Shots,
 }
 
 /// An event that the shell sends to workspaces.

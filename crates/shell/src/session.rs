@@ -4,17 +4,14 @@ use std::{path::PathBuf, sync::Arc};
 
 use serde::{Deserialize, Serialize};
 
-use super::{
-    message::ReinspectionPurpose,
-    shift::{ShiftParts, ShiftStarts},
-};
+use super::shift::{ShiftParts, ShiftStarts};
 use crate::{
     cell::{AnswerSetup, program_setup::ProgramSetup},
     inspection::{
-        inspected::{InspectJob, InspectRequest, Inspected, SceneOrScan},
+        inspected::{InspectJob, InspectRequest, Inspected},
         library_cache::LibraryView,
         scan_choice::{ScanFiles, ScanOrder, ScanRequest},
-        source::CellChoice,
+        source::{CellChoice, SceneOrScan},
         unit_system::UnitSystem,
     },
     source::live::LiveState,
@@ -110,6 +107,16 @@ impl Session {
         }
     }
 
+    /// True while a source is followed.
+    pub fn is_live(&self) -> bool {
+        self.live.is_on
+    }
+
+    /// True while a folder is followed, in which every capture is of another part.
+    pub fn is_watching(&self) -> bool {
+        self.is_live() && self.source.is_watched()
+    }
+
     /// True while the operator's view replaces the bars, the rail and the panels of Inspect.
     pub fn is_operator_view(&self) -> bool {
         self.role == UserRole::Operator && self.workspace == WorkspaceKind::Inspect
@@ -193,6 +200,19 @@ pub struct Inspecting {
     pub is_waiting: bool,
 }
 
+/// Purpose of an inspection, returned with its result.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ReinspectionPurpose {
+    /// A new inspection.
+    New,
+    /// Repeats the inspection of the scene in front because something that it depends on has changed.
+    Repeated,
+    /// Repeats a past inspection.
+    Past,
+    /// Uses other shots of the scan that Inspect shows.
+    Shots,
+}
+
 /// Where Capture takes a scene from.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -205,6 +225,22 @@ pub enum Source {
     Scan(ScanFiles),
     /// A camera, a recording, a watched folder, or a simulated cell with settings of its own.
     Camera(Box<SourceSpec>),
+}
+
+impl Source {
+    /// The part of the source that can be followed; `None` for a single file or a scan.
+    pub fn followed(&self) -> Option<SourceSpec> {
+        match self {
+            Self::Cell(choice) => Some(SourceSpec::Simulated(choice.followed())),
+            Self::File(_) | Self::Scan(_) => None,
+            Self::Camera(spec) => Some((**spec).clone()),
+        }
+    }
+
+    /// True for a watched folder, which has no frame until a file is saved to it.
+    pub fn is_watched(&self) -> bool {
+        matches!(self, Self::Camera(spec) if matches!(**spec, SourceSpec::Watched(_)))
+    }
 }
 
 impl Default for Source {

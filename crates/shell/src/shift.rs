@@ -8,11 +8,10 @@ use std::{cmp::Reverse, sync::Arc, time::Duration};
 use jiff::{Timestamp, Zoned, civil};
 use serde::{Deserialize, Serialize};
 
-use super::{
-    session::{Source, UserRole},
-    state::State,
+use crate::{
+    inspection::inspected::Inspected,
+    session::{Session, Source, UserRole},
 };
-use crate::inspection::inspected::Inspected;
 use geometry::error::lock;
 use inspection::library::Truth;
 use records::history::{Filter, HistoryBuffer, HistoryError, HungId, StoredVerdict, Summary};
@@ -149,77 +148,79 @@ impl ShiftWatch {
     pub fn is_idle(&self) -> bool {
         self.counting.running().is_none()
     }
-}
 
-/// Takes over a finished count, and counts again if it is outdated. In the engineer's view only the true label of the latest part
-/// is looked up.
-pub fn update(state: &mut State, history: &Arc<HistoryBuffer>, ctx: &egui::Context) {
-    let time = ctx.input(|input| input.time);
-    match state.shift_watch.counting.poll() {
-        Some(Ok(parts)) => {
-            let counted = state.shift_watch.counted.as_ref();
-            if let Some(part) = counted.and_then(|counted| counted.latest.as_ref()) {
-                let label = parts.labelled.as_ref().map(|(_, label)| label);
-                // Whoever answers robots does not wait for the history.
-                lock(&state.session.live.parts).label(part, label);
+    /// Takes over a finished count, and counts again if it is outdated. In the engineer's view only the true label of the latest part
+    /// is looked up.
+    pub fn update(
+        &mut self,
+        session: &mut Session,
+        history: &Arc<HistoryBuffer>,
+        ctx: &egui::Context,
+    ) {
+        let time = ctx.input(|input| input.time);
+        match self.counting.poll() {
+            Some(Ok(parts)) => {
+                let counted = self.counted.as_ref();
+                if let Some(part) = counted.and_then(|counted| counted.latest.as_ref()) {
+                    let label = parts.labelled.as_ref().map(|(_, label)| label);
+                    // Whoever answers robots does not wait for the history.
+                    lock(&session.live.parts).label(part, label);
+                }
+                session.shift = parts;
             }
-            state.session.shift = parts;
+            // The History workspace reports why the history cannot be read.
+            Some(Err(_)) => self.retry_at = Some(time + RETRY),
+            None => {}
         }
-        // The History workspace reports why the history cannot be read.
-        Some(Err(_)) => state.shift_watch.retry_at = Some(time + RETRY),
-        None => {}
-    }
-    if state.session.source.followed().is_some() {
-        state.shift_watch.source = Some(state.session.source.clone());
-    }
-    let now = geometry::clock::zoned_now();
-    let [Some(since), end] = state.session.shift_starts.around(&now) else {
-        return;
-    };
-    if let Some(left) = end.and_then(|end| Duration::try_from(now.duration_until(&end)).ok()) {
-        ctx.request_repaint_after(left + Duration::from_secs(1));
-    }
-    if let Some(at) = state.shift_watch.retry_at {
-        ctx.request_repaint_after_secs((at - time).max(0.0) as f32);
-    }
-    let is_retry = state.shift_watch.retry_at.is_some_and(|at| at <= time);
-    let source = state.shift_watch.source.clone();
-    let role = state.session.role;
-    let latest = state.session.latest(|_| true);
-    let latest = latest.map(|part| part.hung().clone());
-    let wanted = Some(CountInputs {
-        num_events: history.num_events(),
-        since: since.timestamp(),
-        source: source.clone(),
-        latest: latest.clone(),
-        role,
-    });
-    if is_retry || state.shift_watch.counted != wanted {
-        state.shift_watch.counted = wanted;
-        state.shift_watch.retry_at = None;
-        let history = Arc::clone(history);
-        let former = state.session.shift.clone();
-        let count = move |_: &_| {
-            let labelled = latest.map_or(Ok(None), |hung| label_of(&history, hung));
-            let parts = if role == UserRole::Operator {
-                let followed = source.as_ref().and_then(Source::followed);
-                let followed = followed.map_or_else(String::new, |spec| spec.to_string());
-                count(&history, since, &followed).map(|parts| ShiftParts { source, ..parts })
-            } else {
-                Ok(former)
-            };
-            let parts = parts.and_then(|parts| {
-                Ok(ShiftParts {
-                    labelled: labelled?,
-                    ..parts
-                })
-            });
-            parts.map_err(|error| UserError::of(&error).into())
+        if session.source.followed().is_some() {
+            self.source = Some(session.source.clone());
+        }
+        let now = geometry::clock::zoned_now();
+        let [Some(since), end] = session.shift_starts.around(&now) else {
+            return;
         };
-        state
-            .shift_watch
-            .counting
-            .start(text!("shell-counting-parts"), count);
+        if let Some(left) = end.and_then(|end| Duration::try_from(now.duration_until(&end)).ok()) {
+            ctx.request_repaint_after(left + Duration::from_secs(1));
+        }
+        if let Some(at) = self.retry_at {
+            ctx.request_repaint_after_secs((at - time).max(0.0) as f32);
+        }
+        let is_retry = self.retry_at.is_some_and(|at| at <= time);
+        let source = self.source.clone();
+        let role = session.role;
+        let latest = session.latest(|_| true);
+        let latest = latest.map(|part| part.hung().clone());
+        let wanted = Some(CountInputs {
+            num_events: history.num_events(),
+            since: since.timestamp(),
+            source: source.clone(),
+            latest: latest.clone(),
+            role,
+        });
+        if is_retry || self.counted != wanted {
+            self.counted = wanted;
+            self.retry_at = None;
+            let history = Arc::clone(history);
+            let former = session.shift.clone();
+            let count = move |_: &_| {
+                let labelled = latest.map_or(Ok(None), |hung| label_of(&history, hung));
+                let parts = if role == UserRole::Operator {
+                    let followed = source.as_ref().and_then(Source::followed);
+                    let followed = followed.map_or_else(String::new, |spec| spec.to_string());
+                    count(&history, since, &followed).map(|parts| ShiftParts { source, ..parts })
+                } else {
+                    Ok(former)
+                };
+                let parts = parts.and_then(|parts| {
+                    Ok(ShiftParts {
+                        labelled: labelled?,
+                        ..parts
+                    })
+                });
+                parts.map_err(|error| UserError::of(&error).into())
+            };
+            self.counting.start(text!("shell-counting-parts"), count);
+        }
     }
 }
 
@@ -271,6 +272,7 @@ mod tests {
     use crate::{
         inspection::{inspected::inspected_cell, source::CellChoice},
         session::Shown,
+        state::State,
     };
     use capture::fixtures::moment;
     use records::fixtures::history_entry;
@@ -294,9 +296,9 @@ mod tests {
                 session: None,
                 is_outdated: false,
             });
-            update(&mut state, &history, &ctx);
+            state.shift_watch.update(&mut state.session, &history, &ctx);
             assert!(state.shift_watch.counting.run_waiting());
-            update(&mut state, &history, &ctx);
+            state.shift_watch.update(&mut state.session, &history, &ctx);
             let shift = &state.session.shift;
             assert_eq!(shift.reported_as(&inspected), Some(&Truth::NotEnrolled));
             let num = usize::from(role == UserRole::Operator);
@@ -310,9 +312,9 @@ mod tests {
             };
             assert!(is_reported(&state));
             history.set_label(-1, None);
-            update(&mut state, &history, &ctx);
+            state.shift_watch.update(&mut state.session, &history, &ctx);
             assert!(state.shift_watch.counting.run_waiting());
-            update(&mut state, &history, &ctx);
+            state.shift_watch.update(&mut state.session, &history, &ctx);
             assert!(!is_reported(&state));
         }
     }
@@ -353,9 +355,9 @@ mod tests {
         let cell = state.session.source.clone();
         for source in [cell.clone(), Source::File("/data/door.pcd".into())] {
             state.session.source = source;
-            update(&mut state, &history, &ctx);
+            state.shift_watch.update(&mut state.session, &history, &ctx);
             state.shift_watch.counting.run_waiting();
-            update(&mut state, &history, &ctx);
+            state.shift_watch.update(&mut state.session, &history, &ctx);
             let shift = &state.session.shift;
             assert_eq!((shift.num_ok, shift.source.as_ref()), (1, Some(&cell)));
         }
@@ -376,7 +378,7 @@ mod tests {
         let mut state = State::default();
         state.session.role = UserRole::Operator;
         let (history, ctx) = (Arc::new(HistoryBuffer::new(None)), egui::Context::default());
-        update(&mut state, &history, &ctx);
+        state.shift_watch.update(&mut state.session, &history, &ctx);
         let counting = &mut state.shift_watch.counting;
         assert!(counting.running().is_some());
         let failed = UserError {
@@ -386,13 +388,13 @@ mod tests {
         counting.start("fails", move |_| Err(failed.into()));
         assert!(counting.run_waiting());
         for _ in 0..2 {
-            update(&mut state, &history, &ctx);
+            state.shift_watch.update(&mut state.session, &history, &ctx);
             assert!(state.shift_watch.is_idle(), "not in every frame");
         }
         ctx.input_mut(|input| input.time += RETRY);
-        update(&mut state, &history, &ctx);
+        state.shift_watch.update(&mut state.session, &history, &ctx);
         assert!(state.shift_watch.counting.run_waiting());
-        update(&mut state, &history, &ctx);
+        state.shift_watch.update(&mut state.session, &history, &ctx);
         assert!(state.session.shift.since.is_some());
     }
 

@@ -1,14 +1,18 @@
 //! State of the window outside the workspaces: the session that they share, and the parts that change it.
 
-use super::{notice::Notice, roles::RoleState, session::Session, shift::ShiftWatch};
+use super::{
+    notice::{Notice, NoticeTopic},
+    roles::RoleState,
+    session::Session,
+    shift::ShiftWatch,
+};
 use crate::{
-    frame::closing::Closing,
     inspection::library_cache::LibraryCache,
     source::{inspector::Inspector, live::Follower},
 };
 use ui::task::TaskRunner;
 
-/// State of the window outside the workspaces. [`apply`](super::action::apply) changes it.
+/// State of the window outside the workspaces. [`apply`](crate::apply::apply) changes it.
 #[derive(Debug)]
 pub struct State {
     /// State shared by the workspaces.
@@ -29,6 +33,23 @@ pub struct State {
     pub roles: RoleState,
     /// Counts the parts of this shift.
     pub shift_watch: ShiftWatch,
+}
+
+/// Whether the window may close.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum Closing {
+    /// No close was requested.
+    #[default]
+    No,
+    /// The user is asked.
+    Asked {
+        /// What would be lost, and which robots would get no answer: one line each.
+        what: String,
+        /// True if data would be lost.
+        is_unsaved: bool,
+    },
+    /// The window closes, whatever is lost.
+    Confirmed,
 }
 
 #[cfg(any(test, feature = "fixtures"))]
@@ -53,4 +74,23 @@ impl State {
             shift_watch: ShiftWatch::new(runner),
         }
     }
+}
+
+/// Maximum number of notices; the oldest is dropped for another.
+const MAX_NOTICES: usize = 4;
+
+/// Removes the notices about this.
+pub fn remove_notices(state: &mut State, topic: NoticeTopic) {
+    state.notices.retain(|notice| notice.topic != topic);
+}
+
+/// Shows a notice.
+pub fn notify(state: &mut State, mut notice: Notice) {
+    let covered = state.notices.iter();
+    let num_covered: usize = covered.map(|known| known.num_covered_by(&notice)).sum();
+    notice.num_more += num_covered;
+    state.notices.retain(|known| !known.gives_way_to(&notice));
+    state.notices.push(notice);
+    let num_over = state.notices.len().saturating_sub(MAX_NOTICES);
+    state.notices.drain(..num_over);
 }

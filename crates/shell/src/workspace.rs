@@ -9,7 +9,7 @@ use super::{
     message::Event,
     session::{Session, WorkspaceKind},
 };
-use crate::inspection::inspected::SceneOrScan;
+use crate::inspection::source::SceneOrScan;
 use ui::{key_binding::KeyBinding, task::Running};
 
 /// A workspace: owns its state and its tasks, and draws itself.

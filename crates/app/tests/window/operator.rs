@@ -14,7 +14,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use files::save_cloud;
 use records::history::{Retention, StoredVerdict};
 use shell::{
-    action::Action,
+    action::{Action, Effect},
     cell::{AnswerSetup, RobotAction},
     inspection::source::CellChoice,
     notice::Notice,
@@ -772,9 +772,10 @@ fn open_answering(cell: Option<PathBuf>) -> (WindowHarness, Sender<Step>) {
         at: "ascii=0".parse().expect("any free port"),
         ..AnswerSetup::default()
     };
-    harness
-        .state_mut()
-        .act(Action::Robot(RobotAction::Answer(setup)), &context);
+    harness.state_mut().act(
+        Action::Make(Effect::Robot(RobotAction::Answer(setup))),
+        &context,
+    );
     // Live has started with it.
     sees(&mut harness, &wire, [0.0; 2]);
     harness

@@ -4,11 +4,16 @@ use egui::{Label, RichText, Role, TextEdit, Ui, WidgetInfo};
 use jiff::{Timestamp, tz::TimeZone};
 
 use super::{
-    answering::{AnswerSetup, AnsweringStatus, LastAnswer},
-    dialog::{choice, told},
-    state::{RobotAction, RobotCell, RobotDialog, RobotQuestion},
+    answer_setup::AnswerSetup,
+    answering::{AnsweringStatus, LastAnswer},
+    controls::{choice, error_row},
+    state::RobotCell,
 };
-use crate::{language::robot::convention_title, session::Session};
+use crate::{
+    cell::dialog_state::{RobotAction, RobotDialog, RobotQuestion},
+    language::robot::convention_title,
+    session::Session,
+};
 use geometry::error::Advice as _;
 use robot::Convention;
 use serve::{Answer, ClientEvent, ClientNews, ListenAddress, PoseKind, Protocol, parse_address};
@@ -58,7 +63,7 @@ pub(super) fn ui(
                 what: text!("robot-open-to-network", at = listener.at.to_string()),
                 advice: text!("robot-open-to-network-advice"),
             };
-            told(ui, Mark::Look, &open);
+            error_row(ui, Mark::Look, &open);
         }
         Ok((_, Ok(_))) => {}
         Ok((_, Err(error))) => {
@@ -66,9 +71,9 @@ pub(super) fn ui(
                 what: error.to_string(),
                 advice: text!("robot-other-convention"),
             };
-            told(ui, Mark::Bad, &trouble);
+            error_row(ui, Mark::Bad, &trouble);
         }
-        Err(trouble) => told(ui, Mark::Bad, trouble),
+        Err(trouble) => error_row(ui, Mark::Bad, trouble),
     }
     ui.add_space(space::SMALL);
     let wanted = listener
@@ -157,7 +162,7 @@ fn buttons(
             what: text!("robot-change-poses"),
             advice: text!("robot-change-poses-advice"),
         };
-        told(ui, Mark::Look, &asked);
+        error_row(ui, Mark::Look, &asked);
     }
     let mut act = |setup| caused.push(RobotAction::Answer(setup));
     ui.horizontal(|ui| {
@@ -209,7 +214,7 @@ fn state(ui: &mut Ui, robot: &RobotCell, session: &Session) {
             what: text!("robot-not-calibrated"),
             advice: text!("robot-calibrate-first"),
         };
-        told(ui, Mark::Look, &nowhere);
+        error_row(ui, Mark::Look, &nowhere);
     }
     let Some((sign, what)) = answering.words(session) else {
         return;
@@ -220,8 +225,8 @@ fn state(ui: &mut Ui, robot: &RobotCell, session: &Session) {
         Mark::Good | Mark::Known | Mark::Bad | Mark::Open | Mark::Runs => String::new(),
     };
     match answering.trouble() {
-        Some(trouble) => told(ui, Mark::Bad, trouble),
-        None => told(ui, sign, &UserError { what, advice }),
+        Some(trouble) => error_row(ui, Mark::Bad, trouble),
+        None => error_row(ui, sign, &UserError { what, advice }),
     }
     if let Some(status) = answering.status() {
         figures(ui, status);
@@ -242,7 +247,7 @@ fn figures(ui: &mut Ui, status: &AnsweringStatus) {
     };
     row(ui, &text!("robot-last-trigger"), &last);
     if let Some(trouble) = &status.trouble {
-        told(ui, Mark::Bad, trouble);
+        error_row(ui, Mark::Bad, trouble);
     }
 }
 
@@ -258,14 +263,14 @@ fn client(ui: &mut Ui, event: &ClientEvent) {
                 what: text!("robot-client-turned-away", peer = peer),
                 advice: text!("robot-client-turned-away-advice"),
             };
-            told(ui, Mark::Look, &full);
+            error_row(ui, Mark::Look, &full);
         }
         ClientNews::BadRequest(why) => {
             let bad = UserError {
                 what: format!("{peer}: {why}"),
                 advice: why.advice(),
             };
-            told(ui, Mark::Look, &bad);
+            error_row(ui, Mark::Look, &bad);
         }
         // Only HTTP has tokens.
         ClientNews::WrongToken => {}

@@ -12,8 +12,6 @@ use std::{
     time::{Duration, Instant},
 };
 
-use serde::{Deserialize, Serialize};
-
 use self::work::{AnswerInputs, AnswerRequest, answer};
 pub use self::work::{AnsweringStatus, LastAnswer};
 use crate::{
@@ -23,8 +21,8 @@ use crate::{
     session::Session,
 };
 use geometry::error::lock;
-use robot::{Convention, RobotFrame};
-use serve::{ListenAddress, ListenError, Listener, PoseKind, Protocol};
+use robot::RobotFrame;
+use serve::Listener;
 use ui::{
     language::text,
     task::{Task, TaskRunner},
@@ -32,51 +30,8 @@ use ui::{
     widgets::Mark,
 };
 
-/// The default port, as in `partsight serve`.
-const PORT: u16 = 30100;
 /// Time after which a server that failed is started again.
 const RETRY: Duration = Duration::from_secs(3);
-
-/// Whether and where robots are answered.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct AnswerSetup {
-    /// Whether robots are answered.
-    pub is_on: bool,
-    /// Protocol and address to listen on.
-    pub at: ListenAddress,
-    /// Which pose the robots get.
-    pub pose: PoseKind,
-    /// The convention of the poses, where the protocol does not fix it.
-    pub convention: Convention,
-}
-
-impl AnswerSetup {
-    /// Where a server with these settings listens, and in which convention it answers.
-    pub fn listener(&self) -> Result<Listener, ListenError> {
-        Listener::new(self.at, Some(self.convention))
-    }
-
-    /// True if robots would read other numbers from these settings than from `other`.
-    pub(super) fn changes_poses(&self, other: &Self) -> bool {
-        let convention = |setup: &Self| setup.listener().ok().map(|listener| listener.convention);
-        self.pose != other.pose || convention(self) != convention(other)
-    }
-}
-
-impl Default for AnswerSetup {
-    fn default() -> Self {
-        Self {
-            is_on: false,
-            at: ListenAddress {
-                protocol: Protocol::Ascii,
-                address: ([127, 0, 0, 1], PORT).into(),
-            },
-            pose: PoseKind::default(),
-            convention: Convention::default(),
-        }
-    }
-}
 
 /// The server, while robots are answered.
 #[derive(Debug)]

@@ -3,11 +3,13 @@
 use egui::{RichText, Ui};
 
 use super::{
-    dialog::{mounts, name, told, use_it},
+    controls::{error_row, mounts, name, use_it},
     in_use::pose,
-    state::{RobotAction, RobotDialog},
 };
-use crate::language::robot::{convention_meaning, convention_title, written_pose_error};
+use crate::{
+    cell::dialog_state::{RobotAction, RobotDialog},
+    language::robot::{convention_meaning, convention_title, written_pose_error},
+};
 use robot::{Convention, calibration::CameraPlace};
 use ui::{
     language::text,
@@ -47,11 +49,11 @@ pub(super) fn ui(ui: &mut Ui, dialog: &mut RobotDialog, caused: &mut Vec<RobotAc
             // Show it as a matrix, which reveals a wrong order or sign.
             pose(ui, transform, &written.pose, Convention::Matrix);
             if let Some(doubt) = CameraPlace::on(dialog.mount, written.pose).unit_doubt() {
-                told(ui, Mark::Look, &UserError::of(&doubt));
+                error_row(ui, Mark::Look, &UserError::of(&doubt));
             }
         }
         Err(_) if dialog.numbers.trim().is_empty() => {}
-        Err(error) => told(ui, Mark::Bad, &written_pose_error(error).into()),
+        Err(error) => error_row(ui, Mark::Bad, &written_pose_error(error).into()),
     }
     ui.add_space(space::SMALL);
     name(ui, dialog);

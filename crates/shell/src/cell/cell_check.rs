@@ -65,19 +65,6 @@ pub struct CheckFolderContent {
     pub trouble: Vec<UserError>,
 }
 
-/// Actions of the check of the cell.
-#[derive(Clone, Debug)]
-pub enum CheckAction {
-    /// Take a baseline. If there is one already, the first time asks for confirmation and the second time takes it.
-    TakeBaseline,
-    /// Compare the current frames with the baseline.
-    Check,
-    /// Cancel the running work.
-    Cancel,
-    /// Write the checks to this table.
-    Export(PathBuf),
-}
-
 /// Result of the task.
 #[derive(Clone, Debug)]
 struct CheckAnswer {

@@ -4,11 +4,12 @@ use egui::{DragValue, Grid, Label, RichText, Role, ScrollArea, Ui, WidgetInfo, v
 use jiff::{Timestamp, Zoned, tz::TimeZone};
 
 use super::{
-    cell_check::{CellChecks, CheckAction, CheckFolderContent, marked, no_baseline, shown_time},
-    dialog::told,
-    state::{RobotAction, RobotCell, RobotDialog, RobotFile, RobotQuestion},
+    cell_check::{CellChecks, CheckFolderContent, marked, no_baseline, shown_time},
+    controls::error_row,
+    state::RobotCell,
 };
 use crate::{
+    cell::dialog_state::{CheckAction, RobotAction, RobotDialog, RobotFile, RobotQuestion},
     inspection::unit_system::UnitSystem,
     language::results::{cell_finding, cell_finding_advice},
     session::Session,
@@ -49,13 +50,13 @@ pub(super) fn ui(
             what: text!("robot-check-no-folder"),
             advice: text!("robot-check-no-folder-advice"),
         };
-        return told(ui, Mark::Look, &nowhere);
+        return error_row(ui, Mark::Look, &nowhere);
     }
     let content = checks.content();
     let units = session.units;
     baseline(ui, content, units);
     for trouble in &content.trouble {
-        told(ui, Mark::Bad, trouble);
+        error_row(ui, Mark::Bad, trouble);
     }
     let source = source_menu::now(&session.source);
     row(ui, &text!("robot-frames-from"), &source);
@@ -68,7 +69,7 @@ pub(super) fn ui(
     }
     progress(ui, checks, caused);
     if let Some(trouble) = &dialog.trouble {
-        told(ui, Mark::Bad, trouble);
+        error_row(ui, Mark::Bad, trouble);
     }
     if let (Some(check), Some(baseline)) = (checks.latest(), &content.baseline) {
         finding(ui, check, baseline.limits, units);
@@ -89,7 +90,7 @@ pub(super) fn ui(
 fn baseline(ui: &mut Ui, content: &CheckFolderContent, units: UnitSystem) {
     let Some(baseline) = &content.baseline else {
         if !content.has_baseline {
-            told(ui, Mark::Open, &no_baseline());
+            error_row(ui, Mark::Open, &no_baseline());
         }
         return;
     };
@@ -107,7 +108,7 @@ fn baseline(ui: &mut Ui, content: &CheckFolderContent, units: UnitSystem) {
             what: text!("robot-no-wall"),
             advice: text!("robot-no-wall-advice"),
         };
-        told(ui, Mark::Look, &no_wall);
+        error_row(ui, Mark::Look, &no_wall);
     }
 }
 
@@ -222,7 +223,7 @@ fn finding(ui: &mut Ui, check: &CellCheck, limits: CellLimits, units: UnitSystem
         what: marked(cell_finding(check.finding), check.is_simulated),
         advice: cell_finding_advice(check.finding),
     };
-    told(ui, sign, &found);
+    error_row(ui, sign, &found);
     let mut figure = |name: String, value: String| row(ui, &name, &value);
     let taken = taken(check.at, check.num_frames, false);
     figure(text!("robot-checked"), taken);

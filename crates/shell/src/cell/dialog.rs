@@ -1,18 +1,21 @@
 //! The frame of the dialog: its pages, and the last error.
 
-use egui::{Button, Context, ScrollArea, Ui, vec2};
+use egui::{Context, ScrollArea, Ui};
 
 use super::{
-    answer_page, by_hand, check_page, from_pairs, in_use,
-    state::{RobotAction, RobotCell, RobotDialog, RobotPage},
+    answer_page, by_hand, check_page,
+    controls::{choice, error_row},
+    from_pairs, in_use,
+    state::RobotCell,
 };
-use crate::session::Session;
-use robot::hand_eye::Mount;
+use crate::{
+    cell::dialog_state::{RobotAction, RobotDialog, RobotPage},
+    session::Session,
+};
 use ui::{
     language::text,
     theme::space,
-    user_error::UserError,
-    widgets::{self, Mark, line_mark, sentence, text_button},
+    widgets::{self, Mark, text_button},
 };
 
 /// Width of the dialog, logical pixels.
@@ -82,57 +85,9 @@ impl RobotCell {
             RobotPage::Check => return check_page::ui(ui, self, session, dialog, caused),
             RobotPage::Answer => answer_page::ui(ui, self, session, dialog, caused),
         }
-        if let Some(trouble) = &dialog.trouble {
+        if let Some(error) = &dialog.trouble {
             ui.add_space(space::SMALL);
-            told(ui, Mark::Bad, trouble);
+            error_row(ui, Mark::Bad, error);
         }
     }
-}
-
-/// Draws a button that chooses one of several values.
-pub(super) fn choice<T: PartialEq>(ui: &mut Ui, value: &mut T, this: T, text: String) {
-    let is_chosen = *value == this;
-    let button = Button::selectable(is_chosen, text)
-        .frame_when_inactive(true)
-        .min_size(vec2(space::TARGET, space::TARGET));
-    if ui.add(button).clicked() {
-        *value = this;
-    }
-}
-
-/// Draws the choice of what the camera is fixed to.
-pub(super) fn mounts(ui: &mut Ui, dialog: &mut RobotDialog) {
-    ui.horizontal(|ui| {
-        for (mount, text) in [
-            (Mount::EyeToHand, text!("robot-camera-in-cell")),
-            (Mount::EyeInHand, text!("robot-camera-on-flange")),
-        ] {
-            choice(ui, &mut dialog.mount, mount, text);
-        }
-    });
-}
-
-/// Draws the field for the name of a new calibration.
-pub(super) fn name(ui: &mut Ui, dialog: &mut RobotDialog) {
-    ui.horizontal(|ui| {
-        let label = ui.label(text!("robot-name-of-cell"));
-        ui.add(egui::TextEdit::singleline(&mut dialog.name).desired_width(280.0))
-            .labelled_by(label.id);
-    });
-}
-
-/// Draws the button that uses the calibration of the page.
-pub(super) fn use_it(ui: &mut Ui, is_there: bool) -> bool {
-    widgets::default_button(ui, &text!("robot-use-it"), is_there)
-}
-
-/// Draws an error or a doubt, with a sign before it and the advice below.
-pub(super) fn told(ui: &mut Ui, sign: Mark, trouble: &UserError) {
-    ui.horizontal_top(|ui| {
-        line_mark(ui, 18.0, 7.0, sign);
-        ui.vertical(|ui| {
-            ui.label(sentence(&trouble.what));
-            ui.weak(&trouble.advice);
-        });
-    });
 }

@@ -3,12 +3,16 @@
 use egui::{Checkbox, Grid, RichText, ScrollArea, Ui, vec2};
 
 use super::{
-    dialog::{mounts, name, told, use_it},
+    controls::{error_row, mounts, name, use_it},
     in_use::pose,
-    state::{RobotAction, RobotCell, RobotDialog, RobotFile},
+    state::RobotCell,
     work::SolvedPairs,
 };
-use crate::{inspection::source::file_name, language::robot::convention_title};
+use crate::{
+    cell::dialog_state::{RobotAction, RobotDialog, RobotFile},
+    inspection::source::file_name,
+    language::robot::convention_title,
+};
 use robot::Convention;
 use ui::{
     language::text,
@@ -64,7 +68,7 @@ pub(super) fn ui(
         } else {
             Mark::Look
         };
-        told(ui, sign, &UserError::of(doubt));
+        error_row(ui, sign, &UserError::of(doubt));
     }
     let solved = &found.solved;
     pose(

@@ -3,10 +3,11 @@
 use egui::{RichText, Ui};
 
 use super::{
-    dialog::told,
-    state::{RobotAction, RobotCell, RobotDialog, RobotFile, RobotQuestion, edited},
+    controls::error_row,
+    state::{RobotCell, edited},
 };
 use crate::{
+    cell::dialog_state::{RobotAction, RobotDialog, RobotFile, RobotQuestion},
     language::robot::{calibration_name, convention_meaning, convention_title, written_pose_error},
     session::Session,
 };
@@ -40,7 +41,7 @@ pub(super) fn ui(
             figures(ui, &in_use.calibration);
             row(ui, &text!("robot-file"), &in_use.path.display().to_string());
             if in_use.is_edited {
-                told(ui, Mark::Look, &edited());
+                error_row(ui, Mark::Look, &edited());
                 confirm(ui, dialog, caused);
             }
             let calibration = &in_use.calibration;
@@ -184,7 +185,7 @@ fn arm(
             what: text!("robot-flange-unknown"),
             advice: text!("robot-flange-unknown-advice"),
         };
-        told(ui, Mark::Look, &unknown);
+        error_row(ui, Mark::Look, &unknown);
     }
     ui.horizontal(|ui| {
         let label = ui.label(text!("robot-flange-at"));

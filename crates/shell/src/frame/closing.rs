@@ -2,29 +2,15 @@
 
 use egui::Context;
 
-use crate::{action::Action, state::State};
+use crate::{
+    action::Action,
+    state::{Closing, State},
+};
 use ui::{
     language::text,
     theme::space,
     widgets::{self, text_button},
 };
-
-/// Whether the window may close.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub enum Closing {
-    /// No close was requested.
-    #[default]
-    No,
-    /// The user is asked.
-    Asked {
-        /// What would be lost, and which robots would get no answer: one line each.
-        what: String,
-        /// True if data would be lost.
-        is_unsaved: bool,
-    },
-    /// The window closes, whatever is lost.
-    Confirmed,
-}
 
 /// Draws the question while it is open.
 pub fn dialog(ctx: &Context, state: &State, actions: &mut Vec<Action>) {

@@ -3,8 +3,9 @@
 use egui::{Id, Key, KeyboardShortcut, Modifiers, RichText, ScrollArea, vec2};
 
 use crate::{
-    action::{Action, DialogRequest},
+    action::{Action, DialogRequest, Effect},
     cell::RobotAction,
+    message::Event,
     roles::{self, RoleAction},
     session::WorkspaceKind,
     source::live::LiveAction,
@@ -60,14 +61,14 @@ const SHORTCUTS: [Shortcut<Action>; 13] = [
         key: Key::E,
         keys: || keys("Ctrl E"),
         does: || text!("shell-does-export"),
-        action: || Action::Export,
+        action: || Action::Make(Effect::Tell(Event::Export)),
     },
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::B,
         keys: || keys("B"),
         does: || text!("shell-does-robot"),
-        action: || Action::Robot(RobotAction::Toggle),
+        action: || Action::Make(Effect::Robot(RobotAction::Toggle)),
     },
     Shortcut {
         modifiers: Modifiers::NONE,
@@ -95,7 +96,7 @@ const SHORTCUTS: [Shortcut<Action>; 13] = [
         key: Key::Q,
         keys: || keys("Ctrl Q"),
         does: || text!("shell-does-quit"),
-        action: || Action::Quit,
+        action: || Action::Make(Effect::Close),
     },
     Shortcut {
         modifiers: Modifiers::NONE,
@@ -182,7 +183,7 @@ pub fn shortcuts(
     let is_pressing = !space_is_free && ctx.memory(|memory| memory.focused().is_some());
     let workspace = state.session.workspace;
     let own = own.iter().copied().enumerate();
-    let own = own.map(|(place, binding)| (binding, Action::Press(workspace, place)));
+    let own = own.map(|(place, binding)| (binding, Action::Make(Effect::Press(workspace, place))));
     let named = SHORTCUTS
         .iter()
         .map(|shortcut| (shortcut.binding(), (shortcut.action)()));

@@ -7,7 +7,8 @@ use egui::{
 
 use super::operator_bars::column_width;
 use crate::{
-    action::Action,
+    action::{Action, Effect},
+    message::Event,
     notice::{Notice, NoticeKind},
     state::State,
 };
@@ -165,7 +166,7 @@ fn line(ui: &mut Ui, place: usize, notice: &Notice, with_all: bool, actions: &mu
             }
             let is_undoable = notice.kind == NoticeKind::Undoable;
             if is_undoable && text_button(ui, &text!("shell-undo")).clicked() {
-                actions.push(Action::Undo);
+                actions.push(Action::Make(Effect::Tell(Event::Undo)));
             }
             let words = Layout::left_to_right(Align::Center).with_main_wrap(true);
             ui.with_layout(words, |ui| {

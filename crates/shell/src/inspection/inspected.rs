@@ -16,7 +16,7 @@ use super::{
     scan_choice::{ScanOrder, ScanRequest},
     scan_figure::marked,
     scene_figure::{SceneFigure, SceneFigureInput},
-    source::{Captured, Origin, SceneSource},
+    source::{Captured, Origin, SceneOrScan, SceneSource},
 };
 use capture::CaptureWarning;
 use geometry::{cloud::PointCloud, rigid::RigidTransform};
@@ -46,15 +46,6 @@ use ui::{
     task::TaskError,
     viewport::{PointSet, Role},
 };
-
-/// Something to inspect or enrol.
-#[derive(Clone, Debug)]
-pub enum SceneOrScan {
-    /// A scene.
-    Scene(SceneSource),
-    /// The shots of a scan, to be put together.
-    Scan(ScanOrder),
-}
 
 /// What to inspect, and with which recipe.
 #[derive(Clone, Debug)]

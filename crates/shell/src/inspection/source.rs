@@ -8,7 +8,6 @@ use std::{
 
 use super::{
     camera::{Camera, CameraError},
-    inspected::SceneOrScan,
     scan_choice::{ScanFiles, ScanOrder},
 };
 use crate::language::{history::stored_scene, results::object};
@@ -408,6 +407,15 @@ impl From<capture::Captured> for Captured {
             warnings: frame.warnings,
         }
     }
+}
+
+/// Something to inspect or enrol.
+#[derive(Clone, Debug)]
+pub enum SceneOrScan {
+    /// A scene.
+    Scene(SceneSource),
+    /// The shots of a scan, to be put together.
+    Scan(ScanOrder),
 }
 
 #[cfg(test)]

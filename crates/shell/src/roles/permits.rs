@@ -2,7 +2,7 @@
 
 use super::{Action, RoleAction, WorkspaceKind};
 use crate::{
-    action::DialogRequest,
+    action::{DialogRequest, Effect},
     cell::{CheckAction, RobotAction},
     source::live::LiveAction,
 };
@@ -24,8 +24,12 @@ pub(crate) fn is_operators(workspace: WorkspaceKind) -> bool {
 /// Lists every action, so that each new one needs a decision.
 pub(super) fn needs_engineer(action: &Action, has_pin: bool) -> bool {
     match action {
-        Action::GoTo(workspace) | Action::Press(workspace, _) => !is_operators(*workspace),
-        Action::Ask(ask) | Action::Chosen(ask, _) => asks_for_engineer(*ask, has_pin),
+        Action::GoTo(workspace) | Action::Make(Effect::Press(workspace, _)) => {
+            !is_operators(*workspace)
+        }
+        Action::Ask(ask)
+        | Action::Chosen(ask, _)
+        | Action::Make(Effect::ShowDialog(ask)) => asks_for_engineer(*ask, has_pin),
         Action::Role(action) => matches!(
             action,
             RoleAction::SetPin | RoleAction::RemovePin | RoleAction::LockAfter(_)
@@ -33,8 +37,9 @@ pub(super) fn needs_engineer(action: &Action, has_pin: bool) -> bool {
         // Choosing another source changes what is captured next; an opened file becomes the source.
         Action::Live(LiveAction::Use(_) | LiveAction::SetUp(Some(_)))
         | Action::UseCell(_)
-        | Action::Open(_) => has_pin,
-        Action::Robot(action) => !matches!(
+        | Action::Open(_)
+        | Action::Make(Effect::Take(..) | Effect::TakeFile(_)) => has_pin,
+        Action::Make(Effect::Robot(action)) => !matches!(
             action,
             RobotAction::Close | RobotAction::Check(CheckAction::Cancel)
         ),
@@ -48,9 +53,9 @@ pub(super) fn needs_engineer(action: &Action, has_pin: bool) -> bool {
         Action::Live(_)
         | Action::Capture
         | Action::CancelInspection
-        | Action::CancelTask(_)
-        | Action::EngineerIn(_)
-        | Action::Export
+        | Action::Make(
+            Effect::CancelTask(_) | Effect::EngineerIn(_) | Effect::Tell(_) | Effect::Close,
+        )
         | Action::CloseTop
         | Action::SwitchUnits
         | Action::SwitchTheme
@@ -60,10 +65,8 @@ pub(super) fn needs_engineer(action: &Action, has_pin: bool) -> bool {
         | Action::DismissAll
         | Action::Reread(_)
         | Action::Notify(_)
-        | Action::Quit
         | Action::CloseAnyway
         | Action::StayOpen
-        | Action::Undo
         | Action::WrongPart => false,
     }
 }

@@ -10,19 +10,19 @@ use super::{
     live::{self, FollowedParts},
 };
 use crate::{
-    action::{Effect, notify, remove_notices},
+    action::Effect,
     inspection::{
         fuse::Steps,
-        inspected::{InspectJob, Inspected, SceneOrScan, inspect, inspect_scan},
+        inspected::{InspectJob, Inspected, inspect, inspect_scan},
         library_cache::{LibraryCache, LibraryView},
         scan_choice::ScanOrder,
         seen_before::seen_before,
-        source::{Origin, SceneSource, file_name},
+        source::{Origin, SceneOrScan, SceneSource, file_name},
     },
-    message::{Event, ReinspectionPurpose},
+    message::Event,
     notice::{Notice, NoticeTopic},
-    session::{Inspecting, Shown, Source, UserRole, WorkspaceKind},
-    state::State,
+    session::{Inspecting, ReinspectionPurpose, Shown, Source, UserRole, WorkspaceKind},
+    state::{State, notify, remove_notices},
     trace::current_trace::CurrentTrace,
 };
 use capture::SourceSpec;
@@ -591,7 +591,10 @@ fn remember(recent: &mut Vec<PathBuf>, path: &Path) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::action::{Action, DialogRequest, apply};
+    use crate::{
+        action::{Action, DialogRequest},
+        apply::apply,
+    };
     use files::write_depth_png;
     use geometry::fixtures::small_frame;
 

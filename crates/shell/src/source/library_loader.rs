@@ -3,14 +3,13 @@
 use std::sync::Arc;
 
 use crate::{
-    action::{notify, remove_notices},
     inspection::{
         folder_watch::FolderWatch,
         library_cache::{LibraryCache, LibraryView},
     },
     notice::{Notice, NoticeTopic},
     session::UserRole,
-    state::State,
+    state::{State, notify, remove_notices},
 };
 use ui::{
     language::text,

@@ -294,10 +294,7 @@ mod tests {
     };
     use shell::{
         context::TestShell,
-        inspection::{
-            inspected::SceneOrScan,
-            source::{CellChoice, SceneSource},
-        },
+        inspection::source::{CellChoice, SceneOrScan, SceneSource},
     };
 
     fn outline(over: DrawnOver) -> DrawnOutline {

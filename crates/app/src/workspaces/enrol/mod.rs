@@ -48,7 +48,7 @@ use self::{
 use crate::shots::{ShotList, ShownShots, StripTab};
 use shell::{
     context::ShellContext,
-    inspection::inspected::SceneOrScan,
+    inspection::source::SceneOrScan,
     message::Event,
     session::{Session, WorkspaceKind},
     workspace::Workspace,

@@ -14,6 +14,7 @@ use super::{
 use crate::shots::{Asked, ShotsAction, ShotsFile, ShotsState};
 use inspection::library::PartName;
 use shell::{
+    action::{Action, DialogRequest},
     context::ShellContext,
     file_dialog::FileDialog,
     inspection::{library_cache::LibraryView, scan_choice::ShotChoice},
@@ -201,7 +202,9 @@ impl EnrolState {
         let library = cx.session.library.as_deref();
         match action {
             EnrolAction::TakeShown => self.take_shown(cx),
-            EnrolAction::SeeInspected => cx.send(Message::GoTo(WorkspaceKind::Inspect)),
+            EnrolAction::SeeInspected => {
+                cx.send(Message::Act(Action::GoTo(WorkspaceKind::Inspect)))
+            }
             EnrolAction::Correct(edit) => {
                 self.is_outline_new = matches!(edit, Edit::Outline(..));
                 self.correct(cx, |all| all.edits.push(edit));
@@ -275,7 +278,7 @@ impl EnrolState {
             EnrolAction::RemovePath(name) => {
                 self.change(LibraryChange::SetPath(name, None), DraftEffect::Stays, cx);
             }
-            EnrolAction::OpenScan => cx.send(Message::OpenScan),
+            EnrolAction::OpenScan => cx.send(Message::Act(Action::Ask(DialogRequest::Scan))),
             EnrolAction::Ask(file) => self.ask(file, cx),
             EnrolAction::Shots(ShotsAction::Ask(file)) => self.ask(EnrolFile::Scan(file), cx),
             EnrolAction::Chosen(EnrolFile::SprayPath, path) => {

@@ -19,9 +19,8 @@ use crate::shots::{Asked, ShotsAction, ShotsFile, source_of};
 use shell::{
     context::ShellContext,
     inspection::{
-        inspected::SceneOrScan,
         scan_choice::ScanOrder,
-        source::{Origin, SceneSource},
+        source::{Origin, SceneOrScan, SceneSource},
     },
     message::Message,
     notice::{Notice, NoticeTopic},

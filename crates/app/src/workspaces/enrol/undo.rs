@@ -15,10 +15,10 @@ use inspection::library::PartName;
 use shell::{
     context::ShellContext,
     inspection::{
-        inspected::{Inspected, SceneOrScan},
+        inspected::Inspected,
         library_cache::LibraryView,
         scan_choice::{ScanOrder, ShotSet},
-        source::SceneSource,
+        source::{SceneOrScan, SceneSource},
     },
     message::Message,
     notice::Notice,

@@ -11,12 +11,13 @@ use records::history::{
     HistoryEvent, HungId, NewEntry, PruneResult, Retention, SetAside, TraceChange,
 };
 use shell::{
+    action::Action,
     context::ShellContext,
     file_dialog::{FileChoice, FileRequest},
     inspection::{inspected::Inspected, source::file_name},
-    message::{Event, Message, ReinspectionPurpose},
+    message::{Event, Message},
     notice::Notice,
-    session::{UserRole, WorkspaceKind},
+    session::{ReinspectionPurpose, UserRole, WorkspaceKind},
 };
 use ui::{language::text, user_error::UserError};
 
@@ -223,7 +224,7 @@ impl HistoryState {
             Event::Escape => {
                 let is_in_front = cx.session.workspace == WorkspaceKind::History;
                 if is_in_front && cx.session.role == UserRole::Operator {
-                    cx.send(Message::GoTo(WorkspaceKind::Inspect));
+                    cx.send(Message::Act(Action::GoTo(WorkspaceKind::Inspect)));
                 }
             }
             Event::PosesWanted(_) | Event::Export | Event::Undo => {}

@@ -8,16 +8,17 @@ use super::{
 };
 use records::history::{Differences, InspectionSummary, Record};
 use shell::{
+    action::Action,
     context::ShellContext,
     inspection::{
-        inspected::{InspectJob, InspectRequest, Inspected, SceneOrScan},
+        inspected::{InspectJob, InspectRequest, Inspected},
         scan_choice::{ScanOrder, ScanRequest},
-        source::{HistoryFrame, Origin, SceneSource},
+        source::{HistoryFrame, Origin, SceneOrScan, SceneSource},
     },
     language::history::stored_scene,
-    message::{Message, ReinspectionPurpose},
+    message::Message,
     notice::Notice,
-    session::WorkspaceKind,
+    session::{ReinspectionPurpose, WorkspaceKind},
 };
 use ui::language::text;
 
@@ -76,7 +77,7 @@ impl HistoryState {
             ));
         };
         if purpose == RemakeFor::Open {
-            cx.send(Message::GoTo(WorkspaceKind::Inspect));
+            cx.send(Message::Act(Action::GoTo(WorkspaceKind::Inspect)));
         }
         cx.send(Message::Inspect {
             title,

@@ -332,8 +332,7 @@ mod tests {
             inspected::{LiveFrameContext, inspected_cell},
             source::CellChoice,
         },
-        message::ReinspectionPurpose,
-        session::{Inspecting, Shown},
+        session::{Inspecting, ReinspectionPurpose, Shown},
         source::live::LiveStatus,
     };
     use ui::{language::Language, user_error::UserError};

@@ -16,7 +16,7 @@ use shell::{
     frame::operator_bars::column_width,
     language::{history::recognised_part, results::stored_verdict},
     session::Session,
-    trace::current_trace,
+    trace::entry,
 };
 use ui::{
     language::text,
@@ -248,7 +248,7 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session) {
     next_ui(ui, banner, room);
     let top = ui.cursor().top();
     ui.add_space(space::SMALL);
-    current_trace::fields(ui, session);
+    entry::fields(ui, session);
     robots_without_answer(ui, session);
     ui.add_space(space::SMALL);
     ui.weak(text!("operator-last-parts"));

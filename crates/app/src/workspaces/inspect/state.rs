@@ -10,6 +10,7 @@ use super::{
 use crate::shots::{Asked, ShotsAction, ShotsFile, ShotsState, source_of};
 use records::history::Traceability;
 use shell::{
+    action::Action,
     context::ShellContext,
     file_dialog::FileDialog,
     inspection::{
@@ -20,9 +21,10 @@ use shell::{
         scan_choice::{ScanOrder, ShotChoice},
     },
     language::robot::convention_title,
-    message::{Event, Message, ReinspectionPurpose},
+    message::{Event, Message},
     notice::Notice,
-    session::{Session, Source, WorkspaceKind},
+    session::{ReinspectionPurpose, Session, Source, WorkspaceKind},
+    source::live::LiveAction,
 };
 use ui::{
     language::text,
@@ -178,11 +180,13 @@ impl InspectState {
             InspectAction::Enlarge(panel) => self.enlarged = panel,
             InspectAction::Candidate(place) => self.candidate = place,
             InspectAction::UseConvention(convention) => {
-                cx.send(Message::UseConvention(convention));
+                cx.send(Message::Act(Action::UseConvention(convention)));
             }
             InspectAction::CopyPose => copy_pose(cx),
-            InspectAction::Compare => cx.send(Message::GoTo(WorkspaceKind::Compare)),
-            InspectAction::ToggleRecording => cx.send(Message::ToggleRecording),
+            InspectAction::Compare => cx.send(Message::Act(Action::GoTo(WorkspaceKind::Compare))),
+            InspectAction::ToggleRecording => {
+                cx.send(Message::Act(Action::Live(LiveAction::ToggleRecording)))
+            }
             InspectAction::Shots(action) => self.change_shots(action, cx),
             InspectAction::Ask(file) => {
                 let lock = &cx.services.dialogs;

@@ -26,8 +26,8 @@ use shell::{
         inspected::{Inspected, LiveFrameContext, inspected_cell},
         source::{CellChoice, Origin},
     },
-    message::{Message, ReinspectionPurpose},
-    session::{Inspecting, Session, Shown, Source, UserRole},
+    message::Message,
+    session::{Inspecting, ReinspectionPurpose, Session, Shown, Source, UserRole},
     source::live::{LiveStatus, SourceState},
 };
 use stages::pose::RunnerUp;

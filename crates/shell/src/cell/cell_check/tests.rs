@@ -2,7 +2,7 @@ use std::fs;
 
 use super::*;
 use crate::{
-    cell::{RobotAction, RobotCell, RobotDialog, RobotPage},
+    cell::{CheckAction, RobotAction, RobotCell, RobotDialog, RobotPage},
     context::TestShell,
     inspection::scan_choice::ScanFiles,
     source::inspector,

@@ -3,12 +3,20 @@
 //! The camera's thread hands over its newest frame, the task's thread inspects it, and the window shows the latest result. No
 //! thread waits for another: frames that arrive during an inspection are dropped.
 
+mod live_state;
 mod parts;
 mod set_up;
 pub mod state;
 mod status;
 mod work;
 
+pub use self::{
+    live_state::{LiveAction, LiveState},
+    set_up::set_up,
+    state::{Follower, close, update},
+    status::card,
+    work::{LiveAnswer, LiveStatus, LiveStatusUpdate, SourceState},
+};
 pub(crate) use self::{
     parts::FollowedParts,
     state::{
@@ -16,10 +24,4 @@ pub(crate) use self::{
         tell_if_lost,
     },
     status::{chip, words},
-};
-pub use self::{
-    set_up::set_up,
-    state::{Follower, LiveAction, LiveState, close, update},
-    status::card,
-    work::{LiveAnswer, LiveStatus, LiveStatusUpdate, SourceState},
 };

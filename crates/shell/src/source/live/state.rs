@@ -1,9 +1,8 @@
 //! State of the followed source in the window, and the actions on it.
 
 use std::{
-    path::PathBuf,
     sync::{
-        Arc, Mutex,
+        Arc,
         mpsc::{Receiver, SyncSender, sync_channel},
     },
     thread,
@@ -11,45 +10,25 @@ use std::{
 };
 
 use super::{
-    parts::FollowedParts,
-    work::{LiveAnswer, LiveRecord, LiveStart, LiveStatus, MAX_UNREAD, SourceState, follow, rest},
+    live_state::LiveAction,
+    work::{LiveAnswer, LiveRecord, LiveStart, MAX_UNREAD, SourceState, follow, rest},
 };
 use crate::{
-    action::{DialogRequest, Effect, notify, remove_notices},
+    action::{DialogRequest, Effect},
     inspection::{inspected::Inspected, library_cache::LibraryCache},
-    message::{Event, ReinspectionPurpose},
+    message::Event,
     notice::{Notice, NoticeTopic},
-    session::{Session, Shown, Source, UserRole, WorkspaceKind},
-    state::State,
+    session::{ReinspectionPurpose, Session, Shown, Source, UserRole, WorkspaceKind},
+    state::{State, notify, remove_notices},
     trace::current_trace::CurrentTrace,
 };
-use capture::SourceSpec;
-use inspection::pipeline::live::{LiveParams, MAX_AVERAGED};
+use inspection::pipeline::live::MAX_AVERAGED;
 use records::history::Traceability;
 use ui::{
     language::text,
     task::{Task, TaskRunner},
     user_error::UserError,
 };
-
-/// State of the followed source.
-#[derive(Debug, Default)]
-pub struct LiveState {
-    /// True while a source is followed; otherwise frames are captured one by one on demand.
-    pub is_on: bool,
-    /// The latest status, once there is one.
-    pub status: Option<LiveStatus>,
-    /// When a verdict counts, and over how many frames depth is averaged.
-    pub params: LiveParams,
-    /// The folder that the source is being recorded into, if it is.
-    pub recording: Option<PathBuf>,
-    /// Settings of the simulated cell while its dialog is open.
-    pub setup: Option<capture::SimulatedSpec>,
-    /// The parts that hang before it.
-    pub parts: Arc<Mutex<FollowedParts>>,
-    /// The latest inspection, if another workspace was in front and nothing newer has been shown since.
-    pub unseen: Option<Arc<Inspected>>,
-}
 
 /// Follows the source.
 #[derive(Debug)]
@@ -91,62 +70,8 @@ impl Follower {
     }
 }
 
-/// Actions on the followed source.
-#[derive(Clone, Debug)]
-pub enum LiveAction {
-    /// Start or stop following the source.
-    Toggle,
-    /// Use this source from now on.
-    Use(SourceSpec),
-    /// Average depth over this many frames.
-    Average(usize),
-    /// Record the source into a new folder inside this one.
-    Record(PathBuf),
-    /// Ask where to record, or stop recording.
-    ToggleRecording,
-    /// Open the dialog that sets up the simulated cell with these settings, or close it.
-    SetUp(Option<capture::SimulatedSpec>),
-}
-
-impl LiveState {
-    /// Starts without following anything; depth will be averaged over `num_frames` frames.
-    pub fn averaging(num_frames: usize) -> Self {
-        let mut own = Self::default();
-        own.params.average = num_frames.clamp(1, MAX_AVERAGED);
-        own
-    }
-}
-
 /// Time between two looks at whether the camera is closed.
 const TURN: Duration = Duration::from_millis(5);
-
-impl Session {
-    /// True while a source is followed.
-    pub fn is_live(&self) -> bool {
-        self.live.is_on
-    }
-
-    /// True while a folder is followed, in which every capture is of another part.
-    pub fn is_watching(&self) -> bool {
-        self.is_live() && self.source.is_watched()
-    }
-}
-
-impl Source {
-    /// The part of the source that can be followed; `None` for a single file or a scan.
-    pub fn followed(&self) -> Option<SourceSpec> {
-        match self {
-            Self::Cell(choice) => Some(SourceSpec::Simulated(choice.followed())),
-            Self::File(_) | Self::Scan(_) => None,
-            Self::Camera(spec) => Some((**spec).clone()),
-        }
-    }
-
-    /// True for a watched folder, which has no frame until a file is saved to it.
-    pub fn is_watched(&self) -> bool {
-        matches!(self, Self::Camera(spec) if matches!(**spec, SourceSpec::Watched(_)))
-    }
-}
 
 /// Carries out an action.
 pub fn apply(state: &mut State, action: LiveAction) -> Option<Effect> {
@@ -532,13 +457,19 @@ mod tests {
 
     use super::*;
     use crate::{
-        action::{Action, apply as apply_any},
+        action::Action,
+        apply::apply as apply_any,
         inspection::{camera::Camera, inspected::inspected_cell, source::CellChoice},
         roles::RoleAction,
-        source::{inspector, live::LiveStatusUpdate},
-        trace::current_trace,
+        source::{
+            inspector,
+            live::{LiveStatus, LiveStatusUpdate},
+        },
+        trace::entry,
     };
-    use capture::{CaptureError, CaptureWarning, Captured, DepthSource, Image, NextCapture};
+    use capture::{
+        CaptureError, CaptureWarning, Captured, DepthSource, Image, NextCapture, SourceSpec,
+    };
     use files::FileWarning;
     use geometry::rigid::RigidTransform;
     use inspection::pipeline::live::LiveVerdict;
@@ -806,7 +737,7 @@ mod tests {
         state.session.enter_scanned("4711", 0.0);
         apply_any(&mut state, Action::GoTo(WorkspaceKind::History));
         let second = hung(&mut state, 2);
-        let events = current_trace::settle(&state.session, 1.0);
+        let events = entry::settle(&state.session, 1.0);
         let [Event::TracedLate(part, _)] = events.as_slice() else {
             panic!("not written: {events:?}");
         };
@@ -814,7 +745,7 @@ mod tests {
         state.session.enter_scanned("4712", 2.0);
         assert!(state.session.trace.is_late_of(&second));
         assert_eq!(state.session.trace.get().serial, "");
-        assert_eq!(current_trace::settle(&state.session, 3.0).len(), 1);
+        assert_eq!(entry::settle(&state.session, 3.0).len(), 1);
         let known = state.session.enter_scanned("4712", 4.0).expect("said");
         assert!(known.what.contains("already"), "{known:?}");
     }

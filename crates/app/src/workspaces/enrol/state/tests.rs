@@ -17,9 +17,9 @@ use shell::{
     context::TestShell,
     inspection::{
         camera::Camera,
-        inspected::{SceneOrScan, inspected_cell},
+        inspected::inspected_cell,
         library_cache::LibraryCache,
-        source::{CellChoice, Origin, SceneSource},
+        source::{CellChoice, Origin, SceneOrScan, SceneSource},
     },
     notice::NoticeKind,
     session::Shown,

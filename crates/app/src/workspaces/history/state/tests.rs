@@ -9,8 +9,8 @@ use records::{
 use shell::{
     context::TestShell,
     inspection::{inspected::inspected_cell, source::CellChoice},
-    message::{Event, Message, ReinspectionPurpose},
-    session::UserRole,
+    message::{Event, Message},
+    session::{ReinspectionPurpose, UserRole},
 };
 use ui::language::Language;
 
