@@ -6,6 +6,7 @@ use crate::{
     cell::RobotAction,
     inspection::source::{CellChoice, SceneOrScan},
     message::Event,
+    notice::Notice,
     roles::RoleAction,
     session::WorkspaceKind,
     source::live::LiveAction,

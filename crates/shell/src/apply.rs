@@ -124,7 +124,7 @@ fn chosen(state: &mut State, ask: DialogRequest, path: PathBuf) -> Option<Effect
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{inspection::source::SceneOrScan, notice::NoticeTopic};
+    use crate::{inspection::source::SceneOrScan, notice::NoticeTopic, state::remove_notices};
 
     #[test]
     fn captures_are_enrolled_while_the_workspace_is_in_front_and_inspected_otherwise() {

@@ -112,6 +112,8 @@ pub fn value<R: Parameters>(parameter: &Parameter<R>, recipe: &R) -> String {
 /// The messages with the names of all parameters, and the helps of those that the window shows.
 #[cfg(test)]
 pub(super) fn message_ids() -> Vec<String> {
+    use inspection::pipeline::parameters::Place;
+
     fn of_table<R: TranslatedParameters>() -> impl Iterator<Item = String> {
         R::ALL.iter().flat_map(|parameter| {
             let is_shown = parameter.place != Place::Hidden;
@@ -126,6 +128,7 @@ pub(super) fn message_ids() -> Vec<String> {
 mod tests {
     use super::*;
     use crate::language::Language;
+    use inspection::pipeline::parameters::Place;
     use robot::paint::{BUILT_IN_COATS, built_in_coat};
 
     fn check_table<R: TranslatedParameters>() {

@@ -2,7 +2,7 @@
 
 use egui::{Button, Context, DragValue, Grid, Ui, vec2};
 
-use super::state::LiveAction;
+use super::LiveAction;
 use crate::{action::Action, language::results::object, state::State};
 use capture::{CellScene, SimulatedPose, SimulatedSpec, SourceSpec};
 use simulate::{Clutter, ObjectKind, PartKind, Side};
