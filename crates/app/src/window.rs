@@ -247,8 +247,8 @@ impl Window {
                 let lock = &self.services.dialogs;
                 self.dialog.open(ask, &dialogs::request(ask), lock, ctx);
             }
-            Effect::Press(kind, place) => {
-                self.lend(kind, ctx, |workspace, cx| workspace.press(place, cx));
+            Effect::Press(kind, index) => {
+                self.lend(kind, ctx, |workspace, cx| workspace.press(index, cx));
             }
             Effect::CancelTask(kind) => {
                 self.lend(kind, ctx, |workspace, _| workspace.cancel());

@@ -66,15 +66,15 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
             state.session.chosen_language = Some(language);
         }
         Action::ToggleHelp => state.is_help_open = !state.is_help_open,
-        Action::Dismiss(place) => {
-            if place < state.notices.len() {
-                state.notices.remove(place);
+        Action::Dismiss(index) => {
+            if index < state.notices.len() {
+                state.notices.remove(index);
             }
         }
         Action::DismissAll => state.notices.clear(),
-        Action::Reread(place) => {
-            if place < state.notices.len() {
-                let notice = state.notices.remove(place);
+        Action::Reread(index) => {
+            if index < state.notices.len() {
+                let notice = state.notices.remove(index);
                 return notice.in_millimetres.map(Effect::TakeFile);
             }
         }

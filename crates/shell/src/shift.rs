@@ -22,7 +22,7 @@ use ui::{
 };
 
 /// Seconds after which a failed count is repeated.
-const RETRY: f64 = 10.0;
+const RETRY_DELAY_S: f64 = 10.0;
 /// Maximum number of parts listed.
 const MAX_LISTED: usize = 12;
 
@@ -169,7 +169,7 @@ impl ShiftWatch {
                 session.shift = parts;
             }
             // The History workspace reports why the history cannot be read.
-            Some(Err(_)) => self.retry_at = Some(time + RETRY),
+            Some(Err(_)) => self.retry_at = Some(time + RETRY_DELAY_S),
             None => {}
         }
         if session.source.followed().is_some() {
@@ -391,7 +391,7 @@ mod tests {
             state.shift_watch.update(&mut state.session, &history, &ctx);
             assert!(state.shift_watch.is_idle(), "not in every frame");
         }
-        ctx.input_mut(|input| input.time += RETRY);
+        ctx.input_mut(|input| input.time += RETRY_DELAY_S);
         state.shift_watch.update(&mut state.session, &history, &ctx);
         assert!(state.shift_watch.counting.run_waiting());
         state.shift_watch.update(&mut state.session, &history, &ctx);

@@ -43,7 +43,7 @@ pub trait Workspace: Any {
     }
 
     /// The key at this index of [`key_bindings`](Self::key_bindings) was pressed.
-    fn press(&mut self, _place: usize, _cx: &mut ShellContext<'_>) {}
+    fn press(&mut self, _index: usize, _cx: &mut ShellContext<'_>) {}
 
     /// The running job for the top bar, which offers to cancel it.
     fn running(&self) -> Option<&Running> {

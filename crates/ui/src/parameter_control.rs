@@ -34,9 +34,9 @@ pub fn fold(ui: &Ui, title: String, colour: Color32) -> CollapsingHeader {
 }
 
 /// Width of the number beside a slider, logical pixels.
-const NUMBER: f32 = 92.0;
+const NUMBER_WIDTH_PX: f32 = 92.0;
 /// Minimum width of the button that resets a parameter, logical pixels.
-const RESET: f32 = 58.0;
+const MIN_RESET_WIDTH_PX: f32 = 58.0;
 
 /// Draws the name of a parameter, its slider or options and, if it differs from the default, a reset button. Passes changes to
 /// `changed`; a typed number may be out of range.
@@ -64,7 +64,7 @@ pub fn control<R: TranslatedParameters>(
     });
     ui.horizontal(|ui| {
         let reset = text!("view-parameter-reset");
-        let reset_width = button_width(ui, &reset).max(RESET);
+        let reset_width = button_width(ui, &reset).max(MIN_RESET_WIDTH_PX);
         let taken = if is_changed {
             reset_width + space::SMALL
         } else {
@@ -129,7 +129,7 @@ fn number_ui<R: TranslatedParameters>(
     let [least, most] = number.range;
     let before = parameter.value(recipe);
     let (mut slid, mut written) = (before, before);
-    ui.spacing_mut().slider_width = (width - NUMBER - space::SMALL).max(40.0);
+    ui.spacing_mut().slider_width = (width - NUMBER_WIDTH_PX - space::SMALL).max(40.0);
     let is_wide = most > 500.0 * least.max(1.0);
     let slider = Slider::new(&mut slid, least..=most)
         .show_value(false)
@@ -162,7 +162,7 @@ fn number_ui<R: TranslatedParameters>(
         .suffix(number.unit.sign())
         .update_while_editing(false)
         .custom_parser(parse);
-    let response = ui.add_sized(vec2(NUMBER, space::TARGET), drag);
+    let response = ui.add_sized(vec2(NUMBER_WIDTH_PX, space::TARGET), drag);
     response.widget_info(|| {
         let mut info = WidgetInfo::drag_value(true, before);
         info.label = Some(parameters::name(parameter));

@@ -56,11 +56,11 @@ fn figures(ui: &mut Ui, fused: &FusedShots, units: UnitSystem) {
                 .color(theme.warning),
         );
     };
-    for (place, shot) in fused.rows.iter().enumerate() {
+    for (index, shot) in fused.rows.iter().enumerate() {
         if let ShotFate::Excluded(why) = shot.fate {
             let text = text!(
                 "shots-shot-left-out",
-                shot = place + 1,
+                shot = index + 1,
                 why = excluded(&why)
             );
             advised(ui, &text, excluded_advice(&why));

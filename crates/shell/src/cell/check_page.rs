@@ -26,9 +26,9 @@ use ui::{
 };
 
 /// Height of the list of checks, logical pixels.
-const TABLE: f32 = 170.0;
+const TABLE_HEIGHT_PX: f32 = 170.0;
 /// Height of a row of the list, logical pixels.
-const ROW: f32 = 20.0;
+const ROW_HEIGHT_PX: f32 = 20.0;
 /// Maximum number of checks in list and plot, the newest; the exported table has them all.
 const MOST_SHOWN: usize = 100;
 /// Minimum number of checks for a plot.
@@ -266,11 +266,11 @@ fn former(ui: &mut Ui, content: &CheckFolderContent, units: UnitSystem) {
     let small = |text: String| RichText::new(text).small();
     ScrollArea::vertical()
         .id_salt("checks")
-        .max_height(TABLE)
+        .max_height(TABLE_HEIGHT_PX)
         .auto_shrink([false, true])
         .show(ui, |ui| {
             // Nothing here can be pressed, so rows may be lower.
-            ui.spacing_mut().interact_size.y = ROW;
+            ui.spacing_mut().interact_size.y = ROW_HEIGHT_PX;
             let grid = Grid::new("checks").num_columns(4).spacing(vec2(20.0, 2.0));
             grid.show(ui, |ui| {
                 for title in [

@@ -25,7 +25,7 @@ const WIDTH: f32 = 640.0;
 const MARGIN: f32 = 220.0;
 
 /// Room above the dialog, for a notice, logical pixels.
-const TOP: f32 = 48.0;
+const TOP_MARGIN_PX: f32 = 48.0;
 
 impl RobotCell {
     /// Draws the dialog while it is open; returns the user's actions.
@@ -35,7 +35,7 @@ impl RobotCell {
         };
         let mut dialog = known.clone();
         let mut caused = Vec::new();
-        let modal = widgets::dialog_below(ctx, "robot", TOP, |ui| {
+        let modal = widgets::dialog_below(ctx, "robot", TOP_MARGIN_PX, |ui| {
             ui.set_width(WIDTH.min(ctx.content_rect().width() - 80.0));
             ui.heading(text!("robot-title"));
             ui.add_space(space::SMALL);

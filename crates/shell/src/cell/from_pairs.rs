@@ -22,9 +22,9 @@ use ui::{
 };
 
 /// Height of the table of residuals, logical pixels.
-const TABLE: f32 = 170.0;
+const TABLE_HEIGHT_PX: f32 = 170.0;
 /// Height of a row of figures, logical pixels.
-const ROW: f32 = 20.0;
+const ROW_HEIGHT_PX: f32 = 20.0;
 
 pub(super) fn ui(
     ui: &mut Ui,
@@ -59,7 +59,7 @@ pub(super) fn ui(
     residuals(ui, &found, dialog);
     ui.scope(|ui| {
         // Nothing here can be pressed, so rows may be lower.
-        ui.spacing_mut().interact_size.y = ROW;
+        ui.spacing_mut().interact_size.y = ROW_HEIGHT_PX;
         figures(ui, &found);
     });
     for doubt in &found.solved.doubts {
@@ -95,7 +95,7 @@ fn residuals(ui: &mut Ui, found: &SolvedPairs, dialog: &mut RobotDialog) {
     let weak = |text: String| RichText::new(text).weak();
     ScrollArea::vertical()
         .id_salt("residuals")
-        .max_height(TABLE)
+        .max_height(TABLE_HEIGHT_PX)
         .auto_shrink([false, true])
         .show(ui, |ui| {
             let grid = Grid::new("pairs").num_columns(4).spacing(vec2(24.0, 2.0));

@@ -183,7 +183,7 @@ pub fn shortcuts(
     let is_pressing = !space_is_free && ctx.memory(|memory| memory.focused().is_some());
     let workspace = state.session.workspace;
     let own = own.iter().copied().enumerate();
-    let own = own.map(|(place, binding)| (binding, Action::Make(Effect::Press(workspace, place))));
+    let own = own.map(|(index, binding)| (binding, Action::Make(Effect::Press(workspace, index))));
     let named = SHORTCUTS
         .iter()
         .map(|shortcut| (shortcut.binding(), (shortcut.action)()));

@@ -106,9 +106,9 @@ pub fn ui(ctx: &Context, room: Option<Rect>, state: &State, actions: &mut Vec<Ac
             } else {
                 0
             };
-            for (place, notice) in state.notices.iter().enumerate().skip(num_hidden) {
-                let with_all = place == newest && newest >= FEW;
-                plate(ui, place, notice, with_all, actions);
+            for (index, notice) in state.notices.iter().enumerate().skip(num_hidden) {
+                let with_all = index == newest && newest >= FEW;
+                plate(ui, index, notice, with_all, actions);
             }
         });
     let wanted = drawn.response.rect.height() + 2.0 * EDGE;
@@ -121,7 +121,7 @@ pub fn ui(ctx: &Context, room: Option<Rect>, state: &State, actions: &mut Vec<Ac
 /// Draws the newest notice on top of the bar and a dialog: dialogs are tall, and the notice that one causes must be readable
 /// and dismissible.
 fn over_dialog(ctx: &Context, room: Rect, state: &State, actions: &mut Vec<Action>) {
-    let Some((place, notice)) = state.notices.iter().enumerate().next_back() else {
+    let Some((index, notice)) = state.notices.iter().enumerate().next_back() else {
         return;
     };
     Area::new(Id::unique("notice over a dialog"))
@@ -129,22 +129,22 @@ fn over_dialog(ctx: &Context, room: Rect, state: &State, actions: &mut Vec<Actio
         .fixed_pos(pos2(room.left(), ctx.content_rect().top() + 2.0))
         .show(ctx, |ui| {
             ui.set_width(room.width());
-            plate(ui, place, notice, false, actions);
+            plate(ui, index, notice, false, actions);
         });
 }
 
 /// Draws a notice; `with_all` adds a button that dismisses all of them.
-fn plate(ui: &mut Ui, place: usize, notice: &Notice, with_all: bool, actions: &mut Vec<Action>) {
+fn plate(ui: &mut Ui, index: usize, notice: &Notice, with_all: bool, actions: &mut Vec<Action>) {
     let theme = Theme::of(ui);
     Frame::new()
         .fill(theme.control)
         .stroke(theme.edge_stroke())
         .corner_radius(ROUNDING)
         .inner_margin(Margin::symmetric(14, 4))
-        .show(ui, |ui| line(ui, place, notice, with_all, actions));
+        .show(ui, |ui| line(ui, index, notice, with_all, actions));
 }
 
-fn line(ui: &mut Ui, place: usize, notice: &Notice, with_all: bool, actions: &mut Vec<Action>) {
+fn line(ui: &mut Ui, index: usize, notice: &Notice, with_all: bool, actions: &mut Vec<Action>) {
     let theme = Theme::of(ui);
     ui.horizontal(|ui| {
         ui.set_min_height(space::TARGET);
@@ -155,14 +155,14 @@ fn line(ui: &mut Ui, place: usize, notice: &Notice, with_all: bool, actions: &mu
         line_mark(ui, 20.0, 9.0, sign);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if text_button(ui, &text!("shell-dismiss")).clicked() {
-                actions.push(Action::Dismiss(place));
+                actions.push(Action::Dismiss(index));
             }
             if with_all && text_button(ui, &text!("shell-dismiss-all")).clicked() {
                 actions.push(Action::DismissAll);
             }
             let is_offered = notice.in_millimetres.is_some();
             if is_offered && text_button(ui, &text!("shell-read-in-millimetres")).clicked() {
-                actions.push(Action::Reread(place));
+                actions.push(Action::Reread(index));
             }
             let is_undoable = notice.kind == NoticeKind::Undoable;
             if is_undoable && text_button(ui, &text!("shell-undo")).clicked() {
@@ -208,7 +208,7 @@ fn expire(ctx: &Context, room: Option<Rect>, notices: &[Notice], actions: &mut V
         since.clone()
     });
     // From last to first, so that the indices stay valid.
-    for (place, notice) in notices.iter().enumerate().rev() {
+    for (index, notice) in notices.iter().enumerate().rev() {
         let begun = since.iter().find(|(known, _)| known == notice);
         let (Some(display_seconds), Some((_, begun))) = (display_seconds(notice.kind), begun)
         else {
@@ -218,7 +218,7 @@ fn expire(ctx: &Context, room: Option<Rect>, notices: &[Notice], actions: &mut V
         if left <= 0.0 && is_pointed_at {
             ctx.request_repaint_after_secs(REST);
         } else if left <= 0.0 {
-            actions.push(Action::Dismiss(place));
+            actions.push(Action::Dismiss(index));
         } else {
             ctx.request_repaint_after_secs(left as f32);
         }

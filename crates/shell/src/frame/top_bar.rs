@@ -24,9 +24,9 @@ use ui::{
 /// Width of the window, logical pixels, below which the bar has no room for keys.
 pub const NARROW: f32 = 1100.0;
 /// Width of the bar that is left to the status of Live, logical pixels.
-const LIVE: f32 = 180.0;
+const LIVE_STATUS_WIDTH_PX: f32 = 180.0;
 /// Width below which the running work is not named beside its spinner, logical pixels: most words would be cut.
-const WORDS: f32 = 64.0;
+const MIN_TEXT_WIDTH_PX: f32 = 64.0;
 
 /// How much of the library its menu shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -245,7 +245,7 @@ fn library_menu(
     let num = library.parts.len();
     let opened = |text: String| format!("{text} ▼");
     let shared = if has_live_chip(&state.session) {
-        LIVE
+        LIVE_STATUS_WIDTH_PX
     } else {
         0.0
     };
@@ -332,7 +332,7 @@ pub(super) fn progress(
         }
         (None, None) => shortened(&running.title, 28),
     };
-    if ui.available_width() < WORDS {
+    if ui.available_width() < MIN_TEXT_WIDTH_PX {
         spinner.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &text));
         spinner.on_hover_text(text);
     } else {

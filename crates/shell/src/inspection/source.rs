@@ -246,7 +246,7 @@ pub enum SceneSource {
     /// A scene already in memory.
     AtHand(Arc<SceneCloud>, Origin),
     /// Another source, whose camera recorded this empty cell.
-    Before(Arc<EmptyCell>, Box<SceneSource>),
+    WithEmptyCell(Arc<EmptyCell>, Box<SceneSource>),
     /// A frame kept in the history.
     Kept(Box<HistoryFrame>),
 }
@@ -322,7 +322,7 @@ impl SceneSource {
             Self::Cell { .. } => "simulated cell".into(),
             Self::File(path) => path.display().to_string(),
             Self::Camera(spec) => spec.to_string(),
-            Self::Before(_, source) => source.in_words(),
+            Self::WithEmptyCell(_, source) => source.in_words(),
             Self::AtHand(_, origin) => origin.title(),
             Self::Kept(kept) => kept.origin.title(),
         }
@@ -375,7 +375,7 @@ impl SceneSource {
                 camera.share_view(spec, &mut captured.scene);
                 Ok(captured)
             }
-            Self::Before(cell, source) => {
+            Self::WithEmptyCell(cell, source) => {
                 let mut captured = source.take(camera, is_cancelled)?;
                 let mut scene = Arc::unwrap_or_clone(captured.scene);
                 scene.empty_cell = Some(Arc::clone(cell));

@@ -172,7 +172,7 @@ impl State {
         let ends_live = self.session.role == UserRole::Operator && self.session.is_live();
         let source = match (source, &self.session.empty_cell) {
             (SceneOrScan::Scene(source), Some(cell)) => {
-                let source = SceneSource::Before(Arc::clone(cell), Box::new(source));
+                let source = SceneSource::WithEmptyCell(Arc::clone(cell), Box::new(source));
                 SceneOrScan::Scene(source)
             }
             (source, _) => source,

@@ -20,7 +20,7 @@ use ui::{
 };
 
 /// Width of a column, logical pixels.
-const COLUMN: f32 = 230.0;
+const COLUMN_WIDTH_PX: f32 = 230.0;
 /// Numbers of frames that depth can be averaged over: the noise falls with the square root.
 const AVERAGED: [usize; 4] = [1, 4, 8, 16];
 /// Part of the window's height that the menu leaves free, logical pixels.
@@ -59,7 +59,7 @@ pub fn ui(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
 
 fn column(ui: &mut Ui, height: f32, name: &str, content: impl FnOnce(&mut Ui)) {
     ui.vertical(|ui| {
-        ui.set_width(COLUMN);
+        ui.set_width(COLUMN_WIDTH_PX);
         show_scroll_bar(ui);
         ScrollArea::vertical()
             .id_salt(name)

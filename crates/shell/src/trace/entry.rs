@@ -18,7 +18,7 @@ use ui::{
 };
 
 /// Width of the label before a field, logical pixels.
-const NAME: f32 = 76.0;
+const LABEL_WIDTH_PX: f32 = 76.0;
 impl Session {
     /// The part on the screen if it takes the serial number that is entered now; otherwise the number is of the next part.
     fn takes_serial(&self) -> Option<&Inspected> {
@@ -142,14 +142,14 @@ pub fn fields(ui: &mut Ui, session: &Session) {
             &mut trace.operator
         }),
     ];
-    for (place, (name, says, entry)) in entries.into_iter().enumerate() {
+    for (index, (name, says, entry)) in entries.into_iter().enumerate() {
         let before = std::mem::take(entry(&mut trace.get()));
         let mut text = before.clone();
         let field = ui.horizontal(|ui| {
             ui.set_min_height(space::TARGET);
             let from = ui.cursor().left();
             let label = ui.label(RichText::new(&name).weak());
-            ui.add_space((from + NAME - ui.cursor().left()).max(0.0));
+            ui.add_space((from + LABEL_WIDTH_PX - ui.cursor().left()).max(0.0));
             let field =
                 line_edit(&mut text, says, f32::INFINITY).char_limit(Traceability::MAX_LETTERS);
             let field = ui.add(field).labelled_by(label.id);
@@ -164,7 +164,7 @@ pub fn fields(ui: &mut Ui, session: &Session) {
         {
             session.enter_serial(&typed, ui.input(|input| input.time));
         }
-        if place == 0 {
+        if index == 0 {
             serial_goes_to(ui, session);
         }
     }

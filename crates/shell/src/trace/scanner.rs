@@ -9,15 +9,15 @@
 use egui::{Context, Event, Id, Key};
 
 /// Maximum time between two keys of a scanner, seconds; typing by hand is slower.
-const GAP: f64 = 0.15;
+const MAX_KEY_GAP_S: f64 = 0.15;
 /// The same in a dialog, where keys typed by hand must appear at once; a scanner takes some 10 ms for a key.
-const GAP_IN_DIALOG: f64 = 0.05;
+const MAX_KEY_GAP_IN_DIALOG_S: f64 = 0.05;
 /// Minimum number of letters of a code.
 const LEAST_LETTERS: usize = 3;
 /// While a dialog's text field has the focus: minimum number of frames before the end of a code, and maximum time for each of its
 /// letters, seconds.
 const LEAST_FRAMES: usize = 3;
-const MAX_PER_LETTER: f64 = 0.03;
+const MAX_LETTER_TIME_S: f64 = 0.03;
 
 /// What typed keys are for, unless they are a code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,8 +45,8 @@ impl Holding {
     /// Time after the last key until held keys are passed on, seconds.
     fn gap(self) -> f64 {
         match self {
-            Self::Never | Self::OnPage => GAP,
-            Self::InDialog | Self::InField => GAP_IN_DIALOG,
+            Self::Never | Self::OnPage => MAX_KEY_GAP_S,
+            Self::InDialog | Self::InField => MAX_KEY_GAP_IN_DIALOG_S,
         }
     }
 }
@@ -156,7 +156,7 @@ impl Held {
     fn is_code(&self, now: f64, holding: Holding) -> bool {
         let num = self.text.chars().count();
         let is_fast =
-            self.num_frames >= LEAST_FRAMES && now - self.first <= MAX_PER_LETTER * num as f64;
+            self.num_frames >= LEAST_FRAMES && now - self.first <= MAX_LETTER_TIME_S * num as f64;
         num >= LEAST_LETTERS && (is_fast || holding != Holding::InField)
     }
 

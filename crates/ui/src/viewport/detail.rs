@@ -8,11 +8,11 @@
 use super::points::NUM_SAMPLES;
 
 /// Frame time, seconds, above which motion is not fluid and less is drawn.
-const SLOW: f32 = 1.0 / 22.0;
+const REDRAW_MAX_COST_S: f32 = 1.0 / 22.0;
 /// Frame time, seconds, below which more can be drawn.
-const QUICK: f32 = 1.0 / 40.0;
+const DETAIL_MAX_COST_S: f32 = 1.0 / 40.0;
 /// A view that has not moved for this long, seconds, is at rest.
-const REST: f64 = 0.2;
+const REST_TIME_S: f64 = 0.2;
 
 /// Side of a pixel of the picture, in pixels of the window: 2 while points are left out, because a picture with a quarter of
 /// the pixels is cheaper on a slow device.
@@ -71,11 +71,11 @@ impl MovingDetail {
         let since = self.last_move.map_or(f64::INFINITY, |last| now - last);
         let next = if has_moved {
             NextRepaint::AtOnce
-        } else if since >= REST || self.num_samples == NUM_SAMPLES {
+        } else if since >= REST_TIME_S || self.num_samples == NUM_SAMPLES {
             self.last_move = None;
             NextRepaint::Whenever
         } else {
-            NextRepaint::Within(REST - since)
+            NextRepaint::Within(REST_TIME_S - since)
         };
         self.shown = match next {
             NextRepaint::Whenever => NUM_SAMPLES,
@@ -90,10 +90,10 @@ impl MovingDetail {
     }
 
     fn learn(&mut self, seconds: f32) {
-        if seconds > SLOW {
+        if seconds > REDRAW_MAX_COST_S {
             self.num_samples = (self.num_samples * 2 / 3).max(1);
             self.num_quick = 0;
-        } else if seconds < QUICK {
+        } else if seconds < DETAIL_MAX_COST_S {
             self.num_quick += 1;
             // Increase slowly, decrease fast: no flicker between two shares.
             if self.num_quick >= 20 {
@@ -125,7 +125,7 @@ mod tests {
             let (still, next) = detail.frame(false, now + 0.05);
             assert!(still <= drawn && still < NUM_SAMPLES, "not yet at rest");
             assert!(
-                matches!(next, NextRepaint::Within(seconds) if (0.1..=REST).contains(&seconds))
+                matches!(next, NextRepaint::Within(seconds) if (0.1..=REST_TIME_S).contains(&seconds))
             );
             assert_eq!(
                 detail.frame(false, now + 0.3),

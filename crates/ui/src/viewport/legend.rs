@@ -12,7 +12,7 @@ use crate::language::text;
 const BAR: Vec2 = Vec2::new(168.0, 8.0);
 const MARGIN: f32 = 14.0;
 /// Height of a row of controls at the top.
-const CONTROLS: f32 = 48.0;
+const CONTROLS_HEIGHT_PX: f32 = 48.0;
 
 /// Draws the scale that colours the view's points, if a scale does.
 pub(super) fn ui(painter: &Painter, rect: Rect, scene: &ViewScene, style: &ViewStyle) {
@@ -21,7 +21,7 @@ pub(super) fn ui(painter: &Painter, rect: Rect, scene: &ViewScene, style: &ViewS
         return;
     }
     let rect = match style.legend {
-        Legend::BelowControls => rect.with_min_y(rect.top() + CONTROLS),
+        Legend::BelowControls => rect.with_min_y(rect.top() + CONTROLS_HEIGHT_PX),
         Legend::Shown => rect,
     };
     let colours = &style.colours;

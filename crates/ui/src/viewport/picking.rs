@@ -11,7 +11,7 @@ use super::{
 };
 
 /// Maximum distance from the cursor, logical pixels: about the aiming error with a mouse.
-const REACH: f32 = 10.0;
+const MAX_CURSOR_DISTANCE_PX: f32 = 10.0;
 /// Points up to this share of the depth behind the foremost count as the same surface.
 const SURFACE_DEPTH: f32 = 0.02;
 
@@ -54,7 +54,9 @@ pub(super) fn pick(
             }
             let screen = (Vec2::new(clip.x, -clip.y) / clip.w + 1.0) / 2.0 * size;
             let off_cursor_sq = screen.distance_squared(cursor);
-            if off_cursor_sq <= REACH * REACH && is_shown(set.role(index)) {
+            if off_cursor_sq <= MAX_CURSOR_DISTANCE_PX * MAX_CURSOR_DISTANCE_PX
+                && is_shown(set.role(index))
+            {
                 let position = set.world_from_set.transform_point3(position);
                 let point = PickedPoint {
                     set: set_index,

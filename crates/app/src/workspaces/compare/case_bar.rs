@@ -15,7 +15,7 @@ use ui::{
 };
 
 /// A bar wider than this has room for a long remark.
-const WIDE: f32 = 800.0;
+const WIDE_BAR_PX: f32 = 800.0;
 /// Letters of the reference's title on the menu of references.
 const AGAINST: usize = 40;
 
@@ -25,7 +25,7 @@ pub(super) fn ui(
     session: &Session,
     acts: &mut Vec<CompareAction>,
 ) {
-    let remark = if ui.available_width() > WIDE {
+    let remark = if ui.available_width() > WIDE_BAR_PX {
         220.0
     } else {
         140.0

@@ -29,10 +29,10 @@ use ui::{
 const MAX_LETTERS: usize = 20;
 
 /// Height of the list of recipes in the menu, logical pixels: the entries below it stay in sight.
-const LIST: f32 = 230.0;
+const LIST_HEIGHT_PX: f32 = 230.0;
 
 /// Least width of the field for a name, logical pixels.
-const NARROWEST_NAME: f32 = 90.0;
+const MIN_NAME_WIDTH_PX: f32 = 90.0;
 
 pub(super) fn ui(
     ui: &mut Ui,
@@ -91,7 +91,7 @@ fn menu(ui: &mut Ui, compare: &CompareState, session: &Session, acts: &mut Vec<C
         .menu_button(text, |ui| {
             show_scroll_bar(ui);
             ScrollArea::vertical()
-                .max_height(LIST)
+                .max_height(LIST_HEIGHT_PX)
                 .show(ui, |ui| entries(ui, compare, label, acts));
             ui.separator();
             let is_own = BUILT_IN_RECIPES.contains(&label.name.as_str());
@@ -226,7 +226,7 @@ fn name_ui(
         let whole = ui.available_width() - space::MEDIUM;
         let beside = whole - widths[0] - widths[1] - 2.0 * space::SMALL;
         // If the buttons leave too little room, they are placed below.
-        let width = if beside < NARROWEST_NAME {
+        let width = if beside < MIN_NAME_WIDTH_PX {
             whole
         } else {
             beside

@@ -34,7 +34,7 @@ const MAX_BYTES: u64 = 4 << 20;
 /// Limit of corrections; each is applied to all points.
 const MAX_EDITS: usize = 1000;
 /// Seconds without a change before the draft is written.
-const DELAY: f64 = 3.0;
+const SAVE_DELAY_S: f64 = 3.0;
 
 /// A draft as stored in the file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -119,7 +119,11 @@ impl DraftFile {
         if self.see(enrol) {
             self.has_changed = true;
             // A saved or discarded draft must not come back: remove its file at once.
-            let delay = if self.seen.is_some() { DELAY } else { 0.0 };
+            let delay = if self.seen.is_some() {
+                SAVE_DELAY_S
+            } else {
+                0.0
+            };
             self.due = Some(now + delay);
         }
         match self.due {
@@ -367,7 +371,7 @@ mod tests {
         enrol.take(scene(2), "Taking".into(), &shell.context());
         let mut file = DraftFile::new(Some(path.clone()), &runner);
         let context = egui::Context::default();
-        for time in [0.0, 2.0 * DELAY] {
+        for time in [0.0, 2.0 * SAVE_DELAY_S] {
             let input = egui::RawInput {
                 time: Some(time),
                 ..egui::RawInput::default()

@@ -16,7 +16,7 @@ use ui::{
 };
 
 /// Below this width of the view, logical pixels, the view directions are in a menu.
-const NARROW: f32 = 800.0;
+const MENU_WIDTH_PX: f32 = 800.0;
 
 /// Draws the row.
 pub(super) fn ui(
@@ -28,7 +28,7 @@ pub(super) fn ui(
     actions: &mut Vec<InspectAction>,
 ) {
     let figure = &inspected.view;
-    if ui.available_width() < NARROW {
+    if ui.available_width() < MENU_WIDTH_PX {
         ui.menu_button(small(opened(&text!("inspect-view"))), |ui| sides(ui, view));
     } else {
         sides(ui, view);

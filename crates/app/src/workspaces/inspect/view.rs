@@ -43,7 +43,7 @@ const DEVIATION_RANGE: Metres = Metres(0.01);
 /// Length of the axes of the robot base, longer than others because it is farther away than the part.
 const BASE_AXES: Metres = Metres(0.3);
 /// Width of the colour scale, logical pixels; it is below the controls where they leave less.
-const LEGEND: f32 = 212.0;
+const LEGEND_WIDTH_PX: f32 = 212.0;
 
 /// What determines the lines and texts of a scene.
 #[derive(PartialEq)]
@@ -156,7 +156,7 @@ impl SceneView {
         let theme = Theme::of(ui);
         let rect = ui.available_rect_before_wrap();
         self.size = rect.size();
-        self.style.legend = if self.controls_width > rect.width() - LEGEND {
+        self.style.legend = if self.controls_width > rect.width() - LEGEND_WIDTH_PX {
             Legend::BelowControls
         } else {
             Legend::Shown
