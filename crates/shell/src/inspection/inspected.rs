@@ -296,7 +296,7 @@ impl FoundScan {
 
 impl FinishedInspection {
     /// Prepares the data of the panels; goes through every point.
-    pub fn prepared(self, library: &Library, shown: &Arc<LibraryView>) -> Inspected {
+    pub(crate) fn prepared(self, library: &Library, shown: &Arc<LibraryView>) -> Inspected {
         let Self {
             scene,
             origin,

@@ -81,7 +81,7 @@ pub(crate) struct SceneFigureInput<'a> {
 
 impl SceneFigure {
     /// Makes the figure; goes through every point.
-    pub fn of(given: &SceneFigureInput<'_>) -> Self {
+    pub(crate) fn of(given: &SceneFigureInput<'_>) -> Self {
         let SceneFigureInput {
             scene,
             scan,

@@ -4,7 +4,9 @@
 //! Each kind of result is matched exhaustively, so that a new one does not compile without its text.
 
 use geometry::error::Advice as _;
-use inspection::pipeline::{AcceptParams, RecipeLabel, Rejection, Unrecognisable, is_like};
+use inspection::pipeline::{
+    AS_IN_THE_PAPER, AcceptParams, RecipeLabel, Rejection, Unrecognisable, is_like,
+};
 use records::history::{KeepFrames, StoredVerdict};
 use robot::cell_check::{CellFinding, CellViewError};
 use simulate::ObjectKind;

@@ -16,7 +16,6 @@ use super::{
     keys, parameters,
 };
 use crate::task::{Task, TaskRunner};
-use shell::language::results::rejection;
 
 /// Names of a message's variables.
 type Variables = BTreeSet<String>;

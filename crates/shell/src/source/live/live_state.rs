@@ -24,7 +24,7 @@ pub struct LiveState {
     /// Settings of the simulated cell while its dialog is open.
     pub setup: Option<SimulatedSpec>,
     /// The parts that hang before it.
-    pub parts: Arc<Mutex<FollowedParts>>,
+    pub(crate) parts: Arc<Mutex<FollowedParts>>,
     /// The latest inspection, if another workspace was in front and nothing newer has been shown since.
     pub unseen: Option<Arc<Inspected>>,
 }

@@ -90,7 +90,7 @@ impl FollowedParts {
     }
 
     /// The traceability of this part changed after its verdict.
-    pub fn traced(&mut self, part: &HungId, change: &TraceChange) {
+    pub(crate) fn traced(&mut self, part: &HungId, change: &TraceChange) {
         if let Some((counted, known)) = &mut self.counted
             && *counted == *part
         {
@@ -99,7 +99,7 @@ impl FollowedParts {
     }
 
     /// Takes over the true label of a part, or that it has none.
-    pub fn label(&mut self, part: &HungId, label: Option<&Truth>) {
+    pub(crate) fn label(&mut self, part: &HungId, label: Option<&Truth>) {
         match label {
             Some(label) => self.labelled = Some((part.clone(), label.clone())),
             None => {
@@ -109,7 +109,7 @@ impl FollowedParts {
     }
 
     /// True if a person has reported that this is no part of this name.
-    pub fn is_reported(&self, part: &HungId, name: &str) -> bool {
+    pub(crate) fn is_reported(&self, part: &HungId, name: &str) -> bool {
         let labelled = self.labelled.as_ref();
         labelled.is_some_and(|(known, label)| known == part && label.part() != Some(name))
     }

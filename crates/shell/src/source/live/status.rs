@@ -84,7 +84,7 @@ pub(crate) fn chip(ui: &mut Ui, session: &Session) {
 }
 
 /// Returns the most important status, with its mark.
-pub fn words(session: &Session) -> (Mark, String) {
+pub(crate) fn words(session: &Session) -> (Mark, String) {
     let name = match &session.source {
         Source::Camera(spec) if matches!(**spec, SourceSpec::Recording(_)) => text!("live-playing"),
         Source::Camera(spec) if matches!(**spec, SourceSpec::Watched(_)) => text!("live-watching"),
