@@ -231,7 +231,7 @@ fn window(
     let opened = scene.clone();
     let options = app::WindowOptions {
         library: library.library.clone(),
-        settings: app::shell::settings::users_file(),
+        settings: shell::settings::users_file(),
         // Without such a folder the window keeps the history in memory.
         history: records::history::users_folder().ok(),
         recipes: inspection::pipeline::RecipeFolder::of_user()

@@ -5,54 +5,58 @@ use std::{io, path::PathBuf, sync::Arc, time::Duration};
 use eframe::egui_wgpu::RenderState;
 use egui::{CentralPanel, Frame, LayerId, Ui};
 
-use super::{
+use super::workspaces::{
+    align::AlignWorkspace,
+    compare::CompareWorkspace,
+    enrol::EnrolWorkspace,
+    history::HistoryWorkspace,
+    inspect::{InspectWorkspace, WorkCounts},
+    paint::PaintWorkspace,
+};
+use files::file_of;
+use inspection::pipeline::{RecipeFolder, open_recipe};
+use records::history::{HistoryBuffer, Writer};
+use robot::{cell_check::CellCheckFolder, frame_poses::FRAME_POSES};
+use shell::{
+    action::{Action, DialogRequest, Effect},
+    apply::apply,
+    cell::RobotCell,
+    context::Services,
+    file_dialog::{DialogLock, FileDialog},
+    frame::{
+        closing::{self},
+        dialogs, keys, notices, operator_bars, rail, top_bar,
+    },
     inspection::{
         camera::Camera,
         inspected::Inspected,
         library_cache::{LibraryCache, ReadTakenVersion},
     },
-    shell::{
-        action::{Action, DialogRequest, Effect, apply, remove_notices},
-        closing::{self, Closing},
-        context::Services,
-        current_trace, dialogs,
-        file_dialog::{DialogLock, FileDialog},
-        inspector, keys,
+    message::{Event, Message},
+    notice::{Notice, NoticeTopic},
+    path_entry,
+    roles::{self, RoleAction},
+    session::{Source, ThemeChoice, UserRole, WorkspaceKind},
+    settings,
+    settings_file::Memory,
+    source::{
+        inspector,
         live::{self, LiveAction},
-        message::{Event, Message},
-        notice::{Notice, NoticeTopic},
-        notices, operator_bars, path_entry, rail,
-        robot::RobotCell,
-        roles::{self, RoleAction},
+    },
+    state::{Closing, State, remove_notices},
+    trace::{
+        entry,
         scanner::{self, KeyTarget},
-        session::{Source, ThemeChoice, UserRole, WorkspaceKind},
-        settings,
-        settings_file::Memory,
-        shift,
-        state::State,
-        top_bar,
-        workspace::Workspace,
     },
-    task::TaskRunner,
-    ui::{
-        theme::Theme,
-        viewport::{ViewError, ViewportGpu},
-    },
-    user_error::UserError,
-    workspaces::{
-        align::AlignWorkspace,
-        compare::CompareWorkspace,
-        enrol::EnrolWorkspace,
-        history::HistoryWorkspace,
-        inspect::{InspectWorkspace, WorkCounts},
-        paint::PaintWorkspace,
-    },
+    workspace::Workspace,
 };
-use crate::language::{Language, text};
-use files::file_of;
-use inspection::pipeline::{RecipeFolder, open_recipe};
-use records::history::{HistoryBuffer, Writer};
-use robot::{cell_check::CellCheckFolder, frame_poses::FRAME_POSES};
+use ui::{
+    language::{Language, text},
+    task::TaskRunner,
+    theme::Theme,
+    user_error::UserError,
+    viewport::{ViewError, ViewportGpu},
+};
 
 mod data_lock;
 mod hosting;
@@ -251,8 +255,8 @@ impl Window {
                 let lock = &self.services.dialogs;
                 self.dialog.open(ask, &dialogs::request(ask), lock, ctx);
             }
-            Effect::Press(kind, place) => {
-                self.lend(kind, ctx, |workspace, cx| workspace.press(place, cx));
+            Effect::Press(kind, index) => {
+                self.lend(kind, ctx, |workspace, cx| workspace.press(index, cx));
             }
             Effect::CancelTask(kind) => {
                 self.lend(kind, ctx, |workspace, _| workspace.cancel());
@@ -427,7 +431,7 @@ impl Window {
         self.state.inspector.loader.may_reload = !(is_enrolling && has_draft);
         let inspected = inspector::update(&mut self.state);
         let counted = live::update(&mut self.state);
-        let traced = current_trace::update(&self.state.session, ctx);
+        let traced = entry::update(&self.state.session, ctx);
         for event in inspected.into_iter().chain(counted).chain(traced) {
             self.tell(&event, ctx);
         }
@@ -437,9 +441,12 @@ impl Window {
         let history = self.workspace::<HistoryWorkspace>();
         let is_failing = history.is_some_and(|history| history.state.trouble.is_some());
         self.state.session.is_history_failing = is_failing;
-        shift::update(&mut self.state, self.services.library_cache.history(), ctx);
+        let history = self.services.library_cache.history();
+        self.state
+            .shift_watch
+            .update(&mut self.state.session, history, ctx);
         if let Some(action) = self.with_robot(ctx, RobotCell::update) {
-            self.act(Action::Robot(action), ctx);
+            self.act(Action::Make(Effect::Robot(action)), ctx);
         }
         match self.dialog.poll() {
             Some((ask, Ok(path))) => self.act(Action::Chosen(ask, path), ctx),
@@ -503,7 +510,11 @@ impl Window {
         roles::dialog(&ctx, &self.state, &mut actions);
         closing::dialog(&ctx, &self.state, &mut actions);
         let of_robot = self.robot.ui(&ctx, &self.state.session);
-        actions.extend(of_robot.into_iter().map(Action::Robot));
+        actions.extend(
+            of_robot
+                .into_iter()
+                .map(|action| Action::Make(Effect::Robot(action))),
+        );
         path_entry::ui(&ctx, &self.services.dialogs);
         keys::help(&ctx, &self.state, &keys, &mut actions);
         notices::ui(&ctx, room, &self.state, &mut actions);
@@ -566,7 +577,7 @@ impl eframe::App for Window {
         // Nothing is drawn any more.
         let ctx = egui::Context::default();
         let mut events = live::close(&mut self.state);
-        events.extend(current_trace::settle(&self.state.session, f64::INFINITY));
+        events.extend(entry::settle(&self.state.session, f64::INFINITY));
         for event in events {
             self.lend(WorkspaceKind::History, &ctx, |history, cx| {
                 history.on_event(&event, cx);

@@ -44,7 +44,10 @@ use self::{
 };
 pub use self::{
     mirror::{MirrorTally, OnlyMirrored},
-    named_recipe::{BUILT_IN, MAX_NOTES, NamedRecipe, RecipeBlock, RecipeFile, RecipeLabel},
+    named_recipe::{
+        AS_IN_THE_PAPER, BUILT_IN, BUILT_IN_RECIPES, MAX_NOTES, NamedRecipe, RecipeBlock,
+        RecipeFile, RecipeLabel, built_in_recipe,
+    },
     recipe_error::RecipeError,
     recipe_folder::{RecipeFolder, RecipeList, Replace, open_recipe},
     refusal::{Refusal, RefusalKind},

@@ -10,13 +10,6 @@ use std::{
 
 use app::{
     WindowOptions,
-    inspection::{source::CellChoice, unit_system::UnitSystem},
-    shell::{
-        action::Action,
-        message::Message,
-        roles::RoleAction,
-        session::{ThemeChoice, WorkspaceKind},
-    },
     workspaces::{
         history::{HistoryAction, HistoryFile, HistoryWorkspace, ListFilter},
         inspect::InspectFile,
@@ -27,6 +20,13 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use files::save_cloud;
 use inspection::{library::Truth, pipeline::Recipe};
 use records::history::{History, HungId, KeepFrames, NewEntry, Retention, StoredVerdict};
+use shell::{
+    action::{Action, Effect},
+    inspection::{source::CellChoice, unit_system::UnitSystem},
+    message::Message,
+    roles::RoleAction,
+    session::{ThemeChoice, WorkspaceKind},
+};
 use simulate::{ObjectKind, PartKind, Side};
 
 use records::fixtures::{history_entry, low_score, open_history};
@@ -459,7 +459,7 @@ fn inspections_that_cannot_be_written_are_marked_and_the_window_asks_before_it_c
     fs::write(&taken, "a file").expect("written");
     let mut harness = open_with(SMALL, keeping(&taken));
     press(&mut harness, "Dismiss");
-    act(&mut harness, Action::Quit);
+    act(&mut harness, Action::Make(Effect::Close));
     harness.get_by_label("Close without saving?");
     harness.get_by_label("1 inspection is kept in memory only: the history cannot be written");
     press(&mut harness, "Keep the window open");
@@ -467,7 +467,7 @@ fn inspections_that_cannot_be_written_are_marked_and_the_window_asks_before_it_c
     harness.get_by_label("Not recorded");
     drop(harness);
     let mut harness = open_with(SMALL, keeping(&folder.path().join("kept")));
-    act(&mut harness, Action::Quit);
+    act(&mut harness, Action::Make(Effect::Close));
     assert!(harness.query_by_label("Close without saving?").is_none());
     act(&mut harness, Action::Role(RoleAction::Switch));
     assert!(harness.query_by_label("Not recorded").is_none());

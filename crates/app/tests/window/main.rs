@@ -20,4 +20,3 @@ mod roles;
 mod set_up;
 mod shots;
 mod view;
-mod viewport;

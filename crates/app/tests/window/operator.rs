@@ -7,23 +7,23 @@ use std::{
 
 use app::{
     WindowOptions,
-    inspection::source::CellChoice,
-    language::Language,
-    shell::{
-        action::Action,
-        notice::Notice,
-        robot::{AnswerSetup, RobotAction},
-        roles::RoleAction,
-        session::{Source, UserRole, WorkspaceKind},
-        settings,
-    },
     workspaces::history::{HistoryAction, HistoryWorkspace},
 };
 use egui::{Key, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use files::save_cloud;
 use records::history::{Retention, StoredVerdict};
+use shell::{
+    action::{Action, Effect},
+    cell::{AnswerSetup, RobotAction},
+    inspection::source::CellChoice,
+    notice::Notice,
+    roles::RoleAction,
+    session::{Source, UserRole, WorkspaceKind},
+    settings,
+};
 use simulate::{CellSetup, PartKind, SensorNoise, Side, SimulatedObject};
+use ui::language::Language;
 
 use records::fixtures::{history_entry, open_history};
 use stages::fixtures::{facing_part, scene_of};
@@ -297,7 +297,9 @@ fn what_is_followed_is_good_only_while_its_verdict_counts() {
     wire.send(Step::Unplugged).expect("the camera is open");
     wait_until(&mut harness, |state| {
         let status = state.session.live.status.as_ref();
-        status.is_some_and(|status| matches!(status.source, app::shell::live::SourceState::Lost(_)))
+        status.is_some_and(|status| {
+            matches!(status.source, shell::source::live::SourceState::Lost(_))
+        })
     });
     harness.run_steps(2);
     harness.get_by_label("No camera");
@@ -770,9 +772,10 @@ fn open_answering(cell: Option<PathBuf>) -> (WindowHarness, Sender<Step>) {
         at: "ascii=0".parse().expect("any free port"),
         ..AnswerSetup::default()
     };
-    harness
-        .state_mut()
-        .act(Action::Robot(RobotAction::Answer(setup)), &context);
+    harness.state_mut().act(
+        Action::Make(Effect::Robot(RobotAction::Answer(setup))),
+        &context,
+    );
     // Live has started with it.
     sees(&mut harness, &wire, [0.0; 2]);
     harness

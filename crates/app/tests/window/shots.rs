@@ -6,17 +6,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use app::{
-    WindowOptions,
-    inspection::{fuse::FusedShots, scan_figure::ShotFate},
-    shell::{
-        action::Action,
-        session::{Source, WorkspaceKind},
-        state::State,
-    },
-    shots::ShotsFile,
-    workspaces::inspect::InspectFile,
-};
+use app::{WindowOptions, shots::ShotsFile, workspaces::inspect::InspectFile};
 use egui::{Key, Modifiers, Vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use files::write_depth_png;
@@ -28,6 +18,12 @@ use geometry::{
 use inspection::library::{EnrolParams, LibraryFolder, PartDescription, PartName, enrol_scan};
 use robot::scan_frames::{read_frames, with_poses};
 use serde_json::{Value, json};
+use shell::{
+    action::Action,
+    inspection::{fuse::FusedShots, scan_figure::ShotFate},
+    session::{Source, WorkspaceKind},
+    state::State,
+};
 use simulate::{PartKind, ScanSetup, Side, SimulatedObject, SimulatedScan};
 
 use stages::scan::{ScanParams, Unwatched, assemble_all};

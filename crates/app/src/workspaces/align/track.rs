@@ -6,16 +6,13 @@ use std::{
 };
 
 use super::pair::Pair;
-use crate::{
-    language::{results, text},
-    ui::widgets::sentence,
-    user_error::UserError,
-};
 use geometry::rigid::{self, RigidTransform};
+use shell::language::results;
 use stages::pose::{
     FitQuality, Iteration, Phase, PoseError, PoseEstimate, PoseMethod, PoseWarning, Stopped,
     Uncertainty, align_to,
 };
+use ui::{language::text, user_error::UserError, widgets::sentence};
 
 /// The run of one method on a pair.
 #[derive(Clone, Debug)]

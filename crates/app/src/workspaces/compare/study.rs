@@ -3,21 +3,20 @@
 use std::sync::Arc;
 
 use super::comparison::OutlineComparison;
-use crate::{
-    inspection::{inspected::Inspected, library_cache::LibraryCache, unit_system::UnitSystem},
-    language::{results, text},
-    task::TaskError,
-    user_error::UserError,
-};
 use inspection::{
     library::Library,
     pipeline::{self, Inspection, NamedRecipe, ProgressObserver, Refusal, Rejection, Verdict},
 };
 use records::cases::{CaseFolder, FoundVerdict, KeptCase, Truth};
+use shell::{
+    inspection::{inspected::Inspected, library_cache::LibraryCache, unit_system::UnitSystem},
+    language::results,
+};
 use stages::{
     rank::{MatchRanking, Matcher, Query, RankParams, rank},
     signature::LiteralSignature,
 };
+use ui::{language::text, task::TaskError, user_error::UserError};
 
 /// The scene of a case.
 #[derive(Clone, Debug)]
@@ -379,15 +378,13 @@ mod tests {
     use std::time::Instant;
 
     use super::*;
-    use crate::{
-        inspection::{camera::Camera, inspected::inspected_cell, source::CellChoice},
-        language::Language,
-    };
     use inspection::{
         fixtures::{add_reference, copy_library, shipped_library},
         pipeline::{Recipe, Unwatched},
     };
+    use shell::inspection::{camera::Camera, inspected::inspected_cell, source::CellChoice};
     use simulate::{PartKind, Side};
+    use ui::language::Language;
 
     fn request(choice: CellChoice) -> StudyRequest {
         StudyRequest {

@@ -3,14 +3,13 @@
 use egui::{RichText, TextEdit, Ui, vec2};
 
 use super::draft::{Field, Form};
-use crate::{
-    language::{enrolment::bad_name, text},
-    ui::{
-        theme::{Theme, space},
-        widgets::{Mark, line_mark},
-    },
-};
 use inspection::library::MAX_TITLE;
+use shell::language::enrolment::bad_name;
+use ui::{
+    language::text,
+    theme::{Theme, space},
+    widgets::{Mark, line_mark},
+};
 
 /// Draws the fields; returns the one that was edited.
 pub(super) fn ui(ui: &mut Ui, form: &Form) -> Option<Field> {

@@ -11,20 +11,18 @@ use super::{
     thumbnails::{Thumbnails, paint_fitted},
     title_of,
 };
-use crate::{
-    language::{
-        enrolment::{enrol_error, enrol_warning, painted_from},
-        keys, text,
-    },
-    shell::session::Session,
-    shots::summary,
-    ui::{
-        theme::{ROUNDING, Theme, font, space},
-        widgets::{Mark, grouped, menu_list, shortened, text_button},
-    },
-};
+use crate::shots::summary;
 use inspection::library::PartName;
+use shell::{
+    language::enrolment::{enrol_error, enrol_warning, painted_from},
+    session::Session,
+};
 use stages::reference::Coverage;
+use ui::{
+    language::{keys, text},
+    theme::{ROUNDING, Theme, font, space},
+    widgets::{Mark, grouped, menu_list, shortened, text_button},
+};
 
 /// Draws the card.
 pub(super) fn ui(

@@ -8,23 +8,22 @@ use super::{
     HistoryAction, HistoryState, OpenedInspection, differences, label,
     list::{DAY_AND_TIME, local_time},
 };
-use crate::{
+use records::history::{Differences, InspectionDetail, Record, StoredVerdict, Summary};
+use shell::{
     inspection::unit_system::UnitSystem,
     language::{
         history::{stored_refusal, stored_scene, stored_title},
-        keys,
         results::{accepted_or_not, recipe_label, stored_verdict},
-        text,
     },
-    shell::session::Session,
-    ui::{
-        theme::{Theme, font, space},
-        widgets::{
-            Mark, fitted, heading, labelled, line_mark, path_row, row, sentence, shortened, texture,
-        },
+    session::Session,
+};
+use ui::{
+    language::{keys, text},
+    theme::{Theme, font, space},
+    widgets::{
+        Mark, fitted, heading, labelled, line_mark, path_row, row, sentence, shortened, texture,
     },
 };
-use records::history::{Differences, InspectionDetail, Record, StoredVerdict, Summary};
 
 /// State of the details kept between frames.
 #[derive(Default)]

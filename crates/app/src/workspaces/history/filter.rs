@@ -2,12 +2,12 @@
 
 use jiff::{Span, Timestamp, Zoned, civil};
 
-use crate::language::{
+use records::history::{Filter, StoredVerdict};
+use shell::language::{
     history::shown_for_stored,
     results::{accepted_or_not, stored_verdict},
-    text,
 };
-use records::history::{Filter, StoredVerdict};
+use ui::language::text;
 
 /// The filter of the list.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -146,7 +146,7 @@ impl ListFilter {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::language::Language;
+    use ui::language::Language;
 
     #[test]
     fn days_begin_and_end_as_the_clocks_here_go() {

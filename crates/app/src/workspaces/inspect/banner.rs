@@ -7,22 +7,20 @@ use super::{
     hold::{Hold, inspect_current},
     operator_words::{in_short, next_step, next_without_part, no_part_in_short},
 };
-use crate::{
-    inspection::{inspected::Inspected, source::Origin},
-    language::text,
-    shell::{
-        live::SourceState,
-        session::{Session, Source, UserRole},
-    },
-    ui::{
-        theme::Theme,
-        widgets::{Mark, sentence},
-    },
-};
 use capture::SourceSpec;
 use inspection::pipeline::{Unrecognisable, Verdict};
 use records::history::StoredVerdict;
+use shell::{
+    inspection::{inspected::Inspected, source::Origin},
+    session::{Session, Source, UserRole},
+    source::live::SourceState,
+};
 use station::Currency;
+use ui::{
+    language::text,
+    theme::Theme,
+    widgets::{Mark, sentence},
+};
 
 /// State that the banner shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -323,25 +321,21 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::{
-        inspection::{
-            inspected::{LiveFrameContext, inspected_cell},
-            source::CellChoice,
-        },
-        language::Language,
-        shell::{
-            live::LiveStatus,
-            message::ReinspectionPurpose,
-            session::{Inspecting, Shown},
-        },
-        user_error::UserError,
-    };
     use geometry::rigid::RigidTransform;
     use inspection::pipeline::{
         Rejection,
         live::{LiveVerdict, MotionState},
     };
     use robot::RobotFrame;
+    use shell::{
+        inspection::{
+            inspected::{LiveFrameContext, inspected_cell},
+            source::CellChoice,
+        },
+        session::{Inspecting, ReinspectionPurpose, Shown},
+        source::live::LiveStatus,
+    };
+    use ui::{language::Language, user_error::UserError};
 
     fn showing(inspected: Inspected, is_past: bool) -> Session {
         Session {

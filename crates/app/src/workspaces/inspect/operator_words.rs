@@ -1,11 +1,9 @@
 //! A verdict in the operator's words: why a part is not accepted, and what an operator can do about it.
 
-use crate::{
-    language::{results::rejection_advice, text},
-    shell::session::Session,
-};
 use inspection::pipeline::{Rejection, Unrecognisable};
+use shell::{language::results::rejection_advice, session::Session};
 use stages::segment::NoPart;
+use ui::language::text;
 
 /// States why a part is not accepted, without figures, which are for the engineer.
 pub(super) fn in_short(why: &Rejection, nearest: &str) -> String {
@@ -123,7 +121,7 @@ fn in_lines(step: String, session: &Session, otherwise: String) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shell::session::Source;
+    use shell::session::Source;
 
     #[test]
     fn the_advice_fits_the_source() {

@@ -12,23 +12,6 @@ use super::{
     state::PaintState,
     work::{Planned, aim, enrolled},
 };
-use crate::{
-    inspection::{
-        library_cache::LibraryCache,
-        report_files::{self, ProgramTarget, WrittenForRobot, remove_earlier},
-        source::file_name,
-    },
-    language::text,
-    shell::{
-        context::ShellContext,
-        notice::Notice,
-        program_setup::ProgramSetup,
-        session::{Session, WorkspaceKind},
-    },
-    task::{TaskContext, TaskError},
-    ui::viewport::{Line, LineSet, Role},
-    user_error::UserError,
-};
 use geometry::{cloud::PointCloud, rigid::RigidTransform};
 use inspection::library::Side;
 use robot::{
@@ -40,8 +23,25 @@ use robot::{
     program::{RobotLanguage, arm_points, check_reach},
     spray::{CarriedPath, OffThePart, carry, off_the_part},
 };
+use shell::{
+    cell::program_setup::ProgramSetup,
+    context::ShellContext,
+    inspection::{
+        library_cache::LibraryCache,
+        report_files::{self, ProgramTarget, WrittenForRobot, remove_earlier},
+        source::file_name,
+    },
+    notice::Notice,
+    session::{Session, WorkspaceKind},
+};
 use stages::{reference::Coverage, stand_off::StandOffParams};
 use station::robot_file::{RobotFile, Unchecked};
+use ui::{
+    language::text,
+    task::{TaskContext, TaskError},
+    user_error::UserError,
+    viewport::{Line, LineSet, Role},
+};
 
 /// Input of a reach check.
 #[derive(Clone, Debug)]

@@ -9,22 +9,20 @@ use super::{
     side::{TITLE, menu},
     state::PaintState,
 };
-use crate::{
-    language::{parameters, robot::not_checked, text},
-    shell::{program_setup::ProgramSetup, session::Session},
-    ui::{
-        parameter_control::fold,
-        theme::Theme,
-        widgets::{grouped, heading, labelled, line_edit, row, shortened, text_button},
-    },
-};
 use inspection::pipeline::parameters::{Kind, Parameter, Parameters as _};
 use robot::{
     Convention,
     arm::{ARM_NAMES, Arm, PointProblem},
     program::ProgramParams,
 };
+use shell::{cell::program_setup::ProgramSetup, language::robot::not_checked, session::Session};
 use station::robot_file::Unchecked;
+use ui::{
+    language::{parameters, text},
+    parameter_control::fold,
+    theme::Theme,
+    widgets::{grouped, heading, labelled, line_edit, row, shortened, text_button},
+};
 
 /// Draws the section.
 pub(super) fn ui(

@@ -11,20 +11,22 @@ use super::{
     },
     *,
 };
-use crate::{
-    inspection::{
-        camera::Camera,
-        inspected::{SceneOrScan, inspected_cell},
-        library_cache::LibraryCache,
-        source::{CellChoice, Origin, SceneSource},
-    },
-    shell::{context::TestShell, notice::NoticeKind, session::Shown},
-    ui::viewport::ViewCamera,
-};
 use geometry::cloud::PointCloud;
 use inspection::library::{LibraryFolder, PartNaming};
+use shell::{
+    context::TestShell,
+    inspection::{
+        camera::Camera,
+        inspected::inspected_cell,
+        library_cache::LibraryCache,
+        source::{CellChoice, Origin, SceneOrScan, SceneSource},
+    },
+    notice::NoticeKind,
+    session::Shown,
+};
 use simulate::{PartKind, Side};
 use stages::scene::SceneCloud;
+use ui::viewport::ViewCamera;
 
 /// The workspace without a window or threads.
 struct Bench {
