@@ -96,23 +96,24 @@ impl Subject {
         }
     }
 
-    /// A scan; `first` is the index of the frame whose camera the pose refers to.
-    pub fn of_scan(
-        scene: String,
-        source: String,
+    /// Adds the scan that was inspected; `first` is the index of the frame whose camera the pose refers to.
+    #[must_use]
+    pub fn with_scan(
+        self,
         scan: &Scan,
         first: usize,
         base_from_part: Option<RigidTransform>,
     ) -> Self {
         let reference = scan.shots.get(first);
+        let scan = ScanFacts {
+            reference_frame: reference.map_or_else(String::new, |shot| shot.name.clone()),
+            base_from_part,
+            shots: scan.given(),
+            num_used: scan.used().count(),
+        };
         Self {
-            scan: Some(ScanFacts {
-                reference_frame: reference.map_or_else(String::new, |shot| shot.name.clone()),
-                base_from_part,
-                shots: scan.given(),
-                num_used: scan.used().count(),
-            }),
-            ..Self::of_scene(scene, source, scan.cloud.cloud.is_simulated)
+            scan: Some(scan),
+            ..self
         }
     }
 }

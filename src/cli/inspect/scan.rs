@@ -46,7 +46,12 @@ pub(super) fn inspect(args: &InspectArgs, console: &mut Console) -> anyhow::Resu
         [one] => one.display().to_string(),
         _ => format!("{frames} frames from {}", first.name),
     };
-    let subject = Subject::of_scan(scene, "scan".into(), &scan, place, base_from_part);
+    let is_simulated = scan.cloud.cloud.is_simulated;
+    let subject = Subject::of_scene(scene, "scan".into(), is_simulated).with_scan(
+        &scan,
+        place,
+        base_from_part,
+    );
     let inspected = Inspected {
         subject: &subject,
         scene: &first.scene,

@@ -298,23 +298,6 @@ pub struct FoundScan {
 }
 
 impl FoundScan {
-    /// What was inspected, as records name it.
-    fn subject(&self, origin: &Origin, source: String) -> Subject {
-        let Subject {
-            scene,
-            title,
-            source,
-            is_simulated,
-            ..
-        } = origin.subject(source);
-        let scan = &self.fused.scan;
-        Subject {
-            title,
-            is_simulated,
-            ..Subject::of_scan(scene, source, scan, self.first, self.base_from_part)
-        }
-    }
-
     /// The part's points in the camera frame, each with its index among all points.
     fn part(&self) -> impl Iterator<Item = (usize, Point3<f32>)> {
         let figure = &self.fused.figure;
@@ -422,10 +405,10 @@ impl FinishedInspection {
             figures.num_points = found.fused.figure.positions.len();
             figures.num_part = part.points.len();
         }
-        let subject = match &scan {
-            Some(found) => found.subject(&origin, source),
-            None => origin.subject(source),
-        };
+        let mut subject = origin.subject(source);
+        if let Some(found) = &scan {
+            subject = subject.with_scan(&found.fused.scan, found.first, found.base_from_part);
+        }
         let recorded = station::Inspected {
             subject: &subject,
             scene: &scene,
