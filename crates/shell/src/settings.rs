@@ -486,7 +486,7 @@ mod tests {
             ("[recipe.accept]\nmin_score = nan", "recipe"),
             ("[recipe.project]\npixel = 0.0", "recipe"),
             ("[recipe.signature]\nnum_rays = 300", "recipe"),
-            ("[program]\nspeed_mm_s = -1.0", "program.speed_mm_s"),
+            ("[program]\nspeed = -1.0", "program.speed"),
         ];
         for (number, (line, key)) in bad.into_iter().enumerate() {
             let text = format!("average = 4\nlock_after = 15\n{line}\n");
