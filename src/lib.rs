@@ -32,6 +32,8 @@
 //! the algorithms build. Off by default: `plant`, HTTP and MQTT beside the protocols of the server, the history in PostgreSQL,
 //! and one library for many cells.
 
+#![cfg_attr(test, allow(clippy::disallowed_methods, reason = "tests change files"))]
+
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;
@@ -61,6 +63,7 @@ pub use serve;
 pub use simulate;
 #[doc(hidden)]
 pub use stages::{self, scan};
+#[cfg(feature = "cli")]
 #[doc(hidden)]
 pub use station;
 

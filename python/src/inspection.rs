@@ -196,7 +196,7 @@ impl Inspection {
     fn line(&self) -> InspectionLine<'_> {
         let line = InspectionLine::of(&self.name, &self.found).by(&self.recipe);
         if self.scene.cloud.is_simulated {
-            line.of_simulated_file()
+            line.of_simulation()
         } else {
             line
         }

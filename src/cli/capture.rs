@@ -16,7 +16,7 @@ use super::{
     follow::{follow, parse_source},
 };
 use capture::{
-    CaptureError, CaptureWarning, FeedItem, OpenNiError, RealsenseError, Recorder, SourceSpec, list,
+    CameraLibrary, CaptureWarning, FeedItem, OPENNI, REALSENSE, Recorder, SourceSpec, list,
 };
 use geometry::error::Advice as _;
 
@@ -149,18 +149,10 @@ fn show_list(console: &mut Console) -> Outcome {
         }
     }
     // A file needs the library of its camera, but no camera.
-    let (mut plays_openni, mut plays_realsense) = (true, true);
-    for trouble in found.iter().filter_map(|listed| listed.trouble.as_ref()) {
-        match trouble {
-            CaptureError::OpenNi(OpenNiError::Library(_) | OpenNiError::NoDrivers { .. }) => {
-                plays_openni = false;
-            }
-            CaptureError::Realsense(
-                RealsenseError::Library(_) | RealsenseError::LibraryNotStarted { .. },
-            ) => plays_realsense = false,
-            _ => {}
-        }
-    }
+    let plays_files = |library: &CameraLibrary| {
+        let mut errors = found.iter().filter_map(|listed| listed.error.as_ref());
+        !errors.any(|error| error.library == library && error.is_about_library())
+    };
     for (is_usable, pattern, what) in [
         (
             true,
@@ -173,12 +165,12 @@ fn show_list(console: &mut Console) -> Outcome {
             "A folder that another program saves captures into",
         ),
         (
-            plays_openni,
+            plays_files(&OPENNI),
             "openni:FILE.oni",
             "A file that OpenNI 2 recorded",
         ),
         (
-            plays_realsense,
+            plays_files(&REALSENSE),
             "realsense:FILE.db3",
             "A file that librealsense recorded, or FILE.bag",
         ),
@@ -189,11 +181,8 @@ fn show_list(console: &mut Console) -> Outcome {
     }
     console.table(&table);
     for listed in &found {
-        if let Some(trouble) = &listed.trouble {
-            console.advise(
-                &format_args!("{}: {trouble}", listed.title),
-                &trouble.advice(),
-            );
+        if let Some(error) = &listed.error {
+            console.advise(&format_args!("{}: {error}", listed.title), &error.advice());
         }
     }
     Outcome::Accepted

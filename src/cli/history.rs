@@ -3,9 +3,7 @@
 mod again;
 mod export;
 mod moments;
-#[cfg(feature = "plant")]
-mod plant;
-mod show;
+pub(super) mod show;
 
 use std::{
     collections::BTreeSet,
@@ -19,6 +17,7 @@ use self::moments::{parse_since, parse_until};
 use super::{
     LibraryChoice, Outcome,
     console::{Advised as _, Console, Table, advised_error, marked_simulated},
+    plant,
     record::HistoryChoice,
 };
 use inspection::library::Truth;
@@ -52,11 +51,11 @@ pub(super) struct HistoryArgs {
     #[command(flatten)]
     place: HistoryChoice,
     #[command(subcommand)]
-    command: HistoryCommand,
+    command: Command,
 }
 
 #[derive(Debug, Subcommand)]
-enum HistoryCommand {
+pub(super) enum Command {
     /// Show inspections, the newest first
     List(ListArgs),
     /// Show everything about one inspection
@@ -82,14 +81,13 @@ enum HistoryCommand {
     },
     /// Show or change which frames are kept, and for how long
     Keep(KeepArgs),
-    /// Send the plant's PostgreSQL database the inspections that it does not have yet
-    #[cfg(feature = "plant")]
-    Send(plant::SendArgs),
+    #[command(flatten)]
+    Plant(plant::HistoryCommand),
 }
 
 /// Which inspections.
 #[derive(Debug, Args)]
-struct FilterArgs {
+pub(super) struct FilterArgs {
     /// From this time on: a day (2026-11-20), a moment (2026-11-20T14:00), `today`, or a number of days back (`7d`)
     #[arg(long, value_name = "DATE", value_parser = parse_since)]
     since: Option<Timestamp>,
@@ -141,7 +139,7 @@ impl VerdictChoice {
 }
 
 impl FilterArgs {
-    fn filter(&self) -> Filter {
+    pub(super) fn filter(&self) -> Filter {
         Filter {
             since: self.since,
             until: self.until,
@@ -157,61 +155,58 @@ impl FilterArgs {
 }
 
 #[derive(Debug, Args)]
-struct ListArgs {
+pub(super) struct ListArgs {
     #[command(flatten)]
-    filter: FilterArgs,
+    pub(super) filter: FilterArgs,
     /// Maximum number, newest first; 0 for all
     #[arg(long, value_name = "N", default_value_t = 50)]
     limit: usize,
     /// Write one line of JSON per inspection, and nothing else, to standard output
     #[arg(long)]
-    json: bool,
-    #[cfg(feature = "plant")]
+    pub(super) json: bool,
     #[command(flatten)]
-    from: plant::FromChoice,
+    pub(super) from: plant::FromChoice,
 }
 
 #[derive(Debug, Args)]
-struct ShowArgs {
+pub(super) struct ShowArgs {
     /// Number of the inspection
-    number: i64,
+    pub(super) number: i64,
     /// Write one line of JSON, and nothing else, to standard output
     #[arg(long)]
-    json: bool,
+    pub(super) json: bool,
     /// Inspect its frame again with the current recipe and library, and show what changed
     #[arg(long)]
-    again: bool,
+    pub(super) again: bool,
     #[command(flatten)]
     library: LibraryChoice,
     #[command(flatten)]
     recipe: super::recipe::RecipeChoice,
-    #[cfg(feature = "plant")]
     #[command(flatten)]
-    from: plant::FromChoice,
+    pub(super) from: plant::FromChoice,
 }
 
 #[derive(Debug, Args)]
 #[command(group(clap::ArgGroup::new("export").required(true).multiple(true).args(["csv", "cases"])))]
-struct ExportArgs {
+pub(super) struct ExportArgs {
     #[command(flatten)]
-    filter: FilterArgs,
+    pub(super) filter: FilterArgs,
     /// Write a table to this file, the oldest first
     #[arg(long, value_name = "FILE")]
-    csv: Option<PathBuf>,
+    pub(super) csv: Option<PathBuf>,
     /// Write those with a kept frame and a true label as cases into this folder; those that are cases there already only
     /// get their present label
     #[arg(long, value_name = "DIR")]
-    cases: Option<PathBuf>,
+    pub(super) cases: Option<PathBuf>,
     /// With --cases: use the accepted part where no true label is set
     #[arg(long, requires = "cases")]
     accepted_as_truth: bool,
-    #[cfg(feature = "plant")]
     #[command(flatten)]
-    from: plant::FromChoice,
+    pub(super) from: plant::FromChoice,
 }
 
 #[derive(Debug, Args)]
-struct KeepArgs {
+pub(super) struct KeepArgs {
     /// Inspections whose frames are kept
     #[arg(value_enum)]
     keep: Option<KeepChoice>,
@@ -234,24 +229,21 @@ enum KeepChoice {
 }
 
 pub(super) fn run(args: &HistoryArgs, console: &mut Console) -> anyhow::Result<Outcome> {
-    #[cfg(feature = "plant")]
     if let Some(outcome) = plant::overview(&args.command, console)? {
         return Ok(outcome);
     }
     let folder = args.place.folder().advised()?;
     match &args.command {
-        HistoryCommand::List(asked) => list(&open_to_read(&folder, console)?, asked, console),
-        HistoryCommand::Show(asked) => show::run(&open_to_read(&folder, console)?, asked, console),
-        HistoryCommand::Export(asked) => {
-            export::run(&open_to_read(&folder, console)?, asked, console)
-        }
-        HistoryCommand::Remark { number, text } => {
+        Command::List(asked) => list(&open_to_read(&folder, console)?, asked, console),
+        Command::Show(asked) => show::run(&open_to_read(&folder, console)?, asked, console),
+        Command::Export(asked) => export::run(&open_to_read(&folder, console)?, asked, console),
+        Command::Remark { number, text } => {
             open(&folder, console)?
                 .set_remark(*number, text)
                 .advised()?;
             Ok(Outcome::Accepted)
         }
-        HistoryCommand::Label {
+        Command::Label {
             number,
             part,
             library,
@@ -277,9 +269,8 @@ pub(super) fn run(args: &HistoryArgs, console: &mut Console) -> anyhow::Result<O
             }
             Ok(Outcome::Accepted)
         }
-        HistoryCommand::Keep(asked) => keep(&mut open(&folder, console)?, asked, console),
-        #[cfg(feature = "plant")]
-        HistoryCommand::Send(asked) => plant::send(&mut open(&folder, console)?, asked, console),
+        Command::Keep(asked) => keep(&mut open(&folder, console)?, asked, console),
+        Command::Plant(command) => plant::history(command, &mut open(&folder, console)?, console),
     }
 }
 
@@ -349,7 +340,7 @@ fn opened(
 }
 
 /// Formats a time in the local time zone.
-fn here(at: Timestamp) -> String {
+pub(super) fn here(at: Timestamp) -> String {
     let at = at.to_zoned(TimeZone::system());
     at.strftime("%Y-%m-%d %H:%M:%S").to_string()
 }
@@ -368,7 +359,7 @@ fn list(history: &History, asked: &ListArgs, console: &mut Console) -> anyhow::R
 
 impl ListArgs {
     /// Returns the maximum number of rows.
-    fn most(&self) -> usize {
+    pub(super) fn most(&self) -> usize {
         if self.limit == 0 {
             i64::MAX as usize
         } else {
@@ -378,9 +369,9 @@ impl ListArgs {
 }
 
 /// A row, and the name of its cell if there are several cells.
-type CellRow<'a> = (Option<&'a str>, &'a Summary);
+pub(super) type CellRow<'a> = (Option<&'a str>, &'a Summary);
 
-fn show_rows(rows: &[CellRow<'_>], asked: &ListArgs, console: &mut Console) {
+pub(super) fn show_rows(rows: &[CellRow<'_>], asked: &ListArgs, console: &mut Console) {
     if asked.json {
         for (cell, row) in rows {
             console.line(&show::line_of(row, *cell));
@@ -414,7 +405,7 @@ fn show_rows(rows: &[CellRow<'_>], asked: &ListArgs, console: &mut Console) {
 }
 
 /// Notes how many rows are shown, how many match, and how many parts there are.
-fn note_counts(
+pub(super) fn note_counts(
     rows: &[CellRow<'_>],
     [num_matching, num_all]: [usize; 2],
     asked: &ListArgs,

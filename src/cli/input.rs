@@ -10,7 +10,7 @@ use std::{
 use clap::{Args, builder::PossibleValuesParser};
 
 use super::console::{Advised as _, Console, advised_error, with_advice};
-use capture::Image;
+use capture::{Captured, Image};
 use files::{
     self, DepthCamera, FileContent, FileError, FileWarning,
     import::{ImportOptions, LengthUnit, UpAxis},
@@ -20,6 +20,7 @@ use inspection::library::{LibraryFolder, PartName, Side};
 use records::cases::CaseFolder;
 use robot::{Convention, WrittenPose, parse_nozzle, parse_written_pose};
 use stages::scene::{EmptyCell, EmptyCellError, SceneCloud, cloud_of, scene_from_image};
+use station::CameraScenes;
 
 /// Why a command cannot use a file.
 #[derive(Debug, thiserror::Error)]
@@ -217,6 +218,23 @@ pub(super) fn before(
         console.warn(&format_args!("{name}: {other}"), &other);
     }
     scene.empty_cell = cell.cloned();
+}
+
+/// Makes the scene of a capture from a source, and shows its warnings.
+pub(super) fn scene_of(
+    captured: Captured,
+    scenes: &mut CameraScenes,
+    console: &Console,
+) -> SceneCloud {
+    let name = &captured.name;
+    for warning in scenes.warnings(&captured) {
+        console.warn(&format_args!("{name}: {warning}"), warning);
+    }
+    let scene = scenes.next(captured.image);
+    if let Some(other) = scenes.misfit(&scene) {
+        console.warn(&format_args!("{name}: {other}"), &other);
+    }
+    scene
 }
 
 /// The folder to write cases into; refuses one that holds parts.

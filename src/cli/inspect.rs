@@ -1,9 +1,6 @@
 //! `partsight inspect`: recognises the part and estimates its pose.
 
-pub(in crate::cli) mod hung;
 mod program;
-#[cfg(feature = "plant")]
-mod publish;
 mod scan;
 mod session;
 mod spray;
@@ -15,25 +12,24 @@ use std::{
 
 use clap::{ArgGroup, Args};
 
-use self::{hung::FollowedParts, session::InspectSession};
+use self::session::{InspectSession, Opened};
 use super::{
     LibraryChoice, Outcome,
     calibrate::CalibrationChoice,
     console::{Advised as _, Console, advised_error},
     follow::{follow, parse_source},
-    input::{EmptyCellChoice, ImportChoice, Scenes, open_ahead},
+    input::{EmptyCellChoice, ImportChoice, Scenes, open_ahead, scene_of},
     output::{Columns, OutputFormat},
+    plant::{ChosenPublisher, HistoryToChoice, PublishArgs},
     recipe::RecipeChoice,
     record::{HistoryChoice, HistoryRecorder},
     scan::PosesChoice,
     trace::TraceChoice,
 };
-#[cfg(feature = "plant")]
-use super::{database::HistoryToChoice, mqtt::MqttChoice, numbers::NumbersChoice};
 use capture::{FeedItem, SourceSpec};
 use inspection::pipeline::MirrorTally;
-use records::report::{CaptureLine, ReportFolder};
-use stages::scene::scene_from_image;
+use records::report::ReportFolder;
+use station::{CameraScenes, PartFollower, Subject};
 
 /// Recognise the part in captured scenes and say where it is
 #[derive(Debug, Args)]
@@ -113,13 +109,8 @@ pub(super) struct InspectArgs {
     /// Do not write to the history
     #[arg(long, conflicts_with = "history")]
     no_history: bool,
-    #[cfg(feature = "plant")]
     #[command(flatten)]
-    mqtt: MqttChoice,
-    #[cfg(feature = "plant")]
-    #[command(flatten)]
-    numbers: NumbersChoice,
-    #[cfg(feature = "plant")]
+    publish: PublishArgs,
     #[command(flatten)]
     history_to: HistoryToChoice,
 }
@@ -131,8 +122,7 @@ pub(super) fn run(mut args: InspectArgs, console: &mut Console) -> anyhow::Resul
     check_outputs(&args)?;
     args.import.write_behind(&mut args.files);
     let args = &args;
-    #[cfg(feature = "plant")]
-    publish::check(args)?;
+    args.publish.check(args.source.as_ref())?;
     if !args.scan.is_empty() {
         return scan::inspect(args, console);
     }
@@ -169,12 +159,10 @@ fn inspect(
     let recipe = args.recipe.recipe()?;
     let num_parts = args.source.is_none().then_some(args.files.len());
     let trace = args.trace.of_parts(num_parts)?;
-    #[cfg(feature = "plant")]
     let database = args.history_to.chosen(console)?;
     let (place, load) = (args.library).load_placed(&recipe.reference_params(), console)?;
     let robot = args.calibration.frame(console)?;
-    #[cfg(feature = "plant")]
-    let publisher = publish::ChosenPublisher::of(args, &place, &load, robot.as_ref(), console)?;
+    let publisher = ChosenPublisher::new(&args.publish, &place, &load, robot.as_ref(), console)?;
     let (files, frame) = (&args.files, robot.as_ref());
     let (spray, program) = if args.program.is_wanted() {
         (None, args.program.start(files, frame, place, &load)?)
@@ -192,23 +180,23 @@ fn inspect(
     let report = args.report.as_deref().map(ReportFolder::make);
     let report = report.transpose().advised()?;
     let empty_cell = args.empty_cell.open(console)?;
-    let recording = (!args.no_history)
-        .then(|| HistoryRecorder::start(&args.history, &load, &recipe, &trace, console))
-        .flatten();
-    #[cfg(feature = "plant")]
     let publisher = publisher
         .zip(args.source.as_ref())
         .map(|(publisher, source)| publisher.start(source, &load, &trace, console))
         .transpose()?;
-    #[cfg(feature = "plant")]
-    let recording = recording
-        .map(|recording| recording.sent_to(database))
-        .transpose()?;
+    let recording = (!args.no_history)
+        .then(|| HistoryRecorder::start(&args.history, &load, &trace, database, console))
+        .transpose()?
+        .flatten();
     format.head(console);
     let mut one = InspectSession {
         library: load.library,
         recipe,
         trace,
+        scenes: match &args.source {
+            Some(source) if !source.is_followed() => CameraScenes::independent(empty_cell.clone()),
+            _ => CameraScenes::new(empty_cell.clone()),
+        },
         empty_cell,
         robot,
         spray,
@@ -218,8 +206,7 @@ fn inspect(
         recording,
         followed: (args.source.as_ref())
             .filter(|source| source.is_followed())
-            .map(|_| FollowedParts::new()),
-        #[cfg(feature = "plant")]
+            .map(|_| PartFollower::default()),
         publisher,
         mirrored: MirrorTally::default(),
     };
@@ -230,14 +217,13 @@ fn inspect(
     if let Some(suspicion) = one.mirrored.suspicion() {
         console.warn(&suspicion, &suspicion);
     }
-    if let Some(kept) = one.followed.take().and_then(FollowedParts::end) {
+    if let Some(kept) = one.followed.take().and_then(PartFollower::end) {
         one.keep(kept, console);
     }
     // Before the publisher, which may wait for the broker.
     if let Some(recording) = one.recording {
         recording.finish(console);
     }
-    #[cfg(feature = "plant")]
     if let Some(publisher) = one.publisher {
         publisher.end(console);
     }
@@ -274,7 +260,6 @@ fn inspect_source(
     let mut outcome = Outcome::Accepted;
     let mut num_inspected = 0;
     let status = follow(source, console, |item, status, console| {
-        #[cfg(feature = "plant")]
         if let Some(publisher) = &mut inspector.publisher {
             publisher.look(&status.state, console);
             match &item {
@@ -293,15 +278,19 @@ fn inspect_source(
                 if num_inspected == 0 && captured.is_simulated {
                     console.note(&"Simulated: no camera is read.");
                 }
-                for warning in &captured.warnings {
-                    console.warn(&format_args!("{}: {warning}", captured.name), warning);
-                }
                 num_inspected += 1;
-                let line = CaptureLine::of(&text, &captured, status.num_dropped);
-                let path = Path::new(&captured.name);
-                let image = captured.image;
-                inspector.frame(path, console, |one, console| {
-                    one.inspect_scene(path, scene_from_image(image), Some(line), console)
+                let subject = Subject::of_capture(&captured, &text, status.num_dropped);
+                let path = Path::new(&captured.name).to_owned();
+                inspector.frame(&path, console, |one, console| {
+                    let scene = scene_of(captured, &mut one.scenes, console);
+                    one.inspect_scene(
+                        Opened {
+                            path: &path,
+                            scene,
+                            subject,
+                        },
+                        console,
+                    )
                 })?
             }
         };

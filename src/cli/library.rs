@@ -1,20 +1,16 @@
 //! `partsight library`: the enrolled parts.
 
-#[cfg(feature = "plant")]
-mod bundle;
 mod spray_path;
 
 use crate::cli::input::parse_name;
 use clap::{Args, Subcommand};
 
-#[cfg(feature = "plant")]
-pub(super) use self::bundle::{open_store, taken_version};
 use super::{
     LibraryChoice, Outcome,
     console::{Advised as _, Console, Table, advised_error, marked_simulated},
-    read_part,
+    plant, read_part,
 };
-use geometry::units::counted;
+use geometry::units::{Metres, counted};
 use inspection::library::{
     EntryError, LibraryError, LibraryFolder, LibraryListing, LibraryPlace, PartMeta, PartName,
     PartNaming, PartNumbers, SharedTitle, StoredPart,
@@ -68,17 +64,8 @@ enum LibraryCommand {
         name: PartName,
     },
     Path(spray_path::PathArgs),
-    #[cfg(feature = "plant")]
-    Keys(bundle::KeysArgs),
-    #[cfg(feature = "plant")]
-    Publish(bundle::PublishArgs),
-    #[cfg(feature = "plant")]
-    Take(bundle::TakeArgs),
-    /// Show which published version the library was taken from, and what has changed since
-    #[cfg(feature = "plant")]
-    Version,
-    #[cfg(feature = "plant")]
-    Versions(bundle::VersionsArgs),
+    #[command(flatten)]
+    Plant(plant::LibraryCommand),
 }
 
 #[derive(Debug, Args)]
@@ -106,16 +93,7 @@ pub(super) fn run(args: &LibraryArgs, console: &mut Console) -> anyhow::Result<O
         LibraryCommand::Remove { name } => remove(&args.library, name, console),
         LibraryCommand::Restore { name } => restore(&args.library, name, console),
         LibraryCommand::Path(asked) => spray_path::run(&args.library, asked, console),
-        #[cfg(feature = "plant")]
-        LibraryCommand::Keys(asked) => bundle::make(asked, console),
-        #[cfg(feature = "plant")]
-        LibraryCommand::Publish(asked) => bundle::publish(&args.library, asked, console),
-        #[cfg(feature = "plant")]
-        LibraryCommand::Take(asked) => bundle::take(&args.library, asked, console),
-        #[cfg(feature = "plant")]
-        LibraryCommand::Version => bundle::version(&args.library, console),
-        #[cfg(feature = "plant")]
-        LibraryCommand::Versions(asked) => bundle::versions(&args.library, asked, console),
+        LibraryCommand::Plant(command) => plant::library(command, &args.library, console),
     }
 }
 
@@ -131,8 +109,7 @@ fn list(choice: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outcome
         place.describe(),
         counted(parts.len(), "part", "parts")
     ));
-    #[cfg(feature = "plant")]
-    if let Some(version) = taken_version(&place, console) {
+    if let Some(version) = plant::taken_version(&place, console) {
         console.line(&format_args!("  {version}"));
     }
     if parts.is_empty() {
@@ -207,7 +184,7 @@ fn show(choice: &LibraryChoice, name: &PartName, console: &mut Console) -> anyho
             "{} mm, width x height x depth as enrolled",
             reference
                 .size()
-                .map_or_else(|| "-".into(), |sides| in_words(sides.map(|side| side.mm())))
+                .map_or_else(|| "-".into(), |sides| in_words(sides.map(Metres::mm)))
         ),
     );
     row("points", reference.cloud.points.len().to_string());

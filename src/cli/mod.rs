@@ -9,8 +9,6 @@ mod calibrate;
 mod capture;
 mod cell;
 mod console;
-#[cfg(feature = "plant")]
-mod database;
 mod enrol;
 mod evaluate;
 mod first_look;
@@ -20,11 +18,10 @@ mod input;
 mod inspect;
 mod interrupt;
 mod library;
-#[cfg(feature = "plant")]
-mod mqtt;
 mod numbers;
 mod output;
 mod path;
+mod plant;
 mod program;
 mod recipe;
 mod recipes;
@@ -234,7 +231,7 @@ fn window(
     let opened = scene.clone();
     let options = app::WindowOptions {
         library: library.library.clone(),
-        settings: app::shell::settings::users_file(),
+        settings: shell::settings::users_file(),
         // Without such a folder the window keeps the history in memory.
         history: records::history::users_folder().ok(),
         recipes: inspection::pipeline::RecipeFolder::of_user()
@@ -245,6 +242,7 @@ fn window(
             .ok()
             .map(|folder| folder.path().to_owned()),
         scene,
+        taken_version: Some(plant::version_of),
         ..app::WindowOptions::default()
     };
     match (app::run(options), opened) {

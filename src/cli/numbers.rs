@@ -8,10 +8,11 @@ use super::{
 };
 use inspection::library::{GivenNumbers, LibraryLoad, LibraryPlace, PartNumbers};
 use robot::{Convention, spray::off_the_part};
-use serve::{NumberedPart, PoseKind};
+use serve::PoseKind;
+use station::NumberedPart;
 
 /// The numbers of poses and parts.
-#[derive(Debug, Args)]
+#[derive(Debug, Default, PartialEq, Eq, Args)]
 pub(super) struct NumbersChoice {
     /// Convention of the poses; the protocols eki and urscript of serve have their own
     #[arg(long = "as", value_name = "CONVENTION", value_parser = parse_convention)]
@@ -34,7 +35,7 @@ enum PoseArg {
 }
 
 /// A part and its number for robots.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 struct PartNumber {
     name: String,
     number: u32,
@@ -51,12 +52,6 @@ fn parse_number(text: &str) -> Result<PartNumber, String> {
 }
 
 impl NumbersChoice {
-    /// Returns whether any of these options is given.
-    #[cfg(feature = "plant")]
-    pub(super) fn is_given(&self) -> bool {
-        self.convention.is_some() || self.transform.is_some() || !self.number.is_empty()
-    }
-
     /// Returns which pose to give.
     pub(super) fn kind(&self) -> PoseKind {
         match self.transform {

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::Args;
+use clap::{Arg, ArgMatches, Args, Command, FromArgMatches, error::ErrorKind};
 
 use super::{
     Outcome,
@@ -10,15 +10,15 @@ use super::{
     input::{parse_nozzle_pose, parse_robot_pose, within},
     robot_file,
 };
-use geometry::{
-    rigid::RigidTransform,
-    units::{Metres, Radians},
+use geometry::{rigid::RigidTransform, units::any_of};
+use inspection::{
+    library::{PartName, Side, SprayPath},
+    pipeline::parameters::{DisplayUnit, Kind, Parameter, Parameters as _},
 };
-use inspection::library::{PartName, Side, SprayPath};
 use robot::{
     RobotFrame, WrittenPose,
     arm::{Arm, Obstacles, PlacedArm, Rail},
-    program::{ProgramFormat, ProgramSettings, ranges},
+    program::{ProgramGroup, ProgramParams, ProgramSettings, RobotLanguage},
     spray::{CarriedPath, off_the_part},
 };
 use stages::reference::{Coverage, Reference};
@@ -33,23 +33,13 @@ pub(super) struct ProgramOptions {
     /// Pose of the nozzle on the flange, with z in its direction: `kuka X Y Z A B C`, or the 16 numbers of a matrix
     #[arg(long, value_name = "POSE", value_parser = parse_nozzle_pose, allow_hyphen_values = true, requires = "program")]
     nozzle: Option<WrittenPose>,
-    /// Number of the digital output that opens the gun
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(0..=i64::from(ranges::MAX_GUN_OUTPUT)), allow_negative_numbers = true, requires = "program")]
-    gun_output: u16,
-    /// Speed where the path sets none, 1 to 5000 mm/s
-    #[arg(long, value_name = "MM/S", default_value_t = 250.0, value_parser = parse_speed, allow_negative_numbers = true, requires = "program")]
-    speed: f64,
-    /// Distance of the approach points from the path's first and last point, 10 to 1000 mm
-    #[arg(long, value_name = "MM", default_value_t = 100.0, value_parser = parse_approach, allow_negative_numbers = true, requires = "program")]
-    approach: f64,
-    /// Radius within which the robot may cut corners, 0 to 100 mm
-    #[arg(long, value_name = "MM", default_value_t = 5.0, value_parser = |text: &str| within(text, &ranges::BLEND_MM), allow_negative_numbers = true, requires = "program")]
-    blend: f64,
     /// Check that this arm reaches the path: a name, or a TOML file; needs --nozzle
     #[arg(long, value_name = "ARM", requires_all = ["program", "nozzle"])]
     arm: Option<String>,
     #[command(flatten)]
     cell: CellChoice,
+    #[command(flatten)]
+    params: ParamOptions<true>,
     /// Write the file despite doubts about part, path, capture or reach; it names them
     #[arg(long, requires = "robot_file")]
     pub(super) force: bool,
@@ -75,68 +65,121 @@ pub(super) struct CellChoice {
     /// case
     #[arg(long, value_name = "FILE", requires = "arm")]
     obstacles: Option<PathBuf>,
-    /// Minimum distance of gun and arm from part, boxes and floor, 0 to 1000 mm
-    #[arg(long, value_name = "MM", default_value_t = 20.0, value_parser = |text: &str| within(text, &ranges::CLEARANCE_MM), allow_negative_numbers = true, requires = "arm")]
-    clearance: f64,
-    /// Radius of the gun around the line from the flange to the nozzle's mouth, from 1 mm to half the gun's length
-    #[arg(long, value_name = "MM", default_value_t = 50.0, value_parser = |text: &str| within(text, &ranges::GUN_RADIUS_MM), allow_negative_numbers = true, requires = "arm")]
-    gun_radius: f64,
-    /// Maximum tilt of the nozzle about the point that it aims at, 0 to 30 degrees; used only where the arm cannot
-    /// otherwise follow the path
-    #[arg(long, value_name = "DEG", default_value_t = 10.0, value_parser = |text: &str| within(text, &ranges::MAX_TILT_DEG), allow_negative_numbers = true, requires = "arm")]
-    max_tilt: f64,
 }
 
 impl CellChoice {
-    pub(super) fn max_tilt(&self) -> Radians {
-        Radians::from_degrees(self.max_tilt)
-    }
-
     /// Places an arm in this cell.
     pub(super) fn place(
         &self,
         mut arm: Arm,
         flange_from_nozzle: RigidTransform,
+        params: &ProgramParams,
     ) -> anyhow::Result<PlacedArm> {
         if let Some(rail) = &self.rail {
             arm.rail = Some(rail.parse::<Rail>().advised()?);
         }
-        let read = self.obstacles.as_deref().map(Obstacles::read);
-        let mut obstacles = read.transpose().advised()?.unwrap_or_default();
-        obstacles.clearance = self.clearance / 1000.0;
+        let obstacles = self.obstacles.as_deref().map(Obstacles::read);
+        let obstacles = obstacles.transpose().advised()?.unwrap_or_default();
         let base = self.base.as_ref();
-        Ok(PlacedArm {
-            arm,
-            robot_from_base: base.map_or_else(RigidTransform::identity, |base| base.pose),
-            flange_from_nozzle,
-            gun_radius: self.gun_radius / 1000.0,
-            obstacles,
-        })
+        let robot_from_base = base.map_or_else(RigidTransform::identity, |base| base.pose);
+        Ok(params.place(arm, robot_from_base, flange_from_nozzle, obstacles))
     }
 }
 
-pub(super) fn parse_format(name: &str) -> Result<ProgramFormat, String> {
-    let mut all = ProgramFormat::ALL.into_iter();
-    all.find(|format| format.name() == name).ok_or_else(|| {
-        let names = ProgramFormat::ALL.map(ProgramFormat::name);
+/// The numbers of a program as options, each made from its row of the table: all of them if a program is written, else those
+/// that matter to the check of an arm.
+#[derive(Debug)]
+pub(super) struct ParamOptions<const IS_WRITTEN: bool>(pub(super) ProgramParams);
+
+impl<const IS_WRITTEN: bool> Args for ParamOptions<IS_WRITTEN> {
+    fn augment_args(command: Command) -> Command {
+        let rows = ProgramParams::ALL.iter();
+        let rows = rows.filter(|row| IS_WRITTEN || row.group != ProgramGroup::Program);
+        command.args(rows.map(|row| match row.group {
+            _ if !IS_WRITTEN => argument(row),
+            ProgramGroup::Program | ProgramGroup::Moves => argument(row).requires("program"),
+            ProgramGroup::Arm => argument(row).requires("arm"),
+        }))
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}
+
+impl<const IS_WRITTEN: bool> FromArgMatches for ParamOptions<IS_WRITTEN> {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        let mut options = Self(ProgramParams::default());
+        options.update_from_arg_matches(matches)?;
+        Ok(options)
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        for row in ProgramParams::ALL {
+            // A command that writes no program has fewer options.
+            if let Ok(Some(value)) = matches.try_get_one::<f64>(row.key) {
+                row.set(&mut self.0, *value)
+                    .map_err(|error| clap::Error::raw(ErrorKind::ValueValidation, error))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Makes the option of a number.
+fn argument(row: &'static Parameter<ProgramParams>) -> Arg {
+    let Kind::Number(number) = &row.kind else {
+        unreachable!("{} is a number", row.key);
+    };
+    let [least, most] = number.range;
+    let help = format!(
+        "{} ({}) [default: {}]",
+        row.help,
+        row.range_text(),
+        row.value(&ProgramParams::default())
+    );
+    // clap keeps names for as long as the program runs.
+    let name: &'static str = row.key.replace('_', "-").leak();
+    Arg::new(row.key)
+        .long(name)
+        .help(help)
+        .value_name(match number.unit {
+            DisplayUnit::Millimetres => "MM",
+            DisplayUnit::MillimetresPerSecond => "MM/S",
+            DisplayUnit::Degrees => "DEG",
+            _ => "N",
+        })
+        .allow_negative_numbers(true)
+        .value_parser(move |text: &str| {
+            let value = within(text, &(least..=most))?;
+            if number.decimals == 0 && value.fract() != 0.0 {
+                return Err(format!("expected a whole number, {least} to {most}"));
+            }
+            Ok(value)
+        })
+}
+
+/// Parses the name of a language.
+pub(super) fn parse_language(name: &str) -> Result<&'static RobotLanguage, String> {
+    RobotLanguage::by_name(name).ok_or_else(|| {
+        let names = RobotLanguage::ALL.map(|language| language.name);
         format!("expected one of {}", names.join(", "))
     })
 }
 
-/// Parses `--speed`, mm/s. Most controllers' own limits are lower.
-pub(super) fn parse_speed(text: &str) -> Result<f64, String> {
-    within(text, &ranges::SPEED_MM_S)
-}
-
-/// Parses `--approach`, mm.
-pub(super) fn parse_approach(text: &str) -> Result<f64, String> {
-    within(text, &ranges::APPROACH_MM)
+/// Describes the option that chooses the language.
+pub(super) fn language_help() -> String {
+    let names = RobotLanguage::ALL.map(|language| language.name);
+    format!(
+        "Language of the program, if the file's ending does not give it: {}",
+        any_of(&names)
+    )
 }
 
 /// A program to write.
 pub(super) struct ProgramFile {
     file: PathBuf,
-    format: ProgramFormat,
+    language: &'static RobotLanguage,
     settings: ProgramSettings,
     arm: Option<PlacedArm>,
     is_forced: bool,
@@ -163,43 +206,38 @@ impl ProgramOptions {
     pub(super) fn open(
         &self,
         file: &Path,
-        format: Option<ProgramFormat>,
+        language: Option<&'static RobotLanguage>,
     ) -> anyhow::Result<ProgramFile> {
-        let format = match (format, ProgramFormat::of(file)) {
-            (Some(format), Ok(other)) if format != other => {
+        let language = match (language, RobotLanguage::from_file(file)) {
+            (Some(language), Ok(other)) if language != other => {
                 return Err(advised_error(
                     format!(
                         "{} was requested as {}, but its ending is that of {}",
                         file.display(),
-                        format.title(),
-                        other.title()
+                        language.title,
+                        other.title
                     ),
                     format!(
                         "End the file's name in .{}, or choose the language {}",
-                        format.ending(),
-                        other.name()
+                        language.ending, other.name
                     ),
                 ));
             }
-            (Some(format), _) => format,
+            (Some(language), _) => language,
             (None, of_file) => of_file.advised()?,
         };
         let nozzle = self.nozzle.as_ref().map(|written| written.pose);
         let arm = self.arm.as_deref().map(Arm::named).transpose().advised()?;
         let arm = arm.zip(nozzle);
-        let arm = arm.map(|(arm, flange_from_nozzle)| self.cell.place(arm, flange_from_nozzle));
+        let arm = arm.map(|(arm, nozzle)| self.cell.place(arm, nozzle, &self.params.0));
         let arm = arm.transpose()?;
         Ok(ProgramFile {
             file: file.to_owned(),
-            format,
+            language,
             settings: ProgramSettings {
                 tool: self.tool.clone(),
                 flange_from_nozzle: nozzle,
-                gun_output: self.gun_output,
-                speed: self.speed / 1000.0,
-                approach: Metres::from_mm(self.approach),
-                max_tilt: self.cell.max_tilt(),
-                blend: Metres::from_mm(self.blend),
+                params: self.params.0,
             },
             arm,
             is_forced: self.force,
@@ -219,7 +257,7 @@ impl ProgramFile {
         let file = RobotFile {
             file: &self.file,
             content: RobotFileContent::Program {
-                format: self.format,
+                language: self.language,
                 settings: &self.settings,
                 arm: self.arm.as_ref(),
             },

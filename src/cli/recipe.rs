@@ -6,7 +6,8 @@ use clap::{Args, ValueEnum};
 
 use super::console::{Advised as _, Console, advised_error, with_advice};
 use inspection::pipeline::{
-    BUILT_IN, NamedRecipe, PoseChoice, Recipe, RecipeFile, RecipeFolder, RecipeLabel, open_recipe,
+    BUILT_IN, NamedRecipe, PoseChoice, Recipe, RecipeFile, RecipeFolder, RecipeLabel,
+    built_in_recipe, open_recipe,
     parameters::{Parameters, Setting},
 };
 use stages::{pose::PoseMethod, rank::Matcher};
@@ -130,11 +131,12 @@ impl RecipeSource {
 pub(super) fn open_named(given: Option<&str>) -> anyhow::Result<RecipeFile> {
     let file = open_recipe(RecipeFolder::of_user(), given).advised()?;
     // Its results would pass for those of the program's own recipe.
-    if file.name.as_str() == BUILT_IN && file.recipe != Recipe::default() {
+    if built_in_recipe(file.name.as_str()).is_some_and(|own| own != file.recipe) {
         return Err(advised_error(
             format!(
-                "{}: {BUILT_IN} is the name of the program's own recipe, which has other parameters",
-                given.unwrap_or_default()
+                "{}: {} is the name of the program's own recipe, which has other parameters",
+                given.unwrap_or_default(),
+                file.name
             ),
             "Give the recipe another name in the file, for example name = \"glossy\"",
         ));

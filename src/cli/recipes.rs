@@ -174,7 +174,7 @@ fn list(json: bool, console: &mut Console) -> anyhow::Result<()> {
     for problem in &list.problems {
         console.warn(problem, problem);
     }
-    list.recipes.insert(0, RecipeFile::built_in());
+    list.recipes.splice(0..0, RecipeFile::all_built_in());
     let mut table = Table::new(&["NAME", "IDENTITY", "CHANGED", "DEFAULT", "NOTES"]);
     for file in &list.recipes {
         let line = ListLine {

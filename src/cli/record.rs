@@ -1,29 +1,19 @@
 //! Recording of inspections in the history, after every verdict.
 
-use std::{collections::BTreeMap, path::PathBuf, sync::Arc};
+use std::{collections::BTreeMap, path::PathBuf};
 
 use clap::Args;
 
-use super::console::Console;
-#[cfg(feature = "plant")]
 use super::{
-    console::Advised as _,
-    database::{ChosenDatabase, end_sender, show_news},
+    console::Console,
+    plant::{ChosenDatabase, HistorySender},
 };
-use inspection::{
-    library::LibraryLoad,
-    pipeline::{Inspection, NamedRecipe},
-};
-#[cfg(feature = "plant")]
-use plant::database::HistorySender;
+use inspection::library::LibraryLoad;
 use records::{
-    history::{
-        HistoryBuffer, HistoryError, HistoryEvent, HungId, InspectionContext, NewEntry, SceneTitle,
-        Traceability, Writer, users_folder,
-    },
+    history::{HistoryError, HistoryEvent, HungId, NewEntry, Traceability, users_folder},
     report::segmentation_picture,
 };
-use stages::scene::SceneCloud;
+use station::{Inspected, LibraryNames, Losses, Recorder};
 
 /// Where the history is.
 #[derive(Clone, Debug, Args)]
@@ -40,147 +30,107 @@ impl HistoryChoice {
     }
 }
 
-/// Writes inspections to the history on a separate thread. All failures are only warnings, since the verdict counts.
+/// Writes inspections to the history. All failures are only warnings, since the verdict counts.
 pub(super) struct HistoryRecorder {
-    keeper: Arc<HistoryBuffer>,
-    writer: Writer,
+    recorder: Recorder,
     library: String,
     titles: BTreeMap<String, String>,
-    recipe: NamedRecipe,
     trace: Traceability,
-    num: u64,
-    #[cfg(feature = "plant")]
+    /// Sends the history to a database.
     sender: Option<HistorySender>,
 }
 
 impl HistoryRecorder {
-    /// Starts recording; returns `None` after a warning if that fails.
+    /// Starts recording, and sending the history to a database if one is given; returns `None` after a warning if there is
+    /// no history.
     pub(super) fn start(
         choice: &HistoryChoice,
         library: &LibraryLoad,
-        recipe: &NamedRecipe,
         trace: &Traceability,
+        database: Option<ChosenDatabase>,
         console: &Console,
-    ) -> Option<Self> {
+    ) -> anyhow::Result<Option<Self>> {
         let folder = match choice.folder() {
             Ok(folder) => folder,
             Err(error) => {
                 console.warn(&error, &error);
-                return None;
+                return Ok(None);
             }
         };
-        let keeper = Arc::new(HistoryBuffer::new(Some(folder)));
-        let Ok(writer) = Writer::start(Arc::clone(&keeper), || ()) else {
+        let Ok(recorder) = Recorder::start(folder.clone()) else {
             console.note(
                 &"warning: the history is not written: the system cannot start a thread for it",
             );
-            return None;
+            return Ok(None);
         };
-        Some(Self {
-            keeper,
-            writer,
+        let sender = database.map(|database| HistorySender::start(folder, database));
+        Ok(Some(Self {
+            recorder,
             library: library.identity(),
             titles: titles_of(library),
-            recipe: recipe.clone(),
             trace: trace.clone(),
-            num: 0,
-            #[cfg(feature = "plant")]
-            sender: None,
-        })
-    }
-
-    /// Also sends the history to this database from now on, on a separate thread.
-    #[cfg(feature = "plant")]
-    pub(super) fn sent_to(mut self, database: Option<ChosenDatabase>) -> anyhow::Result<Self> {
-        if let Some((folder, database)) = self.keeper.folder().zip(database) {
-            let ChosenDatabase { access, cell } = database;
-            let sender = HistorySender::start(folder.to_owned(), access, cell);
-            self.sender = Some(sender.advised()?);
-        }
-        Ok(self)
+            sender: sender.transpose()?,
+        }))
     }
 
     /// Inspections are by this library from now on.
-    #[cfg(feature = "plant")]
     pub(super) fn use_library(&mut self, library: &LibraryLoad) {
         self.library = library.identity();
         self.titles = titles_of(library);
     }
 
-    /// Creates the entry of an inspection; `line` is what `--json` writes.
-    pub(super) fn entry(
-        &self,
-        taken: SceneOrigin<'_>,
-        scene: &Arc<SceneCloud>,
-        inspection: &Inspection,
-        line: &str,
-        hung: HungId,
-    ) -> NewEntry {
+    /// Creates the entry of an inspection.
+    pub(super) fn entry(&self, inspected: &Inspected<'_>, hung: HungId) -> NewEntry {
         let title_of = |name: &str| {
             let title = self.titles.get(name);
             title.map_or_else(|| name.to_owned(), Clone::clone)
         };
-        let picture = segmentation_picture(scene, &inspection.segmentation);
-        let about = InspectionContext {
-            at: geometry::clock::now(),
-            scene: SceneTitle::of_frame(taken.scene, taken.is_simulated),
-            source: taken.source.to_owned(),
-            is_simulated: taken.is_simulated,
+        let names = LibraryNames {
+            identity: &self.library,
             title_of: &title_of,
-            line: line.to_owned(),
-            library: self.library.clone(),
-            origin: None,
-            picture: picture.as_ref(),
-            hung,
         };
-        let mut entry = NewEntry::of(about, scene, inspection, &self.recipe);
-        entry.record.summary.trace = self.trace.clone();
-        entry
+        let segmentation = &inspected.inspection.segmentation;
+        let picture = segmentation_picture(inspected.scene, segmentation);
+        inspected.entry(hung, self.trace.clone(), names, picture.as_ref())
     }
 
     /// Adds an inspection.
     pub(super) fn add(&mut self, entry: NewEntry, console: &Console) {
-        self.num += 1;
-        self.writer.add(self.num, entry);
+        self.recorder.add(entry);
         self.tell(console);
     }
 
     /// Shows the new events of the history.
     pub(super) fn tell(&self, console: &Console) {
-        for news in self.keeper.take_news() {
+        for news in self.recorder.take_news() {
             tell_of(news, console);
         }
-        #[cfg(feature = "plant")]
         if let Some(sender) = &self.sender {
-            show_news(sender, console, tell_of);
+            sender.show_news(console, tell_of);
         }
     }
 
     /// Waits until everything is written, and reports what could not be.
     pub(super) fn finish(self, console: &Console) {
-        self.writer.finish();
+        self.recorder.finish();
         self.tell(console);
         // Everything to be sent has been written by now.
-        #[cfg(feature = "plant")]
         if let Some(sender) = self.sender {
-            end_sender(sender, console, tell_of);
+            sender.end(console, tell_of);
         }
-        for warning in losses(&self.keeper, self.writer.take_dropped()) {
+        for warning in warnings_of(self.recorder.losses()) {
             console.note(&warning);
         }
     }
 }
 
 /// Returns a warning for each reason why inspections or frames are not in the history.
-fn losses(keeper: &HistoryBuffer, [num_bare, num_slow]: [usize; 2]) -> Vec<String> {
+fn warnings_of(losses: Losses) -> Vec<String> {
     let losses = [
+        (losses.num_unwritten, "not in the history"),
+        (losses.num_slow, "not in the history: the disk is too slow"),
         (
-            keeper.num_waiting() + keeper.num_lost(),
-            "not in the history",
-        ),
-        (num_slow, "not in the history: the disk is too slow"),
-        (
-            num_bare,
+            losses.num_bare,
             "in the history without frames: the disk is too slow",
         ),
     ];
@@ -259,22 +209,15 @@ fn writable_again(num_saved: usize, num_lost: usize) -> Vec<String> {
     lines
 }
 
-/// Origin of a scene.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct SceneOrigin<'a> {
-    pub(super) scene: &'a str,
-    /// The source in the form that opens it again, or a file.
-    pub(super) source: &'a str,
-    /// True if the scene does not come from a camera.
-    pub(super) is_simulated: bool,
-}
-
 #[cfg(test)]
 mod tests {
     use std::{fs, time::Instant};
 
     use super::*;
-    use records::{fixtures::history_entry, history::StoredVerdict};
+    use records::{
+        fixtures::history_entry,
+        history::{HistoryBuffer, StoredVerdict},
+    };
 
     #[test]
     fn inspections_that_were_dropped_because_too_many_waited_are_counted() {
@@ -288,7 +231,8 @@ mod tests {
             keeper.add(ticket, entry, Instant::now());
         }
         let expected = "warning: 2100 inspections are not in the history";
-        assert_eq!(losses(&keeper, [0; 2]), [expected]);
+        let losses = |dropped| warnings_of(Losses::new(&keeper, dropped));
+        assert_eq!(losses([0; 2]), [expected]);
 
         keeper.take_news();
         fs::remove_file(&place).expect("removed");
@@ -301,9 +245,9 @@ mod tests {
         assert!(told[0].ends_with("2000 waiting inspections were saved"));
         let expected = "warning: 100 inspections are not in the history: too many waited";
         assert_eq!(told[1..], [expected]);
-        assert_eq!(losses(&keeper, [0; 2]), [""; 0]);
+        assert_eq!(losses([0; 2]), [""; 0]);
         assert_eq!(writable_again(1, 0).len(), 1);
         let slow = "warning: 1 inspection is not in the history: the disk is too slow";
-        assert_eq!(losses(&keeper, [0, 1]), [slow]);
+        assert_eq!(losses([0, 1]), [slow]);
     }
 }

@@ -5,13 +5,17 @@ use std::{
     sync::Arc,
 };
 
-use clap::{Args, ValueEnum};
+use clap::{
+    Args, ValueEnum,
+    builder::{PossibleValue, PossibleValuesParser},
+};
 
 use super::{
     LibraryChoice, Outcome,
     calibrate::CalibrationChoice,
     console::{Advised as _, Console, Table},
     input::{EmptyCellChoice, OpenedScene, Scenes, before, open_ahead, parse_convention, warn_of},
+    plant,
     recipe::RecipeChoice,
     trace::TraceChoice,
 };
@@ -19,8 +23,6 @@ use inspection::{
     library::{LibraryLoad, PartMeta},
     pipeline::{self, Inspection, NamedRecipe, Unwatched},
 };
-#[cfg(feature = "plant")]
-use plant::mqtt::messages_schema;
 use records::{
     history::Traceability,
     report::{
@@ -78,8 +80,8 @@ pub(super) struct ReportArgs {
     #[arg(long)]
     simulated: bool,
     /// Print a JSON schema, and nothing else; default: that of a report
-    #[arg(long, value_enum, value_name = "NAME", num_args = 0..=1, require_equals = true, default_missing_value = "pose-report", exclusive = true)]
-    schema: Option<Schema>,
+    #[arg(long, value_name = "NAME", num_args = 0..=1, require_equals = true, default_missing_value = "pose-report", exclusive = true, value_parser = schema_names())]
+    schema: Option<String>,
     /// Print what each convention's numbers mean, and nothing else
     #[arg(long, exclusive = true)]
     conventions: bool,
@@ -95,28 +97,35 @@ enum Format {
     Pdf,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Schema {
-    /// A pose report
-    PoseReport,
-    /// The messages of serve --mqtt
-    #[cfg(feature = "plant")]
-    Mqtt,
+/// A JSON schema that can be printed.
+pub(super) struct Schema {
+    pub(super) name: &'static str,
+    pub(super) help: &'static str,
+    pub(super) json: fn() -> String,
 }
 
-impl Schema {
-    fn json(self) -> String {
-        match self {
-            Self::PoseReport => PoseReport::json_schema(),
-            #[cfg(feature = "plant")]
-            Self::Mqtt => messages_schema(),
-        }
-    }
+const POSE_REPORT: Schema = Schema {
+    name: "pose-report",
+    help: "A pose report",
+    json: PoseReport::json_schema,
+};
+
+fn schemas() -> impl Iterator<Item = &'static Schema> {
+    [&POSE_REPORT].into_iter().chain(plant::SCHEMAS)
+}
+
+fn schema_names() -> PossibleValuesParser {
+    schemas()
+        .map(|schema| PossibleValue::new(schema.name).help(schema.help))
+        .into()
 }
 
 pub(super) fn run(args: &ReportArgs, console: &mut Console) -> anyhow::Result<Outcome> {
-    if let Some(schema) = args.schema {
-        console.line(&schema.json().trim_end());
+    let mut known = schemas();
+    if let Some(schema) =
+        (args.schema.as_ref()).and_then(|name| known.find(|schema| schema.name == name))
+    {
+        console.line(&(schema.json)().trim_end());
         return Ok(Outcome::Accepted);
     }
     if args.conventions {

@@ -24,7 +24,7 @@ pub(super) fn write(
     };
     let title = match file.content {
         RobotFileContent::Poses { convention, .. } => convention.title(),
-        RobotFileContent::Program { format, .. } => format.title(),
+        RobotFileContent::Program { language, .. } => language.title,
     };
     console.note(&format_args!(
         "{}: {} as {title}; {}",

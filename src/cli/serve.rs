@@ -1,10 +1,6 @@
 //! `partsight serve`: lets robots and PLCs request an inspection over TCP.
 
-#[cfg(feature = "plant")]
-mod http;
 mod session;
-#[cfg(feature = "plant")]
-mod take;
 
 use std::{
     net::{Ipv4Addr, SocketAddr, SocketAddrV4},
@@ -18,8 +14,6 @@ use std::{
 use clap::Args;
 
 use self::session::ServeSession;
-#[cfg(feature = "plant")]
-use self::take::LibraryTaker;
 use super::{
     LibraryChoice, Outcome,
     calibrate::CalibrationChoice,
@@ -28,18 +22,15 @@ use super::{
     interrupt::Interrupt,
     numbers::NumbersChoice,
     output::{Columns, OutputFormat},
+    plant::{ChosenServices, HistoryToChoice, HttpArgs, MqttChoice, TakeArgs, taken_version},
     recipe::RecipeChoice,
     record::{HistoryChoice, HistoryRecorder},
     trace::TraceChoice,
 };
-#[cfg(feature = "plant")]
-use super::{database::HistoryToChoice, mqtt::MqttChoice};
 use capture::{OpenNiSpec, Pace, RealsenseSpec, RecordingSpec, SourceSpec};
 use inspection::{library::LibraryLoad, pipeline::MirrorTally};
-use serve::{
-    Camera, ClientEvent, ListenAddress, Listener, NumberedPart, PartFinder, Protocol, Server,
-    ServerSettings,
-};
+use serve::{ClientEvent, ListenAddress, Listener, Protocol, Server, ServerSettings};
+use station::{Camera, CameraScenes, NumberedPart, PartFinder};
 
 /// Answer robots and PLCs that ask over TCP for an inspection and a pose
 #[derive(Debug, Args)]
@@ -87,18 +78,12 @@ pub(super) struct ServeArgs {
     /// Time without a request after which a connection is closed, seconds (1 to 86400)
     #[arg(long, value_name = "SECONDS", default_value_t = 600.0, value_parser = |text: &str| within(text, &(1.0..=86_400.0)))]
     idle_timeout: f64,
-    #[cfg(feature = "plant")]
     #[command(flatten)]
-    http: http::HttpArgs,
-    /// Needs a build with the feature plant
-    #[cfg(not(feature = "plant"))]
-    #[arg(long, value_name = "[IP:]PORT", hide = true)]
-    http: Option<String>,
+    http: HttpArgs,
     #[command(flatten)]
     library: LibraryChoice,
-    #[cfg(feature = "plant")]
     #[command(flatten)]
-    take: take::TakeArgs,
+    take: TakeArgs,
     #[command(flatten)]
     recipe: RecipeChoice,
     #[command(flatten)]
@@ -115,10 +100,8 @@ pub(super) struct ServeArgs {
     /// Do not write to the history
     #[arg(long, conflicts_with = "history")]
     no_history: bool,
-    #[cfg(feature = "plant")]
     #[command(flatten)]
     history_to: HistoryToChoice,
-    #[cfg(feature = "plant")]
     #[command(flatten)]
     mqtt: MqttChoice,
 }
@@ -132,11 +115,7 @@ const USUAL: ListenAddress = ListenAddress {
 impl ServeArgs {
     /// The addresses of the line and frame protocols.
     fn addresses(&self) -> Vec<ListenAddress> {
-        #[cfg(feature = "plant")]
-        if self.http.is_wanted() {
-            return self.listen.clone();
-        }
-        if self.listen.is_empty() {
+        if self.listen.is_empty() && !self.http.is_wanted() {
             vec![USUAL]
         } else {
             self.listen.clone()
@@ -178,26 +157,13 @@ fn parse_running_source(text: &str) -> Result<SourceSpec, String> {
 const MAX_EVENTS: usize = 64;
 
 pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Outcome> {
-    #[cfg(not(feature = "plant"))]
-    if args.http.is_some() {
-        return Err(advised_error(
-            "this build has no HTTP",
-            "Build it with the feature plant: cargo build --release --features plant",
-        ));
-    }
     let listeners = args.addresses().into_iter();
     let listeners = listeners.map(|at| Listener::new(at, args.numbers.convention));
     let listeners = listeners.collect::<Result<Vec<_>, _>>().advised()?;
-    #[cfg(feature = "plant")]
-    let http = args.http.settings(args.numbers.convention)?;
+    let services = ChosenServices::new(&args.numbers, &args.http, &args.mqtt, &args.take)?;
     let recipe = args.recipe.recipe()?;
     let trace = args.trace.of_parts(None)?;
-    #[cfg(feature = "plant")]
-    let mqtt = args.mqtt.access(args.numbers.convention)?;
-    #[cfg(feature = "plant")]
     let database = args.history_to.chosen(console)?;
-    #[cfg(feature = "plant")]
-    let store = args.take.chosen()?;
     let (place, load) = (args.library).load_placed(&recipe.reference_params(), console)?;
     let Some(robot) = args.calibration.frame(console)? else {
         return Err(advised_error(
@@ -211,30 +177,15 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
     let interrupt = Interrupt::listen()?;
     let (mut server, events) = start(args, &listeners, &camera)?;
     let recording = (!args.no_history)
-        .then(|| HistoryRecorder::start(&args.history, &load, &recipe, &trace, console))
+        .then(|| HistoryRecorder::start(&args.history, &load, &trace, database, console))
+        .transpose()?
         .flatten();
-    #[cfg(feature = "plant")]
-    let recording = recording
-        .map(|recording| recording.sent_to(database))
-        .transpose()?;
     announce(&server, &listeners, &args.source, &parts, &load, console);
-    #[cfg(feature = "plant")]
-    if let Some(version) = super::library::taken_version(&place, console) {
+    if let Some(version) = taken_version(&place, console) {
         console.note(&format_args!("Library: {version}"));
     }
-    #[cfg(feature = "plant")]
-    let mqtt = mqtt
-        .map(|mqtt| mqtt.start(server.boot(), args.numbers.kind(), &load, &trace, console))
-        .transpose()?;
-    #[cfg(feature = "plant")]
-    let taker = store
-        .map(|store| {
-            let params = recipe.reference_params();
-            LibraryTaker::start(store, &place, params, &args.numbers, server.handle())
-        })
-        .transpose()?;
-    #[cfg(feature = "plant")]
-    let _http = http::start(http, server.handle(), console)?;
+    let params = recipe.reference_params();
+    let services = services.start(&server, &place, &load, params, &trace, console)?;
     let format = if args.json {
         OutputFormat::Json
     } else {
@@ -253,8 +204,7 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
             kind: args.numbers.kind(),
         },
         trace,
-        empty_cell,
-        known_view: None,
+        scenes: CameraScenes::new(empty_cell),
         source: args.source.to_string(),
         frame_timeout: Duration::from_secs_f64(args.frame_timeout),
         format,
@@ -262,16 +212,12 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
         mirrored: MirrorTally::default(),
         console,
         last: None,
-        told: Vec::new(),
         trouble: None,
         has_run: false,
         has_told_closed: false,
         failure: None,
         num_inspected: 0,
-        #[cfg(feature = "plant")]
-        mqtt,
-        #[cfg(feature = "plant")]
-        taker,
+        services,
     };
     server.run(&mut session);
     session.finish()
@@ -358,12 +304,9 @@ mod tests {
         };
         assert_eq!(addresses(&[]), ["ascii=127.0.0.1:30100"]);
         assert_eq!(addresses(&["--listen", "eki=5"]), ["eki=127.0.0.1:5"]);
-        #[cfg(feature = "plant")]
-        {
-            assert!(addresses(&["--http", "0"]).is_empty());
-            let both = addresses(&["--http", "0", "--listen", "ascii=7"]);
-            assert_eq!(both, ["ascii=127.0.0.1:7"]);
-        }
+        assert!(addresses(&["--http", "0"]).is_empty());
+        let both = addresses(&["--http", "0", "--listen", "ascii=7"]);
+        assert_eq!(both, ["ascii=127.0.0.1:7"]);
     }
 
     #[test]

@@ -151,7 +151,7 @@ fn protocols_are_timed_beside_bare_exchanges_and_direct_calls() {
     let text = fs::read_to_string(place.path("s.json")).expect("written");
     let file: Value = serde_json::from_str(&text).expect("JSON");
     let mut protocols = vec!["ascii", "binary", "eki", "urscript"];
-    if cfg!(feature = "plant") {
+    if place.has_plant() {
         protocols.push("http");
     }
     let rows = |list: &str| {

@@ -519,7 +519,7 @@ fn entries() -> impl Iterator<Item = NewEntry> {
     let inspection = pipeline::run(&scene, &Library::default(), &recipe, &Unwatched).expect("ran");
     (1..).map(move |number| {
         let about = InspectionContext {
-            at: Timestamp::now(),
+            at: geometry::clock::now(),
             scene: SceneTitle::Named(format!("frame {number}")),
             source: "simulated".into(),
             is_simulated: true,

@@ -47,7 +47,7 @@ const ALL: Retention = Retention {
 /// An inspection with unique contents.
 fn entry(number: i64) -> NewEntry {
     let mut entry = history_entry(number, StoredVerdict::Unknown, "unknown");
-    entry.record.summary.at = Timestamp::now();
+    entry.record.summary.at = geometry::clock::now();
     entry.record.detail.line = line_of(number);
     entry.picture = None;
     entry

@@ -454,7 +454,8 @@ fn numbers_of_a_program_are_refused_with_their_range_or_unit() {
         ("--blend", "-5", "expected a number from 0 to 100"),
         ("--speed", "-5", "expected a number from 1 to 5000"),
         ("--approach", "5", "expected a number from 10 to 1000"),
-        ("--gun-output", "-5", "0..=9999"),
+        ("--gun-output", "-5", "expected a number from 0 to 9999"),
+        ("--gun-output", "1.5", "expected a whole number, 0 to 9999"),
         ("--nozzle", "kuka 0 0 0.25 0 45 0", "the unit of kuka"),
         (
             "--nozzle",

@@ -443,7 +443,7 @@ fn what_the_service_cannot_start_with_is_said_with_what_to_do() {
         ran.err
     };
     assert!(err(2, &[]).contains("--as"));
-    if cfg!(not(feature = "plant")) {
+    if !place.has_plant() {
         assert!(err(2, &["--http", "8080"]).contains("--features plant"));
     }
     assert!(err(2, &["--as", "kuka"]).contains("no calibration"));

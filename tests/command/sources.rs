@@ -274,7 +274,11 @@ fn a_cameras_files_are_listed_only_if_its_library_is_there() {
 
     // With the library a file can be played, even if no camera is plugged in.
     let library = place.path("stub.so");
-    if let Err(why) = compile_c("tests/realsense/camera.c", &library, &SHARED) {
+    if let Err(why) = compile_c(
+        "crates/inspection/tests/cameras/realsense/camera.c",
+        &library,
+        &SHARED,
+    ) {
         let is_required = std::env::var("PARTSIGHT_REQUIRE_COMPILER").is_ok_and(|is| is == "1");
         assert!(!is_required, "PARTSIGHT_REQUIRE_COMPILER=1, and {why}");
         return println!("skipped: {why}");

@@ -57,6 +57,12 @@ impl Workplace {
         self.command(args).output().expect("starts").into()
     }
 
+    /// True if the program was built with the interfaces of a plant.
+    pub(crate) fn has_plant(&self) -> bool {
+        let help = self.accepted(&["serve", "--help"]);
+        help.out.contains("--http-token-file")
+    }
+
     /// Runs a command that must end with this code.
     pub(crate) fn coded(&self, code: i32, args: &[&str]) -> Ran {
         let ran = self.run(args);

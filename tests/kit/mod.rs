@@ -1,6 +1,4 @@
-//! Test fixtures: scenes, frames, clouds, libraries, inspections of a history.
-//!
-//! Each crate has those of what it holds.
+//! Test fixtures of all crates, for the tests of the program: scenes, frames, clouds, libraries, entries of a history.
 
 #![allow(
     unused_imports,

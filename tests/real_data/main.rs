@@ -3,6 +3,8 @@
 //! The data are in `../shared/data` beside the crate, or in the folder that `PARTSIGHT_DATA` names. Without them the
 //! tests report it and pass; with `PARTSIGHT_REQUIRE_DATA=1` they fail.
 
+#![allow(clippy::disallowed_methods, reason = "tests change files")]
+
 mod booth;
 mod files;
 mod hand_eye;

@@ -6,6 +6,7 @@ results-accepted = Accepted
 results-not-accepted = Not accepted
 results-unknown = Unknown
 results-no-part = No part
+results-recipe-as-in-the-paper = As in the paper
 results-recipe-modified = { $name } (modified)
 results-title-not-recognised = Not recognised · nearest { $part }
 results-title-refused = { $part } · not accepted

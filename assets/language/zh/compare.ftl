@@ -134,6 +134,7 @@ compare-change = { $change }：{ $is }（原为{ $was }）· { $before } → { $
 compare-recipe = 配方
 compare-recipe-named = 配方 { $recipe }
 compare-built-in-hint = 所有参数均为默认值
+compare-as-in-the-paper-hint = 论文的匹配方法，位姿用 ICP-GA
 compare-is-default = 默认
 compare-duplicate = 创建副本
 compare-rename = 重命名…

@@ -23,12 +23,12 @@ pub use self::{
     live_cost::{LiveSample, live_stretches},
 };
 use super::{
-    shell::{action::Action, context::ShellContext, workspace::Workspace},
-    ui::viewport::ViewError,
     window::{Window, WindowOptions},
     workspaces::inspect::WorkCounts,
 };
 use bench::ProcessorWatch;
+use shell::{action::Action, context::ShellContext, workspace::Workspace};
+use ui::viewport::ViewError;
 
 /// Size of the measured windows, logical pixels.
 const SIZE: [u32; 2] = [1440, 900];

@@ -9,13 +9,13 @@ use std::{
 
 use eframe::NativeOptions;
 
-use super::{
-    language::language_of_system,
-    shell::settings,
-    ui::viewport::{ViewError, ViewportGpu},
-    window::{Window, WindowOptions},
-};
+use super::window::{Window, WindowOptions};
 use geometry::error::Advice;
+use shell::settings;
+use ui::{
+    language::language_of_system,
+    viewport::{ViewError, ViewportGpu},
+};
 
 /// Why the window could not be opened or stayed closed.
 #[derive(Debug, thiserror::Error)]

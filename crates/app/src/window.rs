@@ -5,50 +5,58 @@ use std::{io, path::PathBuf, sync::Arc, time::Duration};
 use eframe::egui_wgpu::RenderState;
 use egui::{CentralPanel, Frame, LayerId, Ui};
 
-use super::{
-    inspection::{camera::Camera, inspected::Inspected, library_cache::LibraryCache},
-    shell::{
-        action::{Action, DialogRequest, Effect, apply, remove_notices},
-        closing::{self, Closing},
-        context::Services,
-        current_trace, dialogs,
-        file_dialog::{DialogLock, FileDialog},
-        inspector, keys,
-        live::{self, LiveAction},
-        message::{Event, Message},
-        notice::{Notice, NoticeTopic},
-        notices, operator_bars, path_entry, rail,
-        robot::RobotCell,
-        roles::{self, RoleAction},
-        scanner::{self, KeyTarget},
-        session::{Source, ThemeChoice, UserRole, WorkspaceKind},
-        settings,
-        settings_file::Memory,
-        shift,
-        state::State,
-        top_bar,
-        workspace::Workspace,
-    },
-    task::TaskRunner,
-    ui::{
-        theme::Theme,
-        viewport::{ViewError, ViewportGpu},
-    },
-    user_error::UserError,
-    workspaces::{
-        align::AlignWorkspace,
-        compare::CompareWorkspace,
-        enrol::EnrolWorkspace,
-        history::HistoryWorkspace,
-        inspect::{InspectWorkspace, WorkCounts},
-        paint::PaintWorkspace,
-    },
+use super::workspaces::{
+    align::AlignWorkspace,
+    compare::CompareWorkspace,
+    enrol::EnrolWorkspace,
+    history::HistoryWorkspace,
+    inspect::{InspectWorkspace, WorkCounts},
+    paint::PaintWorkspace,
 };
-use crate::language::{Language, text};
 use files::file_of;
 use inspection::pipeline::{RecipeFolder, open_recipe};
 use records::history::{HistoryBuffer, Writer};
 use robot::{cell_check::CellCheckFolder, frame_poses::FRAME_POSES};
+use shell::{
+    action::{Action, DialogRequest, Effect},
+    apply::apply,
+    cell::RobotCell,
+    context::Services,
+    file_dialog::{DialogLock, FileDialog},
+    frame::{
+        closing::{self},
+        dialogs, keys, notices, operator_bars, rail, top_bar,
+    },
+    inspection::{
+        camera::Camera,
+        inspected::Inspected,
+        library_cache::{LibraryCache, ReadTakenVersion},
+    },
+    message::{Event, Message},
+    notice::{Notice, NoticeTopic},
+    path_entry,
+    roles::{self, RoleAction},
+    session::{Source, ThemeChoice, UserRole, WorkspaceKind},
+    settings,
+    settings_file::Memory,
+    source::{
+        inspector,
+        live::{self, LiveAction},
+    },
+    state::{Closing, State, remove_notices},
+    trace::{
+        entry,
+        scanner::{self, KeyTarget},
+    },
+    workspace::Workspace,
+};
+use ui::{
+    language::{Language, text},
+    task::TaskRunner,
+    theme::Theme,
+    user_error::UserError,
+    viewport::{ViewError, ViewportGpu},
+};
 
 mod data_lock;
 mod hosting;
@@ -78,6 +86,8 @@ pub struct WindowOptions {
     pub camera: Camera,
     /// Language unless one was chosen in the window; `None` for English.
     pub language: Option<Language>,
+    /// Reads from which published version a library was taken; `None` in a build that takes none.
+    pub taken_version: Option<ReadTakenVersion>,
 }
 
 /// The window.
@@ -117,6 +127,7 @@ impl Window {
             cell_checks,
             camera,
             language,
+            taken_version,
         } = options;
         let is_first_start = settings.as_ref().is_some_and(|path| !path.exists());
         language.unwrap_or_default().make_current();
@@ -131,7 +142,8 @@ impl Window {
         let history_writer = Writer::start(Arc::clone(&kept), move || repaint.request_repaint())?;
         let library_cache =
             LibraryCache::new(library.or_else(|| remembered.library.clone()), camera)
-                .with_history(Arc::clone(&kept));
+                .with_history(Arc::clone(&kept))
+                .with_versions(taken_version);
         let gpu = render_state
             .map(ViewportGpu::of_window)
             .ok_or_else(|| ViewError::NoDevice {
@@ -243,8 +255,8 @@ impl Window {
                 let lock = &self.services.dialogs;
                 self.dialog.open(ask, &dialogs::request(ask), lock, ctx);
             }
-            Effect::Press(kind, place) => {
-                self.lend(kind, ctx, |workspace, cx| workspace.press(place, cx));
+            Effect::Press(kind, index) => {
+                self.lend(kind, ctx, |workspace, cx| workspace.press(index, cx));
             }
             Effect::CancelTask(kind) => {
                 self.lend(kind, ctx, |workspace, _| workspace.cancel());
@@ -419,7 +431,7 @@ impl Window {
         self.state.inspector.loader.may_reload = !(is_enrolling && has_draft);
         let inspected = inspector::update(&mut self.state);
         let counted = live::update(&mut self.state);
-        let traced = current_trace::update(&self.state.session, ctx);
+        let traced = entry::update(&self.state.session, ctx);
         for event in inspected.into_iter().chain(counted).chain(traced) {
             self.tell(&event, ctx);
         }
@@ -429,9 +441,12 @@ impl Window {
         let history = self.workspace::<HistoryWorkspace>();
         let is_failing = history.is_some_and(|history| history.state.trouble.is_some());
         self.state.session.is_history_failing = is_failing;
-        shift::update(&mut self.state, self.services.library_cache.history(), ctx);
+        let history = self.services.library_cache.history();
+        self.state
+            .shift_watch
+            .update(&mut self.state.session, history, ctx);
         if let Some(action) = self.with_robot(ctx, RobotCell::update) {
-            self.act(Action::Robot(action), ctx);
+            self.act(Action::Make(Effect::Robot(action)), ctx);
         }
         match self.dialog.poll() {
             Some((ask, Ok(path))) => self.act(Action::Chosen(ask, path), ctx),
@@ -495,7 +510,11 @@ impl Window {
         roles::dialog(&ctx, &self.state, &mut actions);
         closing::dialog(&ctx, &self.state, &mut actions);
         let of_robot = self.robot.ui(&ctx, &self.state.session);
-        actions.extend(of_robot.into_iter().map(Action::Robot));
+        actions.extend(
+            of_robot
+                .into_iter()
+                .map(|action| Action::Make(Effect::Robot(action))),
+        );
         path_entry::ui(&ctx, &self.services.dialogs);
         keys::help(&ctx, &self.state, &keys, &mut actions);
         notices::ui(&ctx, room, &self.state, &mut actions);
@@ -558,7 +577,7 @@ impl eframe::App for Window {
         // Nothing is drawn any more.
         let ctx = egui::Context::default();
         let mut events = live::close(&mut self.state);
-        events.extend(current_trace::settle(&self.state.session, f64::INFINITY));
+        events.extend(entry::settle(&self.state.session, f64::INFINITY));
         for event in events {
             self.lend(WorkspaceKind::History, &ctx, |history, cx| {
                 history.on_event(&event, cx);

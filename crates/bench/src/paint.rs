@@ -17,7 +17,7 @@ use robot::{
         Coat, Film, FilmFigures, PaintError, PaintSurface, PathFigures, Pattern, Proposal,
         best_speed, propose, simulate,
     },
-    program::ProgramSettings,
+    program::ProgramParams,
     spray::carry,
 };
 use stages::{reference::Reference, stand_off::StandOffParams};
@@ -129,7 +129,7 @@ pub fn paint_part(
     let rings = propose(&surface, &rings, &[])?;
     let rings = PaintTrial::of("contour", start, &rings.coat, &rings.path, &rings.film);
     let pose_costs = POSE_ERRORS.map(|error| pose_cost(&surface, &found, error));
-    let tilt = ProgramSettings::default().max_tilt.0;
+    let tilt = ProgramParams::default().max_tilt.0;
     let along = surface.longest;
     let across = surface.side.cross(&along);
     let tilted = [along, -along, across, -across].map(|towards| {

@@ -7,86 +7,10 @@ use std::{
     path::{Path, PathBuf, absolute},
 };
 
-use thiserror::Error;
-
-use geometry::error::Advice;
-
-/// The library of one kind of camera.
-#[derive(Debug)]
-pub struct CameraLibrary {
-    pub(super) name: &'static str,
-    /// The kind of camera, in the plural.
-    pub(super) cameras: &'static str,
-    /// The name with the versions that are supported.
-    pub(super) versions: &'static str,
-    /// How to install it on this system: a command, or a few words.
-    pub(super) install: &'static str,
-    /// Environment variable with the library's file or folder; the source's own setting takes precedence.
-    pub(super) variable: &'static str,
-    /// File names to try, the best-tested version first.
-    pub(super) file_names: &'static [&'static str],
-}
-
-/// Why a camera's library cannot be used.
-#[derive(Debug, Error)]
-pub enum CameraLibraryError {
-    /// The system has no such library.
-    #[error("{}, the library for {}, is not installed (looked for {})", library.name, library.cameras, library.first_names())]
-    NotInstalled {
-        /// The library.
-        library: &'static CameraLibrary,
-    },
-    /// The place in a setting has no such library.
-    #[error("{}: {} was not found there", path.display(), library.name)]
-    NotAt {
-        /// The library.
-        library: &'static CameraLibrary,
-        /// The file or folder as given.
-        path: PathBuf,
-    },
-    /// The library was found, but the system cannot load it.
-    #[error("{file} cannot be loaded: {reason}")]
-    Unusable {
-        /// The library.
-        library: &'static CameraLibrary,
-        /// Name or path of its file.
-        file: String,
-        /// The system's message.
-        reason: String,
-    },
-    /// The file is another version of the library, or another library.
-    #[error("{file} has no function {symbol}: not {}", library.versions)]
-    MissingSymbol {
-        /// The library.
-        library: &'static CameraLibrary,
-        /// Name or path of its file.
-        file: String,
-        /// The missing function.
-        symbol: &'static str,
-    },
-}
-
-impl Advice for CameraLibraryError {
-    fn advice(&self) -> String {
-        match self {
-            Self::NotInstalled { library } => format!(
-                "Install it ({}), or set {} to the folder that holds it",
-                library.install, library.variable
-            ),
-            Self::NotAt { library, .. } => format!(
-                "Correct the source's library option or {}, or leave both out to use the system's {}",
-                library.variable, library.name
-            ),
-            Self::Unusable { library, .. } => format!(
-                "Install the {} of this system with all its dependencies ({})",
-                library.name, library.install
-            ),
-            Self::MissingSymbol { library, .. } => {
-                format!("Install {} ({})", library.versions, library.install)
-            }
-        }
-    }
-}
+use super::{
+    camera_error::{CameraError, CameraErrorKind},
+    camera_library::CameraLibrary,
+};
 
 /// Why a file was not loaded.
 pub(super) enum LoadError {
@@ -104,16 +28,16 @@ impl CameraLibrary {
         &'static self,
         setting: Option<&Path>,
         load: impl Fn(&OsStr) -> Result<L, LoadError>,
-    ) -> Result<L, CameraLibraryError> {
+    ) -> Result<L, CameraError> {
         let variable = env::var_os(self.variable).filter(|value| !value.is_empty());
-        let place = setting.map(Path::to_path_buf);
-        let Some(place) = place.or(variable.map(PathBuf::from)) else {
+        let location = setting.map(Path::to_path_buf);
+        let Some(location) = location.or(variable.map(PathBuf::from)) else {
             let files = self.file_names.iter().map(OsString::from);
             let found = self.load_first(files, load);
-            return found.unwrap_or(Err(CameraLibraryError::NotInstalled { library: self }));
+            return found.unwrap_or_else(|| Err(self.missing(None)));
         };
         // Make the path absolute: a bare name would be searched for in the system's folders.
-        let path = absolute(&place).unwrap_or_else(|_| place.clone());
+        let path = absolute(&location).unwrap_or_else(|_| location.clone());
         let files: Vec<PathBuf> = if path.is_dir() {
             let names = self.file_names.iter();
             names.map(|name| path.join(name)).collect()
@@ -122,10 +46,11 @@ impl CameraLibrary {
         };
         let files = files.into_iter().filter(|file| file.is_file());
         let found = self.load_first(files.map(OsString::from), load);
-        found.unwrap_or(Err(CameraLibraryError::NotAt {
-            library: self,
-            path: place,
-        }))
+        found.unwrap_or_else(|| Err(self.missing(Some(location))))
+    }
+
+    fn missing(&'static self, path: Option<PathBuf>) -> CameraError {
+        self.error(CameraErrorKind::LibraryMissing { path })
     }
 
     /// Loads the first file that exists; `None` if there is none. One that exists and cannot be used is an error.
@@ -133,33 +58,21 @@ impl CameraLibrary {
         &'static self,
         files: impl IntoIterator<Item = OsString>,
         load: impl Fn(&OsStr) -> Result<L, LoadError>,
-    ) -> Option<Result<L, CameraLibraryError>> {
+    ) -> Option<Result<L, CameraError>> {
         files.into_iter().find_map(|name| {
             let file = name.to_string_lossy().into_owned();
             let error = match load(&name) {
                 Ok(loaded) => return Some(Ok(loaded)),
                 Err(LoadError::System(reason)) if is_absent(&file, &reason) => return None,
-                Err(LoadError::System(reason)) => CameraLibraryError::Unusable {
-                    library: self,
-                    file,
-                    reason,
-                },
-                Err(LoadError::MissingSymbol(symbol)) => CameraLibraryError::MissingSymbol {
-                    library: self,
-                    file,
-                    symbol,
-                },
+                Err(LoadError::System(reason)) => self
+                    .error(CameraErrorKind::LibraryNotLoaded { file })
+                    .quoting([reason]),
+                Err(LoadError::MissingSymbol(function)) => {
+                    self.error(CameraErrorKind::LibraryLacks { file, function })
+                }
             };
             Some(Err(error))
         })
-    }
-
-    /// The file names, shortened: librealsense has one for each minor version.
-    fn first_names(&self) -> String {
-        match self.file_names {
-            [first, second, third, _, ..] => format!("{first}, {second}, {third}, …"),
-            names => names.join(", "),
-        }
     }
 }
 
@@ -223,6 +136,8 @@ mod tests {
     use std::{collections::BTreeSet, fs};
 
     use super::*;
+    use crate::camera_library::FREENECT;
+    use geometry::error::Advice as _;
 
     static LIBRARY: CameraLibrary = CameraLibrary {
         name: "libtest",
@@ -231,6 +146,7 @@ mod tests {
         install: "apt-get install libtest1",
         variable: "PARTSIGHT_NO_SUCH_VARIABLE",
         file_names: &["libtest.so.1", "libtest.so"],
+        ..FREENECT
     };
 
     /// Loads text files as if they were libraries.

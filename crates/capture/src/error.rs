@@ -4,12 +4,7 @@ use std::{io, path::PathBuf};
 
 use thiserror::Error;
 
-use super::{
-    genicam::{GenicamError, GenicamWarning},
-    kinect::{KinectError, KinectWarning},
-    openni::OpenNiError,
-    realsense::RealsenseError,
-};
+use super::camera_error::CameraError;
 use files::{FileError, FileWarning, advice_on, words_of};
 use geometry::error::Advice;
 
@@ -41,18 +36,9 @@ pub enum CaptureError {
         /// The file.
         path: PathBuf,
     },
-    /// A Kinect failed.
+    /// A camera, its library or a file recorded by it failed.
     #[error(transparent)]
-    Kinect(#[from] KinectError),
-    /// A GenICam camera failed.
-    #[error(transparent)]
-    Genicam(#[from] GenicamError),
-    /// An OpenNI camera, or a file of one, failed.
-    #[error(transparent)]
-    OpenNi(#[from] OpenNiError),
-    /// A RealSense camera, or a file of one, failed.
-    #[error(transparent)]
-    Realsense(#[from] RealsenseError),
+    Camera(#[from] CameraError),
     /// The folder has nothing to replay.
     #[error("{}: neither a recording nor a camera's file", path.display())]
     NoFrames {
@@ -115,34 +101,6 @@ fn counted(num_frames: u64) -> String {
     }
 }
 
-/// The rest of a message that names what was found instead: `, only A, B`; empty if nothing was found.
-pub(super) fn only(found: &[String]) -> String {
-    if found.is_empty() {
-        String::new()
-    } else {
-        format!(", only {}", found.join(", "))
-    }
-}
-
-/// The rest of a message that quotes a camera's library: `: no such device`; empty if the library gave no message.
-pub(super) fn quoted(message: Option<&String>) -> String {
-    message.map_or_else(String::new, |message| format!(": {message}"))
-}
-
-/// Checks that every error has a sentence and an advice of its own.
-#[cfg(test)]
-pub(super) fn check_messages<E: Advice + std::fmt::Display>(errors: &[E]) {
-    let advice: std::collections::BTreeSet<String> = errors.iter().map(Advice::advice).collect();
-    assert_eq!(advice.len(), errors.len());
-    for error in errors {
-        let text = format!("{error}. {}", error.advice());
-        assert!(
-            !text.contains('\n') && !error.advice().ends_with('.'),
-            "{text}"
-        );
-    }
-}
-
 /// How to recover from a source's error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Recovery {
@@ -161,10 +119,7 @@ impl CaptureError {
             Self::FolderGone { may_come: true, .. } | Self::FolderUnreadable { .. } => {
                 Recovery::AskAgain
             }
-            Self::Kinect(error) => error.recovery(),
-            Self::Genicam(error) => error.recovery(),
-            Self::OpenNi(error) => error.recovery(),
-            Self::Realsense(error) => error.recovery(),
+            Self::Camera(error) => error.recovery(),
             Self::FolderGone { .. }
             | Self::File(_)
             | Self::MeshIsNoCapture { .. }
@@ -203,10 +158,7 @@ impl Advice for CaptureError {
                     path.display()
                 )
             }
-            Self::Kinect(error) => error.advice(),
-            Self::Genicam(error) => error.advice(),
-            Self::OpenNi(error) => error.advice(),
-            Self::Realsense(error) => error.advice(),
+            Self::Camera(error) => error.advice(),
             Self::NoFrames { .. } => {
                 "Give the folder that holds the frames, or record a source into one first".into()
             }
@@ -231,12 +183,18 @@ pub enum CaptureWarning {
     /// About the capture's file.
     #[error(transparent)]
     File(#[from] FileWarning),
-    /// About a Kinect.
-    #[error(transparent)]
-    Kinect(#[from] KinectWarning),
-    /// About a GenICam camera.
-    #[error(transparent)]
-    Genicam(#[from] GenicamWarning),
+    /// The library does not reveal the Kinect's focal length.
+    #[error("the Kinect's focal length is not known; {pixels:.1} pixels are assumed")]
+    AssumedFocalLength {
+        /// The assumed focal length along columns and rows, pixels.
+        pixels: f64,
+    },
+    /// The library delivers steps of disparity without the values to convert them into lengths.
+    #[error("the Kinect's own calibration is not known; that of a typical Kinect is assumed")]
+    AssumedDepthScale,
+    /// The GenICam camera has no `Scan3dDistanceUnit`.
+    #[error("the camera does not report its unit of length; millimetres are assumed")]
+    AssumedUnit,
     /// The end of the recording is missing.
     #[error("the recording was cut off; its {num_frames} whole frames are replayed")]
     CutOff {
@@ -262,8 +220,12 @@ impl Advice for CaptureWarning {
     fn advice(&self) -> String {
         match self {
             Self::File(warning) => warning.advice(),
-            Self::Kinect(warning) => warning.advice(),
-            Self::Genicam(warning) => warning.advice(),
+            Self::AssumedFocalLength { .. } | Self::AssumedDepthScale => {
+                "Use the system's libfreenect 0.5 with a Kinect: it reads these values from the camera".into()
+            }
+            Self::AssumedUnit => {
+                "Compare the size of a part in the 3-D view with the real one".into()
+            }
             Self::CutOff { .. } => {
                 "Record again if the end matters; leave room on the disk, and stop before you unplug a drive".into()
             }

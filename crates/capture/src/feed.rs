@@ -103,11 +103,11 @@ impl FeedState {
 }
 
 /// How long the thread waits for a capture before it checks whether to stop.
-const TURN: Duration = Duration::from_millis(50);
+const MAX_WAIT: Duration = Duration::from_millis(50);
 /// Pause before the first retry; each further pause is twice as long.
-const FIRST_RETRY: Duration = Duration::from_millis(250);
+const MIN_RETRY_PAUSE: Duration = Duration::from_millis(250);
 /// The longest pause: a camera that is plugged in again is back within this time.
-const LONGEST_RETRY: Duration = Duration::from_secs(4);
+const MAX_RETRY_PAUSE: Duration = Duration::from_secs(4);
 
 impl Feed {
     /// Opens a source on a thread of its own. `on_news` is called on that thread after every change of state and every
@@ -133,7 +133,7 @@ impl Feed {
             .spawn(move || {
                 Camera {
                     slot: &theirs,
-                    retry: FIRST_RETRY,
+                    retry: MIN_RETRY_PAUSE,
                 }
                 .run(&mut open);
             })
@@ -229,11 +229,11 @@ impl Camera<'_> {
     /// Delivers captures of the source until it is lost, ends or is to stop.
     fn follow(&mut self, source: &mut dyn DepthSource) -> Option<StopReason> {
         while !self.slot.is_stopping() {
-            match source.next(TURN) {
+            match source.next(MAX_WAIT) {
                 Ok(NextCapture::NotYet) => self.slot.set_running(),
                 Ok(NextCapture::End) => return Some(StopReason::Over(FeedState::Ended)),
                 Ok(NextCapture::Captured(captured)) => {
-                    self.retry = FIRST_RETRY;
+                    self.retry = MIN_RETRY_PAUSE;
                     self.slot.set_running();
                     self.slot.put(FeedItem::Captured(captured));
                 }
@@ -260,7 +260,7 @@ impl Camera<'_> {
         }
         self.slot.set_state(FeedState::Lost { error });
         self.slot.sleep(self.retry);
-        self.retry = (2 * self.retry).min(LONGEST_RETRY);
+        self.retry = (2 * self.retry).min(MAX_RETRY_PAUSE);
         (recovery == Recovery::Reopen).then_some(StopReason::ToReopen)
     }
 }

@@ -31,24 +31,26 @@ pub fn captured(number: u64, taken_at: Timestamp) -> Captured {
 /// Options of [`compile_c`] that make a shared library.
 pub const SHARED: [&str; 2] = ["-shared", "-fPIC"];
 
-/// Compiles a C file of this package to a program, or with [`SHARED`] to a library. The error says what this machine
-/// lacks.
+/// Compiles a C file, named from the root of the workspace, to a program, or with [`SHARED`] to a library. The error names
+/// what this machine lacks.
 pub fn compile_c(source: &str, made: &Path, options: &[&str]) -> Result<(), String> {
+    let source = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join(source);
+    assert!(source.exists(), "{}", source.display());
     let compiler = env::var_os("CC").unwrap_or_else(|| OsString::from("cc"));
     let output = Command::new(compiler)
         .args(["-Wall", "-Wextra", "-Werror", "-pthread"])
         .args(options)
         .arg("-o")
         .arg(made)
-        .arg(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join(source))
+        .arg(source)
         .arg("-ldl")
         .output()
         .map_err(|error| format!("no C compiler: {error}"))?;
     if output.status.success() {
         return Ok(());
     }
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
     // Missing headers of the C library are a fault of the machine; any other error is a fault of the file.
-    assert!(said.contains("No such file or directory"), "{said}");
+    assert!(message.contains("No such file or directory"), "{message}");
     Err("no C headers".into())
 }

@@ -8,24 +8,24 @@
 //! everything else stay as configured in the camera.
 
 mod aravis;
-mod error;
 mod scan3d;
 
 use std::{
     ffi::CString,
     net::IpAddr,
+    sync::Arc,
     time::{Duration, Instant},
 };
 
 use jiff::Timestamp;
 
-pub use self::error::{GenicamError, GenicamWarning};
 use self::{
     aravis::{Device, FoundDevice, Frame, Functions},
     scan3d::{Decoder, FOCAL_LENGTH, Scan3d},
 };
 use super::{
-    driver_search::CameraLibrary,
+    camera_error::{CameraError, CameraErrorKind, only},
+    camera_library::ARAVIS,
     error::{CaptureError, CaptureWarning},
     open::SourceListing,
     read_timeout::ReadTimeout,
@@ -34,35 +34,9 @@ use super::{
 };
 use files::DepthCamera;
 
-static ARAVIS: CameraLibrary = CameraLibrary {
-    name: "aravis",
-    cameras: "GenICam cameras",
-    versions: "aravis 0.8.26 or a newer 0.8",
-    install: if cfg!(target_os = "macos") {
-        "brew install aravis"
-    } else if cfg!(windows) {
-        "on a computer with Linux or macOS"
-    } else {
-        "sudo apt-get install libaravis-0.8-0"
-    },
-    variable: "PARTSIGHT_ARAVIS",
-    file_names: if cfg!(target_os = "macos") {
-        &[
-            "libaravis-0.8.0.dylib",
-            "libaravis-0.8.dylib",
-            // Homebrew's folder on Apple silicon is not among those that the system searches.
-            "/opt/homebrew/lib/libaravis-0.8.0.dylib",
-        ]
-    } else if cfg!(windows) {
-        &["libaravis-0.8-0.dll", "aravis-0.8-0.dll"]
-    } else {
-        &["libaravis-0.8.so.0", "libaravis-0.8.so"]
-    },
-};
-
 /// A camera that sends nothing for this long is lost. It exceeds the 5 s or so after which the library notices that a GigE
 /// camera is gone, which gives the better message.
-const SILENCE: Duration = Duration::from_secs(8);
+const MAX_SILENCE: Duration = Duration::from_secs(8);
 
 /// An open camera whose stream runs. Dropping it stops the stream and closes the camera.
 pub(super) struct Genicam {
@@ -89,19 +63,20 @@ pub(super) fn list() -> Vec<SourceListing> {
     };
     let found = ARAVIS.find(None, Functions::load);
     let error = match found.map(Functions::devices) {
-        Ok(devices) if devices.is_empty() => GenicamError::NoDevice,
+        Ok(devices) if devices.is_empty() => ARAVIS.no_device(None, Vec::new()),
         Ok(devices) => return devices.into_iter().map(listing).collect(),
-        Err(error) => error.into(),
+        Err(error) => error,
     };
-    vec![SourceListing::unusable("GenICam", error)]
+    vec![SourceListing::unusable(error)]
 }
 
 /// Returns the ID of the requested camera, or of the first that answers.
-fn find_device(aravis: &Functions, wanted: Option<&str>) -> Result<String, GenicamError> {
+fn find_device(aravis: &Functions, wanted: Option<&str>) -> Result<String, CameraError> {
     // Search even if an address is given: the library keeps cameras that are gone until the next search.
     let found = aravis.devices();
     let Some(wanted) = wanted else {
-        let first = found.into_iter().next().ok_or(GenicamError::NoDevice)?;
+        let first = found.into_iter().next();
+        let first = first.ok_or_else(|| ARAVIS.no_device(None, Vec::new()))?;
         return Ok(first.id);
     };
     let asked = found
@@ -111,11 +86,11 @@ fn find_device(aravis: &Functions, wanted: Option<&str>) -> Result<String, Genic
         Some(device) => Ok(device.id.clone()),
         // A camera behind a router is not found by the search, but may be reachable.
         None if wanted.parse::<IpAddr>().is_ok() => Ok(wanted.to_owned()),
-        None if found.is_empty() => Err(GenicamError::NoDevice),
-        None => Err(GenicamError::NoSuchDevice {
-            device: wanted.to_owned(),
-            found: found.into_iter().map(|device| device.id).collect(),
-        }),
+        None => {
+            let found: Vec<String> = found.into_iter().map(|device| device.id).collect();
+            let wanted = (!found.is_empty()).then_some(wanted);
+            Err(ARAVIS.no_device(wanted, found))
+        }
     }
 }
 
@@ -124,16 +99,20 @@ fn choose(
     asked: Option<GenicamFormat>,
     offered: Vec<String>,
     knows_camera: bool,
-) -> Result<GenicamFormat, GenicamError> {
+) -> Result<GenicamFormat, CameraError> {
     let is_offered = |format: &GenicamFormat| offered.iter().any(|name| name == format.name());
     if let Some(format) = asked {
         return if is_offered(&format) {
             Ok(format)
         } else {
-            Err(GenicamError::FormatNotOffered {
-                format: format.name(),
-                offered,
-            })
+            Err(ARAVIS.unsuitable(
+                format!(
+                    "the camera does not offer {}{}",
+                    format.name(),
+                    only(&offered)
+                ),
+                "Leave the source's format option out, or name one that the camera offers",
+            ))
         };
     }
     let preferred = if knows_camera {
@@ -144,20 +123,23 @@ fn choose(
     preferred
         .into_iter()
         .find(is_offered)
-        .ok_or(GenicamError::NoDepthFormat { offered })
+        .ok_or_else(|| {
+            ARAVIS.unsuitable(
+                format!("the camera offers no depth{}", only(&offered)),
+                "Use a 3-D camera; if its Mono16 is depth, say so and give its numbers: genicam,format=Mono16,camera=FILE",
+            )
+        })
 }
 
 impl Genicam {
     /// Opens the camera with the given ID, or the first that answers, and starts its stream.
     pub(super) fn open(spec: &GenicamSpec) -> Result<Self, CaptureError> {
         let file = spec.camera.as_deref().map(DepthCamera::read).transpose()?;
-        let aravis = ARAVIS
-            .find(spec.library.as_deref(), Functions::load)
-            .map_err(GenicamError::from)?;
+        let aravis = ARAVIS.find(spec.library.as_deref(), Functions::load)?;
         let id = find_device(aravis, spec.device.as_deref())?;
         let mut device = aravis.open(&id).map_err(not_opened)?;
         if !device.has_control() {
-            return Err(GenicamError::InUse.into());
+            return Err(ARAVIS.error(CameraErrorKind::Busy).into());
         }
         // A camera with several sensors or maps reports the formats of the selected one; others have no such node.
         let _ = device.set(c"ComponentSelector", c"Range");
@@ -176,7 +158,7 @@ impl Genicam {
         }
         device
             .start()
-            .map_err(|said| GenicamError::NotStarted { said })?;
+            .map_err(|message| ARAVIS.error(CameraErrorKind::NotStarted).quoting([message]))?;
         let spec = GenicamSpec {
             device: Some(id),
             ..spec.clone()
@@ -187,7 +169,7 @@ impl Genicam {
             format,
             decoder,
             num_frames: 0,
-            silence: ReadTimeout::of(SILENCE),
+            silence: ReadTimeout::with_limit(MAX_SILENCE),
             warnings,
         })
     }
@@ -207,7 +189,7 @@ impl Genicam {
             Ok(image) => NextCapture::Captured(self.captured(name, frame, image)),
             Err(what) => NextCapture::Skipped(SkippedCapture {
                 name,
-                error: std::sync::Arc::new(GenicamError::BadFrame { what }.into()),
+                error: Arc::new(ARAVIS.error(CameraErrorKind::BadFrame { what }).into()),
             }),
         }
     }
@@ -222,14 +204,18 @@ impl Genicam {
     }
 
     /// Closes the camera.
-    fn end(&mut self, reason: GenicamError) -> Result<NextCapture, CaptureError> {
+    fn end(&mut self, reason: CameraError) -> Result<NextCapture, CaptureError> {
         self.device = None;
         Err(reason.into())
     }
 }
 
-fn not_opened(said: String) -> GenicamError {
-    GenicamError::NotOpened { said }
+fn not_opened(message: String) -> CameraError {
+    ARAVIS.error(CameraErrorKind::NotOpened).quoting([message])
+}
+
+fn disconnected(message: Option<String>) -> CameraError {
+    ARAVIS.error(CameraErrorKind::Disconnected).quoting(message)
 }
 
 impl DepthSource for Genicam {
@@ -253,15 +239,15 @@ impl DepthSource for Genicam {
         }
         let timeout = self.silence.add(start.elapsed());
         if !device.has_control() {
-            return self.end(GenicamError::Lost { said: None });
+            return self.end(disconnected(None));
         }
         let Some(seconds) = timeout else {
             return Ok(NextCapture::NotYet);
         };
         // An unplugged camera does not answer either.
         let reason = match device.frame_bytes() {
-            Ok(_) => GenicamError::Silent { seconds },
-            Err(said) => GenicamError::Lost { said: Some(said) },
+            Ok(_) => ARAVIS.error(CameraErrorKind::NoFrames { seconds }),
+            Err(message) => disconnected(Some(message)),
         };
         self.end(reason)
     }

@@ -9,7 +9,6 @@
 //! Motor and LED are not used. (libfreenect itself lights the LED of the later models, 1473 and Kinect for Windows, while
 //! it opens them.) Only one Kinect can be open in a process.
 
-mod error;
 mod freenect;
 mod header;
 mod raw_depth;
@@ -17,16 +16,17 @@ mod session;
 
 use std::{
     ffi::CString,
+    path::Path,
     time::{Duration, Instant},
 };
 
-pub use self::error::{KinectError, KinectWarning};
 use self::{
     freenect::{Context, Device, Failed, Library},
     header::{DEPTH_11BIT, DEPTH_MM, DEPTH_MM_MAX, FrameMode},
 };
 use super::{
-    driver_search::CameraLibrary,
+    camera_error::{CameraError, CameraErrorKind},
+    camera_library::FREENECT,
     error::{CaptureError, CaptureWarning},
     open::SourceListing,
     read_timeout::ReadTimeout,
@@ -36,33 +36,6 @@ use super::{
 use geometry::{
     depth_frame::{DepthFrame, Intrinsics},
     distortion::Distortion,
-};
-
-static FREENECT: CameraLibrary = CameraLibrary {
-    name: "libfreenect",
-    cameras: "Kinects",
-    versions: "libfreenect 0.5",
-    install: if cfg!(target_os = "macos") {
-        "brew install libfreenect"
-    } else if cfg!(windows) {
-        "put freenect.dll 0.5 and libusb-1.0.dll beside the program"
-    } else {
-        "sudo apt-get install libfreenect0.5"
-    },
-    variable: "PARTSIGHT_FREENECT",
-    file_names: if cfg!(target_os = "macos") {
-        &[
-            "libfreenect.0.5.dylib",
-            "libfreenect.0.dylib",
-            "libfreenect.dylib",
-            // Homebrew's folder on Apple silicon is not among those that the system searches.
-            "/opt/homebrew/lib/libfreenect.dylib",
-        ]
-    } else if cfg!(windows) {
-        &["freenect.dll", "libfreenect.dll"]
-    } else {
-        &["libfreenect.so.0.5", "libfreenect.so.0", "libfreenect.so"]
-    },
 };
 
 /// An open Kinect whose depth stream runs. Dropping it stops the stream and closes the camera.
@@ -89,15 +62,15 @@ enum Units {
 
 /// Lists the Kinects that are plugged in, or why there are none, using the environment's or the system's libfreenect.
 pub(super) fn list() -> Vec<SourceListing> {
-    found_devices().unwrap_or_else(|error| vec![cannot_be_opened(error)])
+    found_devices().unwrap_or_else(|error| vec![SourceListing::unusable(error)])
 }
 
-fn found_devices() -> Result<Vec<SourceListing>, KinectError> {
+fn found_devices() -> Result<Vec<SourceListing>, CameraError> {
     let library = FREENECT.find(None, Library::load)?;
     let (context, num_entries) = start(library)?;
-    let num_devices = context.num_devices().map_err(KinectError::of_opening)?;
+    let num_devices = context.num_devices().map_err(not_opened)?;
     if num_devices == 0 {
-        return Err(KinectError::NoDevice);
+        return Err(FREENECT.no_device(None, Vec::new()));
     }
     let can_be_opened = |serial| {
         let spec = KinectSpec {
@@ -109,19 +82,15 @@ fn found_devices() -> Result<Vec<SourceListing>, KinectError> {
     if num_entries.is_some() {
         return Ok(vec![can_be_opened(None)]);
     }
-    let serials = context.serials().map_err(KinectError::of_opening)?;
+    let serials = context.serials().map_err(not_opened)?;
     let num_closed = num_devices.saturating_sub(serials.len());
-    let closed = (0..num_closed).map(|_| cannot_be_opened(KinectError::no_permission()));
+    let closed = (0..num_closed).map(|_| SourceListing::unusable(no_permission()));
     Ok(serials
         .into_iter()
         .map(Some)
         .map(can_be_opened)
         .chain(closed)
         .collect())
-}
-
-fn cannot_be_opened(error: KinectError) -> SourceListing {
-    SourceListing::unusable("Kinect", error)
 }
 
 fn title(spec: &KinectSpec, library: &Library) -> String {
@@ -134,7 +103,7 @@ fn title(spec: &KinectSpec, library: &Library) -> String {
 
 /// Starts the library. A build that plays recorded sessions terminates the program if there is no session, so check for it
 /// first. Returns the context and the session's number of entries.
-fn start(library: &'static Library) -> Result<(Context, Option<usize>), KinectError> {
+fn start(library: &'static Library) -> Result<(Context, Option<usize>), CameraError> {
     let num_entries = library
         .plays_sessions()
         .then(|| session::check(library.file()))
@@ -144,26 +113,26 @@ fn start(library: &'static Library) -> Result<(Context, Option<usize>), KinectEr
 
 impl Kinect {
     /// Opens the Kinect with the given serial number, or the first one, and starts its depth stream.
-    pub(super) fn open(spec: &KinectSpec) -> Result<Self, KinectError> {
+    pub(super) fn open(spec: &KinectSpec) -> Result<Self, CameraError> {
         let library = FREENECT.find(spec.library.as_deref(), Library::load)?;
         let (context, num_entries) = start(library)?;
         let mut device = open_device(context, num_entries.is_some(), spec.serial.as_deref())?;
-        let mode = best_mode(&device.depth_modes()).ok_or(KinectError::NoDepthMode)?;
+        let mode = best_mode(&device.depth_modes()).ok_or_else(no_depth_mode)?;
         let mut warnings = Vec::new();
         let camera = camera_of(&device, &mode).unwrap_or_else(|| {
             let camera = usual_camera(&mode);
-            warnings.push(KinectWarning::FocalLengthAssumed { pixels: camera.fx }.into());
+            warnings.push(CaptureWarning::AssumedFocalLength { pixels: camera.fx });
             camera
         });
         let units = if mode.format == DEPTH_MM {
             Units::Millimetres
         } else {
-            warnings.push(KinectWarning::DepthScaleAssumed.into());
+            warnings.push(CaptureWarning::AssumedDepthScale);
             Units::Steps(raw_depth::millimetres_by_step())
         };
         device
             .start(mode)
-            .map_err(|failed| KinectError::NotStarted { said: failed.said })?;
+            .map_err(|failed| failed.error(CameraErrorKind::NotStarted))?;
         Ok(Self {
             device: Some(device),
             title: title(spec, library),
@@ -194,7 +163,7 @@ impl Kinect {
     }
 
     /// Closes the camera.
-    fn end(&mut self, reason: KinectError) -> Result<NextCapture, CaptureError> {
+    fn end(&mut self, reason: CameraError) -> Result<NextCapture, CaptureError> {
         self.device = None;
         Err(reason.into())
     }
@@ -232,7 +201,7 @@ impl DepthSource for Kinect {
                 Ok(None) if self.num_entries.is_some() => {}
                 Ok(None) => {
                     if let Some(seconds) = self.silence.add(turn) {
-                        return self.end(KinectError::Silent { seconds });
+                        return self.end(FREENECT.error(CameraErrorKind::NoFrames { seconds }));
                     }
                 }
                 // The end of a session and a lost camera have the same code.
@@ -240,7 +209,7 @@ impl DepthSource for Kinect {
                     self.device = None;
                     return Ok(NextCapture::End);
                 }
-                Err(Failed { said, .. }) => return self.end(KinectError::Lost { said }),
+                Err(failed) => return self.end(failed.error(CameraErrorKind::Disconnected)),
             }
             if waited >= wait {
                 return Ok(NextCapture::NotYet);
@@ -269,29 +238,70 @@ fn open_device(
     context: Context,
     plays_session: bool,
     serial: Option<&str>,
-) -> Result<Device, KinectError> {
-    let num_devices = context.num_devices().map_err(KinectError::of_opening)?;
+) -> Result<Device, CameraError> {
+    let num_devices = context.num_devices().map_err(not_opened)?;
     if num_devices == 0 {
-        return Err(KinectError::NoDevice);
+        return Err(FREENECT.no_device(None, Vec::new()));
     }
     let Some(serial) = serial else {
-        return context.open(None).map_err(KinectError::of_opening);
+        return context.open(None).map_err(not_opened);
     };
-    let found = context.serials().map_err(KinectError::of_opening)?;
+    let found = context.serials().map_err(not_opened)?;
     // A session has one camera, whose serial number is unknown.
     if !plays_session && !found.iter().any(|one| one == serial) {
         if found.len() < num_devices {
-            return Err(KinectError::no_permission());
+            return Err(no_permission());
         }
-        return Err(KinectError::NoSuchSerial {
-            serial: serial.to_owned(),
-            found,
-        });
+        return Err(FREENECT.no_device(Some(serial), found));
     }
     let serial = CString::new(serial).ok();
-    context
-        .open(serial.as_deref())
-        .map_err(KinectError::of_opening)
+    context.open(serial.as_deref()).map_err(not_opened)
+}
+
+fn no_depth_mode() -> CameraError {
+    FREENECT.unsuitable(
+        "the Kinect offers depth in none of the supported formats (millimetres, 11 bits)",
+        format!(
+            "Install another build of libfreenect ({})",
+            FREENECT.install
+        ),
+    )
+}
+
+/// Udev rules that let a user open a Kinect, under the names used by distributions and by our own package.
+const UDEV_RULES: [&str; 6] = [
+    "/lib/udev/rules.d/60-libfreenect0.5.rules",
+    "/usr/lib/udev/rules.d/60-libfreenect.rules",
+    "/etc/udev/rules.d/51-kinect.rules",
+    "/etc/udev/rules.d/66-kinect.rules",
+    "/usr/lib/udev/rules.d/55-partsight-cameras.rules",
+    "/etc/udev/rules.d/55-partsight-cameras.rules",
+];
+
+fn no_permission() -> CameraError {
+    let rule = UDEV_RULES
+        .into_iter()
+        .find(|rule| Path::new(rule).is_file());
+    FREENECT.error(CameraErrorKind::NoPermission { rule })
+}
+
+/// Classifies the failure to open a camera. The library returns -1 for every failure and logs the reason as a line that
+/// ends with libusb's code or contains its name.
+fn not_opened(failed: Failed) -> CameraError {
+    let has = |code: i32, name: &str| {
+        let end = format!(": {code}");
+        let mut lines = failed.log.iter();
+        failed.code == code || lines.any(|line| line.ends_with(&end) || line.contains(name))
+    };
+    if has(-3, "LIBUSB_ERROR_ACCESS") {
+        no_permission()
+    } else if has(-6, "LIBUSB_ERROR_BUSY") {
+        FREENECT.error(CameraErrorKind::Busy)
+    } else if has(-4, "LIBUSB_ERROR_NO_DEVICE") {
+        failed.error(CameraErrorKind::Disconnected)
+    } else {
+        failed.error(CameraErrorKind::NotOpened)
+    }
 }
 
 /// Prefers millimetres computed by the library over steps of disparity.
@@ -323,7 +333,7 @@ fn camera_of(device: &Device, mode: &FrameMode) -> Option<Intrinsics> {
 /// The intrinsics of a typical Kinect.
 fn usual_camera(mode: &FrameMode) -> Intrinsics {
     let (width, height) = (f64::from(mode.width), f64::from(mode.height));
-    let focal = raw_depth::FOCAL_LENGTH * width / 640.0;
+    let focal = raw_depth::FOCAL_LENGTH_PIXELS * width / 640.0;
     Intrinsics {
         width: usize::try_from(mode.width).unwrap_or(0),
         height: usize::try_from(mode.height).unwrap_or(0),
@@ -339,6 +349,34 @@ fn usual_camera(mode: &FrameMode) -> Intrinsics {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::error::Recovery;
+
+    #[test]
+    fn the_log_of_the_library_gives_the_reason() {
+        for (line, expected) in [
+            ("Could not open camera: -3", "does not allow"),
+            ("Could not open camera: -4", "was lost"),
+            (
+                "Failed to claim camera interface: LIBUSB_ERROR_BUSY",
+                "another program",
+            ),
+            (
+                "Failed to detach camera kernel driver: LIBUSB_ERROR_ACCESS",
+                "does not allow",
+            ),
+            (
+                "freenect_camera_init(): Failed to fetch const shift for device",
+                "cannot be opened: freenect_camera_init()",
+            ),
+        ] {
+            let error = not_opened(Failed {
+                code: -1,
+                log: vec![line.into(), "Failed to open camera subdevice".into()],
+            });
+            assert!(error.to_string().contains(expected), "{line}: {error}");
+            assert_eq!(error.recovery(), Recovery::Reopen);
+        }
+    }
 
     #[test]
     fn what_is_beyond_the_range_is_no_reading() {

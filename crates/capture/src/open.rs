@@ -1,6 +1,7 @@
 //! Lists and opens sources.
 
 use super::{
+    camera_error::CameraError,
     error::CaptureError,
     genicam::{self, Genicam},
     kinect::{self, Kinect},
@@ -33,7 +34,7 @@ pub struct SourceListing {
     /// The source to open; `None` if a person has to act first.
     pub spec: Option<SourceSpec>,
     /// Why it cannot be opened.
-    pub trouble: Option<CaptureError>,
+    pub error: Option<CameraError>,
 }
 
 impl SourceListing {
@@ -41,15 +42,15 @@ impl SourceListing {
         Self {
             title,
             spec: Some(spec),
-            trouble: None,
+            error: None,
         }
     }
 
-    pub(super) fn unusable(title: &str, error: impl Into<CaptureError>) -> Self {
+    pub(super) fn unusable(error: CameraError) -> Self {
         Self {
-            title: title.to_owned(),
+            title: error.library.camera.to_owned(),
             spec: None,
-            trouble: Some(error.into()),
+            error: Some(error),
         }
     }
 }

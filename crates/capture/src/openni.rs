@@ -9,7 +9,6 @@
 //! Known limits: a file stores only the mirroring at its start, so that if it was switched during the recording, all frames
 //! after that are wrong. libOpenNI2 reads files itself; we only check beforehand that a file is complete.
 
-mod error;
 mod file;
 mod header;
 mod oni;
@@ -20,7 +19,6 @@ use std::{
     time::{Duration, Instant},
 };
 
-pub use self::error::OpenNiError;
 use self::{
     header::{
         Cropping, DEPTH_1_MM, DEPTH_100_UM, DEVICE_REGISTRATION, DEVICE_REPEAT, DEVICE_SPEED,
@@ -30,8 +28,9 @@ use self::{
     oni::{Context, Device, FoundDevice, Functions, Messages, Received},
 };
 use super::{
-    driver_search::CameraLibrary,
-    error::{CaptureError, quoted},
+    camera_error::{CameraError, CameraErrorKind, quoted},
+    camera_library::OPENNI,
+    error::CaptureError,
     open::SourceListing,
     read_timeout::ReadTimeout,
     source::{Captured, DepthSource, Image, NextCapture},
@@ -42,37 +41,15 @@ use geometry::{
     distortion::Distortion,
 };
 
-static OPENNI: CameraLibrary = CameraLibrary {
-    name: "libOpenNI2",
-    cameras: "OpenNI cameras",
-    versions: "libOpenNI2 2.2",
-    install: if cfg!(target_os = "macos") {
-        "brew install openni2"
-    } else if cfg!(windows) {
-        "put OpenNI2.dll with its folder OpenNI2 beside the program"
-    } else {
-        "sudo apt-get install libopenni2-0"
-    },
-    variable: "PARTSIGHT_OPENNI",
-    // The library finds its drivers in the folder `OpenNI2/Drivers` beside it.
-    file_names: if cfg!(target_os = "macos") {
-        &["libOpenNI2.dylib", "/opt/homebrew/lib/ni2/libOpenNI2.dylib"]
-    } else if cfg!(windows) {
-        &["OpenNI2.dll"]
-    } else {
-        &["libOpenNI2.so.0", "libOpenNI2.so"]
-    },
-};
-
 /// Frame rate below which a mode is used only if there is no other, frames per second.
-const SLOW: i32 = 15;
+const MIN_FPS: i32 = 15;
 /// Longest path of a file that OpenNI stores, bytes.
-const LONGEST_PATH: usize = 255;
+const MAX_PATH_BYTES: usize = 255;
 /// How long to wait for a camera before checking whether it is still there.
-const CAMERA_TURN: Duration = Duration::from_millis(50);
+const CAMERA_WAIT: Duration = Duration::from_millis(50);
 /// The same for a file. Each wait requests a frame; giving up too early would request two at once, of which OpenNI keeps
 /// only the second.
-const FILE_TURN: Duration = Duration::from_secs(1);
+const FILE_WAIT: Duration = Duration::from_secs(1);
 
 /// An open camera or file whose depth stream runs. Dropping it stops the stream and closes the camera.
 pub(super) struct OpenNi {
@@ -101,24 +78,36 @@ pub(super) fn open(spec: &OpenNiSpec) -> Result<Box<dyn DepthSource>, CaptureErr
 pub(super) fn list() -> Vec<SourceListing> {
     match found_devices(None) {
         Ok((_, devices)) => devices.into_iter().map(can_be_opened).collect(),
-        Err(error) => vec![SourceListing::unusable("OpenNI camera", error)],
+        Err(error) => vec![SourceListing::unusable(error)],
     }
 }
 
 /// Starts the library and finds at least one device.
-fn found_devices(library: Option<&Path>) -> Result<(Context, Vec<FoundDevice>), OpenNiError> {
+fn found_devices(library: Option<&Path>) -> Result<(Context, Vec<FoundDevice>), CameraError> {
     let context = start(library)?;
-    let devices = context
-        .devices()
-        .map_err(|said| OpenNiError::NotOpened { said })?;
+    let devices = context.devices().map_err(not_opened)?;
     if devices.is_empty() {
-        return Err(OpenNiError::NoDevice);
+        return Err(OPENNI.no_device(None, Vec::new()));
     }
     Ok((context, devices))
 }
 
-fn start(library: Option<&Path>) -> Result<Context, OpenNiError> {
+fn start(library: Option<&Path>) -> Result<Context, CameraError> {
     Context::new(OPENNI.find(library, Functions::load)?)
+}
+
+fn not_opened(messages: Messages) -> CameraError {
+    OPENNI.error(CameraErrorKind::NotOpened).quoting(messages)
+}
+
+fn not_started(messages: Messages) -> CameraError {
+    OPENNI.error(CameraErrorKind::NotStarted).quoting(messages)
+}
+
+fn disconnected(messages: Messages) -> CameraError {
+    OPENNI
+        .error(CameraErrorKind::Disconnected)
+        .quoting(messages)
 }
 
 fn can_be_opened(found: FoundDevice) -> SourceListing {
@@ -139,7 +128,7 @@ fn title(found: &FoundDevice) -> String {
 }
 
 impl OpenNi {
-    fn open(spec: &OpenNiSpec) -> Result<Self, OpenNiError> {
+    fn open(spec: &OpenNiSpec) -> Result<Self, CameraError> {
         let library = spec.library.as_deref();
         let (device, title) = match spec.file() {
             Some(path) => (
@@ -149,25 +138,34 @@ impl OpenNi {
             None => open_camera(spec.device.as_deref(), library)?,
         };
         let mode = device.get::<VideoMode>(STREAM_MODE).unwrap_or_default();
-        let metres_per_unit = metres_per_unit(&mode).ok_or_else(|| OpenNiError::NoDepthMode {
-            title: title.clone(),
+        let unsuitable =
+            |what: &str, advice: &str| OPENNI.unsuitable(format!("{title} {what}"), advice);
+        let metres_per_unit = metres_per_unit(&mode).ok_or_else(|| {
+            unsuitable(
+                "offers depth neither in millimetres nor in tenths of a millimetre",
+                "Record it again in millimetres, or update the camera's driver",
+            )
         })?;
-        let camera = camera_of(&device, &mode).ok_or_else(|| OpenNiError::NoFieldOfView {
-            title: title.clone(),
+        let camera = camera_of(&device, &mode).ok_or_else(|| {
+            unsuitable(
+                "does not report its field of view",
+                "Update the camera's driver: without the field of view, readings cannot be placed in space",
+            )
         })?;
-        let is_mirrored = is_mirrored(&device).ok_or_else(|| OpenNiError::MirroringUnknown {
-            title: title.clone(),
+        let is_mirrored = is_mirrored(&device).ok_or_else(|| {
+            unsuitable(
+                "does not report whether its picture is mirrored",
+                "Update the camera's driver, and record again with it: a mirrored picture gives wrong poses",
+            )
         })?;
         let file = spec.file().map(Path::to_path_buf);
         if file.is_some() {
             let speed = speed(spec.pace, mode.rate);
             let set = device.set_device(DEVICE_SPEED, speed);
             set.and_then(|()| device.set_device(DEVICE_REPEAT, 0))
-                .map_err(|said| OpenNiError::NotStarted { said })?;
+                .map_err(not_started)?;
         }
-        device
-            .start()
-            .map_err(|said| OpenNiError::NotStarted { said })?;
+        device.start().map_err(not_started)?;
         Ok(Self {
             device: Some(device),
             title,
@@ -187,7 +185,7 @@ impl OpenNi {
             return Ok(NextCapture::End);
         };
         if device.is_lost() {
-            return self.end(OpenNiError::Lost { said: Vec::new() });
+            return self.end(disconnected(Messages::new()));
         }
         // Query this before the wait: frames before the end of a file have then arrived.
         let is_at_end = device.is_at_end();
@@ -198,14 +196,21 @@ impl OpenNi {
             Ok(Some(received)) => {
                 let mode = received.mode;
                 if received.is_part {
-                    let title = self.title.clone();
-                    self.end(OpenNiError::Cropped { title })
+                    self.end(OPENNI.unsuitable(
+                        format!("{} sends only a part of its picture", self.title),
+                        "Switch cropping off, and record the whole picture again",
+                    ))
                 } else if (mode.width, mode.height, mode.format)
                     != (self.mode.width, self.mode.height, self.mode.format)
                     || is_mirrored != Some(self.is_mirrored)
                 {
-                    let title = self.title.clone();
-                    self.end(OpenNiError::Changed { title })
+                    self.end(OPENNI.unsuitable(
+                        format!(
+                            "the picture of {} has changed its size, unit or mirroring",
+                            self.title
+                        ),
+                        "Leave the camera's settings as they are while it runs or records, then open it again",
+                    ))
                 } else {
                     Ok(NextCapture::Captured(self.captured(received)))
                 }
@@ -215,10 +220,10 @@ impl OpenNi {
                 Ok(NextCapture::End)
             }
             Ok(None) => match self.silence.add(start.elapsed()) {
-                Some(seconds) => self.end(OpenNiError::Silent { seconds }),
+                Some(seconds) => self.end(OPENNI.error(CameraErrorKind::NoFrames { seconds })),
                 None => Ok(NextCapture::NotYet),
             },
-            Err(said) => self.end(OpenNiError::Lost { said }),
+            Err(messages) => self.end(disconnected(messages)),
         }
     }
 
@@ -241,16 +246,18 @@ impl OpenNi {
     }
 
     /// Closes the camera. If a file cannot be played on, it is damaged.
-    fn end(&mut self, reason: OpenNiError) -> Result<NextCapture, CaptureError> {
+    fn end(&mut self, reason: CameraError) -> Result<NextCapture, CaptureError> {
         self.device = None;
-        let reason = match (&self.file, reason) {
-            (Some(path), OpenNiError::Silent { .. } | OpenNiError::Lost { .. }) => {
-                OpenNiError::FileUnusable {
-                    path: path.clone(),
-                    what: format!("nothing can be read after frame {}", self.num_frames),
-                }
-            }
-            (_, reason) => reason,
+        let is_interrupted = matches!(
+            reason.kind,
+            CameraErrorKind::NoFrames { .. } | CameraErrorKind::Disconnected
+        );
+        let reason = match &self.file {
+            Some(path) if is_interrupted => OPENNI.file_unusable(
+                path,
+                format!("nothing can be read after frame {}", self.num_frames),
+            ),
+            _ => reason,
         };
         Err(reason.into())
     }
@@ -270,8 +277,8 @@ impl DepthSource for OpenNi {
         loop {
             let left = wait.saturating_sub(start.elapsed());
             let next = match self.file {
-                Some(_) => self.turn(FILE_TURN)?,
-                None => self.turn(left.min(CAMERA_TURN))?,
+                Some(_) => self.turn(FILE_WAIT)?,
+                None => self.turn(left.min(CAMERA_WAIT))?,
             };
             if !matches!(next, NextCapture::NotYet) || start.elapsed() >= wait {
                 return Ok(next);
@@ -281,38 +288,31 @@ impl DepthSource for OpenNi {
 }
 
 /// Opens a recorded file.
-fn open_file(path: &Path, library: Option<&Path>) -> Result<Device, OpenNiError> {
-    let unusable = |what| OpenNiError::FileUnusable {
-        path: path.to_path_buf(),
-        what,
-    };
+fn open_file(path: &Path, library: Option<&Path>) -> Result<Device, CameraError> {
     let name = path.to_string_lossy();
-    if name.len() > LONGEST_PATH {
-        let what = format!("OpenNI opens paths of at most {LONGEST_PATH} bytes");
-        return Err(unusable(what));
+    if name.len() > MAX_PATH_BYTES {
+        let what = format!("OpenNI opens paths of at most {MAX_PATH_BYTES} bytes");
+        return Err(OPENNI.file_unusable(path, what));
     }
     let context = start(library)?;
-    open_device(context, &name).map_err(|said| {
-        let said = quoted(said.first());
-        unusable(format!("OpenNI cannot read it{said}"))
+    open_device(context, &name).map_err(|messages| {
+        let message = quoted(messages.first().map(String::as_str));
+        OPENNI.file_unusable(path, format!("OpenNI cannot read it{message}"))
     })
 }
 
 /// Opens the camera with that URI, or the first one, in its best mode. Also returns its title.
-fn open_camera(uri: Option<&str>, library: Option<&Path>) -> Result<(Device, String), OpenNiError> {
+fn open_camera(uri: Option<&str>, library: Option<&Path>) -> Result<(Device, String), CameraError> {
     let (context, devices) = found_devices(library)?;
     let chosen = match uri {
         Some(uri) => devices.iter().find(|device| device.uri == uri),
         None => devices.first(),
     };
     let Some(chosen) = chosen else {
-        return Err(OpenNiError::NoSuchDevice {
-            uri: uri.unwrap_or_default().to_owned(),
-            found: devices.into_iter().map(|device| device.uri).collect(),
-        });
+        let found = devices.into_iter().map(|device| device.uri).collect();
+        return Err(OPENNI.no_device(uri, found));
     };
-    let device =
-        open_device(context, &chosen.uri).map_err(|said| OpenNiError::NotOpened { said })?;
+    let device = open_device(context, &chosen.uri).map_err(not_opened)?;
     // Not every device has all these settings or needs them; what it reports afterwards is checked.
     if let Some(mode) = best_mode(&device.modes()) {
         let _ = device.set(STREAM_MODE, mode);
@@ -335,7 +335,7 @@ fn best_mode(modes: &[VideoMode]) -> Option<VideoMode> {
     let worth = |mode: &&VideoMode| {
         let num_pixels = i64::from(mode.width) * i64::from(mode.height);
         let is_millimetres = mode.format == DEPTH_1_MM;
-        (mode.rate >= SLOW, num_pixels, is_millimetres, mode.rate)
+        (mode.rate >= MIN_FPS, num_pixels, is_millimetres, mode.rate)
     };
     modes.max_by_key(worth).copied()
 }

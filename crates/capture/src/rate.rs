@@ -12,14 +12,14 @@ pub struct FrameRate {
 }
 
 /// Number of events over which the rate is averaged: one second of a camera.
-const WINDOW: usize = 31;
+const WINDOW_EVENTS: usize = 31;
 /// There is no rate after this time without an event.
-const STALE: Duration = Duration::from_secs(3);
+const MAX_GAP: Duration = Duration::from_secs(3);
 
 impl FrameRate {
     /// Counts an event.
     pub fn came(&mut self, at: Instant) {
-        if self.times.len() == WINDOW {
+        if self.times.len() == WINDOW_EVENTS {
             self.times.pop_front();
         }
         self.times.push_back(at);
@@ -31,7 +31,7 @@ impl FrameRate {
         let num_gaps = self.times.len().checked_sub(1).filter(|&n| n > 0)?;
         // A slow source may pause longer than that: allow ten of its average intervals.
         let gap = (*last - *first) / num_gaps as u32;
-        if now.saturating_duration_since(*last) > STALE.max(10 * gap) {
+        if now.saturating_duration_since(*last) > MAX_GAP.max(10 * gap) {
             return None;
         }
         let seconds = (*last - *first).as_secs_f64();

@@ -12,14 +12,14 @@ use files::{self, FileContent, FileError, file_name};
 use geometry::{clock, cloud::PointCloud};
 
 /// A file ending of scenes that is also common for logs and settings beside them.
-const OF_LOGS: &str = "txt";
+const LOG_ENDING: &str = "txt";
 
 /// True if a file of this name may be a capture: a known ending, and not hidden.
 pub fn may_be_capture(path: &Path) -> bool {
     let ending = path.extension().map(|ending| ending.to_string_lossy());
     let is_known = ending.is_some_and(|found| {
         let mut endings = files::SCENE_ENDINGS.iter();
-        endings.any(|ending| *ending != OF_LOGS && found.eq_ignore_ascii_case(ending))
+        endings.any(|ending| *ending != LOG_ENDING && found.eq_ignore_ascii_case(ending))
     });
     is_known && !file_name(path).starts_with('.')
 }

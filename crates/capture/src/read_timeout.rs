@@ -14,13 +14,13 @@ pub(super) struct ReadTimeout {
 
 impl Default for ReadTimeout {
     fn default() -> Self {
-        Self::of(DEFAULT_LIMIT)
+        Self::with_limit(DEFAULT_LIMIT)
     }
 }
 
 impl ReadTimeout {
     /// A camera is lost after `limit`.
-    pub(super) fn of(limit: Duration) -> Self {
+    pub(super) fn with_limit(limit: Duration) -> Self {
         Self {
             limit,
             silent_for: Duration::ZERO,
@@ -58,7 +58,7 @@ mod tests {
         silence.restart();
         assert_eq!(silence.add(Duration::from_secs(4)), None);
         assert_eq!(
-            ReadTimeout::of(Duration::from_secs(8)).add(Duration::from_secs(9)),
+            ReadTimeout::with_limit(Duration::from_secs(8)).add(Duration::from_secs(9)),
             Some(9)
         );
     }

@@ -8,7 +8,6 @@
 //! its tangential part. Other models are refused. librealsense reads files itself; we only check beforehand that a file is
 //! complete.
 
-mod error;
 mod file;
 mod header;
 mod librealsense;
@@ -16,19 +15,20 @@ mod librealsense;
 use std::{
     cmp::Reverse,
     ffi::{CString, c_int},
+    fmt::Display,
     path::{Path, PathBuf},
     time::{Duration, Instant},
 };
 
 use jiff::Timestamp;
 
-pub use self::error::RealsenseError;
 use self::{
     header::RawIntrinsics,
     librealsense::{Context, DepthMode, Device, Functions, Received, Sensor, Stream},
 };
 use super::{
-    driver_search::CameraLibrary,
+    camera_error::{CameraError, CameraErrorKind, only},
+    camera_library::REALSENSE,
     error::CaptureError,
     open::SourceListing,
     read_timeout::ReadTimeout,
@@ -40,48 +40,12 @@ use geometry::{
     distortion::Distortion,
 };
 
-/// File names on Linux. If only the runtime packages are installed, the name contains the minor version; the newest is
-/// preferred.
-macro_rules! with_minor_versions {
-    ($($minor:literal)*) => {
-        &["librealsense2.so", $(concat!("librealsense2.so.2.", $minor)),*]
-    };
-}
-
-static REALSENSE: CameraLibrary = CameraLibrary {
-    name: "librealsense2",
-    cameras: "RealSense cameras",
-    versions: "librealsense 2.30 or a newer 2",
-    install: if cfg!(target_os = "macos") {
-        "brew install librealsense"
-    } else if cfg!(windows) {
-        "put realsense2.dll beside the program"
-    } else {
-        "librealsense2 from https://github.com/realsenseai/librealsense/blob/master/doc/distribution_linux.md"
-    },
-    variable: "PARTSIGHT_REALSENSE",
-    file_names: if cfg!(target_os = "macos") {
-        // Homebrew's folder on Apple silicon is not among those that the system searches.
-        &[
-            "librealsense2.dylib",
-            "/opt/homebrew/lib/librealsense2.dylib",
-        ]
-    } else if cfg!(windows) {
-        &["realsense2.dll"]
-    } else {
-        with_minor_versions!(
-            79 78 77 76 75 74 73 72 71 70 69 68 67 66 65 64 63 62 61 60 59 58 57 56 55
-            54 53 52 51 50 49 48 47 46 45 44 43 42 41 40 39 38 37 36 35 34 33 32 31 30
-        )
-    },
-};
-
 /// Preferred modes, best first: columns, rows, frames per second.
-const PREFERRED: [(c_int, c_int, c_int); 2] = [(848, 480, 30), (640, 480, 30)];
+const PREFERRED_MODES: [(c_int, c_int, c_int); 2] = [(848, 480, 30), (640, 480, 30)];
 /// Of equally large modes, the one closest to this rate is chosen, frames per second.
-const USUAL_RATE: c_int = 30;
+const PREFERRED_FPS: c_int = 30;
 /// Frame rate below which a mode is used only if there is no other, frames per second.
-const SLOW: c_int = 15;
+const MIN_FPS: c_int = 15;
 
 /// An open camera or file whose depth stream runs. Dropping it stops the stream and closes the camera.
 pub(super) struct Realsense {
@@ -102,7 +66,7 @@ pub(super) fn open(spec: &RealsenseSpec) -> Result<Box<dyn DepthSource>, Capture
         return Ok(Box::new(Realsense::open(spec)?));
     };
     file::check(path)?;
-    let opened = Realsense::open(spec).map_err(|error| error.of_file(path))?;
+    let opened = Realsense::open(spec).map_err(|error| file::not_played(error, path))?;
     Ok(Box::new(opened))
 }
 
@@ -112,18 +76,18 @@ pub(super) fn list() -> Vec<SourceListing> {
         let devices = context.devices().map_err(not_opened)?;
         let listed = devices.open_each().map(|device| {
             let listing = device.map_err(not_opened).and_then(listing_of);
-            listing.unwrap_or_else(cannot_be_opened)
+            listing.unwrap_or_else(SourceListing::unusable)
         });
         let listed: Vec<SourceListing> = listed.collect();
         if listed.is_empty() {
-            return Err(RealsenseError::NoDevice);
+            return Err(REALSENSE.no_device(None, Vec::new()));
         }
         Ok(listed)
     });
-    listed.unwrap_or_else(|error| vec![cannot_be_opened(error)])
+    listed.unwrap_or_else(|error| vec![SourceListing::unusable(error)])
 }
 
-fn listing_of(device: Device) -> Result<SourceListing, RealsenseError> {
+fn listing_of(device: Device) -> Result<SourceListing, CameraError> {
     let title = title(&device);
     let spec = RealsenseSpec {
         device: device.serial_number(),
@@ -131,10 +95,6 @@ fn listing_of(device: Device) -> Result<SourceListing, RealsenseError> {
     };
     depth_sensor(device, &title)?;
     Ok(SourceListing::openable(title, SourceSpec::Realsense(spec)))
-}
-
-fn cannot_be_opened(error: RealsenseError) -> SourceListing {
-    SourceListing::unusable("RealSense", error)
 }
 
 /// Model and serial number.
@@ -147,17 +107,35 @@ fn title(device: &Device) -> String {
 }
 
 /// Starts the library at `library`, or the one of the environment or the system.
-fn start(library: Option<&Path>) -> Result<Context, RealsenseError> {
+fn start(library: Option<&Path>) -> Result<Context, CameraError> {
     let functions = REALSENSE.find(library, Functions::load)?;
-    Context::new(functions).map_err(|said| RealsenseError::LibraryNotStarted { said })
+    Context::new(functions).map_err(|message| {
+        REALSENSE
+            .error(CameraErrorKind::LibraryNotStarted)
+            .quoting([message])
+    })
 }
 
-fn not_opened(said: String) -> RealsenseError {
-    RealsenseError::NotOpened { said }
+fn not_opened(message: String) -> CameraError {
+    REALSENSE
+        .error(CameraErrorKind::NotOpened)
+        .quoting([message])
+}
+
+fn not_started(message: String) -> CameraError {
+    REALSENSE
+        .error(CameraErrorKind::NotStarted)
+        .quoting([message])
+}
+
+fn disconnected(message: Option<String>) -> CameraError {
+    REALSENSE
+        .error(CameraErrorKind::Disconnected)
+        .quoting(message)
 }
 
 impl Realsense {
-    fn open(spec: &RealsenseSpec) -> Result<Self, RealsenseError> {
+    fn open(spec: &RealsenseSpec) -> Result<Self, CameraError> {
         let context = start(spec.library.as_deref())?;
         let file = spec.file().map(Path::to_path_buf);
         let (title, (sensor, mode)) = if let Some(path) = &file {
@@ -182,8 +160,7 @@ impl Realsense {
             };
             paced.map_err(not_opened)?;
         }
-        let stream = sensor.start(mode);
-        let stream = stream.map_err(|said| RealsenseError::NotStarted { said })?;
+        let stream = sensor.start(mode).map_err(not_started)?;
         Ok(Self {
             stream: Some(stream),
             title,
@@ -209,7 +186,7 @@ impl Realsense {
         });
         let name = format!("RealSense frame {}", self.num_frames);
         Captured {
-            taken_at: recorded_at.unwrap_or_else(Timestamp::now),
+            taken_at: recorded_at.unwrap_or_else(geometry::clock::now),
             ..Captured::now(self.num_frames, name, image)
         }
     }
@@ -223,21 +200,21 @@ impl Realsense {
         if let Some(stream) = self.stream.as_ref().filter(|_| is_to_ask) {
             match stream.is_connected() {
                 Ok(true) => {}
-                Ok(false) => return self.end(RealsenseError::Lost { said: None }),
-                Err(said) => return self.end(RealsenseError::Lost { said: Some(said) }),
+                Ok(false) => return self.end(disconnected(None)),
+                Err(message) => return self.end(disconnected(Some(message))),
             }
         }
         match timeout {
-            Some(seconds) => self.end(RealsenseError::Silent { seconds }),
+            Some(seconds) => self.end(REALSENSE.error(CameraErrorKind::NoFrames { seconds })),
             None => Ok(NextCapture::NotYet),
         }
     }
 
     /// Closes the camera.
-    fn end(&mut self, reason: RealsenseError) -> Result<NextCapture, CaptureError> {
+    fn end(&mut self, reason: CameraError) -> Result<NextCapture, CaptureError> {
         self.stream = None;
         let reason = match &self.file {
-            Some(path) => reason.of_file(path),
+            Some(path) => file::not_played(reason, path),
             None => reason,
         };
         Err(reason.into())
@@ -270,12 +247,12 @@ impl DepthSource for Realsense {
             // A file may have long pauses.
             Ok(None) if self.file.is_some() && !is_stopped => Ok(NextCapture::NotYet),
             Ok(None) => self.silent(start.elapsed()),
-            Err(said) => self.end(RealsenseError::Lost { said: Some(said) }),
+            Err(message) => self.end(disconnected(Some(message))),
         }
     }
 }
 
-fn open_file(context: &Context, path: &Path) -> Result<Device, RealsenseError> {
+fn open_file(context: &Context, path: &Path) -> Result<Device, CameraError> {
     let name = CString::new(path.to_string_lossy().into_owned());
     let name = name.map_err(|error| not_opened(error.to_string()))?;
     context.open_file(&name).map_err(not_opened)
@@ -286,15 +263,15 @@ fn open_file(context: &Context, path: &Path) -> Result<Device, RealsenseError> {
 fn open_camera(
     context: &Context,
     serial: Option<&str>,
-) -> Result<(String, (Sensor, DepthMode)), RealsenseError> {
+) -> Result<(String, (Sensor, DepthMode)), CameraError> {
     let devices = context.devices().map_err(not_opened)?;
     let (mut found, mut error) = (Vec::new(), None);
     for device in devices.open_each() {
         let device = match device {
             Ok(device) => device,
             // It may be the requested one.
-            Err(said) => {
-                error = Some(not_opened(said));
+            Err(message) => {
+                error = Some(not_opened(message));
                 continue;
             }
         };
@@ -308,27 +285,26 @@ fn open_camera(
             Ok(depth) => return Ok((title, depth)),
             Err(reason) if serial.is_some() => return Err(reason),
             // A depth camera that does not open matters more than one without depth.
-            Err(reason @ RealsenseError::NoDepth { .. }) => error = error.or(Some(reason)),
+            Err(reason) if matches!(reason.kind, CameraErrorKind::NoDepth { .. }) => {
+                error = error.or(Some(reason));
+            }
             Err(reason) => error = Some(reason),
         }
     }
-    Err(match (error, serial) {
-        (Some(error), _) => error,
-        (None, Some(serial)) if !found.is_empty() => RealsenseError::NoSuchDevice {
-            serial: serial.to_owned(),
-            found,
-        },
-        (None, _) => RealsenseError::NoDevice,
-    })
+    Err(error.unwrap_or_else(|| {
+        let wanted = serial.filter(|_| !found.is_empty());
+        REALSENSE.no_device(wanted, found)
+    }))
 }
 
 /// Returns the device's depth sensor, with its best mode.
-fn depth_sensor(device: Device, title: &str) -> Result<(Sensor, DepthMode), RealsenseError> {
+fn depth_sensor(device: Device, title: &str) -> Result<(Sensor, DepthMode), CameraError> {
     let sensor = device.depth_sensor().map_err(not_opened)?;
     let mode = sensor.as_ref().and_then(|sensor| best_mode(sensor.modes()));
     let depth = sensor.zip(mode);
-    depth.ok_or_else(|| RealsenseError::NoDepth {
-        title: title.to_owned(),
+    depth.ok_or_else(|| {
+        let title = title.to_owned();
+        REALSENSE.error(CameraErrorKind::NoDepth { title })
     })
 }
 
@@ -336,10 +312,13 @@ fn depth_sensor(device: Device, title: &str) -> Result<(Sensor, DepthMode), Real
 fn best_mode(modes: &[DepthMode]) -> Option<DepthMode> {
     let worth = |mode: &&DepthMode| {
         let size = (mode.width, mode.height, mode.rate);
-        let preference = PREFERRED.iter().rev().position(|wanted| *wanted == size);
+        let preference = PREFERRED_MODES
+            .iter()
+            .rev()
+            .position(|wanted| *wanted == size);
         let num_pixels = i64::from(mode.width) * i64::from(mode.height);
-        let off_rate = Reverse((mode.rate - USUAL_RATE).abs());
-        (preference, mode.rate >= SLOW, num_pixels, off_rate)
+        let off_rate = Reverse((mode.rate - PREFERRED_FPS).abs());
+        (preference, mode.rate >= MIN_FPS, num_pixels, off_rate)
     };
     let modes = modes
         .iter()
@@ -347,41 +326,52 @@ fn best_mode(modes: &[DepthMode]) -> Option<DepthMode> {
     modes.max_by_key(worth).copied()
 }
 
-fn set_preset(sensor: &Sensor, preset: &str, title: &str) -> Result<(), RealsenseError> {
+fn set_preset(sensor: &Sensor, preset: &str, title: &str) -> Result<(), CameraError> {
     let presets = sensor.presets().map_err(not_opened)?;
     let asked = presets
         .iter()
         .find(|(_, name)| name.eq_ignore_ascii_case(preset));
     let Some((number, _)) = asked else {
-        return Err(RealsenseError::NoSuchPreset {
-            title: title.to_owned(),
-            preset: preset.to_owned(),
-            offered: presets.into_iter().map(|(_, name)| name).collect(),
-        });
+        let offered: Vec<String> = presets.into_iter().map(|(_, name)| name).collect();
+        let advice = if offered.is_empty() {
+            "Leave the source's preset option out"
+        } else {
+            "Leave the source's preset option out, or name one that the camera has"
+        };
+        let what = format!("{title} has no preset {preset:?}{}", only(&offered));
+        return Err(REALSENSE.unsuitable(what, advice));
     };
     sensor.set_preset(*number).map_err(not_opened)
 }
 
 /// Converts the unit by way of its decimal form: 0.001 instead of the nearest binary fraction.
-fn metres_per_unit(scale: f32, title: &str) -> Result<f64, RealsenseError> {
+fn metres_per_unit(scale: f32, title: &str) -> Result<f64, CameraError> {
     let metres: f64 = scale.to_string().parse().unwrap_or(f64::NAN);
     if metres > 0.0 && metres.is_finite() {
         return Ok(metres);
     }
-    Err(RealsenseError::BadNumbers {
-        title: title.to_owned(),
-        what: format!("a unit of depth of {scale} m"),
-    })
+    Err(impossible(
+        title,
+        format_args!("a unit of depth of {scale} m"),
+    ))
+}
+
+/// The camera reports impossible numbers.
+fn impossible(title: &str, numbers: impl Display) -> CameraError {
+    REALSENSE.unsuitable(
+        format!("{title} reports impossible intrinsics: {numbers}"),
+        "Restore the camera's factory calibration with its maker's RealSense Viewer",
+    )
 }
 
 /// Converts the intrinsics, if [`Intrinsics`] can represent them.
-fn camera_of(raw: &RawIntrinsics, title: &str) -> Result<Intrinsics, RealsenseError> {
-    let bad = || RealsenseError::BadNumbers {
-        title: title.to_owned(),
-        what: format!(
+fn camera_of(raw: &RawIntrinsics, title: &str) -> Result<Intrinsics, CameraError> {
+    let bad = || {
+        let numbers = format!(
             "{}×{} pixels, focal lengths {} and {}, centre {} and {}, distortion {:?}",
             raw.width, raw.height, raw.fx, raw.fy, raw.ppx, raw.ppy, raw.coeffs
-        ),
+        );
+        impossible(title, numbers)
     };
     let size = |number: c_int| usize::try_from(number).ok().filter(|&size| size > 0);
     let camera = Intrinsics {
@@ -391,9 +381,13 @@ fn camera_of(raw: &RawIntrinsics, title: &str) -> Result<Intrinsics, RealsenseEr
         fy: f64::from(raw.fy),
         cx: f64::from(raw.ppx),
         cy: f64::from(raw.ppy),
-        distortion: lens(raw).map_err(|model| RealsenseError::UnknownLens {
-            title: title.to_owned(),
-            model,
+        distortion: lens(raw).map_err(|model| {
+            REALSENSE.unsuitable(
+                format!(
+                    "{title} gives the distortion of its depth image by the {model} model, which Partsight does not read"
+                ),
+                "Use a camera whose depth image is not distorted, such as one of the D400 family",
+            )
         })?,
     };
     let numbers = [camera.fx, camera.fy, camera.cx, camera.cy];
@@ -462,7 +456,7 @@ mod tests {
             width,
             height,
             rate,
-            place: 0,
+            index: 0,
         }
     }
 
@@ -573,7 +567,7 @@ mod tests {
             },
         ] {
             let error = camera_of(&raw, "It").expect_err("no camera");
-            let is_bad = matches!(error, RealsenseError::BadNumbers { .. });
+            let is_bad = error.to_string().contains("impossible intrinsics");
             assert!(is_bad, "{error}");
         }
         for scale in [0.0, -0.001, f32::NAN, f32::INFINITY] {

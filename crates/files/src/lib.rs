@@ -24,6 +24,8 @@
 //! file that begins with "solid " for text and drops every solid after the first; `tobj` returns nothing for an OBJ without
 //! faces; neither of the last two can name the line that is wrong.
 
+#![cfg_attr(test, allow(clippy::disallowed_methods, reason = "tests change files"))]
+
 mod cause;
 mod cells;
 mod checksum;

@@ -157,7 +157,7 @@ mod tests {
     }
 
     /// One triangle after a header that begins like text.
-    pub fn binary_triangle() -> Vec<u8> {
+    pub(super) fn binary_triangle() -> Vec<u8> {
         let mut bytes = b"solid but binary".to_vec();
         bytes.resize(80, 0);
         bytes.extend(1_u32.to_le_bytes());

@@ -240,7 +240,7 @@ mod tests {
         use crate::disk::faults::{Writer, told};
 
         Writer {
-            test: "files::write::tests::whichever_call_fails_a_file_holds_its_old_content_or_the_new",
+            test: "write::tests::whichever_call_fails_a_file_holds_its_old_content_or_the_new",
             prepare: &|folder| fs::write(folder.join("kept.txt"), "old").unwrap(),
             write: &|folder| {
                 let written = write_atomically(&folder.join("kept.txt"), |writer| {

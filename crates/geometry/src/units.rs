@@ -3,7 +3,7 @@
 //! Inside a function body a length is a plain `f64` in metres and an angle a plain `f64` in radians.
 //! Millimetres and degrees appear only where a person reads or writes them, through the methods here.
 
-use std::fmt;
+use std::{borrow::Borrow, fmt};
 
 use serde::{Deserialize, Serialize};
 
@@ -55,6 +55,16 @@ impl fmt::Display for Radians {
     }
 }
 
+/// Lists words in English, such as "A, B or C".
+pub fn any_of<T: Borrow<str>>(words: &[T]) -> String {
+    match words {
+        [first @ .., last] if !first.is_empty() => {
+            format!("{} or {}", first.join(", "), last.borrow())
+        }
+        _ => words.concat(),
+    }
+}
+
 /// Writes a number of things in English, such as "1 point" or "5 points".
 pub fn counted(num: usize, one: &str, many: &str) -> String {
     let noun = if num == 1 { one } else { many };
@@ -69,5 +79,11 @@ mod tests {
     fn only_one_thing_is_singular() {
         let texts = [0, 1, 2].map(|num| counted(num, "point", "points"));
         assert_eq!(texts, ["0 points", "1 point", "2 points"]);
+    }
+    #[test]
+    fn only_the_last_two_words_of_a_list_have_or_between_them() {
+        let words = ["A", "B", "C"];
+        let texts = [0, 1, 2, 3].map(|num| any_of(&words[..num]));
+        assert_eq!(texts, ["", "A", "A or B", "A, B or C"]);
     }
 }

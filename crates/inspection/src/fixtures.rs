@@ -1,5 +1,7 @@
 //! What tests of this crate and of those above it build.
 
+#![allow(clippy::disallowed_methods, reason = "tests change files")]
+
 use std::{fs, path::Path};
 
 use geometry::units::Metres;
@@ -17,25 +19,19 @@ use crate::{
     pipeline::{Rejection, Unrecognisable},
 };
 
+/// The folder of the eight shipped parts.
+pub const SHIPPED_PARTS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../reference_parts");
+
 /// Loads the eight shipped parts.
 pub fn shipped_library() -> Library {
-    let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join(concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/../../reference_parts"
-    ));
-    let folder = LibraryFolder::open(&path).expect("the shipped parts");
+    let folder = LibraryFolder::open(SHIPPED_PARTS.as_ref()).expect("the shipped parts");
     let load = folder.load(&ReferenceParams::default()).expect("loaded");
     load.library
 }
 
 /// Copies the shipped parts into a new folder, for a test to change.
 pub fn copy_library(to: &Path) {
-    for part in fs::read_dir(concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/../../reference_parts"
-    ))
-    .expect("the shipped parts")
-    {
+    for part in fs::read_dir(SHIPPED_PARTS).expect("the shipped parts") {
         let from = part.expect("a part").path();
         if from.is_dir() {
             let to = to.join(from.file_name().expect("a name"));

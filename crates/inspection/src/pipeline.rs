@@ -2,6 +2,7 @@
 //!
 //! The window, the command line and the tests are three callers of [`run`].
 
+mod hypothesis;
 pub mod live;
 mod mirror;
 mod named_recipe;
@@ -23,30 +24,30 @@ use geometry::{
     units::Metres,
 };
 use stages::{
-    confirm::{CUT_SHARE, ConfirmParams, ConfirmedRanking},
+    confirm::{ConfirmParams, ConfirmedRanking},
     contour::{Contour, ContourParams},
     pose::{PoseError, PoseEstimate, PoseMethod, icp::IcpParams, icp_ga::IcpGaParams},
     project::{PlaneImage, ProjectParams},
-    rank::{Matcher, Query, RankParams},
+    rank::{Query, RankParams},
     reference::{Reference, ReferenceParams},
     scene::SceneCloud,
-    segment::{
-        Bars, NoPart, PointLabel, SegmentParams, Segmentation, SegmentedPart, other_segments,
-        segment, without_bars,
-    },
+    segment::{NoPart, PointLabel, SegmentParams, Segmentation, segment},
     signature::{FanSignature, SignatureParams},
     stand_off::StandOffParams,
 };
 
 use self::{
-    mirror::check_mirror_image,
+    hypothesis::try_hypotheses,
     surface::{InspectionInputs, inspect_surface},
     unsound::refuse_unsound,
     watch::StageClock,
 };
 pub use self::{
     mirror::{MirrorTally, OnlyMirrored},
-    named_recipe::{BUILT_IN, MAX_NOTES, NamedRecipe, RecipeBlock, RecipeFile, RecipeLabel},
+    named_recipe::{
+        AS_IN_THE_PAPER, BUILT_IN, BUILT_IN_RECIPES, MAX_NOTES, NamedRecipe, RecipeBlock,
+        RecipeFile, RecipeLabel, built_in_recipe,
+    },
     recipe_error::RecipeError,
     recipe_folder::{RecipeFolder, RecipeList, Replace, open_recipe},
     refusal::{Refusal, RefusalKind},
@@ -193,106 +194,12 @@ fn inspect(
     match first.map_err(|no_part| *no_part) {
         Ok(first) => {
             first?.keep(&mut inspection);
-            let evidence = inspection.ranking.entries.first().and_then(|e| e.evidence);
-            let looks_whole = evidence.is_some_and(|evidence| evidence.cut < CUT_SHARE);
-            if should_try_alternatives(&inspection, recipe) {
-                let likeliest = inspection.segmentation.part.clone();
-                try_other_segments(&mut inspection, inputs)?;
-                if should_try_alternatives(&inspection, recipe) {
-                    check_mirror_image(&mut inspection, inputs)?;
-                }
-                if let Ok(likeliest) = &likeliest {
-                    if is_nothing_like_it(&inspection, recipe) && looks_whole {
-                        let piece = SegmentedPart {
-                            is_piece: true,
-                            ..likeliest.clone()
-                        };
-                        try_segment(&mut inspection, piece, inputs)?;
-                    }
-                    if is_nothing_like_it(&inspection, recipe) {
-                        try_without_bars(&mut inspection, likeliest, inputs)?;
-                    }
-                }
-            }
+            try_hypotheses(&mut inspection, inputs)?;
         }
         Err(no_part) => inspection.verdict = Verdict::NoPart(no_part.into()),
     }
     inspection.timings = clock.finish();
     Ok(inspection)
-}
-
-/// Maximum number of other surfaces tried after the first.
-const MAX_OTHERS: usize = 3;
-
-/// Another surface replaces the first only above this score; below it neither is an enrolled part.
-const WORTH_CHANGING: f64 = 0.1;
-
-/// True if other surfaces of the scene should be tried: nothing is accepted yet, and the recipe does not use the
-/// paper's methods, which know only one surface.
-fn should_try_alternatives(inspection: &Inspection, recipe: &Recipe) -> bool {
-    let is_ours = recipe.rank.matcher == Matcher::Default
-        && recipe.pose == PoseChoice::By(PoseMethod::Global);
-    is_ours && !inspection.verdict.is_accepted() && !inspection.ranking.entries.is_empty()
-}
-
-/// True if neither an enrolled part nor a likeness of one, such as its mirror image, was found.
-fn is_nothing_like_it(inspection: &Inspection, recipe: &Recipe) -> bool {
-    should_try_alternatives(inspection, recipe) && !inspection.verdict.is_likeness()
-}
-
-/// Tries the next largest surfaces, and keeps the one most likely to be an enrolled part.
-fn try_other_segments(
-    inspection: &mut Inspection,
-    inputs: &InspectionInputs<'_>,
-) -> Result<(), Cancelled> {
-    let others = inputs.clock.time(Stage::Segment, || {
-        let params = &inputs.recipe.segment;
-        other_segments(inputs.scene, &inspection.segmentation, params, MAX_OTHERS)
-    })?;
-    for part in others {
-        try_segment(inspection, part, inputs)?;
-        if inspection.verdict.is_accepted() {
-            break;
-        }
-    }
-    Ok(())
-}
-
-/// Inspects a surface, and keeps it if it is more likely an enrolled part than the present one.
-fn try_segment(
-    inspection: &mut Inspection,
-    part: SegmentedPart,
-    inputs: &InspectionInputs<'_>,
-) -> Result<(), Cancelled> {
-    let least = inspection.best_score().max(WORTH_CHANGING);
-    let found = inspect_surface(&part, inputs, least)?;
-    if found.best_score() > least {
-        inspection.segmentation.take(part);
-        found.keep(inspection);
-    }
-    Ok(())
-}
-
-/// Tries a surface with its bars removed, because they may belong to a stand.
-fn try_without_bars(
-    inspection: &mut Inspection,
-    surface: &SegmentedPart,
-    inputs: &InspectionInputs<'_>,
-) -> Result<(), Cancelled> {
-    let InspectionInputs { scene, clock, .. } = *inputs;
-    let mut num_before = 0;
-    for bars in [Bars::All, Bars::AllButSlats] {
-        let bare = clock.time(Stage::Segment, || without_bars(scene, surface, bars))?;
-        let Some(bare) = bare.filter(|bare| bare.indices.len() != num_before) else {
-            continue;
-        };
-        num_before = bare.indices.len();
-        try_segment(inspection, bare, inputs)?;
-        if inspection.verdict.is_accepted() {
-            break;
-        }
-    }
-    Ok(())
 }
 
 impl Inspection {
@@ -324,11 +231,11 @@ impl Inspection {
     /// view at the pose found; otherwise, if the segmented part reaches the end of the readings, which may also be its shadow.
     pub fn touches_edge(&self) -> bool {
         // Of 86 accepted simulated frames, all 39 of whole parts had 0, and 43 of the 47 others had 1 % or more.
-        const LEAST_OUTSIDE: f64 = 0.005;
+        const EDGE_MIN_OUTSIDE: f64 = 0.005;
         let pose = self.pose.as_ref().and_then(|pose| pose.as_ref().ok());
         let accepted = pose.filter(|_| self.verdict.is_accepted());
         if let Some(sight) = accepted.and_then(|pose| pose.fit.sight) {
-            return sight.outside >= LEAST_OUTSIDE;
+            return sight.outside >= EDGE_MIN_OUTSIDE;
         }
         let part = self.segmentation.part.as_ref();
         part.is_ok_and(|part| part.touches_edge)

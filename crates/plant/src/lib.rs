@@ -1,5 +1,7 @@
 //! Interfaces to the systems of a plant, beside the line protocols of [`serve`].
 
+#![cfg_attr(test, allow(clippy::disallowed_methods, reason = "tests change files"))]
+
 pub mod bundle;
 mod credentials;
 pub mod database;

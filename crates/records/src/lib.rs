@@ -1,5 +1,7 @@
 //! What is kept of inspections: the history, cases, and the reports made of them.
 
+#![cfg_attr(test, allow(clippy::disallowed_methods, reason = "tests change files"))]
+
 pub mod cases;
 #[cfg(any(test, feature = "fixtures"))]
 pub mod fixtures;

@@ -22,9 +22,9 @@ pub(super) enum Order {
 
 /// In gimbal lock α and γ turn about one axis. Below this sine of the angle between their axes, only their sum or
 /// difference is known to the last digits; γ is then set to 0, with an error of the same size.
-const LOCKED: f64 = 1e-10;
+const LOCKED_MAX_SINE: f64 = 1e-10;
 /// Below this sine, a tenth of a degree in the pose can change α and γ by ten degrees.
-const NEAR: f64 = 0.01;
+const NEAR_LOCK_MAX_SINE: f64 = 0.01;
 
 impl Order {
     /// Returns the angles α, β, γ in radians, each within ±π, and how near they are to gimbal lock.
@@ -37,7 +37,7 @@ impl Order {
             Self::Zyz => (r[(1, 2)], r[(0, 2)]),
         };
         let aside = sin.hypot(cos);
-        let is_locked = aside < LOCKED;
+        let is_locked = aside < LOCKED_MAX_SINE;
         let alpha = if is_locked {
             // With γ = 0 the second column of R is the y axis turned by α alone.
             match self {
@@ -62,7 +62,7 @@ impl Order {
         };
         let lock = if is_locked {
             GimbalLock::Locked
-        } else if aside < NEAR {
+        } else if aside < NEAR_LOCK_MAX_SINE {
             GimbalLock::Near
         } else {
             GimbalLock::Clear

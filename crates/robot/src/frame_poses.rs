@@ -175,12 +175,12 @@ impl Advice for FramePosesError {
 }
 
 /// Number of frames listed by name; the others are only counted.
-const SHOWN: usize = 3;
+const MAX_NAMES_SHOWN: usize = 3;
 
 fn listed(frames: &[String], num_frames: usize) -> String {
     let num = frames.len();
-    let shown = frames[..num.min(SHOWN)].join(", ");
-    let rest = match num.saturating_sub(SHOWN) {
+    let shown = frames[..num.min(MAX_NAMES_SHOWN)].join(", ");
+    let rest = match num.saturating_sub(MAX_NAMES_SHOWN) {
         0 => String::new(),
         more => format!(" and {more} more"),
     };
@@ -190,9 +190,9 @@ fn listed(frames: &[String], num_frames: usize) -> String {
 /// Largest file that is read, bytes.
 const MAX_BYTES: u64 = 4 << 20;
 /// Tolerance for a rigid matrix: people copy at least four decimals.
-const COPIED: f64 = 1e-3;
+const COPY_TOLERANCE: f64 = 1e-3;
 /// Greatest distance of a camera from the robot's base, metres.
-const FARTHEST: f64 = 50.0;
+const MAX_DISTANCE_M: f64 = 50.0;
 
 #[derive(Deserialize)]
 struct PoseFile {
@@ -223,15 +223,15 @@ fn matrix(numbers: &[f64]) -> Result<RigidTransform, EntryProblem> {
     let Ok(numbers) = <&[f64; 16]>::try_from(numbers) else {
         return Err(EntryProblem::Count { found });
     };
-    let Some(pose) = from_row_major(numbers, COPIED) else {
+    let Some(pose) = from_row_major(numbers, COPY_TOLERANCE) else {
         let across: [f64; 16] = std::array::from_fn(|i| numbers[i % 4 * 4 + i / 4]);
-        return Err(match from_row_major(&across, COPIED) {
+        return Err(match from_row_major(&across, COPY_TOLERANCE) {
             Some(_) => EntryProblem::ColumnByColumn,
             None => EntryProblem::NotRigid,
         });
     };
     let metres = pose.translation.vector.norm();
-    if metres > FARTHEST {
+    if metres > MAX_DISTANCE_M {
         return Err(EntryProblem::FarAway { metres });
     }
     Ok(pose)

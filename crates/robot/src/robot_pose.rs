@@ -199,7 +199,7 @@ impl Advice for ConventionError {
 }
 
 /// Tolerance for a unit quaternion, a full turn and a rigid matrix: people copy at least four decimals.
-const COPIED: f64 = 1e-3;
+const COPY_TOLERANCE: f64 = 1e-3;
 
 impl Convention {
     /// Converts a pose to the numbers of this convention.
@@ -277,13 +277,13 @@ impl Convention {
         let rotation = match (self.layout(), base.as_slice()) {
             (Layout::Matrix, all) => {
                 let all = <[f64; 16]>::try_from(all).ok();
-                let rigid = all.and_then(|all| from_row_major(&all, COPIED));
+                let rigid = all.and_then(|all| from_row_major(&all, COPY_TOLERANCE));
                 return rigid.ok_or(ConventionError::NotRigid);
             }
             (Layout::Xyzw, &[_, _, _, x, y, z, w]) | (Layout::Wxyz, &[_, _, _, w, x, y, z]) => {
                 let quaternion = Quaternion::new(w, x, y, z);
                 let length = quaternion.norm();
-                if !((length - 1.0).abs() < COPIED) {
+                if !((length - 1.0).abs() < COPY_TOLERANCE) {
                     return Err(ConventionError::NotUnit { length });
                 }
                 UnitQuaternion::from_quaternion(quaternion)
@@ -291,7 +291,7 @@ impl Convention {
             (Layout::RotationVector, &[_, _, _, x, y, z]) => {
                 let turn = Vector3::new(x, y, z);
                 let length = turn.norm();
-                if length > TAU + COPIED {
+                if length > TAU + COPY_TOLERANCE {
                     return Err(ConventionError::LongRotation { length });
                 }
                 UnitQuaternion::from_scaled_axis(turn)

@@ -6,7 +6,7 @@ use std::{
 };
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use geometry::{
     error::Advice,
@@ -150,7 +150,7 @@ pub struct Trouble {
 
 impl Trouble {
     /// Joins what happened and what to do about it in one line.
-    pub(super) fn new(reason: impl Into<String>, what: &str, advice: &str) -> Self {
+    pub fn new(reason: impl Into<String>, what: &str, advice: &str) -> Self {
         Self {
             reason: reason.into(),
             message: format!("{what} (to do: {advice})"),
@@ -215,6 +215,17 @@ pub struct LibraryStatus {
     pub version: Option<u32>,
     /// Why a newer version could not be taken or used; null if there is none.
     pub trouble: Option<Trouble>,
+}
+
+/// Which of the poses goes out; see [`robot`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum PoseKind {
+    /// Where the part is: for paths in the part's own frame.
+    #[default]
+    RobotFromPart,
+    /// How far it is from its standard position: for paths taught in the base frame.
+    RobotOffset,
 }
 
 /// A nozzle pose of the spray path, for the part as it hangs now.

@@ -8,25 +8,22 @@
 //! Each listener and each client, up to a limit, has a thread that talks to the robots; the thread that calls
 //! [`Server::run`] does all inspections. There is thus one inspection at a time: triggers queue in order of arrival. A
 //! client's next request is read only after its answer is sent, so the queue is never longer than the number of clients.
-//! Each trigger gets a frame of its own, captured after the trigger arrived ([`Camera`]).
+//! The [`Inspector`] takes a frame of its own for each trigger, captured after the trigger arrived.
 //!
-//! Three rules keep a robot from moving to a wrong pose: numbers are sent only with the verdict *accepted*, an accepted pose
-//! older than the limit becomes *stale* (`answer.rs`), and a part that moves is refused (`motion.rs`). Every answer carries
-//! a sequence number, which counts the inspections since the start, and the boot number of this start, so that a client
-//! that reconnects can tell which inspection it sees. The path of an inspection goes to the client that triggered it, or
+//! Two rules here keep a robot from moving to a wrong pose: numbers are sent only with the verdict *accepted*, and an
+//! accepted pose older than the limit becomes *stale* (`answer.rs`). Every answer carries a sequence number, which counts
+//! the inspections since the start, and the boot number of this start, so that a client that reconnects can tell which
+//! inspection it sees. The path of an inspection goes to the client that triggered it, or
 //! to one that names its sequence number (`inspections.rs`).
 //!
 //! Connections are neither encrypted nor authenticated: use a network of the cell's own. Other protocols (`plant`) go
 //! through a [`ServerHandle`].
 
 mod answer;
-mod camera;
 mod client;
-mod finder;
 mod handle;
 mod inspections;
 mod listen;
-mod motion;
 mod protocol;
 mod record;
 mod server;
@@ -35,11 +32,9 @@ mod tally;
 pub use self::server::bound;
 pub use self::{
     answer::{
-        Answer, CameraState, CameraStatus, Found, LibraryStatus, MAX_COUNT, PathStep, Request,
-        Trouble, VerdictCode,
+        Answer, CameraState, CameraStatus, Found, LibraryStatus, MAX_COUNT, PathStep, PoseKind,
+        Request, Trouble, VerdictCode,
     },
-    camera::{Camera, NewFrame, NoFrame},
-    finder::{FrameOrigin, NumberedPart, PartFinder, PoseKind},
     handle::ServerHandle,
     listen::{ListenAddress, ListenError, Listener, OpenToNetwork, parse_address},
     protocol::{
@@ -50,6 +45,7 @@ pub use self::{
     record::{InspectionRecord, InspectionRecorder},
     server::{
         Asked, ClientEvent, ClientNews, ClientSlot, Inspector, ServeError, Server, ServerSettings,
+        Unanswered,
     },
     tally::Tally,
 };

@@ -23,7 +23,6 @@ use super::{
         Answer, CameraStatus, Found, Inspected, LibraryStatus, Request, Situation, Trouble,
         VerdictCode, judged,
     },
-    camera::NoFrame,
     client::Client,
     handle::ServerHandle,
     inspections::Inspections,
@@ -156,6 +155,39 @@ pub enum ServeError {
     },
 }
 
+/// Why a trigger was not inspected.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub enum Unanswered {
+    /// The service is ending.
+    #[error("the service is stopping")]
+    Stopping,
+    /// Nobody waits for the answer any more.
+    #[error("the client closed the connection before it was its turn")]
+    Withdrawn,
+}
+
+impl Unanswered {
+    /// The reason word in an answer.
+    pub fn reason(self) -> &'static str {
+        match self {
+            Self::Stopping => "stopping",
+            Self::Withdrawn => "withdrawn",
+        }
+    }
+}
+
+impl Advice for Unanswered {
+    fn advice(&self) -> String {
+        match self {
+            Self::Stopping => "Connect again once the service is running".into(),
+            Self::Withdrawn => {
+                "TRIGGER again, and keep the connection open, for sending too, until the answer has come"
+                    .into()
+            }
+        }
+    }
+}
+
 fn words_of_bind(error: &io::Error) -> String {
     match error.kind() {
         io::ErrorKind::AddrInUse => "another program listens at this port".into(),
@@ -269,7 +301,7 @@ pub(super) struct Job {
     asked: Asked,
     /// True once the client has closed its connection: nobody reads the answer.
     is_withdrawn: Box<dyn Fn() -> bool + Send>,
-    reply: SyncSender<Result<Arc<Inspected>, NoFrame>>,
+    reply: SyncSender<Result<Arc<Inspected>, Unanswered>>,
 }
 
 /// A listening server. Dropping it disconnects its clients and joins its threads.
@@ -359,7 +391,7 @@ impl Server {
     fn inspect(&self, job: &Job, inspector: &mut dyn Inspector) {
         // Or clients that give up would hold up those that wait.
         if (job.is_withdrawn)() {
-            let _ = job.reply.send(Err(NoFrame::Withdrawn));
+            let _ = job.reply.send(Err(Unanswered::Withdrawn));
             return;
         }
         let found = guarded(|| inspector.inspect(&job.asked));
@@ -526,7 +558,7 @@ pub(super) fn path_of(
 fn triggered(
     jobs: &SyncSender<Job>,
     is_withdrawn: Box<dyn Fn() -> bool + Send>,
-) -> Result<Arc<Inspected>, NoFrame> {
+) -> Result<Arc<Inspected>, Unanswered> {
     let (reply, inspected) = mpsc::sync_channel(1);
     let job = Job {
         asked: Asked::now(),
@@ -534,8 +566,8 @@ fn triggered(
         reply,
     };
     // Both fail once the service ends.
-    jobs.send(job).ok().ok_or(NoFrame::Stopping)?;
-    inspected.recv().ok().ok_or(NoFrame::Stopping)?
+    jobs.send(job).ok().ok_or(Unanswered::Stopping)?;
+    inspected.recv().ok().ok_or(Unanswered::Stopping)?
 }
 
 #[cfg(test)]

@@ -1,10 +1,10 @@
-//! Confirmation: the best few of the ranking are put where they would have to be, and looked for there.
+//! Confirmation: aligns the best few references of the ranking with the scene, and scores each at its pose.
 //!
-//! Outlines are alike where parts are not, and fail where a part is half hidden. So every placement of the best-ranked
-//! references becomes a start of a pose, refined coarsely; each reference's best is refined further, and its score
-//! then follows from distances and from what the camera sees: is the scene's part on the reference, and is the
-//! reference in the scene? Where only a piece of a part is in sight, of the scene's or of the reference's, only what
-//! both show is compared, and the piece is laid onto the references by itself.
+//! Different parts may have similar outlines, and a part that is half hidden does not show its own. So every placement of
+//! the best-ranked references becomes a start of a pose and is refined coarsely; each reference's best pose is refined
+//! further. Its score (`evidence`) follows from distances and from what the camera sees: does the scene's part lie on the
+//! reference, and is the reference in the scene? Where only a piece is in sight, of the scene's part or of the reference,
+//! only what both show is compared, and the piece is also aligned with the references by itself.
 
 mod candidate;
 mod confirmed_match;
@@ -160,8 +160,8 @@ const WELL_LAID: f64 = 0.25;
 
 /// Orders the matches by their confirmed scores, and gives the pose of the first.
 ///
-/// Poses that cannot reach `least_score` are not refined further, and only those that may be accepted to the end. Where too
-/// little is in sight for any pose to reach it, none is looked for, and all scores are 0.
+/// Poses that cannot reach `least_score` are not refined further; only those that may be accepted are refined to the end. If
+/// too little is in sight for any pose to reach it, no reference is examined, and all scores are 0.
 pub fn confirm(
     scene: &Scene<'_>,
     references: &[Reference],
@@ -349,15 +349,15 @@ fn sort_by_score(tried: &mut [Tried<'_>]) {
     tried.sort_by(|a, b| b.score.total_cmp(&a.score));
 }
 
-/// What scores less will not be accepted however exactly it is placed.
+/// Poses that score less are not refined.
 const HOPELESS_SCORE: f64 = 1e-4;
-/// The same for a piece: below 0.05 it counts as unlike every enrolled part. Of a whole part, lower scores count as well.
+/// The same for a piece, which below 0.05 counts as unlike every enrolled part; for a whole part, lower scores count, too.
 const HOPELESS_PIECE: f64 = 0.05 / MOST_GAINED;
-/// The score that is asked for: where the best cannot reach it, the others are scored where they are.
+/// The default score of acceptance. If the best pose cannot reach it, the others are not refined.
 const ACCEPTABLE: f64 = 0.9;
-/// What scores more is refined to the end at once.
+/// Poses that score more skip the intermediate level and are refined to the end at once.
 const SURE: f64 = 0.5;
-/// What comes second with less than this will not become the first.
+/// Poses behind the first that score less are not refined: they do not become the first.
 const NO_RUNNER_UP: f64 = 0.005;
 /// The last refinement makes no score grow by more than this factor: at most 22 in 657 candidates of five suites.
 const MOST_GAINED: f64 = 25.0;

@@ -1,13 +1,15 @@
 //! The stages in the order of the flow, each a pure function from one type to the next.
 //!
 //! ```text
-//! DepthFrame ─► SceneCloud ─► SegmentedPart ─► PlaneImage ─► Contour ─► FanSignature ─► MatchRanking ─► PoseEstimate
-//!           scene        segment         project        contour    signature       rank            pose
+//! DepthFrame ─► SceneCloud ─► SegmentedPart ─► PlaneImage ─► Contour ─► FanSignature ─► MatchRanking ─► ConfirmedRanking
+//!           scene        segment         project        contour    signature       rank            confirm, or pose
 //! ```
 //!
-//! `reference` prepares an enrolled part for `rank` and `pose`, `correlation` holds the signal processing of `rank`,
-//! `shape_summary` rules out most references of a large library, and `locate` runs `pose` on a scene's part as the paper does. `stand_off` computes the distance of the nozzle from
-//! the part; it runs where it is shown.
+//! - [`mod@reference`] prepares an enrolled part for `rank` and `pose`; [`shape_summary`] rules out most references of a large
+//!   library; [`correlation`] is the signal processing of `rank`.
+//! - [`confirm`] scores the best references by surface, outline and openings; [`locate`] runs `pose` as the paper does.
+//! - [`scan`] combines several frames; [`stand_off`] is the distance of the nozzle, computed where it is shown.
+//! - [`descriptors`] are those of other systems, for comparison.
 
 pub mod confirm;
 pub mod contour;

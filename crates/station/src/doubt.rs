@@ -1,7 +1,7 @@
 //! The reasons against letting a robot act on a result.
 
 use std::{
-    path::PathBuf,
+    path::Path,
     time::{Duration, SystemTime},
 };
 
@@ -37,10 +37,8 @@ pub enum Currency {
     /// Another part may hang there: the result is of the history, out of date, or of a source that is no longer
     /// followed.
     Superseded,
-    /// Captured once, at this time.
+    /// Captured once, at this time; for files, see [`written_at`].
     CapturedAt(SystemTime),
-    /// Read from this file, whose time of modification is that of the capture.
-    File(PathBuf),
 }
 
 /// Why a robot must not act on a result. `Display` states what is wrong, `Advice` what to do.
@@ -147,13 +145,17 @@ impl Currency {
             Self::SourceLost => Some(Doubt::SourceLost),
             Self::Superseded => Some(Doubt::Superseded),
             Self::CapturedAt(captured) => age_doubt(*captured),
-            Self::File(path) => {
-                // The path may name unit, axes or a mesh behind the file.
-                let written = file_of(path).metadata().and_then(|meta| meta.modified());
-                written.map_or(Some(Doubt::Old), age_doubt)
-            }
         }
     }
+}
+
+/// When the capture in these files was made: when they were last written, the earliest if there are several, and the
+/// beginning of time if that is not known.
+pub fn written_at<'a>(files: impl IntoIterator<Item = &'a Path>) -> SystemTime {
+    // The path may name unit, axes or a mesh behind the file.
+    let written = |file| file_of(file).metadata().and_then(|meta| meta.modified());
+    let times = files.into_iter().map(|file| written(file).ok());
+    times.min().flatten().unwrap_or(SystemTime::UNIX_EPOCH)
 }
 
 fn age_doubt(captured: SystemTime) -> Option<Doubt> {
@@ -222,15 +224,20 @@ mod tests {
         }
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("door.pcd");
-        let of_file = Currency::File(path.clone());
-        assert_eq!(kind(&of_file), Some("old"), "no file, so no age");
+        let of_files = |files: &[&Path]| Currency::CapturedAt(written_at(files.iter().copied()));
+        assert_eq!(kind(&of_files(&[&path])), Some("old"), "no file, so no age");
         let file = std::fs::File::create(&path).expect("created");
-        assert_eq!(kind(&of_file), None);
-        let in_millimetres = Currency::File(folder.path().join("door.pcd#units=mm"));
-        assert_eq!(kind(&in_millimetres), None);
-        file.set_modified(now + Duration::from_hours(1))
-            .expect("dated");
-        let doubt = of_file.doubt().expect("ahead");
+        assert_eq!(kind(&of_files(&[&path])), None);
+        let in_millimetres = folder.path().join("door.pcd#units=mm");
+        assert_eq!(kind(&of_files(&[&in_millimetres])), None);
+        let older = folder.path().join("older.pcd");
+        assert_eq!(kind(&of_files(&[&path, &older])), Some("old"), "one of two");
+        let written = std::fs::File::create(&older).expect("created");
+        let hour = Duration::from_hours(1);
+        written.set_modified(now - hour).expect("dated");
+        assert_eq!(kind(&of_files(&[&path, &older])), Some("old"));
+        file.set_modified(now + hour).expect("dated");
+        let doubt = of_files(&[&path]).doubt().expect("ahead");
         assert!(doubt.to_string().contains("later than now"), "{doubt}");
         assert!(doubt.advice().contains("clocks"), "{}", doubt.advice());
     }

@@ -1,9 +1,35 @@
-//! Whether a robot may act on a result.
+//! The station's job, for every front end: a scene is inspected, and the verdict goes to the history, to robots and to
+//! files for them. Commands, window and server parse, draw and print.
 //!
-//! Every front end asks here, so that operator, engineer, robot and files never disagree: [`doubts`] lists the reasons
-//! against a result, and a robot may act on it only if there are none.
+//! ```text
+//! frame ─► CameraScenes ─► PartFollower ─► run ─► Inspected ─► line of JSON, entry ─► Recorder ─► history
+//!                                                    │
+//! trigger ─► Camera ─► Answering ────────────────────┴──────► Found (for a robot), RobotFile (if there are no doubts)
+//! ```
+//!
+//! Whether a robot may act on a result is decided here alone, so that operator, engineer, robot and files never disagree:
+//! [`doubts`] lists the reasons against it, and there must be none.
 
+#![cfg_attr(test, allow(clippy::disallowed_methods, reason = "tests change files"))]
+
+mod answer;
+mod camera;
 mod doubt;
+mod finder;
+mod follow;
+mod inspected;
+mod motion;
+mod recorder;
 pub mod robot_file;
+mod scenes;
 
-pub use self::doubt::{ClockAhead, Currency, Doubt, doubts};
+pub use self::{
+    answer::{Answered, Answering},
+    camera::{Camera, NewFrame, NoFrame, camera_status},
+    doubt::{ClockAhead, Currency, Doubt, doubts, written_at},
+    finder::{FrameOrigin, NumberedPart, PartFinder},
+    follow::PartFollower,
+    inspected::{CaptureFacts, Inspected, LibraryNames, ScanFacts, Subject},
+    recorder::{Losses, Recorder},
+    scenes::CameraScenes,
+};

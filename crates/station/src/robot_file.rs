@@ -18,7 +18,7 @@ use robot::{
     arm::{ArmError, PathCheck, PlacedArm},
     paint::{Coat, WrittenFilm},
     program::{
-        Program, ProgramError, ProgramFormat, ProgramPoint, ProgramSettings, check_reach,
+        Program, ProgramError, ProgramPoint, ProgramSettings, RobotLanguage, check_reach,
         program_points, remove_previous_program,
     },
     spray::{BandStatus, CarriedPath, OffThePart, SprayExport, remove_previous_export},
@@ -73,7 +73,7 @@ pub enum RobotFileContent<'a> {
     /// A program for the robot's controller.
     Program {
         /// The language.
-        format: ProgramFormat,
+        language: &'static RobotLanguage,
         /// Tool, gun and moves.
         settings: &'a ProgramSettings,
         /// The arm whose reach is checked, without the part among its obstacles; none to check no reach.
@@ -264,14 +264,14 @@ impl RobotFile<'_> {
         reach: Option<&(PlacedArm, PathCheck)>,
     ) -> Option<WrittenFilm> {
         let RobotFileContent::Program {
-            format, settings, ..
+            language, settings, ..
         } = self.content
         else {
             return None;
         };
         WrittenFilm::of(
             &self.program(settings, points, reach),
-            format,
+            language,
             self.path?,
             self.part_cloud,
             self.coverage,
@@ -374,7 +374,7 @@ impl RobotFile<'_> {
                 Ok(0)
             }
             RobotFileContent::Program {
-                format, settings, ..
+                language, settings, ..
             } => {
                 let program = Program {
                     film,
@@ -382,7 +382,7 @@ impl RobotFile<'_> {
                     unchecked: &unchecked,
                     ..self.program(settings, points, reach)
                 };
-                Ok(program.save(self.file, format)?)
+                Ok(program.save(self.file, language)?)
             }
         }
     }
@@ -442,9 +442,9 @@ mod tests {
         }
 
         fn content(&self, file: &Path) -> RobotFileContent<'_> {
-            match ProgramFormat::of(file) {
-                Ok(format) => RobotFileContent::Program {
-                    format,
+            match RobotLanguage::from_file(file) {
+                Ok(language) => RobotFileContent::Program {
+                    language,
                     settings: &self.settings,
                     arm: None,
                 },
@@ -558,7 +558,7 @@ mod tests {
                 num_points: 3,
             };
             let mut expected = vec![Unchecked::Arm, not_seen];
-            if ProgramFormat::of(&path).is_ok() {
+            if RobotLanguage::from_file(&path).is_ok() {
                 expected.insert(1, Unchecked::Film);
             }
             assert_eq!(written.unchecked, expected);

@@ -14,8 +14,7 @@ use super::{BenchArgs, write_json};
 use crate::cli::{
     Outcome,
     console::{Advised as _, Console, Table, advised_error},
-    inspect::hung::{FollowedFrame, FollowedParts},
-    record::{HistoryChoice, HistoryRecorder, SceneOrigin},
+    record::{HistoryChoice, HistoryRecorder},
 };
 use bench::ProcessUsage;
 use capture::{
@@ -27,14 +26,15 @@ use geometry::{
 };
 use inspection::{
     library::LibraryLoad,
-    pipeline::{self, Inspection, NamedRecipe, Unwatched},
+    pipeline::{self, NamedRecipe, Unwatched},
 };
 use records::{
     history::Traceability,
-    report::{InspectionLine, SizeCurve, curves_picture, write_png},
+    report::{SizeCurve, curves_picture, write_png},
 };
 use simulate::{CellSetup, PartKind, Side, SimulatedObject, frame};
-use stages::{reference::Reference, scene::scene_from_image};
+use stages::reference::Reference;
+use station::{CameraScenes, Inspected, PartFollower, Subject};
 
 /// Number of lines of the table.
 const NUM_STRETCHES: u64 = 20;
@@ -175,7 +175,8 @@ impl DepthSource for SmallCell {
 struct Follower<'a> {
     load: &'a LibraryLoad,
     recipe: NamedRecipe,
-    followed: FollowedParts,
+    scenes: CameraScenes,
+    followed: PartFollower,
     recording: HistoryRecorder,
     num_accepted: u64,
     num_in_history: u64,
@@ -185,37 +186,41 @@ impl Follower<'_> {
     /// Takes in a frame as `inspect --source` does, without printing. Returns the latency.
     fn take(&mut self, captured: Captured, console: &Console) -> anyhow::Result<Duration> {
         let arrived = captured.arrived;
-        let mut scene = scene_from_image(captured.image);
-        scene.set_known_view(self.followed.known_view());
-        let scene = Arc::new(scene);
-        let library = &self.load.library;
-        let mut inspection = pipeline::run(&scene, library, &self.recipe, &Unwatched)?;
-        let frame = FollowedFrame {
-            scene: &scene,
-            taken_at: captured.taken_at,
-            middle: inspection
-                .best_reference(library)
-                .and_then(Reference::middle),
-            accept: &self.recipe.accept,
-        };
-        self.followed.look(&frame, &mut inspection);
+        let subject = Subject::of_capture(&captured, "simulated", 0);
+        let taken_at = captured.taken_at;
+        let scene = Arc::new(self.scenes.next(captured.image));
+        let scene = self.followed.look(scene, taken_at);
+        let (library, recipe) = (&self.load.library, &self.recipe);
+        let mut inspection = pipeline::run(&scene, library, recipe, &Unwatched)?;
+        self.followed.refuse_if_moving(&mut inspection);
         self.num_accepted += u64::from(inspection.verdict.is_accepted());
-        let line_of = |inspection: &Inspection| {
-            let line = InspectionLine::of(&captured.name, inspection);
-            line.by(&self.recipe).to_json()
-        };
         // Nobody prints it here, but making it is part of the work.
-        drop(line_of(&inspection));
-        let taken = SceneOrigin {
-            scene: &captured.name,
-            source: "simulated",
-            is_simulated: true,
+        let inspected = Inspected {
+            subject: &subject,
+            scene: &scene,
+            inspection: &inspection,
+            recipe,
+            robot: None,
         };
-        let entries = self
-            .followed
-            .take(&frame, inspection, |inspection, hung, _| {
-                (self.recording).entry(taken, &scene, inspection, &line_of(inspection), hung)
-            });
+        drop(inspected.line(&Traceability::default()));
+        let middle = inspection.best_reference(library);
+        let middle = middle.and_then(Reference::middle);
+        let entries = self.followed.take(
+            &scene,
+            inspection,
+            middle,
+            &recipe.accept,
+            |inspection, hung, _| {
+                let inspected = Inspected {
+                    subject: &subject,
+                    scene: &scene,
+                    inspection,
+                    recipe,
+                    robot: None,
+                };
+                self.recording.entry(&inspected, hung)
+            },
+        );
         let latency = arrived.elapsed();
         for entry in entries.into_iter().flatten() {
             self.num_in_history += 1;
@@ -234,9 +239,8 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     let place = HistoryChoice {
         history: Some(folder.path().to_owned()),
     };
-    let Some(recording) =
-        HistoryRecorder::start(&place, &load, &recipe, &Traceability::default(), console)
-    else {
+    let recording = HistoryRecorder::start(&place, &load, &Traceability::default(), None, console)?;
+    let Some(recording) = recording else {
         return Err(advised_error(
             "the history of the experiment cannot be written",
             "Set TMPDIR to a folder that can be written",
@@ -245,7 +249,8 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     let mut follower = Follower {
         load: &load,
         recipe,
-        followed: FollowedParts::new(),
+        scenes: CameraScenes::default(),
+        followed: PartFollower::default(),
         recording,
         num_accepted: 0,
         num_in_history: 0,

@@ -1,6 +1,6 @@
 //! `partsight inspect --program`: writes the part's spray path as a program for the robot's controller.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
@@ -8,29 +8,35 @@ use super::spray::{SprayResult, check_placed_part};
 use crate::cli::{
     Outcome,
     console::{Advised as _, Console, advised_error, store_a_path},
-    program::{ProgramFile, ProgramOptions, ProgramSubject, parse_format},
+    program::{ProgramFile, ProgramOptions, ProgramSubject, language_help, parse_language},
 };
+use geometry::units::any_of;
 use inspection::library::{LibraryLoad, LibraryPlace, PartMeta};
-use robot::{RobotFrame, program::ProgramFormat, spray::carry};
+use robot::{RobotFrame, program::RobotLanguage, spray::carry};
 use station::{
     Currency,
     robot_file::{CapturedPart, remove_previous},
+    written_at,
 };
 
 /// Whether and how a program is written.
 #[derive(Debug, Args)]
 pub(super) struct ProgramChoice {
-    /// Write the part's stored spray path as a program for the robot's controller, named like the file: .src, .ls,
-    /// .mod, .script, .jbi or .drl. Needs a calibration and one file. Nothing is written if the part is not accepted, if
-    /// another pose fits nearly as well, if the capture is older than 10 minutes or dated later than now, if the path does
-    /// not aim at the part, if --arm does not reach every point, or if the program would leave a worse film than planned
-    #[arg(long, value_name = "FILE", group = "robot_file")]
+    #[arg(long, value_name = "FILE", group = "robot_file", help = program_help())]
     program: Option<PathBuf>,
-    /// Language of the program, if the file's ending does not give it: krl, ls, rapid, urscript, jbi or drl
-    #[arg(long, value_name = "FORMAT", value_parser = parse_format, requires = "program")]
-    robot_program_format: Option<ProgramFormat>,
+    #[arg(long, value_name = "FORMAT", value_parser = parse_language, requires = "program", help = language_help())]
+    robot_program_format: Option<&'static RobotLanguage>,
     #[command(flatten)]
     options: ProgramOptions,
+}
+
+/// Describes `--program`.
+fn program_help() -> String {
+    let endings = RobotLanguage::ENDINGS.map(|ending| format!(".{ending}"));
+    format!(
+        "Write the part's stored spray path as a program for the robot's controller, named like the file: {}. Needs a calibration and one file. Nothing is written if the part is not accepted, if another pose fits nearly as well, if the capture is older than 10 minutes or dated later than now, if the path does not aim at the part, if --arm does not reach every point, or if the program would leave a worse film than planned",
+        any_of(&endings)
+    )
 }
 
 /// A program to write for the part in a capture.
@@ -111,7 +117,7 @@ impl CapturedProgram {
         };
         let camera_from_part = pose.camera_from_part();
         let carried = carry(&path, &camera_from_part, &part.cloud, seen.params);
-        let currency = Currency::File(seen.scene.into());
+        let currency = Currency::CapturedAt(written_at([Path::new(seen.scene)]));
         let subject = ProgramSubject {
             part: name,
             reference: &seen.library.references[first.reference],

@@ -2,19 +2,15 @@
 
 use std::{fmt::Display, path::Path, sync::Arc};
 
-#[cfg(feature = "plant")]
-use super::publish;
-use super::{
-    hung::{FollowedFrame, FollowedParts},
-    program, spray,
-};
+use super::{program, spray};
 use crate::cli::{
     Outcome,
     console::{Advised as _, Console, marked_simulated},
     input::{OpenedScene, before, warn_of},
     output::OutputFormat,
+    plant::Publisher,
     recipe::show_recipe,
-    record::{HistoryRecorder, SceneOrigin},
+    record::HistoryRecorder,
     verdict::show_in_robot,
 };
 use geometry::error::{Advice, guarded};
@@ -24,15 +20,15 @@ use inspection::{
 };
 use records::{
     history::{HungId, NewEntry, Traceability},
-    report::{CaptureLine, InspectionLine, Picture, ReportFolder, stage_pictures},
+    report::{InspectionLine, Picture, ReportFolder, stage_pictures},
 };
 use robot::RobotFrame;
-#[cfg(feature = "plant")]
 use serve::Found;
 use stages::{
     reference::Reference,
     scene::{EmptyCell, SceneCloud},
 };
+use station::{CameraScenes, Inspected, PartFollower, Subject};
 
 /// State shared by all files or frames of a call.
 pub(super) struct InspectSession {
@@ -40,6 +36,8 @@ pub(super) struct InspectSession {
     pub(super) recipe: NamedRecipe,
     pub(super) trace: Traceability,
     pub(super) empty_cell: Option<Arc<EmptyCell>>,
+    /// The scenes of the source.
+    pub(super) scenes: CameraScenes,
     pub(super) robot: Option<RobotFrame>,
     pub(super) spray: Option<spray::SprayFile>,
     pub(super) program: Option<program::CapturedProgram>,
@@ -47,9 +45,8 @@ pub(super) struct InspectSession {
     pub(super) report: Option<ReportFolder>,
     pub(super) recording: Option<HistoryRecorder>,
     /// Set for a source whose frames show one part after the other.
-    pub(super) followed: Option<FollowedParts<KeptInspection>>,
-    #[cfg(feature = "plant")]
-    pub(super) publisher: Option<publish::Publisher>,
+    pub(super) followed: Option<PartFollower<KeptInspection>>,
+    pub(super) publisher: Option<Publisher>,
     pub(super) mirrored: MirrorTally,
 }
 
@@ -58,8 +55,14 @@ pub(super) struct KeptInspection {
     /// Entry for the history.
     entry: Option<NewEntry>,
     /// Result for the broker.
-    #[cfg(feature = "plant")]
     found: Option<Found>,
+}
+
+/// A scene to inspect. The report is named after the path.
+pub(super) struct Opened<'a> {
+    pub(super) path: &'a Path,
+    pub(super) scene: SceneCloud,
+    pub(super) subject: Subject,
 }
 
 impl InspectSession {
@@ -70,10 +73,20 @@ impl InspectSession {
         console: &mut Console,
     ) -> anyhow::Result<Outcome> {
         match opened {
-            Ok((scene, warnings)) => {
+            Ok((mut scene, warnings)) => {
                 warn_of(path, &warnings, console);
+                let name = path.display().to_string();
+                before(&mut scene, self.empty_cell.as_ref(), &name, console);
+                let subject = Subject::of_scene(name, "file".into(), scene.cloud.is_simulated);
                 self.frame(path, console, |one, console| {
-                    one.inspect_scene(path, scene, None, console)
+                    one.inspect_scene(
+                        Opened {
+                            path,
+                            scene,
+                            subject,
+                        },
+                        console,
+                    )
                 })
             }
             // The message names the file.
@@ -90,7 +103,6 @@ impl InspectSession {
         inspect: impl FnOnce(&mut Self, &mut Console) -> anyhow::Result<Outcome>,
     ) -> anyhow::Result<Outcome> {
         guarded(|| inspect(self, console)).unwrap_or_else(|fault| {
-            #[cfg(feature = "plant")]
             if let Some(publisher) = &mut self.publisher {
                 publisher.failed(&fault);
             }
@@ -117,68 +129,53 @@ impl InspectSession {
         Ok(Outcome::CouldNotRun)
     }
 
-    /// Inspects a scene; `capture` is known if a source captured it. The report is named after the path.
+    /// Inspects a scene, and shows, records, exports and reports the result.
     pub(super) fn inspect_scene(
         &mut self,
-        path: &Path,
-        mut scene: SceneCloud,
-        capture: Option<CaptureLine<'_>>,
+        opened: Opened<'_>,
         console: &mut Console,
     ) -> anyhow::Result<Outcome> {
+        let Opened {
+            path,
+            scene,
+            subject,
+        } = opened;
         let Self {
             library,
             recipe,
             trace,
-            empty_cell,
             robot,
             format,
             report,
             recording,
             followed,
-            #[cfg(feature = "plant")]
             publisher,
             mirrored,
             ..
         } = self;
-        let name = path.display().to_string();
-        before(&mut scene, empty_cell.as_ref(), &name, console);
-        if let Some(followed) = followed {
-            scene.set_known_view(followed.known_view());
+        let mut scene = Arc::new(scene);
+        if let (Some(followed), Some(capture)) = (&mut *followed, &subject.capture) {
+            scene = followed.look(scene, capture.taken_at);
         }
-        let scene = Arc::new(scene);
         let mut inspection = pipeline::run(&scene, library, recipe, &Unwatched)?;
-        let middle = inspection.best_reference(library);
-        let frame = capture.map(|capture| FollowedFrame {
-            scene: &scene,
-            taken_at: capture.taken_at,
-            middle: middle.and_then(Reference::middle),
-            accept: &recipe.accept,
-        });
-        if let (Some(followed), Some(frame)) = (&mut *followed, &frame) {
-            followed.look(frame, &mut inspection);
+        if let Some(followed) = followed {
+            followed.refuse_if_moving(&mut inspection);
         }
         mirrored.add(&inspection.verdict);
-        let file_says_simulated = capture.is_none() && scene.cloud.is_simulated;
-        let taken = SceneOrigin {
-            scene: &name,
-            source: capture.map_or("file", |capture| capture.source),
-            is_simulated: capture.map_or(file_says_simulated, |capture| capture.simulated),
-        };
+        let name = &subject.scene;
+        let file_says_simulated = subject.capture.is_none() && subject.is_simulated;
         let robot = robot.as_ref();
-        let line_of = |inspection: &Inspection| {
-            let mut line = InspectionLine::of(&name, inspection)
-                .by(recipe)
-                .traced(trace)
-                .captured(capture);
-            if file_says_simulated {
-                line = line.of_simulated_file();
-            }
-            line.in_robot(robot, inspection).to_json()
+        let inspected = Inspected {
+            subject: &subject,
+            scene: &scene,
+            inspection: &inspection,
+            recipe,
+            robot,
         };
-        let line = line_of(&inspection);
+        let line = inspected.line(trace);
         // The table has no room for the mark; reports and history have it.
         let shown = match format {
-            OutputFormat::Card => marked_simulated(&name, file_says_simulated),
+            OutputFormat::Card => marked_simulated(name, file_says_simulated),
             _ => name.clone(),
         };
         format.inspected(&shown, &line, &inspection, library, console);
@@ -191,23 +188,28 @@ impl InspectSession {
         let outcome = Outcome::accepted_if(inspection.verdict.is_accepted());
         let pictures = report.as_ref().map(|_| stage_pictures(&scene, &inspection));
         // After the verdict is shown, which must not wait for it, and before the exports, any of which may fail.
-        let is_kept = recording.is_some();
-        #[cfg(feature = "plant")]
-        let is_kept = is_kept || publisher.is_some();
+        let is_kept = recording.is_some() || publisher.is_some();
         let kept = |inspection: &Inspection, hung: HungId, is_still: bool| {
-            #[cfg(not(feature = "plant"))]
-            let _ = is_still;
+            let inspected = Inspected {
+                subject: &subject,
+                scene: &scene,
+                inspection,
+                recipe,
+                robot,
+            };
             KeptInspection {
-                entry: recording.as_ref().map(|recording| {
-                    recording.entry(taken, &scene, inspection, &line_of(inspection), hung)
-                }),
-                #[cfg(feature = "plant")]
-                found: (publisher.as_ref())
+                entry: recording
+                    .as_ref()
+                    .map(|recording| recording.entry(&inspected, hung)),
+                found: publisher
+                    .as_ref()
                     .and_then(|publisher| publisher.found(inspection, recipe, is_still)),
             }
         };
-        if let (true, Some(followed), Some(frame)) = (is_kept, followed, frame) {
-            let kept = followed.take(&frame, inspection, kept);
+        if let (true, Some(followed)) = (is_kept, followed) {
+            let middle = inspection.best_reference(library);
+            let middle = middle.and_then(Reference::middle);
+            let kept = followed.take(&scene, inspection, middle, &recipe.accept, kept);
             for kept in kept.into_iter().flatten() {
                 self.keep(kept, console);
             }
@@ -219,7 +221,8 @@ impl InspectSession {
             let kept = kept(&inspection, HungId::new(), true);
             self.keep(kept, console);
         }
-        let written = self.write_robot_file(&name, file_says_simulated, &inspection, console)?;
+        let written =
+            self.write_robot_file(&subject.scene, file_says_simulated, &inspection, console)?;
         if written.is_none() {
             self.write_report(path, &line, pictures)?;
         }
@@ -267,7 +270,6 @@ impl InspectSession {
         if let (Some(recording), Some(entry)) = (&mut self.recording, kept.entry) {
             recording.add(entry, console);
         }
-        #[cfg(feature = "plant")]
         if let (Some(publisher), Some(found)) = (&mut self.publisher, kept.found) {
             publisher.publish(found);
         }
@@ -286,6 +288,7 @@ mod tests {
             recipe: NamedRecipe::default(),
             trace: Traceability::default(),
             empty_cell: None,
+            scenes: CameraScenes::default(),
             robot: None,
             spray: None,
             program: None,
@@ -293,7 +296,6 @@ mod tests {
             report: Some(ReportFolder::make(folder.path()).expect("made")),
             recording: None,
             followed: None,
-            #[cfg(feature = "plant")]
             publisher: None,
             mirrored: MirrorTally::default(),
         };
@@ -308,7 +310,12 @@ mod tests {
             "{kept}"
         );
         let sound = session.frame(Path::new("b.pcd"), &mut console, |one, console| {
-            one.inspect_scene(Path::new("b.pcd"), SceneCloud::default(), None, console)
+            let opened = Opened {
+                path: Path::new("b.pcd"),
+                scene: SceneCloud::default(),
+                subject: Subject::of_scene("b.pcd".into(), "file".into(), false),
+            };
+            one.inspect_scene(opened, console)
         });
         assert_eq!(sound.expect("inspected"), Outcome::NotAccepted);
     }

@@ -1,6 +1,6 @@
 //! `partsight inspect --spray`: writes the part's spray path for the robot.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
@@ -22,6 +22,7 @@ use stages::stand_off::StandOffParams;
 use station::{
     Currency,
     robot_file::{CapturedPart, RobotFile, RobotFileContent, remove_previous},
+    written_at,
 };
 
 /// Whether and how the spray path is written.
@@ -165,7 +166,7 @@ impl SprayFile {
         };
         let camera_from_part = pose.camera_from_part();
         let carried = carry(&path, &camera_from_part, &part.cloud, params);
-        let currency = Currency::File(scene.into());
+        let currency = Currency::CapturedAt(written_at([Path::new(scene)]));
         let file = RobotFile {
             file: &self.file,
             content: RobotFileContent::Poses {

@@ -12,13 +12,10 @@ use crate::cli::{
     calibrate::CalibrationChoice,
     console::{Advised as _, Console, advised_error, store_a_path},
     input::parse_nozzle_pose,
-    program::{CellChoice, parse_approach, parse_speed},
+    program::{CellChoice, ParamOptions},
     read_part,
 };
-use geometry::{
-    rigid::RigidTransform,
-    units::{Metres, counted},
-};
+use geometry::{rigid::RigidTransform, units::counted};
 use inspection::library::PartName;
 use records::report::SCHEMA;
 use robot::{
@@ -27,7 +24,7 @@ use robot::{
         Arm, PathCheck, PlaceSuggestion, PlacedArm, PointCheck, PointProblem, Way, check_path,
         suggest_base, suggest_rail,
     },
-    program::{ProgramSettings, arm_points},
+    program::arm_points,
     spray::carry,
 };
 use stages::stand_off::StandOffParams;
@@ -47,12 +44,8 @@ pub(super) struct CheckArgs {
     nozzle: WrittenPose,
     #[command(flatten)]
     cell: CellChoice,
-    /// Speed of the nozzle where the path sets none, 1 to 5000 mm/s
-    #[arg(long, value_name = "MM/S", default_value_t = 250.0, value_parser = parse_speed, allow_negative_numbers = true)]
-    speed: f64,
-    /// Distance of the approach points from the path's first and last point, 10 to 1000 mm
-    #[arg(long, value_name = "MM", default_value_t = 100.0, value_parser = parse_approach, allow_negative_numbers = true)]
-    approach: f64,
+    #[command(flatten)]
+    params: ParamOptions<false>,
     /// Write one line of JSON
     #[arg(long)]
     json: bool,
@@ -88,18 +81,13 @@ pub(super) fn run(
         &reference.cloud,
         &StandOffParams::default(),
     );
-    let settings = ProgramSettings {
-        speed: args.speed / 1000.0,
-        approach: Metres::from_mm(args.approach),
-        max_tilt: args.cell.max_tilt(),
-        ..ProgramSettings::default()
-    };
-    let points = arm_points(&carried, &frame, settings.speed);
+    let params = &args.params.0;
+    let points = arm_points(&carried, &frame, params.speed);
     let placed = args
         .cell
-        .place(arm, args.nozzle.pose)?
+        .place(arm, args.nozzle.pose, params)?
         .with_part(&reference.cloud.points, &frame.robot_from_part(&standard));
-    let params = settings.check_params();
+    let params = params.check_params();
     let found = check_path(&placed, &points, &params).advised()?;
     let (num, all) = (found.num_reached(), points.len());
     let (mut base, mut rail) = (None, None);

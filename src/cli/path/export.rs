@@ -10,12 +10,12 @@ use crate::cli::{
     LibraryChoice, Outcome,
     calibrate::CalibrationChoice,
     console::{Advised as _, Console, advised_error},
-    program::{ProgramOptions, ProgramSubject, parse_format},
+    program::{ProgramOptions, ProgramSubject, language_help, parse_language},
     read_part,
 };
 use geometry::rigid::RigidTransform;
 use inspection::library::PartName;
-use robot::{program::ProgramFormat, spray::carry};
+use robot::{program::RobotLanguage, spray::carry};
 use stages::stand_off::StandOffParams;
 use station::robot_file::remove_previous;
 
@@ -25,9 +25,8 @@ pub(super) struct ExportArgs {
     /// Name of the part
     #[arg(value_parser = parse_name)]
     part: PartName,
-    /// Language of the program, if the file's ending does not give it: krl, ls, rapid, urscript, jbi or drl
-    #[arg(long = "as", value_name = "FORMAT", value_parser = parse_format)]
-    format: Option<ProgramFormat>,
+    #[arg(long = "as", value_name = "FORMAT", value_parser = parse_language, help = language_help())]
+    language: Option<&'static RobotLanguage>,
     /// File of the program, which is named like it. An earlier program of that name is removed first
     #[arg(
         id = "program",
@@ -57,7 +56,7 @@ pub(super) fn run(
             "Name a calibration with --calibration, or make one: partsight calibrate",
         ));
     };
-    let file = args.options.open(&args.output, args.format)?;
+    let file = args.options.open(&args.output, args.language)?;
     let place = choice.open(console)?;
     let Some(path) = place.spray_path(name.as_str()).advised()? else {
         return Err(advised_error(

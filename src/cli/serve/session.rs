@@ -6,42 +6,30 @@ use std::{
     time::Duration,
 };
 
-#[cfg(feature = "plant")]
-use super::{
-    show_numbers,
-    take::{LibraryTaker, TakenLibrary},
-};
-#[cfg(feature = "plant")]
-use crate::cli::mqtt::{end_link, show_news};
+use super::show_numbers;
 use crate::cli::{
     Outcome,
     console::{Console, advised_error},
-    input::before,
+    input::scene_of,
     interrupt::Interrupt,
     output::OutputFormat,
-    record::{HistoryRecorder, SceneOrigin},
+    plant::{Services, TakenLibrary},
+    record::HistoryRecorder,
 };
-use capture::{CaptureWarning, Captured, FeedState, Image};
+use capture::FeedState;
 use geometry::error::{Advice as _, guarded};
 use inspection::{
     library::Library,
-    pipeline::{self, Inspection, MirrorTally, NamedRecipe, Unwatched},
+    pipeline::{MirrorTally, NamedRecipe},
 };
-#[cfg(feature = "plant")]
-use plant::mqtt::{LibraryMessage, MqttLink};
 use records::{
     history::{HungId, Traceability},
-    report::{CaptureLine, InspectionLine},
+    report::InspectionLine,
 };
 use serve::{
-    Asked, Camera, ClientEvent, ClientNews, Found, InspectionRecord, Inspector, NoFrame,
-    PartFinder, Trouble, VerdictCode,
+    Asked, ClientEvent, ClientNews, Found, InspectionRecord, Inspector, Trouble, VerdictCode,
 };
-use stages::{
-    field_of_view::FieldOfView,
-    reference::Reference,
-    scene::{EmptyCell, SceneCloud, scene_from_image},
-};
+use station::{Answered, Answering, Camera, CameraScenes, Inspected, NoFrame, PartFinder, Subject};
 
 /// The inspections of a service, on the thread that runs its server.
 pub(super) struct ServeSession<'a> {
@@ -52,9 +40,7 @@ pub(super) struct ServeSession<'a> {
     pub(super) recipe: NamedRecipe,
     pub(super) finder: PartFinder,
     pub(super) trace: Traceability,
-    pub(super) empty_cell: Option<Arc<EmptyCell>>,
-    /// The camera's field of view as far as the frames have shown it.
-    pub(super) known_view: Option<Arc<FieldOfView>>,
+    pub(super) scenes: CameraScenes,
     pub(super) source: String,
     pub(super) frame_timeout: Duration,
     pub(super) format: OutputFormat,
@@ -62,9 +48,7 @@ pub(super) struct ServeSession<'a> {
     pub(super) mirrored: MirrorTally,
     pub(super) console: &'a mut Console,
     /// The inspection that is being answered.
-    pub(super) last: Option<InspectedFrame>,
-    /// Warnings about the source that were already shown.
-    pub(super) told: Vec<CaptureWarning>,
+    pub(super) last: Option<(Subject, Answered)>,
     /// The error of the camera that was shown last.
     pub(super) trouble: Option<String>,
     /// True once the camera has run.
@@ -74,20 +58,7 @@ pub(super) struct ServeSession<'a> {
     /// Why the service must end.
     pub(super) failure: Option<anyhow::Error>,
     pub(super) num_inspected: u64,
-    #[cfg(feature = "plant")]
-    pub(super) mqtt: Option<MqttLink>,
-    #[cfg(feature = "plant")]
-    pub(super) taker: Option<LibraryTaker<'a>>,
-}
-
-/// An inspection to show and record.
-pub(super) struct InspectedFrame {
-    name: String,
-    is_simulated: bool,
-    scene: Arc<SceneCloud>,
-    inspection: Inspection,
-    /// JSON line of the inspection.
-    line: String,
+    pub(super) services: Services<'a>,
 }
 
 impl Inspector for ServeSession<'_> {
@@ -98,51 +69,27 @@ impl Inspector for ServeSession<'_> {
             Ok(captured) => captured,
             Err(why) => return self.without_frame(&why),
         };
-        self.warn_of(&captured);
-        let mut origin = self.camera.origin_of(&captured);
         let num_dropped = self.camera.feed_status().num_dropped;
-        let source = self.source.clone();
-        let line = CaptureLine::of(&source, &captured, num_dropped);
-        let name = captured.name;
-        let scene = self.scene_of(captured.image, &name);
-        let mut inspection =
-            pipeline::run(&scene, &self.library, &self.recipe, &Unwatched).expect("not cancelled");
-        let middle = inspection.best_reference(&self.library);
-        let middle = middle.and_then(Reference::middle);
-        let (camera, interrupt) = (Arc::clone(&self.camera), self.interrupt.clone());
-        let frame_timeout = self.frame_timeout;
+        let subject = Subject::of_capture(&captured, &self.source, num_dropped);
         let is_ending = || interrupt.came();
-        let again = |later: Captured| {
-            let scene = self.scene_of(later.image, &later.name);
-            pipeline::run(&scene, &self.library, &self.recipe, &Unwatched).expect("not cancelled")
+        let answering = Answering {
+            camera: &self.camera,
+            finder: &self.finder,
+            library: &self.library,
+            recipe: &self.recipe,
+            at_most: self.frame_timeout,
+            is_ending: &is_ending,
         };
-        if let Err(why) = camera.refuse_if_moving(
-            &mut origin,
-            &mut inspection,
-            middle,
-            frame_timeout,
-            is_ending,
-            again,
-        ) {
-            return self.without_frame(&why);
+        let (scenes, console) = (&mut self.scenes, &*self.console);
+        let scene_of = |captured| Arc::new(scene_of(captured, scenes, console));
+        match answering.answer(captured, &subject, &self.trace, scene_of) {
+            Ok(answered) => {
+                let found = answered.found.clone();
+                self.last = Some((subject, answered));
+                found
+            }
+            Err(why) => self.without_frame(&why),
         }
-        let mut found = self.finder.found(&inspection, &self.recipe, origin);
-        let line = InspectionLine::of(&name, &inspection)
-            .by(&self.recipe)
-            .traced(&self.trace)
-            .captured(Some(line))
-            .in_robot(Some(&self.finder.robot), &inspection)
-            .to_json();
-        found.report.clone_from(&line);
-        self.last = Some(InspectedFrame {
-            name,
-            // Only the answer marks a replayed frame as well.
-            is_simulated: captured.is_simulated,
-            scene,
-            inspection,
-            line,
-        });
-        found
     }
 
     fn recorded(&mut self, record: InspectionRecord) {
@@ -152,19 +99,16 @@ impl Inspector for ServeSession<'_> {
             let line = InspectionLine::failed(&self.source, reason, message).traced(&self.trace);
             self.console.line(&line.to_json());
         }
-        #[cfg(feature = "plant")]
-        if let Some(mqtt) = &self.mqtt {
-            mqtt.inspected(record);
-        }
+        self.services.inspected(record);
     }
 
     fn answered(&mut self) {
-        let Some(last) = self.last.take() else {
+        let Some((subject, answered)) = self.last.take() else {
             return;
         };
-        if let Err(fault) = guarded(|| self.show(&last)) {
+        if let Err(fault) = guarded(|| self.show(&subject, &answered)) {
             self.console
-                .warn(&format_args!("{}: {fault}", last.name), &fault);
+                .warn(&format_args!("{}: {fault}", subject.scene), &fault);
         }
     }
 
@@ -177,12 +121,7 @@ impl Inspector for ServeSession<'_> {
         if let Some(recording) = &self.recording {
             recording.tell(self.console);
         }
-        #[cfg(feature = "plant")]
-        if let Some(mqtt) = &self.mqtt {
-            mqtt.set_camera(self.camera.status());
-            show_news(mqtt, self.console);
-        }
-        #[cfg(feature = "plant")]
+        self.services.turn(self.camera.status(), self.console);
         self.use_taken_library();
         if self.interrupt.came() || self.failure.is_some() {
             ControlFlow::Break(())
@@ -197,73 +136,47 @@ impl ServeSession<'_> {
     fn without_frame(&self, why: &NoFrame) -> Found {
         self.console
             .advise(&format_args!("error: {why}"), &why.advice());
-        Found::error(Trouble::of(why.reason(), why))
-    }
-
-    /// The scene to inspect of an image.
-    fn scene_of(&mut self, image: Image, name: &str) -> Arc<SceneCloud> {
-        let mut scene = scene_from_image(image);
-        before(&mut scene, self.empty_cell.as_ref(), name, self.console);
-        scene.set_known_view(self.known_view.clone());
-        self.known_view = FieldOfView::remembered(self.known_view.take(), scene.field_of_view());
-        Arc::new(scene)
-    }
-
-    fn warn_of(&mut self, captured: &Captured) {
-        for warning in &captured.warnings {
-            if warning.is_about_source() {
-                if self.told.contains(warning) {
-                    continue;
-                }
-                self.told.push(warning.clone());
-            }
-            self.console
-                .warn(&format_args!("{}: {warning}", captured.name), warning);
-        }
+        Found::error(why.into())
     }
 
     /// Shows an inspection and adds it to the history.
-    fn show(&mut self, last: &InspectedFrame) {
-        let InspectedFrame {
-            name,
-            is_simulated,
+    fn show(&mut self, subject: &Subject, answered: &Answered) {
+        let Answered {
+            found,
             scene,
             inspection,
-            line,
-        } = last;
-        if self.num_inspected == 0 && *is_simulated {
+        } = answered;
+        // Only the answer marks a replayed frame as well.
+        if self.num_inspected == 0 && subject.is_simulated {
             self.console.note(&"Simulated: no camera is read.");
         }
         self.num_inspected += 1;
         self.mirrored.add(&inspection.verdict);
+        let (name, line) = (&subject.scene, &found.report);
         self.format
             .inspected(name, line, inspection, &self.library, self.console);
         if let Some(recording) = &mut self.recording {
-            let taken = SceneOrigin {
-                scene: name,
-                source: &self.source,
-                is_simulated: *is_simulated,
+            let inspected = Inspected {
+                subject,
+                scene,
+                inspection,
+                recipe: &self.recipe,
+                robot: Some(&self.finder.robot),
             };
             // Only the client knows whether it is the same part again.
-            let entry = recording.entry(taken, scene, inspection, line, HungId::new());
+            let entry = recording.entry(&inspected, HungId::new());
             recording.add(entry, self.console);
         }
     }
 
     /// Uses a version of the library that was taken meanwhile.
-    #[cfg(feature = "plant")]
     fn use_taken_library(&mut self) {
-        let taker = self.taker.as_mut();
-        let Some(taken) = taker.and_then(|taker| taker.taken(self.console)) else {
+        let Some(TakenLibrary { load, parts }) = self.services.taken_library(self.console) else {
             return;
         };
-        let TakenLibrary { load, parts } = taken;
         show_numbers(&parts, &load, self.console);
         if let Some(recording) = &mut self.recording {
             recording.use_library(&load);
-        }
-        if let Some(mqtt) = &self.mqtt {
-            mqtt.set_library(LibraryMessage::of(&load));
         }
         self.finder.parts = parts;
         self.library = load.library;
@@ -312,14 +225,11 @@ impl ServeSession<'_> {
         if let Some(suspicion) = self.mirrored.suspicion() {
             console.warn(&suspicion, &suspicion);
         }
-        // Before the MQTT link, which may wait for the broker.
+        // Before the services, which may wait for a broker.
         if let Some(recording) = self.recording {
             recording.finish(console);
         }
-        #[cfg(feature = "plant")]
-        if let Some(mqtt) = self.mqtt {
-            end_link(mqtt, console);
-        }
+        self.services.end(console);
         if let Some(error) = self.failure {
             return Err(error);
         }

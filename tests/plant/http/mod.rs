@@ -225,7 +225,7 @@ fn key() -> PathBuf {
 
 fn own_file(name: &str) -> PathBuf {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    root.join("tests/plant/http/http").join(name)
+    root.join("tests/plant/http").join(name)
 }
 
 fn tls() -> Tls {

@@ -111,7 +111,7 @@ impl Postgres {
     }
 
     fn make(&self) {
-        let plant = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/plant/http/http");
+        let plant = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/plant/http");
         fs::write(self.path("owner"), OWNER_PASSWORD).expect("written");
         for name in ["localhost.cert.pem", "localhost.key.pem"] {
             fs::copy(plant.join(name), self.path(name)).expect("copied");

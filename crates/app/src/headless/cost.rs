@@ -10,8 +10,6 @@ use serde::Serialize;
 
 use super::{FrameTime, HeadlessWindow, Pace, SIZE};
 use crate::{
-    shell::{action::Action, live::LiveAction, session::WorkspaceKind},
-    ui::viewport::ViewError,
     window::WindowOptions,
     workspaces::{
         align::{AlignAction, AlignWorkspace},
@@ -20,6 +18,8 @@ use crate::{
 };
 use bench::process_seconds;
 use geometry::statistics::quantile;
+use shell::{action::Action, session::WorkspaceKind, source::live::LiveAction};
+use ui::viewport::ViewError;
 
 /// Times over many frames, milliseconds.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

@@ -9,16 +9,14 @@ use std::{
 use serde::Serialize;
 
 use super::{HeadlessWindow, Pace, SIZE};
-use crate::{
-    shell::{
-        action::Action,
-        live::{LiveAction, LiveStatus},
-    },
-    ui::viewport::ViewError,
-    window::WindowOptions,
-};
+use crate::window::WindowOptions;
 use bench::cpu_wait_seconds;
 use geometry::statistics::quantile;
+use shell::{
+    action::Action,
+    source::live::{LiveAction, LiveStatus},
+};
+use ui::viewport::ViewError;
 
 /// Measurements of one stretch of time.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

@@ -7,7 +7,7 @@ use super::*;
 
 fn open() -> Option<HeadlessWindow> {
     let options = WindowOptions {
-        library: Some("reference_parts".into()),
+        library: Some(::inspection::fixtures::SHIPPED_PARTS.into()),
         ..WindowOptions::default()
     };
     match HeadlessWindow::open([1440, 900], options) {

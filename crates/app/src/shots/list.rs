@@ -12,26 +12,24 @@ use super::{
     overlay::percent,
     state::{ShotsAction, ShotsFile, ShotsState, StripTab},
 };
-use crate::{
+use shell::{
     inspection::{
         fuse::FusedShots,
         scan_choice::ShotChoice,
         scan_figure::{ShotFate, ShotRow},
         unit_system::UnitSystem,
     },
-    language::{
-        results::{excluded, excluded_advice, excluded_in_short},
-        text,
-    },
-    shell::session::{Session, WorkspaceKind},
-    ui::{
-        theme::{ROUNDING, Theme, font, space},
-        widgets::{Mark, focus_ring, grouped, labelled, line_mark, sentence, shortened},
-    },
+    language::results::{excluded, excluded_advice, excluded_in_short},
+    session::{Session, WorkspaceKind},
+};
+use ui::{
+    language::text,
+    theme::{ROUNDING, Theme, font, space},
+    widgets::{Mark, focus_ring, grouped, labelled, line_mark, sentence, shortened},
 };
 
 /// Width of a shot in the list, logical pixels.
-const CARD: f32 = 240.0;
+const CARD_WIDTH_PX: f32 = 240.0;
 /// Size of its picture, logical pixels.
 const PICTURE: Vec2 = Vec2::new(80.0, 60.0);
 /// Maximum number of letters of its name.
@@ -134,8 +132,8 @@ impl ShotList {
         ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| {
             ui.horizontal_top(|ui| {
                 let rows = scan.fused.rows.iter().zip(textures).enumerate();
-                for (place, (row, texture)) in rows {
-                    card(ui, place, row, texture, scan, actions);
+                for (index, (row, texture)) in rows {
+                    card(ui, index, row, texture, scan, actions);
                 }
             });
         });
@@ -176,13 +174,13 @@ fn caption(fused: &FusedShots, units: UnitSystem) -> String {
 
 fn card(
     ui: &mut Ui,
-    place: usize,
+    index: usize,
     row: &ShotRow,
     texture: &TextureHandle,
     scan: ShownShots<'_>,
     actions: &mut Vec<ShotsAction>,
 ) {
-    let is_taken = !scan.choice.dropped.contains(&place);
+    let is_taken = !scan.choice.dropped.contains(&index);
     Frame::new()
         .fill(Theme::of(ui).control)
         .corner_radius(ROUNDING)
@@ -195,9 +193,9 @@ fn card(
         .show(ui, |ui| {
             ui.spacing_mut().item_spacing = vec2(8.0, 0.0);
             ui.vertical(|ui| {
-                ui.set_width(CARD - 16.0);
+                ui.set_width(CARD_WIDTH_PX - 16.0);
                 let mut is_checked = is_taken;
-                let text = format!("{} · {}", place + 1, shortened(&row.name, LETTERS));
+                let text = format!("{} · {}", index + 1, shortened(&row.name, LETTERS));
                 let text = RichText::new(text).font(font::body_strong());
                 let response = ui.add(Checkbox::new(&mut is_checked, text));
                 let label = text!("shots-use", name = &row.name);
@@ -213,10 +211,10 @@ fn card(
                     text!("shots-take-back-says")
                 };
                 if response.on_hover_text(says).clicked() {
-                    actions.push(ShotsAction::Toggle(place));
+                    actions.push(ShotsAction::Toggle(index));
                 }
                 ui.horizontal_top(|ui| {
-                    picture(ui, place, is_taken, texture, scan, actions);
+                    picture(ui, index, is_taken, texture, scan, actions);
                     ui.vertical(|ui| words(ui, row, is_taken, scan.session.units));
                 });
             });
@@ -226,7 +224,7 @@ fn card(
 /// Draws the picture; a press marks in the view what only this shot sees.
 fn picture(
     ui: &mut Ui,
-    place: usize,
+    index: usize,
     is_taken: bool,
     texture: &TextureHandle,
     scan: ShownShots<'_>,
@@ -234,7 +232,7 @@ fn picture(
 ) {
     let theme = Theme::of(ui);
     let (rect, response) = ui.allocate_exact_size(PICTURE, Sense::click());
-    let is_marked = scan.shots.looked_at == Some(place);
+    let is_marked = scan.shots.looked_at == Some(index);
     let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
     let shade = if is_taken { 1.0 } else { 0.45 };
     let tint = Color32::WHITE.gamma_multiply(shade);
@@ -246,11 +244,11 @@ fn picture(
             .rect_stroke(rect, 0.0, stroke, StrokeKind::Inside);
     }
     focus_ring(ui, rect, &response);
-    let label = text!("shots-mark", shot = place + 1);
+    let label = text!("shots-mark", shot = index + 1);
     response
         .widget_info(|| WidgetInfo::selected(egui::Role::Button, true, is_marked, label.clone()));
     if response.on_hover_text(&label).clicked() {
-        actions.push(ShotsAction::LookAt(place));
+        actions.push(ShotsAction::LookAt(index));
     }
 }
 

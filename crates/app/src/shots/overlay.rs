@@ -2,15 +2,13 @@
 
 use egui::{Align2, Color32, Painter, Pos2, Rect, vec2};
 
-use crate::{
-    inspection::{fuse::FusedShots, scan_figure::ScanFigure},
-    language::text,
-    ui::{
-        theme::{ROUNDING, Theme, font},
-        viewport::{PointSet, Role, TextLabel, ViewColours, ViewScene},
-    },
-};
 use geometry::units::Metres;
+use shell::inspection::{fuse::FusedShots, scan_figure::ScanFigure};
+use ui::{
+    language::text,
+    theme::{ROUNDING, Theme, font},
+    viewport::{PointSet, Role, TextLabel, ViewColours, ViewScene},
+};
 
 /// Diameter of a scan's points: they are means over voxels of 4 mm, whose diagonal is longer.
 pub(crate) const POINT_SIZE: Metres = Metres(0.006);

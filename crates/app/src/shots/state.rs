@@ -2,15 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::{
+use shell::{
+    file_dialog::{FileChoice, FileRequest, all_files},
     inspection::scan_choice::{ScanFiles, ScanOrder, ShotChoice},
+    notice::Notice,
+    session::Source,
+};
+use ui::{
     language::text,
-    shell::{
-        file_dialog::{FileChoice, FileRequest, all_files},
-        notice::Notice,
-        session::Source,
-        undo_stack::{UndoDirection, UndoStack},
-    },
+    undo_stack::{UndoDirection, UndoStack},
 };
 
 /// State that a workspace keeps for its scan, besides the result.
@@ -143,12 +143,12 @@ impl ShotsState {
             (ScanOrder::Known(choice), asked)
         };
         Ok(match action {
-            ShotsAction::Toggle(place) => {
-                let Some(mut choice) = used.filter(|used| place < used.set.shots.len()) else {
+            ShotsAction::Toggle(index) => {
+                let Some(mut choice) = used.filter(|used| index < used.set.shots.len()) else {
                     return Ok(None);
                 };
-                if !choice.dropped.remove(&place) {
-                    choice.dropped.insert(place);
+                if !choice.dropped.remove(&index) {
+                    choice.dropped.insert(index);
                 }
                 if choice.num_taken() < LEAST_SHOTS {
                     return Err(Notice::look(
@@ -158,8 +158,8 @@ impl ShotsState {
                 }
                 Some(choose(choice, None))
             }
-            ShotsAction::LookAt(place) => {
-                self.looked_at = (self.looked_at != Some(place)).then_some(place);
+            ShotsAction::LookAt(index) => {
+                self.looked_at = (self.looked_at != Some(index)).then_some(index);
                 None
             }
             ShotsAction::Strip(tab) => {

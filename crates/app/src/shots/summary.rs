@@ -2,16 +2,14 @@
 
 use egui::{RichText, Ui};
 
-use crate::{
+use shell::{
     inspection::{fuse::FusedShots, scan_figure::ShotFate, unit_system::UnitSystem},
-    language::{
-        results::{doubt, excluded, excluded_advice},
-        text,
-    },
-    ui::{
-        theme::{Theme, font, space},
-        widgets::{grouped, heading, row, sentence},
-    },
+    language::results::{doubt, excluded, excluded_advice},
+};
+use ui::{
+    language::text,
+    theme::{Theme, font, space},
+    widgets::{grouped, heading, row, sentence},
 };
 
 /// Draws the section.
@@ -58,11 +56,11 @@ fn figures(ui: &mut Ui, fused: &FusedShots, units: UnitSystem) {
                 .color(theme.warning),
         );
     };
-    for (place, shot) in fused.rows.iter().enumerate() {
+    for (index, shot) in fused.rows.iter().enumerate() {
         if let ShotFate::Excluded(why) = shot.fate {
             let text = text!(
                 "shots-shot-left-out",
-                shot = place + 1,
+                shot = index + 1,
                 why = excluded(&why)
             );
             advised(ui, &text, excluded_advice(&why));

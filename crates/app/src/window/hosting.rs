@@ -3,16 +3,17 @@
 use std::any::Any;
 
 use super::Window;
-use crate::shell::{
-    action::{Action, DialogRequest, remove_notices},
+use shell::{
+    action::{Action, Effect},
+    cell::RobotCell,
     context::ShellContext,
-    live::LiveAction,
-    message::{Message, ReinspectionPurpose},
+    frame::top_bar::Progress,
+    message::Message,
     notice::NoticeKind,
-    robot::RobotCell,
     roles,
-    session::WorkspaceKind,
-    top_bar::Progress,
+    session::{ReinspectionPurpose, WorkspaceKind},
+    source::live::LiveAction,
+    state::remove_notices,
     workspace::Workspace,
 };
 
@@ -96,13 +97,13 @@ impl Window {
             }
             Message::CopyText(text) => ctx.copy_text(text),
             Message::UseSource(source) => self.state.session.source = source,
-            Message::OpenScan => self.act(Action::Ask(DialogRequest::Scan), ctx),
             Message::LibraryChanged { library, saved } => {
                 self.state.library_changed(&library, saved);
             }
             Message::UseRecipe(recipe) => self.state.session.recipe = recipe,
             Message::UseCalibration(cell, robot) => {
                 self.state.session.cell = cell;
+                self.services.library_cache.use_robot(robot.clone());
                 self.state.session.robot = robot;
             }
             Message::UseAnswering(setup) => {
@@ -114,17 +115,11 @@ impl Window {
                     self.act(Action::Live(LiveAction::Toggle), ctx);
                 }
             }
-            Message::UseConvention(convention) => {
-                self.act(Action::UseConvention(convention), ctx);
-            }
             Message::UseProgramSetup(setup) => self.state.session.program = setup,
-            Message::ToggleRecording => {
-                self.act(Action::Live(LiveAction::ToggleRecording), ctx);
-            }
-            Message::GoTo(kind) => self.act(Action::GoTo(kind), ctx),
+            Message::Act(action) => self.act(action, ctx),
             Message::ShowPast(inspected) => self.state.show_past(inspected),
             Message::AskEngineer => {
-                roles::ask_engineer(&mut self.state, Action::EngineerIn(from));
+                roles::ask_engineer(&mut self.state, Action::Make(Effect::EngineerIn(from)));
             }
             Message::InspectShown { title } => {
                 self.state.inspect_shown(&title, ReinspectionPurpose::New);
@@ -145,7 +140,7 @@ impl Window {
     pub(super) fn work(&self) -> Option<Progress> {
         let of_hosted = |workspace: &dyn Workspace| {
             let running = workspace.running()?.clone();
-            let cancel = Some(Action::CancelTask(workspace.kind()));
+            let cancel = Some(Action::Make(Effect::CancelTask(workspace.kind())));
             Some(Progress { running, cancel })
         };
         let own = self

@@ -1,17 +1,16 @@
 //! The Align workspace, tested by its labels and controls. Needs no graphics adapter.
 
-use app::{
-    inspection::source::CellChoice,
-    language::Language,
-    shell::{action::Action, notice::NoticeKind, session::WorkspaceKind},
-    workspaces::align::{
-        AlignAction, AlignFile, AlignState, AlignWorkspace, Pairing, Playback, Start,
-    },
+use app::workspaces::align::{
+    AlignAction, AlignFile, AlignState, AlignWorkspace, Pairing, Playback, Start,
 };
 use egui::{Key, Role, Vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use shell::{
+    action::Action, inspection::source::CellChoice, notice::NoticeKind, session::WorkspaceKind,
+};
 use simulate::{PartKind, Side};
 use stages::pose::PoseMethod;
+use ui::language::Language;
 
 use super::set_up::{
     SMALL, USUAL, WindowHarness, act, act_in, open_with, plain_options, settle, wait_for,

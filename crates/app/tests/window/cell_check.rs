@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
-use app::{WindowOptions, shell::action::Action};
+use app::WindowOptions;
 use egui::Role;
 use egui_kittest::kittest::Queryable as _;
+use shell::action::Action;
 
 use stages::fixtures::save_fender_view;
 

@@ -4,8 +4,6 @@ use std::path::Path;
 
 use app::{
     WindowOptions,
-    inspection::source::CellChoice,
-    shell::{action::Action, session::WorkspaceKind},
     workspaces::{
         compare::{CompareAction, CompareState, CompareWorkspace, Front, RecipeAction},
         history::{HistoryAction, HistoryWorkspace},
@@ -21,6 +19,7 @@ use inspection::{
     pipeline::{Recipe, RecipeFile, RecipeFolder, Replace},
 };
 use records::cases::{CaseDescription, CaseFolder, FoundVerdict, Truth};
+use shell::{action::Action, inspection::source::CellChoice, session::WorkspaceKind};
 use simulate::{CellSetup, ObjectKind, PartKind, Side};
 
 use stages::fixtures::scene_of;

@@ -4,9 +4,6 @@ use std::{fs, path::Path};
 
 use app::{
     WindowOptions,
-    inspection::source::CellChoice,
-    shell::{action::Action, live::SourceState, session::WorkspaceKind, state::State},
-    ui::viewport::DrawnShape,
     workspaces::{
         enrol::{EnrolAction, EnrolWorkspace, draft::Field},
         history::HistoryWorkspace,
@@ -19,7 +16,15 @@ use inspection::{
     library::{LibraryFolder, PartName},
     pipeline::Verdict,
 };
+use shell::{
+    action::{Action, Effect},
+    inspection::source::CellChoice,
+    session::WorkspaceKind,
+    source::live::SourceState,
+    state::State,
+};
 use simulate::{PartKind, PartModel, Side};
+use ui::viewport::DrawnShape;
 
 use inspection::fixtures::copy_library;
 use stages::fixtures::facing_part;
@@ -987,7 +992,7 @@ fn one_more_reference_needs_no_title_and_is_unsaved_work_without_one() {
     capture(&mut harness, PartKind::Grille, Side::Right);
     press(&mut harness, "One more reference of: No other part");
     press(&mut harness, "Reference of: Wing");
-    act(&mut harness, Action::Quit);
+    act(&mut harness, Action::Make(Effect::Close));
     harness.get_by_label("The part in Enrol is not saved");
     press(&mut harness, "Keep the window open");
     pass_time(&mut harness);
@@ -1007,18 +1012,18 @@ fn a_window_with_an_unsaved_draft_asks_before_it_closes() {
     let library = library();
     let mut harness = open(library.path());
     capture(&mut harness, PartKind::Grille, Side::Right);
-    act(&mut harness, Action::Quit);
+    act(&mut harness, Action::Make(Effect::Close));
     assert!(harness.query_by_label("Close without saving?").is_none());
     write(&mut harness, "Title", "Grille");
     for _ in 0..2 {
-        act(&mut harness, Action::Quit);
+        act(&mut harness, Action::Make(Effect::Close));
         harness.get_by_label("Close without saving?");
         harness.get_by_label("Grille, the part in Enrol, is not saved");
         press(&mut harness, "Keep the window open");
         assert!(harness.query_by_label("Close without saving?").is_none());
     }
     press(&mut harness, "Save");
-    act(&mut harness, Action::Quit);
+    act(&mut harness, Action::Make(Effect::Close));
     assert!(harness.query_by_label("Close without saving?").is_none());
 }
 

@@ -10,13 +10,6 @@ use std::{
 
 use app::{
     WindowOptions,
-    inspection::{source::CellChoice, unit_system::UnitSystem},
-    shell::{
-        action::Action,
-        message::Message,
-        roles::RoleAction,
-        session::{ThemeChoice, WorkspaceKind},
-    },
     workspaces::{
         history::{HistoryAction, HistoryFile, HistoryWorkspace, ListFilter},
         inspect::InspectFile,
@@ -26,9 +19,15 @@ use egui::Key;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use files::save_cloud;
 use inspection::{library::Truth, pipeline::Recipe};
-use jiff::Timestamp;
 use records::history::{
     History, HungId, KeepFrames, NewEntry, Retention, SceneTitle, StoredVerdict,
+};
+use shell::{
+    action::{Action, Effect},
+    inspection::{source::CellChoice, unit_system::UnitSystem},
+    message::Message,
+    roles::RoleAction,
+    session::{ThemeChoice, WorkspaceKind},
 };
 use simulate::{ObjectKind, PartKind, Side};
 
@@ -463,7 +462,7 @@ fn inspections_that_cannot_be_written_are_marked_and_the_window_asks_before_it_c
     fs::write(&taken, "a file").expect("written");
     let mut harness = open_with(SMALL, keeping(&taken));
     press(&mut harness, "Dismiss");
-    act(&mut harness, Action::Quit);
+    act(&mut harness, Action::Make(Effect::Close));
     harness.get_by_label("Close without saving?");
     harness.get_by_label("1 inspection is kept in memory only: the history cannot be written");
     press(&mut harness, "Keep the window open");
@@ -471,7 +470,7 @@ fn inspections_that_cannot_be_written_are_marked_and_the_window_asks_before_it_c
     harness.get_by_label("Not recorded");
     drop(harness);
     let mut harness = open_with(SMALL, keeping(&folder.path().join("kept")));
-    act(&mut harness, Action::Quit);
+    act(&mut harness, Action::Make(Effect::Close));
     assert!(harness.query_by_label("Close without saving?").is_none());
     act(&mut harness, Action::Role(RoleAction::Switch));
     assert!(harness.query_by_label("Not recorded").is_none());
@@ -711,7 +710,7 @@ fn the_list_opens_at_the_row_that_the_program_has_selected_however_old_it_is() {
     let mut history = open_history(&place);
     for _ in 0..300 {
         let mut entry = history_entry(1, StoredVerdict::Accepted, "fender");
-        entry.record.summary.at = Timestamp::now();
+        entry.record.summary.at = geometry::clock::now();
         entry.scene = None;
         history.add(&entry, &Retention::default()).expect("written");
     }

@@ -2,8 +2,15 @@
 
 use std::{sync::Arc, thread, time::Duration};
 
-use app::{
-    WindowOptions,
+use app::WindowOptions;
+use egui::{Key, Modifiers, Rect, Role, Shape};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use files::save_cloud;
+use inspection::pipeline::{Rejection, Unwatched, Verdict};
+use robot::Convention;
+use shell::{
+    action::{Action, Effect},
+    cell::RobotAction,
     inspection::{
         camera::Camera,
         figures::StagePanel,
@@ -12,18 +19,9 @@ use app::{
         source::{CellChoice, SceneSource},
         unit_system::UnitSystem,
     },
-    shell::{
-        action::Action,
-        notice::Notice,
-        robot::RobotAction,
-        session::{ThemeChoice, WorkspaceKind},
-    },
+    notice::Notice,
+    session::{ThemeChoice, WorkspaceKind},
 };
-use egui::{Key, Modifiers, Rect, Role, Shape};
-use egui_kittest::kittest::{NodeT as _, Queryable as _};
-use files::save_cloud;
-use inspection::pipeline::{Rejection, Unwatched, Verdict};
-use robot::Convention;
 use simulate::{PartKind, Side};
 
 use stages::fixtures::facing_part;
@@ -121,7 +119,7 @@ fn cancel_gives_up_at_once_and_keeps_the_last_result() {
     let before = generation(&harness);
     let context = harness.ctx.clone();
     let window = harness.state_mut();
-    window.act(app::shell::action::Action::Capture, &context);
+    window.act(shell::action::Action::Capture, &context);
     assert!(window.state().session.is_old());
     harness.step();
     // On a quick machine the result may have arrived, and there is nothing to cancel.
@@ -220,7 +218,10 @@ fn the_pose_is_shown_in_the_robots_numbers_that_were_chosen() {
     let folder = tempfile::tempdir().expect("a folder");
     let cell = folder.path().join("cell.toml");
     save_calibration(&cell);
-    act(&mut harness, Action::Robot(RobotAction::Load(cell)));
+    act(
+        &mut harness,
+        Action::Make(Effect::Robot(RobotAction::Load(cell))),
+    );
     harness.get_by_label_contains("The robot's base frame, by Cell 2");
     harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::C);
     harness.run_steps(4);
@@ -254,7 +255,10 @@ fn the_figures_of_a_pose_are_shown_only_with_the_name_of_their_part() {
             source: SceneSource::Cell { choice, number: 1 },
             recipe: Arc::default(),
         };
-        let library_cache = LibraryCache::new(Some("reference_parts".into()), Camera::default());
+        let library_cache = LibraryCache::new(
+            Some(::inspection::fixtures::SHIPPED_PARTS.into()),
+            Camera::default(),
+        );
         let mut found = inspect(&request, &library_cache, &Unwatched).expect("inspected");
         let unknown = Rejection::Unknown {
             nearest: "front_door".into(),

@@ -2,14 +2,6 @@
 
 use app::{
     WindowOptions,
-    language::Language,
-    shell::{
-        action::Action,
-        live::{LiveAction, SourceState},
-        robot::{CheckAction, RobotAction, RobotPage},
-        roles::RoleAction,
-        session::WorkspaceKind,
-    },
     workspaces::{
         enrol::{EnrolAction, EnrolWorkspace, draft::Field},
         history::{HistoryAction, HistoryWorkspace, ListFilter},
@@ -22,6 +14,14 @@ use egui::{
 };
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use records::history::{Retention, StoredVerdict};
+use shell::{
+    action::{Action, Effect},
+    cell::{CheckAction, RobotAction, RobotPage},
+    roles::RoleAction,
+    session::WorkspaceKind,
+    source::live::{LiveAction, SourceState},
+};
+use ui::language::Language;
 
 use super::{
     live::{Step, sees, wired_options},
@@ -360,7 +360,7 @@ fn arrange(harness: &mut WindowHarness, scenery: Scenery) {
         }
         Scenery::Operator => act(harness, Action::Role(RoleAction::Switch)),
         Scenery::Help => act(harness, Action::ToggleHelp),
-        Scenery::Robot => act(harness, Action::Robot(RobotAction::Toggle)),
+        Scenery::Robot => act(harness, Action::Make(Effect::Robot(RobotAction::Toggle))),
         Scenery::Cell => {
             let spec = capture::SimulatedSpec::default();
             act(harness, Action::Live(LiveAction::SetUp(Some(spec))));
@@ -468,17 +468,20 @@ fn in_every_language_the_check_of_the_cell_fits_where_it_does_in_english() {
             ..plain_options()
         };
         let mut harness = open_with(SMALL, options);
-        act(&mut harness, Action::Robot(RobotAction::Toggle));
+        act(
+            &mut harness,
+            Action::Make(Effect::Robot(RobotAction::Toggle)),
+        );
         let mut dialog = harness.state().robot().dialog().expect("open").clone();
         dialog.page = RobotPage::Check;
         let turned = RobotAction::Edit(Box::new(dialog));
-        act(&mut harness, Action::Robot(turned));
+        act(&mut harness, Action::Make(Effect::Robot(turned)));
         if !harness.state().robot().checks().content().has_baseline {
             let take = RobotAction::Check(CheckAction::TakeBaseline);
-            act(&mut harness, Action::Robot(take));
+            act(&mut harness, Action::Make(Effect::Robot(take)));
         }
         let check = RobotAction::Check(CheckAction::Check);
-        act(&mut harness, Action::Robot(check));
+        act(&mut harness, Action::Make(Effect::Robot(check)));
         assert!(harness.state().robot().checks().latest().is_some());
         misfits(&harness)
     };
@@ -493,13 +496,16 @@ fn in_every_language_the_check_of_the_cell_fits_where_it_does_in_english() {
 fn in_every_language_the_page_of_robots_that_ask_fits_where_it_does_in_english() {
     let shown = |language: Language| {
         let mut harness = open_in(language, SMALL);
-        act(&mut harness, Action::Robot(RobotAction::Toggle));
+        act(
+            &mut harness,
+            Action::Make(Effect::Robot(RobotAction::Toggle)),
+        );
         let mut dialog = harness.state().robot().dialog().expect("open").clone();
         dialog.page = RobotPage::Answer;
         // Show the warning about the address, and the one about the missing calibration.
         dialog.address = "0.0.0.0:30100".into();
         let turned = RobotAction::Edit(Box::new(dialog));
-        act(&mut harness, Action::Robot(turned));
+        act(&mut harness, Action::Make(Effect::Robot(turned)));
         misfits(&harness)
     };
     let usual = shown(Language::English);

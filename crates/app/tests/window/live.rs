@@ -9,18 +9,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use app::{
-    Window, WindowOptions,
-    inspection::{camera::Camera, source::CellChoice},
-    shell::{
-        action::{Action, DialogRequest},
-        live::{LiveAction, SourceState},
-        roles::RoleAction,
-        session::{Source, WorkspaceKind},
-        state::State,
-    },
-    workspaces::history::HistoryWorkspace,
-};
+use app::{Window, WindowOptions, workspaces::history::HistoryWorkspace};
 use capture::{CaptureError, Captured, DepthSource, Image, NextCapture};
 use egui::Key;
 use egui_kittest::{Harness, kittest::Queryable as _};
@@ -28,6 +17,14 @@ use files::save_cloud;
 use geometry::rigid::RigidTransform;
 use jiff::{SignedDuration, Timestamp};
 use records::history::StoredVerdict;
+use shell::{
+    action::{Action, DialogRequest},
+    inspection::{camera::Camera, source::CellChoice},
+    roles::RoleAction,
+    session::{Source, WorkspaceKind},
+    source::live::{LiveAction, SourceState},
+    state::State,
+};
 use simulate::{PartKind, SensorNoise, Side};
 
 use simulate::fixtures::HangingPart;

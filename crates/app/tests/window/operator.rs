@@ -7,25 +7,24 @@ use std::{
 
 use app::{
     WindowOptions,
-    inspection::source::CellChoice,
-    language::Language,
-    shell::{
-        action::Action,
-        notice::Notice,
-        robot::{AnswerSetup, RobotAction},
-        roles::RoleAction,
-        session::{Source, UserRole, WorkspaceKind},
-        settings,
-    },
     workspaces::history::{HistoryAction, HistoryWorkspace},
 };
 use egui::{Key, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use files::save_cloud;
 use inspection::pipeline::Rejection;
-use jiff::Timestamp;
 use records::history::{Retention, StoredVerdict};
+use shell::{
+    action::{Action, Effect},
+    cell::{AnswerSetup, RobotAction},
+    inspection::source::CellChoice,
+    notice::Notice,
+    roles::RoleAction,
+    session::{Source, UserRole, WorkspaceKind},
+    settings,
+};
 use simulate::{CellSetup, PartKind, SensorNoise, Side, SimulatedObject};
+use ui::language::Language;
 
 use records::fixtures::{history_entry, open_history, refuse};
 use stages::fixtures::{facing_part, scene_of};
@@ -136,7 +135,7 @@ fn the_parts_of_this_shift_are_counted_and_what_is_only_tried_is_not() {
     let place = folder.path().join("history");
     // One that hung in the cell before the window was opened.
     let mut refused = history_entry(1, StoredVerdict::Rejected, "fender");
-    refused.record.summary.at = Timestamp::now();
+    refused.record.summary.at = geometry::clock::now();
     let mut history = open_history(&place);
     history
         .add(&refused, &Retention::default())
@@ -197,7 +196,7 @@ fn the_serial_number_of_a_vehicle_is_readable_in_a_small_window() {
     let long = format!("{vehicle}/{vehicle}/{vehicle}");
     for serial in [vehicle, long.as_str()] {
         let mut part = history_entry(1, StoredVerdict::Accepted, "radiator_support");
-        part.record.summary.at = Timestamp::now();
+        part.record.summary.at = geometry::clock::now();
         part.record.summary.trace.serial = serial.into();
         history.add(&part, &Retention::default()).expect("written");
     }
@@ -218,7 +217,7 @@ fn the_list_of_parts_says_of_which_part_something_is_the_mirror_image() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut history = open_history(folder.path());
     let mut part = history_entry(1, StoredVerdict::Unknown, "fender");
-    part.record.summary.at = Timestamp::now();
+    part.record.summary.at = geometry::clock::now();
     part.record.summary.title = "Fender, left".into();
     let mirrored = Rejection::Mirrored {
         part: "fender".into(),
@@ -304,7 +303,9 @@ fn what_is_followed_is_good_only_while_its_verdict_counts() {
     wire.send(Step::Unplugged).expect("the camera is open");
     wait_until(&mut harness, |state| {
         let status = state.session.live.status.as_ref();
-        status.is_some_and(|status| matches!(status.source, app::shell::live::SourceState::Lost(_)))
+        status.is_some_and(|status| {
+            matches!(status.source, shell::source::live::SourceState::Lost(_))
+        })
     });
     harness.run_steps(2);
     harness.get_by_label("No camera");
@@ -777,9 +778,10 @@ fn open_answering(cell: Option<PathBuf>) -> (WindowHarness, Sender<Step>) {
         at: "ascii=0".parse().expect("any free port"),
         ..AnswerSetup::default()
     };
-    harness
-        .state_mut()
-        .act(Action::Robot(RobotAction::Answer(setup)), &context);
+    harness.state_mut().act(
+        Action::Make(Effect::Robot(RobotAction::Answer(setup))),
+        &context,
+    );
     // Live has started with it.
     sees(&mut harness, &wire, [0.0; 2]);
     harness

@@ -8,18 +8,6 @@ use std::{fs, path::PathBuf, sync::Arc, time::Duration};
 
 use app::{
     Window, WindowOptions,
-    inspection::{
-        camera::Camera,
-        inspected::{InspectRequest, Inspected, inspect},
-        library_cache::LibraryCache,
-        source::{CellChoice, SceneSource},
-    },
-    shell::{
-        action::Action,
-        robot::{RobotAction, RobotPage},
-        roles::RoleAction,
-        session::WorkspaceKind,
-    },
     workspaces::{
         align::{AlignWorkspace, MethodRun},
         paint::{PaintAction, PaintWorkspace},
@@ -37,6 +25,18 @@ use inspection::{
     library::{LibraryFolder, PartName},
     pipeline::{Timings, Unwatched},
 };
+use shell::{
+    action::{Action, Effect},
+    cell::{RobotAction, RobotPage},
+    inspection::{
+        camera::Camera,
+        inspected::{InspectRequest, Inspected, inspect},
+        library_cache::LibraryCache,
+        source::{CellChoice, SceneSource},
+    },
+    roles::RoleAction,
+    session::WorkspaceKind,
+};
 
 use inspection::fixtures::copy_library;
 
@@ -53,7 +53,7 @@ const MAX_DIFFERENT: usize = 100;
 #[expect(clippy::print_stderr, reason = "a test that skips must say why")]
 fn draws_in_software() -> bool {
     let is_required = std::env::var_os("PARTSIGHT_REQUIRE_GPU").is_some();
-    if let Err(error) = app::ui::viewport::ViewportGpu::headless() {
+    if let Err(error) = ui::viewport::ViewportGpu::headless() {
         assert!(!is_required, "{error}");
         eprintln!("skipped: {error}");
         return false;
@@ -70,7 +70,7 @@ fn draws_in_software() -> bool {
 /// The inspection of the cell's first frame, with fixed times and date.
 fn inspected() -> Inspected {
     inspected_by(&LibraryCache::new(
-        Some("reference_parts".into()),
+        Some(::inspection::fixtures::SHIPPED_PARTS.into()),
         Camera::default(),
     ))
 }
@@ -235,7 +235,7 @@ fn the_operators_view_looks_as_it_did() {
     ] {
         let mut found = inspected();
         // In the present shift; without starts, every shift is "since 00:00", which has the same width all day.
-        found.entry.record.summary.at = jiff::Timestamp::now();
+        found.entry.record.summary.at = geometry::clock::now();
         // As if the cell was followed: only then its parts are counted.
         found.entry.record.summary.source = "simulated".into();
         fs::write(&settings, "shifts = []").expect("written");
@@ -316,7 +316,7 @@ fn the_robots_cell_looks_as_it_did() {
     let mut harness = open_drawn(USUAL);
     act(
         &mut harness,
-        Action::Robot(RobotAction::Pairs(pairs.clone())),
+        Action::Make(Effect::Robot(RobotAction::Pairs(pairs.clone()))),
     );
     compare(&mut harness, "robot_pairs");
 
@@ -338,7 +338,10 @@ fn the_robots_cell_looks_as_it_did() {
         if is_light {
             act(&mut harness, Action::SwitchTheme);
         }
-        act(&mut harness, Action::Robot(RobotAction::Load(cell.clone())));
+        act(
+            &mut harness,
+            Action::Make(Effect::Robot(RobotAction::Load(cell.clone()))),
+        );
         if !is_light {
             // From the top the rays can be told apart.
             press(&mut harness, "Top");
@@ -346,18 +349,27 @@ fn the_robots_cell_looks_as_it_did() {
         compare(&mut harness, name);
     }
     let mut harness = open_drawn(SMALL);
-    act(&mut harness, Action::Robot(RobotAction::Load(cell)));
-    act(&mut harness, Action::Robot(RobotAction::Toggle));
+    act(
+        &mut harness,
+        Action::Make(Effect::Robot(RobotAction::Load(cell))),
+    );
+    act(
+        &mut harness,
+        Action::Make(Effect::Robot(RobotAction::Toggle)),
+    );
     let mut dialog = harness.state().robot().dialog().expect("open").clone();
     dialog.page = RobotPage::Answer;
     let turned = RobotAction::Edit(Box::new(dialog));
-    act(&mut harness, Action::Robot(turned));
+    act(&mut harness, Action::Make(Effect::Robot(turned)));
     compare(&mut harness, "robot_answers");
     let turns: Vec<[f64; 3]> = (0..6).map(|i| [0.0, 0.0, 0.3 * f64::from(i)]).collect();
     std::fs::write(&pairs, robot::pairs(&turns)).expect("written");
     let mut harness = open_drawn(SMALL);
     act(&mut harness, Action::SwitchTheme);
-    act(&mut harness, Action::Robot(RobotAction::Pairs(pairs)));
+    act(
+        &mut harness,
+        Action::Make(Effect::Robot(RobotAction::Pairs(pairs))),
+    );
     compare(&mut harness, "robot_doubts_small_light");
 }
 

@@ -1,17 +1,15 @@
 //! The roles of the window: operator and engineer.
 
-use app::{
-    WindowOptions,
-    shell::{
-        action::Action,
-        notice::Notice,
-        roles::{RoleAction, UserRole},
-        session::{Source, WorkspaceKind},
-        settings,
-    },
-};
+use app::WindowOptions;
 use egui::{Event, Key, Role};
 use egui_kittest::kittest::Queryable as _;
+use shell::{
+    action::Action,
+    notice::Notice,
+    roles::{RoleAction, UserRole},
+    session::{Source, WorkspaceKind},
+    settings,
+};
 
 use super::operator::scan;
 use super::set_up::{

@@ -9,13 +9,6 @@ use std::{
 
 use app::{
     Window, WindowOptions,
-    shell::{
-        action::{Action, DialogRequest},
-        context::ShellContext,
-        live::SourceState,
-        state::State,
-        workspace::Workspace,
-    },
     workspaces::{
         enrol::{EnrolState, EnrolWorkspace},
         history::{HistoryState, HistoryWorkspace},
@@ -24,6 +17,13 @@ use app::{
 };
 use egui::Vec2;
 use egui_kittest::{Harness, kittest::Queryable as _};
+use shell::{
+    action::{Action, DialogRequest},
+    context::ShellContext,
+    source::live::SourceState,
+    state::State,
+    workspace::Workspace,
+};
 
 /// A window without a screen.
 pub(crate) type WindowHarness = Harness<'static, Window>;
@@ -45,7 +45,7 @@ pub(crate) fn open_with(size: Vec2, options: WindowOptions) -> WindowHarness {
 /// Options for a window with the shipped parts, without the user's library and settings.
 pub(crate) fn plain_options() -> WindowOptions {
     WindowOptions {
-        library: Some("reference_parts".into()),
+        library: Some(::inspection::fixtures::SHIPPED_PARTS.into()),
         ..WindowOptions::default()
     }
 }

@@ -6,17 +6,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use app::{
-    WindowOptions,
-    inspection::{fuse::FusedShots, scan_figure::ShotFate},
-    shell::{
-        action::Action,
-        session::{Source, WorkspaceKind},
-        state::State,
-    },
-    shots::ShotsFile,
-    workspaces::inspect::InspectFile,
-};
+use app::{WindowOptions, shots::ShotsFile, workspaces::inspect::InspectFile};
 use egui::{Key, Modifiers, Vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use files::write_depth_png;
@@ -28,6 +18,12 @@ use geometry::{
 use inspection::library::{EnrolParams, LibraryFolder, PartDescription, PartName, enrol_scan};
 use robot::scan_frames::{read_frames, with_poses};
 use serde_json::{Value, json};
+use shell::{
+    action::Action,
+    inspection::{fuse::FusedShots, scan_figure::ShotFate},
+    session::{Source, WorkspaceKind},
+    state::State,
+};
 use simulate::{PartKind, ScanSetup, Side, SimulatedObject, SimulatedScan};
 
 use stages::scan::{ScanParams, Unwatched, assemble_all};
@@ -130,7 +126,11 @@ fn coarse(frame: &DepthFrame) -> DepthFrame {
 fn open_at(size: Vec2, scene: &Path, library: Option<&Path>) -> WindowHarness {
     let options = WindowOptions {
         scene: Some(scene.to_owned()),
-        library: Some(library.unwrap_or(Path::new("reference_parts")).to_owned()),
+        library: Some(
+            library
+                .unwrap_or(Path::new(::inspection::fixtures::SHIPPED_PARTS))
+                .to_owned(),
+        ),
         ..plain_options()
     };
     open_with(size, options)
@@ -258,7 +258,7 @@ fn enrol(paths: &[PathBuf], library: &Path) {
         name: PartName::new("fender").expect("a name"),
         title: "Fender".into(),
         notes: String::new(),
-        from: "scan".into(),
+        from: "fender".into(),
         at: geometry::clock::now(),
         simulated: scan.cloud.cloud.is_simulated,
     };

@@ -5,14 +5,13 @@ use std::path::PathBuf;
 
 use app::{
     Window,
-    inspection::source::CellChoice,
-    shell::action::Action,
-    ui::viewport::{Colouring, ViewportGpu},
     workspaces::inspect::{InspectFile, ViewPart},
 };
 use egui::{Key, Role, Vec2};
 use egui_kittest::{Harness, kittest::Queryable as _};
+use shell::{action::Action, inspection::source::CellChoice};
 use simulate::ObjectKind;
+use ui::viewport::{Colouring, ViewportGpu};
 
 use super::set_up::{
     SMALL, USUAL, WindowHarness, act, choose_in_inspect, inspect_of, plain_options, settle,

@@ -99,7 +99,7 @@ impl BoundsLibrary {
 const LEAST_ONE_SIDED: f64 = 0.2;
 
 /// Hangs a mesh as the simulated cell hangs parts, and returns by which transform.
-pub fn hung(mut mesh: TriangleMesh) -> (TriangleMesh, RigidTransform) {
+pub(crate) fn hung(mut mesh: TriangleMesh) -> (TriangleMesh, RigidTransform) {
     let hung_from_mesh = hung_from_mesh(&mesh);
     for p in &mut mesh.vertices {
         *p = (hung_from_mesh * p.cast::<f64>()).cast();

@@ -175,7 +175,7 @@ fn bounds(frame: &SuiteFrame, truth: &FrameTruth, inspection: &Inspection) -> Op
 }
 
 /// Returns the centroid of the part's visible points.
-pub fn middle_of_seen(inspection: &Inspection) -> Option<Point3<f64>> {
+pub(crate) fn middle_of_seen(inspection: &Inspection) -> Option<Point3<f64>> {
     let seen = &inspection.segmentation.part.as_ref().ok()?.cloud.points;
     let sum: Vector3<f64> = seen.iter().map(|p| p.coords.cast::<f64>()).sum();
     Some(Point3::from(sum / seen.len().max(1) as f64))

@@ -13,7 +13,7 @@ const NUM_POINTS: usize = 2000;
 const STREAM: u64 = 0x0c07_0c07_0c07_0c07;
 
 /// Draws a pose at which a share of the part's surface within this range lies beyond one edge of the picture.
-pub fn pushed_out_of_the_picture(
+pub(crate) fn pushed_out_of_the_picture(
     mesh: &TriangleMesh,
     placed: &SampledPose,
     camera: &Intrinsics,

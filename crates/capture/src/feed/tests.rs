@@ -243,8 +243,8 @@ fn it_stops_from_every_state_and_closes_its_source() {
 
 #[test]
 fn news_are_told_for_every_capture_and_the_end() {
-    let told = Arc::new(AtomicUsize::new(0));
-    let theirs = Arc::clone(&told);
+    let num_notified = Arc::new(AtomicUsize::new(0));
+    let theirs = Arc::clone(&num_notified);
     let open = Arc::new(AtomicUsize::new(0));
     let source = move || {
         let mut steps = numbers(1..=5);
@@ -258,7 +258,7 @@ fn news_are_told_for_every_capture_and_the_end() {
     wait_until(&feed, |status| status.state.is_over());
     drop(feed);
     // Running, five captures, the end.
-    assert_eq!(told.load(Ordering::SeqCst), 7);
+    assert_eq!(num_notified.load(Ordering::SeqCst), 7);
 }
 
 #[test]

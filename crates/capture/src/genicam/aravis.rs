@@ -223,14 +223,14 @@ impl Device {
             unsafe { (functions.arv_camera_get_float)(camera, node, error) }
         });
         // Some cameras have integer nodes where the standard has floating-point ones.
-        read.or_else(|said| {
+        read.or_else(|message| {
             let whole = self.read(node, |camera, node, error| {
                 // SAFETY: as above.
                 unsafe { (functions.arv_camera_get_integer)(camera, node, error) }
             });
             whole
                 .map(|value| value.map(|value| value as f64))
-                .or(Err(said))
+                .or(Err(message))
         })
     }
 
@@ -399,7 +399,7 @@ impl Frame<'_> {
             3 => Err("it did not arrive in time"),
             4 => Err("packets are missing"),
             5 => Err("a packet has a wrong number"),
-            6 => Err("it is larger than the camera said"),
+            6 => Err("it is larger than the camera announced"),
             8 => Err("it was broken off"),
             _ => Err("it was not filled"),
         }
@@ -447,16 +447,20 @@ impl Frame<'_> {
             )
         };
         let all = NonNull::new(all.cast_mut().cast::<u8>())?;
-        let place = bytes.addr().checked_sub(all.addr().get())?;
-        let place = within(place, num_bytes, num_received.min(self.device.buffer_bytes))?;
+        let offset = bytes.addr().checked_sub(all.addr().get())?;
+        let range = within(
+            offset,
+            num_bytes,
+            num_received.min(self.device.buffer_bytes),
+        )?;
         // SAFETY: the library owns the buffer's bytes from `all` on, and does not write into a buffer that is not in the
         // stream.
-        let received = unsafe { slice::from_raw_parts(all.as_ptr(), place.end) };
+        let received = unsafe { slice::from_raw_parts(all.as_ptr(), range.end) };
         Some(Part {
             width: usize::try_from(width).ok()?,
             height: usize::try_from(height).ok()?,
             row_padding: usize::try_from(row_padding).ok()?,
-            bytes: received.get(place)?,
+            bytes: received.get(range)?,
         })
     }
 }

@@ -8,15 +8,18 @@
 //! heights on a rectified grid, points in a user-defined frame, and mirrored depth images are errors, because parts would
 //! appear with a wrong shape or in a wrong place.
 
-use std::ffi::CStr;
+use std::{ffi::CStr, fmt::Display};
 
 use nalgebra::Point3;
 
 use super::{
     aravis::{Device, Part},
-    error::{GenicamError, GenicamWarning},
+    not_opened,
 };
-use crate::{error::CaptureWarning, source::Image, spec::GenicamFormat};
+use crate::{
+    camera_error::CameraError, camera_library::ARAVIS, error::CaptureWarning, source::Image,
+    spec::GenicamFormat,
+};
 use files::{DepthCamera, StoredOrientation};
 use geometry::{
     cloud::{Grid, PointCloud},
@@ -141,7 +144,7 @@ impl Scan3d {
         &self,
         format: GenicamFormat,
         file: Option<DepthCamera>,
-    ) -> Result<(Decoder, Vec<CaptureWarning>), GenicamError> {
+    ) -> Result<(Decoder, Vec<CaptureWarning>), CameraError> {
         match (format, file) {
             (GenicamFormat::Coord3dAbc32f, _) => self.points(),
             (GenicamFormat::Coord3dC16, file) => self.depth(file),
@@ -150,16 +153,14 @@ impl Scan3d {
                 let units = (0..=u16::MAX).collect();
                 Ok((Decoder::Depth { camera, units }, Vec::new()))
             }
-            (GenicamFormat::Mono16, None) => Err(GenicamError::Untold {
-                node: "Scan3dCoordinateScale",
-            }),
+            (GenicamFormat::Mono16, None) => Err(not_reported("Scan3dCoordinateScale")),
         }
     }
 
     fn depth(
         &self,
         file: Option<DepthCamera>,
-    ) -> Result<(Decoder, Vec<CaptureWarning>), GenicamError> {
+    ) -> Result<(Decoder, Vec<CaptureWarning>), CameraError> {
         self.check_frame("CalibratedC", &["CalibratedC", "CalibratedABC_Grid"])?;
         let [.., nodes] = &self.axes;
         let (camera, axis, warnings) = if let Some(camera) = file {
@@ -173,7 +174,7 @@ impl Scan3d {
             (camera, axis, warnings)
         } else {
             let (unit, warnings) = self.unit()?;
-            let scale = told(nodes.scale, "Scan3dCoordinateScale")?;
+            let scale = reported(nodes.scale, "Scan3dCoordinateScale")?;
             let camera = self.camera()?;
             self.check_order(&camera)?;
             self.check_region()?;
@@ -184,13 +185,13 @@ impl Scan3d {
             metres_per_unit,
             ..camera
         };
-        let camera = camera.checked().map_err(|what| GenicamError::NotOpened {
-            said: format!("its numbers are no camera's: {what}"),
-        })?;
+        let camera = camera
+            .checked()
+            .map_err(|what| not_opened(format!("its numbers are no camera's: {what}")))?;
         Ok((Decoder::Depth { camera, units }, warnings))
     }
 
-    fn points(&self) -> Result<(Decoder, Vec<CaptureWarning>), GenicamError> {
+    fn points(&self) -> Result<(Decoder, Vec<CaptureWarning>), CameraError> {
         self.check_frame("CalibratedABC_Grid", &["CalibratedABC_Grid", POINT_CLOUD])?;
         let (unit, warnings) = self.unit()?;
         // Floating-point coordinates need no scale, and not every camera has one for them.
@@ -204,7 +205,7 @@ impl Scan3d {
 
     /// Fails unless the output mode is one of `modes` and the coordinates are x, y, z in the camera's own frame. `advised`
     /// is the mode named in the error.
-    fn check_frame(&self, advised: &'static str, modes: &[&str]) -> Result<(), GenicamError> {
+    fn check_frame(&self, advised: &'static str, modes: &[&str]) -> Result<(), CameraError> {
         let checks = [
             ("Scan3dOutputMode", &self.output_mode, advised, modes),
             (
@@ -224,11 +225,7 @@ impl Scan3d {
             if let Some(found) = found
                 && !readable.contains(&found.as_str())
             {
-                return Err(GenicamError::WrongSetting {
-                    node,
-                    found: found.clone(),
-                    expected,
-                });
+                return Err(wrong_setting(node, found, expected));
             }
         }
         Ok(())
@@ -236,15 +233,11 @@ impl Scan3d {
 
     /// Fails if the camera reverses rows or columns of its depth images, unless the file specifies how they are stored:
     /// otherwise a left part would be taken for a right one.
-    fn check_order(&self, camera: &DepthCamera) -> Result<(), GenicamError> {
-        let is_told = camera.stored != StoredOrientation::default();
+    fn check_order(&self, camera: &DepthCamera) -> Result<(), CameraError> {
+        let is_specified = camera.stored != StoredOrientation::default();
         for (node, is_reversed) in ["ReverseX", "ReverseY"].into_iter().zip(self.is_reversed) {
-            if is_reversed == Some(true) && !is_told {
-                return Err(GenicamError::WrongSetting {
-                    node,
-                    found: "true".into(),
-                    expected: "false",
-                });
+            if is_reversed == Some(true) && !is_specified {
+                return Err(wrong_setting(node, "true", "false"));
             }
         }
         Ok(())
@@ -252,45 +245,37 @@ impl Scan3d {
 
     /// Fails if the region does not begin at the first pixel: manufacturers disagree on whether the principal point is
     /// relative to the region.
-    fn check_region(&self) -> Result<(), GenicamError> {
+    fn check_region(&self) -> Result<(), CameraError> {
         for (node, offset) in ["OffsetX", "OffsetY"].into_iter().zip(self.region_offset) {
             if let Some(found) = offset.filter(|offset| offset.abs() > 0.0) {
-                return Err(GenicamError::WrongSetting {
-                    node,
-                    found: found.to_string(),
-                    expected: "0",
-                });
+                return Err(wrong_setting(node, found, "0"));
             }
         }
         Ok(())
     }
 
     /// Metres per unit of length of the camera.
-    fn unit(&self) -> Result<(f64, Vec<CaptureWarning>), GenicamError> {
+    fn unit(&self) -> Result<(f64, Vec<CaptureWarning>), CameraError> {
         match self.distance_unit.as_deref() {
-            None => Ok((0.001, vec![GenicamWarning::UnitAssumed.into()])),
+            None => Ok((0.001, vec![CaptureWarning::AssumedUnit])),
             Some("Millimeter") => Ok((0.001, Vec::new())),
             Some("Inch") => Ok((0.0254, Vec::new())),
-            Some(found) => Err(GenicamError::WrongSetting {
-                node: "Scan3dDistanceUnit",
-                found: found.to_owned(),
-                expected: "Millimeter",
-            }),
+            Some(found) => Err(wrong_setting("Scan3dDistanceUnit", found, "Millimeter")),
         }
     }
 
-    fn camera(&self) -> Result<DepthCamera, GenicamError> {
-        let focal = told(self.focal_length, "Scan3dFocalLength")?;
+    fn camera(&self) -> Result<DepthCamera, CameraError> {
+        let focal = reported(self.focal_length, "Scan3dFocalLength")?;
         let [u, v] = self.principal_point;
         let [width, height] = self.size;
         Ok(DepthCamera {
             intrinsics: Intrinsics {
-                width: told(width, "Width")? as usize,
-                height: told(height, "Height")? as usize,
+                width: reported(width, "Width")? as usize,
+                height: reported(height, "Height")? as usize,
                 fx: focal,
                 fy: focal * self.aspect_ratio.unwrap_or(1.0),
-                cx: told(u, "Scan3dPrincipalPointU")?,
-                cy: told(v, "Scan3dPrincipalPointV")?,
+                cx: reported(u, "Scan3dPrincipalPointU")?,
+                cy: reported(v, "Scan3dPrincipalPointV")?,
                 distortion: Distortion::NONE,
             },
             metres_per_unit: 1.0,
@@ -313,8 +298,24 @@ impl AxisNodes {
     }
 }
 
-fn told(value: Option<f64>, node: &'static str) -> Result<f64, GenicamError> {
-    value.ok_or(GenicamError::Untold { node })
+fn reported(value: Option<f64>, node: &str) -> Result<f64, CameraError> {
+    value.ok_or_else(|| not_reported(node))
+}
+
+/// The camera lacks a value that is needed to convert its pixels into lengths.
+fn not_reported(node: &str) -> CameraError {
+    ARAVIS.unsuitable(
+        format!("the camera does not report its {node}, which its depth images need"),
+        "Give the camera's numbers as they stand beside a depth PNG: genicam,camera=FILE",
+    )
+}
+
+/// The camera is set to something other than depth along the optical axis, or points in its own frame.
+fn wrong_setting(node: &str, found: impl Display, expected: &str) -> CameraError {
+    ARAVIS.unsuitable(
+        format!("{node} of the camera is {found}, expected {expected}"),
+        format!("Set {node} to {expected} with the camera's own program"),
+    )
 }
 
 /// Returns the depth for every 16-bit value, and the metres per unit of these depths; 0 means no reading.
@@ -322,16 +323,16 @@ fn told(value: Option<f64>, node: &'static str) -> Result<f64, GenicamError> {
 /// Without an offset the depths are the values themselves. With an offset some might exceed 16 bits, so the unit is chosen
 /// such that the largest value just fits; the rounding error is at most half a unit. The value 0 never is a reading:
 /// cameras without `Scan3dInvalidDataFlag` send it where they have none.
-fn depth_table(axis: &Axis) -> Result<(Vec<u16>, f64), GenicamError> {
+fn depth_table(axis: &Axis) -> Result<(Vec<u16>, f64), CameraError> {
     let largest = f64::from(u16::MAX);
     let metres_per_unit = axis.scale.max(0.0) + axis.offset / largest;
     let is_scale = axis.scale.abs() > 0.0 && axis.scale.is_finite();
     if !(is_scale && metres_per_unit > 0.0 && metres_per_unit.is_finite()) {
-        return Err(GenicamError::WrongSetting {
-            node: "Scan3dCoordinateScale",
-            found: format!("{} m with an offset of {} m", axis.scale, axis.offset),
-            expected: "depths in front of the camera",
-        });
+        return Err(wrong_setting(
+            "Scan3dCoordinateScale",
+            format_args!("{} m with an offset of {} m", axis.scale, axis.offset),
+            "depths in front of the camera",
+        ));
     }
     let depth = |value: u16| {
         let value = f64::from(value);

@@ -26,17 +26,18 @@ use std::{
     time::Duration,
 };
 
-use super::{
-    error::KinectError,
-    header::{
-        Attributes, DEVICE_CAMERA, FrameMode, INTERRUPTED, LOG_ERROR, OnDepth, OnLog, TimeVal,
-    },
+use super::header::{
+    Attributes, DEVICE_CAMERA, FrameMode, INTERRUPTED, LOG_ERROR, OnDepth, OnLog, TimeVal,
 };
-use crate::driver_search::LoadError;
+use crate::{
+    camera_error::{CameraError, CameraErrorKind},
+    camera_library::FREENECT,
+    driver_search::LoadError,
+};
 use geometry::error::lock;
 
 /// Maximum number of log lines kept per call.
-const MOST_SAID: usize = 8;
+const MAX_LOG_LINES: usize = 8;
 
 /// Defines `Functions`: the functions with their types as in the header. Those of the second list are optional.
 macro_rules! functions {
@@ -159,19 +160,22 @@ pub(super) struct Context {
 
 impl Context {
     /// Starts the library with cameras only.
-    pub(super) fn new(library: &'static Library) -> Result<Self, KinectError> {
+    pub(super) fn new(library: &'static Library) -> Result<Self, CameraError> {
         let functions = &library.functions;
         let claim = match CLAIM.try_lock() {
             Ok(claim) => claim,
             Err(TryLockError::Poisoned(claim)) => claim.into_inner(),
-            Err(TryLockError::WouldBlock) => return Err(KinectError::InUse),
+            Err(TryLockError::WouldBlock) => return Err(FREENECT.error(CameraErrorKind::InUse)),
         };
         let mut context = ptr::null_mut();
         // SAFETY: `context` is a place to write a pointer to; null asks the library for a libusb context of its own.
         let code = unsafe { (functions.freenect_init)(&raw mut context, ptr::null_mut()) };
-        let context = NonNull::new(context)
-            .filter(|_| code >= 0)
-            .ok_or(KinectError::NoUsb { code })?;
+        let context = NonNull::new(context).filter(|_| code >= 0).ok_or_else(|| {
+            let message = format!("USB error {code}");
+            FREENECT
+                .error(CameraErrorKind::LibraryNotStarted)
+                .quoting([message])
+        })?;
         // SAFETY: the context is initialised; the callback may be called from here on, and needs nothing else.
         unsafe {
             (functions.freenect_set_log_callback)(context.as_ptr(), on_log);
@@ -238,7 +242,7 @@ impl Context {
         opened?;
         let device = NonNull::new(device).ok_or(Failed {
             code: -1,
-            said: Vec::new(),
+            log: Vec::new(),
         })?;
         let inbox = FrameSlot::default();
         Ok(Device {
@@ -355,7 +359,7 @@ thread_local! {
     /// Slot of the device that is receiving on this thread, or null.
     static RECEIVING: Cell<*mut FrameSlot> = const { Cell::new(ptr::null_mut()) };
     /// What the library has logged during the current call on this thread.
-    static SAID: RefCell<Vec<String>> = const { RefCell::new(Vec::new()) };
+    static LOG: RefCell<Vec<String>> = const { RefCell::new(Vec::new()) };
 }
 
 /// Callback for a complete frame.
@@ -388,11 +392,11 @@ extern "C" fn on_log(_context: *mut c_void, _level: c_int, message: *const c_cha
     // SAFETY: a C string that lives for the duration of the call.
     let message = unsafe { CStr::from_ptr(message) }.to_string_lossy();
     // The thread-local is missing only while the thread ends; then nobody reads it.
-    let _ = SAID.try_with(|said| {
-        if let Ok(mut said) = said.try_borrow_mut()
-            && said.len() < MOST_SAID
+    let _ = LOG.try_with(|lines| {
+        if let Ok(mut lines) = lines.try_borrow_mut()
+            && lines.len() < MAX_LOG_LINES
         {
-            said.push(message.trim().to_owned());
+            lines.push(message.trim().to_owned());
         }
     });
 }
@@ -403,18 +407,25 @@ pub(super) struct Failed {
     /// The returned code; libusb's, or -1.
     pub(super) code: i32,
     /// What the library logged during the call, one line each.
-    pub(super) said: Vec<String>,
+    pub(super) log: Vec<String>,
+}
+
+impl Failed {
+    /// The error, with the first line of the log.
+    pub(super) fn error(self, kind: CameraErrorKind) -> CameraError {
+        FREENECT.error(kind).quoting(self.log)
+    }
 }
 
 /// Calls the library and collects what it logs. A negative code is an error.
 fn checked(call: impl FnOnce() -> c_int) -> Result<c_int, Failed> {
-    SAID.take();
+    LOG.take();
     let code = call();
     if code >= 0 {
         return Ok(code);
     }
     Err(Failed {
         code,
-        said: SAID.take(),
+        log: LOG.take(),
     })
 }

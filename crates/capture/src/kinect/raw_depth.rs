@@ -11,20 +11,20 @@ const NUM_STEPS: u16 = 1 << 11;
 /// The step that means no reading.
 const NO_READING: u16 = NUM_STEPS - 1;
 /// Distance between projector and camera, cm.
-const BASELINE: f64 = 7.5;
+const BASELINE_CM: f64 = 7.5;
 /// Distance of the reference plane, cm.
-const REFERENCE_DISTANCE: f64 = 120.0;
+const REFERENCE_DISTANCE_CM: f64 = 120.0;
 /// Size of a pixel on the reference plane, in a picture 1280 pixels wide, cm.
-const PIXEL_SIZE: f64 = 0.1042;
+const PIXEL_SIZE_CM: f64 = 0.1042;
 /// Disparity of the reference plane, pixels.
-const SHIFT: f64 = 200.0 + 0.375;
+const REFERENCE_DISPARITY_PIXELS: f64 = 200.0 + 0.375;
 /// Steps per pixel.
 const STEPS_PER_PIXEL: f64 = 4.0;
 /// Range of libfreenect's own millimetres.
-const FARTHEST_MM: f64 = 10_000.0;
+const MAX_DEPTH_MM: f64 = 10_000.0;
 
 /// Focal length of the depth camera for those values, in pixels of a frame 640 wide: 575.8.
-pub(super) const FOCAL_LENGTH: f64 = REFERENCE_DISTANCE / (2.0 * PIXEL_SIZE);
+pub(super) const FOCAL_LENGTH_PIXELS: f64 = REFERENCE_DISTANCE_CM / (2.0 * PIXEL_SIZE_CM);
 
 /// Returns the millimetres of every step; 0 means no reading.
 pub(super) fn millimetres_by_step() -> Vec<u16> {
@@ -32,9 +32,9 @@ pub(super) fn millimetres_by_step() -> Vec<u16> {
 }
 
 fn millimetres(step: u16) -> u16 {
-    let shift = (f64::from(step) / STEPS_PER_PIXEL - SHIFT) * PIXEL_SIZE;
-    let distance_mm = 10.0 * BASELINE * REFERENCE_DISTANCE / (BASELINE - shift);
-    if step == NO_READING || !(distance_mm > 0.0 && distance_mm < FARTHEST_MM) {
+    let shift = (f64::from(step) / STEPS_PER_PIXEL - REFERENCE_DISPARITY_PIXELS) * PIXEL_SIZE_CM;
+    let distance_mm = 10.0 * BASELINE_CM * REFERENCE_DISTANCE_CM / (BASELINE_CM - shift);
+    if step == NO_READING || !(distance_mm > 0.0 && distance_mm < MAX_DEPTH_MM) {
         return 0;
     }
     distance_mm.round() as u16
@@ -67,6 +67,6 @@ mod tests {
         // Beyond the step of infinite distance the formula becomes negative.
         assert!(table[1090..].iter().all(|&mm| mm == 0));
         assert!(table.iter().all(|&mm| mm < 10_000));
-        assert!((FOCAL_LENGTH - 575.8).abs() < 0.05);
+        assert!((FOCAL_LENGTH_PIXELS - 575.8).abs() < 0.05);
     }
 }

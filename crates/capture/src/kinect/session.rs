@@ -7,31 +7,35 @@
 use std::{
     collections::BTreeSet,
     env,
+    fmt::Display,
     io::{self, BufRead as _, BufReader, Read as _},
     path::Path,
 };
 
-use super::error::KinectError;
+use crate::{camera_error::CameraError, camera_library::FREENECT};
 use files::{open_regular, words_of};
 
 const VARIABLE: &str = "FAKENECT_PATH";
 /// Size of a frame after its header, bytes.
 const FRAME_BYTES: u64 = 640 * 480 * 2;
 /// Longest accepted header; it is `P5 640 480 65535` and a line end.
-const LONGEST_HEADER: u64 = 64;
+const MAX_HEADER_BYTES: u64 = 64;
 
 /// Checks the session that the variable names; `library` names the library in an error. Returns the number of entries; the
 /// library plays one per turn.
-pub(super) fn check(library: &str) -> Result<usize, KinectError> {
+pub(super) fn check(library: &str) -> Result<usize, CameraError> {
     match env::var_os(VARIABLE).filter(|value| !value.is_empty()) {
         Some(folder) => check_folder(Path::new(&folder)),
-        None => Err(KinectError::NoSession {
-            library: library.to_owned(),
-        }),
+        None => Err(FREENECT.unsuitable(
+            format!("{library} plays recorded sessions, but {VARIABLE} names none"),
+            format!(
+                "Set {VARIABLE} to a recorded session, or take the fakenect folder out of the library's path to use a Kinect"
+            ),
+        )),
     }
 }
 
-fn check_folder(folder: &Path) -> Result<usize, KinectError> {
+fn check_folder(folder: &Path) -> Result<usize, CameraError> {
     let index = folder.join("INDEX.txt");
     let lines = open_regular(&index)
         .and_then(io::read_to_string)
@@ -47,9 +51,10 @@ fn check_folder(folder: &Path) -> Result<usize, KinectError> {
                 format!("{name:?} is no entry of a session"),
             ));
         }
-        let room = room_behind_header(&path).map_err(|error| unusable(&path, words(&error)))?;
-        if name.starts_with('d') && room < FRAME_BYTES {
-            let what = format!("{room} bytes of depth, expected {FRAME_BYTES}");
+        let num_bytes =
+            num_bytes_after_header(&path).map_err(|error| unusable(&path, words(&error)))?;
+        if name.starts_with('d') && num_bytes < FRAME_BYTES {
+            let what = format!("{num_bytes} bytes of depth, expected {FRAME_BYTES}");
             return Err(unusable(&path, what));
         }
     }
@@ -64,11 +69,11 @@ fn words(error: &io::Error) -> String {
     }
 }
 
-fn unusable(path: &Path, what: impl Into<String>) -> KinectError {
-    KinectError::SessionUnusable {
-        path: path.to_path_buf(),
-        what: what.into(),
-    }
+fn unusable(path: &Path, what: impl Display) -> CameraError {
+    FREENECT.unsuitable(
+        format!("{}: {what}", path.display()),
+        "Record the session again, or take what is damaged out of its INDEX.txt",
+    )
 }
 
 /// True for a name such as `d-1290.25-4711.pgm`: kind, seconds, ticks.
@@ -87,12 +92,12 @@ fn is_entry(name: &str) -> bool {
 }
 
 /// Number of bytes after the first line; 0 if that line is longer than a header.
-fn room_behind_header(path: &Path) -> io::Result<u64> {
+fn num_bytes_after_header(path: &Path) -> io::Result<u64> {
     let file = open_regular(path)?;
     let size = file.metadata()?.len();
     let mut header = Vec::new();
     let num_read = BufReader::new(file)
-        .take(LONGEST_HEADER)
+        .take(MAX_HEADER_BYTES)
         .read_until(b'\n', &mut header)?;
     Ok(if header.ends_with(b"\n") {
         size - num_read as u64

@@ -9,29 +9,24 @@ use std::{
     path::Path,
 };
 
-use super::error::OpenNiError;
-use crate::error::CaptureError;
+use crate::{camera_library::OPENNI, error::CaptureError};
 use files::{FileError, open_regular};
 
 const FILE_MAGIC: &[u8] = b"NI10";
-const FILE_HEADER: u64 = 24;
+const FILE_HEADER_BYTES: u64 = 24;
 const RECORD_MAGIC: u32 = u32::from_le_bytes(*b"NIR\0");
 /// Size of a record's header in earlier versions; later ones add four bytes.
-const LEAST_FIELDS: u32 = 24;
+const MIN_FIELD_BYTES: u32 = 24;
 /// Number of bytes read of a record's header.
-const HEAD: usize = 20;
+const HEAD_BYTES: usize = 20;
 /// `RECORD_END`.
-const END: u32 = 0x0B;
+const RECORD_END: u32 = 0x0B;
 
 /// Refuses a file that is missing, truncated or not an OpenNI recording.
 pub(super) fn check(path: &Path) -> Result<(), CaptureError> {
     match end_of_whole(path).map_err(|source| FileError::reading(path, source))? {
         Ok(()) => Ok(()),
-        Err(what) => Err(OpenNiError::FileUnusable {
-            path: path.to_path_buf(),
-            what,
-        }
-        .into()),
+        Err(what) => Err(OPENNI.file_unusable(path, what).into()),
     }
 }
 
@@ -40,21 +35,21 @@ fn end_of_whole(path: &Path) -> io::Result<Result<(), String>> {
     let file = open_regular(path)?;
     let num_bytes = file.metadata()?.len();
     let mut file = BufReader::new(file);
-    let mut header = [0; FILE_HEADER as usize];
-    if num_bytes < FILE_HEADER {
+    let mut header = [0; FILE_HEADER_BYTES as usize];
+    if num_bytes < FILE_HEADER_BYTES {
         return Ok(Err("no recording of OpenNI".into()));
     }
     file.read_exact(&mut header)?;
     if !header.starts_with(FILE_MAGIC) {
         return Ok(Err("no recording of OpenNI".into()));
     }
-    let mut at = FILE_HEADER;
+    let mut at = FILE_HEADER_BYTES;
     loop {
         let broken = || Ok(Err(format!("cut off or damaged at byte {at}")));
-        if num_bytes - at < u64::from(LEAST_FIELDS) {
+        if num_bytes - at < u64::from(MIN_FIELD_BYTES) {
             return broken();
         }
-        let mut head = [0; HEAD];
+        let mut head = [0; HEAD_BYTES];
         file.read_exact(&mut head)?;
         let word = |k: usize| {
             let mut bytes = [0; 4];
@@ -63,13 +58,13 @@ fn end_of_whole(path: &Path) -> io::Result<Result<(), String>> {
         };
         let [magic, kind, fields, payload] = [0, 1, 3, 4].map(word);
         let next = at + u64::from(fields) + u64::from(payload);
-        if magic != RECORD_MAGIC || fields < LEAST_FIELDS || next > num_bytes {
+        if magic != RECORD_MAGIC || fields < MIN_FIELD_BYTES || next > num_bytes {
             return broken();
         }
-        if kind == END {
+        if kind == RECORD_END {
             return Ok(Ok(()));
         }
-        file.seek_relative((next - at - HEAD as u64) as i64)?;
+        file.seek_relative((next - at - HEAD_BYTES as u64) as i64)?;
         at = next;
     }
 }
@@ -88,9 +83,9 @@ mod tests {
     #[test]
     fn only_a_file_with_its_last_record_is_whole() {
         let mut whole = b"NI10".to_vec();
-        whole.resize(FILE_HEADER as usize, 0);
+        whole.resize(FILE_HEADER_BYTES as usize, 0);
         whole.extend(record(0x0A, 500));
-        whole.extend(record(END, 0));
+        whole.extend(record(RECORD_END, 0));
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.oni");
         for num in 0..=whole.len() {

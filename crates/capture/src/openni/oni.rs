@@ -26,19 +26,20 @@ use std::{
     time::Duration,
 };
 
-use super::{
-    error::OpenNiError,
-    header::{
-        API_VERSION, DeviceCallbacks, DeviceInfo, Frame, OK, Property, SENSOR_DEPTH,
-        STATE_END_OF_FILE, STATE_ERROR, SensorInfo, TIME_OUT, VideoMode,
-    },
+use super::header::{
+    API_VERSION, DeviceCallbacks, DeviceInfo, Frame, OK, Property, SENSOR_DEPTH, STATE_END_OF_FILE,
+    STATE_ERROR, SensorInfo, TIME_OUT, VideoMode,
 };
-use crate::driver_search::driver_functions;
+use crate::{
+    camera_error::{CameraError, CameraErrorKind},
+    camera_library::OPENNI,
+    driver_search::driver_functions,
+};
 use geometry::error::lock;
 
 /// Pause between stopping and destroying a stream. The thread that plays a file iterates over the streams without a lock,
 /// continuously while one runs and every 10 ms otherwise; destroying a stream during that crashes it.
-const SETTLING: Duration = Duration::from_millis(100);
+const DESTROY_PAUSE: Duration = Duration::from_millis(100);
 
 driver_functions! {
     #[expect(non_snake_case, reason = "the names of the library")]
@@ -69,7 +70,7 @@ pub(super) struct Context {
     functions: &'static Functions,
 }
 
-/// What the library says about a call that failed, one sentence each; may be empty.
+/// Messages of the library about a call that failed, one sentence each; may be empty.
 pub(super) type Messages = Vec<String>;
 
 /// A device that is plugged in.
@@ -85,9 +86,9 @@ static IS_RUNNING: AtomicBool = AtomicBool::new(false);
 
 impl Context {
     /// Starts the library with all its drivers.
-    pub(super) fn new(functions: &'static Functions) -> Result<Self, OpenNiError> {
+    pub(super) fn new(functions: &'static Functions) -> Result<Self, CameraError> {
         if IS_RUNNING.swap(true, Ordering::Acquire) {
-            return Err(OpenNiError::InUse);
+            return Err(OPENNI.error(CameraErrorKind::InUse));
         }
         // The library counts failed starts too: dropping the context undoes the count.
         let context = Self { functions };
@@ -95,7 +96,11 @@ impl Context {
         context
             // SAFETY: takes a number; nobody else starts or stops the library in the meantime.
             .checked(|| unsafe { (functions.oniInitialize)(API_VERSION) })
-            .map_err(|said| OpenNiError::NoDrivers { said })?;
+            .map_err(|messages| {
+                OPENNI
+                    .error(CameraErrorKind::LibraryNotStarted)
+                    .quoting(messages)
+            })?;
         Ok(context)
     }
 
@@ -174,12 +179,15 @@ impl Context {
             return Ok(());
         }
         // SAFETY: takes nothing; the text ends with 0 and lives until this thread's next call.
-        let said = unsafe {
-            let said = (self.functions.oniGetExtendedError)();
-            (!said.is_null()).then(|| CStr::from_ptr(said).to_string_lossy().into_owned())
+        let message = unsafe {
+            let message = (self.functions.oniGetExtendedError)();
+            (!message.is_null()).then(|| CStr::from_ptr(message).to_string_lossy().into_owned())
         };
-        let said = said.unwrap_or_default();
-        let lines = said.lines().map(str::trim).filter(|line| !line.is_empty());
+        let message = message.unwrap_or_default();
+        let lines = message
+            .lines()
+            .map(str::trim)
+            .filter(|line| !line.is_empty());
         Err(lines.map(str::to_owned).collect())
     }
 }
@@ -337,7 +345,7 @@ impl Drop for Device {
         unsafe {
             if !self.stream.is_null() {
                 (functions.oniStreamStop)(self.stream);
-                thread::sleep(SETTLING);
+                thread::sleep(DESTROY_PAUSE);
                 (functions.oniStreamDestroy)(self.stream);
             }
             if !self.handle.is_null() {
@@ -358,10 +366,10 @@ fn copied(frame: &Frame) -> Result<Received, Messages> {
         .and_then(|rows| rows.checked_mul(stride)?.checked_add(2 * width));
     let is_whole = width > 0 && stride >= 2 * width && needed.is_some_and(|n| n <= num_bytes);
     if frame.data.is_null() || !is_whole {
-        let said = format!(
+        let message = format!(
             "a frame of {width}×{height} pixels, {stride} bytes a row and {num_bytes} in all"
         );
-        return Err(vec![said]);
+        return Err(vec![message]);
     }
     let mut depth = vec![0_u16; width * height];
     for (row, pixels) in depth.chunks_exact_mut(width).enumerate() {

@@ -13,8 +13,11 @@ use std::{
     path::Path,
 };
 
-use super::error::RealsenseError;
-use crate::error::CaptureError;
+use crate::{
+    camera_error::{CameraError, CameraErrorKind, quoted},
+    camera_library::REALSENSE,
+    error::CaptureError,
+};
 use files::{FileError, open_regular};
 
 const BAG_MARK: &[u8] = b"#ROSBAG V2.0\n";
@@ -23,18 +26,32 @@ const DB3_MARK: &[u8] = b"SQLite format 3\0";
 const DB3_PAGE_SIZE: usize = 16;
 const DB3_NUM_PAGES: usize = 28;
 /// Number of bytes read first: the magic, and the header of the database or of the first record.
-const HEAD: usize = 100;
+const HEAD_BYTES: usize = 100;
 
 /// Refuses a file that is missing, truncated or not a librealsense recording.
 pub(super) fn check(path: &Path) -> Result<(), CaptureError> {
     match fault_of(path).map_err(|source| FileError::reading(path, source))? {
         None => Ok(()),
-        Some(what) => Err(RealsenseError::FileUnusable {
-            path: path.to_path_buf(),
-            what: what.to_owned(),
-        }
-        .into()),
+        Some(what) => Err(REALSENSE.file_unusable(path, what).into()),
     }
+}
+
+/// Converts an error for a file, where it has other causes than for a camera.
+pub(super) fn not_played(error: CameraError, path: &Path) -> CameraError {
+    let message = quoted(error.message.as_deref());
+    let what = match error.kind {
+        CameraErrorKind::NotOpened | CameraErrorKind::NotStarted => {
+            format!("librealsense cannot play it{message}")
+        }
+        CameraErrorKind::Disconnected => {
+            format!("librealsense cannot play the rest of it{message}")
+        }
+        CameraErrorKind::NoDepth { .. } | CameraErrorKind::NoFrames { .. } => {
+            "it has no depth image that can be read".to_owned()
+        }
+        _ => return error,
+    };
+    REALSENSE.file_unusable(path, what)
 }
 
 /// Returns what is wrong with the file, if anything.
@@ -43,7 +60,7 @@ fn fault_of(path: &Path) -> io::Result<Option<&'static str>> {
     let num_bytes = file.get_ref().metadata()?.len();
     let mut head = Vec::new();
     Read::by_ref(&mut file)
-        .take(HEAD as u64)
+        .take(HEAD_BYTES as u64)
         .read_to_end(&mut head)?;
     let is_whole = if head.starts_with(DB3_MARK) {
         db3_size(&head).is_some_and(|size| size <= num_bytes)
@@ -69,9 +86,9 @@ fn db3_size(head: &[u8]) -> Option<u64> {
 }
 
 /// Least size of a record's header: its field `op`, one byte, with name and length.
-const MIN_HEADER: u64 = 8;
+const MIN_HEADER_BYTES: u64 = 8;
 /// Least size of a record: that header and no data, each after its size.
-const MIN_RECORD: u64 = 4 + MIN_HEADER + 4;
+const MIN_RECORD_BYTES: u64 = 4 + MIN_HEADER_BYTES + 4;
 
 /// Follows the records of the index; true if the last ends with the file.
 ///
@@ -94,13 +111,13 @@ fn bag_ends_with_its_index(
     let Some(mut left) = num_bytes.checked_sub(index).filter(|_| index > 0) else {
         return Ok(false);
     };
-    if left / MIN_RECORD < num_records {
+    if left / MIN_RECORD_BYTES < num_records {
         return Ok(false);
     }
     file.seek(SeekFrom::Start(index))?;
     for _ in 0..num_records {
         // Each record is a header, then data.
-        for least in [MIN_HEADER, 0] {
+        for least in [MIN_HEADER_BYTES, 0] {
             if left < 4 {
                 return Ok(false);
             }
@@ -219,7 +236,7 @@ mod tests {
             let file = Counted(io::Cursor::new(&bytes), &num_read);
             let ends = bag_ends_with_its_index(
                 &mut BufReader::new(file),
-                &bytes[..HEAD],
+                &bytes[..HEAD_BYTES],
                 bytes.len() as u64,
             );
             assert_eq!(
@@ -234,6 +251,35 @@ mod tests {
                 num_read.get()
             );
         }
+    }
+
+    #[test]
+    fn what_keeps_a_file_from_playing_names_the_file() {
+        use crate::error::Recovery;
+        let path = Path::new("a.bag");
+        let played = |kind, message: Option<&str>| {
+            let error = REALSENSE.error(kind).quoting(message.map(str::to_owned));
+            not_played(error, path)
+        };
+        for kind in [
+            CameraErrorKind::NotOpened,
+            CameraErrorKind::NotStarted,
+            CameraErrorKind::Disconnected,
+        ] {
+            let error = played(kind, Some("bad header"));
+            assert!(error.to_string().starts_with("a.bag: "), "{error}");
+            assert!(error.to_string().ends_with(": bad header"), "{error}");
+            assert_eq!(error.recovery(), Recovery::None);
+        }
+        let title = String::from("It");
+        let error = played(CameraErrorKind::NoDepth { title }, None);
+        assert_eq!(error.recovery(), Recovery::None, "{error}");
+        let other = played(CameraErrorKind::LibraryNotStarted, Some("bad header"));
+        let text = other.to_string();
+        assert!(
+            text.starts_with("librealsense2 cannot be started"),
+            "{text}"
+        );
     }
 
     #[test]

@@ -30,11 +30,11 @@ use crate::driver_search::driver_functions;
 /// Capacity of the frame queue, for a camera and for a file. For a camera only the newest frame counts. For a file none may
 /// be lost: after the queue was emptied to stop the library's threads, it has room for all frames that they may still hold,
 /// about 12. The library allocates at most 32 frames at a time.
-const WAITING: [c_int; 2] = [1, 16];
+const QUEUE_CAPACITY: [c_int; 2] = [1, 16];
 /// More frames than the queue and the library's threads can hold.
-const MOST_DRAINED: usize = 64;
+const MAX_DRAINED: usize = 64;
 /// Upper limit of preset numbers, from 0; a camera has about ten presets.
-const MOST_PRESETS: i16 = 100;
+const MAX_PRESETS: i16 = 100;
 
 driver_functions! {
     rs2_get_error_message: fn(Handle) -> *const c_char;
@@ -253,18 +253,18 @@ impl Device {
 
     fn info(&self, info: c_int) -> Option<String> {
         let (functions, device) = (self.context.functions, self.object.handle());
-        let is_told = functions.checked(|error| {
+        let is_supported = functions.checked(|error| {
             // SAFETY: the device lives.
             unsafe { (functions.rs2_supports_device_info)(device, info, error) != 0 }
         });
-        if !is_told.ok()? {
+        if !is_supported.ok()? {
             return None;
         }
-        let told = functions.checked(|error| {
+        let value = functions.checked(|error| {
             // SAFETY: the device lives; the text is its own and copied.
             unsafe { text((functions.rs2_get_device_info)(device, info, error)) }
         });
-        told.ok().flatten().filter(|text| !text.is_empty())
+        value.ok().flatten().filter(|text| !text.is_empty())
     }
 
     /// Returns the device's first sensor with depth; `None` if there is none.
@@ -274,7 +274,7 @@ impl Device {
             // SAFETY: the device lives.
             unsafe { (functions.rs2_query_sensors)(self.object.handle(), error) }
         })?;
-        let mut trouble = None;
+        let mut error = None;
         for index in 0..functions.number(&sensors, functions.rs2_get_sensors_count)? {
             let object = functions.made(functions.rs2_delete_sensor, |error| {
                 // SAFETY: the list lives and has that many sensors.
@@ -290,10 +290,10 @@ impl Device {
                         device: self,
                     }));
                 }
-                Err(said) => trouble = Some(said),
+                Err(message) => error = Some(message),
             }
         }
-        trouble.map_or(Ok(None), Err)
+        error.map_or(Ok(None), Err)
     }
 
     fn set_real_time(&self, is_real_time: c_int) -> Result<(), String> {
@@ -321,7 +321,7 @@ pub(super) struct DepthMode {
     /// Frames per second.
     pub(super) rate: c_int,
     /// Index among the sensor's profiles.
-    pub(super) place: c_int,
+    pub(super) index: c_int,
 }
 
 /// Returns the profiles of a sensor, and the depth modes among them.
@@ -331,8 +331,8 @@ fn depth_modes(functions: &Functions, sensor: &Object) -> Result<(Object, Vec<De
         unsafe { (functions.rs2_get_stream_profiles)(sensor.handle(), error) }
     })?;
     let mut modes = Vec::new();
-    for place in 0..functions.number(&profiles, functions.rs2_get_stream_profiles_count)? {
-        let profile = profile_at(functions, &profiles, place)?;
+    for index in 0..functions.number(&profiles, functions.rs2_get_stream_profiles_count)? {
+        let profile = profile_at(functions, &profiles, index)?;
         let (mut stream, mut format, mut index, mut id, mut rate) = (0, 0, 0, 0, 0);
         functions.checked(|error| {
             // SAFETY: the profile lives as long as the list; the others are places to write numbers to.
@@ -367,17 +367,17 @@ fn depth_modes(functions: &Functions, sensor: &Object) -> Result<(Object, Vec<De
             width,
             height,
             rate,
-            place,
+            index,
         });
     }
     Ok((profiles, modes))
 }
 
 /// Returns a profile, which lives as long as the list.
-fn profile_at(functions: &Functions, profiles: &Object, place: c_int) -> Result<Handle, String> {
+fn profile_at(functions: &Functions, profiles: &Object, index: c_int) -> Result<Handle, String> {
     functions.checked(|error| {
         // SAFETY: the list lives and has that many profiles.
-        unsafe { (functions.rs2_get_stream_profile)(profiles.handle(), place, error) }
+        unsafe { (functions.rs2_get_stream_profile)(profiles.handle(), index, error) }
     })
 }
 
@@ -407,7 +407,7 @@ impl Sensor {
     /// The intrinsics of a mode.
     pub(super) fn intrinsics(&self, mode: &DepthMode) -> Result<RawIntrinsics, String> {
         let functions = self.functions();
-        let profile = profile_at(functions, &self.profiles, mode.place)?;
+        let profile = profile_at(functions, &self.profiles, mode.index)?;
         let mut intrinsics = RawIntrinsics::default();
         functions.checked(|error| {
             // SAFETY: the profile lives as long as the list, and the place has the type that is written.
@@ -443,7 +443,7 @@ impl Sensor {
                 );
             }
         })?;
-        let numbers = (0..MOST_PRESETS).map(f32::from);
+        let numbers = (0..MAX_PRESETS).map(f32::from);
         let numbers = numbers.filter(|number| (first..=last).contains(number));
         let name = |number| {
             functions.checked(|error| {
@@ -497,8 +497,8 @@ impl Sensor {
     /// Starts the depth stream in a mode.
     pub(super) fn start(self, mode: DepthMode) -> Result<Stream, String> {
         let functions = self.functions();
-        let profile = profile_at(functions, &self.profiles, mode.place)?;
-        let most_waiting = WAITING[usize::from(self.device.is_file)];
+        let profile = profile_at(functions, &self.profiles, mode.index)?;
+        let most_waiting = QUEUE_CAPACITY[usize::from(self.device.is_file)];
         let queue = functions.made(functions.rs2_delete_frame_queue, |error| {
             // SAFETY: takes a number.
             unsafe { (functions.rs2_create_frame_queue)(most_waiting, error) }
@@ -663,7 +663,7 @@ impl Drop for Stream {
             // A thread of the library may wait for room in the queue, and stopping would wait for that thread. In real-time
             // mode no further thread starts to wait, and emptying the queue makes room for those that do.
             let _ = self.sensor.device.set_real_time(1);
-            for _ in 0..MOST_DRAINED {
+            for _ in 0..MAX_DRAINED {
                 if !matches!(self.next_frame(Duration::ZERO), Ok(Some(_))) {
                     break;
                 }

@@ -73,12 +73,12 @@ pub(super) enum Content {
 }
 
 /// Longer pauses are shortened to this.
-const LONGEST_PAUSE: Duration = Duration::from_secs(10);
+const MAX_PAUSE: Duration = Duration::from_secs(10);
 /// Pause before a frame without a time.
-const PAUSE: Duration = Duration::from_millis(100);
+const DEFAULT_PAUSE: Duration = Duration::from_millis(100);
 
 /// True if the folder has a list with the time of each frame.
-pub fn is_sequence(folder: &Path) -> bool {
+pub(crate) fn is_sequence(folder: &Path) -> bool {
     folder.join(MANIFEST).is_file() || folder.join(LIST).is_file()
 }
 
@@ -191,16 +191,18 @@ fn of_folder(folder: &Path) -> Result<Frames, CaptureError> {
 
 fn due_times(frames: &[RecordedFrame], pace: Pace) -> Vec<Duration> {
     let mut due = Duration::ZERO;
-    let mut before: Option<Timestamp> = None;
+    let mut previous: Option<Timestamp> = None;
     let as_taken = |frame: &RecordedFrame| {
-        let pause = match (before, frame.taken_at) {
+        let pause = match (previous, frame.taken_at) {
             // If the clock was set back, there is no pause.
-            (Some(before), Some(taken_at)) => Duration::try_from(taken_at.duration_since(before))
-                .unwrap_or_default()
-                .min(LONGEST_PAUSE),
-            _ => PAUSE,
+            (Some(previous), Some(taken_at)) => {
+                Duration::try_from(taken_at.duration_since(previous))
+                    .unwrap_or_default()
+                    .min(MAX_PAUSE)
+            }
+            _ => DEFAULT_PAUSE,
         };
-        before = frame.taken_at;
+        previous = frame.taken_at;
         due += pause;
         due
     };
@@ -215,7 +217,7 @@ fn due_times(frames: &[RecordedFrame], pace: Pace) -> Vec<Duration> {
         Pace::AsTaken => after_first(frames.iter().map(as_taken).collect()),
         Pace::Step => vec![Duration::ZERO; frames.len()],
         Pace::PerSecond(rate) => {
-            let pause = Duration::try_from_secs_f64(1.0 / rate).unwrap_or(LONGEST_PAUSE);
+            let pause = Duration::try_from_secs_f64(1.0 / rate).unwrap_or(MAX_PAUSE);
             (0..frames.len() as u32)
                 .map(|k| pause.saturating_mul(k))
                 .collect()
@@ -288,7 +290,7 @@ impl DepthSource for Replay {
                 taken_at: frame
                     .taken_at
                     .or_else(|| written_at(&frame.path))
-                    .unwrap_or_else(Timestamp::now),
+                    .unwrap_or_else(geometry::clock::now),
                 arrived: Instant::now(),
                 is_simulated: frame.is_simulated || image.is_simulated(),
                 image,

@@ -379,7 +379,7 @@ fn whichever_call_fails_a_recording_holds_whole_frames_alone() {
         ..template.clone()
     });
     Writer {
-        test: "capture::recording::tests::whichever_call_fails_a_recording_holds_whole_frames_alone",
+        test: "recording::tests::whichever_call_fails_a_recording_holds_whole_frames_alone",
         prepare: &|_| (),
         write: &|folder| {
             let create = |name| Recorder::create(&folder.join(name), "Test", "simulated", true);

@@ -5,19 +5,19 @@ use nalgebra::{Point3, Rotation3, Translation3, Vector3};
 use geometry::rigid::RigidTransform;
 
 /// Time in which a part comes in, seconds.
-const COMING: f64 = 1.2;
+const ARRIVAL_S: f64 = 1.2;
 /// Time in which a part leaves, seconds.
-const LEAVING: f64 = 0.8;
+const DEPARTURE_S: f64 = 0.8;
 /// Distance from which parts come in, metres: outside the picture, even for the longest part at the farthest position.
-const OUTSIDE: f64 = 2.5;
+const START_DISTANCE_M: f64 = 2.5;
 /// Height of the hook from which a part swings, above the part's middle, metres.
-const HOOK_ABOVE: f64 = 0.8;
+const HOOK_HEIGHT_M: f64 = 0.8;
 /// Amplitude of the swing when the part stops, radians. After 1.5 s less than 0.1 mm remains of it.
-const SWING: f64 = 0.05;
+const SWING_AMPLITUDE_RAD: f64 = 0.05;
 /// Time in which the amplitude falls by a factor of e, seconds.
-const SWING_FADES: f64 = 0.25;
+const SWING_DECAY_S: f64 = 0.25;
 /// Frequency of the swing, Hz.
-const SWINGS_PER_SECOND: f64 = 1.1;
+const SWING_FREQUENCY_HZ: f64 = 1.1;
 
 /// The state of the line at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,7 +32,7 @@ pub(super) struct ConveyorState {
 
 impl ConveyorState {
     /// The state `seconds` after the start, with a new part every `every` seconds.
-    pub(super) fn of(seconds: f64, every: f64) -> Self {
+    pub(super) fn at(seconds: f64, every: f64) -> Self {
         let visit = (seconds / every).floor();
         let since = seconds - visit * every;
         Self {
@@ -44,16 +44,16 @@ impl ConveyorState {
 
     /// The present pose of the part that rests at `rest_pose`.
     pub(super) fn camera_from_part(&self, rest_pose: &RigidTransform) -> RigidTransform {
-        let coming = (1.0 - self.since / COMING).max(0.0);
-        let leaving = (1.0 - self.left / LEAVING).max(0.0);
+        let coming = (1.0 - self.since / ARRIVAL_S).max(0.0);
+        let leaving = (1.0 - self.left / DEPARTURE_S).max(0.0);
         // Decelerates when coming, accelerates when leaving; the line runs to the left.
-        let aside = OUTSIDE * (coming.powi(3) - leaving.powi(3));
-        let settling = (self.since - COMING).max(0.0);
-        let angle = SWING
-            * (-settling / SWING_FADES).exp()
-            * (std::f64::consts::TAU * SWINGS_PER_SECOND * settling).sin();
+        let aside = START_DISTANCE_M * (coming.powi(3) - leaving.powi(3));
+        let settling = (self.since - ARRIVAL_S).max(0.0);
+        let angle = SWING_AMPLITUDE_RAD
+            * (-settling / SWING_DECAY_S).exp()
+            * (std::f64::consts::TAU * SWING_FREQUENCY_HZ * settling).sin();
         let middle = Point3::from(rest_pose.translation.vector);
-        let hook = middle - Vector3::y() * HOOK_ABOVE;
+        let hook = middle - Vector3::y() * HOOK_HEIGHT_M;
         let swing = Rotation3::from_axis_angle(&Vector3::z_axis(), angle);
         Translation3::new(aside, 0.0, 0.0)
             * Translation3::from(hook.coords)
@@ -71,10 +71,10 @@ mod tests {
     fn a_part_comes_in_from_outside_hangs_still_and_leaves_without_a_jump() {
         let rest_pose = RigidTransform::translation(0.1, -0.05, 1.3);
         let every = 6.0;
-        let at = |seconds: f64| ConveyorState::of(seconds, every).camera_from_part(&rest_pose);
+        let at = |seconds: f64| ConveyorState::at(seconds, every).camera_from_part(&rest_pose);
         let x = |seconds: f64| at(seconds).translation.x - rest_pose.translation.x;
-        assert!((x(0.0) - OUTSIDE).abs() < 1e-9);
-        assert!((x(every - 1e-9) + OUTSIDE).abs() < 1e-6);
+        assert!((x(0.0) - START_DISTANCE_M).abs() < 1e-9);
+        assert!((x(every - 1e-9) + START_DISTANCE_M).abs() < 1e-6);
         let mut still = 0;
         for k in 0..(every * 100.0) as usize - 1 {
             let (here, next) = (at(k as f64 / 100.0), at((k + 1) as f64 / 100.0));
@@ -89,9 +89,9 @@ mod tests {
 
     #[test]
     fn the_next_part_follows() {
-        assert_eq!(ConveyorState::of(0.0, 4.0).visit, 0);
-        assert_eq!(ConveyorState::of(3.99, 4.0).visit, 0);
-        assert_eq!(ConveyorState::of(4.0, 4.0).visit, 1);
-        assert_eq!(ConveyorState::of(41.0, 4.0).visit, 10);
+        assert_eq!(ConveyorState::at(0.0, 4.0).visit, 0);
+        assert_eq!(ConveyorState::at(3.99, 4.0).visit, 0);
+        assert_eq!(ConveyorState::at(4.0, 4.0).visit, 1);
+        assert_eq!(ConveyorState::at(41.0, 4.0).visit, 10);
     }
 }

@@ -48,7 +48,7 @@ impl SimulatedCell {
     pub fn frame(&mut self, number: u64) -> (Image, FrameTruth) {
         let seconds = number.saturating_sub(1) as f64 / self.spec.frames_per_second;
         let moment = match self.spec.scene {
-            CellScene::Line { every } => Some(ConveyorState::of(seconds, every)),
+            CellScene::Line { every } => Some(ConveyorState::at(seconds, every)),
             CellScene::Part(_) | CellScene::Object(_) | CellScene::Empty => None,
         };
         let visit = moment.map_or(0, |moment| moment.visit);

@@ -30,14 +30,16 @@ pub struct SimulatedSpec {
 impl Default for SimulatedSpec {
     fn default() -> Self {
         Self {
-            scene: CellScene::Line { every: EVERY },
+            scene: CellScene::Line {
+                every: DEFAULT_INTERVAL_S,
+            },
             side: Side::Left,
             model: 0,
             pose: SimulatedPose::Facing,
             noise: 1.0,
             clutter: Clutter::None,
             seed: 1,
-            frames_per_second: FRAMES_PER_SECOND,
+            frames_per_second: DEFAULT_FPS,
         }
     }
 }
@@ -59,9 +61,9 @@ pub enum CellScene {
 }
 
 /// Default time from one part of the line to the next, seconds.
-const EVERY: f64 = 8.0;
+const DEFAULT_INTERVAL_S: f64 = 8.0;
 /// Frame rate of a Kinect.
-const FRAMES_PER_SECOND: f64 = 30.0;
+const DEFAULT_FPS: f64 = 30.0;
 
 /// Pose of a part in the simulated cell.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -145,7 +147,7 @@ impl CellScene {
     fn read(what: Option<&str>, every: Option<f64>) -> Option<Self> {
         Some(match what {
             None | Some(LINE) => Self::Line {
-                every: every.unwrap_or(EVERY),
+                every: every.unwrap_or(DEFAULT_INTERVAL_S),
             },
             Some(EMPTY) => Self::Empty,
             Some(name) => match PartKind::from_name(name) {
@@ -255,7 +257,7 @@ impl SimulatedSpec {
             write!(f, ",fps={}", self.frames_per_second)?;
         }
         match self.scene {
-            CellScene::Line { every } if every.to_bits() == EVERY.to_bits() => Ok(()),
+            CellScene::Line { every } if every.to_bits() == DEFAULT_INTERVAL_S.to_bits() => Ok(()),
             CellScene::Line { every } => write!(f, ",every={every}:{LINE}"),
             scene => write!(f, ":{}", scene.name()),
         }

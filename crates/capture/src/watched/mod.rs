@@ -10,7 +10,7 @@
 //! rewritten before. The others take turns, [`MAX_RECHECKED`] in a look, so that a new file is found as fast beside many old
 //! ones.
 //!
-//! Known limit: if a writer of a format without a length (XYZ) pauses for longer than [`LOOK`], the file is captured too
+//! Known limit: if a writer of a format without a length (XYZ) pauses for longer than [`LOOK_INTERVAL`], the file is captured too
 //! early; it is captured again when it is complete.
 
 mod look;
@@ -38,13 +38,13 @@ use files::{FileError, file_name, in_counting_order};
 use geometry::clock;
 
 /// Pause between two looks.
-const LOOK: Duration = Duration::from_millis(300);
+const LOOK_INTERVAL: Duration = Duration::from_millis(300);
 /// After a look of a slow folder, the pause is at least this many times as long as the look.
-const SHARE: u32 = 10;
+const MIN_PAUSE_PER_LOOK: u32 = 10;
 /// Number of files that are done and whose size and time are read again in one look.
 const MAX_RECHECKED: usize = 1000;
 /// Number of looks for which an unreadable file must stay the same before it is reported.
-const PATIENCE: u32 = 10;
+const MAX_UNREADABLE_LOOKS: u32 = 10;
 
 /// A folder to which another program saves captures.
 pub struct WatchedFolder {
@@ -165,7 +165,7 @@ impl WatchedFolder {
             let is_due = match file.state {
                 Progress::Waiting => file.same >= 1,
                 // Read it again only at the end of the patience.
-                Progress::Doubtful => file.same == PATIENCE,
+                Progress::Doubtful => file.same == MAX_UNREADABLE_LOOKS,
                 Progress::Done => false,
             };
             file.same = file.same.saturating_add(1);
@@ -256,8 +256,8 @@ impl DepthSource for WatchedFolder {
                 return Err(error);
             }
             // The first look reads size and time of every file, and is the only one that does.
-            let share = if is_first { 0 } else { SHARE };
-            self.next_look = Some(Instant::now() + LOOK.max(begun.elapsed() * share));
+            let share = if is_first { 0 } else { MIN_PAUSE_PER_LOOK };
+            self.next_look = Some(Instant::now() + LOOK_INTERVAL.max(begun.elapsed() * share));
             if self.ready.is_empty() && Instant::now() >= until {
                 return Ok(NextCapture::NotYet);
             }

@@ -285,7 +285,7 @@ fn whichever_call_fails_a_depth_image_never_has_the_camera_of_another() {
         frame
     };
     Writer {
-        test: "files::depth_png::tests::whichever_call_fails_a_depth_image_never_has_the_camera_of_another",
+        test: "depth_png::tests::whichever_call_fails_a_depth_image_never_has_the_camera_of_another",
         prepare: &|folder| {
             write_depth_png(&folder.join("depth.png"), &frame(500.0, 900)).unwrap();
         },

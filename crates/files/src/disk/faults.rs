@@ -3,7 +3,7 @@
 
 use std::{
     cell::Cell,
-    env, fs, io,
+    env, io,
     path::Path,
     process::{self, Command},
 };
@@ -112,6 +112,7 @@ pub struct Writer<'a> {
 
 impl Writer<'_> {
     /// Makes every call fail in every way, and checks the state afterwards.
+    #[allow(clippy::print_stderr, reason = "figures of a test are to be read")]
     pub fn fails_at_every_call(&self) {
         if let Ok(told) = env::var(KILLED) {
             let (at, folder) = told.split_once(' ').expect("a number and a folder");
@@ -208,53 +209,4 @@ impl Writer<'_> {
             assert_eq!((self.state)(folder), new, "{when}, and again");
         }
     }
-}
-
-/// Calls that change something on a disk.
-const CALLS: [&str; 12] = [
-    "fs::write(",
-    "fs::rename(",
-    "fs::copy(",
-    "fs::remove_",
-    "fs::create_dir",
-    "fs::hard_link(",
-    "File::create",
-    "OpenOptions::new(",
-    ".sync_all()",
-    ".sync_data()",
-    ".set_len(",
-    ".persist(",
-];
-
-#[test]
-fn nothing_else_changes_anything_on_a_disk() {
-    fn look(folder: &Path, found: &mut Vec<String>) {
-        for entry in fs::read_dir(folder).expect("listed") {
-            let path = entry.expect("an entry").path();
-            let name = path.file_name().unwrap_or_default().to_string_lossy();
-            if path.is_dir() && name != "tests" {
-                look(&path, found);
-            }
-            let is_read = name.ends_with(".rs")
-                && name != "tests.rs"
-                && name != "disk.rs"
-                && name != "fixtures.rs";
-            if !is_read || path.ends_with("disk/faults.rs") {
-                continue;
-            }
-            let text = fs::read_to_string(&path).expect("read");
-            // Unit tests come last in a file.
-            let code = text.split("#[cfg(test)]\nmod tests").next().unwrap_or("");
-            for (number, line) in (1..).zip(code.lines()) {
-                if CALLS.iter().any(|call| line.contains(call)) {
-                    found.push(format!("{}:{number}: {}", path.display(), line.trim()));
-                }
-            }
-        }
-    }
-    let mut found = Vec::new();
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    look(&root.join("src"), &mut found);
-    look(&root.join("crates"), &mut found);
-    assert_eq!(found, Vec::<String>::new());
 }

@@ -37,14 +37,14 @@ fn document(buffer: &str) -> String {
     )
 }
 
-pub fn embedded() -> String {
+pub(crate) fn embedded() -> String {
     let data = STANDARD.encode(triangle_bytes());
     document(&format!(
         r#","uri":"data:application/octet-stream;base64,{data}""#
     ))
 }
 
-pub fn glb() -> Vec<u8> {
+pub(crate) fn glb() -> Vec<u8> {
     let mut json = document("").into_bytes();
     json.resize(json.len().next_multiple_of(4), b' ');
     let mut blob = triangle_bytes();

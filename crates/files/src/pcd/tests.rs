@@ -53,7 +53,7 @@ fn pack(bytes: &[u8]) -> Vec<u8> {
 const FIELDS: &str = "label:U:2:1 x:F:4:1 _:U:1:3 y:F:8:1 z:F:4:1 rgb:F:4:1";
 
 /// Two points with the same fields in each of the three storages.
-pub fn same_points_stored_three_ways() -> [Vec<u8>; 3] {
+pub(crate) fn same_points_stored_three_ways() -> [Vec<u8>; 3] {
     let points = [
         (7_u16, 1.5_f32, -2.25_f64, 3.0_f32, 0x00FF_8001_u32),
         (65_535, 4.0, 5.0, 6.0, 0x0001_0203),
@@ -324,7 +324,7 @@ proptest! {
 }
 
 /// Clouds of every kind, with the properties that the reader guarantees.
-pub fn any_cloud() -> impl Strategy<Value = PointCloud> {
+pub(crate) fn any_cloud() -> impl Strategy<Value = PointCloud> {
     let point = prop::array::uniform3(-1e6_f32..1e6).prop_map(Point3::from);
     let rows = prop::collection::vec(
         (

@@ -99,7 +99,7 @@ impl LibraryFolder {
             let Some(file_name) = path.file_name().and_then(|n| n.to_str()) else {
                 continue;
             };
-            if let Some(RenamedFolder { name, successor }) = RenamedFolder::of(file_name) {
+            if let Some(RenamedFolder { name, successor }) = RenamedFolder::parse(file_name) {
                 if self.path().join(successor).exists() {
                     if let (Ok(from), Ok(to)) = (PartName::new(name), PartName::new(successor))
                         && from != to
@@ -130,7 +130,7 @@ impl<'a> RenamedFolder<'a> {
     /// Separates the two names; no name can contain it.
     const SEPARATOR: char = '+';
 
-    pub(super) fn of(file_name: &'a str) -> Option<Self> {
+    pub(super) fn parse(file_name: &'a str) -> Option<Self> {
         let name = file_name.strip_prefix(OLD_PREFIX)?;
         let (name, successor) = name.split_once(Self::SEPARATOR).unwrap_or((name, name));
         Some(Self { name, successor })

@@ -68,7 +68,7 @@ pub struct StoredPart {
 }
 
 /// Maximum size of a `part.toml` or `signature.json`, bytes.
-const MAX_TEXT: u64 = 8 << 20;
+const MAX_TEXT_BYTES: u64 = 8 << 20;
 
 /// The most parts of a library that are loaded together: they take about 4 GB of memory.
 pub(super) const MAX_PARTS: usize = 10_000;
@@ -224,18 +224,18 @@ fn read_entry(
             Reference::prepare(meta.part_name().as_str(), cloud, meta.coverage, params)?
                 .with_cut(meta.cut);
         meta.name.as_str().clone_into(&mut reference.enrolled_as);
-        let mut troubles = troubles(entry, &reference, look, params);
+        let mut issues = issues(entry, &reference, look, params);
         if look == CloudCheckLevel::Thorough
             && let Err(error) = read_spray_path(&entry.path, &meta)
         {
             let why = error.to_string();
-            troubles.push(EntryIssue::SprayPath { why });
+            issues.push(EntryIssue::SprayPath { why });
         }
-        let warnings = troubles
+        let warnings = issues
             .into_iter()
-            .map(|trouble| EntryWarning {
+            .map(|issue| EntryWarning {
                 entry: entry.name.clone(),
-                trouble,
+                issue,
             })
             .collect();
         Ok(StoredPart {
@@ -301,7 +301,7 @@ fn meta_text(entry: &Entry) -> io::Result<String> {
 fn read_text(path: &Path) -> io::Result<String> {
     let mut text = String::new();
     open_regular(path)?
-        .take(MAX_TEXT)
+        .take(MAX_TEXT_BYTES)
         .read_to_string(&mut text)?;
     Ok(text)
 }
@@ -327,7 +327,7 @@ fn read_cloud(entry: &Entry, expected: &FileCheck) -> Result<PointCloud, EntryEr
         FileContent::Mesh(_) => return Err(not_a_cloud("a mesh")),
         FileContent::Depth(_) => return Err(not_a_cloud("a depth image")),
     };
-    let found = FileCheck::of(&bytes, cloud.points.len());
+    let found = FileCheck::from_bytes(&bytes, cloud.points.len());
     cloud.points.shrink_to_fit();
     cloud.normals.iter_mut().for_each(Vec::shrink_to_fit);
     // No stage uses them.
@@ -359,29 +359,29 @@ fn read_cloud(entry: &Entry, expected: &FileCheck) -> Result<PointCloud, EntryEr
     Ok(cloud)
 }
 
-fn troubles(
+fn issues(
     entry: &Entry,
     reference: &Reference,
     look: CloudCheckLevel,
     params: &ReferenceParams,
 ) -> Vec<EntryIssue> {
-    let mut troubles = Vec::new();
+    let mut issues = Vec::new();
     if entry.shipped.is_some() {
-        return troubles;
+        return issues;
     }
     if !entry.path.ends_with(&entry.name) {
-        troubles.push(EntryIssue::LeftAside);
+        issues.push(EntryIssue::LeftAside);
     }
     for file in [SIGNATURE, THUMBNAIL] {
         if !fs::exists(entry.path.join(file)).unwrap_or(false) {
-            troubles.push(EntryIssue::Missing { file });
+            issues.push(EntryIssue::Missing { file });
         } else if look == CloudCheckLevel::Thorough
             && !belongs(&entry.path.join(file), reference, params)
         {
-            troubles.push(EntryIssue::Stale { file });
+            issues.push(EntryIssue::Stale { file });
         }
     }
-    troubles
+    issues
 }
 
 /// Returns whether a file derived from the cloud is intact and matches it.

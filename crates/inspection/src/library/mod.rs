@@ -57,7 +57,7 @@ pub use self::{
         EnrolMethod, Enrolment, FileCheck, MAX_TITLE, Part, PartMeta, PartNaming, SCHEMA_VERSION,
         StoredLiteral, StoredSignature,
     },
-    place::{LibraryPlace, open_library},
+    place::{LibraryPlace, TakenVersion, open_library},
     problem::{EntryError, EntryIssue, EntryProblem, EntryWarning},
     shared_title::SharedTitle,
     shipped::{EnrolledAt, shipped_enrolled_at, shipped_files},

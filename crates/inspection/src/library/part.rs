@@ -127,7 +127,7 @@ pub struct FileCheck {
 
 impl FileCheck {
     /// Computes the check of a file with these bytes and this number of points.
-    pub(super) fn of(bytes: &[u8], num_points: usize) -> Self {
+    pub(super) fn from_bytes(bytes: &[u8], num_points: usize) -> Self {
         Self {
             num_points,
             crc32: format!("{:08x}", crc32(bytes)),
@@ -136,7 +136,7 @@ impl FileCheck {
 
     /// Computes the check of the file that this cloud is written as.
     pub fn of_cloud(cloud: &PointCloud) -> Self {
-        Self::of(&cloud_bytes(cloud), cloud.points.len())
+        Self::from_bytes(&cloud_bytes(cloud), cloud.points.len())
     }
 
     /// Returns the name of the spray path's file in the part's folder; `None` if the checksum is malformed.

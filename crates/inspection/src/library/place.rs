@@ -31,6 +31,17 @@ pub enum LibraryPlace {
     Program(LibraryError),
 }
 
+/// The published version that a library was taken from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TakenVersion {
+    /// Its number.
+    pub version: u32,
+    /// The store, for people.
+    pub store: String,
+    /// True if the library was changed since.
+    pub is_changed: bool,
+}
+
 impl LibraryPlace {
     /// Returns the library's folder, if it has one.
     pub fn folder(&self) -> Option<&LibraryFolder> {

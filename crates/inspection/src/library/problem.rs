@@ -107,12 +107,12 @@ impl Advice for EntryProblem {
 
 /// A warning about a loaded part.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{entry}: {trouble}")]
+#[error("{entry}: {issue}")]
 pub struct EntryWarning {
     /// Name of the part's folder.
     pub entry: String,
     /// The problem.
-    pub trouble: EntryIssue,
+    pub issue: EntryIssue,
 }
 
 /// A problem that does not keep a stored part from being loaded.
@@ -143,7 +143,7 @@ pub enum EntryIssue {
 
 impl Advice for EntryWarning {
     fn advice(&self) -> String {
-        match self.trouble {
+        match self.issue {
             EntryIssue::Missing { .. } | EntryIssue::Stale { .. } => {
                 "Copy the part again from where it was made, or enrol it again".into()
             }

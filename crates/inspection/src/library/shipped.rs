@@ -90,7 +90,7 @@ pub fn shipped_enrolled_at(name: &str) -> Option<EnrolledAt> {
     Some(EnrolledAt {
         // Frontal, 1.3 m in front of the camera: see the README of the folder.
         part_from_model: RigidTransform::translation(0.0, 0.0, 1.3),
-        cloud: FileCheck::of(bytes, cloud.points.len()),
+        cloud: FileCheck::from_bytes(bytes, cloud.points.len()),
     })
 }
 

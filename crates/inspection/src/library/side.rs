@@ -87,17 +87,17 @@ impl Side {
 /// Cells of the map of heights along the part's longest extent.
 const NUM_CELLS: f64 = 64.0;
 /// Side of a cell in mean distances of the points, at least.
-const LEAST_CELL: f64 = 1.5;
+const MIN_CELL_SPACINGS: f64 = 1.5;
 /// Directions in which the horizon of a cell is found.
 const NUM_TURNS: usize = 16;
 /// Nearest cells that count for a horizon, in cells: nearer ones differ by where their points are.
-const LEAST_STEP: f64 = 2.0;
+const MIN_HORIZON_CELLS: f64 = 2.0;
 /// Least cosine between the side and the normal of a cell whose rays are counted; 80°, steeper slopes are uncertain.
-const LEAST_UPRIGHT: f64 = 0.17;
+const MIN_UPRIGHT_COSINE: f64 = 0.17;
 /// Least difference of the shares of hidden rays by which one side is the outside.
-const LEAST_DIFFERENCE: f64 = 0.004;
+const MIN_HIDDEN_SHARE_DIFFERENCE: f64 = 0.004;
 /// A side has no surface of its own if less than this share of the points faces it.
-const LEAST_FACING: f64 = 0.05;
+const MIN_FACING_SHARE: f64 = 0.05;
 
 /// Returns which side of a part that is known all around is its outside, from evenly spaced points with normals; if that is
 /// not clear, the two sides of its thinnest extent.
@@ -118,9 +118,9 @@ pub fn outer_side(points: &[Point3<f64>], normals: &[Vector3<f64>]) -> Result<Si
     let facing = facing as f64 / normals.len().max(1) as f64;
     let is_against_normals = |is_first: bool| {
         let facing = if is_first { facing } else { 1.0 - facing };
-        facing < LEAST_FACING
+        facing < MIN_FACING_SHARE
     };
-    if difference.abs() < LEAST_DIFFERENCE || is_against_normals(difference > 0.0) {
+    if difference.abs() < MIN_HIDDEN_SHARE_DIFFERENCE || is_against_normals(difference > 0.0) {
         return Err(sides);
     }
     Ok(sides[usize::from(difference < 0.0)])
@@ -136,7 +136,7 @@ fn hidden(points: &[([f64; 3], [f64; 3])]) -> f64 {
     let low = [0, 1].map(|axis| bound(axis, f64::min));
     let extent = [0, 1].map(|axis| bound(axis, f64::max) - low[axis]);
     let spacing = (extent[0] * extent[1] / points.len().max(1) as f64).sqrt();
-    let cell = (extent[0].max(extent[1]) / NUM_CELLS).max(LEAST_CELL * spacing);
+    let cell = (extent[0].max(extent[1]) / NUM_CELLS).max(MIN_CELL_SPACINGS * spacing);
     if cell <= 0.0 {
         return 0.0;
     }
@@ -160,14 +160,14 @@ fn hidden(points: &[([f64; 3], [f64; 3])]) -> f64 {
         let Some((height, [nx, ny, nz])) = *top else {
             continue;
         };
-        if nz.abs() < LEAST_UPRIGHT {
+        if nz.abs() < MIN_UPRIGHT_COSINE {
             continue;
         }
         let [column, row] = [i % size[0], i / size[0]].map(|cell| cell as f64 + 0.5);
         for turn in 0..NUM_TURNS {
             let (sin, cos) = (TAU * turn as f64 / NUM_TURNS as f64).sin_cos();
             let slope = -(nx * cos + ny * sin) / nz;
-            let (mut steepest, mut step) = (slope, LEAST_STEP);
+            let (mut steepest, mut step) = (slope, MIN_HORIZON_CELLS);
             while let Some(other) = at(column + step * cos, row + step * sin) {
                 if let Some((other, _)) = other {
                     steepest = steepest.max((other - height) / (step * cell));

@@ -38,19 +38,19 @@ use stages::{
 
 /// Score from which on two parts are indistinguishable. Two captures of one simulated part reach it, no two shipped
 /// parts do.
-const LEAST_SCORE: f64 = 0.9;
+const MIN_INDISTINGUISHABLE_SCORE: f64 = 0.9;
 
 /// Number of enrolled parts examined, those with the most similar outlines; each takes a few milliseconds.
 const NUM_EXAMINED: usize = 20;
 
 /// Outline score, openings included, below which outlines count as different. Two captures of a grille have the lowest
 /// score of the same part, 0.8; different shipped parts stay below 0.5.
-const LEAST_OUTLINE_SCORE: f64 = 0.7;
+const MIN_OUTLINE_SCORE: f64 = 0.7;
 
 /// Distance of a point from the other surface, beside it and along its normal, at which the surfaces coincide, metres. Two
 /// scans of one real part are 1.3 mm apart (root mean square); a left door turned over lies 5 mm off the right one.
-const SAME_PLACE: f64 = 0.012;
-const SAME_SURFACE: f64 = 0.004;
+const COINCIDE_MAX_SHIFT_M: f64 = 0.012;
+const COINCIDE_MAX_HEIGHT_M: f64 = 0.004;
 
 /// Points of a cloud that are compared with the other.
 const NUM_COMPARED: usize = 2000;
@@ -82,7 +82,7 @@ impl Advice for Similarity {
 impl Similarity {
     /// Returns whether inspections can tell the two apart.
     pub fn is_distinguishable(&self) -> bool {
-        self.is_mirrored || self.score < LEAST_SCORE
+        self.is_mirrored || self.score < MIN_INDISTINGUISHABLE_SCORE
     }
 
     /// Describes the similarity for people.
@@ -148,7 +148,8 @@ fn compared(
         .zip(pairs)
         .map(|(other, (found, of_mirrored))| {
             // Prefer to report an indistinguishable part over a similar mirror image.
-            let is_mirrored = found.score < LEAST_SCORE && of_mirrored.score > found.score;
+            let is_mirrored =
+                found.score < MIN_INDISTINGUISHABLE_SCORE && of_mirrored.score > found.score;
             let PairScore { score, outline } = if is_mirrored { of_mirrored } else { found };
             let likeness = Similarity {
                 // The name of the entry, since that is what can be removed or replaced.
@@ -262,7 +263,7 @@ fn scores(reference: &Reference, coverage: Coverage, others: &[Reference]) -> Ve
     for (pair, other) in scores.iter_mut().zip(others) {
         let are_whole = !is_cut && other.cut.is_nothing();
         // Surface overlap works in one direction only: a small part fits well onto any large one.
-        if are_whole && pair.outline < LEAST_OUTLINE_SCORE {
+        if are_whole && pair.outline < MIN_OUTLINE_SCORE {
             pair.score = pair.score.min(pair.outline);
         }
     }
@@ -293,7 +294,7 @@ fn laid_on(reference: &Reference, others: &[Reference], ranking: &MatchRanking) 
         let other = &others[entries[place].reference];
         let is_whole = other.cut.is_nothing();
         // Laying clouds onto each other takes some 0.1 s, so only where it decides.
-        let score = if is_whole && outline >= LEAST_SCORE {
+        let score = if is_whole && outline >= MIN_INDISTINGUISHABLE_SCORE {
             outline.min(coincidence(reference, other))
         } else if !is_whole && place < NUM_EXAMINED {
             coincidence(reference, other)
@@ -331,8 +332,8 @@ fn share_on(from: &Reference, onto_from: &RigidTransform, onto: &Reference) -> f
     let points: Vec<_> = points.collect();
     let closest = Correspondence::of_each(&points, &target, onto_from, Search::Tree);
     let coincides = |point: &&Correspondence| {
-        let surface = point.on_surface(&target, SAME_PLACE * SAME_PLACE);
-        surface.is_some_and(|surface| surface.off.abs() < SAME_SURFACE)
+        let surface = point.on_surface(&target, COINCIDE_MAX_SHIFT_M * COINCIDE_MAX_SHIFT_M);
+        surface.is_some_and(|surface| surface.off.abs() < COINCIDE_MAX_HEIGHT_M)
     };
     closest.iter().filter(coincides).count() as f64 / points.len().max(1) as f64
 }

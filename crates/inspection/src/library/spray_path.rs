@@ -61,11 +61,11 @@ pub const MAX_PATH_POINTS: usize = 20_000;
 /// Maximum size of a file, bytes.
 pub(super) const MAX_BYTES: u64 = 8 << 20;
 /// Default stand-off of a taught path, metres: the middle of the band.
-const TAUGHT: f64 = 0.15;
+const DEFAULT_STAND_OFF_M: f64 = 0.15;
 /// Minimum stand-off, metres. Nobody sprays from nearer: such a number is in another unit.
-const LEAST_STAND_OFF: f64 = 0.02;
+const MIN_STAND_OFF_M: f64 = 0.02;
 /// Maximum distance from the origin, metres. Larger than any part or arm: such numbers are in another unit.
-const FARTHEST: f64 = 20.0;
+const MAX_DISTANCE_M: f64 = 20.0;
 /// Maximum speed, m/s. Faster than any robot moves a gun: such numbers are in another unit.
 pub const MAX_SPEED: f64 = 5.0;
 
@@ -169,7 +169,7 @@ impl SprayPath {
         if heading.cells().any(|cell| heading.number(cell).is_some()) {
             return Err(no_heading());
         }
-        let columns = Columns::of(heading, path)?;
+        let columns = Columns::parse(heading, path)?;
         let mut points = Vec::new();
         for (line, content) in lines {
             let point = columns
@@ -244,7 +244,7 @@ struct Columns {
 }
 
 impl Columns {
-    fn of(heading: Row<'_>, path: &Path) -> Result<Self, SprayPathError> {
+    fn parse(heading: Row<'_>, path: &Path) -> Result<Self, SprayPathError> {
         let known: Vec<Option<(Column, f64)>> = heading.cells().map(column).collect();
         let contents: Vec<Option<Column>> = known
             .iter()
@@ -318,12 +318,12 @@ impl Columns {
             return Err(PathLineProblem::TooShort);
         };
         let at = Point3::new(x, y, z);
-        if at.coords.norm() > FARTHEST {
+        if at.coords.norm() > MAX_DISTANCE_M {
             return Err(PathLineProblem::FarAway {
                 distance: Metres(at.coords.norm()),
             });
         }
-        if let Some(distance) = stand_off.filter(|d| !(LEAST_STAND_OFF..=1.0).contains(d)) {
+        if let Some(distance) = stand_off.filter(|d| !(MIN_STAND_OFF_M..=1.0).contains(d)) {
             return Err(PathLineProblem::StandOff {
                 distance: Metres(distance),
             });
@@ -345,7 +345,7 @@ impl Columns {
             _ => None,
         };
         Ok(if self.is_surface {
-            let distance = stand_off.unwrap_or(TAUGHT);
+            let distance = stand_off.unwrap_or(DEFAULT_STAND_OFF_M);
             PathPoint {
                 nozzle: at + unit.into_inner() * distance,
                 direction: -unit,

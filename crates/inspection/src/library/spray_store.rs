@@ -65,7 +65,8 @@ impl LibraryFolder {
         let folder = self.path().join(name.as_str());
         let text = path.map(SprayPath::to_text);
         let check = path.zip(text.as_ref());
-        let check = check.map(|(path, text)| FileCheck::of(text.as_bytes(), path.points().len()));
+        let check =
+            check.map(|(path, text)| FileCheck::from_bytes(text.as_bytes(), path.points().len()));
         let file_name = check.as_ref().and_then(FileCheck::spray_file_name);
         if let (Some(text), Some(file_name)) = (&text, &file_name) {
             replace_file(&folder.join(file_name), text.as_bytes())?;
@@ -112,7 +113,7 @@ pub(super) fn read_spray_path(
     let text = read_text(&file, MAX_BYTES)?;
     let path = SprayPath::parse(&text, &file);
     let num_points = path.as_ref().map_or(0, |path| path.points().len());
-    let found = FileCheck::of(text.as_bytes(), num_points);
+    let found = FileCheck::from_bytes(text.as_bytes(), num_points);
     if found != *expected {
         return Err(changed(&file, found.crc32));
     }

@@ -350,7 +350,7 @@ fn entries_in(folder: &Path) -> io::Result<Vec<Entry>> {
         let Some(file_name) = path.file_name().map(|n| n.to_string_lossy().into_owned()) else {
             continue;
         };
-        if let Some(RenamedFolder { name, successor }) = RenamedFolder::of(&file_name) {
+        if let Some(RenamedFolder { name, successor }) = RenamedFolder::parse(&file_name) {
             if !folder.join(successor).exists() {
                 aside.push(Entry::in_folder(name.to_owned(), path));
             }

@@ -11,27 +11,29 @@ use nalgebra::{UnitQuaternion, Vector3};
 use stages::reference::{Coverage, Reference};
 
 /// Size of the picture, pixels.
-const SIZE: [usize; 2] = [160, 120];
+const SIZE_PIXELS: [usize; 2] = [160, 120];
 /// Margin around the part, pixels.
-const MARGIN: f64 = 6.0;
+const MARGIN_PIXELS: f64 = 6.0;
 /// Samples per pixel along each axis.
-const SAMPLES: usize = 3;
+const SAMPLES_PER_PIXEL: usize = 3;
 /// Colour of primer, visible in a dark and in a light window.
 const COLOUR: Vector3<f64> = Vector3::new(0.56, 0.66, 0.76);
 
 /// Draws a prepared reference: as the camera saw it if enrolled from one side, else in its standard view.
 pub(super) fn render(reference: &Reference, coverage: Coverage) -> RgbaImage {
-    let drawn = SplatBuffer::of(reference, coverage);
+    let drawn = SplatBuffer::new(reference, coverage);
     let samples = drawn.map(|s| s.shaded());
-    RgbaImage::from_fn(SIZE[0] as u32, SIZE[1] as u32, |u, v| {
+    RgbaImage::from_fn(SIZE_PIXELS[0] as u32, SIZE_PIXELS[1] as u32, |u, v| {
         let Some(samples) = &samples else {
             return Rgba([0; 4]);
         };
         let mut sum = Vector3::zeros();
         let mut num_set = 0.0;
-        for row in 0..SAMPLES {
-            for column in 0..SAMPLES {
-                let at = (v as usize * SAMPLES + row) * WIDTH + u as usize * SAMPLES + column;
+        for row in 0..SAMPLES_PER_PIXEL {
+            for column in 0..SAMPLES_PER_PIXEL {
+                let at = (v as usize * SAMPLES_PER_PIXEL + row) * WIDTH
+                    + u as usize * SAMPLES_PER_PIXEL
+                    + column;
                 if let Some(colour) = samples[at] {
                     sum += colour;
                     num_set += 1.0;
@@ -40,13 +42,13 @@ pub(super) fn render(reference: &Reference, coverage: Coverage) -> RgbaImage {
         }
         let byte = |x: f64| (x.clamp(0.0, 1.0) * 255.0).round() as u8;
         let mean = if num_set > 0.0 { sum / num_set } else { sum };
-        let alpha = num_set / (SAMPLES * SAMPLES) as f64;
+        let alpha = num_set / (SAMPLES_PER_PIXEL * SAMPLES_PER_PIXEL) as f64;
         Rgba([byte(mean.x), byte(mean.y), byte(mean.z), byte(alpha)])
     })
 }
 
-const WIDTH: usize = SIZE[0] * SAMPLES;
-const HEIGHT: usize = SIZE[1] * SAMPLES;
+const WIDTH: usize = SIZE_PIXELS[0] * SAMPLES_PER_PIXEL;
+const HEIGHT: usize = SIZE_PIXELS[1] * SAMPLES_PER_PIXEL;
 
 /// Depth (in samples, increasing away from the viewer) and normal of each sample. Picture space: x right, y down, z
 /// away.
@@ -56,7 +58,7 @@ struct SplatBuffer {
 }
 
 impl SplatBuffer {
-    fn of(reference: &Reference, coverage: Coverage) -> Option<Self> {
+    fn new(reference: &Reference, coverage: Coverage) -> Option<Self> {
         let cloud = &reference.cloud;
         let view = reference.views.first()?;
         let normals = cloud.normals.as_ref()?;
@@ -83,8 +85,10 @@ impl SplatBuffer {
             .iter()
             .fold((first, first), |(l, h), (p, _)| (l.inf(p), h.sup(p)));
         let extent = (high - low).map(|x| x.max(1e-3));
-        let room = |size: usize| (size * SAMPLES) as f64 - 2.0 * MARGIN * SAMPLES as f64;
-        let per_metre = (room(SIZE[0]) / extent.x).min(room(SIZE[1]) / extent.y);
+        let room = |size: usize| {
+            (size * SAMPLES_PER_PIXEL) as f64 - 2.0 * MARGIN_PIXELS * SAMPLES_PER_PIXEL as f64
+        };
+        let per_metre = (room(SIZE_PIXELS[0]) / extent.x).min(room(SIZE_PIXELS[1]) / extent.y);
         let centre = (low + high) / 2.0;
         // Overlapping discs: each point covers about its share of the part's area.
         let area_each = view.contour().area * num_sides(coverage) / turned.len() as f64;

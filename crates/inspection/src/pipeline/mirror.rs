@@ -12,9 +12,9 @@ use nalgebra::{Point3, Vector3};
 
 use super::{
     Inspection, Recipe,
+    hypothesis::try_surface,
     rejection::Rejection,
     surface::{InspectionInputs, SurfaceResult, inspect_surface},
-    try_segment,
     verdict::{Verdict, model_deviation, verdict},
     watch::Cancelled,
 };
@@ -35,9 +35,9 @@ use stages::{
 use texts::{Language, Message};
 
 /// Least lead of a mirror image's score over that of the part itself.
-const MIRROR_LEAD: f64 = 0.3;
+const MIN_MIRROR_LEAD: f64 = 0.3;
 /// Where the part itself fits nearly as well, its mirror image must deviate less by this factor.
-const CLOSER: f64 = 2.0;
+const MIN_DEVIATION_RATIO: f64 = 2.0;
 
 /// Rejects the best guess as mirrored if the mirror image of an enrolled part fits and the part itself does not. That part
 /// becomes the first of the ranking.
@@ -55,7 +55,7 @@ pub(super) fn check_mirror_image(
             ..
         }
     );
-    if !is_other_model && inspection.best_score() + MIRROR_LEAD >= 1.0 {
+    if !is_other_model && inspection.best_score() + MIN_MIRROR_LEAD >= 1.0 {
         // No score can lead by that much.
         return Ok(());
     }
@@ -67,7 +67,7 @@ pub(super) fn check_mirror_image(
         recipe
             .accept
             .unknown_below
-            .max(inspection.best_score() + MIRROR_LEAD)
+            .max(inspection.best_score() + MIN_MIRROR_LEAD)
     };
     let mirrored = InspectionInputs { scene, ..*inputs };
     let found = inspect_surface(&part.mirrored(scene), &mirrored, least)?;
@@ -113,7 +113,7 @@ fn search_again(
             recipe: &recipe,
             ..*inputs
         };
-        try_segment(inspection, part.clone(), &again)?;
+        try_surface(inspection, part.clone(), &again)?;
         if inspection.verdict.is_accepted() {
             break;
         }
@@ -122,15 +122,15 @@ fn search_again(
 }
 
 /// Share of a part's points that lie on its mirror image if it is its own. The symmetric shipped parts reach 0.989, the back
-/// bumper with its one exhaust 0.978, the others 0.83. A part that differs by less loses less than [`MIRROR_LEAD`] of
+/// bumper with its one exhaust 0.978, the others 0.83. A part that differs by less loses less than [`MIN_MIRROR_LEAD`] of
 /// its score when it is held against its mirror image.
-const LEAST_SYMMETRIC: f64 = 0.985;
+const MIN_SYMMETRIC_SHARE: f64 = 0.985;
 /// Points of the part that are compared.
 const NUM_COMPARED: usize = 1000;
 /// Distance at which a point still lies on the mirror image.
-const ON_MIRROR_IMAGE: Metres = Metres(0.01);
+const MIRROR_MAX_DISTANCE: Metres = Metres(0.01);
 /// The principal plane of a part that was captured at an angle is off by some centimetres.
-const LAY_ON: [Level; 2] = [
+const ALIGNMENT_LEVELS: [Level; 2] = [
     Level {
         num_surface: NUM_COMPARED,
         num_edges: 0,
@@ -169,14 +169,19 @@ fn is_own_mirror_image(reference: &Reference) -> bool {
             surface: points.clone().map(mirrored).collect(),
             edges: Vec::new(),
         };
-        let refined = refine(&source, &target, &RigidTransform::identity(), &LAY_ON);
+        let refined = refine(
+            &source,
+            &target,
+            &RigidTransform::identity(),
+            &ALIGNMENT_LEVELS,
+        );
         let pose = &refined.target_from_source;
         let closest = Correspondence::of_each(&source.surface, &target, pose, Search::Tree);
         let tolerance = Tolerance {
-            base: ON_MIRROR_IMAGE,
+            base: MIRROR_MAX_DISTANCE,
             noise_at_1m: Metres(0.0),
         };
-        measure_fit(&source.surface, &closest, &target, tolerance).overlap >= LEAST_SYMMETRIC
+        measure_fit(&source.surface, &closest, &target, tolerance).overlap >= MIN_SYMMETRIC_SHARE
     })
 }
 
@@ -229,8 +234,8 @@ fn closer_mirror_match(
     );
     let is_accepted = found.verdict.as_ref().is_some_and(Verdict::is_accepted);
     let unlike = |evidence| model_deviation(evidence, &recipe.accept);
-    let is_closer =
-        CLOSER * unlike(mirrored.evidence.as_ref()?) < unlike(straight.evidence.as_ref()?);
+    let is_closer = MIN_DEVIATION_RATIO * unlike(mirrored.evidence.as_ref()?)
+        < unlike(straight.evidence.as_ref()?);
     (is_accepted && is_closer && mirrored.part == straight.part).then(|| Rejection::MirroredImage {
         part: mirrored.part.clone(),
         score: mirrored.score,

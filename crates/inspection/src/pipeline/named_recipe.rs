@@ -23,15 +23,34 @@ use std::{
 use serde::{Deserialize, Serialize};
 
 use super::{
-    Recipe,
+    PoseChoice, Recipe,
     parameters::{Parameters, Setting, changed},
     recipe_error::RecipeError,
 };
 use crate::library::PartName;
 use files::{read_text, toml_problem, write_text};
+use stages::{pose::PoseMethod, rank::Matcher};
 
-/// Name of the built-in recipe; no file has it.
+/// Name of the built-in recipe, in which every parameter is at its default.
 pub const BUILT_IN: &str = "built-in";
+/// Name of the built-in recipe that ranks by the paper's Algorithm 2 and refines the pose by its Algorithm 3.
+pub const AS_IN_THE_PAPER: &str = "as-in-the-paper";
+/// Names of the built-in recipes; no file has one of them.
+pub const BUILT_IN_RECIPES: [&str; 2] = [BUILT_IN, AS_IN_THE_PAPER];
+
+/// Returns the built-in recipe of this name.
+pub fn built_in_recipe(name: &str) -> Option<Recipe> {
+    let mut recipe = Recipe::default();
+    match name {
+        BUILT_IN => {}
+        AS_IN_THE_PAPER => {
+            recipe.rank.matcher = Matcher::Paper;
+            recipe.pose = PoseChoice::By(PoseMethod::IcpGa);
+        }
+        _ => return None,
+    }
+    Some(recipe)
+}
 
 /// Version of the file format.
 pub(super) const SCHEMA: u32 = 1;
@@ -115,7 +134,7 @@ pub struct RecipeBlock {
     pub identity: String,
     /// True if these are the program's own parameters.
     pub is_default: bool,
-    /// The name; `built-in` is the program's own recipe.
+    /// The name; `built-in` and `as-in-the-paper` are the program's own recipes.
     pub name: String,
     /// True if its parameters are not those kept under the name.
     pub is_changed: bool,
@@ -164,13 +183,35 @@ struct Versioned {
 }
 
 impl RecipeFile {
-    /// The built-in recipe, as if read from a file.
+    /// The recipe in which every parameter is at its default, as if read from a file.
     pub fn built_in() -> Self {
         Self {
             name: PartName::new(BUILT_IN).expect("it keeps the rules of names"),
             notes: String::new(),
             recipe: Recipe::default(),
         }
+    }
+
+    /// The built-in recipe of this name, as if read from a file.
+    pub fn built_in_named(name: &PartName) -> Option<Self> {
+        let notes = match name.as_str() {
+            AS_IN_THE_PAPER => "The paper's matcher, and ICP-GA for the pose",
+            _ => "",
+        };
+        Some(Self {
+            recipe: built_in_recipe(name.as_str())?,
+            name: name.clone(),
+            notes: notes.to_owned(),
+        })
+    }
+
+    /// All built-in recipes, as if read from files.
+    pub fn all_built_in() -> Vec<Self> {
+        let names = BUILT_IN_RECIPES.iter();
+        let names = names.filter_map(|name| PartName::new(name).ok());
+        names
+            .filter_map(|name| Self::built_in_named(&name))
+            .collect()
     }
 }
 
@@ -259,12 +300,8 @@ fn flatten(table: &toml::Table, prefix: &str, settings: &mut Vec<String>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pipeline::{
-        PoseChoice,
-        parameters::{Kind, PARAMETERS, num_changed},
-    };
+    use crate::pipeline::parameters::{Kind, PARAMETERS, num_changed};
     use geometry::error::Advice as _;
-    use stages::pose::PoseMethod;
 
     fn parsed(text: &str) -> Result<RecipeFile, RecipeError> {
         RecipeFile::parse(Path::new("r.toml"), text)

@@ -82,6 +82,8 @@ pub enum Place {
     Front,
     /// Shown in the unfolded group.
     Fold,
+    /// Not shown: set in a recipe file or by `--set`.
+    Hidden,
 }
 
 /// The unit that a value is shown in; unless stated, it is stored in metres, square metres or radians.
@@ -631,7 +633,7 @@ mod tests {
                 .map(|p| {
                     let name = match p.place {
                         Place::Front => format!("**{}**", p.name),
-                        Place::Fold => p.name.to_owned(),
+                        Place::Fold | Place::Hidden => p.name.to_owned(),
                     };
                     let (text, range) = (p.text(&default), p.range_text());
                     format!("| `{}` | {name} | {text} | {range} | {} |", p.key, p.help)

@@ -80,9 +80,12 @@ pub enum RecipeError {
         /// The name.
         name: String,
     },
-    /// The program's own recipe cannot be changed.
-    #[error("{BUILT_IN} is the program's own recipe and cannot be changed")]
-    BuiltIn,
+    /// A recipe of the program itself cannot be changed.
+    #[error("{name} is the program's own recipe and cannot be changed")]
+    BuiltIn {
+        /// The name.
+        name: String,
+    },
     /// No place for the user's recipes.
     #[error("this system has no folder for user data")]
     NoUserFolder,
@@ -121,7 +124,7 @@ impl Advice for RecipeError {
             Self::BadFileName { .. } => {
                 "Rename the file: lowercase letters, digits, _ and -, for example glossy.toml".into()
             }
-            Self::Exists { .. } | Self::BuiltIn => "Choose another name".into(),
+            Self::Exists { .. } | Self::BuiltIn { .. } => "Choose another name".into(),
             Self::NoUserFolder => "Set HOME, or give the recipe as a file".into(),
         }
     }

@@ -6,7 +6,7 @@ use std::{
 };
 
 use super::{
-    named_recipe::{BUILT_IN, RecipeFile},
+    named_recipe::{BUILT_IN, BUILT_IN_RECIPES, RecipeFile},
     recipe_error::RecipeError,
 };
 use crate::library::PartName;
@@ -25,7 +25,7 @@ pub struct RecipeFolder {
 /// The contents of a folder of recipes.
 #[derive(Debug, Default)]
 pub struct RecipeList {
-    /// The recipes in the order of their names, without the built-in one.
+    /// The recipes in the order of their names, without the built-in ones.
     pub recipes: Vec<RecipeFile>,
     /// Name of the default recipe; empty if it cannot be read.
     pub default: String,
@@ -73,7 +73,7 @@ impl RecipeFolder {
         }
         for file in self.files()? {
             let read = match name_of(&file) {
-                Some(name) if name.as_str() != BUILT_IN => self.read(&name),
+                Some(name) if !is_built_in(&name) => self.read(&name),
                 _ => Err(RecipeError::BadFileName {
                     path: self.path.join(file),
                 }),
@@ -86,10 +86,10 @@ impl RecipeFolder {
         Ok(list)
     }
 
-    /// The sorted names, without the built-in one.
+    /// The sorted names, without the built-in ones.
     fn names(&self) -> Result<Vec<PartName>, RecipeError> {
         let mut names = self.file_names()?;
-        names.retain(|name| name.as_str() != BUILT_IN);
+        names.retain(|name| !is_built_in(name));
         Ok(names)
     }
 
@@ -120,8 +120,8 @@ impl RecipeFolder {
     /// Reads the recipe of this name. The file name counts, not the name inside, because the file may have been
     /// copied.
     pub fn read(&self, name: &PartName) -> Result<RecipeFile, RecipeError> {
-        if name.as_str() == BUILT_IN {
-            return Ok(RecipeFile::built_in());
+        if let Some(built_in) = RecipeFile::built_in_named(name) {
+            return Ok(built_in);
         }
         match RecipeFile::read(&self.file(name)) {
             Ok(file) => Ok(RecipeFile {
@@ -225,10 +225,11 @@ impl RecipeFolder {
         })
     }
 
-    /// Path of the file of a recipe, unless it is the built-in one, which cannot be changed.
+    /// Path of the file of a recipe, unless it is a built-in one, which cannot be changed.
     fn changeable(&self, name: &PartName) -> Result<PathBuf, RecipeError> {
-        if name.as_str() == BUILT_IN {
-            return Err(RecipeError::BuiltIn);
+        if is_built_in(name) {
+            let name = name.to_string();
+            return Err(RecipeError::BuiltIn { name });
         }
         Ok(self.file(name))
     }
@@ -246,6 +247,10 @@ fn name_of(file: &Path) -> Option<PartName> {
     PartName::new(file.file_stem()?.to_str()?).ok()
 }
 
+fn is_built_in(name: &PartName) -> bool {
+    BUILT_IN_RECIPES.contains(&name.as_str())
+}
+
 /// Opens the recipe of this name in the folder, or the recipe file at this path; a text that cannot be a name is a
 /// path. Without either it opens the default recipe, or the built-in one if there is no folder.
 pub fn open_recipe(
@@ -259,8 +264,10 @@ pub fn open_recipe(
         };
     };
     match PartName::new(given) {
-        Ok(name) if name.as_str() == BUILT_IN => Ok(RecipeFile::built_in()),
-        Ok(name) => folder?.read(&name),
+        Ok(name) => match RecipeFile::built_in_named(&name) {
+            Some(built_in) => Ok(built_in),
+            None => folder?.read(&name),
+        },
         Err(_) => RecipeFile::read(Path::new(given)),
     }
 }
@@ -268,7 +275,7 @@ pub fn open_recipe(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pipeline::Recipe;
+    use crate::pipeline::{Recipe, built_in_recipe};
     use geometry::error::Advice as _;
 
     fn name(text: &str) -> PartName {
@@ -326,14 +333,19 @@ mod tests {
     #[test]
     fn the_programs_own_recipe_is_read_and_never_changed() {
         let (_data, folder) = folder();
-        let own = name(BUILT_IN);
-        assert_eq!(folder.read(&own).expect("there").recipe, Recipe::default());
-        assert!(folder.save(&recipe(BUILT_IN, 0.5), Replace::Yes).is_err());
-        assert!(folder.remove(&own).is_err());
-        assert!(folder.rename(&own, &name("x")).is_err());
         let saved = folder.save(&recipe("x", 0.5), Replace::No);
         saved.expect("saved");
-        assert!(folder.rename(&name("x"), &own).is_err());
+        for own in BUILT_IN_RECIPES {
+            let changed = folder.save(&recipe(own, 0.5), Replace::Yes);
+            assert!(matches!(changed, Err(RecipeError::BuiltIn { name }) if name == own));
+            let own = name(own);
+            let read = folder.read(&own).expect("there");
+            assert_eq!(Some(read.recipe), built_in_recipe(own.as_str()));
+            assert!(folder.remove(&own).is_err());
+            assert!(folder.rename(&own, &name("y")).is_err());
+            assert!(folder.rename(&name("x"), &own).is_err());
+        }
+        assert_eq!(built_in_recipe(BUILT_IN), Some(Recipe::default()));
         assert_eq!(names(&folder), ["x"]);
     }
 

@@ -3,7 +3,7 @@
 //! In JSON each is an object with its `kind`. Histories store it, so a kind and its fields must keep their names and
 //! units. The texts of a kind are in `language/*/refusal.ftl` of the crate `texts`, with the fields as variables.
 
-use super::unsound::RANGE;
+use super::unsound::CAMERA_RANGE;
 use geometry::{error::Fault, units::Metres};
 use stages::{
     contour::ContourError,
@@ -15,11 +15,11 @@ use stages::{
 use texts::{Described, Message};
 
 /// Score below which an unknown part is like no enrolled one, and the best match is not named.
-const LIKE_FROM: f64 = 0.05;
+const MIN_LIKE_SCORE: f64 = 0.05;
 
 /// Returns whether the best match of an unknown part, with this score, is worth naming.
 pub fn is_like(score: f64) -> bool {
-    score >= LIKE_FROM
+    score >= MIN_LIKE_SCORE
 }
 
 /// Why a best guess was not accepted.
@@ -229,7 +229,9 @@ impl Described for Rejection {
         match self {
             Self::NoPose(error) => message.caused_by(error.message()),
             Self::Unknown { score, .. } => message.with("like", is_like(*score)),
-            Self::OutOfRange { .. } => message.with("from", RANGE[0].0).with("to", RANGE[1].0),
+            Self::OutOfRange { .. } => message
+                .with("from", CAMERA_RANGE[0].0)
+                .with("to", CAMERA_RANGE[1].0),
             _ => message,
         }
     }

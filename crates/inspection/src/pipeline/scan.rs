@@ -56,13 +56,13 @@ struct FrameFinding {
 }
 
 /// Points of the part, approximately, that references are refined to.
-const NUM_SURFACE: usize = 1500;
+const NUM_SURFACE_POINTS: usize = 1500;
 /// Edge points of each frame, approximately.
-const NUM_EDGES: usize = 120;
+const NUM_EDGE_POINTS: usize = 120;
 /// An edge point further than this from the fused part belongs to something else, metres.
-const NEAR_PART: f32 = 0.015;
+const EDGE_MAX_DISTANCE_M: f32 = 0.015;
 /// First entries of a frame's ranking whose poses the joint fit starts from.
-const NUM_ENTRIES: usize = 6;
+const NUM_START_ENTRIES: usize = 6;
 
 /// Recognises the part of a scan from all its frames together.
 pub fn run_scan(
@@ -174,9 +174,12 @@ fn edges_on_part(shot: &ScannedShot, inspection: &Inspection, tree: &KdTree) -> 
         .points
         .iter()
         .map(|p| (shot.base_from_camera * p).cast::<f32>());
-    let of_part = in_base.filter(|p| tree.nearest(p, NEAR_PART * NEAR_PART).is_some());
+    let of_part = in_base.filter(|p| {
+        tree.nearest(p, EDGE_MAX_DISTANCE_M * EDGE_MAX_DISTANCE_M)
+            .is_some()
+    });
     let of_part: Vec<Point3<f32>> = of_part.collect();
-    let step = (of_part.len() / NUM_EDGES).max(1);
+    let step = (of_part.len() / NUM_EDGE_POINTS).max(1);
     of_part.into_iter().step_by(step).collect()
 }
 
@@ -193,7 +196,7 @@ fn joint_part(
     let mut random = Pcg64::seed_from_u64(recipe.confirm.seed);
     let mut surface: Vec<Point3<f32>> = points
         .iter()
-        .step_by((points.len() / NUM_SURFACE).max(1))
+        .step_by((points.len() / NUM_SURFACE_POINTS).max(1))
         .copied()
         .collect();
     surface.shuffle(&mut random);
@@ -211,9 +214,9 @@ fn joint_part(
 }
 
 /// Factor on the score of a single frame where no pose fits all frames.
-const NO_JOINT_FIT: f64 = 0.3;
+const NO_JOINT_FIT_FACTOR: f64 = 0.3;
 /// Largest share of the part that may lie off a reference; with more, the reference fits something else in the frames.
-const MOST_OFF: f64 = 0.5;
+const MAX_OFF_SHARE: f64 = 0.5;
 
 /// Checks one reference against all frames; `None` if no frame ranked it.
 fn entry_of(
@@ -233,7 +236,7 @@ fn entry_of(
         if best.is_none_or(|best| entry.score > best.score) {
             best = Some(entry);
         }
-        if let Some(pose) = entry.pose.as_ref().filter(|_| rank < NUM_ENTRIES) {
+        if let Some(pose) = entry.pose.as_ref().filter(|_| rank < NUM_START_ENTRIES) {
             let camera_from_base = scan.shots[frame.number].base_from_camera.inverse();
             starts.push((pose.target_from_source * camera_from_base, pose));
         }
@@ -250,7 +253,7 @@ fn entry_of(
         return Some(best.clone());
     };
     let fits = fit_jointly(reference, part, &starts).into_iter();
-    let fits = fits.filter(|fit| fit.off <= MOST_OFF);
+    let fits = fits.filter(|fit| fit.off <= MAX_OFF_SHARE);
     let weighed = fits.map(|fit| {
         let (evidence, sight) =
             evidence(scan, reference, &fit, (&of_frame, recipe.confirm.tolerance));
@@ -269,7 +272,7 @@ fn entry_of(
         None => ConfirmedMatch {
             score: best.score
                 * if best.pose.is_some() {
-                    NO_JOINT_FIT
+                    NO_JOINT_FIT_FACTOR
                 } else {
                     1.0
                 },

@@ -5,9 +5,9 @@ use geometry::{cloud::MAX_STRAY_SHARE, units::Metres};
 use stages::scene::SceneCloud;
 
 /// Range of depth cameras. A part outside it results from a wrong unit or damaged numbers.
-pub(super) const RANGE: [Metres; 2] = [Metres(0.1), Metres(20.0)];
+pub(super) const CAMERA_RANGE: [Metres; 2] = [Metres(0.1), Metres(20.0)];
 /// Share of a part's points that may lie out of range.
-const MAX_OUTSIDE: f64 = 0.01;
+const MAX_OUT_OF_RANGE_SHARE: f64 = 0.01;
 
 /// Rejects an accepted part if its scene cannot be right.
 pub(super) fn refuse_unsound(inspection: &mut Inspection, scene: &SceneCloud) {
@@ -38,10 +38,10 @@ pub(super) fn refuse_unsound(inspection: &mut Inspection, scene: &SceneCloud) {
         return;
     }
     let mut depths: Vec<f32> = found.cloud.points.iter().map(|p| p.z).collect();
-    let range = RANGE.map(|end| end.0 as f32);
+    let range = CAMERA_RANGE.map(|end| end.0 as f32);
     let is_outside = |z: &&f32| !(range[0]..=range[1]).contains(*z);
     let num_outside = depths.iter().filter(is_outside).count();
-    if num_outside as f64 > MAX_OUTSIDE * depths.len() as f64 {
+    if num_outside as f64 > MAX_OUT_OF_RANGE_SHARE * depths.len() as f64 {
         let middle = depths.len() / 2;
         let (_, middle, _) = depths.select_nth_unstable_by(middle, f32::total_cmp);
         *rejected = Some(Rejection::OutOfRange {

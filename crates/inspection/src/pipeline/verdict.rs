@@ -277,10 +277,10 @@ fn surface_deviations(evidence: &Evidence, accept: &AcceptParams) -> [f64; 2] {
 
 /// Mean share above which a pose is approximate. Three in five of the other models that are accepted exceed it; of
 /// the enrolled parts, one in nine real frames and one in a hundred simulated ones.
-const APPROXIMATE_FROM: f64 = 0.5;
+const APPROXIMATE_MIN_SHARE: f64 = 0.5;
 /// Limit of the outline's median shift, as a share of the limit of its root mean square. The median is about 2 mm for
 /// enrolled parts and 4 mm for other models.
-const MEDIAN_LIMIT: f64 = 0.3;
+const MEDIAN_LIMIT_SHARE: f64 = 0.3;
 
 /// True if an accepted part may still be another model: relief, missing surface and outline exceed half of their
 /// limits on average.
@@ -288,23 +288,23 @@ const MEDIAN_LIMIT: f64 = 0.3;
 /// A single one means little. In real frames, single stretches of the outline are off by centimetres and up to 1 % of
 /// the surface is missing at the right pose; another model differs all round, and in more than one way.
 fn may_be_another_model(evidence: &Evidence, accept: &AcceptParams) -> bool {
-    let median_limit = MEDIAN_LIMIT * accept.max_outline_shift.0;
+    let median_limit = MEDIAN_LIMIT_SHARE * accept.max_outline_shift.0;
     let outline = evidence.outline_median_m.map(|shift| shift / median_limit);
     let surface = surface_deviations(evidence, accept);
     let shares: Vec<f64> = surface.into_iter().chain(outline).collect();
-    shares.iter().sum::<f64>() > APPROXIMATE_FROM * shares.len() as f64
+    shares.iter().sum::<f64>() > APPROXIMATE_MIN_SHARE * shares.len() as f64
 }
 
 /// Score above which a part that is hardly seen fits well enough to be named.
-const WORTH_NAMING: f64 = 0.3;
+const HARDLY_SEEN_MIN_SCORE: f64 = 0.3;
 /// Share hidden or beyond the picture from which a part counts as a piece.
-const PIECE: f64 = 0.05;
+const PIECE_MIN_UNSEEN_SHARE: f64 = 0.05;
 
 /// The reason for a score that is too low: the part is not enrolled, or too little of it is in sight.
 fn too_low(best: &ConfirmedMatch, accept: &AcceptParams) -> Rejection {
     let (part, score, threshold) = (best.part.clone(), best.score, accept.min_score);
     match best.evidence {
-        Some(evidence) if !evidence.is_seen() && score > WORTH_NAMING => {
+        Some(evidence) if !evidence.is_seen() && score > HARDLY_SEEN_MIN_SCORE => {
             Rejection::HardlySeen { part, score }
         }
         Some(evidence)
@@ -321,7 +321,7 @@ fn too_low(best: &ConfirmedMatch, accept: &AcceptParams) -> Rejection {
         },
         Some(Evidence {
             hidden, outside, ..
-        }) if hidden + outside >= PIECE => Rejection::Piece {
+        }) if hidden + outside >= PIECE_MIN_UNSEEN_SHARE => Rejection::Piece {
             part,
             score,
             threshold,
@@ -386,7 +386,7 @@ mod tests {
             outline_m: 0.003,
             // Single stretches are off by centimetres.
             outline_shift_m: median.map(|_| 0.95 * limit),
-            outline_median_m: median.map(|share| share * MEDIAN_LIMIT * limit),
+            outline_median_m: median.map(|share| share * MEDIAN_LIMIT_SHARE * limit),
             cut: 0.0,
             facing: 1.0,
             shape: 1.0,

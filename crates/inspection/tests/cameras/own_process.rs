@@ -7,7 +7,7 @@ use std::{
 };
 
 /// Environment variable with the test whose body this process runs.
-const BODY: &str = "PARTSIGHT_KINECT_TEST";
+const BODY: &str = "PARTSIGHT_CAMERA_TEST";
 
 /// True in the process that runs the body of that test.
 pub(crate) fn is_own(test: &str) -> bool {
@@ -35,17 +35,17 @@ pub(crate) fn run(test: &str, environment: &[(&str, &OsStr)]) {
         )
         .output()
         .expect("started");
-    let said = String::from_utf8_lossy(&output.stdout);
+    let output_text = String::from_utf8_lossy(&output.stdout);
     let errors = String::from_utf8_lossy(&output.stderr);
     assert!(
         output.status.success(),
-        "{}\n{said}\n{errors}",
+        "{}\n{output_text}\n{errors}",
         output.status
     );
     // A misspelt name would run no test.
-    assert!(said.contains("1 passed"), "{said}");
+    assert!(output_text.contains("1 passed"), "{output_text}");
     // The first of them follows the name of the test on its line.
-    for line in said
+    for line in output_text
         .lines()
         .filter_map(|line| Some(&line[line.find("figures: ")?..]))
     {

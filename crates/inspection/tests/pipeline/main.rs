@@ -1,5 +1,7 @@
 //! The whole inspection: moved and rotated parts, invalid points, cancellation, reproducible results.
 
+#![allow(clippy::disallowed_methods, reason = "tests change files")]
+
 mod cameras;
 
 use std::cell::Cell;

@@ -100,8 +100,7 @@ fn names_of(load: LibraryLoad) -> Result<Vec<PartName>, BundleError> {
     if let Some(problem) = load.problems.into_iter().next() {
         return Err(Box::new(problem).into());
     }
-    let is_damage =
-        |warning: &EntryWarning| matches!(warning.trouble, EntryIssue::SprayPath { .. });
+    let is_damage = |warning: &EntryWarning| matches!(warning.issue, EntryIssue::SprayPath { .. });
     match load.warnings.into_iter().find(is_damage) {
         Some(warning) => Err(warning.into()),
         None => Ok(load.parts.into_iter().map(|part| part.name).collect()),

@@ -1,4 +1,4 @@
-//! Why a store does not do what it is asked, in the words of whoever chose its address and credentials.
+//! Errors of a store, worded for the person who chose its address and credentials.
 //!
 //! The client wraps each error several times. The [connector](super::connector) therefore puts a [`StoreError`] inside, where
 //! it still knows the connection and the store's whole answer; [`StoreError::of`] finds it again.

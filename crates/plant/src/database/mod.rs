@@ -6,7 +6,7 @@
 //!                                                 history list --from ◄──────┘
 //! ```
 //!
-//! The SQLite file remains the history: programs read and write only it, and nobody waits for the network. A row is sent
+//! The SQLite file remains the history: programs read and write only it, and none waits for the network. A row is sent
 //! when it is added and whenever it changes, in batches of one transaction each. A row is marked as sent in the file only
 //! after its batch is committed; if the program is killed in between, it is sent again, which changes nothing. Frames stay
 //! at their cell.

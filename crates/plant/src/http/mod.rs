@@ -11,7 +11,7 @@
 //! A client without a token costs a bounded amount of memory and time: head, body, connections and waiting times are
 //! limited, and if there are too many connections, the oldest without a token is dropped. HTTP/1.1 only.
 //!
-//! `docs/guide/robots_that_ask.md` describes the interface for users, `GET /v1/openapi.json` for programs.
+//! `docs/guide/http.md` describes the interface for users, `GET /v1/openapi.json` for programs.
 
 mod access;
 mod body;

@@ -4,7 +4,6 @@ use jiff::Timestamp;
 use serde::Serialize;
 
 use crate::history::Traceability;
-use capture::Captured;
 use geometry::rigid::row_major;
 use inspection::pipeline::{Inspection, NamedRecipe, RecipeBlock, Timings, Verdict};
 use robot::RobotFrame;
@@ -19,7 +18,7 @@ pub struct InspectionLine<'a> {
     scene: &'a str,
     #[serde(flatten)]
     capture: Option<CaptureLine<'a>>,
-    /// Set for a file marked as simulated; captures from a source have their own field.
+    /// Set for a scene known to be simulated; captures from a source have their own field.
     #[serde(skip_serializing_if = "Option::is_none")]
     simulated: Option<bool>,
     status: &'static str,
@@ -78,26 +77,14 @@ struct RobotLine<'a> {
 pub struct CaptureLine<'a> {
     /// The source, in the form that opens it again.
     pub source: &'a str,
-    number: u64,
+    /// Its number, counted by the source.
+    pub number: u64,
     /// Time of the capture.
     pub taken_at: Timestamp,
     /// True if the capture does not come from a camera.
     pub simulated: bool,
     /// Captures dropped since the source was opened, because others were being inspected.
-    dropped: u64,
-}
-
-impl<'a> CaptureLine<'a> {
-    /// Creates the fields for a capture of this source.
-    pub fn of(source: &'a str, captured: &Captured, num_dropped: u64) -> Self {
-        Self {
-            source,
-            number: captured.number,
-            taken_at: captured.taken_at,
-            simulated: captured.is_simulated,
-            dropped: num_dropped,
-        }
-    }
+    pub dropped: u64,
 }
 
 #[derive(Debug, Serialize)]
@@ -215,13 +202,16 @@ impl<'a> InspectionLine<'a> {
 
     /// Adds the fields for a capture from a source.
     #[must_use]
-    pub fn captured(self, capture: Option<CaptureLine<'a>>) -> Self {
-        Self { capture, ..self }
+    pub fn captured(self, capture: CaptureLine<'a>) -> Self {
+        Self {
+            capture: Some(capture),
+            ..self
+        }
     }
 
-    /// Marks a file as simulated. Other files have no such field, since nothing is known about them.
+    /// Marks a scene as simulated. Other files have no such field, since nothing is known about them.
     #[must_use]
-    pub fn of_simulated_file(self) -> Self {
+    pub fn of_simulation(self) -> Self {
         Self {
             simulated: Some(true),
             ..self

@@ -5,6 +5,7 @@
 //! history read is the old one or the new one, and is never set aside as damaged. Without a C compiler the tests
 //! report that they are skipped; with `PARTSIGHT_REQUIRE_COMPILER=1` they fail.
 
+#![allow(clippy::disallowed_methods, reason = "tests change files")]
 #![cfg(target_os = "linux")]
 
 use std::{env, ffi::OsString, fs, path::Path, process::Command};
@@ -175,7 +176,7 @@ fn check(folder: &Path, num_before: usize, fault: &str, told: &Told) {
 fn fails_at_every_call(num_before: usize, is_listed: bool, prepare: impl Fn(&Path)) {
     let tools = tempfile::tempdir().expect("a folder");
     let disk = tools.path().join("libdisk.so");
-    if let Err(why) = compile_c("tests/history_disk/disk.c", &disk, &SHARED) {
+    if let Err(why) = compile_c("crates/records/tests/history_disk/disk.c", &disk, &SHARED) {
         return skipped(&why);
     }
     let prepared = tools.path().join("prepared");

@@ -1,7 +1,7 @@
 //! The accelerations that joints and rail need along a path at its speed.
 //!
 //! The acceleration of a joint at a point is the second difference of its angle q over the nearest points that are at
-//! least [`WINDOW`] before and behind it, 2 · ((q₊ - q) / t₊ - (q - q₋) / t₋) / (t₊ + t₋): the mean acceleration over
+//! least [`WINDOW_S`] before and behind it, 2 · ((q₊ - q) / t₊ - (q - q₋) / t₋) / (t₊ + t₋): the mean acceleration over
 //! that time, however unevenly the points are spaced. Points closer together would only add noise. In a corner the
 //! whole change happens at the point itself. So if the difference would be too large within the window, the joints
 //! exactly one window before and behind the point are computed on the straight moves there, and the larger result
@@ -27,21 +27,21 @@ use super::{
     chain::move_time,
     kinematics::Joints,
     problem::PointProblem,
-    way::{SLOWEST, Way, WayEnd, apart},
+    way::{MIN_TRAVEL_SPEED_M_S, Way, WayEnd, apart},
 };
 
 /// Seconds; a corner at 200 mm/s takes as long if the controller rounds it by 5 mm on both sides.
-const WINDOW: f64 = 0.05;
+const WINDOW_S: f64 = 0.05;
 /// The arm stops for a turn on the spot if a joint turns by this much, radians.
-const TURN: f64 = 0.01;
+const STOP_TURN_RAD: f64 = 0.01;
 /// The times of a path are sums, which are not exact.
-const EXACT: f64 = 1e-6;
+const TIME_TOLERANCE_S: f64 = 1e-6;
 /// Shorter moves of the rail count as standing still, metres.
-const STILL: f64 = 1e-6;
+const STILL_RAIL_M: f64 = 1e-6;
 /// Most rounds of slowing moves: each slows those around a corner, then those before and behind them.
-const MOST_ROUNDS: usize = 60;
+const MAX_ROUNDS: usize = 60;
 /// Least factor by which a move is slowed in a round.
-const LEAST_SLOWING: f64 = 1.03;
+const MIN_SLOWING: f64 = 1.03;
 
 /// Slows moves with the gun off where a joint or the rail cannot accelerate as much as needed, then marks the points
 /// around which it still cannot.
@@ -51,7 +51,7 @@ pub(super) fn keep_accelerations(
     checked: &mut [PointCheck],
 ) {
     let mut passed = as_passed(points, checked);
-    for _ in 0..MOST_ROUNDS {
+    for _ in 0..MAX_ROUNDS {
         let found = problems_of(placed, &passed, checked);
         if !slow_down(&passed, checked, &found) {
             break;
@@ -102,9 +102,9 @@ fn slow_down(
         let moves = here.saturating_sub(1)..(here + 1).min(passed.len() - 1);
         let fastest = passed[moves.clone()].iter().map(|from| from.speed);
         let fastest = fastest.fold(0.0, f64::max);
-        let slowed = fastest / (acceleration / limit).max(LEAST_SLOWING);
+        let slowed = fastest / (acceleration / limit).max(MIN_SLOWING);
         for from in moves.filter(|from| !passed[*from].is_gun_on) {
-            speeds[from] = speeds[from].min(slowed.max(SLOWEST));
+            speeds[from] = speeds[from].min(slowed.max(MIN_TRAVEL_SPEED_M_S));
         }
     }
     let mut is_slower = false;
@@ -195,8 +195,8 @@ impl<'a> Run<'a> {
     /// The nearest points that are at least a window before and behind a point; none beyond the run.
     fn around(&self, here: usize) -> [Option<usize>; 2] {
         let now = self.times[here];
-        let before = self.times.partition_point(|time| *time <= now - WINDOW);
-        let behind = self.times.partition_point(|time| *time < now + WINDOW);
+        let before = self.times.partition_point(|time| *time <= now - WINDOW_S);
+        let behind = self.times.partition_point(|time| *time < now + WINDOW_S);
         let is_within = behind < self.times.len();
         [before.checked_sub(1), is_within.then_some(behind)]
     }
@@ -229,18 +229,18 @@ impl<'a> Run<'a> {
             times,
             &limits,
         )?;
-        if mean.share * (times[0] + times[1]) <= 2.0 * WINDOW {
+        if mean.share * (times[0] + times[1]) <= 2.0 * WINDOW_S {
             return None;
         }
         let now = self.times[here];
-        let early = self.joints_at(before, now - WINDOW, before + 1);
-        let late = self.joints_at(behind - 1, now + WINDOW, behind - 1);
+        let early = self.joints_at(before, now - WINDOW_S, before + 1);
+        let late = self.joints_at(behind - 1, now + WINDOW_S, behind - 1);
         let close = early
             .zip(late)
-            .and_then(|(early, late)| Excess::of([&early, &middle, &late], [WINDOW; 2], &limits));
+            .and_then(|(early, late)| Excess::of([&early, &middle, &late], [WINDOW_S; 2], &limits));
         let worst = close.filter(|close| close.share > mean.share);
         let worst = worst.unwrap_or(mean);
-        (worst.share > 1.0 + EXACT).then_some(PointProblem::JointAcceleration {
+        (worst.share > 1.0 + TIME_TOLERANCE_S).then_some(PointProblem::JointAcceleration {
             joint: worst.joint + 1,
             acceleration: worst.acceleration,
             limit: limits[worst.joint],
@@ -252,7 +252,7 @@ impl<'a> Run<'a> {
         let limit = rail.acceleration?;
         let rails = places.map(|place| self.checked[place].rail);
         let acceleration = second_difference(rails, times).abs();
-        let is_too_much = acceleration > limit * (1.0 + EXACT);
+        let is_too_much = acceleration > limit * (1.0 + TIME_TOLERANCE_S);
         is_too_much.then_some(PointProblem::RailAcceleration {
             acceleration,
             limit,
@@ -267,15 +267,17 @@ impl<'a> Run<'a> {
         let way = |a: usize, b: usize| (self.checked[b].rail - self.checked[a].rail).abs();
         let [before, _] = self.around(from);
         let [_, behind] = self.around(here);
-        let is_start = before.is_some_and(|before| way(before, from) < STILL);
-        let is_end = behind.is_some_and(|behind| way(here, behind) < STILL);
+        let is_start = before.is_some_and(|before| way(before, from) < STILL_RAIL_M);
+        let is_end = behind.is_some_and(|behind| way(here, behind) < STILL_RAIL_M);
         let num_ramps = f64::from(u8::from(is_start) + u8::from(is_end));
-        let time = self.times[here] - self.times[from] + num_ramps * WINDOW;
+        let time = self.times[here] - self.times[from] + num_ramps * WINDOW_S;
         let acceleration = least_acceleration(way(from, here), time, top, num_ramps)?;
-        (acceleration > limit * (1.0 + EXACT)).then_some(PointProblem::RailAcceleration {
-            acceleration,
-            limit,
-        })
+        (acceleration > limit * (1.0 + TIME_TOLERANCE_S)).then_some(
+            PointProblem::RailAcceleration {
+                acceleration,
+                limit,
+            },
+        )
     }
 
     /// The joints at a time during the move from one point to the next, nearest to those at `near`.
@@ -320,7 +322,7 @@ impl Excess {
 /// The least acceleration, m/s², for a way in a time at a top speed, with one ramp, from or to a standstill, or two;
 /// `None` if it does not move, or not in time at any acceleration.
 fn least_acceleration(way: f64, time: f64, top: f64, num_ramps: f64) -> Option<f64> {
-    if way < STILL {
+    if way < STILL_RAIL_M {
         return None;
     }
     // Accelerating all the time if the top speed allows it; otherwise time = way / top + ramps / 2 · top / acceleration.
@@ -350,7 +352,7 @@ fn seconds_between(points: &[ArmPoint], checked: &[PointCheck]) -> Option<f64> {
         )
     );
     let nozzles = [from, to].map(|point| &point.robot_from_nozzle);
-    let is_turn = move_time(nozzles[0], nozzles[1], from.speed).is_none() && moved >= TURN;
+    let is_turn = move_time(nozzles[0], nozzles[1], from.speed).is_none() && moved >= STOP_TURN_RAD;
     let shift = nozzles[1].translation.vector - nozzles[0].translation.vector;
     let is_passed = !is_other_way && !is_turn && moved <= PI;
     is_passed.then(|| shift.norm() / from.speed)

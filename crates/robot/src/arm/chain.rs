@@ -8,7 +8,7 @@ use super::{
     Arm,
     check::ArmPoint,
     kinematics::{Joints, Solver},
-    way::{SLOWEST, may_move_by_joints},
+    way::{MIN_TRAVEL_SPEED_M_S, may_move_by_joints},
 };
 use geometry::{
     parallel::{map_each, num_cores},
@@ -28,18 +28,18 @@ const JOINT_MOVE_COST: f64 = 5.0;
 /// Cost of joints that are faster than this share of their top speeds, times the excess: between two points they may be
 /// faster than on average.
 const RUSH_COST: f64 = 20.0;
-const RUSH: f64 = 0.7;
+const RUSH_SPEED_SHARE: f64 = 0.7;
 /// Least cost of a move that is too fast for a joint, changes the configuration or turns a joint by more than half a
 /// turn.
 const JUMP_COST: f64 = 1e4;
 /// A collision costs as much as a hundred jumps: like a solution beyond a limit, it is only chosen if none is free.
 const COLLISION_COST: f64 = 1e6;
 /// Chains chosen before every candidate is tested for collisions.
-const LAZY_ROUNDS: usize = 3;
+const NUM_LAZY_ROUNDS: usize = 3;
 /// Number of configurations of an arm.
 pub(super) const NUM_CONFIGURATIONS: usize = 8;
 /// Minimum number of candidates of a point for which it pays to start threads.
-const LEAST_SHARED: usize = 1000;
+const MIN_PARALLEL_CANDIDATES: usize = 1000;
 
 /// Possible joints at a point.
 #[derive(Clone, Copy)]
@@ -237,7 +237,7 @@ pub(super) fn move_time(from: &RigidTransform, to: &RigidTransform, speed: f64) 
 /// never used. So only the candidates of the chain are tested, after R. Bohlin, L. E. Kavraki, "Path Planning Using
 /// Lazy PRM", ICRA 2000: an untested candidate costs as little as a free one, so a chain stays the cheapest if all its
 /// candidates prove free. If one collides, all candidates of its point are tested and another chain is chosen. A path
-/// without collisions takes one test per point; one that collides nearly everywhere takes [`LAZY_ROUNDS`] more chains
+/// without collisions takes one test per point; one that collides nearly everywhere takes [`NUM_LAZY_ROUNDS`] more chains
 /// and all tests. `solvers` has one solver per point, for the rail's position there. Returns `None` soon after
 /// `is_cancelled` returns true.
 pub(super) fn free_chain(
@@ -250,7 +250,7 @@ pub(super) fn free_chain(
     let Some(arm) = solvers.first().map(|solver| solver.arm) else {
         return Some(Vec::new());
     };
-    for _ in 0..LAZY_ROUNDS {
+    for _ in 0..NUM_LAZY_ROUNDS {
         let chosen = best_chain(arm, points, candidates, num_turns, is_cancelled)?;
         let mut is_final = true;
         for (i, (here, chosen)) in candidates.iter_mut().zip(&chosen).enumerate() {
@@ -365,7 +365,7 @@ impl<'a> Former<'a> {
         let speed = if start.is_gun_on {
             start.speed
         } else {
-            start.speed.min(SLOWEST)
+            start.speed.min(MIN_TRAVEL_SPEED_M_S)
         };
         Self {
             arm,
@@ -460,7 +460,7 @@ impl<'a> Former<'a> {
         if is_jump || share > 1.0 || angle > PI {
             self.jump_cost
         } else {
-            RUSH_COST * (share - RUSH).max(0.0)
+            RUSH_COST * (share - RUSH_SPEED_SHARE).max(0.0)
         }
     }
 }
@@ -485,7 +485,7 @@ fn best_chain(
             let ends = [&points[before], &points[i]];
             Former::new(arm, ends, &candidates[before], &chains[before], num_turns)
         });
-        let num_workers = if here.len() < LEAST_SHARED {
+        let num_workers = if here.len() < MIN_PARALLEL_CANDIDATES {
             1
         } else {
             num_cores()

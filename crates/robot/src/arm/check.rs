@@ -52,7 +52,7 @@ pub struct CheckParams {
 }
 
 /// Points on either side of a problem at which the nozzle may tilt as well, so that it tilts gradually.
-const NEAR: usize = 8;
+const NUM_TILTED_BESIDE: usize = 8;
 
 impl Default for CheckParams {
     fn default() -> Self {
@@ -289,7 +289,7 @@ fn check_on(
         return Ok(checked);
     }
     for (i, (solver, point)) in solvers.iter().zip(points).enumerate() {
-        let near = i.saturating_sub(NEAR)..points.len().min(i + NEAR + 1);
+        let near = i.saturating_sub(NUM_TILTED_BESIDE)..points.len().min(i + NUM_TILTED_BESIDE + 1);
         if may_help[near].contains(&true) {
             go_on()?;
             candidates[i].extend(candidates_of(solver, point, params.num_turns, &tilts));

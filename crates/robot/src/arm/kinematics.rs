@@ -42,11 +42,11 @@ impl Singularity {
 }
 
 /// Sine of 2°: nearer to a wrist or elbow singularity, joints would have to be too fast.
-const NEAR: f64 = 0.035;
+const NEAR_SINGULAR_SINE: f64 = 0.035;
 /// Least distance of the wrist from the axis of joint 1, for the same reason, metres.
-const NEAR_AXIS: f64 = 0.03;
+const NEAR_AXIS_M: f64 = 0.03;
 /// Largest error of a solution in forward kinematics, metres and radians.
-const EXACT: f64 = 1e-6;
+const MAX_SOLUTION_ERROR: f64 = 1e-6;
 
 /// The inverse kinematics of an arm, with its obstacles.
 pub(super) struct Solver<'a> {
@@ -241,7 +241,7 @@ impl<'a> Solver<'a> {
                 let shift = (at.translation.vector - robot_from_nozzle.translation.vector).norm();
                 shift.max(at.rotation.angle_to(&robot_from_nozzle.rotation))
             });
-            off.is_some_and(|off| off < EXACT)
+            off.is_some_and(|off| off < MAX_SOLUTION_ERROR)
         });
         found
     }
@@ -284,9 +284,9 @@ impl<'a> Solver<'a> {
     pub(super) fn singularity(&self, joints: &Joints) -> Option<Singularity> {
         let [ahead, elbow, wrist] = self.arm.shape(joints).map(f64::abs);
         let all = [
-            (wrist < NEAR, Singularity::Wrist),
-            (elbow < NEAR, Singularity::Elbow),
-            (ahead < NEAR_AXIS, Singularity::Shoulder),
+            (wrist < NEAR_SINGULAR_SINE, Singularity::Wrist),
+            (elbow < NEAR_SINGULAR_SINE, Singularity::Elbow),
+            (ahead < NEAR_AXIS_M, Singularity::Shoulder),
         ];
         all.into_iter()
             .find(|(is_near, _)| *is_near)

@@ -6,8 +6,8 @@
 //! Workshop 2014. Each point has up to eight solutions, with every whole turn that the joints' limits allow; dynamic
 //! programming picks those with the least time of joint motion. A round jet leaves the turn about the nozzle free: it
 //! is tried in steps of 15°; a fan is the same turned by 180°. Near points that are not reached, the nozzle may also tilt
-//! about the point that it aims at. Straight moves are checked in between, as finely as the speeds of the joints need. With the gun off, the arm may
-//! move more slowly than the path says, or in a joint move (`way`).
+//! about the point that it aims at. Straight moves are also checked between the points, as finely as the speeds of the
+//! joints need. With the gun off, the arm may move more slowly than the path specifies, or in a joint move (`way`).
 //!
 //! Gun and arm must stay clear of [`Obstacles`] at every point and on the way to it.
 //!

@@ -46,9 +46,9 @@ const MAX_BOXES: usize = 200;
 /// Most letters of a box's name.
 const MAX_NAME: usize = 60;
 /// Limit for coordinates and sizes, millimetres; no cell is larger.
-const LARGEST: f64 = 100_000.0;
+const MAX_COORDINATE_MM: f64 = 100_000.0;
 /// Minimum length of a box's longest side, millimetres: a smaller one was probably given in metres.
-const LEAST_SIDE: f64 = 10.0;
+const MIN_SIDE_MM: f64 = 10.0;
 
 /// A body of gun or arm.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -181,7 +181,7 @@ impl Obstacles {
             return Err(wrong("neither a box nor a floor".into()));
         }
         if let Some(floor) = text.floor_mm
-            && !(floor.abs() <= LARGEST)
+            && !(floor.abs() <= MAX_COORDINATE_MM)
         {
             return Err(wrong(format!("floor_mm is {floor}")));
         }
@@ -317,15 +317,19 @@ impl BoxText {
             return Err(format!("its name has not 1 to {MAX_NAME} letters"));
         }
         let wrong = |what: &str, values: [f64; 3]| Err(format!("{what} of {name} is {values:?}"));
-        if !self.centre_mm.iter().all(|x| x.abs() <= LARGEST) {
+        if !self.centre_mm.iter().all(|x| x.abs() <= MAX_COORDINATE_MM) {
             return wrong("centre_mm", self.centre_mm);
         }
-        if !self.size_mm.iter().all(|x| *x > 0.0 && *x <= LARGEST) {
+        if !self
+            .size_mm
+            .iter()
+            .all(|x| *x > 0.0 && *x <= MAX_COORDINATE_MM)
+        {
             return wrong("size_mm", self.size_mm);
         }
-        if self.size_mm.iter().all(|x| *x < LEAST_SIDE) {
+        if self.size_mm.iter().all(|x| *x < MIN_SIDE_MM) {
             return Err(format!(
-                "no side of {name} is {LEAST_SIDE} mm or longer: its size_mm is {:?}",
+                "no side of {name} is {MIN_SIDE_MM} mm or longer: its size_mm is {:?}",
                 self.size_mm
             ));
         }

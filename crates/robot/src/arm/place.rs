@@ -8,7 +8,7 @@ use super::{
     chain::{UPRIGHT, is_gun_free, tilts_up_to},
     check::{check_unless, ends_of, is_reached},
     kinematics::Solver,
-    validate::{PIT, validate},
+    validate::{PIT_DEPTH_M, validate},
 };
 use geometry::{
     parallel::{map_each, num_cores},
@@ -124,7 +124,9 @@ impl Search<'_> {
             .filter(|shift| {
                 let (placed, rail) = at(*shift);
                 let solver = Solver::new(&placed, rail);
-                let is_above_floor = solver.foot_below_floor().is_none_or(|below| below <= PIT);
+                let is_above_floor = solver
+                    .foot_below_floor()
+                    .is_none_or(|below| below <= PIT_DEPTH_M);
                 is_above_floor && solver.in_column().iter().all(|hit| known.contains(hit))
             })
             .collect();

@@ -20,7 +20,7 @@ pub struct Rail {
 }
 
 /// Minimum length, metres: a shorter rail was probably given in metres.
-const LEAST_LENGTH: f64 = 0.1;
+const MIN_LENGTH_M: f64 = 0.1;
 
 impl Rail {
     pub(super) fn checked(self) -> Result<Self, ArmError> {
@@ -56,7 +56,7 @@ impl Rail {
                 value: acceleration * 1000.0,
             });
         }
-        if high - low < LEAST_LENGTH {
+        if high - low < MIN_LENGTH_M {
             return wrong_range();
         }
         Ok(self)

@@ -6,14 +6,14 @@
 //! or moves from one position to another over as many points as that takes: at constant speed or, if its limit of
 //! acceleration is known, accelerating evenly from standstill and slowing down again. The cost, in positions moved, is:
 //!
-//! - for a move its length, a little more at half the top speed and more at the full one, plus [`START`]: few, slow
+//! - for a move its length, a little more at half the top speed and more at the full one, plus [`START_COST`]: few, slow
 //!   moves win;
-//! - [`GUN`] times as much while the gun is on, so that the rail tends to stand still along a stroke;
-//! - up to [`BORDER`] over the whole path for standing at a position whose neighbour does not reach the point.
+//! - [`GUN_COST`] times as much while the gun is on, so that the rail tends to stand still along a stroke;
+//! - up to [`BORDER_COST`] over the whole path for standing at a position whose neighbour does not reach the point.
 //!
 //! A missed point, a move too fast for the rail and a change of configuration each cost more than all of that. So if
 //! some run of the rail reaches every point with one configuration, the cheapest such run between these positions is
-//! found; of a move past more than [`MAX_LOOKED_AT`] points only that many, and the last, are examined. The run is a
+//! found; of a move past more than [`MAX_EXAMINED`] points only that many, and the last, are examined. The run is a
 //! proposal: afterwards every point and the way to it are checked with the rail in its place.
 //!
 //! Known limits: joint speeds are not considered. Near the border of its reach an arm may be too slow, which the check
@@ -27,22 +27,22 @@ use super::{
 use geometry::parallel::{map_each, num_cores};
 
 /// Distance of two positions, metres, and their largest number.
-const STEP: f64 = 0.1;
+const POSITION_STEP_M: f64 = 0.1;
 const MAX_POSITIONS: f64 = 100.0;
 /// Turns of the nozzle that are tried for a round jet.
 const NUM_TURNS: usize = 8;
 /// Speeds of a move as shares of the top speed, and the cost per position at each.
-const PACES: [(f64, f64); 3] = [(0.25, 1.0), (0.5, 1.25), (1.0, 1.5)];
+const SPEED_COSTS: [(f64, f64); 3] = [(0.25, 1.0), (0.5, 1.25), (1.0, 1.5)];
 /// Costs of a move, see the module's documentation.
-const START: f64 = 4.0;
-const GUN: f64 = 4.0;
-const BORDER: f64 = 4.0;
+const START_COST: f64 = 4.0;
+const GUN_COST: f64 = 4.0;
+const BORDER_COST: f64 = 4.0;
 /// Costs of a missed point, and of a jump: a move too fast for the rail, or a change of configuration. One jump is
 /// better than a missed point, two are not. All other costs together are less.
-const MISSED: f64 = 1e7;
-const JUMP: f64 = 0.9 * MISSED;
+const MISSED_COST: f64 = 1e7;
+const JUMP_COST: f64 = 0.9 * MISSED_COST;
 /// Points examined, evenly, between the ends of a move: a slow rail passes thousands on its way.
-const MAX_LOOKED_AT: usize = 100;
+const MAX_EXAMINED: usize = 100;
 
 /// Returns the rail's position at every point, metres; `params.rail` if it does not move along the path. Returns
 /// [`ArmError::Cancelled`] soon after `is_cancelled` returns true.
@@ -56,7 +56,7 @@ pub(super) fn rail_positions(
         return Ok(vec![params.rail; points.len()]);
     };
     let [low, high] = rail.range;
-    let positions = rail.positions(STEP.max((high - low) / MAX_POSITIONS));
+    let positions = rail.positions(POSITION_STEP_M.max((high - low) / MAX_POSITIONS));
     let solvers: Vec<Solver<'_>> = positions
         .iter()
         .map(|position| Solver::new(placed, *position))
@@ -150,9 +150,9 @@ impl Plan {
         let own = |(point, position, configuration): State| {
             let is_reached = self.reached[point][position] & (1 << configuration) != 0;
             if is_reached {
-                BORDER / num as f64 * borders[point][position]
+                BORDER_COST / num as f64 * borders[point][position]
             } else {
-                MISSED
+                MISSED_COST
             }
         };
         let nothing = [(f64::INFINITY, None); NUM_CONFIGURATIONS];
@@ -175,10 +175,10 @@ impl Plan {
                     relax(&mut costs, next, cost + own(next), from);
                     // A jump, from the cheapest state.
                     let from = (point, cheapest.0, cheapest.1);
-                    relax(&mut costs, next, least + JUMP + own(next), from);
+                    relax(&mut costs, next, least + JUMP_COST + own(next), from);
                 }
                 // A run that has already jumped may as well jump to the end of the move.
-                let is_cheap = |(cost, _): &(f64, Option<Before>)| *cost < least + JUMP / 2.0;
+                let is_cheap = |(cost, _): &(f64, Option<Before>)| *cost < least + JUMP_COST / 2.0;
                 if !costs[point][position].iter().any(is_cheap) {
                     continue;
                 }
@@ -205,7 +205,7 @@ impl Plan {
         position: usize,
     ) -> impl Iterator<Item = (usize, usize, u8, f64)> {
         let others = (0..self.positions.len()).filter(move |to| *to != position);
-        let all = others.flat_map(|to| PACES.map(|pace| (to, pace)));
+        let all = others.flat_map(|to| SPEED_COSTS.map(|pace| (to, pace)));
         all.filter_map(move |(to, (pace, price))| {
             let way = (self.positions[to] - self.positions[position]).abs();
             let arrives = self.times[point] + self.seconds_for(way, pace * self.speed);
@@ -215,7 +215,7 @@ impl Plan {
                 return None;
             }
             let mut passing = self.reached[end][to];
-            let every = (end - point).div_ceil(MAX_LOOKED_AT);
+            let every = (end - point).div_ceil(MAX_EXAMINED);
             // Examine the last point too: one that the move misses for being late is at its end.
             let last = (every > 1).then_some(end - 1);
             for between in (point + 1..end).step_by(every).chain(last) {
@@ -229,7 +229,7 @@ impl Plan {
             }
             let is_spraying = self.is_gun_on[point..end].contains(&true);
             let length = position.abs_diff(to) as f64;
-            let cost = (START + length * price) * if is_spraying { GUN } else { 1.0 };
+            let cost = (START_COST + length * price) * if is_spraying { GUN_COST } else { 1.0 };
             Some((end, to, passing, cost))
         })
     }

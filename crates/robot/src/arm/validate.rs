@@ -5,9 +5,9 @@ use crate::spray::MOST_TILT;
 use geometry::{rigid::is_finite, units::Metres};
 
 /// Minimum radius of the gun, metres: a gun of radius 0 is a line, and collisions of its body are not checked.
-const LEAST_GUN_RADIUS: f64 = 0.001;
+const MIN_GUN_RADIUS_M: f64 = 0.001;
 /// The foot of an arm may be this far below the floor, metres.
-pub(super) const PIT: f64 = 0.1;
+pub(super) const PIT_DEPTH_M: f64 = 0.1;
 /// Maximum number of turns about the nozzle's axis: steps of 5°.
 const MAX_TURNS: usize = 72;
 
@@ -49,7 +49,7 @@ pub(super) fn validate(
         rail.checked()?;
     }
     for (what, value, low) in [
-        ("the radius of the gun", placed.gun_radius, LEAST_GUN_RADIUS),
+        ("the radius of the gun", placed.gun_radius, MIN_GUN_RADIUS_M),
         ("the clearance", placed.obstacles.clearance, 0.0),
     ] {
         let high = 1.0;
@@ -67,12 +67,12 @@ pub(super) fn validate(
         return Err(ArmError::Length {
             what: "the radius of the gun",
             value: Metres(placed.gun_radius),
-            low: Metres(LEAST_GUN_RADIUS),
+            low: Metres(MIN_GUN_RADIUS_M),
             high: Metres(most),
         });
     }
     let below = Solver::new(placed, params.rail).foot_below_floor();
-    if let Some(above) = below.filter(|below| *below > PIT) {
+    if let Some(above) = below.filter(|below| *below > PIT_DEPTH_M) {
         return Err(ArmError::Floor {
             above: Metres(above),
         });

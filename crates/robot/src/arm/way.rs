@@ -9,24 +9,24 @@ use super::{
 use geometry::rigid::RigidTransform;
 
 /// Maximum step in which straight moves are checked, metres and radians.
-const STEP: [f64; 2] = [0.05, 0.175];
+const MAX_STEP: [f64; 2] = [0.05, 0.175];
 /// Turn of a joint, radians, over which its speed counts as even: near a singularity a joint follows an arc tangent,
 /// which is nowhere half a percent steeper than on average over so little.
-const EVEN_TURN: f64 = 0.2;
+const EVEN_TURN_RAD: f64 = 0.2;
 /// Most halvings of a step: 50 mm become 0.05 mm.
-const MOST_HALVINGS: u32 = 10;
+const MAX_HALVINGS: u32 = 10;
 /// The greatest speed of a joint is found to this share.
-const PEAK_EXACT: f64 = 0.05;
+const PEAK_SPEED_ERROR: f64 = 0.05;
 /// Differences of joints up to this are ignored, radians.
-const SAME: f64 = 1e-4;
+const SAME_JOINT_RAD: f64 = 1e-4;
 
 /// The times of a run are sums, which are not exact.
-const EXACT: f64 = 1e-6;
+const TIME_TOLERANCE_S: f64 = 1e-6;
 
 /// Lowest speed at which the arm moves between strokes, m/s.
-pub(super) const SLOWEST: f64 = 0.01;
+pub(super) const MIN_TRAVEL_SPEED_M_S: f64 = 0.01;
 /// Maximum step in which joint moves are checked, radians.
-const JOINT_STEP: f64 = 0.05;
+const MAX_JOINT_STEP_RAD: f64 = 0.05;
 
 /// How the arm moves to a point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -102,13 +102,13 @@ pub(super) fn way_between(
         return (Way::Planned, problem);
     }
     let mut speed = start.speed;
-    while speed > SLOWEST
+    while speed > MIN_TRAVEL_SPEED_M_S
         && matches!(
             problem,
             Some(PointProblem::TooFast { .. } | PointProblem::RailTooFast { .. })
         )
     {
-        speed = (speed / 2.0).max(SLOWEST);
+        speed = (speed / 2.0).max(MIN_TRAVEL_SPEED_M_S);
         if way_problem(placed, from, to, speed).is_none() {
             return (Way::Slower(speed), None);
         }
@@ -121,7 +121,7 @@ pub(super) fn way_between(
 
 /// True if gun and arm collide with nothing during a joint move.
 fn is_joint_move_free(placed: &PlacedArm, from: &WayEnd, to: &WayEnd) -> bool {
-    let num = (apart(&from.joints, &to.joints) / JOINT_STEP).ceil();
+    let num = (apart(&from.joints, &to.joints) / MAX_JOINT_STEP_RAD).ceil();
     (1..num as usize).all(|k| {
         let share = k as f64 / num;
         let solver = Solver::new(placed, from.rail_towards(to, share));
@@ -142,7 +142,7 @@ pub(super) fn way_problem(
     let distance = (to.translation.vector - from.translation.vector).norm();
     let angle = from.rotation.angle_to(&to.rotation);
     let ride = (end.rail - start.rail).abs();
-    let num = (distance.max(ride) / STEP[0]).max(angle / STEP[1]);
+    let num = (distance.max(ride) / MAX_STEP[0]).max(angle / MAX_STEP[1]);
     let num = num.ceil().max(1.0);
     let allowed = move_time(from, to, speed);
     let mut trouble = rail_problem(&placed.arm, ride, allowed);
@@ -202,7 +202,7 @@ fn peak_problem(
     step: Step,
 ) -> Option<PointProblem> {
     let mut worst = (1.0, None);
-    let mut left = vec![(step, MOST_HALVINGS)];
+    let mut left = vec![(step, MAX_HALVINGS)];
     while let Some((step, num_halvings)) = left.pop() {
         let Step {
             shares,
@@ -225,7 +225,7 @@ fn peak_problem(
             let turns = [middle[i] - from[i], to[i] - middle[i]].map(f64::abs);
             let [most, least] = [turns[0].max(turns[1]), turns[0].min(turns[1])];
             let top = placed.arm.speeds[i];
-            if most >= SAME && most / half > worst.0 * top * (1.0 + EXACT) {
+            if most >= SAME_JOINT_RAD && most / half > worst.0 * top * (1.0 + TIME_TOLERANCE_S) {
                 let kept = [&from, &middle, &to].map(|at| placed.arm.configuration(at));
                 let problem = if kept[0] == kept[1] && kept[1] == kept[2] {
                     PointProblem::TooFast {
@@ -242,11 +242,11 @@ fn peak_problem(
             let bound = (most + change) / half / top;
             let enough = worst.0
                 * if worst.1.is_some() {
-                    1.0 + PEAK_EXACT
+                    1.0 + PEAK_SPEED_ERROR
                 } else {
                     1.0
                 };
-            is_settled &= most <= EVEN_TURN && (bound <= enough || most < SAME);
+            is_settled &= most <= EVEN_TURN_RAD && (bound <= enough || most < SAME_JOINT_RAD);
         }
         if !is_settled && num_halvings > 0 {
             let step = |shares, joints| Step {
@@ -309,7 +309,7 @@ fn arrival_problem(
 fn rail_problem(arm: &Arm, ride: f64, allowed: Option<f64>) -> Option<PointProblem> {
     let (_, fastest) = arm.moving_rail()?;
     let speed = ride / allowed?;
-    (speed > fastest * (1.0 + EXACT)).then_some(PointProblem::RailTooFast { speed })
+    (speed > fastest * (1.0 + TIME_TOLERANCE_S)).then_some(PointProblem::RailTooFast { speed })
 }
 
 /// Returns the problem of a short step between two solutions that may take `allowed` seconds; unlimited if `None`.
@@ -328,7 +328,7 @@ fn step_problem(
     let time = allowed.unwrap_or(f64::INFINITY);
     let is_too_fast = |i: &usize| {
         let moved = (near[*i] - at[*i]).abs();
-        moved / time > solver.arm.speeds[*i] && moved >= SAME
+        moved / time > solver.arm.speeds[*i] && moved >= SAME_JOINT_RAD
     };
     let i = (0..6).find(is_too_fast)?;
     Some(
@@ -346,7 +346,8 @@ fn step_problem(
 /// The first joint outside its limits, and its angle.
 fn outside(solver: &Solver<'_>, joints: &Joints) -> Option<(usize, f64)> {
     let limits = solver.arm.limits.iter().zip(joints).enumerate();
-    let mut beyond =
-        limits.filter(|(_, ([low, high], angle))| !(low - SAME..=high + SAME).contains(*angle));
+    let mut beyond = limits.filter(|(_, ([low, high], angle))| {
+        !(low - SAME_JOINT_RAD..=high + SAME_JOINT_RAD).contains(*angle)
+    });
     beyond.next().map(|(i, (_, angle))| (i, *angle))
 }

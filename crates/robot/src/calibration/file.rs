@@ -26,7 +26,7 @@ pub const SCHEMA_VERSION: u32 = 1;
 const MAX_BYTES: u64 = 1 << 20;
 
 /// Tolerance for a rotation: people enter numbers with four digits.
-const ROUNDING: f64 = 1e-3;
+const ROTATION_TOLERANCE: f64 = 1e-3;
 
 /// A calibration read from a file, to be shown.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,7 +59,7 @@ struct Text {
 type Matrix = [[f64; 4]; 4];
 
 /// Tolerance for numbers read back, relative above 1: a nanometre in a metre.
-const KEPT: f64 = 1e-9;
+const READ_BACK_TOLERANCE: f64 = 1e-9;
 
 const HEAD: &str = "\
 # Partsight: where the camera of a robot cell sits.
@@ -122,7 +122,8 @@ impl CellCalibration {
             matrices.flat_map(|(_, matrix)| row_major(matrix)).collect()
         };
         let (meant, read): (Vec<f64>, Vec<f64>) = (numbers(self), numbers(&again));
-        let is_same = |(a, b): (&f64, &f64)| (a - b).abs() <= KEPT * a.abs().max(1.0);
+        let is_same =
+            |(a, b): (&f64, &f64)| (a - b).abs() <= READ_BACK_TOLERANCE * a.abs().max(1.0);
         if meant.len() == read.len() && meant.iter().zip(&read).all(is_same) {
             Ok(text)
         } else {
@@ -217,11 +218,12 @@ fn parse(text: &str, path: &Path) -> Result<ReadCalibration, CalibrationError> {
     let numbers_of = |rows: &Matrix| -> [f64; 16] { std::array::from_fn(|i| rows[i / 4][i % 4]) };
     let rigid = |key: &'static str, rows: &Matrix| {
         let numbers = numbers_of(rows);
-        let transform =
-            from_row_major(&numbers, ROUNDING).ok_or_else(|| CalibrationError::NotRigid {
+        let transform = from_row_major(&numbers, ROTATION_TOLERANCE).ok_or_else(|| {
+            CalibrationError::NotRigid {
                 path: path.to_owned(),
                 key,
-            })?;
+            }
+        })?;
         let distance = Metres(transform.translation.vector.norm());
         if distance.0 > FARTHEST {
             return Err(CalibrationError::TooFar {

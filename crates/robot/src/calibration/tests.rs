@@ -346,7 +346,7 @@ fn whichever_call_fails_a_calibration_is_the_old_one_or_the_new() {
     };
     let place = |folder: &Path| folder.join("deep").join("cell.toml");
     Writer {
-        test: "robot::calibration::tests::whichever_call_fails_a_calibration_is_the_old_one_or_the_new",
+        test: "calibration::tests::whichever_call_fails_a_calibration_is_the_old_one_or_the_new",
         prepare: &|folder| called("old").save(&place(folder)).expect("written"),
         write: &|folder| {
             let saved = called("new").save_keeping_former(&place(folder));

@@ -27,7 +27,7 @@ const LOCK: &str = ".lock";
 /// Largest baseline file that is read, bytes.
 const MAX_BASELINE_BYTES: u64 = 1 << 16;
 /// Limit for coordinates in the file; NaN fails the comparison too.
-const MOST_METRES: f64 = 1000.0;
+const MAX_COORDINATE_M: f64 = 1000.0;
 /// Largest file of checks, bytes: some 100 000 checks.
 const MAX_CHECK_BYTES: u64 = 1 << 26;
 
@@ -211,7 +211,7 @@ impl CellCheckFolder {
             return Err(bad("a limit or the noise is not above 0".into()));
         }
         let background = read.background.iter().map(|ends| {
-            let is_near = ends.iter().flatten().all(|x| x.abs() < MOST_METRES);
+            let is_near = ends.iter().flatten().all(|x| x.abs() < MAX_COORDINATE_M);
             PlanePatch::through(ends.map(Into::into)).filter(|_| is_near)
         });
         let background: Option<Vec<PlanePatch>> = background.collect();

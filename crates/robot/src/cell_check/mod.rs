@@ -39,13 +39,13 @@ pub const MAX_FRAMES: usize = 16;
 /// Frames captured from a camera unless a person asks for another number.
 pub const USUAL_FRAMES: usize = 5;
 /// Spacing of the baseline's points; the frames are averaged within it.
-const SPACING: Metres = Metres(0.003);
+const BASELINE_SPACING: Metres = Metres(0.003);
 /// Below this overlap it is another part, or the part is partly hidden.
-const LEAST_OVERLAP: f64 = 0.9;
+const MIN_OVERLAP: f64 = 0.9;
 /// Planes farther apart than this are different planes.
-const SAME_PLANE: (Metres, Radians) = (Metres(0.3), Radians(0.25));
+const SAME_PLANE_MAX_DIFFERENCE: (Metres, Radians) = (Metres(0.3), Radians(0.25));
 /// A noise ratio above this is reported.
-const NOISIER: f64 = 1.5;
+const MAX_NOISE_RATIO: f64 = 1.5;
 
 /// The largest movement that still counts as in place.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -175,7 +175,7 @@ impl CellBaseline {
         let all = PointCloud::from_points(all.copied());
         Ok(Self {
             view: CellView {
-                part: downsample(&all, SPACING),
+                part: downsample(&all, BASELINE_SPACING),
                 noise_at_1m: Metres(median_noise(views)),
                 ..alone.view
             },
@@ -215,7 +215,7 @@ impl CellBaseline {
         let mut found = align(PoseMethod::Global, still);
         if !found
             .as_ref()
-            .is_ok_and(|found| overlap(found) >= LEAST_OVERLAP)
+            .is_ok_and(|found| overlap(found) >= MIN_OVERLAP)
         {
             // For a grid that moved by several centimetres, plain ICP comes near and the global search continues from
             // there.
@@ -236,7 +236,7 @@ impl CellBaseline {
             error => CellViewError::Pose { frame, error },
         })?;
         let overlap = overlap(&found);
-        if overlap < LEAST_OVERLAP {
+        if overlap < MIN_OVERLAP {
             return Err(CellViewError::OtherPart { frame, overlap });
         }
         Ok((found.target_from_source.inverse(), found.fit.rms_m))
@@ -271,7 +271,7 @@ impl CellBaseline {
         let stays = background.map(|shift| shift <= self.limits.shift);
         let together = self.moved_together(views, &moved);
         let finding = match (self.limits.allow(&off), stays, together) {
-            (true, ..) if noise_ratio > NOISIER => CellFinding::Noisier,
+            (true, ..) if noise_ratio > MAX_NOISE_RATIO => CellFinding::Noisier,
             (true, ..) => CellFinding::InPlace,
             (false, Some(true), false) => CellFinding::PartMoved,
             // Whether the part moved as well does not matter: the camera must be calibrated again anyway.
@@ -304,8 +304,8 @@ impl CellBaseline {
             let planes = view.background.iter().map(|now| now.plane);
             let off = |plane: &Plane| expected.distance_to(plane).0;
             let nearest = planes.min_by(|a, b| off(a).total_cmp(&off(b)))?;
-            let is_same = expected.distance_to(&nearest) < SAME_PLANE.0
-                && expected.plane.normal.angle(&nearest.normal) < SAME_PLANE.1.0;
+            let is_same = expected.distance_to(&nearest) < SAME_PLANE_MAX_DIFFERENCE.0
+                && expected.plane.normal.angle(&nearest.normal) < SAME_PLANE_MAX_DIFFERENCE.1.0;
             is_same.then_some((expected, nearest))
         });
         pairs.collect()

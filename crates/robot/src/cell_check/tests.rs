@@ -240,7 +240,7 @@ fn whichever_call_fails_a_baseline_is_the_old_one_or_the_new() {
     let (old, new) = (of_frames(1), of_frames(2));
     let place = |folder: &Path| CellCheckFolder::at(folder.join("deep"));
     Writer {
-        test: "robot::cell_check::tests::whichever_call_fails_a_baseline_is_the_old_one_or_the_new",
+        test: "cell_check::tests::whichever_call_fails_a_baseline_is_the_old_one_or_the_new",
         prepare: &|folder| place(folder).save(&old).expect("written"),
         write: &|folder| place(folder).save(&new).map_err(|error| told(&error)),
         state: &|folder| {

@@ -27,10 +27,10 @@ const NUM_ROUNDS: usize = 100;
 /// Share of the last change of a dwell that is added to the next.
 const MOMENTUM: f64 = 0.7;
 /// Share of the tolerance within which an error does not count.
-const EVEN_ENOUGH: f64 = 0.3;
+const IGNORED_TOLERANCE_SHARE: f64 = 0.3;
 /// Distance beyond the tolerance at which the weight of a point has fallen to a quarter, in thicknesses: in the first
 /// and in the last round.
-const HOPELESS: [f64; 2] = [1.0, 0.1];
+const FADING_THICKNESSES: [f64; 2] = [1.0, 0.1];
 
 /// The film that is wanted.
 #[derive(Debug)]
@@ -112,7 +112,8 @@ impl Goal {
         let mut best = (dwells.clone(), self.share(&film));
         for round in 0..NUM_ROUNDS {
             let share = round as f64 / NUM_ROUNDS as f64;
-            let hopeless = HOPELESS[0] * (HOPELESS[1] / HOPELESS[0]).powf(share);
+            let hopeless =
+                FADING_THICKNESSES[0] * (FADING_THICKNESSES[1] / FADING_THICKNESSES[0]).powf(share);
             let errors = self.errors(&film, &all, hopeless);
             for ((deposit, sum), way) in deposits.iter().zip(&sums).zip(which) {
                 if *sum <= 0.0 {
@@ -140,7 +141,7 @@ impl Goal {
 
     /// Weighted errors of a film; `all` is the film of all ways at their planned speeds, in levels.
     fn errors(&self, film: &[f64], all: &[f64], hopeless: f64) -> Vec<f64> {
-        let even = EVEN_ENOUGH * self.tolerance;
+        let even = IGNORED_TOLERANCE_SHARE * self.tolerance;
         let each = film.iter().zip(all).zip(&self.is_wanted);
         let each = each.map(|((thickness, all), is_wanted)| {
             if !is_wanted {

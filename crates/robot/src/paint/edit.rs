@@ -7,7 +7,7 @@ use nalgebra::{Unit, Vector3};
 use inspection::library::{PathPoint, SprayPath};
 
 /// Points on each side of a corrected one that move along, less with distance.
-const FADES_OVER: usize = 3;
+const NUM_FADING_POINTS: usize = 3;
 
 /// A manual correction of a path. Strokes and points are given by their index.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,10 +84,10 @@ fn faded(strokes: &[[usize; 2]], point: usize) -> Vec<(usize, f64)> {
     let Some([first, last]) = own else {
         return Vec::new();
     };
-    let from = point.saturating_sub(FADES_OVER).max(*first);
-    let to = (point + FADES_OVER).min(*last);
+    let from = point.saturating_sub(NUM_FADING_POINTS).max(*first);
+    let to = (point + NUM_FADING_POINTS).min(*last);
     let share = |i: usize| {
-        let off = i.abs_diff(point) as f64 / (FADES_OVER + 1) as f64;
+        let off = i.abs_diff(point) as f64 / (NUM_FADING_POINTS + 1) as f64;
         0.5 + 0.5 * (std::f64::consts::PI * off).cos()
     };
     (from..=to).map(|i| (i, share(i))).collect()

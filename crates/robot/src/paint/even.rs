@@ -17,7 +17,7 @@ use super::{
     dwell::{Goal, Way},
     error::PaintError,
     film::{Deposit, are_reachable, deposits},
-    propose::{GOOD, SPEEDS, best_factor},
+    propose::{GOOD_WITHIN, SPEED_RANGE_M_S, best_factor},
     region::KeepOut,
     surface::{PaintSurface, tree_of},
     travel::keep_clear,
@@ -27,23 +27,23 @@ use inspection::library::{MAX_PATH_POINTS, MAX_SPEED, PathPoint};
 
 /// Least and greatest dwell of a way: three times and half the coat's speed. Faster ways need so long to change their
 /// speed that their neighbours become uneven.
-const DWELLS: [f64; 2] = [1.0 / 3.0, 2.0];
+const DWELL_RANGE: [f64; 2] = [1.0 / 3.0, 2.0];
 /// Greatest speed of a faster way, m/s: a little less than the least that a controller accepts (Doosan's, 1 m/s). A way may
 /// always be faster than the coat by the factor.
-const MOST_SPEED: f64 = 0.995;
-const ALWAYS_FASTER: f64 = 1.5;
+const MAX_FASTER_SPEED_M_S: f64 = 0.995;
+const ALLOWED_SPEED_FACTOR: f64 = 1.5;
 /// Least dwell of a way of an added stroke, from few strokes to many.
-const KEPT: [f64; 3] = [0.5, 0.25, 0.1];
+const MIN_STROKE_DWELLS: [f64; 3] = [0.5, 0.25, 0.1];
 /// Least gain in the share of the surface for which strokes, or more strokes, are added.
-const WORTH: f64 = 0.002;
+const MIN_STROKE_GAIN: f64 = 0.002;
 /// Speed of the moves between added strokes, as a multiple of the coat's speed.
-const TRAVEL: f64 = 4.0;
+const TRAVEL_SPEED_FACTOR: f64 = 4.0;
 /// Thin points within a width and a depth of the pattern from the aim that are worth a stroke.
-const LEAST_POINTS: usize = 2;
+const MIN_THIN_POINTS: usize = 2;
 /// Least distance of the leaned gun from the surface, as a share of the stand-off: beside a flank it dips below the rows.
-const LEAST_CLEAR: f64 = 0.5;
+const MIN_CLEARANCE_SHARE: f64 = 0.5;
 /// The film that is found differs by rounding from the one that is simulated.
-const MARGIN: f64 = 0.001;
+const ROUNDING_MARGIN: f64 = 0.001;
 
 /// A path and the dwells of its ways.
 struct Dwelled {
@@ -88,21 +88,21 @@ pub(super) fn evened(
     };
     let speed = match speed {
         Speed::Given(speed) => speed,
-        Speed::ToTarget => (goal.level / coat.target).clamp(SPEEDS[0], SPEEDS[1]),
+        Speed::ToTarget => (goal.level / coat.target).clamp(SPEED_RANGE_M_S[0], SPEED_RANGE_M_S[1]),
     };
     if coat.acceleration <= 0.0 || !goal.is_wanted.contains(&true) {
         return Ok((at_speed(points, speed, |_| 1.0), speed));
     }
     // Of a path at 1 m/s.
     let acceleration = coat.acceleration / (speed * speed);
-    let fastest = (MOST_SPEED / speed)
-        .max(ALWAYS_FASTER)
+    let fastest = (MAX_FASTER_SPEED_M_S / speed)
+        .max(ALLOWED_SPEED_FACTOR)
         .min(MAX_SPEED / speed);
     let with_dwells = |points: Vec<PathPoint>, deposits: &[&Deposit], start: &[f64]| {
-        let (ways, which) = ways_of(&points, DWELLS, fastest);
+        let (ways, which) = ways_of(&points, DWELL_RANGE, fastest);
         let mut dwells = vec![1.0; ways.len()];
         for (way, start) in which.iter().zip(start) {
-            dwells[*way] = start.max(DWELLS[0]);
+            dwells[*way] = start.max(DWELL_RANGE[0]);
         }
         let (dwells, share) = goal.improve(&ways, deposits, &which, Some(acceleration), dwells);
         Dwelled {
@@ -112,8 +112,8 @@ pub(super) fn evened(
         }
     };
     let mut best = with_dwells(points.clone(), &upright, &vec![1.0; upright.len()]);
-    let (ways, which) = ways_of(&points, DWELLS, fastest);
-    let flanks = if best.share < GOOD + MARGIN {
+    let (ways, which) = ways_of(&points, DWELL_RANGE, fastest);
+    let flanks = if best.share < GOOD_WITHIN + ROUNDING_MARGIN {
         let film = goal.film(&upright, &which, &best.dwells);
         flank_rows(surface, coat, &goal, &film, along, rows)?
     } else {
@@ -123,7 +123,7 @@ pub(super) fn evened(
     let added = deposits(surface, &joined, coat);
     let all: Vec<&Deposit> = left.iter().chain(&added).collect();
     let each = dwells_of_all(&goal, (&ways, &which, &best.dwells), &joined, &all);
-    for least in KEPT {
+    for least in MIN_STROKE_DWELLS {
         let chosen = chosen(&flanks, &each[upright.len()..], least, coat);
         if chosen.which.is_empty() {
             continue;
@@ -131,7 +131,7 @@ pub(super) fn evened(
         let (before, last) = points.split_at(points.len() - 1);
         let mut tail = keep_clear([last, &chosen.points[..]].concat(), surface, coat);
         for point in tail.iter_mut().filter(|point| !point.is_gun_on) {
-            point.speed = Some(TRAVEL.min(fastest));
+            point.speed = Some(TRAVEL_SPEED_FACTOR.min(fastest));
         }
         let path = [before, &tail[..]].concat();
         if path.len() > MAX_PATH_POINTS {
@@ -142,10 +142,10 @@ pub(super) fn evened(
         let sprayed: Vec<&Deposit> = kept.iter().map(|i| all[*i]).collect();
         let start: Vec<f64> = kept.iter().map(|i| each[*i]).collect();
         let found = with_dwells(path, &sprayed, &start);
-        if found.share > best.share + WORTH {
+        if found.share > best.share + MIN_STROKE_GAIN {
             best = found;
         }
-        if best.share >= GOOD + MARGIN {
+        if best.share >= GOOD_WITHIN + ROUNDING_MARGIN {
             break;
         }
     }
@@ -194,7 +194,7 @@ fn flank_rows(
         let towards = surface.side * lean.cos() + direction * lean.sin();
         // None if the gun does not lean.
         let thin = thin_points(surface, goal, film, &towards);
-        if thin.len() >= LEAST_POINTS {
+        if thin.len() >= MIN_THIN_POINTS {
             let rows = rows(&direction, &towards)?;
             let thin = (tree_of(&thin), thin);
             flanks.extend(rows.into_iter().map(|row| aimed(row, &thin, &all, coat)));
@@ -212,7 +212,7 @@ fn dwells_of_all(
     deposits: &[&Deposit],
 ) -> Vec<f64> {
     // At no dwell at all a way is left out.
-    let (added, on) = ways_of(joined, [0.0, DWELLS[1]], f64::INFINITY);
+    let (added, on) = ways_of(joined, [0.0, DWELL_RANGE[1]], f64::INFINITY);
     let start = added.iter().map(|way| way.bounds[0]);
     let start: Vec<f64> = dwells.iter().copied().chain(start).collect();
     let on = on.iter().map(|way| ways.len() + way);
@@ -288,11 +288,11 @@ fn aimed(
                 num += usize::from(is_near);
             });
         }
-        let near_sq = (LEAST_CLEAR * coat.stand_off).powi(2) as f32;
+        let near_sq = (MIN_CLEARANCE_SHARE * coat.stand_off).powi(2) as f32;
         let is_clear = [own, next]
             .iter()
             .all(|p| all.nearest(&p.nozzle.cast(), near_sq).is_none());
-        row[i].is_gun_on &= num >= LEAST_POINTS && is_clear;
+        row[i].is_gun_on &= num >= MIN_THIN_POINTS && is_clear;
     }
     row
 }
@@ -371,7 +371,7 @@ mod tests {
         let leaned = propose(&surface, &coat, &[]).expect("proposed");
         let within = [&upright, &leaned].map(|found| found.film.figures.within);
         assert!(
-            within[0] < GOOD && within[1] > within[0] + 0.01,
+            within[0] < GOOD_WITHIN && within[1] > within[0] + 0.01,
             "{within:?}"
         );
         // To both flanks.

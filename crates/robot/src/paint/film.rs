@@ -15,7 +15,7 @@ use super::{
     coat::Coat,
     error::PaintError,
     region::{KeepOut, are_kept_out},
-    shadow::{DISC, DirectionGrid, Seen, ViewFromAfar},
+    shadow::{DISC_RADIUS_SPACINGS, DirectionGrid, Seen, ViewFromAfar},
     surface::{PaintSurface, across, tree_of},
 };
 use geometry::{
@@ -29,18 +29,18 @@ const STEPS_OVER_DEPTH: f64 = 8.0;
 /// Steps that are summed together; fixed, so that the sums do not depend on the number of workers.
 const STEPS_PER_SUM: usize = 256;
 /// Below this share of the target a point is missed.
-const MISSED_BELOW: f64 = 0.1;
+const MAX_MISSED_SHARE: f64 = 0.1;
 /// Above this share of the target a point is painted twice.
-const DOUBLE_ABOVE: f64 = 1.8;
+const MIN_DOUBLE_SHARE: f64 = 1.8;
 /// Bars of the histogram, a tenth of the target each; the last includes all that is thicker.
 const NUM_BARS: usize = 20;
 /// Angle beyond the tilt limit up to which a surface still counts as reachable: cos 30° is 0.87 of the film.
-const FACED_WITHIN: f64 = FRAC_PI_6;
+const REACHABLE_ANGLE_RAD: f64 = FRAC_PI_6;
 /// Step between the tilts that are tried, radians, and number of directions of each.
-const TILT_STEP: f64 = PI / 36.0;
+const TILT_STEP_RAD: f64 = PI / 36.0;
 const NUM_TURNS: u32 = 24;
 /// The best tilt may be this far from the nearest one tried, radians.
-const BETWEEN_TILTS: f64 = PI / 90.0;
+const TILT_SLACK_RAD: f64 = PI / 90.0;
 
 /// The film on a surface.
 #[derive(Clone, Debug)]
@@ -160,12 +160,12 @@ pub(super) fn are_reachable(
     coat: &Coat,
     keep_outs: &[KeepOut],
 ) -> Vec<bool> {
-    let least = (coat.tilt_limit + FACED_WITHIN).cos();
+    let least = (coat.tilt_limit + REACHABLE_ANGLE_RAD).cos();
     let kept_out = are_kept_out(surface, keep_outs);
     let is_wanted = |i: &usize| surface.normals[*i].dot(&surface.side) >= least && !kept_out[*i];
     let mut waiting: Vec<usize> = (0..surface.points.len()).filter(is_wanted).collect();
     let mut are_reachable = vec![false; surface.points.len()];
-    let least = (FACED_WITHIN + BETWEEN_TILTS).cos();
+    let least = (REACHABLE_ANGLE_RAD + TILT_SLACK_RAD).cos();
     for direction in tilts(&surface.side, coat.tilt_limit) {
         let faces = |i: &usize| surface.normals[*i].dot(&direction) >= least;
         if !waiting.iter().any(faces) {
@@ -184,7 +184,7 @@ pub(super) fn are_reachable(
 fn tilts(side: &Vector3<f64>, limit: f64) -> impl Iterator<Item = Vector3<f64>> {
     let x = across(side);
     let y = side.cross(&x);
-    let num_rings = (limit / TILT_STEP).ceil();
+    let num_rings = (limit / TILT_STEP_RAD).ceil();
     let rings = (1..=num_rings as usize).map(move |ring| limit * ring as f64 / num_rings);
     let turns = (0..NUM_TURNS).map(|turn| TAU * f64::from(turn) / f64::from(NUM_TURNS));
     let leaned = rings.flat_map(move |tilt| turns.clone().map(move |turn| (tilt, turn)));
@@ -313,7 +313,7 @@ impl<'a> Jet<'a> {
         let depths = corners.map(|corner| step.axes[2].dot(&(corner - step.nozzle)));
         let depth = depths.into_iter().fold(0.0, f64::max);
         // Discs beside the jet may reach into it.
-        let beside = DISC * surface.spacing;
+        let beside = DISC_RADIUS_SPACINGS * surface.spacing;
         // The smallest ball around the jet down to that depth: through the mouth if the jet is narrow.
         let slope = spread[0].max(spread[1]);
         let middle = depth * (0.5 * (1.0 + slope * slope)).min(1.0);
@@ -383,8 +383,8 @@ impl FilmFigures {
         Ok(Self {
             reachable: num / thickness.len() as f64,
             within: share(&|t| (t - 1.0).abs() <= coat.tolerance),
-            missed: share(&|t| t < MISSED_BELOW),
-            double: share(&|t| t > DOUBLE_ABOVE),
+            missed: share(&|t| t < MAX_MISSED_SHARE),
+            double: share(&|t| t > MIN_DOUBLE_SHARE),
             mean: reached.iter().sum::<f64>() / num,
             min: reached.iter().copied().fold(f64::INFINITY, f64::min),
             max: reached.iter().copied().fold(0.0, f64::max),

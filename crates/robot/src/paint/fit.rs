@@ -28,27 +28,27 @@ use files::{FileError, read_text, table_rows};
 use geometry::error::Advice;
 
 /// Fewest places of a stripe: twice the parameters.
-const LEAST_SAMPLES: usize = 8;
+const MIN_SAMPLES: usize = 8;
 /// Fewest places thicker than half of the thickest.
-const LEAST_INSIDE: usize = 3;
+const MIN_INSIDE: usize = 3;
 /// Most places of a stripe; more are probably something else.
-const MOST_SAMPLES: usize = 10_000;
+const MAX_SAMPLES: usize = 10_000;
 /// Largest offset and thickness of a table, metres: more is in another unit.
-const MOST_OFFSET: f64 = 10.0;
-const MOST_THICKNESS: f64 = 0.01;
+const MAX_OFFSET_M: f64 = 10.0;
+const MAX_THICKNESS_M: f64 = 0.01;
 /// Largest file that is read, bytes.
 const MAX_BYTES: u64 = 1 << 20;
 /// Noise may be below zero by at most this share of the thickest place.
-const MOST_NEGATIVE: f64 = 0.1;
+const MAX_NEGATIVE_SHARE: f64 = 0.1;
 /// Largest residual of a stripe, as a share of the thickest place.
-const MOST_RESIDUAL: f64 = 0.25;
+const MAX_RESIDUAL_SHARE: f64 = 0.25;
 const NUM_ROUNDS: usize = 200;
 /// Range of a coat's β.
-const BETAS: [f64; 2] = [1.0, 10.0];
+const BETA_RANGE: [f64; 2] = [1.0, 10.0];
 /// Range of a coat's width, metres.
-const WIDTHS: [f64; 2] = [0.01, 1.0];
+const WIDTH_RANGE_M: [f64; 2] = [0.01, 1.0];
 /// Range of a coat's transfer efficiency.
-const TRANSFERS: [f64; 2] = [0.01, 1.0];
+const TRANSFER_RANGE: [f64; 2] = [0.01, 1.0];
 
 /// One measurement across a stripe.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -111,7 +111,7 @@ pub enum StripeError {
         high: f64,
     },
     /// The stripe has too few or too many places.
-    #[error("the stripe has {found} places, expected {LEAST_SAMPLES} to {MOST_SAMPLES}")]
+    #[error("the stripe has {found} places, expected {MIN_SAMPLES} to {MAX_SAMPLES}")]
     Count {
         /// Number of places.
         found: usize,
@@ -211,9 +211,9 @@ pub fn read_stripe(path: &Path) -> Result<Vec<StripeSample>, StripeError> {
             (
                 "offset in mm",
                 offset,
-                [-1e3 * MOST_OFFSET, 1e3 * MOST_OFFSET],
+                [-1e3 * MAX_OFFSET_M, 1e3 * MAX_OFFSET_M],
             ),
-            ("thickness in µm", thickness, [0.0, 1e6 * MOST_THICKNESS]),
+            ("thickness in µm", thickness, [0.0, 1e6 * MAX_THICKNESS_M]),
         ] {
             if !(low..=high).contains(&value) {
                 return Err(StripeError::Impossible {
@@ -269,7 +269,7 @@ pub fn fit_stripe(
     };
     let (profile, fitted, residual) = best;
     let thickest = samples.iter().map(|s| s.thickness).fold(0.0, f64::max);
-    if residual.is_nan() || residual > MOST_RESIDUAL * thickest {
+    if residual.is_nan() || residual > MAX_RESIDUAL_SHARE * thickest {
         return Err(StripeError::NoStripe {
             what: "neither a Gaussian nor a beta profile is like them",
         });
@@ -290,8 +290,8 @@ pub fn fit_stripe(
             })
         }
     };
-    in_range("a pattern width", "mm", 1e3, width, WIDTHS)?;
-    in_range("a transfer efficiency", "%", 1e2, transfer, TRANSFERS)?;
+    in_range("a pattern width", "mm", 1e3, width, WIDTH_RANGE_M)?;
+    in_range("a transfer efficiency", "%", 1e2, transfer, TRANSFER_RANGE)?;
     let gun = Gun {
         profile,
         width,
@@ -313,7 +313,7 @@ pub fn fit_stripe(
 /// Estimates volume per length, width and middle from the moments of the readings.
 fn first_guess(samples: &[StripeSample]) -> Result<[f64; 3], StripeError> {
     let found = samples.len();
-    if !(LEAST_SAMPLES..=MOST_SAMPLES).contains(&found) {
+    if !(MIN_SAMPLES..=MAX_SAMPLES).contains(&found) {
         return Err(StripeError::Count { found });
     }
     let is_bad = |s: &&StripeSample| !(s.offset.is_finite() && s.thickness.is_finite());
@@ -324,7 +324,7 @@ fn first_guess(samples: &[StripeSample]) -> Result<[f64; 3], StripeError> {
     let no_stripe = |what| Err(StripeError::NoStripe { what });
     let of = |pick: fn(f64, f64) -> f64| samples.iter().map(|s| s.thickness).fold(0.0, pick);
     let (least, most) = (of(f64::min), of(f64::max));
-    if least < -MOST_NEGATIVE * most {
+    if least < -MAX_NEGATIVE_SHARE * most {
         let micrometres = 1e6 * least;
         return Err(StripeError::Negative { micrometres });
     }
@@ -332,7 +332,7 @@ fn first_guess(samples: &[StripeSample]) -> Result<[f64; 3], StripeError> {
         return no_stripe("nothing is thicker than 0");
     }
     let inside = samples.iter().filter(|s| s.thickness > 0.5 * most).count();
-    if inside < LEAST_INSIDE {
+    if inside < MIN_INSIDE {
         return no_stripe("less than three places are thicker than half of the thickest");
     }
     if 2 * inside > samples.len() * 3 / 2 {
@@ -425,7 +425,7 @@ fn least_squares(samples: &[StripeSample], profile: Profile, start: &[f64]) -> V
         };
         let mut tried: Vec<f64> = (0..num).map(|i| best[i] - step[i] * scales[i]).collect();
         if let Some(beta) = tried.get_mut(3) {
-            *beta = beta.clamp(BETAS[0], BETAS[1]);
+            *beta = beta.clamp(BETA_RANGE[0], BETA_RANGE[1]);
         }
         let now = residuals(samples, profile, &tried);
         if now.norm_squared() < left.norm_squared() {

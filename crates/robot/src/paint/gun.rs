@@ -26,7 +26,7 @@ use nalgebra::Vector3;
 use super::coat::{Gun, Profile};
 
 /// Where a Gaussian jet is cut off, in standard deviations: a three-thousandth of the paint lies beyond.
-const GAUSSIAN_ENDS: f64 = 4.0;
+const GAUSSIAN_CUT_OFF_SIGMAS: f64 = 4.0;
 
 impl Gun {
     /// Volume of film that the gun deposits, cubic metres per second.
@@ -41,7 +41,7 @@ impl Gun {
             Profile::Gaussian => {
                 let (a, b) = (self.width / 4.0, self.depth / 4.0);
                 let e = (x / a).powi(2) + (y / b).powi(2);
-                if e > GAUSSIAN_ENDS * GAUSSIAN_ENDS {
+                if e > GAUSSIAN_CUT_OFF_SIGMAS * GAUSSIAN_CUT_OFF_SIGMAS {
                     return 0.0;
                 }
                 (-0.5 * e).exp() / (2.0 * PI * a * b)
@@ -61,7 +61,7 @@ impl Gun {
     /// mouth.
     pub(super) fn spread(&self) -> [f64; 2] {
         let ends = match self.profile {
-            Profile::Gaussian => GAUSSIAN_ENDS / 4.0,
+            Profile::Gaussian => GAUSSIAN_CUT_OFF_SIGMAS / 4.0,
             Profile::Beta => 0.5,
         };
         [self.width, self.depth].map(|extent| extent * ends / self.distance)

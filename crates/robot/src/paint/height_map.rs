@@ -13,11 +13,11 @@ use super::{coat::Coat, error::PaintError, region::KeepOuts, surface::PaintSurfa
 use geometry::parallel::{map_each, num_cores};
 
 /// Most cells of a map; smaller cells show nothing more of a part.
-const MOST_CELLS: f64 = 1_000_000.0;
+const MAX_CELLS: f64 = 1_000_000.0;
 /// Points this far below the highest one of their cell belong to another layer, metres.
-const LAYER: f64 = 0.025;
+const LAYER_DEPTH_M: f64 = 0.025;
 /// Weight of each Gaussian relative to the one half as wide.
-const FAINTER: f64 = 0.02;
+const SCALE_WEIGHT: f64 = 0.02;
 const NUM_SCALES: usize = 3;
 /// Moments of the points of a cell: number, u, v, h, uu, uv, vv, uh, vh.
 type Moments = [f64; 9];
@@ -67,7 +67,7 @@ impl HeightMap {
             points.iter().map(|p| p[axis]).reduce(pick).unwrap_or(0.0)
         };
         let extent = [0, 1].map(|axis| bound(axis, f64::max) - bound(axis, f64::min) + 2.0 * reach);
-        let cell = (1.25 * surface.spacing).max((extent[0] * extent[1] / MOST_CELLS).sqrt());
+        let cell = (1.25 * surface.spacing).max((extent[0] * extent[1] / MAX_CELLS).sqrt());
         let pad = (reach / cell).ceil() as usize + 2;
         let low = [0, 1].map(|axis| bound(axis, f64::min) - pad as f64 * cell);
         let size = [0, 1]
@@ -93,7 +93,7 @@ impl HeightMap {
         let mut moments: Vec<Moments> = vec![[0.0; 9]; num];
         for (p, at) in points.iter().zip(&surface.points) {
             let index = cell_of(low, cell, size, [p[0], p[1]]);
-            if tops[index].is_some_and(|top| p[2] < top - LAYER) {
+            if tops[index].is_some_and(|top| p[2] < top - LAYER_DEPTH_M) {
                 continue;
             }
             let [u, v, h] = *p;
@@ -240,7 +240,7 @@ impl HeightMap {
             // So small that it only matters where no point is in reach.
             let mut sum = vec![total * 1e-12; image.len()];
             for scale in 0..NUM_SCALES {
-                let weight = FAINTER.powi(scale as i32);
+                let weight = SCALE_WEIGHT.powi(scale as i32);
                 let sigma = (sigma / self.cell * f64::from(1 << scale)).max(0.5);
                 for (sum, value) in sum.iter_mut().zip(blur(&image, self.size, sigma)) {
                     *sum += weight * value;

@@ -26,7 +26,7 @@ use inspection::library::{MAX_PATH_POINTS, PathPoint, SprayPath};
 
 /// Greatest ratio of the nozzle's speed to the jet's speed over the surface, and the reverse: tight curves would
 /// otherwise stop the gun.
-const MOST_SCALING: f64 = 4.0;
+const MAX_SPEED_RATIO: f64 = 4.0;
 
 /// Plans the path of a coat over a surface without the keep-out regions.
 pub fn plan(
@@ -159,7 +159,7 @@ fn path_of_row(
         let tangent = after.surface - before.surface;
         let scaling = (after.nozzle - own.nozzle).norm() / (after.surface - own.surface).norm();
         let scaling = if scaling.is_finite() { scaling } else { 1.0 };
-        let scaling = scaling.clamp(MOST_SCALING.recip(), MOST_SCALING);
+        let scaling = scaling.clamp(MAX_SPEED_RATIO.recip(), MAX_SPEED_RATIO);
         PathPoint {
             nozzle: own.nozzle,
             direction: Unit::new_normalize(-own.normal),

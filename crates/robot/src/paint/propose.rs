@@ -15,13 +15,13 @@ use super::{
 use inspection::library::SprayPath;
 
 /// Spacings to be tried, as shares of the pattern's width at the stand-off, the fastest first.
-const SPACINGS: [f64; 4] = [0.4, 0.35, 0.3, 0.25];
+const SPACING_SHARES: [f64; 4] = [0.4, 0.35, 0.3, 0.25];
 /// Share of the reachable area within the tolerance that is good enough.
-pub(super) const GOOD: f64 = 0.95;
+pub(super) const GOOD_WITHIN: f64 = 0.95;
 /// Share of the reachable area that may be lost for a mean nearer to the target.
-const GIVEN_UP: f64 = 0.005;
+const MAX_LOST_SHARE: f64 = 0.005;
 /// Range of a coat's speed, m/s.
-pub(super) const SPEEDS: [f64; 2] = [0.01, 3.0];
+pub(super) const SPEED_RANGE_M_S: [f64; 2] = [0.01, 3.0];
 
 /// A coat with the best spacing and speed, its path and film.
 #[derive(Clone, Debug)]
@@ -44,7 +44,7 @@ pub fn propose(
     coat.check()?;
     let width = coat.gun.width * coat.stand_off / coat.gun.distance;
     let mut best: Option<Proposal> = None;
-    for share in SPACINGS {
+    for share in SPACING_SHARES {
         let spaced = Coat {
             // In whole millimetres, so that the value shown and stored is the one planned with.
             spacing: (1e3 * share * width).round() / 1e3,
@@ -61,7 +61,7 @@ pub fn propose(
         {
             best = Some(Proposal { coat, path, film });
         }
-        if within >= GOOD {
+        if within >= GOOD_WITHIN {
             break;
         }
     }
@@ -71,7 +71,7 @@ pub fn propose(
 /// Returns the speed that brings most of a film within the coat's tolerance, m/s.
 pub fn best_speed(film: &Film, coat: &Coat) -> f64 {
     let factor = best_factor(&film.thickness, &film.is_reachable, coat);
-    (coat.speed / factor).clamp(SPEEDS[0], SPEEDS[1])
+    (coat.speed / factor).clamp(SPEED_RANGE_M_S[0], SPEED_RANGE_M_S[1])
 }
 
 /// Returns the factor on all thicknesses that brings most of the reachable points within the tolerance. If more than
@@ -101,7 +101,7 @@ pub(super) fn best_factor(thickness: &[f64], is_reachable: &[bool], coat: &Coat)
         (behind - reached.partition_point(|t| *t < limit(low))) as f64 / num
     };
     let most = share(factor);
-    let enough = (most - GIVEN_UP).max(most.min(GOOD));
+    let enough = (most - MAX_LOST_SHARE).max(most.min(GOOD_WITHIN));
     let mean = reached.iter().sum::<f64>() / num;
     let (mut good, mut wanted) = (factor, coat.target / mean);
     for _ in 0..32 {

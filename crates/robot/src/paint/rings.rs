@@ -17,11 +17,11 @@ use std::{cmp::Reverse, collections::BinaryHeap};
 use super::{coat::Coat, height_map::HeightMap, region::KeepOuts, rows::RowPlace};
 
 /// Greatest distance of the outermost ring beyond the edge, in spacings: the film at the edge lacks 1 %.
-const BEYOND: f64 = 1.0;
+const MAX_SPACINGS_BEYOND: f64 = 1.0;
 /// Shorter rings, in cells, are left out.
-const LEAST_CELLS: f64 = 6.0;
+const MIN_RING_CELLS: f64 = 6.0;
 /// Smoothing passes of a ring, which otherwise follows the cells.
-const NUM_SMOOTHED: usize = 3;
+const NUM_SMOOTHINGS: usize = 3;
 
 /// A closed line on the map; the last place is joined to the first.
 #[derive(Debug)]
@@ -43,7 +43,7 @@ pub(super) fn lay_rings(
     for (level, at) in levels(widest, coat).into_iter().enumerate() {
         for line in level_lines(map, &depth, at) {
             let places = smoothed(line);
-            if circumference(&places) >= LEAST_CELLS * map.cell {
+            if circumference(&places) >= MIN_RING_CELLS * map.cell {
                 rings.push(Ring { level, places });
             }
         }
@@ -57,7 +57,7 @@ pub(super) fn lay_rings(
 
 /// The distances of all levels from the outline, from the outermost inwards; below 0 beyond the edge.
 fn levels(widest: f64, coat: &Coat) -> Vec<f64> {
-    let beyond = coat.overrun.min(BEYOND * coat.spacing);
+    let beyond = coat.overrun.min(MAX_SPACINGS_BEYOND * coat.spacing);
     let room = widest + beyond;
     let num_gaps = (room / coat.spacing - 0.5).round().max(0.0);
     let spacing = room / (num_gaps + 0.5);
@@ -180,7 +180,7 @@ fn level_lines(map: &HeightMap, depth: &[f64], level: f64) -> Vec<Vec<[f64; 2]>>
 }
 
 fn smoothed(mut places: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
-    for _ in 0..NUM_SMOOTHED {
+    for _ in 0..NUM_SMOOTHINGS {
         let num = places.len();
         let mean = |i: usize| {
             let around = [

@@ -1,7 +1,7 @@
 //! Shadows: points that another part of the surface hides from the mouth of the gun.
 //!
 //! Every point stands for a disc perpendicular to its normal. A point is hidden if the ray from the mouth to it meets
-//! another disc more than [`TOLERANCE`] before the point. The discs in the jet are sorted into cells of directions from
+//! another disc more than [`LAYER_TOLERANCE_SPACINGS`] before the point. The discs in the jet are sorted into cells of directions from
 //! the mouth, each into all cells that its ball touches, so a ray is tested against the discs of one cell alone. A ray
 //! meets no disc of a smooth surface before the point, however flat its angle, so smooth surfaces do not shadow
 //! themselves. The cells do not change the result: it is the same wherever the part hangs. With rays
@@ -15,17 +15,17 @@ use nalgebra::Vector3;
 use super::surface::{PaintSurface, across};
 
 /// Radius of a disc in spacings of the points: discs around the corners of a square meet in its middle.
-pub(super) const DISC: f64 = 0.75;
+pub(super) const DISC_RADIUS_SPACINGS: f64 = 0.75;
 /// Depths that differ by less belong to one layer, in spacings of the points.
-pub(super) const TOLERANCE: f64 = 2.0;
+pub(super) const LAYER_TOLERANCE_SPACINGS: f64 = 2.0;
 /// Side of a cell at the stand-off, in spacings of the points.
-const CELL: f64 = 1.5;
+const CELL_SPACINGS: f64 = 1.5;
 /// Most cells along each axis; on a finer surface more discs share a cell.
-const MOST_CELLS: f64 = 256.0;
+const MAX_CELLS_PER_AXIS: f64 = 256.0;
 /// Index of no entry.
 const NONE: u32 = u32::MAX;
 /// Discs seen at a smaller cosine than this hide nothing.
-pub(super) const LEAST_FACING: f64 = 0.05;
+pub(super) const MIN_FACING_COS: f64 = 0.05;
 
 /// A point of the surface in the axes of the jet: x along the fan, y across it, z along the jet.
 #[derive(Clone, Copy, Debug)]
@@ -39,7 +39,7 @@ impl Seen {
     /// Depth along the jet at which a ray meets the disc; `None` if it misses the disc or meets it edge-on.
     fn met_by(&self, ray: &Vector3<f64>, radius: f64) -> Option<f64> {
         let facing = self.normal.dot(ray);
-        if facing.abs() <= LEAST_FACING * ray.norm() {
+        if facing.abs() <= MIN_FACING_COS * ray.norm() {
             return None;
         }
         let at = ray * (self.normal.dot(&self.at) / facing);
@@ -68,7 +68,7 @@ impl DirectionGrid {
     /// Makes a grid for a jet with these slopes, over points of this spacing at about this distance.
     pub(super) fn new(spread: [f64; 2], spacing: f64, stand_off: f64) -> Self {
         let widest = spread[0].max(spread[1]);
-        let cell = (CELL * spacing / stand_off).max(2.0 * widest / MOST_CELLS);
+        let cell = (CELL_SPACINGS * spacing / stand_off).max(2.0 * widest / MAX_CELLS_PER_AXIS);
         let size = spread.map(|slope| (2.0 * slope / cell).ceil().max(1.0) as usize);
         Self {
             last: vec![NONE; size[0] * size[1]],
@@ -76,8 +76,8 @@ impl DirectionGrid {
             edge: spread,
             size,
             cell,
-            radius: DISC * spacing,
-            tolerance: TOLERANCE * spacing,
+            radius: DISC_RADIUS_SPACINGS * spacing,
+            tolerance: LAYER_TOLERANCE_SPACINGS * spacing,
         }
     }
 
@@ -142,7 +142,7 @@ pub(super) struct ViewFromAfar {
 }
 
 /// Distance of what is far away, metres: a thousand parts.
-const AFAR: f64 = 1000.0;
+const AFAR_M: f64 = 1000.0;
 
 impl ViewFromAfar {
     /// Sorts the discs as seen against a direction, a unit vector from the surface.
@@ -150,7 +150,7 @@ impl ViewFromAfar {
         let x = across(direction);
         let axes = [x, x.cross(direction), -direction];
         let in_view = |v: &Vector3<f64>| Vector3::from(axes.map(|axis| axis.dot(v)));
-        let middle = Vector3::z() * AFAR;
+        let middle = Vector3::z() * AFAR_M;
         let points = surface.points.iter().zip(&surface.normals).enumerate();
         let all: Vec<Seen> = points
             .map(|(index, (point, normal))| Seen {
@@ -163,7 +163,7 @@ impl ViewFromAfar {
             let slopes = all.iter().map(|seen| (seen.at[axis] / seen.at.z).abs());
             slopes.fold(f64::MIN_POSITIVE, f64::max)
         });
-        let mut grid = DirectionGrid::new(spread, surface.spacing, AFAR);
+        let mut grid = DirectionGrid::new(spread, surface.spacing, AFAR_M);
         grid.sort(&all);
         Self { grid, all }
     }
@@ -184,10 +184,10 @@ mod tests {
             let facing = other.normal.dot(&point.at);
             let share = other.normal.dot(&other.at) / facing;
             let off = (point.at * share - other.at).norm();
-            facing.abs() > LEAST_FACING * point.at.norm()
+            facing.abs() > MIN_FACING_COS * point.at.norm()
                 && share > 0.0
-                && off <= DISC * spacing
-                && point.at.z * share + TOLERANCE * spacing < point.at.z
+                && off <= DISC_RADIUS_SPACINGS * spacing
+                && point.at.z * share + LAYER_TOLERANCE_SPACINGS * spacing < point.at.z
         })
     }
 

@@ -18,20 +18,20 @@ use inspection::library::{Side, outer_side};
 use stages::reference::{Coverage, Reference};
 
 /// Fewest points of a surface.
-const LEAST_POINTS: usize = 50;
+const MIN_POINTS: usize = 50;
 /// Smallest extent of a part, metres.
-const LEAST_EXTENT: f64 = 0.03;
+const MIN_EXTENT_M: f64 = 0.03;
 /// Largest extent of a part, metres; a larger one is probably in another unit.
-const MOST_EXTENT: f64 = 10.0;
+const MAX_EXTENT_M: f64 = 10.0;
 /// Least cosine between the side and the normal of a point that belongs to it: 80°.
-const LEAST_FACING: f64 = 0.17;
+const MIN_FACING_COS: f64 = 0.17;
 /// Least cosine between a chosen side and the part's thinnest extent for the part to be painted along that extent: 60°.
 /// The nearest side of any direction is within 55°.
-const LEAST_ALONG: f64 = 0.5;
+const MIN_ALONG_COS: f64 = 0.5;
 /// An open sheet has less than this share of its points on one side.
-const LEAST_SHARE: f64 = 0.05;
+const MIN_SIDE_SHARE: f64 = 0.05;
 /// Radius over which normals are averaged, in spacings of the points.
-const SMOOTHED_OVER: f64 = 2.5;
+const SMOOTHING_SPACINGS: f64 = 2.5;
 
 /// The side of a part to be painted, part space, metres.
 #[derive(Clone, Debug)]
@@ -108,9 +108,9 @@ impl PaintSurface {
             normals = &turned;
         }
         let chosen: Vec<usize> = (0..points.len())
-            .filter(|i| normals[*i].dot(&side) > LEAST_FACING)
+            .filter(|i| normals[*i].dot(&side) > MIN_FACING_COS)
             .collect();
-        if chosen.len() < LEAST_POINTS {
+        if chosen.len() < MIN_POINTS {
             return Err(PaintError::TooFew {
                 found: chosen.len(),
             });
@@ -119,7 +119,13 @@ impl PaintSurface {
         let stored: Vec<Point3<f32>> = points.iter().map(|p| p.cast()).collect();
         let tree = KdTree::new(&stored);
         let spacing = median_spacing(&stored, &tree);
-        let normals = smoothed(&stored, &tree, &chosen, normals, SMOOTHED_OVER * spacing);
+        let normals = smoothed(
+            &stored,
+            &tree,
+            &chosen,
+            normals,
+            SMOOTHING_SPACINGS * spacing,
+        );
         let first: Vector3<f64> = axes.axes.column(0).into_owned();
         let longest = (first - side * side.dot(&first)).try_normalize(1e-6);
         let longest = longest.unwrap_or_else(|| across(&side));
@@ -177,7 +183,7 @@ pub(super) fn tree_of(points: &[Point3<f64>]) -> KdTree {
 
 fn check_size(points: &[Point3<f64>]) -> Result<(), PaintError> {
     let found = points.len();
-    if found < LEAST_POINTS {
+    if found < MIN_POINTS {
         return Err(PaintError::TooFew { found });
     }
     let first = points[0];
@@ -185,7 +191,7 @@ fn check_size(points: &[Point3<f64>]) -> Result<(), PaintError> {
         .iter()
         .fold((first, first), |(low, high), p| (low.inf(p), high.sup(p)));
     let extent = (high - low).amax();
-    if !(LEAST_EXTENT..=MOST_EXTENT).contains(&extent) {
+    if !(MIN_EXTENT_M..=MAX_EXTENT_M).contains(&extent) {
         return Err(PaintError::Extent { metres: extent });
     }
     Ok(())
@@ -219,8 +225,8 @@ fn side_of(
     };
     let along = direction.dot(&axis);
     Ok(match along {
-        _ if along >= LEAST_ALONG => axis,
-        _ if is_closed && along <= -LEAST_ALONG => -axis,
+        _ if along >= MIN_ALONG_COS => axis,
+        _ if is_closed && along <= -MIN_ALONG_COS => -axis,
         _ => direction,
     })
 }
@@ -234,8 +240,8 @@ fn are_turned(
 ) -> bool {
     let facing = normals.iter().filter(|n| n.dot(side) > 0.0).count();
     let facing = facing as f64 / normals.len().max(1) as f64;
-    if !(LEAST_SHARE..=1.0 - LEAST_SHARE).contains(&facing) {
-        return facing < LEAST_SHARE;
+    if !(MIN_SIDE_SHARE..=1.0 - MIN_SIDE_SHARE).contains(&facing) {
+        return facing < MIN_SIDE_SHARE;
     }
     // Three times the volume, over the area of a point (divergence theorem).
     let all = points.iter().zip(normals);
@@ -260,7 +266,7 @@ fn area_of_point(
         *num_in.entry(of(p)).or_default() += 1.0;
     }
     let each = points.iter().zip(normals).map(|(p, n)| {
-        let slope = n.dot(side).max(LEAST_FACING);
+        let slope = n.dot(side).max(MIN_FACING_COS);
         square * square / slope / num_in[&of(p)]
     });
     let mut areas: Vec<f64> = each.collect();

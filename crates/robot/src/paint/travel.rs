@@ -20,15 +20,15 @@ use geometry::nearest::KdTree;
 use inspection::library::PathPoint;
 
 /// Distance from the surface that moves with the gun off keep, as a share of the stand-off.
-pub(super) const CLEAR: f64 = 0.65;
+pub(super) const CLEARANCE_SHARE: f64 = 0.65;
 /// Distance of the samples of a move, as a share of the stand-off.
-const STEP: f64 = 0.1;
+const SAMPLE_SHARE: f64 = 0.1;
 /// Distance gained from the surface per distance from the end of a stroke that is nearer to it.
-const RISE: f64 = 0.5;
+const RISE_SLOPE: f64 = 0.5;
 /// Most rounds of lifting: lifted moves may come too near elsewhere, fewer each time.
-const MOST_ROUNDS: usize = 6;
+const MAX_ROUNDS: usize = 6;
 /// Least increase of a lift, metres.
-const LEAST_LIFT: f64 = 0.001;
+const MIN_LIFT_M: f64 = 0.001;
 
 struct Clearance {
     tree: KdTree,
@@ -57,15 +57,15 @@ pub(super) fn keep_clear(
     let clearance = Clearance {
         tree: tree_of(&surface.points),
         side: surface.side,
-        kept: CLEAR * coat.stand_off,
-        step: STEP * coat.stand_off,
+        kept: CLEARANCE_SHARE * coat.stand_off,
+        step: SAMPLE_SHARE * coat.stand_off,
     };
     let stops = points.into_iter().map(|point| Stop {
         point,
         is_inserted: false,
     });
     let mut stops: Vec<Stop> = stops.collect();
-    for _ in 0..MOST_ROUNDS {
+    for _ in 0..MAX_ROUNDS {
         let before = stops.len();
         stops = clearance.lifted(stops, coat);
         if stops.len() == before {
@@ -107,7 +107,7 @@ impl Clearance {
     /// Distance to be kept at `p` on a way between `ends`, which may themselves be nearer, as in a corner to be
     /// sprayed.
     fn wanted(&self, p: &Point3<f64>, ends: &[End; 2]) -> f64 {
-        let near = ends.map(|(end, distance)| distance + RISE * (p - end).norm());
+        let near = ends.map(|(end, distance)| distance + RISE_SLOPE * (p - end).norm());
         near.into_iter().fold(self.kept, f64::min)
     }
 
@@ -120,7 +120,7 @@ impl Clearance {
             if missing <= 1e-6 {
                 return lift;
             }
-            lift += missing.max(LEAST_LIFT);
+            lift += missing.max(MIN_LIFT_M);
         }
     }
 

@@ -11,7 +11,7 @@ use super::{
     film::{Film, simulate},
     surface::PaintSurface,
 };
-use crate::program::{MotionPiece, Program, ProgramFormat};
+use crate::program::{MotionPiece, Program, RobotLanguage};
 use geometry::{cloud::PointCloud, error::Advice};
 use inspection::library::{PathPoint, Side, SprayPath};
 use stages::reference::Coverage;
@@ -19,7 +19,7 @@ use stages::reference::Coverage;
 /// Least share of the reachable surface within the tolerance for a film to be good.
 pub const LEAST_WITHIN: f64 = 0.9;
 /// Largest loss of that share which is no reason for a doubt about a program of a path that is below the limit itself.
-const MOST_LOST: f64 = 0.05;
+const MAX_LOST_SHARE: f64 = 0.05;
 
 /// The films of a path and of a program of it.
 #[derive(Clone, Debug)]
@@ -40,7 +40,7 @@ impl WrittenFilm {
     /// no coat, never sprays, or cannot be written as a program, which saving it reports.
     pub fn of(
         program: &Program<'_>,
-        format: ProgramFormat,
+        language: &'static RobotLanguage,
         path: &SprayPath,
         enrolled: &PointCloud,
         coverage: Coverage,
@@ -48,7 +48,7 @@ impl WrittenFilm {
     ) -> Option<Self> {
         let coat = Coat::of_path(path)?;
         let surface = PaintSurface::of_cloud(enrolled, coverage, side).ok()?;
-        let pieces = program.motion(format).ok()?;
+        let pieces = program.motion(language).ok()?;
         let moved = moved(&pieces, path, program, &coat)?;
         Some(Self {
             coat,
@@ -83,7 +83,7 @@ impl WrittenFilm {
         let least = if planned.within >= LEAST_WITHIN {
             LEAST_WITHIN
         } else {
-            planned.within - MOST_LOST
+            planned.within - MAX_LOST_SHARE
         };
         (written.within < least).then_some(FilmOffPlan {
             within: [planned.within, written.within],

@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use super::ProgramFormat;
+use super::{RobotLanguage, language::ToolName};
 use files::FileError;
-use geometry::{error::Advice, units::Metres};
+use geometry::{error::Advice, units::any_of};
 
 /// Why a program cannot be written.
 #[derive(Debug, thiserror::Error)]
@@ -19,20 +19,20 @@ pub enum ProgramError {
         path: PathBuf,
     },
     /// The controller does not accept a program of this name.
-    #[error("{} does not accept a program named {name:?}", format.title())]
+    #[error("{} does not accept a program named {name:?}", language.title)]
     Name {
         /// The language.
-        format: ProgramFormat,
+        language: &'static RobotLanguage,
         /// The name.
         name: String,
         /// Most letters of the file's name, from which the names of called programs are made.
         most: usize,
     },
     /// The name is a word of the language.
-    #[error("{name} is a reserved word of {}, so no program can have this name", format.title())]
+    #[error("{name} is a reserved word of {}, so no program can have this name", language.title)]
     Reserved {
         /// The language.
-        format: ProgramFormat,
+        language: &'static RobotLanguage,
         /// The name.
         name: String,
     },
@@ -46,76 +46,74 @@ pub enum ProgramError {
         point: usize,
     },
     /// A speed outside the controller's range.
-    #[error("point {point} asks for {:.1} mm/s, but {} accepts {:.0} to {:.0}", speed * 1000.0, format.title(), format.speeds()[0] * 1000.0, format.speeds()[1] * 1000.0)]
+    #[error("point {point} asks for {:.1} mm/s, but {} accepts {:.0} to {:.0}", speed * 1000.0, language.title, language.speeds[0] * 1000.0, language.speeds[1] * 1000.0)]
     Speed {
         /// The language.
-        format: ProgramFormat,
+        language: &'static RobotLanguage,
         /// The point, from 1.
         point: usize,
         /// Its speed, m/s.
         speed: f64,
     },
     /// More instructions between two places with the gun off than one program holds.
-    #[error("the gun stays on for {found} instructions, but a program in {} holds at most {most} besides its header", format.title())]
+    #[error("the gun stays on for {found} instructions, but a program in {} holds at most {most} besides its header", language.title)]
     TooMany {
         /// The language.
-        format: ProgramFormat,
+        language: &'static RobotLanguage,
         /// Instructions until the gun closes.
         found: usize,
         /// Instructions that a program holds beside its header.
         most: usize,
     },
     /// Not a tool of the controller.
-    #[error("{tool:?} is not a tool of {}", format.title())]
+    #[error("{tool:?} is not a tool of {}", language.title)]
     Tool {
         /// The language.
-        format: ProgramFormat,
+        language: &'static RobotLanguage,
         /// The tool given.
         tool: String,
     },
     /// A tool was given, but the program sets the nozzle's pose as its tool, or uses the active one.
-    #[error("a program in {} does not use the tool {tool:?}: it uses the pose of the nozzle{}", format.title(), if *format == ProgramFormat::UrScript { ", or the active TCP" } else { "" })]
+    #[error("a program in {} does not use the tool {tool:?}: it uses the pose of the nozzle{}", language.title, if language.tool == ToolName::Active { ", or the active TCP" } else { "" })]
     UnusedTool {
         /// The language.
-        format: ProgramFormat,
+        language: &'static RobotLanguage,
         /// The tool given.
         tool: String,
     },
     /// The arm moves along a rail, but the language has no axis for it.
-    #[error("{} has no axis for the arm's rail", format.title())]
+    #[error("{} has no axis for the arm's rail", language.title)]
     Rail {
         /// The language.
-        format: ProgramFormat,
+        language: &'static RobotLanguage,
     },
     /// The arm changes its configuration in a joint move, which the language cannot name for this arm.
-    #[error("on the way to point {point} {arm} changes its configuration, which a program in {} cannot name", format.title())]
+    #[error("on the way to point {point} {arm} changes its configuration, which a program in {} cannot name", language.title)]
     Configuration {
         /// The language.
-        format: ProgramFormat,
+        language: &'static RobotLanguage,
         /// The point, from 1.
         point: usize,
         /// Name of the arm.
         arm: String,
     },
     /// Not a digital output of the controller.
-    #[error("{} has no digital output {output}", format.title())]
+    #[error("{} has no digital output {output}", language.title)]
     Output {
         /// The language.
-        format: ProgramFormat,
+        language: &'static RobotLanguage,
         /// Number of the output.
         output: u16,
     },
     /// A length of the settings is out of its range.
-    #[error("a {name} of {value}, expected {:.0} to {:.0} mm", low.mm(), high.mm())]
+    #[error("a {name} of {value:.1} mm, expected {} to {} mm", range[0], range[1])]
     Length {
         /// Name of the length.
         name: &'static str,
-        /// The value given.
-        value: Metres,
-        /// Least value.
-        low: Metres,
-        /// Greatest value.
-        high: Metres,
+        /// The value given, mm.
+        value: f64,
+        /// Least and greatest value, mm.
+        range: [f64; 2],
     },
 }
 
@@ -124,7 +122,7 @@ impl Advice for ProgramError {
         match self {
             Self::File(error) => error.advice(),
             Self::UnknownEnding { .. } => {
-                let known = ProgramFormat::ALL.map(|format| format!(".{}", format.ending()));
+                let known = RobotLanguage::ENDINGS.map(|ending| format!(".{ending}"));
                 format!(
                     "End the file's name in {}, or choose the language with --robot-program-format (path export: --as)",
                     known.join(", ")
@@ -142,25 +140,31 @@ impl Advice for ProgramError {
             Self::TooMany { .. } => {
                 "Plan the path with a larger point_spacing, or close the gun in between: a long path is cut where the gun is off".into()
             }
-            Self::Tool { format, .. } => match format.most_tools() {
-                Some(most) => format!("Give a number from 1 to {most} with --tool"),
-                None => "Give the tool's name on the controller with --tool: letters, digits and _, a letter first".into(),
+            Self::Tool { language, .. } => match language.tool {
+                ToolName::Number(most) => format!("Give a number from 1 to {most} with --tool"),
+                _ => "Give the tool's name on the controller with --tool: letters, digits and _, a letter first".into(),
             },
-            Self::UnusedTool { format: ProgramFormat::UrScript, .. } => {
+            Self::UnusedTool { language, .. } if language.tool == ToolName::Active => {
                 "Leave out the tool (--tool). Give the nozzle's pose (--nozzle), or activate the TCP on the controller".into()
             }
             Self::UnusedTool { .. } => {
                 "Leave out the tool (--tool), or the nozzle's pose (--nozzle) to use the controller's tool".into()
             }
-            Self::Output { format, .. } => {
-                let [low, high] = format.outputs();
+            Self::Output { language, .. } => {
+                let (low, high) = (language.outputs.start(), language.outputs.end());
                 format!("Give a number from {low} to {high} with --gun-output")
             }
             Self::Configuration { .. } => {
                 "Write the program for the controller of the arm's maker, or move the arm's base until no such move is needed".into()
             }
             Self::Rail { .. } => {
-                "Leave out the rail's speed so that it stands still, or write the program for KUKA, FANUC, ABB or Yaskawa".into()
+                let all = RobotLanguage::ALL.into_iter();
+                let makers = all.filter(|language| language.rail_axis.is_some());
+                let makers: Vec<&str> = makers.map(|language| language.maker).collect();
+                format!(
+                    "Leave out the rail's speed so that it stands still, or write the program for {}",
+                    any_of(&makers)
+                )
             }
             Self::Length { .. } => "Give a length in millimetres within this range".into(),
         }

@@ -1,73 +1,59 @@
 //! Programs for a robot's controller: the part's spray path as linear moves with speed, blending and gun.
 //!
-//! | format | pose | speed | acceleration | blending | gun | source |
-//! | --- | --- | --- | --- | --- | --- | --- |
-//! | KUKA KRL | X Y Z A B C | `$VEL.CP`, m/s | `$ACC.CP` | `C_DIS`, `$APO.CDIS` | `TRIGGER … DO $OUT` | KUKA, *System Software 8.3, Operating and Programming Instructions for System Integrators* and *System Variables* |
-//! | FANUC LS | X Y Z W P R | whole mm/sec | the arm's | `CNT100` | `TB 0.00sec,DO` | FANUC, *R-30iB Operator's Manual (Basic Operation)*, also "TIME BEFORE/AFTER" |
-//! | ABB RAPID | pos, orient | speeddata, mm/s | `PathAccLim` | zonedata | `MoveLDO` | ABB, *RAPID Instructions, Functions and Data types* |
-//! | `URScript` | p[…] | m/s | `a` | `r` | `set_standard_digital_out` | Universal Robots, *Script Manual*, and *User Manual*, "Blending" |
-//! | Yaskawa JBI | X Y Z Rx Ry Rz, RECTAN in BASE | `V`, mm/s | the arm's | none but at `PL=0` | `DOUT OT#`, `NWAIT` | Yaskawa, *DX100 Options: Instructions for Data Transmission*, job data format, and *Instructions for INFORM Language*, "NWAIT" |
-//! | Doosan DRL | posx | `vel`, mm/s | `acc` | `radius` | `set_digital_output` | Doosan, *Programming Manual*, motion and I/O |
+//! Each language is a [`RobotLanguage`], a table in a file of its own that says how it writes poses, speeds, accelerations,
+//! blends and the gun, and by which manual.
 //!
 //! Every program does the same: gun off; a joint move to the approach point, which is behind the first point along the
 //! nozzle; the path; gun off; a linear move away. A point's gun state and speed apply on the way to the next point. All
 //! poses are `robot_from_nozzle` in the frame of the calibration: the robot's base frame, unless the arm was checked with
 //! its base elsewhere.
 //!
-//! The gun switches while the robot moves: in the middle of the blend at the point (KRL, RAPID), where the move to it ends
-//! (LS, a time before its end of 0 s), or as the next move begins (JBI, `NWAIT` runs instructions during a move). A
-//! Universal Robots' controller runs what follows a blended move as it enters the blend, so blends are at most 5 mm
-//! there. DRL runs outputs ahead of a blended move, at a moment that could not be established: the robot stops at the
-//! point. The film of the program follows from [`Program::motion`].
+//! The gun switches while the robot moves, where the language can: in the middle of the blend at the point, where the move to
+//! it ends, or as the blend or the next move begins; otherwise the robot stops there. The film of the program follows from
+//! [`Program::motion`].
 //!
 //! If an arm was checked to reach the path, and the controller is of the arm's maker, the points also name the
 //! configuration that was checked, so that the controller takes no other (`configuration`).
 //!
-//! A rail that moves along the path is the first external axis of every position, in millimetres: E1 of KRL and LS,
-//! `eax_a` of RAPID (ABB's manual, "extjoint"), BC of JBI (Yaskawa's manual, "RECTAN"). Poses stay in the base frame,
-//! which does not move along. `URScript` and DRL have no such axis.
+//! A rail that moves along the path is the first external axis of every position, in millimetres. Poses stay in the base
+//! frame, which does not move along.
 //!
-//! LS and JBI hold 9999 instructions. A longer path is cut where the gun is off into several programs, called by a main
-//! program. Their names contain a checksum of the whole: on a controller that still has parts of an earlier path, or
+//! Programs of LS and JBI hold 9999 instructions. A longer path is cut where the gun is off into several programs, called by
+//! a main program. Their names contain a checksum of the whole: on a controller that still has parts of an earlier path, or
 //! lacks some, the call fails, so no robot follows one path with the end of another.
 //!
-//! Known limits: nothing here was tried on a controller. LS and JBI state accelerations only as shares of the arm's. If
-//! the configuration is not known, `CONFIG` of LS and `RCONF` of JBI name the usual one (no flip, elbow up, front), and the other
-//! programs leave it to the controller.
+//! Known limits: nothing here was tried on a controller. If the configuration is not known, LS and JBI name the usual one (no
+//! flip, elbow up, front), and the other programs leave it to the controller.
 
 mod configuration;
 mod error;
-mod format;
-mod jbi;
-mod krl;
-mod ls;
+mod language;
 mod motion;
 mod prepare;
-pub mod ranges;
-mod rapid;
 mod save;
+mod settings;
 mod steps;
 mod text;
-mod urscript_drl;
 
 #[cfg(test)]
 mod tests;
 
 use jiff::Timestamp;
 
-use self::{configuration::configuration, steps::Step, text::Lines};
+use self::{configuration::configuration, language::ToolName, steps::Step, text::Lines};
 use crate::arm::{PathCheck, PlacedArm, Way};
 use geometry::{
     rigid::{RigidTransform, is_finite},
-    units::{Metres, Radians, counted},
+    units::{Metres, counted},
 };
 
 pub use self::{
     error::ProgramError,
-    format::{PROGRAM_ENDINGS, ProgramFormat},
+    language::RobotLanguage,
     motion::MotionPiece,
     prepare::{arm_points, check_reach, program_points},
     save::{ProgramTexts, remove_previous_program},
+    settings::{ProgramGroup, ProgramParams, ProgramSettings},
 };
 
 /// One pose of the nozzle.
@@ -77,51 +63,14 @@ pub struct ProgramPoint {
     pub robot_from_nozzle: RigidTransform,
     /// True if the gun sprays on the way to the next point.
     pub is_gun_on: bool,
-    /// Speed on the way to the next point, m/s; none for [`ProgramSettings::speed`].
+    /// Speed on the way to the next point, m/s; none for [`ProgramParams::speed`].
     pub speed: Option<f64>,
 }
 
-/// Settings of the cell and of the moves.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ProgramSettings {
-    /// The tool on the controller: a number for KRL, LS and JBI, a name for RAPID and DRL; none for `URScript`, and for
-    /// RAPID with the nozzle's pose. Default: 1, or `tool1`.
-    pub tool: Option<String>,
-    /// Pose of the nozzle on the flange. KRL, RAPID and `URScript` set it; otherwise the controller's tool applies.
-    pub flange_from_nozzle: Option<RigidTransform>,
-    /// Number of the digital output that opens the gun.
-    pub gun_output: u16,
-    /// Speed where the path sets none, m/s.
-    pub speed: f64,
-    /// Distance of the approach point behind the first point, and of the end behind the last, 10..1000 mm.
-    pub approach: Metres,
-    /// Maximum tilt of the nozzle about the point that it aims at, 0..30°; used only where a checked arm cannot otherwise
-    /// follow the path.
-    pub max_tilt: Radians,
-    /// Radius within which the robot may cut a corner, 0..100 mm; at most 0.45 of the distance to the neighbouring
-    /// points.
-    pub blend: Metres,
-}
-
-impl Default for ProgramSettings {
-    fn default() -> Self {
-        Self {
-            tool: None,
-            flange_from_nozzle: None,
-            gun_output: 1,
-            speed: 0.25,
-            approach: Metres(0.1),
-            // This hardly changes how much of the film is within a tolerance of 20 %.
-            max_tilt: Radians::from_degrees(10.0),
-            blend: Metres(0.005),
-        }
-    }
-}
-
 /// Joint speed of the first move, as a share of the maximum.
-const JOINT_SPEED: f64 = 0.1;
+const JOINT_SPEED_SHARE: f64 = 0.1;
 /// Acceleration of linear moves where the path has none, m/s²: the default of `URScript`, which is low for any arm.
-const ACCELERATION: f64 = 1.2;
+const DEFAULT_ACCELERATION: f64 = 1.2;
 
 /// A path to be written as a program, and the content of its header.
 #[derive(Clone, Debug)]
@@ -160,80 +109,64 @@ const MARK: &str = "Partsight robot program";
 impl Program<'_> {
     /// Acceleration of linear moves, m/s².
     fn line_acceleration(&self) -> f64 {
-        self.acceleration.unwrap_or(ACCELERATION)
+        self.acceleration.unwrap_or(DEFAULT_ACCELERATION)
     }
 
-    fn check(&self, format: ProgramFormat, name: &str) -> Result<(), ProgramError> {
-        let most = format.longest_name();
+    fn check(&self, language: &'static RobotLanguage, name: &str) -> Result<(), ProgramError> {
+        let most = language.max_name;
         if name.len() > most || !text::is_identifier(name) {
             return Err(ProgramError::Name {
-                format,
+                language,
                 name: name.to_owned(),
                 most,
             });
         }
-        if text::is_reserved(format, name) {
+        if language.is_reserved(name) {
             return Err(ProgramError::Reserved {
-                format,
+                language,
                 name: name.to_owned(),
             });
         }
         let settings = self.settings;
-        let lengths = [
-            ("approach", settings.approach, ranges::APPROACH_MM),
-            ("blend", settings.blend, ranges::BLEND_MM),
-        ];
-        for (name, value, range) in lengths {
-            if !range.contains(&value.mm()) {
-                return Err(ProgramError::Length {
-                    name,
-                    value,
-                    low: Metres::from_mm(*range.start()),
-                    high: Metres::from_mm(*range.end()),
-                });
+        settings.params.check_lengths()?;
+        let output = settings.params.gun_output;
+        if !language.outputs.contains(&output) {
+            return Err(ProgramError::Output { language, output });
+        }
+        let tool = self.tool(language);
+        let is_tool = match language.tool {
+            ToolName::Number(most) => {
+                (tool.parse::<u8>()).is_ok_and(|tool| (1..=most).contains(&tool))
             }
-        }
-        let [low, high] = format.outputs();
-        if !(low..=high).contains(&settings.gun_output) {
-            return Err(ProgramError::Output {
-                format,
-                output: settings.gun_output,
-            });
-        }
-        let tool = self.tool(format);
-        let is_tool = format.most_tools().map_or_else(
-            || text::is_identifier(&tool) && tool.len() <= 32,
-            |most| (tool.parse::<u8>()).is_ok_and(|tool| (1..=most).contains(&tool)),
-        );
-        if !is_tool {
-            return Err(ProgramError::Tool { format, tool });
-        }
-        let has_own_tool = match format {
-            ProgramFormat::UrScript => true,
-            ProgramFormat::Rapid => settings.flange_from_nozzle.is_some(),
-            _ => false,
+            _ => text::is_identifier(&tool) && tool.len() <= 32,
         };
-        if has_own_tool && settings.tool.is_some() {
-            return Err(ProgramError::UnusedTool { format, tool });
+        if !is_tool {
+            return Err(ProgramError::Tool { language, tool });
         }
-        self.check_path(format)
+        let is_named = language
+            .tool
+            .is_named(settings.flange_from_nozzle.is_some());
+        if !is_named && settings.tool.is_some() {
+            return Err(ProgramError::UnusedTool { language, tool });
+        }
+        self.check_path(language)
     }
 
     /// Checks the points, apart from the settings that only the text contains.
-    fn check_path(&self, format: ProgramFormat) -> Result<(), ProgramError> {
+    fn check_path(&self, language: &'static RobotLanguage) -> Result<(), ProgramError> {
         let settings = self.settings;
         if self.points.is_empty() {
             return Err(ProgramError::NoPoints);
         }
-        let [low, high] = format.speeds();
+        let [low, high] = language.speeds;
         for (i, point) in self.points.iter().enumerate() {
             if !is_finite(&point.robot_from_nozzle) {
                 return Err(ProgramError::NotFinite { point: i + 1 });
             }
-            let speed = point.speed.unwrap_or(settings.speed);
+            let speed = point.speed.unwrap_or(settings.params.speed);
             if !(low..=high).contains(&speed) {
                 return Err(ProgramError::Speed {
-                    format,
+                    language,
                     point: i + 1,
                     speed,
                 });
@@ -245,28 +178,28 @@ impl Program<'_> {
             return Err(ProgramError::NotFinite { point: 0 });
         }
         if let Some((arm, check)) = self.reach
-            && let Some(place) = check.points.iter().position(|p| p.way == Way::Joints)
-            && !self.names_configurations(format)
+            && let Some(index) = check.points.iter().position(|p| p.way == Way::Joints)
+            && !self.names_configurations(language)
         {
             return Err(ProgramError::Configuration {
-                format,
-                point: place + 1,
+                language,
+                point: index + 1,
                 arm: arm.arm.name.clone(),
             });
         }
-        if self.moves_on_rail() && format.rail_axis().is_none() {
-            return Err(ProgramError::Rail { format });
+        if self.moves_on_rail() && language.rail_axis.is_none() {
+            return Err(ProgramError::Rail { language });
         }
         Ok(())
     }
 
     /// True if the language can express the configuration of the checked arm at every point that it reaches. Otherwise the
     /// program gives no configuration at all: with some of them, the controller might turn a joint by a full turn in between.
-    fn names_configurations(&self, format: ProgramFormat) -> bool {
+    fn names_configurations(&self, language: &RobotLanguage) -> bool {
         self.reach.is_some_and(|(arm, check)| {
             let all = check.points.iter().chain(check.ends.iter().flatten());
             let mut joints = all.filter_map(|point| point.joints);
-            joints.all(|joints| configuration(format, &arm.arm, &joints).is_some())
+            joints.all(|joints| configuration(language, &arm.arm, &joints).is_some())
         })
     }
 
@@ -282,20 +215,14 @@ impl Program<'_> {
     }
 
     /// The tool's number or name on the controller.
-    fn tool(&self, format: ProgramFormat) -> String {
-        let standard = match format.most_tools() {
-            Some(_) => "1",
-            None => "tool1",
-        };
-        self.settings
-            .tool
-            .clone()
-            .unwrap_or_else(|| standard.into())
+    fn tool(&self, language: &RobotLanguage) -> String {
+        let given = self.settings.tool.clone();
+        given.unwrap_or_else(|| language.tool.standard().into())
     }
 
     /// The header's lines, of any length.
-    fn header(&self, format: ProgramFormat, steps: &[Step]) -> Vec<String> {
-        let convention = format.convention();
+    fn header(&self, language: &RobotLanguage, steps: &[Step]) -> Vec<String> {
+        let convention = language.convention;
         let seen = match self.scene {
             Some(scene) => format!("scene: {scene}"),
             None => "standard position".into(),
@@ -313,10 +240,10 @@ impl Program<'_> {
             "robot_from_part: {}",
             convention.write(&self.robot_from_part).line()
         ));
-        let tool = self.tool(format);
+        let tool = self.tool(language);
         lines.push(match &self.settings.flange_from_nozzle {
             Some(tool) => format!("flange_from_nozzle: {}", convention.write(tool).line()),
-            None if format == ProgramFormat::UrScript => {
+            None if language.tool == ToolName::Active => {
                 "tool: the active TCP at the nozzle mouth, z towards the part".into()
             }
             None => format!("tool: {tool}, at the nozzle mouth, z towards the part"),
@@ -331,7 +258,7 @@ impl Program<'_> {
                 None => "frame: robot base".into(),
             },
         );
-        if let Some(axis) = format.rail_axis().filter(|_| self.moves_on_rail()) {
+        if let Some(axis) = language.rail_axis.filter(|_| self.moves_on_rail()) {
             lines.push(format!(
                 "rail: {axis}, mm, 0 where the cell was calibrated, coupled to the arm; the frame does not move with it"
             ));
@@ -374,7 +301,7 @@ impl Program<'_> {
         lines.push(format!(
             "{}, gun: output {}",
             counted(self.points.len(), "point", "points"),
-            self.settings.gun_output
+            self.settings.params.gun_output
         ));
         lines.push(match self.film {
             Some(film) => format!("film: {film}"),

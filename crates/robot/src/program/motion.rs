@@ -3,14 +3,14 @@
 //! A blend cuts its corner along a parabola between two points at the blend's radius from it. Along this way the speed
 //! is as high as each move allows, and changes no faster than the program's acceleration. It is zero where the robot
 //! stops; in a blend the acceleration also limits it on the parabola's tightest curve. The gun switches where the
-//! language switches it ([`ProgramFormat::switches_at`]).
+//! language switches it ([`RobotLanguage::switches_at`]).
 //!
 //! Known limits: LS and JBI name no radius of a blend, and their accelerations are those of the arm; the blends and the
 //! acceleration of the other languages are assumed. Turns of the nozzle, jerk and the delay of valves are ignored, as
 //! are the stops between the parts of a split program, where the gun is off.
 
 use super::{
-    Program, ProgramError, ProgramFormat,
+    Program, ProgramError, RobotLanguage,
     steps::{Line, Motion, Step, steps_of},
 };
 use geometry::rigid::RigidTransform;
@@ -39,11 +39,11 @@ impl MotionPiece {
 }
 
 /// Longest piece, metres: short compared with a jet, within which the speed may change.
-const LONGEST: f64 = 0.004;
+const MAX_PIECE_LENGTH: f64 = 0.004;
 /// Fewest pieces of a way: a single one from stop to stop would never end.
-const LEAST_PIECES: f64 = 2.0;
+const MIN_PIECES: f64 = 2.0;
 /// Shares of a blend at which its pieces meet.
-const IN_BLEND: [f64; 3] = [0.25, 0.5, 0.75];
+const BLEND_SHARES: [f64; 3] = [0.25, 0.5, 0.75];
 
 /// Rounds in which the speeds of moves are found.
 const NUM_ROUNDS: usize = 8;
@@ -51,19 +51,22 @@ const NUM_ROUNDS: usize = 8;
 impl Program<'_> {
     /// Returns the motion along the linear moves of the program in this language. Joint moves, with the gun off, are left
     /// out: their duration depends on the arm.
-    pub fn motion(&self, format: ProgramFormat) -> Result<Vec<MotionPiece>, ProgramError> {
-        self.check_path(format)?;
-        let steps = self.steps(format);
-        Ok(pieces_of(&steps, format, self.line_acceleration()))
+    pub fn motion(
+        &self,
+        language: &'static RobotLanguage,
+    ) -> Result<Vec<MotionPiece>, ProgramError> {
+        self.check_path(language)?;
+        let steps = self.steps(language);
+        Ok(pieces_of(&steps, language, self.line_acceleration()))
     }
 
     /// The steps of the program. If the path's acceleration is known, the speeds with the gun on are those at which the
     /// moves take about the planned time: a robot changes its speed within the faster of two moves, while a path is planned
     /// with half of the change on either side of the point.
-    pub(super) fn steps(&self, format: ProgramFormat) -> Vec<Step> {
-        let mut steps = steps_of(self, format);
+    pub(super) fn steps(&self, language: &RobotLanguage) -> Vec<Step> {
+        let mut steps = steps_of(self, language);
         if let Some(acceleration) = self.acceleration {
-            keep_times(&mut steps, format, acceleration);
+            keep_times(&mut steps, language, acceleration);
         }
         steps
     }
@@ -71,15 +74,15 @@ impl Program<'_> {
 
 /// Raises the speeds with the gun on until each move takes its planned time together with its two neighbours, which
 /// paint much of the same surface, or until it would be faster than planned half-way to a neighbour.
-fn keep_times(steps: &mut [Step], format: ProgramFormat, acceleration: f64) {
-    let [_, fastest] = format.speeds();
+fn keep_times(steps: &mut [Step], language: &RobotLanguage, acceleration: f64) {
+    let [_, fastest] = language.speeds;
     let speed_to = |step: &Step| line_to(step).map(|line| line.speed);
     let planned: Vec<Option<f64>> = steps.iter().map(speed_to).collect();
     let squared = |step: usize| Some(planned.get(step).copied()??.powi(2));
     for _ in 0..NUM_ROUNDS {
         // Seconds of each move with the gun on: as planned, and as the robot moves.
         let mut seconds = vec![[0.0; 2]; steps.len()];
-        for piece in pieces_of(steps, format, acceleration) {
+        for piece in pieces_of(steps, language, acceleration) {
             let step = piece.point.map_or(1, |point| point + 2);
             if let (true, Some(speed)) = (piece.is_gun_on, planned[step]) {
                 seconds[step][0] += piece.length() / speed;
@@ -103,7 +106,7 @@ fn keep_times(steps: &mut [Step], format: ProgramFormat, acceleration: f64) {
 }
 
 /// The motion along the linear moves of these steps.
-fn pieces_of(steps: &[Step], format: ProgramFormat, acceleration: f64) -> Vec<MotionPiece> {
+fn pieces_of(steps: &[Step], language: &RobotLanguage, acceleration: f64) -> Vec<MotionPiece> {
     let (mut pieces, mut is_on) = (Vec::new(), false);
     // The robot stops before and after a joint move.
     let is_joint_move = |step: &Step| matches!(step.motion, Motion::Joints(_));
@@ -112,7 +115,7 @@ fn pieces_of(steps: &[Step], format: ProgramFormat, acceleration: f64) -> Vec<Mo
         let others = steps[first + 1..].iter();
         let num = others.take_while(|step| !is_joint_move(step)).count();
         is_on = steps[first].gun().unwrap_or(is_on);
-        let mut run = Run::new(format, acceleration, is_on);
+        let mut run = Run::new(language, acceleration, is_on);
         for step in first + 1..=first + num {
             run.add_move(steps, step);
         }
@@ -146,9 +149,9 @@ struct Run {
 }
 
 impl Run {
-    fn new(format: ProgramFormat, acceleration: f64, is_on: bool) -> Self {
+    fn new(language: &RobotLanguage, acceleration: f64, is_on: bool) -> Self {
         Self {
-            switches_at: format.switches_at(),
+            switches_at: language.switches_at,
             acceleration,
             is_on,
             nodes: Vec::new(),
@@ -175,7 +178,7 @@ impl Run {
         let way = Way::new(&from.to, &to.to);
         let begin = line_to(from).map_or(0.0, |line| line.blend);
         let straight = (way.length - begin - line.blend).max(0.0);
-        let num = (straight / LONGEST).ceil().max(LEAST_PIECES);
+        let num = (straight / MAX_PIECE_LENGTH).ceil().max(MIN_PIECES);
         for k in 0..num as usize {
             let is_stop = k == 0 && begin <= 0.0;
             let limit = if is_stop { 0.0 } else { f64::INFINITY };
@@ -194,7 +197,7 @@ impl Run {
     /// Adds the blend between the moves to a step and to the next one.
     fn add_blend(&mut self, ways: &[Way; 2], lines: [&Line; 2], step: usize) {
         let blend = lines[0].blend;
-        for share in std::iter::once(0.0).chain(IN_BLEND) {
+        for share in std::iter::once(0.0).chain(BLEND_SHARES) {
             if share >= self.switches_at {
                 self.is_on = lines[0].gun.unwrap_or(self.is_on);
             }

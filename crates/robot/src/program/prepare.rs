@@ -3,7 +3,7 @@
 use super::{ProgramPoint, ProgramSettings};
 use crate::{
     RobotFrame,
-    arm::{ArmError, ArmPoint, CheckParams, PathCheck, PlacedArm, check_path},
+    arm::{ArmError, ArmPoint, PathCheck, PlacedArm, check_path},
     spray::CarriedPath,
 };
 
@@ -28,17 +28,6 @@ pub fn arm_points(carried: &CarriedPath, frame: &RobotFrame, speed: f64) -> Vec<
     points.collect()
 }
 
-impl ProgramSettings {
-    /// How the arm of a program with these settings is checked: with its approach point and its end.
-    pub fn check_params(&self) -> CheckParams {
-        CheckParams {
-            max_tilt: self.max_tilt.0,
-            approach: Some(self.approach.0),
-            ..CheckParams::default()
-        }
-    }
-}
-
 /// Checks whether an arm reaches a carried path without a collision, and the ways to it and from it.
 pub fn check_reach(
     arm: &PlacedArm,
@@ -46,8 +35,8 @@ pub fn check_reach(
     frame: &RobotFrame,
     settings: &ProgramSettings,
 ) -> Result<PathCheck, ArmError> {
-    let points = arm_points(carried, frame, settings.speed);
-    check_path(arm, &points, &settings.check_params())
+    let points = arm_points(carried, frame, settings.params.speed);
+    check_path(arm, &points, &settings.params.check_params())
 }
 
 /// Returns the points of a program. With `reach`, the nozzle is turned and tilted as in the check.
@@ -126,7 +115,7 @@ mod tests {
     fn the_way_to_the_path_and_from_it_has_to_be_reached_as_well() {
         let (arm, frame) = cell();
         let mut settings = ProgramSettings::default();
-        let stops = arm_points(&line(1.2), &frame, settings.speed);
+        let stops = arm_points(&line(1.2), &frame, settings.params.speed);
         let stops: Vec<bool> = stops.iter().map(|point| point.is_stop).collect();
         assert_eq!(stops, [true, false, false, false, true]);
         let near = check_reach(&arm, &line(1.2), &frame, &settings).expect("checked");
@@ -139,7 +128,7 @@ mod tests {
             assert_eq!(arm.arm.configuration(&end), arm.arm.configuration(&point));
         }
         // The arm does not reach 5 m behind the nozzle.
-        settings.approach = Metres(5.0);
+        settings.params.approach = Metres(5.0);
         let far = check_reach(&arm, &line(1.2), &frame, &settings).expect("checked");
         let problems: Vec<bool> = far.points.iter().map(|p| p.problem.is_some()).collect();
         assert_eq!(problems, [true, false, false, false, true]);
@@ -160,11 +149,9 @@ mod tests {
         let checked = |points: &[Point3<f32>], x: f64, approach: f64| {
             let robot_from_part = Translation3::new(x, 0.0, 1.2).into();
             let arm = arm.clone().with_part(points, &robot_from_part);
-            let settings = ProgramSettings {
-                approach: Metres(approach),
-                max_tilt: Radians(0.0),
-                ..ProgramSettings::default()
-            };
+            let mut settings = ProgramSettings::default();
+            settings.params.approach = Metres(approach);
+            settings.params.max_tilt = Radians(0.0);
             check_reach(&arm, &line(1.2), &frame, &settings).expect("checked")
         };
         // A 1 m plate with a point every 10 mm, perpendicular to the jet.

@@ -7,10 +7,10 @@ use std::{
 };
 
 use super::{
-    MARK, Program, ProgramError, ProgramFormat, jbi, krl, ls, rapid,
+    MARK, Program, ProgramError, RobotLanguage,
+    language::Calls,
     steps::{self, Step},
-    text::Lines,
-    urscript_drl,
+    text::{self, Lines},
 };
 use files::{FileError, crc32, disk, folder_of, open_regular, write_text};
 
@@ -85,9 +85,13 @@ pub(super) fn beside(path: &Path, name: &str) -> PathBuf {
 impl Program<'_> {
     /// Writes the program, whole or not at all, with the file's name as its own. Programs that it calls are written
     /// beside it first; returns their number.
-    pub fn save(&self, path: &Path, format: ProgramFormat) -> Result<usize, ProgramError> {
+    pub fn save(
+        &self,
+        path: &Path,
+        language: &'static RobotLanguage,
+    ) -> Result<usize, ProgramError> {
         let name = path.file_stem().unwrap_or_default().to_string_lossy();
-        let ProgramTexts { main, parts } = self.texts(format, &name)?;
+        let ProgramTexts { main, parts } = self.texts(language, &name)?;
         if !parts.is_empty() {
             // While the parts are written, there must be no main program that calls them.
             remove_previous_program(path)?;
@@ -105,19 +109,24 @@ impl Program<'_> {
     }
 
     /// Returns the program's text, split into several programs if one would be too long.
-    pub fn texts(&self, format: ProgramFormat, name: &str) -> Result<ProgramTexts, ProgramError> {
-        self.check(format, name)?;
-        let mut steps = self.steps(format);
-        let header = self.header(format, &steps);
-        let whole = self.write(format, &steps, &header, name);
-        let is_too_long = |most: &usize| whole.num_instructions() > *most;
-        let Some(most) = format.most_lines().filter(is_too_long) else {
+    pub fn texts(
+        &self,
+        language: &'static RobotLanguage,
+        name: &str,
+    ) -> Result<ProgramTexts, ProgramError> {
+        self.check(language, name)?;
+        let mut steps = self.steps(language);
+        let header = self.header(language, &steps);
+        let whole = self.write(language, &steps, &header, name);
+        let calls = language.calls.as_ref();
+        let is_too_long = |calls: &&Calls| whole.num_instructions() > calls.max_instructions;
+        let Some(calls) = calls.filter(is_too_long) else {
             return Ok(ProgramTexts {
-                main: whole.finish(format),
+                main: whole.finish(language),
                 parts: Vec::new(),
             });
         };
-        let checksum = crc32(whole.finish(format).as_bytes());
+        let checksum = crc32(whole.finish(language).as_bytes());
         let called = |number: usize| format!("{name}_{checksum:08x}_{number}");
         let header_of = |number: usize, all: usize| {
             let mut header = header.clone();
@@ -126,50 +135,47 @@ impl Program<'_> {
             header
         };
         // With larger numbers than there will be, so that no header is longer.
-        let empty = self.write(format, &[], &header_of(most, most), name);
+        let most = calls.max_instructions;
+        let empty = self.write(language, &[], &header_of(most, most), name);
         // A job of JBI may have to wait for its last move.
         let most = most.saturating_sub(empty.num_instructions() + 1);
         let ranges =
-            steps::split(&mut steps, format, most).map_err(|found| ProgramError::TooMany {
-                format,
+            steps::split(&mut steps, calls, most).map_err(|found| ProgramError::TooMany {
+                language,
                 found,
                 most,
             })?;
         let names: Vec<String> = (1..=ranges.len()).map(called).collect();
         let longest = names.last().map_or(0, String::len);
-        if longest > format.longest_name() {
+        if longest > language.max_name {
             return Err(ProgramError::Name {
-                format,
+                language,
                 name: called(ranges.len()),
-                most: format.longest_name().saturating_sub(longest - name.len()),
+                most: language.max_name.saturating_sub(longest - name.len()),
             });
         }
-        // Only LS and JBI have a limit.
-        let main = if format == ProgramFormat::Ls {
-            ls::write_calls(self, &names, &header, name)
-        } else {
-            jbi::write_calls(self, &names, &header, name)
-        };
+        let comments = text::comments(&header, language.comment_width);
+        let main = (calls.write)(self, &names, &comments, name);
         let texts = ranges.iter().zip(&names).enumerate();
         let texts = texts.map(|(i, (range, name))| {
             let header = header_of(i + 1, ranges.len());
-            self.write(format, &steps[range.clone()], &header, name)
-                .finish(format)
+            self.write(language, &steps[range.clone()], &header, name)
+                .finish(language)
         });
         Ok(ProgramTexts {
-            main: main.finish(format),
+            main: main.finish(language),
             parts: names.iter().cloned().zip(texts).collect(),
         })
     }
 
-    fn write(&self, format: ProgramFormat, steps: &[Step], header: &[String], name: &str) -> Lines {
-        match format {
-            ProgramFormat::Krl => krl::write(self, steps, header, name),
-            ProgramFormat::Ls => ls::write(self, steps, header, name),
-            ProgramFormat::Rapid => rapid::write(self, steps, header, name),
-            ProgramFormat::UrScript => urscript_drl::write_urscript(self, steps, header, name),
-            ProgramFormat::Jbi => jbi::write(self, steps, header, name),
-            ProgramFormat::Drl => urscript_drl::write_drl(self, steps, header),
-        }
+    fn write(
+        &self,
+        language: &RobotLanguage,
+        steps: &[Step],
+        header: &[String],
+        name: &str,
+    ) -> Lines {
+        let comments = text::comments(header, language.comment_width);
+        (language.write)(self, steps, &comments, name)
     }
 }

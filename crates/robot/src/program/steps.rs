@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use nalgebra::Translation3;
 
-use super::{Program, ProgramFormat, ProgramPoint, configuration::configuration};
+use super::{Program, ProgramPoint, RobotLanguage, configuration::configuration, language::Calls};
 use crate::arm::{PointCheck, Way};
 use geometry::rigid::RigidTransform;
 
@@ -49,17 +49,17 @@ impl Step {
         }
     }
 
-    /// Instructions of the step: a move of LS also switches the gun, JBI has an instruction for it.
-    fn num_instructions(&self, format: ProgramFormat) -> usize {
-        1 + usize::from(self.gun().is_some() && format != ProgramFormat::Ls)
+    fn num_instructions(&self, calls: &Calls) -> usize {
+        let is_switch = self.gun().is_some();
+        1 + usize::from(is_switch) * calls.num_switch_instructions
     }
 }
 
 /// Limit of a blend as a share of the way to the next point, so that two blends do not touch.
-const BLEND_SHARE: f64 = 0.45;
+const MAX_BLEND_SHARE: f64 = 0.45;
 
 /// Returns the steps of a program with at least one point.
-pub(super) fn steps_of(program: &Program<'_>, format: ProgramFormat) -> Vec<Step> {
+pub(super) fn steps_of(program: &Program<'_>, language: &RobotLanguage) -> Vec<Step> {
     let Program {
         points, settings, ..
     } = program;
@@ -68,10 +68,10 @@ pub(super) fn steps_of(program: &Program<'_>, format: ProgramFormat) -> Vec<Step
     };
     let checked = program.reach.map(|(arm, check)| (&arm.arm, check));
     let ends = checked.and_then(|(_, check)| check.ends.as_ref());
-    let is_named = program.names_configurations(format);
+    let is_named = program.names_configurations(language);
     let stands = |point: Option<&PointCheck>| {
         let (arm, _) = checked.filter(|_| is_named)?;
-        configuration(format, arm, &point?.joints?)
+        configuration(language, arm, &point?.joints?)
     };
     let rail = |point: Option<&PointCheck>| {
         let (arm, _) = checked?;
@@ -81,10 +81,10 @@ pub(super) fn steps_of(program: &Program<'_>, format: ProgramFormat) -> Vec<Step
     let at = |index: usize| checked.and_then(|(_, check)| check.points.get(index));
     // The pose behind a point, turned and tilted as in the check.
     let behind = |point: &ProgramPoint, end: Option<&PointCheck>| {
-        let away = Translation3::new(0.0, 0.0, -settings.approach.0);
+        let away = Translation3::new(0.0, 0.0, -settings.params.approach.0);
         end.map_or(point.robot_from_nozzle * away, |end| end.robot_from_nozzle)
     };
-    let place = |point: &ProgramPoint| point.robot_from_nozzle.translation.vector;
+    let position = |point: &ProgramPoint| point.robot_from_nozzle.translation.vector;
     let begin = ends.map(|[begin, _]| begin);
     let mut steps = vec![Step {
         to: behind(first, begin),
@@ -95,13 +95,13 @@ pub(super) fn steps_of(program: &Program<'_>, format: ProgramFormat) -> Vec<Step
     let way = |point: Option<&PointCheck>| point.map_or(Way::Planned, |point| point.way);
     let mut is_on = false;
     // The way to a point has the speed of the point before it.
-    let mut speed = first.speed.unwrap_or(settings.speed);
+    let mut speed = first.speed.unwrap_or(settings.params.speed);
     for (i, point) in points.iter().enumerate() {
         let is_last = i + 1 == points.len();
         let wanted = point.is_gun_on && !is_last;
         let neighbours = match (i.checked_sub(1), points.get(i + 1)) {
             (Some(before), Some(next)) => {
-                let to = |other: &ProgramPoint| (place(other) - place(point)).norm();
+                let to = |other: &ProgramPoint| (position(other) - position(point)).norm();
                 to(&points[before]).min(to(next))
             }
             // The first and the last point are not blended.
@@ -110,7 +110,7 @@ pub(super) fn steps_of(program: &Program<'_>, format: ProgramFormat) -> Vec<Step
         let is_joint_move_next = way(at(i + 1)) == Way::Joints;
         let gun = (wanted != is_on).then_some(wanted);
         let most = if gun.is_some() {
-            format.switching_blend()
+            language.max_switching_blend
         } else {
             f64::INFINITY
         };
@@ -119,7 +119,12 @@ pub(super) fn steps_of(program: &Program<'_>, format: ProgramFormat) -> Vec<Step
             blend: if is_joint_move_next {
                 0.0
             } else {
-                settings.blend.0.min(BLEND_SHARE * neighbours).min(most)
+                settings
+                    .params
+                    .blend
+                    .0
+                    .min(MAX_BLEND_SHARE * neighbours)
+                    .min(most)
             },
             gun,
         };
@@ -134,7 +139,7 @@ pub(super) fn steps_of(program: &Program<'_>, format: ProgramFormat) -> Vec<Step
             },
         });
         is_on = wanted;
-        speed = point.speed.unwrap_or(settings.speed);
+        speed = point.speed.unwrap_or(settings.params.speed);
     }
     let end = ends.map(|[_, end]| end);
     steps.push(Step {
@@ -157,7 +162,7 @@ pub(super) fn steps_of(program: &Program<'_>, format: ProgramFormat) -> Vec<Step
 /// number of instructions if there are more between two such places.
 pub(super) fn split(
     steps: &mut [Step],
-    format: ProgramFormat,
+    calls: &Calls,
     most: usize,
 ) -> Result<Vec<Range<usize>>, usize> {
     let mut parts: Vec<Range<usize>> = Vec::new();
@@ -167,10 +172,7 @@ pub(super) fn split(
         !is_on
     });
     for stroke in strokes {
-        let needed: usize = stroke
-            .iter()
-            .map(|step| step.num_instructions(format))
-            .sum();
+        let needed: usize = stroke.iter().map(|step| step.num_instructions(calls)).sum();
         if needed > most {
             return Err(needed);
         }

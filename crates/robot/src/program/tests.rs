@@ -1,8 +1,8 @@
 mod configurations;
 mod film;
 mod motion;
-mod parse;
 mod rail;
+pub(super) mod read;
 
 use std::path::Path;
 
@@ -10,7 +10,11 @@ use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64;
 
-use super::{save::beside, *};
+use super::{
+    language::{DRL, JBI, KRL, LS, RAPID, URSCRIPT},
+    save::beside,
+    *,
+};
 use crate::arm::{Arm, GUN_RADIUS, Joints, Obstacles, PointCheck, Way};
 use geometry::{error::Advice as _, rigid::from_euler_zyx};
 
@@ -68,36 +72,25 @@ fn program<'a>(points: &'a [ProgramPoint], settings: &'a ProgramSettings) -> Pro
 }
 
 /// The text of a program that fits into one.
-fn text_of(program: &Program<'_>, format: ProgramFormat) -> String {
-    let texts = program.texts(format, "paint").expect("text");
+fn text_of(program: &Program<'_>, language: &'static RobotLanguage) -> String {
+    let texts = program.texts(language, "paint").expect("text");
     assert!(texts.parts.is_empty());
     texts.main
-}
-
-/// Largest rounding error of a written speed, m/s.
-fn speed_step(format: ProgramFormat) -> f64 {
-    match format {
-        ProgramFormat::Ls => 0.5e-3,
-        ProgramFormat::Jbi => 0.05e-3,
-        _ => 0.5e-6,
-    }
 }
 
 #[test]
 fn every_format_reads_back_to_the_path() {
     for seed in 0..40 {
         let points = any_path(seed);
-        let settings = ProgramSettings {
-            gun_output: 3,
-            ..ProgramSettings::default()
-        };
-        let before = Translation3::new(0.0, 0.0, -settings.approach.0);
-        let speed_of = |i: usize| points[i].speed.unwrap_or(settings.speed);
+        let mut settings = ProgramSettings::default();
+        settings.params.gun_output = 3;
+        let before = Translation3::new(0.0, 0.0, -settings.params.approach.0);
+        let speed_of = |i: usize| points[i].speed.unwrap_or(settings.params.speed);
         let last = points.len() - 1;
-        for format in ProgramFormat::ALL {
-            let text = text_of(&program(&points, &settings), format);
+        for language in RobotLanguage::ALL {
+            let text = text_of(&program(&points, &settings), language);
             assert!(text.is_ascii());
-            let read = parse::read(format, &text);
+            let read = (language.reader.read)(&text);
             assert_eq!(read.output, "3");
             assert!(!read.is_gun_on, "the gun is closed at the end");
             // The approach, every point, and the move away.
@@ -109,24 +102,23 @@ fn every_format_reads_back_to_the_path() {
             }
             let back = points[last].robot_from_nozzle * before;
             expected.push((back, Some(speed_of(last)), false));
-            assert_eq!(read.moves.len(), expected.len(), "{format:?} {seed}");
+            assert_eq!(read.moves.len(), expected.len(), "{language:?} {seed}");
             for (found, (to, speed, is_on)) in read.moves.iter().zip(&expected) {
                 let off = (found.to.translation.vector - to.translation.vector).norm();
-                assert!(off <= 1e-6, "{format:?} {seed}: {off}");
+                assert!(off <= 1e-6, "{language:?} {seed}: {off}");
                 let turned = found.to.rotation.angle_to(&to.rotation);
-                assert!(turned < 5e-6, "{format:?} {seed}: {turned}");
+                assert!(turned < 5e-6, "{language:?} {seed}: {turned}");
                 assert_eq!(found.speed.is_some(), speed.is_some());
                 if let (Some(found), Some(speed)) = (found.speed, speed) {
-                    assert!((found - speed).abs() <= speed_step(format) * 1.001);
+                    assert!((found - speed).abs() <= language.reader.speed_step * 1.001);
                 }
-                assert_eq!(found.is_gun_on, *is_on, "{format:?} {seed}");
+                assert_eq!(found.is_gun_on, *is_on, "{language:?} {seed}");
             }
             // Where it is not known when a blended move switches an output, the robot stops before.
             for pair in read.moves.windows(2) {
                 let changes = pair[0].is_gun_on != pair[1].is_gun_on;
-                let is_doosan = format == ProgramFormat::Drl;
-                assert!(!(changes && is_doosan) || pair[0].is_exact);
-                assert!(pair[0].switches_before <= 0.005, "{format:?} {seed}");
+                assert!(!(changes && language.reader.stops) || pair[0].is_exact);
+                assert!(pair[0].switches_before <= 0.005, "{language:?} {seed}");
             }
             assert!(read.moves[0].is_exact && read.moves[read.moves.len() - 1].is_exact);
         }
@@ -153,14 +145,14 @@ fn a_header_says_part_pose_time_and_that_nothing_was_seen() {
     let settings = ProgramSettings::default();
     let doubts = ["the part was not accepted".to_owned()];
     let unchecked = ["reach and collisions".to_owned()];
-    for format in ProgramFormat::ALL {
+    for language in RobotLanguage::ALL {
         let program = Program {
             doubts: &doubts,
             unchecked: &unchecked,
             ..program(&points, &settings)
         };
-        let text = text_of(&program, format);
-        let read = parse::read(format, &text);
+        let text = text_of(&program, language);
+        let read = (language.reader.read)(&text);
         let words = read.comments.join(" ");
         for wanted in [
             MARK,
@@ -174,20 +166,10 @@ fn a_header_says_part_pose_time_and_that_nothing_was_seen() {
             "reach and collisions: not checked",
         ] {
             let wanted = wanted.to_owned();
-            assert!(words.contains(&wanted), "{format:?} {wanted}: {words}");
+            assert!(words.contains(&wanted), "{language:?} {wanted}: {words}");
         }
-        let name = match format {
-            ProgramFormat::Ls | ProgramFormat::Jbi => "PAINT",
-            ProgramFormat::Drl => "",
-            _ => "paint",
-        };
-        assert_eq!(read.name, name);
-        let tool = match format {
-            ProgramFormat::Rapid | ProgramFormat::Drl => "tool1",
-            ProgramFormat::UrScript => "",
-            _ => "1",
-        };
-        assert_eq!(read.tool, tool);
+        assert_eq!(read.name, language.reader.program_name);
+        assert_eq!(read.tool, language.reader.tool);
     }
 }
 
@@ -195,24 +177,20 @@ fn a_header_says_part_pose_time_and_that_nothing_was_seen() {
 fn corners_are_blended_also_where_the_gun_changes_except_by_doosan() {
     let settings = ProgramSettings::default();
     let points = row();
-    for format in ProgramFormat::ALL {
-        let text = text_of(&program(&points, &settings), format);
-        let exact: Vec<bool> = (parse::read(format, &text).moves.iter())
+    for language in RobotLanguage::ALL {
+        let text = text_of(&program(&points, &settings), language);
+        let exact: Vec<bool> = ((language.reader.read)(&text).moves.iter())
             .map(|found| found.is_exact)
             .collect();
         // Approach, five points, away; the gun opens at the second point and closes at the fourth.
-        let expected = match format {
-            ProgramFormat::Drl => [true, true, true, false, true, true, true],
-            _ => [true, true, false, false, false, true, true],
-        };
-        assert_eq!(exact, expected, "{format:?}");
-        let none = ProgramSettings {
-            blend: Metres(0.0),
-            ..settings.clone()
-        };
-        let text = text_of(&program(&points, &none), format);
+        let stops = language.reader.stops;
+        let expected = [true, true, stops, false, stops, true, true];
+        assert_eq!(exact, expected, "{language:?}");
+        let mut none = settings.clone();
+        none.params.blend = Metres(0.0);
+        let text = text_of(&program(&points, &none), language);
         assert!(
-            parse::read(format, &text)
+            (language.reader.read)(&text)
                 .moves
                 .iter()
                 .all(|found| found.is_exact)
@@ -227,28 +205,22 @@ fn a_given_tool_is_set_where_the_controller_can() {
         flange_from_nozzle: Some(from_euler_zyx([0.0, 0.0, 0.0, 0.0, 0.01, 0.25])),
         ..ProgramSettings::default()
     };
-    let text = |format| text_of(&program(&points, &settings), format);
-    for (format, wanted) in [
+    let text = |language| text_of(&program(&points, &settings), language);
+    for (language, wanted) in [
+        (&KRL, "$TOOL={X 0.000,Y 10.000,Z 250.000,A 0.0000,"),
         (
-            ProgramFormat::Krl,
-            "$TOOL={X 0.000,Y 10.000,Z 250.000,A 0.0000,",
-        ),
-        (
-            ProgramFormat::Rapid,
+            &RAPID,
             "tooldata tPartsight:=[TRUE,[[0.000,10.000,250.000],[1.00000000,",
         ),
-        (
-            ProgramFormat::UrScript,
-            "set_tcp(p[0.000000, 0.010000, 0.250000, ",
-        ),
-        (ProgramFormat::Ls, "flange_from_nozzle:"),
-        (ProgramFormat::Jbi, "flange_from_nozzle:"),
-        (ProgramFormat::Drl, "flange_from_nozzle:"),
+        (&URSCRIPT, "set_tcp(p[0.000000, 0.010000, 0.250000, "),
+        (&LS, "flange_from_nozzle:"),
+        (&JBI, "flange_from_nozzle:"),
+        (&DRL, "flange_from_nozzle:"),
     ] {
         assert!(
-            text(format).contains(wanted),
-            "{format:?}: {}",
-            text(format)
+            text(language).contains(wanted),
+            "{language:?}: {}",
+            text(language)
         );
     }
 }
@@ -264,20 +236,20 @@ fn a_tool_that_the_program_would_not_use_is_refused() {
         flange_from_nozzle: Some(from_euler_zyx([0.0, 0.0, 0.0, 0.0, 0.01, 0.25])),
         ..settings.clone()
     };
-    for (format, settings, is_refused) in [
-        (ProgramFormat::UrScript, &settings, true),
-        (ProgramFormat::UrScript, &with_nozzle, true),
-        (ProgramFormat::Rapid, &settings, false),
-        (ProgramFormat::Rapid, &with_nozzle, true),
-        (ProgramFormat::Drl, &with_nozzle, false),
+    for (language, settings, is_refused) in [
+        (&URSCRIPT, &settings, true),
+        (&URSCRIPT, &with_nozzle, true),
+        (&RAPID, &settings, false),
+        (&RAPID, &with_nozzle, true),
+        (&DRL, &with_nozzle, false),
     ] {
-        match program(&points, settings).texts(format, "paint") {
+        match program(&points, settings).texts(language, "paint") {
             Ok(texts) => {
-                assert!(!is_refused, "{format:?}");
-                assert_eq!(parse::read(format, &texts.main).tool, "gun");
+                assert!(!is_refused, "{language:?}");
+                assert_eq!((language.reader.read)(&texts.main).tool, "gun");
             }
             Err(error) => {
-                assert!(is_refused, "{format:?} {error}");
+                assert!(is_refused, "{language:?} {error}");
                 assert!(
                     error.to_string().contains("does not use the tool \"gun\""),
                     "{error}"
@@ -290,28 +262,24 @@ fn a_tool_that_the_program_would_not_use_is_refused() {
         tool: Some("3".into()),
         ..with_nozzle
     };
-    let text = text_of(&program(&points, &numbered), ProgramFormat::Krl);
-    assert_eq!(parse::read(ProgramFormat::Krl, &text).tool, "3");
+    let text = text_of(&program(&points, &numbered), &KRL);
+    assert_eq!((KRL.reader.read)(&text).tool, "3");
 }
 
 #[test]
 fn the_acceleration_of_the_path_is_that_of_every_program_that_can_state_one() {
     let points = row();
     let settings = ProgramSettings::default();
-    for (acceleration, standard) in [(None, [None, Some(1.2)]), (Some(4.0), [Some(4.0); 2])] {
+    for (i, acceleration) in [None, Some(4.0)].into_iter().enumerate() {
         let program = Program {
             acceleration,
             ..program(&points, &settings)
         };
-        for format in ProgramFormat::ALL {
-            let expected = match format {
-                ProgramFormat::Krl | ProgramFormat::Rapid => standard[0],
-                ProgramFormat::UrScript | ProgramFormat::Drl => standard[1],
-                ProgramFormat::Ls | ProgramFormat::Jbi => None,
-            };
-            let moves = parse::read(format, &text_of(&program, format)).moves;
+        for language in RobotLanguage::ALL {
+            let moves = (language.reader.read)(&text_of(&program, language)).moves;
             let of_lines: Vec<_> = moves[1..].iter().map(|found| found.acceleration).collect();
-            assert_eq!(of_lines, vec![expected; 6], "{format:?}");
+            let expected = vec![language.reader.accelerations[i]; 6];
+            assert_eq!(of_lines, expected, "{language:?}");
         }
     }
 }
@@ -324,44 +292,44 @@ fn what_a_controller_would_not_take_is_refused_with_advice() {
         change(&mut settings);
         settings
     };
-    let refused = |points: &[ProgramPoint], settings: &ProgramSettings, format, name: &str| {
+    let refused = |points: &[ProgramPoint], settings: &ProgramSettings, language, name: &str| {
         let error = program(points, settings)
-            .texts(format, name)
+            .texts(language, name)
             .expect_err("refused");
         assert!(!error.advice().is_empty());
         error.to_string()
     };
     let usual = ProgramSettings::default();
-    for format in ProgramFormat::ALL {
+    for language in RobotLanguage::ALL {
         for name in ["", "1st", "bon jour", "tür", &"x".repeat(65)] {
-            assert!(refused(&points, &usual, format, name).contains("named"));
+            assert!(refused(&points, &usual, language, name).contains("named"));
         }
-        assert!(refused(&[], &usual, format, "p").contains("no points"));
+        assert!(refused(&[], &usual, language, "p").contains("no points"));
         for bad in [f64::NAN, f64::INFINITY] {
             let mut broken = points.clone();
             broken[2].robot_from_nozzle.translation.vector.y = bad;
-            assert!(refused(&broken, &usual, format, "p").contains("point 3"));
+            assert!(refused(&broken, &usual, language, "p").contains("point 3"));
             let tool = with(&|s| {
                 s.flange_from_nozzle = Some(from_euler_zyx([0.0, 0.0, 0.0, bad, 0.0, 0.0]));
             });
-            assert!(refused(&points, &tool, format, "p").contains("tool or part"));
+            assert!(refused(&points, &tool, language, "p").contains("tool or part"));
         }
         for speed in [0.0, -1.0, 6.0, f64::NAN] {
-            let settings = with(&|s| s.speed = speed);
-            assert!(refused(&points, &settings, format, "p").contains("point 1"));
+            let settings = with(&|s| s.params.speed = speed);
+            assert!(refused(&points, &settings, language, "p").contains("point 1"));
         }
         for length in [-0.1, 1.5, f64::NAN] {
-            let settings = with(&|s| s.approach = Metres(length));
-            assert!(refused(&points, &settings, format, "p").contains("approach"));
-            let settings = with(&|s| s.blend = Metres(length));
-            assert!(refused(&points, &settings, format, "p").contains("blend"));
+            let settings = with(&|s| s.params.approach = Metres(length));
+            assert!(refused(&points, &settings, language, "p").contains("approach"));
+            let settings = with(&|s| s.params.blend = Metres(length));
+            assert!(refused(&points, &settings, language, "p").contains("blend"));
         }
-        let settings = with(&|s| s.gun_output = 60_000);
-        assert!(refused(&points, &settings, format, "p").contains("output"));
-        if format != ProgramFormat::UrScript {
+        let settings = with(&|s| s.params.gun_output = 60_000);
+        assert!(refused(&points, &settings, language, "p").contains("output"));
+        if language != &URSCRIPT {
             for tool in ["0", "64", "gun 1", ""] {
                 let settings = with(&|s| s.tool = Some(tool.into()));
-                assert!(refused(&points, &settings, format, "p").contains("not a tool"));
+                assert!(refused(&points, &settings, language, "p").contains("not a tool"));
             }
         }
     }
@@ -371,14 +339,14 @@ fn what_a_controller_would_not_take_is_refused_with_advice() {
         ..*point
     };
     let long: Vec<ProgramPoint> = points.iter().map(on).cycle().take(20_000).collect();
-    for format in ProgramFormat::ALL {
-        match program(&long, &usual).texts(format, "p") {
+    for language in RobotLanguage::ALL {
+        match program(&long, &usual).texts(language, "p") {
             Err(error) => {
                 assert!(error.to_string().contains("the gun stays on"), "{error}");
                 assert!(error.advice().contains("point_spacing"));
-                assert!(format.most_lines().is_some());
+                assert!(language.calls.is_some());
             }
-            Ok(texts) => assert_eq!(parse::read(format, &texts.main).moves.len(), 20_002),
+            Ok(texts) => assert_eq!((language.reader.read)(&texts.main).moves.len(), 20_002),
         }
     }
 }
@@ -387,28 +355,28 @@ fn what_a_controller_would_not_take_is_refused_with_advice() {
 fn a_reserved_word_of_the_language_is_no_name_of_a_program() {
     let points = row();
     let settings = ProgramSettings::default();
-    for (format, name, is_reserved) in [
-        (ProgramFormat::Krl, "if", true),
-        (ProgramFormat::Krl, "EndWhile", true),
-        (ProgramFormat::Krl, "if_1", false),
-        (ProgramFormat::Rapid, "Test", true),
-        (ProgramFormat::Rapid, "tests", false),
+    for (language, name, is_reserved) in [
+        (&KRL, "if", true),
+        (&KRL, "EndWhile", true),
+        (&KRL, "if_1", false),
+        (&RAPID, "Test", true),
+        (&RAPID, "tests", false),
         // The controller starts at a procedure of this name.
-        (ProgramFormat::Rapid, "main", true),
-        (ProgramFormat::Rapid, "main_1", false),
-        (ProgramFormat::Krl, "main", false),
-        (ProgramFormat::UrScript, "if", true),
-        (ProgramFormat::UrScript, "movel", true),
-        (ProgramFormat::UrScript, "IF", false),
-        (ProgramFormat::Ls, "if", false),
-        (ProgramFormat::Jbi, "if", false),
-        (ProgramFormat::Drl, "if", false),
+        (&RAPID, "main", true),
+        (&RAPID, "main_1", false),
+        (&KRL, "main", false),
+        (&URSCRIPT, "if", true),
+        (&URSCRIPT, "movel", true),
+        (&URSCRIPT, "IF", false),
+        (&LS, "if", false),
+        (&JBI, "if", false),
+        (&DRL, "if", false),
     ] {
-        match program(&points, &settings).texts(format, name) {
-            Ok(_) => assert!(!is_reserved, "{format:?} {name}"),
+        match program(&points, &settings).texts(language, name) {
+            Ok(_) => assert!(!is_reserved, "{language:?} {name}"),
             Err(error) => {
-                assert!(is_reserved, "{format:?} {name}: {error}");
-                let wanted = format!("{name} is a reserved word of {}", format.title());
+                assert!(is_reserved, "{language:?} {name}: {error}");
+                let wanted = format!("{name} is a reserved word of {}", language.title);
                 assert!(error.to_string().contains(&wanted), "{error}");
                 assert!(error.advice().contains(&format!("paint_{name}")));
             }
@@ -421,12 +389,12 @@ fn a_program_is_saved_by_its_ending_and_only_a_program_is_taken_away() {
     let folder = tempfile::tempdir().expect("a folder");
     let points = row();
     let settings = ProgramSettings::default();
-    for format in ProgramFormat::ALL {
-        let path = folder.path().join(format!("paint.{}", format.ending()));
-        assert_eq!(ProgramFormat::of(&path).expect("known"), format);
+    for language in RobotLanguage::ALL {
+        let path = folder.path().join(format!("paint.{}", language.ending));
+        assert_eq!(RobotLanguage::from_file(&path).expect("known"), language);
         assert!(!remove_previous_program(&path).expect("nothing there"));
         program(&points, &settings)
-            .save(&path, format)
+            .save(&path, language)
             .expect("saved");
         assert!(remove_previous_program(&path).expect("removed"));
         assert!(!path.exists());
@@ -434,14 +402,14 @@ fn a_program_is_saved_by_its_ending_and_only_a_program_is_taken_away() {
         assert!(!remove_previous_program(&path).expect("not ours"));
         assert!(path.exists());
     }
-    let error = ProgramFormat::of(Path::new("paint.txt")).expect_err("unknown");
+    let error = RobotLanguage::from_file(Path::new("paint.txt")).expect_err("unknown");
     assert!(
         error
             .advice()
             .contains(".src, .ls, .mod, .script, .jbi, .drl")
     );
     let name = folder.path().join("1 door.src");
-    let failed = program(&points, &settings).save(&name, ProgramFormat::Krl);
+    let failed = program(&points, &settings).save(&name, &KRL);
     assert!(failed.is_err() && !name.exists());
 }
 
@@ -454,11 +422,11 @@ fn long_path() -> Vec<ProgramPoint> {
 fn a_path_that_is_too_long_for_one_program_is_called_in_parts() {
     let points = long_path();
     let settings = ProgramSettings::default();
-    for format in [ProgramFormat::Ls, ProgramFormat::Jbi] {
+    for language in [&LS, &JBI] {
         let texts = program(&points, &settings)
-            .texts(format, "paint")
+            .texts(language, "paint")
             .expect("texts");
-        let main = parse::read(format, &texts.main);
+        let main = (language.reader.read)(&texts.main);
         assert_eq!(main.name, "PAINT");
         assert!(main.moves.is_empty());
         assert!(main.comments.join(" ").contains(MARK));
@@ -468,15 +436,16 @@ fn a_path_that_is_too_long_for_one_program_is_called_in_parts() {
         assert_eq!(main.calls, names);
         let mut moves = Vec::new();
         for (i, (name, text)) in texts.parts.iter().enumerate() {
-            let read = parse::read(format, text);
+            let read = (language.reader.read)(text);
             assert_eq!(read.name, name.to_uppercase());
-            assert!(name.len() <= format.longest_name(), "{name}");
+            assert!(name.len() <= language.max_name, "{name}");
             assert!(read.calls.is_empty());
             let wanted = format!("part {} of {}", i + 1, texts.parts.len());
             assert!(read.comments.join(" ").contains(&wanted), "{wanted}");
-            let (begin, end) = match format {
-                ProgramFormat::Ls => ("/MN", "/POS"),
-                _ => ("///GROUP1 RB1", "never"),
+            let (begin, end) = if language == &LS {
+                ("/MN", "/POS")
+            } else {
+                ("///GROUP1 RB1", "never")
             };
             let lines = text.lines().skip_while(|line| *line != begin).skip(1);
             let num = lines.take_while(|line| *line != end).count();
@@ -489,31 +458,31 @@ fn a_path_that_is_too_long_for_one_program_is_called_in_parts() {
             assert!(read.moves[read.moves.len() - 1].is_exact);
             moves.extend(read.moves);
         }
-        assert_eq!(moves.len(), 20_002, "{format:?}");
+        assert_eq!(moves.len(), 20_002, "{language:?}");
         let middle = &moves[1..20_001];
         for (i, (found, wanted)) in middle.iter().zip(&points).enumerate() {
             let wanted_at = wanted.robot_from_nozzle.translation.vector;
             let off = (found.to.translation.vector - wanted_at).norm();
-            assert!(off <= 1e-6, "{format:?} {i}: {off}");
+            assert!(off <= 1e-6, "{language:?} {i}: {off}");
             assert_eq!(found.is_gun_on, i > 0 && points[i - 1].is_gun_on);
         }
         // The parts of another path have other names.
         let other = program(&points[5..], &settings)
-            .texts(format, "paint")
+            .texts(language, "paint")
             .expect("texts");
         assert_ne!(other.parts[0].0, texts.parts[0].0);
         // The names of the parts are longer.
-        let name = "p".repeat(format.longest_name());
+        let name = "p".repeat(language.max_name);
         let error = program(&points, &settings)
-            .texts(format, &name)
+            .texts(language, &name)
             .expect_err("too long");
-        let most = format.longest_name() - "_12345678_1".len();
+        let most = language.max_name - "_12345678_1".len();
         assert!(
             error.advice().contains(&format!("at most {most} ")),
             "{}",
             error.advice()
         );
-        let fits = program(&points, &settings).texts(format, &name[..most]);
+        let fits = program(&points, &settings).texts(language, &name[..most]);
         assert!(fits.is_ok());
     }
 }
@@ -531,20 +500,20 @@ fn a_set_of_programs_is_written_whole_or_not_at_all_and_removed_whole() {
     };
     let points = long_path();
     let settings = ProgramSettings::default();
-    for format in [ProgramFormat::Ls, ProgramFormat::Jbi] {
-        let path = folder.path().join(format!("paint.{}", format.ending()));
+    for language in [&LS, &JBI] {
+        let path = folder.path().join(format!("paint.{}", language.ending));
         let long = program(&points, &settings);
-        let parts = long.texts(format, "paint").expect("texts").parts;
-        let num = long.save(&path, format).expect("saved");
+        let parts = long.texts(language, "paint").expect("texts").parts;
+        let num = long.save(&path, language).expect("saved");
         assert_eq!((num, listed().len()), (parts.len(), parts.len() + 1));
         // The next program replaces all of them, even if it is short.
         let next = program(&points[5..], &settings);
-        let num = next.save(&path, format).expect("saved");
+        let num = next.save(&path, language).expect("saved");
         assert_eq!(listed().len(), num + 1);
         assert!(remove_previous_program(&path).expect("removed"));
         assert_eq!(listed(), Vec::<String>::new());
         let num = program(&points[..5], &settings)
-            .save(&path, format)
+            .save(&path, language)
             .expect("saved");
         assert_eq!((num, listed().len()), (0, 1));
         assert!(remove_previous_program(&path).expect("removed"));
@@ -573,7 +542,7 @@ fn a_set_of_programs_is_written_whole_or_not_at_all_and_removed_whole() {
         // If a part or the main program cannot be written, nothing remains that a robot could run.
         for in_the_way in [beside(&path, &parts[1].0), path.clone()] {
             std::fs::create_dir(&in_the_way).expect("a folder");
-            assert!(long.save(&path, format).is_err());
+            assert!(long.save(&path, language).is_err());
             assert_eq!(listed().len(), 1, "{:?}", listed());
             std::fs::remove_dir(&in_the_way).expect("removed");
         }
@@ -623,12 +592,9 @@ fn moves_with_the_gun_off_are_slower_or_by_joints_as_they_were_checked() {
         reach: Some(&reach),
         ..program(&points, &settings)
     };
-    let read = parse::read(
-        ProgramFormat::Rapid,
-        &text_of(&program, ProgramFormat::Rapid),
-    );
+    let read = (RAPID.reader.read)(&text_of(&program, &RAPID));
     let speeds: Vec<Option<f64>> = read.moves.iter().map(|step| step.speed).collect();
-    let usual = Some(settings.speed);
+    let usual = Some(settings.params.speed);
     assert_eq!(speeds, [None, usual, Some(0.04), usual, usual, None, usual]);
     // The robot stops before and after a joint move.
     let exact: Vec<bool> = read.moves.iter().map(|step| step.is_exact).collect();
@@ -646,8 +612,8 @@ fn moves_with_the_gun_off_are_slower_or_by_joints_as_they_were_checked() {
         reach: Some(&by_joints),
         ..program.clone()
     };
-    let text = text_of(&by_joints, ProgramFormat::Rapid);
-    let moves = parse::read(ProgramFormat::Rapid, &text).moves;
+    let text = text_of(&by_joints, &RAPID);
+    let moves = (RAPID.reader.read)(&text).moves;
     let found = moves
         .iter()
         .map(|step| (step.speed.is_none(), step.is_gun_on));
@@ -657,7 +623,7 @@ fn moves_with_the_gun_off_are_slower_or_by_joints_as_they_were_checked() {
         found[1..5],
         [(line, false), (joint, false), (line, true), (line, true)]
     );
-    let on = by_joints.motion(ProgramFormat::Rapid).expect("a motion");
+    let on = by_joints.motion(&RAPID).expect("a motion");
     let on: f64 = on
         .iter()
         .filter(|piece| piece.is_gun_on)
@@ -665,9 +631,7 @@ fn moves_with_the_gun_off_are_slower_or_by_joints_as_they_were_checked() {
         .sum();
     assert!((on - 0.2).abs() < 1e-9, "{on}");
     // Another maker's controller does not know the configuration.
-    let error = program
-        .texts(ProgramFormat::Krl, "paint")
-        .expect_err("no name");
+    let error = program.texts(&KRL, "paint").expect_err("no name");
     assert!(
         matches!(error, ProgramError::Configuration { point: 5, .. }),
         "{error}"
@@ -680,7 +644,7 @@ fn a_program_begins_and_ends_with_the_nozzle_turned_as_it_was_checked() {
     let points = points_for(&joints);
     let settings = ProgramSettings::default();
     let mut reach = reached(Arm::named("irb4600").expect("known"), &joints);
-    let before = Translation3::new(0.0, 0.0, -settings.approach.0);
+    let before = Translation3::new(0.0, 0.0, -settings.params.approach.0);
     let ends = reach.1.ends.as_mut().expect("ends");
     for ((end, point), turn) in ends.iter_mut().zip([0, 4]).zip([-0.2, 0.5]) {
         let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), turn);
@@ -690,14 +654,14 @@ fn a_program_begins_and_ends_with_the_nozzle_turned_as_it_was_checked() {
         reach: Some(&reach),
         ..program(&points, &settings)
     };
-    for format in ProgramFormat::ALL {
-        let moves = parse::read(format, &text_of(&program, format)).moves;
+    for language in RobotLanguage::ALL {
+        let moves = (language.reader.read)(&text_of(&program, language)).moves;
         for (found, point, turn) in [(0, 0, -0.2), (6, 4, 0.5)] {
             let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), turn);
             let wanted = points[point].robot_from_nozzle * before * turn;
             let off = (moves[found].to.translation.vector - wanted.translation.vector).norm();
             let turned = moves[found].to.rotation.angle_to(&wanted.rotation);
-            assert!(off <= 1e-6 && turned < 5e-6, "{format:?}: {off} {turned}");
+            assert!(off <= 1e-6 && turned < 5e-6, "{language:?}: {off} {turned}");
         }
     }
 }

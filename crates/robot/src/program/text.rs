@@ -1,6 +1,6 @@
 //! Lines of a program, and their numbers.
 
-use super::ProgramFormat;
+use super::RobotLanguage;
 use crate::RobotValue;
 use geometry::rigid::RigidTransform;
 
@@ -37,11 +37,8 @@ impl Lines {
     }
 
     /// Returns the text, with the controller's line ends.
-    pub(super) fn finish(self, format: ProgramFormat) -> String {
-        match format {
-            ProgramFormat::UrScript | ProgramFormat::Drl => self.text,
-            _ => self.text.replace('\n', "\r\n"),
-        }
+    pub(super) fn finish(self, language: &RobotLanguage) -> String {
+        self.text.replace('\n', language.line_end)
     }
 }
 
@@ -49,34 +46,6 @@ impl Lines {
 pub(super) fn is_identifier(name: &str) -> bool {
     name.starts_with(|c: char| c.is_ascii_alphabetic())
         && name.bytes().all(|c| c.is_ascii_alphanumeric() || c == b'_')
-}
-
-const KRL_WORDS: &str = "AND ANIN ANOUT BOOL BRAKE B_AND B_EXOR B_NOT B_OR CASE CHANNEL CHAR CIRC CIRC_REL CONFIRM \
-    CONST CONTINUE DECL DEF DEFAULT DEFDAT DEFFCT DELAY DIGIN DISTANCE DO ELSE END ENDDAT ENDFCT ENDFOR ENDIF ENDLOOP \
-    ENDSPLINE ENDSWITCH ENDWHILE ENUM EXIT EXOR EXT EXTFCT FALSE FOR GLOBAL GOTO HALT IF IMPORT INT INTERRUPT IS LIN \
-    LIN_REL LOOP MAXIMUM MINIMUM NOT OR PRIO PTP PTP_REL PUBLIC PULSE REAL REPEAT RESUME RETURN SCIRC SIGNAL SLIN \
-    SPLINE SPTP STEP STRUC SWITCH THEN TO TRIGGER TRUE UNTIL WAIT WHEN WHILE";
-const RAPID_WORDS: &str = "ALIAS AND BACKWARD CASE CONNECT CONST DEFAULT DIV DO ELSE ELSEIF ENDFOR ENDFUNC ENDIF \
-    ENDMODULE ENDPROC ENDRECORD ENDTEST ENDTRAP ENDWHILE ERROR EXIT FALSE FOR FROM FUNC GOTO IF INOUT LOCAL MOD MODULE \
-    NOSTEPIN NOT NOVIEW OR PERS PROC RAISE READONLY RECORD RETRY RETURN STEP SYSMODULE TASK TEST THEN TO TRAP TRUE \
-    TRYNEXT UNDO VAR VIEWONLY WHILE WITH XOR";
-/// Names that a controller's own module or the routine at which it starts already has.
-const RAPID_NAMES: &str = "BASE MAIN USER";
-/// Also the functions that a program calls: it would call itself instead.
-const URSCRIPT_WORDS: &str = "False True and break continue def elif else end global halt if join kill local not or \
-    return run sec thread while xor movej movel set_standard_digital_out set_tcp";
-
-/// True for a reserved word of the language, and for a name that every controller already has. The formats of LS and JBI have a field for the name, and DRL programs
-/// contain none.
-pub(super) fn is_reserved(format: ProgramFormat, name: &str) -> bool {
-    let is_in = |words: &str| words.split(' ').any(|word| word.eq_ignore_ascii_case(name));
-    match format {
-        ProgramFormat::Krl => is_in(KRL_WORDS),
-        ProgramFormat::Rapid => is_in(RAPID_WORDS) || is_in(RAPID_NAMES),
-        // Case matters here.
-        ProgramFormat::UrScript => URSCRIPT_WORDS.split(' ').any(|word| word == name),
-        ProgramFormat::Ls | ProgramFormat::Jbi | ProgramFormat::Drl => false,
-    }
 }
 
 /// Breaks the header into comments of at most `width` letters. ASCII only: controllers refuse or garble the rest.
@@ -123,7 +92,7 @@ pub(super) fn rail_mm(metres: f64) -> String {
 }
 
 /// Formats a pose in the language's convention: to a micrometre, and 1e-4° or 1e-6 rad.
-pub(super) fn numbers(format: ProgramFormat, pose: &RigidTransform) -> Vec<String> {
-    let values = format.convention().write(pose).values;
+pub(super) fn numbers(language: &RobotLanguage, pose: &RigidTransform) -> Vec<String> {
+    let values = language.convention.write(pose).values;
     values.iter().map(RobotValue::rounded).collect()
 }

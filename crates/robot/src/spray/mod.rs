@@ -222,7 +222,7 @@ impl OffThePart {
     fn reason(&self) -> String {
         let all = counted(self.num_spraying, "point", "points");
         if self.num_too_near > 0 {
-            let least = Metres(LEAST_DISTANCE).mm();
+            let least = Metres(MIN_DISTANCE_M).mm();
             return format!(
                 "at {} of {all} with the gun on the nozzle is less than {least:.0} mm in front of the enrolled part, or behind its surface",
                 self.num_too_near
@@ -247,20 +247,20 @@ impl Advice for OffThePart {
 
 /// Minimum share of the points with the gun on that aim at the part. It is low because a gun also sprays beyond edges and
 /// over openings: of the points planned over the shipped parts, 40 to 70 % aim at them, and 13 % with an overrun of 400 mm.
-const LEAST_AIMING: f64 = 0.05;
+const MIN_AIMING_SHARE: f64 = 0.05;
 /// Minimum share of the points that meet the part which do so at about their stand-off. Planned paths have 98 % or more.
-const LEAST_AT_STAND_OFF: f64 = 0.5;
+const MIN_AT_STAND_OFF_SHARE: f64 = 0.5;
 /// A stand-off may be off by half of it, or by this, metres, if that is more.
-const LEAST_SLACK: f64 = 0.05;
+const MIN_STAND_OFF_SLACK_M: f64 = 0.05;
 /// Minimum distance of the nozzle from the surface in front of it, metres. Nobody sprays from nearer: such positions are
 /// probably those of the surface.
-const LEAST_DISTANCE: f64 = 0.02;
+const MIN_DISTANCE_M: f64 = 0.02;
 /// Maximum share of the points that meet the part whose nozzle is nearer than that. Of the points planned over the shipped
 /// parts with the least stand-off of a coat, 30 mm, up to 4.4 % are, from 40 mm on none.
-const MOST_TOO_NEAR: f64 = 0.05;
+const MAX_TOO_NEAR_SHARE: f64 = 0.05;
 
 /// Where a path names no stand-off, the surface is looked for as well around this distance: up to 1.15 m.
-const FAR: Metres = Metres(0.75);
+const FAR_STAND_OFF: Metres = Metres(0.75);
 
 /// Compares a path with the part as it was enrolled; `None` if it belongs to it, or if the part has no normals. Where the
 /// path names no stand-off, any distance from 20 mm on will do.
@@ -277,27 +277,28 @@ pub fn off_the_part(path: &SprayPath, reference: &Reference) -> Option<OffThePar
         let nozzle = tool_frame(point);
         let met = match point.stand_off {
             Some(expected) => meeting(&nozzle, &surface, expected),
-            None => meeting(&nozzle, &surface, taught).or_else(|| meeting(&nozzle, &surface, FAR)),
+            None => meeting(&nozzle, &surface, taught)
+                .or_else(|| meeting(&nozzle, &surface, FAR_STAND_OFF)),
         };
         let Some(met) = met else {
             continue;
         };
         num_met += 1;
-        if met.distance.0 < LEAST_DISTANCE {
+        if met.distance.0 < MIN_DISTANCE_M {
             num_too_near += 1;
             continue;
         }
         let is_at_stand_off = point.stand_off.is_none_or(|taught| {
-            (met.distance.0 - taught.0).abs() <= LEAST_SLACK.max(0.5 * taught.0)
+            (met.distance.0 - taught.0).abs() <= MIN_STAND_OFF_SLACK_M.max(0.5 * taught.0)
         });
         num_aiming += usize::from(is_at_stand_off);
     }
-    if num_too_near as f64 <= MOST_TOO_NEAR * num_met as f64 {
+    if num_too_near as f64 <= MAX_TOO_NEAR_SHARE * num_met as f64 {
         num_too_near = 0;
     }
     let is_off = num_too_near > 0
-        || (num_aiming as f64) < LEAST_AIMING * num_spraying as f64
-        || (num_aiming as f64) < LEAST_AT_STAND_OFF * num_met as f64;
+        || (num_aiming as f64) < MIN_AIMING_SHARE * num_spraying as f64
+        || (num_aiming as f64) < MIN_AT_STAND_OFF_SHARE * num_met as f64;
     is_off.then_some(OffThePart {
         num_spraying,
         num_aiming,

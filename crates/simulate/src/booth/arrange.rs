@@ -21,7 +21,7 @@ use crate::{
 use geometry::{depth_frame::Intrinsics, distortion::Distortion, mesh::TriangleMesh};
 
 /// A structured-light camera whose depth is registered to a colour picture, reduced from 2560 × 1920 to 640 × 480.
-pub const CAMERA: Intrinsics = Intrinsics {
+pub(crate) const CAMERA: Intrinsics = Intrinsics {
     width: 640,
     height: 480,
     fx: 468.0,
@@ -35,7 +35,7 @@ pub const CAMERA: Intrinsics = Intrinsics {
 const STREAM: u64 = 0xb007_b007_b007_b007;
 
 /// Draws the booth from the setup's seed. A fixed pose is kept, and the rest arranged around it.
-pub fn arrange<'a>(setup: &CellSetup, part: &'a TriangleMesh) -> Cell<'a> {
+pub(crate) fn arrange<'a>(setup: &CellSetup, part: &'a TriangleMesh) -> Cell<'a> {
     let mut random = Pcg64::seed_from_u64(setup.seed ^ STREAM);
     let camera = &setup.intrinsics;
     // The stand of an empty booth is built for a part that is not there.

@@ -33,7 +33,7 @@ const LATERAL: f32 = 0.5;
 const FLIES_ABOVE: f32 = 0.8;
 
 /// A camera with its field of view and its lost patches.
-pub struct RegisteredCamera {
+pub(crate) struct RegisteredCamera {
     field_of_view: FieldOfView,
     gloss: SpecularDropout,
     /// In metres.
@@ -50,7 +50,7 @@ impl RegisteredCamera {
     }
 
     /// Counts the pixels in the field of view that show the part.
-    pub fn num_part_pixels(&self, rendering: &Rendering) -> usize {
+    pub(crate) fn num_part_pixels(&self, rendering: &Rendering) -> usize {
         let width = rendering.intrinsics.width;
         let labels = rendering.labels.iter().enumerate();
         labels
@@ -66,7 +66,7 @@ impl RegisteredCamera {
     }
 
     /// Turns a perfect rendering into a frame. Without noise only pixels outside the field of view are lost.
-    pub fn sense(&self, rendering: &Rendering, noise: &SensorNoise) -> DepthFrame {
+    pub(crate) fn sense(&self, rendering: &Rendering, noise: &SensorNoise) -> DepthFrame {
         let mut depth = vec![0; rendering.depth.len()];
         if noise.multiplier > 0.0 {
             self.apply_noise(rendering, noise, &mut depth);

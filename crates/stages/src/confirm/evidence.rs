@@ -1,19 +1,21 @@
-//! What speaks for and against a reference at its pose, and what that comes to.
+//! The evidence for and against a reference at its pose, and the score that follows from it.
 //!
 //! The score is a logistic model: the probability that the part hangs there, at the pose found. Its weights are fitted
-//! on simulated frames (`partsight bench calibration`, tuning seeds), where every reference that was looked at is one
-//! sample, so a box speaks against each part that it resembles.
+//! to simulated frames (`partsight bench calibration`, tuning seeds). Every reference that was examined is one sample, so
+//! a box counts against each part that it resembles.
 //!
-//! Only what both views show is compared: a part of the reference beyond the picture, or of the scene beyond where the
-//! reference's view cut it off, speaks neither for nor against. What speaks for a reference is how much of it is
-//! confirmed: the area on it, and the length of edges on its edges (`little`, the less the more). Frames of pieces, of the booth and of other makes
-//! are among the samples; of 2 500 contenders of 1 070 frames one wrong one scores 0.9 or more, and 20 of 650 right ones less.
+//! Only what both views show is compared: a region of the reference beyond the picture, or of the scene beyond where the
+//! reference's view cut it off, counts neither for nor against. What counts for a reference is how much of it is
+//! confirmed: the area that lies on it, and the length of outline and openings that lies on its own (`little` falls with
+//! both). Frames of pieces, of the booth and of other makes are among the samples. Of 2 500 candidates in 1 070 frames,
+//! one wrong one scores 0.9 or more, and 20 of 650 right ones score less.
 //!
-//! Another make of a part bulges and ends elsewhere, but its whole shape is like the part's. How alike the ranking found
-//! them, the points off it, the relief and the outline give a second probability, the likeness: that it is of the reference's type.
+//! A part of another make has a similar whole shape, but bulges and ends elsewhere. The similarity from the ranking, the
+//! points off the reference, the relief and the outline give a second probability, the likeness: that the part is of the
+//! reference's type.
 //!
-//! Dropped, because the model was as good without: the distance between the outlines (their length in agreement says it),
-//! whether points off the reference lie beside it, the share that is hidden, and the share of the outline that is cut.
+//! Dropped, because the model was as good without: the distance between the outlines (the length in agreement implies
+//! it), whether points off the reference lie beside it, the hidden share, and the share of the outline that is cut.
 
 use nalgebra::{Point3, Vector3};
 
@@ -28,7 +30,7 @@ use crate::{
 };
 use geometry::rigid::RigidTransform;
 
-/// What speaks for and against a reference at its pose. Distances are cut off at 40 mm, so one stray counts little.
+/// Evidence for and against a reference at its pose. Distances are capped at 40 mm, so a single stray counts little.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Evidence {
     /// Share of the part's points that lie off the reference, of those that its view could show, 0..1.

@@ -1,4 +1,4 @@
-//! Turns that lay a reference onto itself: no view tells its poses before and after such a turn apart.
+//! Rotations that map a reference onto itself: its poses before and after look the same from every side.
 
 use nalgebra::{Translation3, Unit, UnitQuaternion, Vector3};
 

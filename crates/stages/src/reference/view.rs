@@ -82,7 +82,7 @@ impl PackedShape {
         let borders: Box<[PackedBorder]> = borders.collect();
         let is_in_order = |outline: &PackedBorder| {
             let followed = contour.outline_pixels.iter().copied();
-            followed.eq(outline.pixels.iter().map(wide))
+            followed.eq(outline.pixels.iter().copied().map(wide))
         };
         Self {
             image: RunLengthImage::new(&plane.image),
@@ -96,7 +96,7 @@ impl PackedShape {
     }
 }
 
-fn wide(pixel: &[u16; 2]) -> [u32; 2] {
+fn wide(pixel: [u16; 2]) -> [u32; 2] {
     pixel.map(u32::from)
 }
 
@@ -157,7 +157,7 @@ impl ReferenceView {
         let mut borders = self.shape.borders.iter();
         let outline = borders.next();
         let mut outline_pixels: Vec<[u32; 2]> = outline
-            .map(|border| border.pixels.iter().map(wide).collect())
+            .map(|border| border.pixels.iter().copied().map(wide).collect())
             .unwrap_or_default();
         if self.shape.is_outline_reversed {
             outline_pixels.reverse();
@@ -222,6 +222,9 @@ mod tests {
         let mut references = Vec::new();
         for part in fs::read_dir(folder).expect("a folder") {
             let path = part.expect("a part").path().join("cloud.ply");
+            if !path.is_file() {
+                continue;
+            }
             let Ok(FileContent::Cloud(cloud)) = files::open(&path) else {
                 panic!("{} is no cloud", path.display());
             };

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! 1. [`surface`]: computes normals and noise of every reading, and sets readings at depth discontinuities apart.
-//! 2. [`register`]: refines the poses of all shots together by point-to-plane ICP, softly held at the robot's poses.
+//! 2. [`register`]: refines the poses of all shots together by point-to-plane ICP, with the robot's poses as a prior.
 //! 3. [`suspects`]: excludes a shot that contradicts the others, or overlaps none of them; the rest is refined again. If fewer
 //!    than two thirds of the shots agree, or either of two may be wrong, the scan is refused. Smaller contradictions give a
 //!    warning.
@@ -15,7 +15,7 @@
 //!
 //! The results do not depend on the number of threads.
 //!
-//! Known limits: a shot whose overlap with the others shows no edge can be slid along its surface unnoticed. Errors that all
+//! Known limits: a shift of a shot along its surface goes unnoticed if its overlap with the others shows no edge. Errors that all
 //! shots share, such as a wrong focal length, remain.
 
 mod assemble;

@@ -18,7 +18,6 @@ pub(super) enum Framing {
     /// A fixed number of bytes.
     Bytes(usize),
     /// The length in its header.
-    #[cfg(feature = "plant")]
     Http,
 }
 
@@ -28,7 +27,6 @@ impl Framing {
         match self {
             Self::Line => answer.ends_with(b"\n"),
             Self::Bytes(num) => answer.len() >= num,
-            #[cfg(feature = "plant")]
             Self::Http => http_length(answer).is_some_and(|length| answer.len() >= length),
         }
     }
@@ -37,14 +35,12 @@ impl Framing {
     fn is_success(self, answer: &[u8]) -> bool {
         match self {
             Self::Line | Self::Bytes(_) => !answer.is_empty(),
-            #[cfg(feature = "plant")]
             Self::Http => answer.starts_with(b"HTTP/1.1 200 "),
         }
     }
 }
 
 /// Returns the number of bytes of an HTTP answer, once its header is complete.
-#[cfg(feature = "plant")]
 fn http_length(answer: &[u8]) -> Option<usize> {
     let end = b"\r\n\r\n";
     let head = answer.windows(end.len()).position(|bytes| bytes == end)?;
@@ -174,7 +170,6 @@ mod tests {
         assert!(rate.is_finite() && rate > 0.0);
     }
 
-    #[cfg(feature = "plant")]
     #[test]
     fn an_answer_over_http_ends_where_its_head_says() {
         let head = "HTTP/1.1 200 OK\r\nContent-Length: 5\r\n\r\n";

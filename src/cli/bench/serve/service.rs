@@ -14,24 +14,22 @@ use std::{
 use anyhow::Context as _;
 
 use super::client::{Client, Framing, busy_rate};
-use crate::cli::console::Advised as _;
+use crate::cli::{console::Advised as _, plant::BenchHttp};
 use bench::suites::enrol_standard_parts;
 use geometry::{depth_frame::DepthFrame, error::lock, rigid::RigidTransform};
 use inspection::{
     library::{EnrolParams, Library},
     pipeline::{self, NamedRecipe, Unwatched},
 };
-#[cfg(feature = "plant")]
-use plant::http::{HttpServer, HttpSettings, Tokens};
-use records::report::InspectionLine;
+use records::history::Traceability;
 use robot::{Convention, RobotFrame};
 use serve::{
-    ANSWER_BYTES, Asked, ByteOrder, CameraStatus, Found, FrameOrigin, Inspector, ListenAddress,
-    Listener, NumberedPart, PartFinder, PoseKind, Protocol, Request, Server, ServerSettings,
-    binary_request, parse_address,
+    ANSWER_BYTES, Asked, ByteOrder, CameraStatus, Found, Inspector, ListenAddress, Listener,
+    PoseKind, Protocol, Request, Server, ServerSettings, binary_request, parse_address,
 };
 use simulate::{CellSetup, PartKind, Side, frame};
 use stages::scene::scene_from_frame;
+use station::{FrameOrigin, Inspected, NumberedPart, PartFinder, Subject};
 
 /// Longer than any connection waits for its turn.
 const PATIENCE: Duration = Duration::from_mins(10);
@@ -83,15 +81,19 @@ impl Inspections {
             is_simulated: true,
             is_motion_checked: true,
         };
-        let scene = scene_from_frame(&frame);
+        let scene = Arc::new(scene_from_frame(&frame));
         let recipe = &self.recipe;
         let inspection =
             pipeline::run(&scene, &self.library, recipe, &Unwatched).expect("not cancelled");
         let mut found = self.finder.found(&inspection, recipe, origin);
-        found.report = InspectionLine::of("simulated frame", &inspection)
-            .by(recipe)
-            .in_robot(Some(&self.finder.robot), &inspection)
-            .to_json();
+        let inspected = Inspected {
+            subject: &Subject::of_scene("simulated frame".into(), "simulated".into(), true),
+            scene: &scene,
+            inspection: &inspection,
+            recipe,
+            robot: Some(&self.finder.robot),
+        };
+        found.report = inspected.line(&Traceability::default());
         found
     }
 }
@@ -155,7 +157,6 @@ impl ServedProtocol {
         }
     }
 
-    #[cfg(feature = "plant")]
     fn http(address: SocketAddr) -> Self {
         let head = |first: &str| format!("{first} HTTP/1.1\r\nHost: {address}\r\n");
         Self {
@@ -189,8 +190,7 @@ pub(super) struct Service {
     pub(super) protocols: Vec<ServedProtocol>,
     num_inspected: Arc<AtomicU64>,
     is_ending: Arc<AtomicBool>,
-    #[cfg(feature = "plant")]
-    _http: HttpServer,
+    _http: Option<BenchHttp>,
     thread: Option<JoinHandle<()>>,
 }
 
@@ -220,18 +220,12 @@ impl Service {
             |_| (),
         );
         let mut server = server.advised()?;
-        #[cfg(feature = "plant")]
-        let http = HttpSettings {
-            address: any_port,
-            convention: Convention::Kuka,
-            tokens: Tokens::default(),
-            tls: None,
-        };
-        #[cfg(feature = "plant")]
-        let http = HttpServer::start(http, server.handle()).advised()?;
+        let http = BenchHttp::start(server.handle())?;
         let protocols = server.addresses().iter().map(|at| ServedProtocol::of(*at));
-        #[cfg(feature = "plant")]
-        let protocols = protocols.chain([ServedProtocol::http(http.address())]);
+        let over_http = http
+            .as_ref()
+            .map(|http| ServedProtocol::http(http.address()));
+        let protocols = protocols.chain(over_http);
         let protocols = protocols.collect();
         let is_ending = Arc::new(AtomicBool::new(false));
         let num_inspected = Arc::new(AtomicU64::new(0));
@@ -246,7 +240,6 @@ impl Service {
             protocols,
             num_inspected,
             is_ending,
-            #[cfg(feature = "plant")]
             _http: http,
             thread: Some(thread),
         })

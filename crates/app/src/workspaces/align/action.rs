@@ -3,10 +3,8 @@
 use std::path::PathBuf;
 
 use super::{start::Start, state::Pairing};
-use crate::{
-    language::text,
-    shell::file_dialog::{FileChoice, FileRequest, all_files, points},
-};
+use shell::file_dialog::{FileChoice, FileRequest, all_files, points};
+use ui::language::text;
 
 /// Something that happened in the workspace.
 #[derive(Debug)]

@@ -10,22 +10,19 @@ use super::{
     start::Start,
     state::{AlignState, Pairing},
 };
-use crate::{
-    inspection::source::file_name,
+use shell::{inspection::source::file_name, session::Session};
+use ui::{
     language::text,
-    shell::session::Session,
-    ui::{
-        theme::{Theme, font, space},
-        viewport::ViewDirection,
-        widgets::{button_width, fitted_middle, labelled, menu_list, shortened, text_button},
-    },
+    theme::{Theme, font, space},
+    viewport::ViewDirection,
+    widgets::{button_width, fitted_middle, labelled, menu_list, shortened, text_button},
 };
 
 /// Longest file name shown, characters.
 const NAME: usize = 22;
 
 /// Height of a remark on a custom start, logical pixels.
-const REMARK: f32 = 18.0;
+const REMARK_HEIGHT_PX: f32 = 18.0;
 
 /// Height of this panel's contents, logical pixels.
 pub(super) fn height(align: &AlignState) -> f32 {
@@ -34,7 +31,7 @@ pub(super) fn height(align: &AlignState) -> f32 {
         return rows;
     }
     let num_remarks = align.custom.remarks.len().max(1) as f32;
-    rows + space::SMALL + space::TARGET + num_remarks * (space::SMALL + REMARK)
+    rows + space::SMALL + space::TARGET + num_remarks * (space::SMALL + REMARK_HEIGHT_PX)
 }
 
 /// Draws the panel; returns the view direction if one was chosen.
@@ -249,7 +246,7 @@ fn custom(ui: &mut Ui, align: &AlignState, actions: &mut Vec<AlignAction>) {
         }
     });
     let plain = text!("align-custom-units");
-    ui.spacing_mut().interact_size.y = REMARK;
+    ui.spacing_mut().interact_size.y = REMARK_HEIGHT_PX;
     let mut line = |text: &str, colour| {
         ui.horizontal(|ui| {
             let text = RichText::new(text).small().color(colour);

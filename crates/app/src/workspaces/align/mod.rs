@@ -34,20 +34,18 @@ pub use self::{
     track::{MethodRun, Track},
 };
 use self::{side::SidePanel, views::LinkedViews};
-pub use crate::ui::scrubber::Playback;
-use crate::{
+use shell::{
+    context::ShellContext,
+    session::{Session, WorkspaceKind},
+    workspace::Workspace,
+};
+pub use ui::scrubber::Playback;
+use ui::{
+    key_binding::{KeyBinding, Shortcut},
     language::{keys, text},
-    shell::{
-        context::ShellContext,
-        key_binding::{KeyBinding, Shortcut},
-        session::{Session, WorkspaceKind},
-        workspace::Workspace,
-    },
     task::{Running, TaskRunner},
-    ui::{
-        theme::Theme,
-        viewport::{ViewError, ViewportGpu},
-    },
+    theme::Theme,
+    viewport::{ViewError, ViewportGpu},
 };
 
 /// Width of the panel on the right in a wide and in a narrow window, logical pixels.

@@ -8,25 +8,25 @@ use std::{
 use nalgebra::Point3;
 
 use super::start::Start;
-use crate::{
-    inspection::{
-        inspected::Inspected,
-        library_cache::{LibraryCache, LoadedLibrary},
-        source::{Origin, file_name},
-    },
-    language::text,
-    ui::viewport::{PointSet, Role},
-    user_error::UserError,
-};
 use geometry::{
     cloud::PointCloud,
     nearest::KdTree,
     rigid::{self, RigidTransform},
 };
+use shell::inspection::{
+    inspected::Inspected,
+    library_cache::{LibraryCache, LoadedLibrary},
+    source::{Origin, file_name},
+};
 use stages::{
     pose::{PoseError, PreparedTarget},
     reference::Reference,
     scene::cloud_of,
+};
+use ui::{
+    language::text,
+    user_error::UserError,
+    viewport::{PointSet, Role},
 };
 
 /// Where the two clouds come from.

@@ -7,7 +7,7 @@ use super::{
     state::AlignState,
     track::{MethodRun, Track},
 };
-use crate::ui::scrubber::Playback;
+use ui::scrubber::Playback;
 
 /// A pair and the results of the methods on it.
 #[derive(Debug)]

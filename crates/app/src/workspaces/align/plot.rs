@@ -8,12 +8,10 @@ use super::{
     series,
     track::{MethodRun, Track},
 };
-use crate::{
+use ui::{
     language::text,
-    ui::{
-        plot::{Axes, Axis, curve, range_of},
-        theme::{Theme, font},
-    },
+    plot::{Axes, Axis, curve, range_of},
+    theme::{Theme, font},
 };
 
 /// The goal of Algorithm 3, 1e-6 m², as a power of ten.

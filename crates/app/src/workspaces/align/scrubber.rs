@@ -3,13 +3,11 @@
 use egui::{Align, Color32, Id, Label, Layout, RichText, Sense, Ui, vec2};
 
 use super::{action::AlignAction, playback::MethodComparison, plot, state::AlignState};
-use crate::{
+use ui::{
     language::text,
-    ui::{
-        scrubber::{Playback, Scrubber, ScrubberInput},
-        theme::{font, space},
-        widgets::focus_ring,
-    },
+    scrubber::{Playback, Scrubber, ScrubberInput},
+    theme::{font, space},
+    widgets::focus_ring,
 };
 
 /// Iterations moved by Page Up and Page Down.

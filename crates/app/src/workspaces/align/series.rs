@@ -3,8 +3,8 @@
 use egui::Color32;
 use egui_plot::LineStyle;
 
-use crate::{language::text, ui::theme::Theme};
 use stages::pose::PoseMethod;
+use ui::{language::text, theme::Theme};
 
 /// Name of a method, for a person.
 pub(super) fn title(method: PoseMethod) -> String {

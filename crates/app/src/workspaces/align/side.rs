@@ -8,22 +8,20 @@ use egui::{
 };
 
 use super::{AlignAction, AlignFile, AlignState, Start, TableRow, series};
-use crate::{
-    language::text,
-    shell::session::Session,
-    ui::{
-        theme::{ROUNDING, Theme, font, space},
-        widgets::{focus_ring, heading, labelled},
-    },
-};
+use shell::session::Session;
 use stages::pose::{PoseMethod, Uncertainty};
+use ui::{
+    language::text,
+    theme::{ROUNDING, Theme, font, space},
+    widgets::{focus_ring, heading, labelled},
+};
 
 /// Largest width of a column of numbers, logical pixels.
-const COLUMN: f32 = 88.0;
+const MAX_COLUMN_WIDTH_PX: f32 = 88.0;
 /// Width of the names on the left, logical pixels.
-const NAMES: f32 = 44.0;
+const NAMES_WIDTH_PX: f32 = 44.0;
 /// Height of a part's name above its rows, logical pixels.
-const PART: f32 = 26.0;
+const PART_HEIGHT_PX: f32 = 26.0;
 
 /// State kept between frames: the number of rows seen, to scroll to new ones.
 #[derive(Default)]
@@ -170,7 +168,7 @@ fn shortly(time: Duration) -> String {
 /// Number and right edge of each column, from left to right.
 fn columns(rect: Rect) -> impl Iterator<Item = (usize, f32)> {
     let num = PoseMethod::ALL.len();
-    let width = ((rect.width() - NAMES) / num as f32).min(COLUMN);
+    let width = ((rect.width() - NAMES_WIDTH_PX) / num as f32).min(MAX_COLUMN_WIDTH_PX);
     (0..num).map(move |place| {
         let right = rect.right() - 8.0;
         (place, right - width * (num - 1 - place) as f32)
@@ -206,7 +204,7 @@ fn rows(ui: &mut Ui, align: &AlignState, session: &Session, actions: &mut Vec<Al
         if row.part != part {
             part = &row.part;
             let (rect, _) =
-                ui.allocate_exact_size(vec2(ui.available_width(), PART), Sense::hover());
+                ui.allocate_exact_size(vec2(ui.available_width(), PART_HEIGHT_PX), Sense::hover());
             let at = rect.left_bottom() - vec2(0.0, 4.0);
             let painter = ui.painter();
             painter.text(

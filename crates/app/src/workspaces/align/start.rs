@@ -5,12 +5,12 @@ use std::f64::consts::PI;
 use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64;
 
-use crate::language::text;
 use geometry::{
     rigid::{RigidTransform, from_euler_zyx},
     written_pose::parse_pose,
 };
 use stages::pose::displacements::DISPLACEMENTS;
+use ui::language::text;
 
 /// Largest shift of a random start along each axis, metres: that of T1.
 const RANDOM_SHIFT: f64 = 0.8;

@@ -11,17 +11,16 @@ use super::{
     track::MethodRun,
     work,
 };
-use crate::{
-    inspection::source::file_name,
-    language::text,
-    shell::{
-        context::ShellContext, file_dialog::FileDialog, message::Message, notice::Notice,
-        session::Session,
-    },
-    task::{Running, Task, TaskRunner},
-    ui::scrubber::Playback,
-};
 use inspection::pipeline::Verdict;
+use shell::{
+    context::ShellContext, file_dialog::FileDialog, inspection::source::file_name,
+    message::Message, notice::Notice, session::Session,
+};
+use ui::{
+    language::text,
+    scrubber::Playback,
+    task::{Running, Task, TaskRunner},
+};
 
 /// State of the workspace.
 #[derive(Debug)]

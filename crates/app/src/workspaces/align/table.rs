@@ -6,8 +6,8 @@ use super::{
     pair::Pair,
     track::{estimated, in_the_window},
 };
-use crate::user_error::UserError;
 use stages::pose::PoseMethod;
+use ui::user_error::UserError;
 
 /// Table I as far as computed.
 #[derive(Debug, Default)]

@@ -6,15 +6,15 @@ use std::{
 };
 
 use super::pair::Pair;
-use crate::{
-    language::{advised, described, text},
-    ui::widgets::sentence,
-    user_error::UserError,
-};
 use geometry::rigid::{self, RigidTransform};
 use stages::pose::{
     FitQuality, Iteration, Phase, PoseError, PoseEstimate, PoseMethod, PoseWarning, Stopped,
     Uncertainty, align_to,
+};
+use ui::{
+    language::{advised, described, text},
+    user_error::UserError,
+    widgets::sentence,
 };
 
 /// The run of one method on a pair.

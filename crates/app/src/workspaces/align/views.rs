@@ -11,24 +11,22 @@ use super::{
     state::AlignState,
     track::{MethodRun, Track, doubted, in_the_window},
 };
-use crate::{
+use geometry::units::Metres;
+use shell::session::{Session, ThemeChoice};
+use stages::pose::PoseMethod;
+use ui::{
     language::text,
-    shell::session::{Session, ThemeChoice},
-    ui::{
-        theme::{ROUNDING, Theme, font, space},
-        viewport::{
-            Role, RoleColour, ViewCamera, ViewColours, ViewDirection, ViewError, ViewScene,
-            ViewStyle, Viewport, ViewportGpu, scene::mat4,
-        },
+    theme::{ROUNDING, Theme, font, space},
+    viewport::{
+        Role, RoleColour, ViewCamera, ViewColours, ViewDirection, ViewError, ViewScene, ViewStyle,
+        Viewport, ViewportGpu, scene::mat4,
     },
 };
-use geometry::units::Metres;
-use stages::pose::PoseMethod;
 
 /// Height of the text above a wide and a narrow view, logical pixels.
 const HEAD: [f32; 2] = [66.0, 98.0];
 /// Width below which a view's figures take two lines, logical pixels.
-const NARROW: f32 = 300.0;
+const TWO_LINE_WIDTH_PX: f32 = 300.0;
 /// Point size. Reference clouds are thinned to 8 mm: they look closed from afar, and the other cloud still shows
 /// between.
 const POINT: Metres = Metres(0.0075);
@@ -219,7 +217,7 @@ impl View {
 
 /// Height of the text above a view of this width, logical pixels.
 fn head(width: f32) -> f32 {
-    HEAD[usize::from(width < NARROW)]
+    HEAD[usize::from(width < TWO_LINE_WIDTH_PX)]
 }
 
 fn style(method: PoseMethod, choice: ThemeChoice) -> ViewStyle {

@@ -9,15 +9,15 @@ use super::{
     table::{TableCell, TableRow},
     track::MethodRun,
 };
-use crate::{
-    inspection::library_cache::LibraryCache,
+use files::write_text;
+use inspection::pipeline::ProgressObserver as _;
+use shell::inspection::library_cache::LibraryCache;
+use stages::pose::PoseMethod;
+use ui::{
     language::text,
     task::{TaskContext, TaskError},
     user_error::UserError,
 };
-use files::write_text;
-use inspection::pipeline::ProgressObserver as _;
-use stages::pose::PoseMethod;
 
 /// Aligns a pair by every method.
 pub(super) fn pair(
@@ -27,8 +27,8 @@ pub(super) fn pair(
 ) -> Result<AlignResult, TaskError> {
     let pair = Arc::new(Pair::of(source, library_cache)?);
     context.partial(AlignResult::Prepared(Arc::clone(&pair)));
-    for (place, method) in PoseMethod::ALL.into_iter().enumerate() {
-        context.progress(place, PoseMethod::ALL.len());
+    for (index, method) in PoseMethod::ALL.into_iter().enumerate() {
+        context.progress(index, PoseMethod::ALL.len());
         context.check()?;
         let run = MethodRun::of(method, &pair, &|| context.is_cancelled());
         context.check()?;
@@ -49,8 +49,8 @@ pub(super) fn table(
     let clock = Instant::now();
     let mut num_done = done.len();
     context.progress(num_done, total);
-    for (place, reference) in references.iter().enumerate() {
-        let title = loaded.shown.title(place);
+    for (index, reference) in references.iter().enumerate() {
+        let title = loaded.shown.title(index);
         for start in 0..Start::NUM_PAPER {
             let is_done = |(part, of): &(String, usize)| *part == reference.name && *of == start;
             if done.iter().any(is_done) {

@@ -3,11 +3,9 @@
 use std::path::PathBuf;
 
 use super::kept_recipes::NamingPurpose;
-use crate::{
-    language::text,
-    shell::file_dialog::{FileChoice, FileFilter, FileRequest},
-};
 use records::cases::{Cell, Truth};
+use shell::file_dialog::{FileChoice, FileFilter, FileRequest};
+use ui::language::text;
 
 /// An action of a person in the workspace.
 #[derive(Clone, Debug)]

@@ -3,21 +3,19 @@
 use egui::{Button, RichText, Ui, WidgetInfo};
 
 use super::{CompareAction, CompareState, Front, Undo};
-use crate::{
-    language::{keys, text},
-    shell::{
-        session::Session,
-        truth_menu::{truth_entries, truth_title},
-    },
-    ui::{
-        theme::{Theme, font, space},
-        widgets::{Mark, labelled, line_edit, line_mark, menu_list, shortened, text_button},
-    },
-};
 use records::cases::{CaseOutcome, FoundVerdict, Truth};
+use shell::{
+    session::Session,
+    truth_menu::{truth_entries, truth_title},
+};
+use ui::{
+    language::{keys, text},
+    theme::{Theme, font, space},
+    widgets::{Mark, labelled, line_edit, line_mark, menu_list, shortened, text_button},
+};
 
 /// A bar wider than this has room for a long remark.
-const WIDE: f32 = 800.0;
+const WIDE_BAR_PX: f32 = 800.0;
 /// Letters of the reference's title on the menu of references.
 const AGAINST: usize = 40;
 
@@ -27,7 +25,7 @@ pub(super) fn ui(
     session: &Session,
     acts: &mut Vec<CompareAction>,
 ) {
-    let remark = if ui.available_width() > WIDE {
+    let remark = if ui.available_width() > WIDE_BAR_PX {
         220.0
     } else {
         140.0

@@ -3,12 +3,12 @@
 use egui::{RichText, ScrollArea, Ui};
 
 use super::{CompareAction, RunChanges, kept_cases::case_row};
-use crate::{
-    inspection::library_cache::LibraryView,
-    language::text,
-    ui::theme::{Theme, font},
-};
 use records::cases::{CaseChange, CaseOutcome, FoundVerdict};
+use shell::inspection::library_cache::LibraryView;
+use ui::{
+    language::text,
+    theme::{Theme, font},
+};
 
 pub(super) fn ui(
     ui: &mut Ui,

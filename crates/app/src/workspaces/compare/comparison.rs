@@ -9,7 +9,7 @@
 //! - the paper's correlates L, and the folded Θ, along a line padded with zeros (eq. 7), and decides by ‖A − C‖₁ over
 //!   both (eq. 11).
 
-use crate::inspection::figures::{PlaneLine, SignatureCurves, closed, plain};
+use shell::inspection::figures::{PlaneLine, SignatureCurves, closed, plain};
 use stages::{
     correlation::{CircularCorrelator, RaySpectra, linear_correlation},
     rank::{ImagePlacement, Matcher, Query},

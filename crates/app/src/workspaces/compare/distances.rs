@@ -3,23 +3,20 @@
 use egui::{Align2, Rect, RichText, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
 
 use super::{CompareAction, CompareState, study::PartDistance};
-use crate::{
-    inspection::unit_system::UnitSystem,
-    language::text,
-    shell::session::Session,
-    ui::{
-        theme::{ROUNDING, Theme, font, space},
-        widgets::{fitted_middle, focus_ring},
-    },
-};
+use shell::{inspection::unit_system::UnitSystem, session::Session};
 use stages::rank::Matcher;
+use ui::{
+    language::text,
+    theme::{ROUNDING, Theme, font, space},
+    widgets::{fitted_middle, focus_ring},
+};
 
 /// Height of a row.
-const ROW: f32 = 40.0;
+const ROW_HEIGHT_PX: f32 = 40.0;
 /// Height of the line of figures below a name.
-const FIGURES: f32 = 16.0;
+const FIGURES_HEIGHT_PX: f32 = 16.0;
 /// A row wider than this has room for the figures beside the name.
-const WIDE: f32 = 270.0;
+const WIDE_ROW_PX: f32 = 270.0;
 
 pub(super) fn ui(
     ui: &mut Ui,
@@ -77,9 +74,9 @@ fn row(ui: &mut Ui, distance: &PartDistance, is_against: bool, units: UnitSystem
     let theme = Theme::of(ui);
     let width = ui.available_width() - space::MEDIUM;
     // In a narrow row the figures are below the name.
-    let is_wide = width > WIDE;
-    let below = if is_wide { 0.0 } else { FIGURES };
-    let size = vec2(width, ROW + below);
+    let is_wide = width > WIDE_ROW_PX;
+    let below = if is_wide { 0.0 } else { FIGURES_HEIGHT_PX };
+    let size = vec2(width, ROW_HEIGHT_PX + below);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     let outline = distance
         .outline

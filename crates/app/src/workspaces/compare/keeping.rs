@@ -3,19 +3,17 @@
 use std::sync::Arc;
 
 use super::{state::CompareState, work::CaseEdit};
-use crate::{
-    inspection::inspected::Inspected,
-    language::text,
-    shell::{
-        context::ShellContext,
-        message::Message,
-        notice::{Notice, NoticeTopic},
-    },
-};
 use records::{
     cases::{CaseDescription, CaseError, CaseFolder, KeptCase},
     history::{HistoryBuffer, HistoryError},
 };
+use shell::{
+    context::ShellContext,
+    inspection::inspected::Inspected,
+    message::Message,
+    notice::{Notice, NoticeTopic},
+};
+use ui::language::text;
 
 impl CompareState {
     /// Keeps the scene in front, or says why not.
@@ -82,9 +80,9 @@ mod tests {
     use std::time::Instant;
 
     use super::*;
-    use crate::inspection::{inspected::inspected_cell, source::CellChoice};
     use inspection::library::Truth;
     use records::history::FILE;
+    use shell::inspection::{inspected::inspected_cell, source::CellChoice};
 
     fn inspected() -> Inspected {
         inspected_cell(CellChoice::Empty, 1)

@@ -12,26 +12,23 @@ use super::{
     matrix::{Matrix, MatrixCell, column_title, row_title},
     score_plots,
 };
-use crate::{
-    inspection::library_cache::LibraryView,
-    language::text,
-    shell::session::Session,
-    ui::{
-        theme::{ROUNDING, Theme, font, space},
-        widgets::{focus_ring, labelled, shortened, text_button},
-    },
-    user_error::UserError,
-};
 use records::cases::{CaseAnswer, CaseOutcome, KeptCase};
+use shell::{inspection::library_cache::LibraryView, session::Session};
+use ui::{
+    language::text,
+    theme::{ROUNDING, Theme, font, space},
+    user_error::UserError,
+    widgets::{focus_ring, labelled, shortened, text_button},
+};
 
 /// Width of the rows' names.
-const NAMES: f32 = 118.0;
+const NAMES_WIDTH_PX: f32 = 118.0;
 /// Height of the columns' names where the columns are narrow.
-const UPRIGHT: f32 = 104.0;
+const UPRIGHT_NAME_HEIGHT_PX: f32 = 104.0;
 /// Least width of a column.
 const NARROWEST: f32 = space::TARGET + 2.0;
 /// A column wider than this has its name written across.
-const WIDE: f32 = 110.0;
+const WIDE_COLUMN_PX: f32 = 110.0;
 
 pub(super) fn ui(
     ui: &mut Ui,
@@ -87,7 +84,7 @@ fn matrix_and_calibration(
     let shown = session.library.as_deref().unwrap_or(&unloaded);
     let num_columns = run.matrix.columns.len() as f32;
     let beside = ui.available_width() - score_plots::WIDTH - space::LARGE;
-    if beside >= NAMES + 16.0 + NARROWEST * num_columns {
+    if beside >= NAMES_WIDTH_PX + 16.0 + NARROWEST * num_columns {
         ui.horizontal_top(|ui| {
             ui.vertical(|ui| {
                 ui.set_max_width(beside);
@@ -315,21 +312,25 @@ fn matrix(ui: &mut Ui, matrix: &Matrix, shown: &LibraryView, acts: &mut Vec<Comp
     let rows = matrix.rows.iter();
     let rows: Vec<String> = rows.map(|truth| row_title(truth, shown)).collect();
     let num_columns = matrix.columns.len().max(1);
-    let room = ui.available_width() - NAMES - 16.0;
+    let room = ui.available_width() - NAMES_WIDTH_PX - 16.0;
     let width = (room / num_columns as f32).clamp(NARROWEST, 140.0);
     let height = space::TARGET + 2.0;
-    let head = if width > WIDE { 22.0 } else { UPRIGHT };
+    let head = if width > WIDE_COLUMN_PX {
+        22.0
+    } else {
+        UPRIGHT_NAME_HEIGHT_PX
+    };
     let size = vec2(
-        NAMES + width * num_columns as f32,
+        NAMES_WIDTH_PX + width * num_columns as f32,
         head + height * matrix.rows.len() as f32,
     );
     let (all, _) = ui.allocate_exact_size(size, Sense::hover());
     let painter = ui.painter().clone();
-    let origin = all.min + vec2(NAMES, head);
+    let origin = all.min + vec2(NAMES_WIDTH_PX, head);
     for (column, name) in columns.iter().enumerate() {
         let middle = origin.x + width * (column as f32 + 0.5);
         let colour = theme.weak_text;
-        if width > WIDE {
+        if width > WIDE_COLUMN_PX {
             let at = pos2(middle, origin.y - 6.0);
             let name = shortened(name, (width / 6.5) as usize);
             painter.text(at, Align2::CENTER_BOTTOM, name, font::small(), colour);

@@ -6,20 +6,20 @@ use std::{
     sync::Arc,
 };
 
-use crate::{
-    inspection::folder_watch::FolderWatch,
-    language::text,
-    shell::{context::ShellContext, settings::set_aside, undo_stack::UndoDirection},
-    task::{Task, TaskRunner},
-    user_error::UserError,
-};
 use files::disk;
 use inspection::{
     library::PartName,
     pipeline::{
-        BUILT_IN, NamedRecipe, Recipe, RecipeError, RecipeFile, RecipeFolder, RecipeLabel,
-        RecipeList, Replace,
+        BUILT_IN, BUILT_IN_RECIPES, NamedRecipe, Recipe, RecipeError, RecipeFile, RecipeFolder,
+        RecipeLabel, RecipeList, Replace, built_in_recipe,
     },
+};
+use shell::{context::ShellContext, inspection::folder_watch::FolderWatch, settings::set_aside};
+use ui::{
+    language::text,
+    task::{Task, TaskRunner},
+    undo_stack::UndoDirection,
+    user_error::UserError,
 };
 
 /// The changed recipe on trial when the window was closed, in the folder of recipes; hidden, as it is none of them.
@@ -142,6 +142,11 @@ impl KeptRecipes {
         of_name(&self.list, name)
     }
 
+    /// The parameters of the built-in or saved recipe of this name.
+    pub(super) fn recipe(&self, name: &str) -> Option<Recipe> {
+        built_in_recipe(name).or_else(|| self.of_name(name).map(|file| file.recipe.clone()))
+    }
+
     /// True if there is a recipe of this name.
     pub(super) fn has(&self, name: &str) -> bool {
         is_taken(&self.list, name)
@@ -149,12 +154,9 @@ impl KeptRecipes {
 
     /// Names parameters, and marks them as changed if the recipe of this name has others.
     pub(super) fn named(&self, name: &str, parameters: Arc<Recipe>) -> NamedRecipe {
-        let is_kept = if name == BUILT_IN {
-            *parameters == Recipe::default()
-        } else {
-            self.of_name(name)
-                .is_some_and(|file| file.recipe == *parameters)
-        };
+        let is_kept = self
+            .recipe(name)
+            .is_some_and(|recipe| recipe == *parameters);
         NamedRecipe {
             label: RecipeLabel {
                 name: name.to_owned(),
@@ -222,7 +224,7 @@ pub(super) fn of_name<'a>(list: &'a RecipeList, name: &str) -> Option<&'a Recipe
 }
 
 fn is_taken(list: &RecipeList, name: &str) -> bool {
-    name == BUILT_IN || of_name(list, name).is_some()
+    BUILT_IN_RECIPES.contains(&name) || of_name(list, name).is_some()
 }
 
 /// The first free name of `name_2`, `name_3` and so on; a long name is shortened for it.

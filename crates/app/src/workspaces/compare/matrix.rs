@@ -1,7 +1,8 @@
 //! The confusion matrix for drawing: counts and verdicts, computed once, and the titles of its rows and columns.
 
-use crate::{inspection::library_cache::LibraryView, language::text, shell::truth_menu};
 use records::cases::{CaseAnswer, CaseOutcome, Cell, Confusion, Tally, Truth};
+use shell::{inspection::library_cache::LibraryView, truth_menu};
+use ui::language::text;
 
 /// The matrix, row by row.
 #[derive(Debug, Default)]

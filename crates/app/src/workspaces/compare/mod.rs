@@ -34,16 +34,16 @@ pub use self::{
     state::{Cases, CompareState, Front, Undo},
     work::{CaseDone, CaseEdit, CaseRun, CompareResult, RunChanges},
 };
-use crate::{
+use shell::{
+    context::ShellContext,
+    session::{Session, WorkspaceKind},
+    workspace::Workspace,
+};
+use ui::{
+    key_binding::{KeyBinding, Shortcut},
     language::{keys, text},
-    shell::{
-        context::ShellContext,
-        key_binding::{KeyBinding, Shortcut},
-        session::{Session, WorkspaceKind},
-        workspace::Workspace,
-    },
     task::{Running, TaskRunner},
-    ui::theme::{Theme, space},
+    theme::{Theme, space},
 };
 
 /// The shortcuts of the workspace. The one with more modifiers comes first, as the other would match it too.

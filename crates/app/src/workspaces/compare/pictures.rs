@@ -10,22 +10,19 @@ use super::{
     CompareState,
     comparison::{AxisQuantity, Correlated, Correlation, OutlineComparison},
 };
-use crate::{
-    inspection::unit_system::UnitSystem,
-    language::text,
-    shell::session::Session,
-    ui::{
-        plot::{Axes, Axis, RayCurves, curve, range_of},
-        theme::{ROUNDING, Theme, font},
-        widgets::{fitted_middle, plane_in},
-    },
-};
+use shell::{inspection::unit_system::UnitSystem, session::Session};
 use stages::rank::Matcher;
+use ui::{
+    language::text,
+    plot::{Axes, Axis, RayCurves, curve, range_of},
+    theme::{ROUNDING, Theme, font},
+    widgets::{fitted_middle, plane_in},
+};
 
 /// Height of a picture's title.
-const TITLE: f32 = 19.0;
+const TITLE_HEIGHT_PX: f32 = 19.0;
 /// Captions of a picture narrower than this have two lines.
-const NARROW: f32 = 270.0;
+const TWO_LINE_WIDTH_PX: f32 = 270.0;
 
 pub(super) fn ui(ui: &mut Ui, rects: [Rect; 3], compare: &CompareState, session: &Session) {
     let theme = Theme::of(ui);
@@ -152,7 +149,7 @@ impl Picture {
             font::body_strong(),
             theme.text,
         );
-        let at = rect.min + vec2(0.0, TITLE);
+        let at = rect.min + vec2(0.0, TITLE_HEIGHT_PX);
         let lines = painter.layout(
             caption.to_owned(),
             font::small(),
@@ -160,8 +157,12 @@ impl Picture {
             rect.width(),
         );
         // Side by side, the pictures begin at the same height.
-        let least = if rect.width() < NARROW { 30.0 } else { 15.0 };
-        let top = TITLE + lines.size().y.max(least) + 5.0;
+        let least = if rect.width() < TWO_LINE_WIDTH_PX {
+            30.0
+        } else {
+            15.0
+        };
+        let top = TITLE_HEIGHT_PX + lines.size().y.max(least) + 5.0;
         painter.galley(at, lines, theme.weak_text);
         let canvas = Rect::from_min_max(rect.min + vec2(0.0, top), rect.max);
         painter.rect_filled(canvas, ROUNDING, theme.canvas);

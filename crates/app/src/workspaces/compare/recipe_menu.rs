@@ -7,33 +7,32 @@ use super::{
     action::RecipeAction,
     kept_recipes::{Naming, NamingPurpose},
 };
-use crate::{
-    language::{parameters, results::recipe_label, text},
-    shell::session::Session,
-    ui::{
-        theme::{Theme, space},
-        widgets::{
-            self, button_width, labelled, line_edit, shortened, show_scroll_bar, text_button,
-        },
-    },
-};
 use geometry::error::Advice as _;
 use inspection::{
     library::PartName,
     pipeline::{
-        BUILT_IN, Recipe, RecipeLabel,
+        AS_IN_THE_PAPER, BUILT_IN, BUILT_IN_RECIPES, Recipe, RecipeLabel,
         parameters::{changed, num_changed},
     },
+};
+use shell::{
+    language::results::{recipe_label, recipe_name},
+    session::Session,
+};
+use ui::{
+    language::{parameters, text},
+    theme::{Theme, space},
+    widgets::{self, button_width, labelled, line_edit, shortened, show_scroll_bar, text_button},
 };
 
 /// A longer name is shortened to this many letters.
 const MAX_LETTERS: usize = 20;
 
 /// Height of the list of recipes in the menu, logical pixels: the entries below it stay in sight.
-const LIST: f32 = 230.0;
+const LIST_HEIGHT_PX: f32 = 230.0;
 
 /// Least width of the field for a name, logical pixels.
-const NARROWEST_NAME: f32 = 90.0;
+const MIN_NAME_WIDTH_PX: f32 = 90.0;
 
 pub(super) fn ui(
     ui: &mut Ui,
@@ -92,10 +91,10 @@ fn menu(ui: &mut Ui, compare: &CompareState, session: &Session, acts: &mut Vec<C
         .menu_button(text, |ui| {
             show_scroll_bar(ui);
             ScrollArea::vertical()
-                .max_height(LIST)
+                .max_height(LIST_HEIGHT_PX)
                 .show(ui, |ui| entries(ui, compare, label, acts));
             ui.separator();
-            let is_own = label.name == BUILT_IN;
+            let is_own = BUILT_IN_RECIPES.contains(&label.name.as_str());
             let is_kept = compare.recipes.has(&label.name);
             let is_default = list.default == label.name;
             // Why an entry is disabled, if it is.
@@ -154,7 +153,7 @@ fn menu(ui: &mut Ui, compare: &CompareState, session: &Session, acts: &mut Vec<C
 /// The name of a recipe as its button has it, cut off where the button would be wider than the panel.
 fn fitted_name(ui: &Ui, label: &RecipeLabel) -> String {
     let with_name_of = |most: usize| {
-        let name = shortened(&label.name, most);
+        let name = shortened(&recipe_name(&label.name), most);
         if label.is_changed {
             format!("{} ▼", text!("results-recipe-modified", name = name))
         } else {
@@ -174,16 +173,19 @@ fn entries(
     acts: &mut Vec<CompareAction>,
 ) {
     let list = &compare.recipes.list;
-    let built_in = text!("compare-built-in-hint");
-    let names = std::iter::once((BUILT_IN, built_in.as_str()));
+    let own = [
+        (BUILT_IN, text!("compare-built-in-hint")),
+        (AS_IN_THE_PAPER, text!("compare-as-in-the-paper-hint")),
+    ];
+    let own = own.iter().map(|(name, hint)| (*name, hint.as_str()));
     let kept = list.recipes.iter();
-    for (name, notes) in names.chain(kept.map(|file| (file.name.as_str(), file.notes.as_str()))) {
+    for (name, notes) in own.chain(kept.map(|file| (file.name.as_str(), file.notes.as_str()))) {
         let default = if list.default == name {
             format!(" · {}", text!("compare-is-default"))
         } else {
             String::new()
         };
-        let text = format!("{}{default}", shortened(name, 32));
+        let text = format!("{}{default}", shortened(&recipe_name(name), 32));
         let entry = ui.selectable_label(label.name == name, text);
         let entry = if notes.is_empty() {
             entry
@@ -224,7 +226,7 @@ fn name_ui(
         let whole = ui.available_width() - space::MEDIUM;
         let beside = whole - widths[0] - widths[1] - 2.0 * space::SMALL;
         // If the buttons leave too little room, they are placed below.
-        let width = if beside < NARROWEST_NAME {
+        let width = if beside < MIN_NAME_WIDTH_PX {
             whole
         } else {
             beside

@@ -3,20 +3,18 @@
 use egui::{Button, Color32, Frame, Margin, Panel, RichText, ScrollArea, Ui, WidgetInfo, vec2};
 
 use super::{CompareAction, CompareState, case_bar, recipe_menu, scaling_plot};
-use crate::{
-    language::{parameters, text, within_sentence},
-    shell::session::Session,
-    ui::{
-        parameter_control::{self, ParameterChange, fold},
-        theme::{Theme, font, space},
-        widgets::{Mark, line_mark},
-    },
-};
 use inspection::pipeline::{
     Recipe,
     parameters::{Group, PARAMETERS, Parameter, Place},
 };
 use records::cases::CaseOutcome;
+use shell::session::Session;
+use ui::{
+    language::{parameters, text, within_sentence},
+    parameter_control::{self, ParameterChange, fold},
+    theme::{Theme, font, space},
+    widgets::{Mark, line_mark},
+};
 
 pub(super) fn ui(
     ui: &mut Ui,
@@ -73,6 +71,10 @@ fn group_ui(
         let all = PARAMETERS.iter();
         all.filter(move |p| p.group == group && p.place == place)
     };
+    let num = of(Place::Fold).count();
+    if num + of(Place::Front).count() == 0 {
+        return;
+    }
     ui.add_space(space::SMALL);
     ui.label(
         RichText::new(parameters::group(group))
@@ -82,7 +84,6 @@ fn group_ui(
     for parameter in of(Place::Front) {
         control(ui, parameter, recipe, default, acts);
     }
-    let num = of(Place::Fold).count();
     if num == 0 {
         return;
     }

@@ -9,20 +9,15 @@ use super::{
     schedule::StudyNeed,
     state::{CompareState, Undo},
 };
-use crate::{
-    language::text,
-    shell::{
-        context::ShellContext, message::Message, notice::Notice, session::UserRole,
-        undo_stack::UndoDirection,
-    },
-    user_error::UserError,
-};
 use inspection::{
     library::PartName,
     pipeline::{
-        BUILT_IN, NamedRecipe, Recipe, RecipeError, RecipeFile, RecipeLabel, RecipeList, Replace,
+        BUILT_IN_RECIPES, NamedRecipe, Recipe, RecipeError, RecipeFile, RecipeLabel, RecipeList,
+        Replace,
     },
 };
+use shell::{context::ShellContext, message::Message, notice::Notice, session::UserRole};
+use ui::{language::text, undo_stack::UndoDirection, user_error::UserError};
 
 impl CompareState {
     /// Carries out an action on the kept recipes.
@@ -150,9 +145,9 @@ impl CompareState {
         let name = &tried.label.name;
         let stem = path.file_stem().map(|stem| stem.to_string_lossy());
         let of_file = stem.and_then(|stem| PartName::proposed(&stem));
-        // The name of the built-in recipe stays with its parameters.
+        // The name of a built-in recipe stays with its parameters.
         let name = match of_file {
-            Some(of_file) if name == BUILT_IN => of_file,
+            Some(of_file) if BUILT_IN_RECIPES.contains(&name.as_str()) => of_file,
             _ => PartName::new(name)?,
         };
         let file = self.file_of(tried, name);
@@ -162,13 +157,11 @@ impl CompareState {
 
     /// Puts a kept recipe on trial.
     fn open_recipe(&mut self, name: &str, cx: &mut ShellContext<'_>) {
-        let parameters = match self.recipes.of_name(name) {
-            Some(file) => Arc::new(file.recipe.clone()),
-            None if name == BUILT_IN => Arc::default(),
-            None => return,
+        let Some(parameters) = self.recipes.recipe(name) else {
+            return;
         };
         let before = Arc::clone(self.tried_recipe(cx.session));
-        let recipe = self.recipes.named(name, parameters);
+        let recipe = self.recipes.named(name, Arc::new(parameters));
         if recipe == *before {
             return;
         }
@@ -320,7 +313,9 @@ impl CompareState {
         let is_other = |[before, now]: [&RecipeLabel; 2]| {
             let [was, is] = [known, list].map(|list| of_name(list, &now.name));
             let is_replaced = was.is_some_and(|was| Some(&was.recipe) != is.map(|is| &is.recipe));
-            now.name != BUILT_IN && now.is_changed && (!before.is_changed || is_replaced)
+            !BUILT_IN_RECIPES.contains(&now.name.as_str())
+                && now.is_changed
+                && (!before.is_changed || is_replaced)
         };
         let [is_other_in_use, is_other_tried] = [in_use, tried].map(is_other);
         let name = match (is_other_in_use, is_other_tried) {

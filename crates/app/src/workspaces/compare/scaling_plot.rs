@@ -4,15 +4,13 @@ use egui::{Button, RichText, Sense, Ui, WidgetInfo, vec2};
 use egui_plot::{Line, LineStyle};
 
 use super::{CompareAction, CompareState};
-use crate::{
-    language::text,
-    ui::{
-        plot::{Axes, Axis, legend, range_of},
-        theme::{ROUNDING, Theme, font},
-        widgets::labelled,
-    },
-};
 use bench::scaling::Scaling;
+use ui::{
+    language::text,
+    plot::{Axes, Axis, legend, range_of},
+    theme::{ROUNDING, Theme, font},
+    widgets::labelled,
+};
 
 /// Height of the plot.
 const HEIGHT: f32 = 190.0;

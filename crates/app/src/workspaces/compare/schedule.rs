@@ -8,17 +8,14 @@ use super::{
     study::{CaseScene, StudyRequest, study},
     work::{self, CaseEdit, CaseRun, CompareResult},
 };
-use crate::{
-    language::text,
-    shell::{
-        context::ShellContext,
-        notice::Notice,
-        session::{Session, Shown, WorkspaceKind},
-        undo_stack::UndoDirection,
-    },
-};
 use inspection::pipeline::NamedRecipe;
 use records::cases::CaseFolder;
+use shell::{
+    context::ShellContext,
+    notice::Notice,
+    session::{Session, Shown, WorkspaceKind},
+};
+use ui::{language::text, undo_stack::UndoDirection};
 
 /// Whether the case in front has to be studied.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]

@@ -3,20 +3,18 @@
 use egui::{Align2, Sense, Ui, WidgetInfo, pos2, vec2};
 use egui_plot::{Line, LineStyle, PlotTransform, PlotUi, Points, VLine};
 
-use crate::{
-    language::text,
-    ui::{
-        plot::{Axes, Axis, legend},
-        theme::{ROUNDING, Theme, font, space},
-    },
-};
 use records::cases::{Calibration, ThresholdCounts, TradeOff};
+use ui::{
+    language::text,
+    plot::{Axes, Axis, legend},
+    theme::{ROUNDING, Theme, font, space},
+};
 
 /// Width of a plot with its labels.
 pub(super) const WIDTH: f32 = 238.0;
 const HEIGHT: f32 = 238.0;
 /// Room for the number above a point, logical pixels.
-const NUMBER: f32 = 20.0;
+const NUMBER_HEIGHT_PX: f32 = 20.0;
 /// The curve of refusals is dashed: colour must not be the only difference.
 const REFUSED: LineStyle = LineStyle::Dashed { length: 6.0 };
 
@@ -90,7 +88,7 @@ pub(super) fn calibration(ui: &mut Ui, calibration: &Calibration) {
     for (num, at) in bins {
         let at = shown.position_from_point(&at.into());
         // Above the plot is its title.
-        let (offset, anchor) = if at.y - NUMBER < shown.frame().top() {
+        let (offset, anchor) = if at.y - NUMBER_HEIGHT_PX < shown.frame().top() {
             (6.0, Align2::CENTER_TOP)
         } else {
             (-6.0, Align2::CENTER_BOTTOM)

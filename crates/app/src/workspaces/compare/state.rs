@@ -13,26 +13,26 @@ use super::{
     study::CaseStudy,
     work::{CaseDone, CaseEdit, CaseRun, CompareResult, RunChanges},
 };
-use crate::{
-    inspection::folder_watch::FolderWatch,
-    language::text,
-    shell::{
-        context::ShellContext,
-        file_dialog::FileDialog,
-        message::Message,
-        notice::{Notice, NoticeTopic},
-        session::Shown,
-        undo_stack::{UndoDirection, UndoStack},
-    },
-    task::{Running, Task, TaskRunner},
-    user_error::UserError,
-};
 use bench::scaling::Scaling;
 use inspection::{
     library::PartName,
     pipeline::{NamedRecipe, Recipe, RecipeFile, parameters::Parameter},
 };
 use records::cases::{CaseError, CaseFolder, Cell, KeptCase, Truth};
+use shell::{
+    context::ShellContext,
+    file_dialog::FileDialog,
+    inspection::folder_watch::FolderWatch,
+    message::Message,
+    notice::{Notice, NoticeTopic},
+    session::Shown,
+};
+use ui::{
+    language::text,
+    task::{Running, Task, TaskRunner},
+    undo_stack::{UndoDirection, UndoStack},
+    user_error::UserError,
+};
 
 /// The state of the workspace.
 #[derive(Debug)]

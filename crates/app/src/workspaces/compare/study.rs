@@ -3,22 +3,24 @@
 use std::sync::Arc;
 
 use super::comparison::OutlineComparison;
-use crate::{
-    inspection::{inspected::Inspected, library_cache::LibraryCache, unit_system::UnitSystem},
-    language::{Language, advised, described, text},
-    task::TaskError,
-    user_error::UserError,
-};
 use inspection::{
     library::Library,
     pipeline::{self, Inspection, NamedRecipe, ProgressObserver, Verdict},
 };
 use records::cases::{CaseFolder, FoundVerdict, KeptCase, Truth};
+use shell::inspection::{
+    inspected::Inspected, library_cache::LibraryCache, unit_system::UnitSystem,
+};
 use stages::{
     rank::{MatchRanking, Matcher, Query, RankParams, rank},
     signature::LiteralSignature,
 };
 use texts::{Described as _, Message};
+use ui::{
+    language::{Language, advised, described, text},
+    task::TaskError,
+    user_error::UserError,
+};
 
 /// The scene of a case.
 #[derive(Clone, Debug)]
@@ -294,15 +296,13 @@ mod tests {
     use std::time::Instant;
 
     use super::*;
-    use crate::{
-        inspection::{camera::Camera, inspected::inspected_cell, source::CellChoice},
-        language::Language,
-    };
     use inspection::{
         fixtures::{add_reference, copy_library, shipped_library},
         pipeline::{Recipe, Unwatched},
     };
+    use shell::inspection::{camera::Camera, inspected::inspected_cell, source::CellChoice};
     use simulate::{PartKind, Side};
+    use ui::language::Language;
 
     fn request(choice: CellChoice) -> StudyRequest {
         StudyRequest {

@@ -7,11 +7,9 @@ use super::{
     schedule::StudyNeed,
     state::{CompareState, Undo},
 };
-use crate::{
-    language::{results::recipe_label, text},
-    shell::{context::ShellContext, message::Message, undo_stack::UndoDirection},
-};
 use inspection::pipeline::{NamedRecipe, Recipe, parameters::num_changed};
+use shell::{context::ShellContext, language::results::recipe_label, message::Message};
+use ui::{language::text, undo_stack::UndoDirection};
 
 impl CompareState {
     /// Puts other parameters on trial under the same name, and studies the case in front with them at once.

@@ -8,13 +8,6 @@ use std::{
 use jiff::Timestamp;
 
 use super::{keeping::keep_case, matrix::Matrix, schedule::Job, state::Cases, study::CaseStudy};
-use crate::{
-    inspection::{inspected::Inspected, library_cache::LibraryCache},
-    language::text,
-    shell::undo_stack::UndoDirection,
-    task::{TaskContext, TaskError},
-    user_error::UserError,
-};
 use bench::scaling::{Scaling, ScalingError, ScalingRow, scaling, sizes};
 use files::file_name;
 use inspection::pipeline::NamedRecipe;
@@ -25,7 +18,14 @@ use records::{
     },
     history::{HistoryBuffer, HistoryError},
 };
+use shell::inspection::{inspected::Inspected, library_cache::LibraryCache};
 use stages::rank::Matcher;
+use ui::{
+    language::text,
+    task::{TaskContext, TaskError},
+    undo_stack::UndoDirection,
+    user_error::UserError,
+};
 
 /// A change of the kept cases.
 #[derive(Clone, Debug)]

@@ -7,13 +7,10 @@ use super::{
     selection::{Edit, OutlineMode},
     subject::InitialSelection,
 };
-use crate::{
-    language::text,
-    shell::file_dialog::{FileChoice, FileRequest, all_files},
-    shots::{ShotsAction, ShotsFile},
-    ui::viewport::DrawnShape,
-};
+use crate::shots::{ShotsAction, ShotsFile};
 use inspection::library::PartName;
+use shell::file_dialog::{FileChoice, FileRequest, all_files};
+use ui::{language::text, viewport::DrawnShape};
 
 /// Something that happened in the workspace.
 #[derive(Debug)]

@@ -8,15 +8,13 @@ use super::{
     fields::{self, complaint},
     thumbnails::{Thumbnails, paint_fitted},
 };
-use crate::{
-    language::text,
-    shell::session::Session,
-    ui::{
-        theme::{ROUNDING, Theme, space},
-        widgets::grouped,
-    },
-};
 use inspection::library::{EnrolMethod, PartMeta};
+use shell::session::Session;
+use ui::{
+    language::text,
+    theme::{ROUNDING, Theme, space},
+    widgets::grouped,
+};
 
 /// Draws the card.
 pub(super) fn ui(

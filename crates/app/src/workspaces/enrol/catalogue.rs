@@ -11,15 +11,13 @@ use super::{
     EnrolAction, EnrolState,
     thumbnails::{Thumbnails, paint_fitted},
 };
-use crate::{
-    inspection::library_cache::LibraryView,
-    language::text,
-    ui::{
-        theme::{ROUNDING, Theme, font, space},
-        widgets::{Mark, focus_ring, mark, shortened},
-    },
-};
 use inspection::library::{PartMeta, PartName};
+use shell::inspection::library_cache::LibraryView;
+use ui::{
+    language::text,
+    theme::{ROUNDING, Theme, font, space},
+    widgets::{Mark, focus_ring, mark, shortened},
+};
 
 /// Size of a part's card, logical pixels.
 const CARD: [f32; 2] = [236.0, 84.0];

@@ -2,14 +2,11 @@
 
 use std::{path::PathBuf, sync::Arc};
 
-use crate::{
-    inspection::library_cache::{LibraryCache, LibraryView},
-    language::text,
-    user_error::UserError,
-};
 use inspection::library::{
     Enrolled, LibraryError, LibraryFolder, Part, PartMeta, PartName, PartNaming, Saved, SprayPath,
 };
+use shell::inspection::library_cache::{LibraryCache, LibraryView};
+use ui::{language::text, user_error::UserError};
 
 /// A change of the library.
 #[derive(Clone, Debug)]

@@ -9,10 +9,10 @@ use super::{
     subject::EnrolInput,
     work::Checked,
 };
-use crate::inspection::library_cache::LibraryView;
 use inspection::library::{
     BadName, EnrolError, MAX_TITLE, PartMeta, PartName, PartNaming, SharedTitle, Similarity,
 };
+use shell::inspection::library_cache::LibraryView;
 use stages::scene::SceneCloud;
 
 /// The part that is about to be enrolled.
@@ -207,7 +207,8 @@ pub struct OpenedPart {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{inspection::library_cache::Damaged, user_error::UserError};
+    use shell::inspection::library_cache::Damaged;
+    use ui::user_error::UserError;
 
     #[test]
     fn the_name_follows_the_title_until_a_person_writes_one() {

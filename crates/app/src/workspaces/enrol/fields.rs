@@ -3,14 +3,12 @@
 use egui::{RichText, TextEdit, Ui, vec2};
 
 use super::draft::{Field, Form};
-use crate::{
-    language::{text, what_and_advice},
-    ui::{
-        theme::{Theme, space},
-        widgets::{Mark, line_mark},
-    },
-};
 use inspection::library::MAX_TITLE;
+use ui::{
+    language::{text, what_and_advice},
+    theme::{Theme, space},
+    widgets::{Mark, line_mark},
+};
 
 /// Draws the fields; returns the one that was edited.
 pub(super) fn ui(ui: &mut Ui, form: &Form) -> Option<Field> {

@@ -11,17 +11,15 @@ use super::{
     thumbnails::{Thumbnails, paint_fitted},
     title_of,
 };
-use crate::{
-    language::{keys, results::painted_from, text, what_and_advice},
-    shell::session::Session,
-    shots::summary,
-    ui::{
-        theme::{ROUNDING, Theme, font, space},
-        widgets::{Mark, grouped, menu_list, shortened, text_button},
-    },
-};
+use crate::shots::summary;
 use inspection::library::PartName;
+use shell::{language::results::painted_from, session::Session};
 use stages::reference::Coverage;
+use ui::{
+    language::{keys, text, what_and_advice},
+    theme::{ROUNDING, Theme, font, space},
+    widgets::{Mark, grouped, menu_list, shortened, text_button},
+};
 
 /// Draws the card.
 pub(super) fn ui(

@@ -17,16 +17,15 @@ use super::{
     state::EnrolState,
     subject::InitialSelection,
 };
-use crate::{
-    inspection::source::Origin,
-    language::text,
-    shell::settings::set_aside,
-    task::{Task, TaskRunner},
-    user_error::UserError,
-};
 use files::{self, FileError, advice_on, disk, folder_of, write_text};
 use geometry::error::{Advice as _, lock};
 use inspection::library::MAX_TITLE;
+use shell::{inspection::source::Origin, settings::set_aside};
+use ui::{
+    language::text,
+    task::{Task, TaskRunner},
+    user_error::UserError,
+};
 
 /// Version of the file format.
 const SCHEMA: u32 = 1;
@@ -35,7 +34,7 @@ const MAX_BYTES: u64 = 4 << 20;
 /// Limit of corrections; each is applied to all points.
 const MAX_EDITS: usize = 1000;
 /// Seconds without a change before the draft is written.
-const DELAY: f64 = 3.0;
+const SAVE_DELAY_S: f64 = 3.0;
 
 /// A draft as stored in the file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -120,7 +119,11 @@ impl DraftFile {
         if self.see(enrol) {
             self.has_changed = true;
             // A saved or discarded draft must not come back: remove its file at once.
-            let delay = if self.seen.is_some() { DELAY } else { 0.0 };
+            let delay = if self.seen.is_some() {
+                SAVE_DELAY_S
+            } else {
+                0.0
+            };
             self.due = Some(now + delay);
         }
         match self.due {
@@ -285,22 +288,17 @@ mod tests {
 
     use glam::{Mat4, Vec2};
 
-    use super::{
-        super::{
-            action::EnrolAction,
-            draft::Field,
-            outline::{DrawnOutline, DrawnOver},
-            segments::PointAction,
-            selection::{Edit, OutlineMode},
-        },
-        *,
+    use super::*;
+    use crate::workspaces::enrol::{
+        action::EnrolAction,
+        draft::Field,
+        outline::{DrawnOutline, DrawnOver},
+        segments::PointAction,
+        selection::{Edit, OutlineMode},
     };
-    use crate::{
-        inspection::{
-            inspected::SceneOrScan,
-            source::{CellChoice, SceneSource},
-        },
-        shell::context::TestShell,
+    use shell::{
+        context::TestShell,
+        inspection::source::{CellChoice, SceneOrScan, SceneSource},
     };
 
     fn outline(over: DrawnOver) -> DrawnOutline {
@@ -373,7 +371,7 @@ mod tests {
         enrol.take(scene(2), "Taking".into(), &shell.context());
         let mut file = DraftFile::new(Some(path.clone()), &runner);
         let context = egui::Context::default();
-        for time in [0.0, 2.0 * DELAY] {
+        for time in [0.0, 2.0 * SAVE_DELAY_S] {
             let input = egui::RawInput {
                 time: Some(time),
                 ..egui::RawInput::default()
@@ -440,7 +438,7 @@ mod tests {
     fn whichever_call_fails_the_draft_is_the_old_one_or_the_new() {
         let place = |folder: &Path| folder.join("deep").join("draft.json");
         files::disk::faults::Writer {
-            test: "app::workspaces::enrol::kept::tests::whichever_call_fails_the_draft_is_the_old_one_or_the_new",
+            test: "workspaces::enrol::kept::tests::whichever_call_fails_the_draft_is_the_old_one_or_the_new",
             prepare: &|folder| save(&place(folder), Some(draft("Old")), None).expect("written"),
             write: &|folder| {
                 let saved = save(&place(folder), Some(draft("New")), None);

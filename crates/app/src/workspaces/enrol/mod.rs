@@ -45,23 +45,21 @@ use self::{
     catalogue::Catalogue, draft::Draft, kept::DraftFile, picture::PicturePane,
     thumbnails::Thumbnails, view::DraftView,
 };
-use crate::{
-    inspection::inspected::SceneOrScan,
+use crate::shots::{ShotList, ShownShots, StripTab};
+use shell::{
+    context::ShellContext,
+    inspection::source::SceneOrScan,
+    message::Event,
+    session::{Session, WorkspaceKind},
+    workspace::Workspace,
+};
+use ui::{
+    key_binding::{KeyBinding, Shortcut},
     language::{keys, text},
-    shell::{
-        context::ShellContext,
-        key_binding::{KeyBinding, Shortcut},
-        message::Event,
-        session::{Session, WorkspaceKind},
-        workspace::Workspace,
-    },
-    shots::{ShotList, ShownShots, StripTab},
     task::{Running, TaskRunner},
-    ui::{
-        theme::{Theme, font, space},
-        viewport::{ViewError, ViewportGpu},
-        widgets::text_button,
-    },
+    theme::{Theme, font, space},
+    viewport::{ViewError, ViewportGpu},
+    widgets::text_button,
 };
 
 /// The shortcuts of this workspace. Those with more modifiers come first, as the others would match them too.

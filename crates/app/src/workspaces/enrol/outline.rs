@@ -10,7 +10,7 @@ use glam::{Mat4, Vec2, Vec3};
 use serde::{Deserialize, Serialize};
 
 use super::subject::EnrolInput;
-use crate::ui::viewport::seen_at;
+use ui::viewport::seen_at;
 
 /// A box or lasso drawn by a person.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

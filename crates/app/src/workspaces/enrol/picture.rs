@@ -12,13 +12,11 @@ use super::{
     segments::PointAction,
     selection::{Edit, Selection},
 };
-use crate::{
+use ui::{
     language::text,
-    ui::{
-        theme::{Theme, font},
-        viewport::{Drawing, DrawnShape, ViewColours, drawing},
-        widgets::{fitted, focus_ring, texture},
-    },
+    theme::{Theme, font},
+    viewport::{Drawing, DrawnShape, ViewColours, drawing},
+    widgets::{fitted, focus_ring, texture},
 };
 
 /// The texture of the picture, and the outline being drawn in it.

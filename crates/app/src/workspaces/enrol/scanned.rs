@@ -4,8 +4,8 @@ use std::{borrow::Cow, sync::Arc};
 
 use nalgebra::Point3;
 
-use crate::inspection::fuse::FusedShots;
 use geometry::cloud::PointCloud;
+use shell::inspection::fuse::FusedShots;
 use stages::scan::{FusedCloud, Scan};
 
 /// A scan, and the points of it that can be kept.

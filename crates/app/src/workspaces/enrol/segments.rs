@@ -2,12 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::language::text;
 use geometry::cloud::is_finite;
 use stages::{
     scene::SceneCloud,
     segment::{PointLabel, SegmentParams, pieces, segment},
 };
+use ui::language::text;
 
 /// The segmentation of the points.
 #[derive(Debug)]

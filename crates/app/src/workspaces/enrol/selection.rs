@@ -8,13 +8,13 @@ use super::{
     segments::{PointAction, SegmentKind, Segments},
     subject::{EnrolInput, InitialSelection},
 };
-use crate::{
-    language::text,
-    ui::viewport::{PointSet, Role, ViewColours},
-};
 use files::crc32;
 use geometry::cloud::is_finite;
 use stages::segment::PointLabel;
+use ui::{
+    language::text,
+    viewport::{PointSet, Role, ViewColours},
+};
 
 /// All corrections, in order.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -228,9 +228,10 @@ fn picture(
 mod tests {
     use glam::Vec2;
 
-    use super::{super::outline::DrawnOver, *};
-    use crate::inspection::source::{CellChoice, SceneSource};
+    use super::*;
+    use crate::workspaces::enrol::outline::DrawnOver;
     use inspection::library::EnrolParams;
+    use shell::inspection::source::{CellChoice, SceneSource};
     use simulate::{PartKind, Side};
 
     fn captured() -> EnrolInput {
@@ -241,7 +242,7 @@ mod tests {
         let read = EnrolInput::read(
             &source,
             &EnrolParams::default(),
-            &crate::inspection::camera::Camera::default(),
+            &shell::inspection::camera::Camera::default(),
             &|| false,
         )
         .expect("a frame");

@@ -11,23 +11,24 @@ use super::{
     undo::{DraftEffect, LastChangedPart, LibraryStep, SavedDraft, UndoStep},
     work::{self, DraftEvent},
 };
-use crate::{
-    inspection::{library_cache::LibraryView, scan_choice::ShotChoice},
-    language::{text, what_and_advice},
-    shell::{
-        context::ShellContext,
-        file_dialog::FileDialog,
-        message::{Event, Message},
-        notice::Notice,
-        session::{Session, UserRole, WorkspaceKind},
-        undo_stack::{UndoDirection, UndoStack},
-    },
-    shots::{Asked, ShotsAction, ShotsFile, ShotsState},
-    task::{Running, Task, TaskContext, TaskError, TaskRunner},
-    ui::viewport::DrawnShape,
-    user_error::UserError,
-};
+use crate::shots::{Asked, ShotsAction, ShotsFile, ShotsState};
 use inspection::library::PartName;
+use shell::{
+    action::{Action, DialogRequest},
+    context::ShellContext,
+    file_dialog::FileDialog,
+    inspection::{library_cache::LibraryView, scan_choice::ShotChoice},
+    message::{Event, Message},
+    notice::Notice,
+    session::{Session, UserRole, WorkspaceKind},
+};
+use ui::{
+    language::{text, what_and_advice},
+    task::{Running, Task, TaskContext, TaskError, TaskRunner},
+    undo_stack::{UndoDirection, UndoStack},
+    user_error::UserError,
+    viewport::DrawnShape,
+};
 
 /// State of the workspace.
 #[derive(Debug)]
@@ -200,7 +201,9 @@ impl EnrolState {
         let library = cx.session.library.as_deref();
         match action {
             EnrolAction::TakeShown => self.take_shown(cx),
-            EnrolAction::SeeInspected => cx.send(Message::GoTo(WorkspaceKind::Inspect)),
+            EnrolAction::SeeInspected => {
+                cx.send(Message::Act(Action::GoTo(WorkspaceKind::Inspect)))
+            }
             EnrolAction::Correct(edit) => {
                 self.is_outline_new = matches!(edit, Edit::Outline(..));
                 self.correct(cx, |all| all.edits.push(edit));
@@ -274,7 +277,7 @@ impl EnrolState {
             EnrolAction::RemovePath(name) => {
                 self.change(LibraryChange::SetPath(name, None), DraftEffect::Stays, cx);
             }
-            EnrolAction::OpenScan => cx.send(Message::OpenScan),
+            EnrolAction::OpenScan => cx.send(Message::Act(Action::Ask(DialogRequest::Scan))),
             EnrolAction::Ask(file) => self.ask(file, cx),
             EnrolAction::Shots(ShotsAction::Ask(file)) => self.ask(EnrolFile::Scan(file), cx),
             EnrolAction::Chosen(EnrolFile::SprayPath, path) => {

@@ -9,18 +9,16 @@ use super::{
     scanned::ScannedMatter,
     segments::{PointAction, SegmentKind, SegmentTitle, Segments},
 };
-use crate::{
-    inspection::{
-        camera::Camera,
-        fuse::FusedShots,
-        source::{Origin, SceneError, SceneSource},
-    },
-    language::text,
-};
 use files::{self, FileContent, FileWarning};
 use geometry::{cloud::PointCloud, mesh::TriangleMesh};
 use inspection::library::{EnrolError, EnrolParams};
+use shell::inspection::{
+    camera::Camera,
+    fuse::FusedShots,
+    source::{Origin, SceneError, SceneSource},
+};
 use stages::scene::{SceneCloud, scene_from_cloud, scene_from_frame};
+use ui::language::text;
 
 /// The points selected before any correction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -245,7 +243,7 @@ impl EnrolInput {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::inspection::source::CellChoice;
+    use shell::inspection::source::CellChoice;
     use simulate::PartKind;
 
     fn captured() -> EnrolInput {

@@ -15,21 +15,17 @@ use super::{
     undo::{UndoStep, scene_in_front},
     work,
 };
-use crate::{
+use crate::shots::{Asked, ShotsAction, ShotsFile, source_of};
+use shell::{
+    context::ShellContext,
     inspection::{
-        inspected::SceneOrScan,
         scan_choice::ScanOrder,
-        source::{Origin, SceneSource},
+        source::{Origin, SceneOrScan, SceneSource},
     },
-    language::text,
-    shell::{
-        context::ShellContext,
-        message::Message,
-        notice::{Notice, NoticeTopic},
-    },
-    shots::{Asked, ShotsAction, ShotsFile, source_of},
-    user_error::UserError,
+    message::Message,
+    notice::{Notice, NoticeTopic},
 };
+use ui::{language::text, user_error::UserError};
 
 impl EnrolState {
     /// Makes a scene or a scan the draft.

@@ -6,7 +6,8 @@ use egui::{Color32, ColorImage, Context, Painter, Rect, TextureHandle, TextureOp
 use image::RgbaImage;
 
 use super::work::Checked;
-use crate::{inspection::library_cache::LibraryView, ui::widgets::fitted};
+use shell::inspection::library_cache::LibraryView;
+use ui::widgets::fitted;
 
 /// The textures, and their sources.
 #[derive(Default)]

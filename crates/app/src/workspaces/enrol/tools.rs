@@ -10,13 +10,11 @@ use super::{
     selection::{Edit, OutlineMode},
     subject::InitialSelection,
 };
-use crate::{
+use ui::{
     language::text,
-    ui::{
-        tool_row::{Tool, choice, tool_row},
-        viewport::DrawnShape,
-        widgets::grouped,
-    },
+    tool_row::{Tool, choice, tool_row},
+    viewport::DrawnShape,
+    widgets::grouped,
 };
 
 /// Draws the tools.

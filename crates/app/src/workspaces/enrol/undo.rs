@@ -11,21 +11,21 @@ use super::{
     selection::Corrections,
     state::{EnrolState, form_of},
 };
-use crate::{
+use inspection::library::PartName;
+use shell::{
+    context::ShellContext,
     inspection::{
-        inspected::{Inspected, SceneOrScan},
+        inspected::Inspected,
         library_cache::LibraryView,
         scan_choice::{ScanOrder, ShotSet},
-        source::SceneSource,
+        source::{SceneOrScan, SceneSource},
     },
-    language::text,
-    shell::{
-        context::ShellContext, message::Message, notice::Notice, session::Session,
-        undo_stack::UndoDirection,
-    },
+    message::Message,
+    notice::Notice,
+    session::Session,
 };
-use inspection::library::PartName;
 use stages::scene::SceneCloud;
+use ui::{language::text, undo_stack::UndoDirection};
 
 /// How to return to an earlier state, or forward again.
 #[derive(Clone, Debug)]

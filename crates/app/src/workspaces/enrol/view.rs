@@ -11,18 +11,16 @@ use super::{
     picture::{drag_to_draw, toggled},
     selection::{Edit, OutlineMode, Selection},
 };
-use crate::{
+use crate::shots::{Overlay, POINT_SIZE};
+use geometry::rigid::RigidTransform;
+use ui::{
     language::text,
-    shots::{Overlay, POINT_SIZE},
-    ui::{
-        theme::{Theme, ThemeChoice, space},
-        viewport::{
-            DrawnShape, FitRequest, ViewCamera, ViewColours, ViewDirection, ViewError, ViewScene,
-            ViewStyle, ViewTool, Viewport, ViewportGpu, drawing,
-        },
+    theme::{Theme, ThemeChoice, space},
+    viewport::{
+        DrawnShape, FitRequest, ViewCamera, ViewColours, ViewDirection, ViewError, ViewScene,
+        ViewStyle, ViewTool, Viewport, ViewportGpu, drawing,
     },
 };
-use geometry::rigid::RigidTransform;
 
 /// What the view shows.
 struct Shown {

@@ -8,17 +8,6 @@ use super::{
     selection::{Corrections, Selection},
     subject::{EnrolInput, EnrolInputKind, InitialSelection},
 };
-use crate::{
-    inspection::{
-        fuse::{Steps, Then, fuse},
-        library_cache::LibraryCache,
-        scan_choice::{ScanOrder, ScanRequest},
-        source::SceneSource,
-    },
-    language::what_and_advice,
-    task::{TaskContext, TaskError},
-    user_error::UserError,
-};
 use inspection::{
     library::{
         EnrolError, EnrolParams, Enrolled, PartDescription, PartName, Similarity, enrol_mesh,
@@ -26,7 +15,18 @@ use inspection::{
     },
     pipeline::{ProgressObserver as _, Recipe},
 };
+use shell::inspection::{
+    fuse::{Steps, Then, fuse},
+    library_cache::LibraryCache,
+    scan_choice::{ScanOrder, ScanRequest},
+    source::SceneSource,
+};
 use stages::segment::SegmentedPart;
+use ui::{
+    language::what_and_advice,
+    task::{TaskContext, TaskError},
+    user_error::UserError,
+};
 
 /// A result, partial or final, of the task.
 #[derive(Clone, Debug)]

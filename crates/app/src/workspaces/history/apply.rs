@@ -6,22 +6,20 @@ use super::{
     export, filter::ListFilter, state::HistoryState, statistics::StatisticsView,
     work::HistoryResult,
 };
-use crate::{
-    inspection::{inspected::Inspected, source::file_name},
-    language::text,
-    shell::{
-        context::ShellContext,
-        file_dialog::{FileChoice, FileRequest},
-        message::{Event, Message, ReinspectionPurpose},
-        notice::Notice,
-        session::{UserRole, WorkspaceKind},
-    },
-    user_error::UserError,
-};
 use inspection::library::Truth;
 use records::history::{
     HistoryEvent, HungId, NewEntry, PruneResult, Retention, SetAside, TraceChange,
 };
+use shell::{
+    action::Action,
+    context::ShellContext,
+    file_dialog::{FileChoice, FileRequest},
+    inspection::{inspected::Inspected, source::file_name},
+    message::{Event, Message},
+    notice::Notice,
+    session::{ReinspectionPurpose, UserRole, WorkspaceKind},
+};
+use ui::{language::text, user_error::UserError};
 
 /// An action in the workspace.
 #[derive(Debug)]
@@ -226,7 +224,7 @@ impl HistoryState {
             Event::Escape => {
                 let is_in_front = cx.session.workspace == WorkspaceKind::History;
                 if is_in_front && cx.session.role == UserRole::Operator {
-                    cx.send(Message::GoTo(WorkspaceKind::Inspect));
+                    cx.send(Message::Act(Action::GoTo(WorkspaceKind::Inspect)));
                 }
             }
             Event::PosesWanted(_) | Event::Export | Event::Undo => {}

@@ -6,13 +6,11 @@ use super::{
     HistoryAction, HistoryFile, HistoryState,
     filter::{DateRange, ListFilter, VerdictChoice, day_of},
 };
-use crate::{
+use shell::session::Session;
+use ui::{
     language::text,
-    shell::session::Session,
-    ui::{
-        theme::{Theme, space},
-        widgets::{labelled, line_edit, menu_list, shortened, text_button},
-    },
+    theme::{Theme, space},
+    widgets::{labelled, line_edit, menu_list, shortened, text_button},
 };
 
 /// Draws the bar.

@@ -8,25 +8,22 @@ use super::{
     HistoryAction, HistoryState, OpenedInspection, differences, label,
     list::{DAY_AND_TIME, local_time},
 };
-use crate::{
+use records::history::{Differences, InspectionDetail, Record, StoredVerdict, Summary};
+use shell::{
     inspection::unit_system::UnitSystem,
-    language::{
-        advised, described, keys, refusal_kind,
-        results::{
-            accepted_or_not, inspection_title, recipe_label, scene_title, source_title,
-            stored_verdict,
-        },
-        text,
+    language::results::{
+        accepted_or_not, inspection_title, recipe_label, refusal_kind, scene_title, source_title,
+        stored_verdict,
     },
-    shell::session::Session,
-    ui::{
-        theme::{Theme, font, space},
-        widgets::{
-            Mark, fitted, heading, labelled, line_mark, path_row, row, sentence, shortened, texture,
-        },
+    session::Session,
+};
+use ui::{
+    language::{advised, described, keys, text},
+    theme::{Theme, font, space},
+    widgets::{
+        Mark, fitted, heading, labelled, line_mark, path_row, row, sentence, shortened, texture,
     },
 };
-use records::history::{Differences, InspectionDetail, Record, StoredVerdict, Summary};
 
 /// State of the details kept between frames.
 #[derive(Default)]

@@ -2,16 +2,14 @@
 
 use egui::{Grid, Label, RichText, Ui, vec2};
 
-use crate::{
-    inspection::unit_system::UnitSystem,
-    language::{parameters, results::stored_verdict, text},
-    ui::{
-        theme::{Theme, font},
-        widgets::{heading, shortened},
-    },
-};
 use inspection::pipeline::{Recipe, parameters::Parameter};
 use records::history::{Differences, InspectionSummary};
+use shell::{inspection::unit_system::UnitSystem, language::results::stored_verdict};
+use ui::{
+    language::{parameters, text},
+    theme::{Theme, font},
+    widgets::{heading, shortened},
+};
 
 /// Gap between two columns, logical pixels.
 const GAP: f32 = 10.0;

@@ -4,13 +4,10 @@ use egui::Ui;
 use jiff::{Zoned, tz::TimeZone};
 use nalgebra::Point3;
 
-use crate::{
-    inspection::unit_system::UnitSystem,
-    language::text,
-    ui::{plot::over_time, theme::Theme, widgets::heading},
-};
 use geometry::statistics::lower_median;
 use records::history::PoseRecord;
+use shell::inspection::unit_system::UnitSystem;
+use ui::{language::text, plot::over_time, theme::Theme, widgets::heading};
 
 /// Above this number, parts are drawn in groups by their medians.
 const MOST_DRAWN: usize = 240;

@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use super::HistoryFile;
-use crate::{language::text, user_error::UserError};
 use records::{
     cases::{CaseFolder, PastCases, TruthFrom},
     history::{Filter, HistoryBuffer, write_table},
 };
+use ui::{language::text, user_error::UserError};
 
 /// Writes the inspections that match the filter; describes what was written.
 pub(super) fn write(

@@ -2,11 +2,9 @@
 
 use jiff::{Span, Timestamp, Zoned, civil};
 
-use crate::language::{
-    results::{accepted_or_not, searched_texts, stored_verdict},
-    text,
-};
 use records::history::{Filter, StoredVerdict};
+use shell::language::results::{accepted_or_not, searched_texts, stored_verdict};
+use ui::language::text;
 
 /// The filter of the list.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -145,7 +143,7 @@ impl ListFilter {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::language::Language;
+    use ui::language::Language;
 
     #[test]
     fn days_begin_and_end_as_the_clocks_here_go() {

@@ -3,14 +3,13 @@
 use egui::{Button, Context, DragValue, Grid, Ui, WidgetInfo, vec2};
 
 use super::{HistoryAction, HistoryState};
-use crate::{
-    language::{results::keep_frames, text},
-    ui::{
-        theme::space,
-        widgets::{self, labelled, text_button},
-    },
-};
 use records::history::{ACCEPTED_KEPT, KeepFrames, Retention, Usage};
+use shell::language::results::keep_frames;
+use ui::{
+    language::text,
+    theme::space,
+    widgets::{self, labelled, text_button},
+};
 
 /// Draws the window while it is open.
 pub(super) fn ui(ctx: &Context, history: &HistoryState, actions: &mut Vec<HistoryAction>) {

@@ -3,17 +3,17 @@
 use egui::{Ui, WidgetInfo};
 
 use super::HistoryAction;
-use crate::{
-    inspection::library_cache::LibraryView,
-    language::text,
-    shell::{
-        session::Session,
-        truth_menu::{truth_entries, truth_title},
-    },
-    ui::widgets::{heading, line_edit, shortened},
-};
 use inspection::library::Truth;
 use records::history::Summary;
+use shell::{
+    inspection::library_cache::LibraryView,
+    session::Session,
+    truth_menu::{truth_entries, truth_title},
+};
+use ui::{
+    language::text,
+    widgets::{heading, line_edit, shortened},
+};
 
 /// The remark and the true label being edited.
 #[derive(Default)]

@@ -8,26 +8,25 @@ use egui::{
 use jiff::{Timestamp, tz::TimeZone};
 
 use super::{HistoryAction, HistoryState, bar, label::in_one_line};
-use crate::{
-    inspection::library_cache::LibraryView,
-    language::{
-        results::{inspection_title, scene_title, stored_verdict},
-        text,
-    },
-    shell::{session::Session, truth_menu::truth_title},
-    ui::{
-        theme::{ROUNDING, Theme, font, space},
-        widgets::{Mark, fitted_middle, fitted_path, focus_ring, mark, shortened, text_width},
-    },
-};
 use records::history::{StoredVerdict, Summary};
+use shell::{
+    inspection::library_cache::LibraryView,
+    language::results::{inspection_title, scene_title, stored_verdict},
+    session::Session,
+    truth_menu::truth_title,
+};
+use ui::{
+    language::text,
+    theme::{ROUNDING, Theme, font, space},
+    widgets::{Mark, fitted_middle, fitted_path, focus_ring, mark, shortened, text_width},
+};
 
 /// Height of a row, logical pixels: a target for a gloved finger.
-const ROW: f32 = 40.0;
+const ROW_HEIGHT_PX: f32 = 40.0;
 /// Gap between two rows, logical pixels.
-const GAP: f32 = 2.0;
+const ROW_GAP_PX: f32 = 2.0;
 /// Below this width, logical pixels, dates are shortened.
-const NARROW: f32 = 700.0;
+const SHORT_DATE_WIDTH_PX: f32 = 700.0;
 /// Longest remark in a row, characters: measuring more would take time for every row of every frame.
 const MAX_REMARK: usize = 80;
 
@@ -70,20 +69,23 @@ impl List {
             see(history, 0..1, actions);
             return;
         }
-        ui.spacing_mut().item_spacing.y = GAP;
+        ui.spacing_mut().item_spacing.y = ROW_GAP_PX;
         let mut area = ScrollArea::vertical().auto_shrink(false);
         if let Some(offset) = self.offset_to(history, ui.available_height()) {
             area = area.vertical_scroll_offset(offset);
         }
         let mut seen = 0..0;
         let listed = history.listed();
-        area.show_rows(ui, ROW, num_rows, |ui, visible| {
+        area.show_rows(ui, ROW_HEIGHT_PX, num_rows, |ui, visible| {
             seen = visible.clone();
             for place in visible {
                 match history.row(place) {
                     Some(past) => row(ui, past, listed, &layout, session, actions),
                     None => {
-                        ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
+                        ui.allocate_exact_size(
+                            vec2(ui.available_width(), ROW_HEIGHT_PX),
+                            Sense::hover(),
+                        );
                     }
                 }
             }
@@ -107,12 +109,12 @@ impl List {
         if is_in_sight {
             return None;
         }
-        let top = place as f32 * (ROW + GAP);
-        let now = self.seen.start as f32 * (ROW + GAP);
+        let top = place as f32 * (ROW_HEIGHT_PX + ROW_GAP_PX);
+        let now = self.seen.start as f32 * (ROW_HEIGHT_PX + ROW_GAP_PX);
         Some(if top <= now {
-            (top - ROW).max(0.0)
+            (top - ROW_HEIGHT_PX).max(0.0)
         } else {
-            (top + 2.0 * ROW - height).max(0.0)
+            (top + 2.0 * ROW_HEIGHT_PX - height).max(0.0)
         })
     }
 }
@@ -222,7 +224,7 @@ struct Layout {
 
 impl Layout {
     fn across(width: f32) -> Self {
-        let room = if width < NARROW {
+        let room = if width < SHORT_DATE_WIDTH_PX {
             Room::Narrow
         } else {
             Room::Wide
@@ -315,7 +317,8 @@ fn row(
     actions: &mut Vec<HistoryAction>,
 ) {
     let theme = Theme::of(ui);
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
+    let (rect, response) =
+        ui.allocate_exact_size(vec2(ui.available_width(), ROW_HEIGHT_PX), Sense::click());
     let is_selected = selected == Some(past.number);
     let actual = past.label.as_ref().map(|truth| {
         let unloaded = LibraryView::default();
@@ -415,7 +418,7 @@ mod tests {
         let ctx = egui::Context::default();
         Theme::install_fonts(&ctx);
         let output = ctx.run_ui(RawInput::default(), |ui| {
-            let rect = Rect::from_min_size(pos2(0.0, 0.0), vec2(600.0, ROW));
+            let rect = Rect::from_min_size(pos2(0.0, 0.0), vec2(600.0, ROW_HEIGHT_PX));
             paint(
                 ui.painter(),
                 rect,

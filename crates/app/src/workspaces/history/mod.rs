@@ -28,20 +28,20 @@ pub use self::{
 };
 use self::{details::Details, list::List};
 
-use crate::{
-    inspection::folder_watch::FolderWatch,
-    language::{keys, text},
-    shell::{
-        context::ShellContext,
-        key_binding::{KeyBinding, Shortcut},
-        message::Event,
-        session::{Session, WorkspaceKind},
-        workspace::Workspace,
-    },
-    task::{Running, TaskRunner},
-    ui::theme::{Theme, space},
-};
 use records::history::{HistoryBuffer, Writer};
+use shell::{
+    context::ShellContext,
+    inspection::folder_watch::FolderWatch,
+    message::Event,
+    session::{Session, WorkspaceKind},
+    workspace::Workspace,
+};
+use ui::{
+    key_binding::{KeyBinding, Shortcut},
+    language::{keys, text},
+    task::{Running, TaskRunner},
+    theme::{Theme, space},
+};
 
 /// Width of the details in a wide and in a narrow window, logical pixels.
 const DETAILS: [f32; 2] = [340.0, 300.0];

@@ -6,21 +6,21 @@ use super::{
     state::{HistoryState, ReinspectionJob, RemakeFor},
     work::OpenedInspection,
 };
-use crate::{
-    inspection::{
-        inspected::{InspectJob, InspectRequest, Inspected, SceneOrScan},
-        scan_choice::{ScanOrder, ScanRequest},
-        source::{HistoryFrame, Origin, SceneSource},
-    },
-    language::{results::scene_title, text},
-    shell::{
-        context::ShellContext,
-        message::{Message, ReinspectionPurpose},
-        notice::Notice,
-        session::WorkspaceKind,
-    },
-};
 use records::history::{Differences, InspectionSummary, Record};
+use shell::{
+    action::Action,
+    context::ShellContext,
+    inspection::{
+        inspected::{InspectJob, InspectRequest, Inspected},
+        scan_choice::{ScanOrder, ScanRequest},
+        source::{HistoryFrame, Origin, SceneOrScan, SceneSource},
+    },
+    language::results::scene_title,
+    message::Message,
+    notice::Notice,
+    session::{ReinspectionPurpose, WorkspaceKind},
+};
+use ui::language::text;
 
 impl HistoryState {
     /// Shows an inspection with every stage: from memory, or repeated with its own recipe.
@@ -77,7 +77,7 @@ impl HistoryState {
             ));
         };
         if purpose == RemakeFor::Open {
-            cx.send(Message::GoTo(WorkspaceKind::Inspect));
+            cx.send(Message::Act(Action::GoTo(WorkspaceKind::Inspect)));
         }
         cx.send(Message::Inspect {
             title,
@@ -156,6 +156,7 @@ fn origin_of(record: &Record) -> Origin {
     written.unwrap_or_else(|| Origin::Frame {
         name: record.summary.scene.to_string(),
         is_simulated: record.summary.is_simulated,
+        capture: None,
     })
 }
 

@@ -16,14 +16,16 @@ use super::{
     work::{self, HistoryQuery, HistoryResult, OpenedInspection, former_title},
 };
 
-use crate::{
-    inspection::inspected::Inspected,
+use records::history::{Differences, HungId, Page, Retention, Summary, Usage};
+use shell::{
+    context::ShellContext, file_dialog::FileDialog, inspection::inspected::Inspected,
+    notice::Notice,
+};
+use ui::{
     language::text,
-    shell::{context::ShellContext, file_dialog::FileDialog, notice::Notice},
     task::{Task, TaskRunner},
     user_error::UserError,
 };
-use records::history::{Differences, HungId, Page, Retention, Summary, Usage};
 
 /// Number of inspections kept whole in memory, about 15 MB each with points and pictures. Older ones are repeated.
 const MAX_WHOLE: usize = 4;

@@ -9,18 +9,19 @@ use egui_plot::{Bar, BarChart, LineStyle};
 use jiff::{Zoned, tz::TimeZone};
 
 use super::drift::{self, Drift};
-use crate::{
-    inspection::unit_system::UnitSystem,
-    language::{refusal_kind, results::stored_verdict, text},
-    shell::shift::ShiftStarts,
-    ui::{
-        plot::{Axes, Axis, legend},
-        theme::{ROUNDING, Theme, font, space},
-        widgets::{fitted_middle, heading},
-    },
-};
 use inspection::pipeline::RefusalKind;
 use records::history::{PartOutcome, StoredVerdict};
+use shell::{
+    inspection::unit_system::UnitSystem,
+    language::results::{refusal_kind, stored_verdict},
+    shift::ShiftStarts,
+};
+use ui::{
+    language::text,
+    plot::{Axes, Axis, legend},
+    theme::{ROUNDING, Theme, font, space},
+    widgets::{fitted_middle, heading},
+};
 
 /// Number of shifts that fit the plot; the last ones are shown.
 const MAX_SHIFTS: usize = 21;

@@ -3,18 +3,15 @@
 use std::path::PathBuf;
 
 use super::state::ViewPart;
-use crate::{
-    inspection::figures::StagePanel,
-    language::text,
-    shell::{
-        file_dialog::{FileChoice, FileRequest},
-        program_setup::program_files,
-        session::Session,
-    },
-    shots::{ShotsAction, ShotsFile},
-    ui::viewport::Colouring,
-};
+use crate::shots::{ShotsAction, ShotsFile};
 use robot::Convention;
+use shell::{
+    cell::program_setup::program_files,
+    file_dialog::{FileChoice, FileRequest},
+    inspection::figures::StagePanel,
+    session::Session,
+};
+use ui::{language::text, viewport::Colouring};
 
 /// An action in the workspace.
 #[derive(Clone, Debug)]

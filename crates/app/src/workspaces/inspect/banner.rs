@@ -7,23 +7,21 @@ use super::{
     hold::{Hold, inspect_current},
     operator_words::{in_short, next_step},
 };
-use crate::{
-    inspection::{inspected::Inspected, source::Origin},
-    language::{library_text, text},
-    shell::{
-        live::SourceState,
-        session::{Session, Source, UserRole},
-    },
-    ui::{
-        theme::Theme,
-        widgets::{Mark, sentence},
-    },
-};
 use capture::SourceSpec;
 use inspection::pipeline::{Unrecognisable, Verdict};
 use records::history::StoredVerdict;
+use shell::{
+    inspection::{inspected::Inspected, source::Origin},
+    session::{Session, Source, UserRole},
+    source::live::SourceState,
+};
 use station::Currency;
 use texts::Described as _;
+use ui::{
+    language::{library_text, text},
+    theme::Theme,
+    widgets::{Mark, sentence},
+};
 
 /// State that the banner shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -326,25 +324,21 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::{
-        inspection::{
-            inspected::{LiveFrameContext, inspected_cell},
-            source::CellChoice,
-        },
-        language::Language,
-        shell::{
-            live::LiveStatus,
-            message::ReinspectionPurpose,
-            session::{Inspecting, Shown},
-        },
-        user_error::UserError,
-    };
     use geometry::rigid::RigidTransform;
     use inspection::pipeline::{
         Rejection,
         live::{LiveVerdict, MotionState},
     };
     use robot::RobotFrame;
+    use shell::{
+        inspection::{
+            inspected::{LiveFrameContext, inspected_cell},
+            source::CellChoice,
+        },
+        session::{Inspecting, ReinspectionPurpose, Shown},
+        source::live::LiveStatus,
+    };
+    use ui::{language::Language, user_error::UserError};
 
     fn showing(inspected: Inspected, is_past: bool) -> Session {
         Session {
@@ -531,6 +525,7 @@ mod tests {
         Origin::Frame {
             name: "kinect frame 1".into(),
             is_simulated: false,
+            capture: None,
         }
     }
 }

@@ -11,25 +11,20 @@ use super::{
     hold::{self, Hold},
     robot_numbers, stand_off,
 };
-use crate::{
-    inspection::{inspected::Inspected, unit_system::UnitSystem},
-    language::{
-        described,
-        results::{recipe_label, stopped, traced},
-        text,
-    },
-    shell::{
-        live,
-        session::{Session, UserRole},
-    },
-    shots::summary,
-    ui::{
-        theme::{ROUNDING, Theme, font, space},
-        widgets::{focus_ring, heading, row, shortened},
-    },
-};
+use crate::shots::summary;
 use inspection::pipeline::Verdict;
+use shell::{
+    inspection::{inspected::Inspected, unit_system::UnitSystem},
+    language::results::{recipe_label, stopped, traced},
+    session::{Session, UserRole},
+    source::live,
+};
 use stages::pose::PoseEstimate;
+use ui::{
+    language::{described, text},
+    theme::{ROUNDING, Theme, font, space},
+    widgets::{focus_ring, heading, row, shortened},
+};
 
 /// Draws the card; with the stand-off of an assumed path only if its nozzle is shown.
 pub(super) fn ui(
@@ -371,7 +366,7 @@ fn footer(ui: &mut Ui, inspected: &Inspected, session: &Session) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::inspection::{inspected::inspected_cell, source::CellChoice};
+    use shell::inspection::{inspected::inspected_cell, source::CellChoice};
 
     #[test]
     fn the_next_part_is_not_another_reference_of_the_same_part() {

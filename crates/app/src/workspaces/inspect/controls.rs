@@ -8,18 +8,15 @@ use super::{
     state::{InspectState, ViewPart},
     view::SceneView,
 };
-use crate::{
-    inspection::inspected::Inspected,
+use shell::{inspection::inspected::Inspected, session::Session};
+use ui::{
     language::text,
-    shell::session::Session,
-    ui::{
-        theme::space,
-        viewport::{Colouring, FitRequest, StandardView, ViewTool},
-    },
+    theme::space,
+    viewport::{Colouring, FitRequest, StandardView, ViewTool},
 };
 
 /// Below this width of the view, logical pixels, the view directions are in a menu.
-const NARROW: f32 = 800.0;
+const MENU_WIDTH_PX: f32 = 800.0;
 
 /// Draws the row.
 pub(super) fn ui(
@@ -31,7 +28,7 @@ pub(super) fn ui(
     actions: &mut Vec<InspectAction>,
 ) {
     let figure = &inspected.view;
-    if ui.available_width() < NARROW {
+    if ui.available_width() < MENU_WIDTH_PX {
         ui.menu_button(small(opened(&text!("inspect-view"))), |ui| sides(ui, view));
     } else {
         sides(ui, view);

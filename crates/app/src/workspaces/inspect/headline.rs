@@ -3,22 +3,20 @@
 use egui::{FontId, RichText, Ui};
 
 use super::hold::Hold;
-use crate::{
-    inspection::inspected::Inspected,
-    language::{
-        advised, described,
-        results::{accepted_or_not, is_recognised},
-        text,
-    },
-    shell::{session::Session, truth_menu::truth_title},
-    ui::{
-        theme::{Theme, font, space},
-        widgets::{Mark, line_mark, sentence, wrapped},
-    },
-};
 use inspection::pipeline::{Rejection, Verdict, is_like, live::MotionState};
+use shell::{
+    inspection::inspected::Inspected,
+    language::results::{accepted_or_not, is_recognised},
+    session::Session,
+    truth_menu::truth_title,
+};
 use station::Currency;
 use texts::Described as _;
+use ui::{
+    language::{advised, described, text},
+    theme::{Theme, font, space},
+    widgets::{Mark, line_mark, sentence, wrapped},
+};
 
 /// State that the headline shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -252,11 +250,11 @@ fn fitting_font(ui: &Ui, name: &str, fonts: &[FontId], max_lines: usize) -> Font
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::inspection::{
+    use inspection::{library::Truth, pipeline::live::LiveVerdict};
+    use shell::inspection::{
         inspected::{LiveFrameContext, inspected_cell},
         source::CellChoice,
     };
-    use inspection::{library::Truth, pipeline::live::LiveVerdict};
 
     #[test]
     fn a_part_that_was_reported_as_wrong_is_called_so_with_what_it_is() {

@@ -4,15 +4,18 @@ use std::{sync::Arc, time::Duration};
 
 use egui::Ui;
 
-use crate::{
-    inspection::{inspected::Inspected, source::Origin},
-    language::{library_text, robot::doubt, text},
-    shell::session::{Session, Source, UserRole},
-    ui::widgets::sentence,
-    user_error::UserError,
-};
 use robot::RobotFrame;
+use shell::{
+    inspection::{inspected::Inspected, source::Origin},
+    language::robot::doubt,
+    session::{Session, Source, UserRole},
+};
 use station::Doubt;
+use ui::{
+    language::{library_text, text},
+    user_error::UserError,
+    widgets::sentence,
+};
 
 /// Time between two looks at the age of a capture, which counts in minutes.
 const AGE_CHECK: Duration = Duration::from_secs(15);

@@ -28,23 +28,21 @@ pub use self::{
     state::{InspectState, ViewPart},
     view::WorkCounts,
 };
-use crate::{
+use crate::shots::{ShotList, ShotsAction, ShotsFile, ShownShots, StripTab};
+use shell::{
+    context::ShellContext,
     inspection::{fuse::FusedShots, inspected::Inspected},
+    message::Event,
+    session::{Session, Shown, WorkspaceKind},
+    workspace::Workspace,
+};
+use ui::{
+    key_binding::{KeyBinding, Shortcut},
     language::{Language, keys, text},
-    shell::{
-        context::ShellContext,
-        key_binding::{KeyBinding, Shortcut},
-        message::Event,
-        session::{Session, Shown, WorkspaceKind},
-        workspace::Workspace,
-    },
-    shots::{ShotList, ShotsAction, ShotsFile, ShownShots, StripTab},
     task::{Running, TaskRunner},
-    ui::{
-        theme::{Theme, font, space},
-        viewport::{ViewError, ViewportGpu},
-        widgets::texture,
-    },
+    theme::{Theme, font, space},
+    viewport::{ViewError, ViewportGpu},
+    widgets::texture,
 };
 
 /// Width of the verdict card in a wide and in a narrow window, logical pixels.

@@ -11,18 +11,18 @@ use super::{
     banner::{Banner, Tone},
     hold,
 };
-use crate::{
-    language::{
-        results::{recognised_part, stored_verdict},
-        text,
-    },
-    shell::{current_trace, operator_bars::column_width, session::Session},
-    ui::{
-        theme::{Theme, font, space},
-        widgets::{Mark, fitted_middle, line_mark, mark, title_rows, wrapped, wrapped_rows},
-    },
-};
 use records::history::StoredVerdict;
+use shell::{
+    frame::operator_bars::column_width,
+    language::results::{recognised_part, stored_verdict},
+    session::Session,
+    trace::entry,
+};
+use ui::{
+    language::text,
+    theme::{Theme, font, space},
+    widgets::{Mark, fitted_middle, line_mark, mark, title_rows, wrapped, wrapped_rows},
+};
 
 /// Height of the banner in a high and in a low window, logical pixels.
 const BANNER: [f32; 2] = [190.0, 156.0];
@@ -248,7 +248,7 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session) {
     next_ui(ui, banner, room);
     let top = ui.cursor().top();
     ui.add_space(space::SMALL);
-    current_trace::fields(ui, session);
+    entry::fields(ui, session);
     robots_without_answer(ui, session);
     ui.add_space(space::SMALL);
     ui.weak(text!("operator-last-parts"));
@@ -344,11 +344,11 @@ mod tests {
     use egui::{Pos2, RawInput, Rect, Shape};
 
     use super::*;
-    use crate::{
+    use shell::{
+        frame::operator_bars::COLUMN,
         inspection::{inspected::inspected_cell, source::CellChoice},
-        shell::operator_bars::COLUMN,
-        ui::theme::ThemeChoice,
     };
+    use ui::theme::ThemeChoice;
 
     #[test]
     fn two_of_the_last_parts_stay_visible_with_the_ends_of_their_titles_below_a_long_advice() {

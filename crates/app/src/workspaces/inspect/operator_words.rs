@@ -1,10 +1,8 @@
 //! A verdict in the operator's words: why a part is not accepted, and what an operator can do about it.
 
-use crate::{
-    language::{Language, text},
-    shell::session::Session,
-};
+use shell::session::Session;
 use texts::Message;
+use ui::language::{Language, text};
 
 /// States why a part is not accepted, or there is none, without figures, which are for the engineer.
 pub(super) fn in_short(why: &Message) -> String {
@@ -42,8 +40,8 @@ fn in_lines(step: String, session: &Session, otherwise: String) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shell::session::Source;
     use inspection::pipeline::Unrecognisable;
+    use shell::session::Source;
     use stages::segment::NoPart;
     use texts::Described as _;
 

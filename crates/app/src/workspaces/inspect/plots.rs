@@ -6,21 +6,21 @@ use egui::{
 };
 use egui_plot::{HLine, LineStyle, PlotPoint, Points, Text};
 
-use crate::{
+use crate::workspaces::inspect::InspectState;
+use shell::{
     inspection::{
         figures::{
             Alignment, ContourFigure, PlaneLine, RankedPartFigure, SignatureCurves, StagePanel,
         },
         inspected::Inspected,
     },
+    session::Session,
+};
+use ui::{
     language::text,
-    shell::session::Session,
-    ui::{
-        plot::{Axes, Axis, RayCurves, curve, range_of},
-        theme::{ROUNDING, Theme, font},
-        widgets::{fitted, plane_in},
-    },
-    workspaces::inspect::InspectState,
+    plot::{Axes, Axis, RayCurves, curve, range_of},
+    theme::{ROUNDING, Theme, font},
+    widgets::{fitted, plane_in},
 };
 
 /// What the pictures are drawn from, and their theme.

@@ -8,11 +8,8 @@ use egui::{
 };
 
 use super::plots::{Pictures, PlotDetail};
-use crate::{
-    inspection::figures::RankedPartFigure,
-    language::text,
-    ui::{theme::font, widgets::Scale},
-};
+use shell::inspection::figures::RankedPartFigure;
+use ui::{language::text, theme::font, widgets::Scale};
 
 /// Below this width of the ranking, logical pixels, names are above the bars.
 const STACKED: f32 = 125.0;
@@ -154,16 +151,7 @@ fn elided(painter: &Painter, text: &str, font: FontId, colour: Color32, width: f
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{
-        inspection::{
-            inspected::{Inspected, LiveFrameContext, inspected_cell},
-            source::CellChoice,
-        },
-        shell::session::Session,
-        task::TaskRunner,
-        ui::theme::Theme,
-        workspaces::inspect::InspectState,
-    };
+    use crate::workspaces::inspect::InspectState;
     use inspection::{
         library::Truth,
         pipeline::{
@@ -171,6 +159,14 @@ mod tests {
             live::{LiveVerdict, MotionState},
         },
     };
+    use shell::{
+        inspection::{
+            inspected::{Inspected, LiveFrameContext, inspected_cell},
+            source::CellChoice,
+        },
+        session::Session,
+    };
+    use ui::{task::TaskRunner, theme::Theme};
 
     #[test]
     fn the_bar_of_the_best_part_is_red_only_once_a_verdict_counts_and_never_green_without_a_robot()

@@ -3,20 +3,18 @@
 use egui::{Align, Layout, RichText, Ui};
 
 use super::{action::InspectAction, hold::Hold};
-use crate::{
-    inspection::inspected::Inspected,
-    language::{
-        robot::{calibration_name, convention_meaning, convention_title},
-        text,
-    },
-    shell::session::Session,
-    ui::{
-        theme::{Theme, font, space},
-        widgets::{drop_down, heading, row},
-    },
-};
 use geometry::rigid::RigidTransform;
 use robot::{Convention, RobotPose, RobotValue, Unit};
+use shell::{
+    inspection::inspected::Inspected,
+    language::robot::{calibration_name, convention_meaning, convention_title},
+    session::Session,
+};
+use ui::{
+    language::text,
+    theme::{Theme, font, space},
+    widgets::{drop_down, heading, row},
+};
 
 /// An accepted pose in the chosen convention.
 #[derive(Clone, Debug)]
@@ -156,13 +154,13 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::{
-        inspection::{inspected::inspected_cell, source::CellChoice},
-        shell::session::Shown,
-    };
     use geometry::rigid::from_euler_zyx;
     use inspection::pipeline::Verdict;
     use robot::RobotFrame;
+    use shell::{
+        inspection::{inspected::inspected_cell, source::CellChoice},
+        session::Shown,
+    };
 
     #[test]
     fn what_is_copied_says_which_pose_it_is_and_reads_back() {

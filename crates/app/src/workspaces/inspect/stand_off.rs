@@ -2,16 +2,17 @@
 
 use egui::{Align2, Rect, RichText, Sense, Ui, pos2, vec2};
 
-use crate::{
-    inspection::{inspected::Inspected, unit_system::UnitSystem},
-    language::{results::stand_off_error, text},
-    ui::{
-        theme::{ROUNDING, Theme, font, space},
-        widgets::{Scale, heading, row, sentence},
-    },
-};
 use robot::spray::{BandStatus, CarriedPath, MOST_TILT, SurfaceHit};
+use shell::{
+    inspection::{inspected::Inspected, unit_system::UnitSystem},
+    language::results::stand_off_error,
+};
 use stages::stand_off::{StandOff, StandOffParams};
+use ui::{
+    language::text,
+    theme::{ROUNDING, Theme, font, space},
+    widgets::{Scale, heading, row, sentence},
+};
 
 /// Draws the section; nothing without a stand-off.
 pub(super) fn ui(ui: &mut Ui, inspected: &Inspected, units: UnitSystem) {

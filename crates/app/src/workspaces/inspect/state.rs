@@ -7,7 +7,12 @@ use super::{
     hold::Hold,
     robot_numbers::{clipboard_text, numbered},
 };
-use crate::{
+use crate::shots::{Asked, ShotsAction, ShotsFile, ShotsState, source_of};
+use records::history::Traceability;
+use shell::{
+    action::Action,
+    context::ShellContext,
+    file_dialog::FileDialog,
     inspection::{
         figures::StagePanel,
         fuse::FusedShots,
@@ -15,20 +20,18 @@ use crate::{
         report_files,
         scan_choice::{ScanOrder, ShotChoice},
     },
-    language::{robot::convention_title, text},
-    shell::{
-        context::ShellContext,
-        file_dialog::FileDialog,
-        message::{Event, Message, ReinspectionPurpose},
-        notice::Notice,
-        session::{Session, Source, WorkspaceKind},
-    },
-    shots::{Asked, ShotsAction, ShotsFile, ShotsState, source_of},
-    task::{Running, Task, TaskRunner},
-    ui::viewport::{Colouring, ViewShot},
-    user_error::UserError,
+    language::robot::convention_title,
+    message::{Event, Message},
+    notice::Notice,
+    session::{ReinspectionPurpose, Session, Source, WorkspaceKind},
+    source::live::LiveAction,
 };
-use records::history::Traceability;
+use ui::{
+    language::text,
+    task::{Running, Task, TaskRunner},
+    user_error::UserError,
+    viewport::{Colouring, ViewShot},
+};
 
 /// An addition to the points of the view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -177,11 +180,13 @@ impl InspectState {
             InspectAction::Enlarge(panel) => self.enlarged = panel,
             InspectAction::Candidate(place) => self.candidate = place,
             InspectAction::UseConvention(convention) => {
-                cx.send(Message::UseConvention(convention));
+                cx.send(Message::Act(Action::UseConvention(convention)));
             }
             InspectAction::CopyPose => copy_pose(cx),
-            InspectAction::Compare => cx.send(Message::GoTo(WorkspaceKind::Compare)),
-            InspectAction::ToggleRecording => cx.send(Message::ToggleRecording),
+            InspectAction::Compare => cx.send(Message::Act(Action::GoTo(WorkspaceKind::Compare))),
+            InspectAction::ToggleRecording => {
+                cx.send(Message::Act(Action::Live(LiveAction::ToggleRecording)))
+            }
             InspectAction::Shots(action) => self.change_shots(action, cx),
             InspectAction::Ask(file) => {
                 let lock = &cx.services.dialogs;
@@ -419,12 +424,13 @@ fn copy_pose(cx: &mut ShellContext<'_>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{
-        inspection::{inspected::inspected_cell, scan_choice::ScanFiles, source::CellChoice},
-        shell::{context::TestShell, session::Shown},
-    };
     use geometry::rigid::RigidTransform;
     use robot::RobotFrame;
+    use shell::{
+        context::TestShell,
+        inspection::{inspected::inspected_cell, scan_choice::ScanFiles, source::CellChoice},
+        session::Shown,
+    };
 
     #[test]
     fn what_is_shown_is_hidden_and_shown_again() {

@@ -8,18 +8,16 @@ use super::{
     action::InspectAction,
     plots::{Pictures, PlotDetail},
 };
-use crate::{
-    inspection::figures::StagePanel,
-    language::text,
-    ui::{
-        theme::{font, space},
-        widgets::focus_ring,
-    },
-};
 use inspection::pipeline::Timings;
+use shell::inspection::figures::StagePanel;
+use ui::{
+    language::text,
+    theme::{font, space},
+    widgets::focus_ring,
+};
 
 /// Below this width, logical pixels, a picture's time is below its title instead of beside it.
-const NARROW: f32 = 150.0;
+const TWO_LINE_WIDTH_PX: f32 = 150.0;
 
 /// Time of the stage that a picture shows.
 fn time_of(panel: StagePanel, timings: &Timings) -> String {
@@ -70,7 +68,7 @@ pub(super) fn ui(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Vec<Inspect
         let time = time_of(panel, &pictures.inspected.inspection.timings);
         let mut picture = inner;
         picture.min.y += 22.0;
-        let (at, anchor) = if width < NARROW {
+        let (at, anchor) = if width < TWO_LINE_WIDTH_PX {
             picture.max.y -= 18.0;
             (inner.left_bottom(), egui::Align2::LEFT_BOTTOM)
         } else {

@@ -14,27 +14,24 @@ use super::{
     hold::Hold,
     robot_numbers::numbered,
 };
-use crate::{
-    inspection::{
-        inspected::{Inspected, LiveFrameContext, inspected_cell},
-        source::{CellChoice, Origin},
-    },
-    shell::{
-        context::TestShell,
-        live::{LiveStatus, SourceState},
-        message::{Message, ReinspectionPurpose},
-        session::{Inspecting, Session, Shown, Source, UserRole},
-    },
-    task::TaskRunner,
-    user_error::UserError,
-};
 use geometry::rigid::RigidTransform;
 use inspection::{
     library::{PathPoint, SprayPath, Truth},
     pipeline::live::{ConsensusVerdict, LiveVerdict, MotionState},
 };
 use robot::{RobotFrame, spray::carry};
+use shell::{
+    context::TestShell,
+    inspection::{
+        inspected::{Inspected, LiveFrameContext, inspected_cell},
+        source::{CellChoice, Origin},
+    },
+    message::Message,
+    session::{Inspecting, ReinspectionPurpose, Session, Shown, Source, UserRole},
+    source::live::{LiveStatus, SourceState},
+};
 use stages::pose::RunnerUp;
+use ui::{task::TaskRunner, user_error::UserError};
 
 /// What a robot may do in a state of the session, if the cell is calibrated and the pose is the only one that fits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -209,6 +206,7 @@ fn captured() -> Inspected {
     inspected.origin = Origin::Frame {
         name: "kinect frame 1".into(),
         is_simulated: false,
+        capture: None,
     };
     let path = SprayPath::new(vec![PathPoint {
         nozzle: Point3::new(0.0, 0.1, 1.05),

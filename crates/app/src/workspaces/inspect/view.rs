@@ -9,24 +9,23 @@ use super::{
     controls,
     state::{InspectState, ViewPart},
 };
-use crate::{
-    inspection::{inspected::Inspected, unit_system::UnitSystem},
-    language::text,
-    shell::session::{Session, Shown},
-    shots::{Overlay, POINT_SIZE},
-    ui::{
-        theme::{ROUNDING, Theme, font, space},
-        viewport::{
-            Colouring, FitRequest, Legend, StandardView, TextLabel, ViewCamera, ViewColours,
-            ViewDirection, ViewError, ViewScene, ViewShot, ViewStyle, Viewport, ViewportGpu,
-            furniture,
-        },
-        widgets::grouped,
-    },
-    user_error::UserError,
-};
+use crate::shots::{Overlay, POINT_SIZE};
 use geometry::{rigid::RigidTransform, units::Metres};
 use records::history::HungId;
+use shell::{
+    inspection::{inspected::Inspected, unit_system::UnitSystem},
+    session::{Session, Shown},
+};
+use ui::{
+    language::text,
+    theme::{ROUNDING, Theme, font, space},
+    user_error::UserError,
+    viewport::{
+        Colouring, FitRequest, Legend, StandardView, TextLabel, ViewCamera, ViewColours,
+        ViewDirection, ViewError, ViewScene, ViewShot, ViewStyle, Viewport, ViewportGpu, furniture,
+    },
+    widgets::grouped,
+};
 
 /// Work done since the window was opened. A frame in which nothing changes adds none.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -44,7 +43,7 @@ const DEVIATION_RANGE: Metres = Metres(0.01);
 /// Length of the axes of the robot base, longer than others because it is farther away than the part.
 const BASE_AXES: Metres = Metres(0.3);
 /// Width of the colour scale, logical pixels; it is below the controls where they leave less.
-const LEGEND: f32 = 212.0;
+const LEGEND_WIDTH_PX: f32 = 212.0;
 
 /// What determines the lines and texts of a scene.
 #[derive(PartialEq)]
@@ -157,7 +156,7 @@ impl SceneView {
         let theme = Theme::of(ui);
         let rect = ui.available_rect_before_wrap();
         self.size = rect.size();
-        self.style.legend = if self.controls_width > rect.width() - LEGEND {
+        self.style.legend = if self.controls_width > rect.width() - LEGEND_WIDTH_PX {
             Legend::BelowControls
         } else {
             Legend::Shown
@@ -428,16 +427,16 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::{
-        inspection::{
-            inspected::{LiveFrameContext, inspected_cell},
-            source::CellChoice,
-        },
-        task::TaskRunner,
-        ui::viewport::{Measurement, ViewTool},
-    };
     use inspection::pipeline::live::{LiveVerdict, MotionState};
+    use shell::inspection::{
+        inspected::{LiveFrameContext, inspected_cell},
+        source::CellChoice,
+    };
     use simulate::{PartKind, Side};
+    use ui::{
+        task::TaskRunner,
+        viewport::{Measurement, ViewTool},
+    };
 
     fn view() -> SceneView {
         let reason = String::new();

@@ -3,17 +3,14 @@
 use std::path::PathBuf;
 
 use super::region::PaintTool;
-use crate::{
-    language::text,
-    shell::{
-        file_dialog::{FileChoice, FileRequest, all_files},
-        program_setup::{ProgramSetup, program_file_name, program_files},
-        session::Session,
-    },
-    ui::parameter_control::ParameterChange,
-};
 use inspection::library::{PartName, Side};
 use robot::paint::{KeepOut, PathEdit};
+use shell::{
+    cell::program_setup::{ProgramSetup, program_file_name, program_files},
+    file_dialog::{FileChoice, FileRequest, all_files},
+    session::Session,
+};
+use ui::{language::text, parameter_control::ParameterChange};
 
 /// An action in the workspace.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,21 +1,17 @@
 //! The coat: chosen by name, changed by parameter, saved under a name.
 
 use super::state::PaintState;
-use crate::{
-    language::text,
-    shell::{
-        context::ShellContext,
-        message::Message,
-        notice::{Notice, NoticeTopic},
-    },
-    ui::parameter_control::ParameterChange,
-    user_error::UserError,
-};
 use inspection::{
     library::PartName,
     pipeline::{RecipeFile, Replace, parameters::Parameter},
 };
 use robot::paint::{Coat, built_in_coat};
+use shell::{
+    context::ShellContext,
+    message::Message,
+    notice::{Notice, NoticeTopic},
+};
+use ui::{language::text, parameter_control::ParameterChange, user_error::UserError};
 
 impl PaintState {
     pub(super) fn change_parameter(

@@ -3,23 +3,20 @@
 use std::mem;
 
 use super::{action::ShownPath, state::PaintState};
-use crate::{
-    inspection::library_cache::LibraryView,
-    language::text,
-    shell::{
-        context::ShellContext,
-        message::Message,
-        notice::{Notice, NoticeTopic},
-        program_setup::ProgramSetup,
-        session::Session,
-        undo_stack::UndoDirection,
-    },
-};
 use inspection::{
     library::{FileCheck, PartName, SprayPath},
     pipeline::{RecipeFile, parameters::Parameter},
 };
 use robot::paint::{Coat, KeepOut, PathEdit};
+use shell::{
+    cell::program_setup::ProgramSetup,
+    context::ShellContext,
+    inspection::library_cache::LibraryView,
+    message::Message,
+    notice::{Notice, NoticeTopic},
+    session::Session,
+};
+use ui::{language::text, undo_stack::UndoDirection};
 
 /// Everything that Undo restores.
 #[derive(Clone, Debug, PartialEq)]

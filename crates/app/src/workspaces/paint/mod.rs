@@ -39,21 +39,19 @@ pub use self::{
     state::PaintState,
     work::Planned,
 };
-pub use crate::ui::scrubber::Playback;
-use crate::{
+use shell::{
+    context::ShellContext,
+    message::Event,
+    session::{Session, WorkspaceKind},
+    workspace::Workspace,
+};
+pub use ui::scrubber::Playback;
+use ui::{
+    key_binding::{KeyBinding, Shortcut},
     language::{keys, text},
-    shell::{
-        context::ShellContext,
-        key_binding::{KeyBinding, Shortcut},
-        message::Event,
-        session::{Session, WorkspaceKind},
-        workspace::Workspace,
-    },
     task::{Running, TaskRunner},
-    ui::{
-        theme::{Theme, space},
-        viewport::{DrawnShape, ViewError, ViewportGpu},
-    },
+    theme::{Theme, space},
+    viewport::{DrawnShape, ViewError, ViewportGpu},
 };
 
 /// Width of the panel on the right in a wide and in a narrow window, logical pixels.

@@ -1,7 +1,7 @@
 //! Playback of the gun along the path.
 
 use super::state::PaintState;
-use crate::ui::scrubber::Playback;
+use ui::scrubber::Playback;
 
 impl PaintState {
     /// Duration of the whole path, seconds.

@@ -12,23 +12,6 @@ use super::{
     state::PaintState,
     work::{Planned, aim, enrolled},
 };
-use crate::{
-    inspection::{
-        library_cache::LibraryCache,
-        report_files::{self, ProgramTarget, WrittenForRobot, remove_earlier},
-        source::file_name,
-    },
-    language::text,
-    shell::{
-        context::ShellContext,
-        notice::Notice,
-        program_setup::ProgramSetup,
-        session::{Session, WorkspaceKind},
-    },
-    task::{TaskContext, TaskError},
-    ui::viewport::{Line, LineSet, Role},
-    user_error::UserError,
-};
 use geometry::{cloud::PointCloud, rigid::RigidTransform};
 use inspection::library::Side;
 use robot::{
@@ -37,11 +20,28 @@ use robot::{
         ArmError, Body, Obstacle, Obstacles, PathCheck, PlaceSuggestion, PointProblem,
         suggest_base, suggest_rail,
     },
-    program::{ProgramFormat, arm_points, check_reach},
+    program::{RobotLanguage, arm_points, check_reach},
     spray::{CarriedPath, OffThePart, carry, off_the_part},
+};
+use shell::{
+    cell::program_setup::ProgramSetup,
+    context::ShellContext,
+    inspection::{
+        library_cache::LibraryCache,
+        report_files::{self, ProgramTarget, WrittenForRobot, remove_earlier},
+        source::file_name,
+    },
+    notice::Notice,
+    session::{Session, WorkspaceKind},
 };
 use stages::{reference::Coverage, stand_off::StandOffParams};
 use station::robot_file::{RobotFile, Unchecked};
+use ui::{
+    language::text,
+    task::{TaskContext, TaskError},
+    user_error::UserError,
+    viewport::{Line, LineSet, Role},
+};
 
 /// Input of a reach check.
 #[derive(Clone, Debug)]
@@ -260,8 +260,8 @@ fn found(
     context.check()?;
     let robot_from_part = request.robot.robot_from_part(&RigidTransform::identity());
     let arm = arm.with_part(&path.part_cloud.points, &robot_from_part);
-    let points = arm_points(&path.carried, &request.robot, settings.speed);
-    let params = settings.check_params();
+    let points = arm_points(&path.carried, &request.robot, settings.params.speed);
+    let params = settings.params.check_params();
     let failed = |error: ArmError| match error {
         ArmError::Cancelled => TaskError::Cancelled,
         error => TaskError::Failed(UserError::of(&error)),
@@ -338,12 +338,12 @@ pub(super) fn write_program(
     library_cache: &LibraryCache,
 ) -> Result<WrittenForRobot, UserError> {
     remove_earlier(file)?;
-    let format = ProgramFormat::of(file).map_err(|error| UserError::of(&error))?;
+    let language = RobotLanguage::from_file(file).map_err(|error| UserError::of(&error))?;
     let path = in_standard_position(planned, library_cache)?;
     let target = setup.target()?;
     report_files::robot_file(&RobotFile {
         file,
-        content: target.content(format),
+        content: target.content(language),
         carried: &path.carried,
         frame: robot,
         part: planned.part.as_str(),

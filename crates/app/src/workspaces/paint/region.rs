@@ -3,8 +3,8 @@
 use glam::{DVec2, DVec4, Mat4, Vec2};
 use nalgebra::Point3;
 
-use crate::ui::viewport::{DrawnShape, seen_at, vec3};
 use robot::paint::{KeepOut, PaintSurface};
+use ui::viewport::{DrawnShape, seen_at, vec3};
 
 /// What a left drag in the view does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -136,8 +136,8 @@ mod tests {
     use nalgebra::Vector3;
 
     use super::*;
-    use crate::ui::viewport::ViewCamera;
     use stages::reference::Coverage;
+    use ui::viewport::ViewCamera;
 
     /// A plate of 1 m by 0.6 m that faces the camera, 2 m away.
     fn plate() -> PaintSurface {

@@ -9,21 +9,20 @@ use super::{
     side::{TITLE, menu},
     state::PaintState,
 };
-use crate::{
-    language::{robot::not_checked, text},
-    shell::{program_setup::ProgramSetup, session::Session},
-    ui::{
-        parameter_control::fold,
-        theme::Theme,
-        widgets::{grouped, heading, labelled, line_edit, row, shortened, text_button},
-    },
-};
+use inspection::pipeline::parameters::{Kind, Parameter, Parameters as _};
 use robot::{
     Convention,
     arm::{ARM_NAMES, Arm, PointProblem},
-    program::ranges,
+    program::ProgramParams,
 };
+use shell::{cell::program_setup::ProgramSetup, language::robot::not_checked, session::Session};
 use station::robot_file::Unchecked;
+use ui::{
+    language::{parameters, text},
+    parameter_control::fold,
+    theme::Theme,
+    widgets::{grouped, heading, labelled, line_edit, row, shortened, text_button},
+};
 
 /// Draws the section.
 pub(super) fn ui(
@@ -63,45 +62,9 @@ pub(super) fn ui(
                 .on_hover_text(text!("paint-rail-hint"));
             let label = text!("paint-tool");
             field(ui, &label, &mut setup.tool, "1").on_hover_text(text!("paint-tool-hint"));
-            let mut number = |text: String, value: &mut f64, range, unit: &str| {
-                ui.horizontal(|ui| {
-                    let drag = DragValue::new(value).range(range).max_decimals(1);
-                    let response = ui.add(drag.suffix(format!(" {unit}")));
-                    let name = ui.label(text);
-                    response.labelled_by(name.id);
-                });
-            };
-            let mut output = f64::from(setup.gun_output);
-            let outputs = 0.0..=f64::from(ranges::MAX_GUN_OUTPUT);
-            number(text!("paint-gun-output"), &mut output, outputs, "");
-            setup.gun_output = output.round() as u16;
-            let radius = &mut setup.gun_radius_mm;
-            number(
-                text!("paint-gun-radius"),
-                radius,
-                ranges::GUN_RADIUS_MM,
-                "mm",
-            );
-            let clearance = &mut setup.clearance_mm;
-            number(
-                text!("paint-clearance"),
-                clearance,
-                ranges::CLEARANCE_MM,
-                "mm",
-            );
-            let speed = &mut setup.speed_mm_s;
-            number(
-                text!("paint-program-speed"),
-                speed,
-                ranges::SPEED_MM_S,
-                "mm/s",
-            );
-            let approach = &mut setup.approach_mm;
-            number(text!("paint-approach"), approach, ranges::APPROACH_MM, "mm");
-            let blend = &mut setup.blend_mm;
-            number(text!("paint-blend"), blend, ranges::BLEND_MM, "mm");
-            let tilt = &mut setup.max_tilt_deg;
-            number(text!("paint-max-tilt"), tilt, ranges::MAX_TILT_DEG, "°");
+            for row in ProgramParams::ALL {
+                number_ui(ui, row, &mut setup.params);
+            }
         });
     if setup != session.program {
         actions.push(PaintAction::SetUp(setup));
@@ -117,6 +80,29 @@ pub(super) fn ui(
 
 fn note(ui: &mut Ui, words: &str, colour: egui::Color32) {
     ui.add(Label::new(RichText::new(words).color(colour)).wrap());
+}
+
+/// Draws a number before its name.
+fn number_ui(ui: &mut Ui, row: &Parameter<ProgramParams>, params: &mut ProgramParams) {
+    let Kind::Number(number) = &row.kind else {
+        return;
+    };
+    let [least, most] = number.range;
+    let before = row.value(params);
+    let mut value = before;
+    ui.horizontal(|ui| {
+        let drag = DragValue::new(&mut value)
+            .range(least..=most)
+            .max_decimals(number.decimals)
+            .suffix(number.unit.sign());
+        let response = ui.add(drag).on_hover_text(parameters::help(row));
+        let name = ui.label(parameters::name(row));
+        response.labelled_by(name.id);
+    });
+    if value.to_bits() != before.to_bits() {
+        // The field keeps to the range.
+        let _ = row.set(params, value);
+    }
 }
 
 fn arm_ui(ui: &mut Ui, setup: &mut ProgramSetup, actions: &mut Vec<PaintAction>) {
@@ -175,16 +161,16 @@ fn base_ui(ui: &mut Ui, setup: &mut ProgramSetup) {
         .on_hover_text(text!("paint-base-hint"));
     let numbers = setup.base.iter_mut().zip(Convention::Kuka.names());
     ui.columns(2, |columns| {
-        for (place, (value, name)) in numbers.enumerate() {
-            let (unit, speed) = if place < 3 { (" mm", 1.0) } else { ("°", 0.1) };
+        for (index, (value, name)) in numbers.enumerate() {
+            let (unit, speed) = if index < 3 { (" mm", 1.0) } else { ("°", 0.1) };
             let drag = DragValue::new(value)
-                .range(ProgramSetup::base_range(place))
+                .range(ProgramSetup::base_range(index))
                 .speed(speed)
                 .max_decimals(2)
                 .update_while_editing(false)
                 .prefix(format!("{name} "))
                 .suffix(unit);
-            let response = columns[place / 3].add(drag);
+            let response = columns[index / 3].add(drag);
             let label = text!("paint-base-number", name = *name);
             response.widget_info(|| WidgetInfo::labeled(Role::SpinButton, true, &label));
             response.on_hover_text(text!("paint-base-hint"));

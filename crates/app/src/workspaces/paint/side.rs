@@ -12,22 +12,20 @@ use super::{
     timeline::minutes,
     work::Planned,
 };
-use crate::{
-    language::{parameters, results::painted_from, text, within_sentence},
-    shell::session::Session,
-    ui::{
-        parameter_control::{self, fold},
-        theme::{Theme, font, space},
-        tool_row::choice,
-        widgets::{grouped, heading, line_edit, menu_list, row, shortened, text_button},
-    },
-};
 use ::robot::paint::{Coat, CoatGroup, FilmFigures, LEAST_WITHIN};
 use inspection::{
     library::Side,
     pipeline::parameters::{Parameters as _, Place},
 };
+use shell::{language::results::painted_from, session::Session};
 use stages::reference::Coverage;
+use ui::{
+    language::{parameters, text, within_sentence},
+    parameter_control::{self, fold},
+    theme::{Theme, font, space},
+    tool_row::choice,
+    widgets::{grouped, heading, line_edit, menu_list, row, shortened, text_button},
+};
 
 /// Characters of a part's title on its menu.
 pub(super) const TITLE: usize = 26;

@@ -9,27 +9,27 @@ use super::{
     region::PaintTool,
     work::{self, PaintResult, Planned, Request},
 };
-use crate::{
-    inspection::source::file_name,
-    language::text,
-    shell::{
-        context::ShellContext,
-        file_dialog::FileDialog,
-        message::{Event, Message},
-        notice::{Notice, NoticeTopic},
-        program_setup::ProgramSetup,
-        session::{Session, WorkspaceKind},
-        undo_stack::{UndoDirection, UndoStack},
-    },
-    task::{Running, Task, TaskRunner},
-    ui::scrubber::Playback,
-    user_error::UserError,
-};
 use inspection::{
     library::{PartMeta, PartName, Side, SprayPath},
     pipeline::Verdict,
 };
 use robot::paint::{BUILT_IN_COATS, CoatFolder, built_in_coat};
+use shell::{
+    cell::program_setup::ProgramSetup,
+    context::ShellContext,
+    file_dialog::FileDialog,
+    inspection::source::file_name,
+    message::{Event, Message},
+    notice::{Notice, NoticeTopic},
+    session::{Session, WorkspaceKind},
+};
+use ui::{
+    language::text,
+    scrubber::Playback,
+    task::{Running, Task, TaskRunner},
+    undo_stack::{UndoDirection, UndoStack},
+    user_error::UserError,
+};
 
 /// State of the workspace.
 #[derive(Debug)]

@@ -3,13 +3,11 @@
 use egui::{Align2, Id, Sense, Ui, pos2, vec2};
 
 use super::{action::PaintAction, state::PaintState, work::Planned};
-use crate::{
+use ui::{
     language::text,
-    ui::{
-        scrubber::{Playback, Scrubber, ScrubberInput},
-        theme::{ROUNDING, Theme, font, space},
-        widgets::{Scale, focus_ring},
-    },
+    scrubber::{Playback, Scrubber, ScrubberInput},
+    theme::{ROUNDING, Theme, font, space},
+    widgets::{Scale, focus_ring},
 };
 
 /// Height of the blocks, logical pixels.

@@ -7,16 +7,14 @@ use super::{
     region::{EditKind, PaintTool, RegionUse},
     state::PaintState,
 };
-use crate::{
-    language::{parameters, text},
-    ui::{
-        parameter_control::ParameterChange,
-        tool_row::{Tool, tool_row},
-        viewport::DrawnShape,
-    },
-};
 use inspection::pipeline::parameters::Parameter;
 use robot::paint::Coat;
+use ui::{
+    language::{parameters, text},
+    parameter_control::ParameterChange,
+    tool_row::{Tool, tool_row},
+    viewport::DrawnShape,
+};
 
 /// Draws the tools.
 pub(super) fn ui(ui: &mut Ui, paint: &PaintState, actions: &mut Vec<PaintAction>) {

@@ -13,21 +13,19 @@ use super::{
     state::PaintState,
     work::{MAGNIFIED, Planned, aim},
 };
-use crate::{
-    language::text,
-    shell::session::{Session, ThemeChoice},
-    ui::{
-        theme::space,
-        viewport::{
-            Colouring, DrawnShape, FitRequest, Legend, Line, LineSet, Role, ScaleWords,
-            StandardView, TextLabel, ViewCamera, ViewColours, ViewDirection, ViewError, ViewScene,
-            ViewStyle, ViewTool, Viewport, ViewportGpu, drawing, vec3,
-        },
-    },
-};
 use geometry::units::Metres;
 use inspection::library::PartName;
 use robot::paint::{KeepOut, PathEdit};
+use shell::session::{Session, ThemeChoice};
+use ui::{
+    language::text,
+    theme::space,
+    viewport::{
+        Colouring, DrawnShape, FitRequest, Legend, Line, LineSet, Role, ScaleWords, StandardView,
+        TextLabel, ViewCamera, ViewColours, ViewDirection, ViewError, ViewScene, ViewStyle,
+        ViewTool, Viewport, ViewportGpu, drawing, vec3,
+    },
+};
 
 /// The view of the part.
 pub(super) struct PaintView {

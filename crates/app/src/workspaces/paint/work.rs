@@ -5,19 +5,19 @@ use std::{path::Path, sync::Arc};
 use glam::Vec3;
 
 use super::{action::ShownPath, course::GunCourse};
-use crate::{
-    inspection::library_cache::{LibraryCache, LibraryView, LoadedLibrary, StoredPath},
-    language::text,
-    task::{TaskContext, TaskError},
-    ui::viewport::{Colouring, Line, LineSet, PointSet, Role, vec3},
-    user_error::UserError,
-};
 use files::write_text;
 use inspection::library::{FileCheck, PartMeta, PartName, Side, SprayPath};
 use robot::paint::{
     Coat, Film, KeepOut, PaintError, PaintSurface, PathEdit, edited, plan, propose, simulate,
 };
+use shell::inspection::library_cache::{LibraryCache, LibraryView, LoadedLibrary, StoredPath};
 use stages::reference::Reference;
+use ui::{
+    language::text,
+    task::{TaskContext, TaskError},
+    user_error::UserError,
+    viewport::{Colouring, Line, LineSet, PointSet, Role, vec3},
+};
 
 /// Input of planning.
 #[derive(Clone, Debug, PartialEq)]

@@ -175,7 +175,7 @@ fn a_file_takes_the_place_of_what_the_camera_says_of_its_depth() {
     nodes.axes[2].invalid = Some(7.0);
     let file = DepthCamera {
         metres_per_unit: 0.002,
-        ..camera().camera().expect("told")
+        ..camera().camera().expect("reported")
     };
     let (decoder, warnings) = nodes
         .decoder(GenicamFormat::Coord3dC16, Some(file))
@@ -193,7 +193,7 @@ fn a_file_takes_the_place_of_what_the_camera_says_of_its_depth() {
 fn a_reversed_depth_image_needs_a_file_that_says_so() {
     let mut nodes = camera();
     nodes.is_reversed[0] = Some(true);
-    let file = camera().camera().expect("told");
+    let file = camera().camera().expect("reported");
     let mirrored = DepthCamera {
         stored: StoredOrientation {
             is_mirrored: true,
@@ -205,7 +205,7 @@ fn a_reversed_depth_image_needs_a_file_that_says_so() {
         let error = nodes.decoder(format, Some(file)).err().expect("reversed");
         assert!(error.to_string().contains("ReverseX"), "{error}");
         assert!(error.advice().contains("ReverseX to false"));
-        let (decoder, _) = nodes.decoder(format, Some(mirrored)).expect("told");
+        let (decoder, _) = nodes.decoder(format, Some(mirrored)).expect("reported");
         let values = [1_u16, 2, 3, 4, 5, 6].map(u16::to_le_bytes);
         let image = decoder.image(part(3, 2, 0, values.as_flattened()));
         let Ok(Image::Depth(frame)) = image else {
@@ -221,7 +221,7 @@ fn a_reversed_depth_image_needs_a_file_that_says_so() {
 fn rows_have_the_focal_length_of_columns_times_the_aspect_ratio() {
     let mut nodes = camera();
     nodes.aspect_ratio = Some(1.5);
-    let lens = nodes.camera().expect("told").intrinsics;
+    let lens = nodes.camera().expect("reported").intrinsics;
     assert!((lens.fx - 500.5).abs() < 1e-9 && (lens.fy - 750.75).abs() < 1e-9);
 }
 
@@ -232,5 +232,5 @@ fn a_camera_without_a_unit_is_taken_for_one_of_millimetres_and_says_so() {
     let (_, warnings) = nodes
         .decoder(GenicamFormat::Coord3dAbc32f, None)
         .expect("readable");
-    assert_eq!(warnings, [GenicamWarning::UnitAssumed.into()]);
+    assert_eq!(warnings, [CaptureWarning::AssumedUnit]);
 }

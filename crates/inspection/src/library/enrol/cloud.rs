@@ -69,13 +69,13 @@ pub(super) fn finite_only(cloud: &PointCloud) -> PointCloud {
 }
 
 /// Distance to the nearest other point, in point spacings, from which a point of a thinned cloud is isolated.
-const ISOLATED: f64 = 5.0;
+const ISOLATED_MIN_SPACINGS: f64 = 5.0;
 /// Maximum share of isolated points: more belong to a cloud that is sparse in places, such as the corners of a mesh.
 const MAX_ISOLATED_SHARE: f64 = 0.01;
 
 /// Drops isolated points, which would set the size of the part, from a cloud thinned with this voxel.
 pub(super) fn without_isolated(cloud: PointCloud, voxel: Metres) -> PointCloud {
-    let reach = ISOLATED * voxel.0.max(spacing(&cloud.points));
+    let reach = ISOLATED_MIN_SPACINGS * voxel.0.max(spacing(&cloud.points));
     let tree = KdTree::new(&cloud.points);
     let is_isolated = |(i, p): (usize, &Point3<f32>)| {
         let other = tree.nearest_other(p, i);
@@ -99,16 +99,16 @@ pub(super) fn without_isolated(cloud: PointCloud, voxel: Metres) -> PointCloud {
 }
 
 /// Minimum distance of a captured point from the camera, metres.
-const NEAREST: f32 = 0.1;
+const MIN_DEPTH_M: f32 = 0.1;
 /// Share of the points that must lie in front of the camera; the others may be stray.
-const IN_FRONT_SHARE: f64 = 0.99;
+const MIN_IN_FRONT_SHARE: f64 = 0.99;
 /// Share of the normals that must face the camera; those at edges of a capture may be off.
-const FACING_SHARE: f64 = 0.98;
+const MIN_FACING_SHARE: f64 = 0.98;
 
 /// Returns whether the cloud may be one capture by a camera at the origin.
 pub(super) fn is_one_capture(cloud: &PointCloud) -> bool {
-    let num_in_front = cloud.points.iter().filter(|p| p.z > NEAREST).count();
-    let is_before_camera = num_in_front as f64 >= IN_FRONT_SHARE * cloud.points.len() as f64;
+    let num_in_front = cloud.points.iter().filter(|p| p.z > MIN_DEPTH_M).count();
+    let is_before_camera = num_in_front as f64 >= MIN_IN_FRONT_SHARE * cloud.points.len() as f64;
     let faces_camera = cloud.normals.as_ref().is_none_or(|normals| {
         let facing = cloud
             .points
@@ -116,18 +116,18 @@ pub(super) fn is_one_capture(cloud: &PointCloud) -> bool {
             .zip(normals)
             .filter(|(p, n)| n.dot(&p.coords) <= 0.0)
             .count();
-        facing as f64 >= FACING_SHARE * normals.len() as f64
+        facing as f64 >= MIN_FACING_SHARE * normals.len() as f64
     });
     is_before_camera && faces_camera
 }
 
 /// Length of the mean normal from which a surface faces one way: 0 for a closed surface, 0.5 for half a sphere, 0.9 for a
 /// scanned fender. From behind, such a surface shows hardly a point.
-const ONE_WAY: f32 = 0.3;
+const ONE_WAY_MIN_MEAN_NORMAL: f32 = 0.3;
 
 /// Returns whether a surface with these normals faces one way.
 pub(super) fn face_one_way(normals: &[Vector3<f32>]) -> bool {
-    normals.iter().sum::<Vector3<f32>>().norm() > ONE_WAY * normals.len() as f32
+    normals.iter().sum::<Vector3<f32>>().norm() > ONE_WAY_MIN_MEAN_NORMAL * normals.len() as f32
 }
 
 pub(super) fn middle(cloud: &PointCloud) -> Point3<f64> {

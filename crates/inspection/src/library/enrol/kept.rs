@@ -23,11 +23,11 @@ pub(super) fn share_on_background(
 
 /// Edge of the cubes that connect points, metres. Pieces that are separated by a bar of a stand or the edge of an
 /// opening stay connected; a gap of two cubes separates them.
-const CUBE: f32 = 0.06;
+const CUBE_EDGE_M: f32 = 0.06;
 
 /// Returns the share of the points outside the largest piece. Points belong to one piece if their cubes are connected.
 pub(super) fn share_apart(points: &[Point3<f32>]) -> f64 {
-    let cube_of = |p: &Point3<f32>| [p.x, p.y, p.z].map(|x| (x / CUBE).floor() as i32);
+    let cube_of = |p: &Point3<f32>| [p.x, p.y, p.z].map(|x| (x / CUBE_EDGE_M).floor() as i32);
     let mut cubes: BTreeMap<[i32; 3], usize> = BTreeMap::new();
     for point in points {
         *cubes.entry(cube_of(point)).or_default() += 1;

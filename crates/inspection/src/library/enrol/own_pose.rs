@@ -15,11 +15,11 @@ use stages::{
 };
 
 /// Score that inspections need by default.
-const LEAST_SCORE: f64 = 0.9;
+const MIN_SCORE: f64 = 0.9;
 /// Margin over another pose below which an inspection rejects the pose.
-const LEAST_LEAD: f64 = 0.05;
+const MIN_LEAD: f64 = 0.05;
 /// Turn, degrees: below it, the confirmation distinguishes two poses only by their shift.
-const LEAST_TURN: f64 = 10.0;
+const MIN_TURN_DEG: f64 = 10.0;
 
 /// Returns why an inspection of the whole part without noise would not accept it, or what it would find wrong with its pose.
 pub(super) fn pose_warning(reference: &Reference, coverage: Coverage) -> Option<EnrolWarning> {
@@ -41,17 +41,17 @@ pub(super) fn pose_warning(reference: &Reference, coverage: Coverage) -> Option<
     let (confirmed, pose) = confirm(&scene, references, &ranking, &ConfirmParams::default(), 0.0);
     let (found, pose) = (confirmed.entries.first()?, pose.ok()?);
     // Only of one capture is it known where the camera was.
-    if coverage == Coverage::OneSide && found.score < LEAST_SCORE {
+    if coverage == Coverage::OneSide && found.score < MIN_SCORE {
         return Some(EnrolWarning::TooLittle {
             score: found.score,
-            needed: LEAST_SCORE,
+            needed: MIN_SCORE,
         });
     }
     if let Some(freedom) = pose.uncertainty.and_then(|found| found.freedom) {
         return Some(EnrolWarning::Unconstrained(freedom));
     }
     let rival = found.evidence.map_or(0.0, |evidence| evidence.rival);
-    let is_tied = rival > 0.0 && found.score - rival < LEAST_LEAD;
+    let is_tied = rival > 0.0 && found.score - rival < MIN_LEAD;
     let other = pose.runner_up.filter(|_| is_tied || pose.is_ambiguous())?;
     let between = pose.target_from_source * other.target_from_source.inverse();
     Some(fits_after(&between, &reference.cloud.points))
@@ -61,7 +61,7 @@ pub(super) fn pose_warning(reference: &Reference, coverage: Coverage) -> Option<
 /// its pose is unconstrained.
 fn fits_after(motion: &RigidTransform, points: &[Point3<f32>]) -> EnrolWarning {
     let degrees = motion.rotation.angle().to_degrees();
-    if degrees < LEAST_TURN {
+    if degrees < MIN_TURN_DEG {
         EnrolWarning::Unconstrained(FreeMotion::of(motion, points))
     } else {
         EnrolWarning::Symmetric {

@@ -52,7 +52,7 @@ pub fn enrol_scan(
     };
     let mut enrolled = assemble(cloud, &source, about, params)?;
     let percent = (100.0 * unseen_share(scan)).round() as u8;
-    if percent >= WORTH_A_WARNING {
+    if percent >= WARNING_MIN_PERCENT {
         let warning = EnrolWarning::GoesOnUnseen { percent };
         enrolled.warnings.push(warning);
     }
@@ -60,4 +60,4 @@ pub fn enrol_scan(
 }
 
 /// Smallest share worth a warning, per cent: shadows next to the part leave a few per cent of any outline unseen.
-const WORTH_A_WARNING: u8 = 10;
+const WARNING_MIN_PERCENT: u8 = 10;

@@ -205,10 +205,10 @@ fn background_that_was_added_and_pieces_that_lie_apart_are_warned_of() {
     with_wall.sort_unstable();
     let share = 1.0 - part.indices.len() as f64 / with_wall.len() as f64;
     let percent = (share * 100.0).round() as u8;
-    let told = warnings(&with_wall);
+    let warnings_of_scene = warnings(&with_wall);
     assert!(
-        told.contains(&EnrolWarning::OnBackground { percent }),
-        "{told:?}"
+        warnings_of_scene.contains(&EnrolWarning::OnBackground { percent }),
+        "{warnings_of_scene:?}"
     );
 
     // Without the middle third of its width: two pieces of about the same size.

@@ -15,11 +15,11 @@ use stages::{scene::SceneCloud, segment::noise_of_picture};
 /// Maximum number of frames averaged.
 pub const MAX_AVERAGED: usize = 16;
 /// Standard deviations of the noise within which readings belong to one surface.
-const SAME_SURFACE: f32 = 5.0;
+const SAME_SURFACE_MAX_DEVIATIONS: f32 = 5.0;
 /// Noise assumed if the picture is too empty to measure it, metres at 1 m.
-const USUAL_NOISE: f32 = 0.0015;
+const DEFAULT_NOISE_AT_1M: f32 = 0.0015;
 /// A pixel with readings in a smaller share of the frames is a flying pixel.
-const LEAST_SHARE: f32 = 0.25;
+const MIN_FRAME_SHARE: f32 = 0.25;
 
 /// The last frames of one camera while its scene is still.
 #[derive(Debug, Default)]
@@ -70,8 +70,8 @@ impl DepthAverage {
         else {
             return Some(Arc::clone(last));
         };
-        let noise = noise_of_picture(last).map_or(USUAL_NOISE, |noise| noise.0 as f32);
-        let gate = SAME_SURFACE * noise;
+        let noise = noise_of_picture(last).map_or(DEFAULT_NOISE_AT_1M, |noise| noise.0 as f32);
+        let gate = SAME_SURFACE_MAX_DEVIATIONS * noise;
         let rays = Rays::of(&camera);
         let rows = map_in_order(
             grid.height,
@@ -106,7 +106,7 @@ impl DepthAverage {
 /// The mean of the readings on the surface of the median; `None` if they are too few.
 fn settled(readings: &mut [f32], num_frames: usize, gate: f32) -> Option<f32> {
     let num = readings.len();
-    if num == 0 || (num as f32) < LEAST_SHARE * num_frames as f32 {
+    if num == 0 || (num as f32) < MIN_FRAME_SHARE * num_frames as f32 {
         return None;
     }
     readings.sort_unstable_by(f32::total_cmp);

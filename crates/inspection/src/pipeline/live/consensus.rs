@@ -74,7 +74,7 @@ struct FrameVerdict {
 #[derive(Debug)]
 pub struct Consensus {
     params: ConsensusParams,
-    said: VecDeque<FrameVerdict>,
+    frames: VecDeque<FrameVerdict>,
 }
 
 impl Consensus {
@@ -82,33 +82,33 @@ impl Consensus {
     pub fn new(params: ConsensusParams) -> Self {
         Self {
             params,
-            said: VecDeque::new(),
+            frames: VecDeque::new(),
         }
     }
 
     /// Forgets every frame, because the scene has moved.
     pub fn clear(&mut self) {
-        self.said.clear();
+        self.frames.clear();
     }
 
     /// Adds the result of the frame taken at `at`. `middle` is the middle of the named part, part space, metres.
     pub fn add(&mut self, at: Duration, inspection: &Inspection, middle: Option<Point3<f64>>) {
         let pose = inspection.found_pose();
-        self.said.push_back(FrameVerdict {
+        self.frames.push_back(FrameVerdict {
             at,
             verdict: inspection.verdict.clone(),
             reference: inspection.reference().map(ToOwned::to_owned),
             camera_from_part: pose.map(stages::pose::PoseEstimate::camera_from_part),
             middle: middle.unwrap_or_else(Point3::origin),
         });
-        while self.said.len() > self.params.num_frames.max(1) {
-            self.said.pop_front();
+        while self.frames.len() > self.params.num_frames.max(1) {
+            self.frames.pop_front();
         }
     }
 
     /// Number of frames from `since` on, and the number needed.
     pub fn gathered(&self, since: Duration) -> (usize, usize) {
-        let num = self.said.iter().filter(|said| said.at >= since).count();
+        let num = self.frames.iter().filter(|frame| frame.at >= since).count();
         (num, self.least_frames())
     }
 
@@ -120,49 +120,53 @@ impl Consensus {
 
     /// The verdict of the frames from `since` on; `None` while they are too few.
     pub fn agreed(&self, since: Duration, accept: &AcceptParams) -> Option<ConsensusVerdict> {
-        let said: Vec<&FrameVerdict> = self.said.iter().filter(|said| said.at >= since).collect();
-        if said.len() < self.least_frames() {
+        let frames: Vec<&FrameVerdict> = self
+            .frames
+            .iter()
+            .filter(|frame| frame.at >= since)
+            .collect();
+        if frames.len() < self.least_frames() {
             return None;
         }
-        let num_frames = said.len();
+        let num_frames = frames.len();
         let needed = (self.params.least_share * num_frames as f64).ceil() as usize;
-        let Some(name) = most_named(&said) else {
-            return nothing_named(&said);
+        let Some(name) = most_named(&frames) else {
+            return nothing_named(&frames);
         };
-        let naming: Vec<&FrameVerdict> = said
+        let naming: Vec<&FrameVerdict> = frames
             .iter()
             .copied()
-            .filter(|said| named(&said.verdict).is_some_and(|(part, ..)| part == name))
+            .filter(|frame| named(&frame.verdict).is_some_and(|(part, ..)| part == name))
             .collect();
-        let num_empty = said
+        let num_empty = frames
             .iter()
-            .filter(|said| named(&said.verdict).is_none())
+            .filter(|frame| named(&frame.verdict).is_none())
             .count();
         if num_empty > naming.len() {
-            return nothing_named(&said);
+            return nothing_named(&frames);
         }
         let of = |pick: fn(&Verdict) -> Option<f64>| {
-            lower_median(naming.iter().filter_map(|said| pick(&said.verdict))).unwrap_or(0.0)
+            lower_median(naming.iter().filter_map(|frame| pick(&frame.verdict))).unwrap_or(0.0)
         };
         let score = of(|verdict| named(verdict).map(|(_, score, _)| score));
         let margin = of(|verdict| named(verdict).map(|(_, _, margin)| margin));
         let num_accepting = naming
             .iter()
-            .filter(|said| said.verdict.is_accepted())
+            .filter(|frame| frame.verdict.is_accepted())
             .count();
-        let is_contradicted = said.iter().any(|said| {
-            said.verdict.is_accepted()
-                && named(&said.verdict).is_some_and(|(part, ..)| part != name)
+        let is_contradicted = frames.iter().any(|frame| {
+            frame.verdict.is_accepted()
+                && named(&frame.verdict).is_some_and(|(part, ..)| part != name)
         });
         // The mean replaces the last frame's pose, so only poses of its reference count: each reference has its own
         // coordinates.
         let last = naming.last();
         let poses: Vec<RigidTransform> = naming
             .iter()
-            .filter(|said| last.is_some_and(|last| last.reference == said.reference))
-            .filter_map(|said| said.camera_from_part)
+            .filter(|frame| last.is_some_and(|last| last.reference == frame.reference))
+            .filter_map(|frame| frame.camera_from_part)
             .collect();
-        let middle = last.map_or_else(Point3::origin, |said| said.middle);
+        let middle = last.map_or_else(Point3::origin, |frame| frame.middle);
         let pose = mean_pose(&poses, &middle, self.params.tolerance);
         let in_place = pose.map(|pose| pose.num_agreeing);
 
@@ -174,13 +178,13 @@ impl Consensus {
         };
         let rejected = if num_accepting < needed || is_contradicted {
             // A reason that most frames share is more useful than the fact that they do not all agree.
-            let mut complaints = naming.iter().filter_map(|said| said.verdict.rejected());
+            let mut complaints = naming.iter().filter_map(|frame| frame.verdict.rejected());
             let num_rejecting = naming.len() - num_accepting;
             let last = complaints.next_back().cloned();
             let is_common = num_rejecting >= needed && !is_contradicted;
             Some(
                 last.filter(|_| is_common)
-                    .or_else(|| almost_equal(&said, name, needed))
+                    .or_else(|| almost_equal(&frames, name, needed))
                     .unwrap_or_else(|| undecided(num_accepting)),
             )
         } else if score < accept.min_score || margin < accept.min_margin {
@@ -197,7 +201,7 @@ impl Consensus {
         };
         let num_approximate = naming
             .iter()
-            .filter(|said| said.verdict.is_approximate())
+            .filter(|frame| frame.verdict.is_approximate())
             .count();
         let is_approximate = 2 * num_approximate >= naming.len();
         let num_agreeing = match &rejected {
@@ -220,12 +224,14 @@ impl Consensus {
 }
 
 /// The verdict where most frames name no part: that of the last such frame.
-fn nothing_named(said: &[&FrameVerdict]) -> Option<ConsensusVerdict> {
-    let mut empty = said.iter().filter(|said| named(&said.verdict).is_none());
+fn nothing_named(frames: &[&FrameVerdict]) -> Option<ConsensusVerdict> {
+    let mut empty = frames
+        .iter()
+        .filter(|frame| named(&frame.verdict).is_none());
     let num_agreeing = empty.clone().count();
     Some(ConsensusVerdict {
         verdict: empty.next_back()?.verdict.clone(),
-        num_frames: said.len(),
+        num_frames: frames.len(),
         num_agreeing,
         pose: None,
     })
@@ -233,25 +239,25 @@ fn nothing_named(said: &[&FrameVerdict]) -> Option<ConsensusVerdict> {
 
 /// The rejection for frames that disagree because two parts fit almost equally well: at least one frame was rejected for this, and
 /// at least `needed` frames fit that explanation.
-fn almost_equal(said: &[&FrameVerdict], name: &str, needed: usize) -> Option<Rejection> {
+fn almost_equal(frames: &[&FrameVerdict], name: &str, needed: usize) -> Option<Rejection> {
     let pair_of = |verdict: &Verdict| match verdict.rejected() {
         Some(Rejection::SmallMargin { part, other, .. }) if part == name => Some(other.clone()),
         Some(Rejection::SmallMargin { part, other, .. }) if other == name => Some(part.clone()),
         _ => None,
     };
-    let other = said.iter().find_map(|said| pair_of(&said.verdict))?;
-    let of_pair = said.iter().filter(|said| {
-        let accepts = named(&said.verdict).is_some_and(|(part, ..)| {
-            said.verdict.is_accepted() && (part == name || part == other)
+    let other = frames.iter().find_map(|frame| pair_of(&frame.verdict))?;
+    let of_pair = frames.iter().filter(|frame| {
+        let accepts = named(&frame.verdict).is_some_and(|(part, ..)| {
+            frame.verdict.is_accepted() && (part == name || part == other)
         });
-        accepts || pair_of(&said.verdict).as_ref() == Some(&other)
+        accepts || pair_of(&frame.verdict).as_ref() == Some(&other)
     });
     if of_pair.count() < needed {
         return None;
     }
-    let margins = said
+    let margins = frames
         .iter()
-        .filter_map(|said| match said.verdict.rejected() {
+        .filter_map(|frame| match frame.verdict.rejected() {
             Some(Rejection::SmallMargin {
                 margin, threshold, ..
             }) => Some((*margin, *threshold)),
@@ -279,8 +285,8 @@ fn named(verdict: &Verdict) -> Option<(&str, f64, f64)> {
 }
 
 /// The part that most frames name; of several, the one named first.
-fn most_named<'a>(said: &[&'a FrameVerdict]) -> Option<&'a str> {
-    let names = said.iter().filter_map(|said| named(&said.verdict));
+fn most_named<'a>(frames: &[&'a FrameVerdict]) -> Option<&'a str> {
+    let names = frames.iter().filter_map(|frame| named(&frame.verdict));
     let names: Vec<&str> = names.map(|(part, ..)| part).collect();
     let count = |name: &str| names.iter().filter(|other| **other == name).count();
     let mut most: Option<(usize, &str)> = None;

@@ -93,11 +93,11 @@ enum HungState {
 #[derive(Clone, Debug)]
 struct CountedPart {
     /// The verdicts on it where it hangs now: name, and whether accepted.
-    said: Vec<(String, bool)>,
+    verdicts: Vec<(String, bool)>,
     inputs: String,
     camera_from_part: Option<RigidTransform>,
     /// Something moved since the last verdict.
-    has_stirred: bool,
+    has_scene_moved: bool,
     /// Some of its points: index in the picture, and depth, metres.
     surface: Vec<(u32, f32)>,
     grid: Option<Grid>,
@@ -105,21 +105,21 @@ struct CountedPart {
 }
 
 /// After a longer gap between frames, it is unknown what hangs there.
-const MAX_BLIND: Duration = Duration::from_secs(10);
+const MAX_KNOWN_GAP: Duration = Duration::from_secs(10);
 /// After a longer gap between frames, something of another name is another part.
-const APART: Duration = Duration::from_secs(2);
+const MAX_SAME_PART_GAP: Duration = Duration::from_secs(2);
 /// A part has left once no frame shows one for this time, and in this many frames.
-const ABSENCE: (Duration, usize) = (Duration::from_millis(400), 2);
+const MIN_ABSENCE: (Duration, usize) = (Duration::from_millis(400), 2);
 /// Points of a part, approximately, that are looked for in its place.
-const NUM_POINTS: usize = 600;
+const NUM_TRACKED_POINTS: usize = 600;
 /// A reading this far behind a part's surface, metres, shows that its place is empty: about ten times a Kinect's
 /// noise.
-const BEHIND: f32 = 0.06;
+const BEHIND_MIN_DISTANCE_M: f32 = 0.06;
 /// Share of a part's points that must be looked through for it to have left; if it swings on its hook, fewer are.
-const LEFT_SHARE: f64 = 0.7;
+const LEFT_MIN_SEEN_THROUGH_SHARE: f64 = 0.7;
 /// A part has also left if no part is seen and fewer than this share of its points are still there: the camera may
 /// have no readings of what is behind.
-const LEAST_THERE: f64 = 0.1;
+const PRESENT_MIN_SHARE: f64 = 0.1;
 
 impl HungParts {
     /// Number of parts that hung there, including the present one.
@@ -151,8 +151,9 @@ impl HungParts {
         // A clock that was set back is an unknown gap, too.
         let gap = before.map(|before| frame.at.checked_sub(before).unwrap_or(Duration::MAX));
         let is_accepted = frame.inspection.verdict.is_accepted();
-        let is_blind =
-            |gap| gap > MAX_BLIND || (gap > APART && self.is_another(shown, is_accepted));
+        let is_blind = |gap| {
+            gap > MAX_KNOWN_GAP || (gap > MAX_SAME_PART_GAP && self.is_another(shown, is_accepted))
+        };
         let mut left = Left::Nothing;
         if gap.is_some_and(is_blind) {
             left = self.leave();
@@ -173,11 +174,11 @@ impl HungParts {
             }
             (_, Some((name, score))) => {
                 self.absent = None;
-                self.glimpse(name, score, !frame.inspection.verdict.is_unknown())
+                self.observe_unsettled(name, score, !frame.inspection.verdict.is_unknown())
             }
         };
         if let HungState::Counted(part) = &mut self.state {
-            part.has_stirred |= frame.verdict.counted().is_none();
+            part.has_scene_moved |= frame.verdict.counted().is_none();
         }
         (left, role)
     }
@@ -188,7 +189,7 @@ impl HungParts {
         match (&self.state, shown) {
             (HungState::Unsettled { last, .. }, Some((name, _))) => last != name,
             (HungState::Counted(part), Some((name, _))) => {
-                is_accepted && part.said.iter().all(|(said, _)| said != name)
+                is_accepted && part.verdicts.iter().all(|(known, _)| known != name)
             }
             _ => false,
         }
@@ -198,7 +199,7 @@ impl HungParts {
     fn is_absent(&mut self, at: Duration) -> bool {
         let (since, num_frames) = self.absent.get_or_insert((at, 0));
         *num_frames += 1;
-        at.saturating_sub(*since) >= ABSENCE.0 && *num_frames >= ABSENCE.1
+        at.saturating_sub(*since) >= MIN_ABSENCE.0 && *num_frames >= MIN_ABSENCE.1
     }
 
     /// Handles a scene without a part. A part whose verdict counted may still hang behind something that hides it.
@@ -220,7 +221,7 @@ impl HungParts {
     }
 
     /// Handles a frame that shows a part while no verdict counts.
-    fn glimpse(&mut self, name: &str, score: f64, is_named: bool) -> FrameRole {
+    fn observe_unsettled(&mut self, name: &str, score: f64, is_named: bool) -> FrameRole {
         let known = match &mut self.state {
             // It moves away, or something hides it.
             HungState::Counted(_) => return FrameRole::Nothing,
@@ -262,29 +263,33 @@ impl HungParts {
             // One of the few frames that see something else: it cannot represent the verdict.
             return FrameRole::Nothing;
         }
-        let said = (part.clone(), rejected.is_none());
+        let verdict = (part.clone(), rejected.is_none());
         let pose = agreed.pose.as_ref().map(|pose| pose.camera_from_part);
         if let HungState::Counted(known) = &mut self.state
             && !known.has_left
         {
             let is_elsewhere = known.inputs != frame.inputs
-                || (known.has_stirred && known.has_moved(pose.as_ref(), frame));
-            known.has_stirred = false;
+                || (known.has_scene_moved && known.has_moved(pose.as_ref(), frame));
+            known.has_scene_moved = false;
             if is_elsewhere {
-                known.said.clear();
+                known.verdicts.clear();
             }
-            if known.said.contains(&said) {
+            if known.verdicts.contains(&verdict) {
                 return FrameRole::Nothing;
             }
-            let mut all = std::mem::take(&mut known.said);
-            all.push(said);
-            **known = CountedPart::of(frame, all, pose);
+            let mut all = std::mem::take(&mut known.verdicts);
+            all.push(verdict);
+            **known = CountedPart::from_frame(frame, all, pose);
             return FrameRole::Again;
         }
         if !matches!(self.state, HungState::Unsettled { .. }) {
             self.visit += 1;
         }
-        self.state = HungState::Counted(Box::new(CountedPart::of(frame, vec![said], pose)));
+        self.state = HungState::Counted(Box::new(CountedPart::from_frame(
+            frame,
+            vec![verdict],
+            pose,
+        )));
         FrameRole::First
     }
 }
@@ -296,22 +301,24 @@ impl Left {
 }
 
 impl CountedPart {
-    fn of(
+    fn from_frame(
         frame: &HungFrame<'_>,
-        said: Vec<(String, bool)>,
+        verdicts: Vec<(String, bool)>,
         camera_from_part: Option<RigidTransform>,
     ) -> Self {
         let indices = match &frame.inspection.segmentation.part {
             Ok(part) => part.indices.as_slice(),
             Err(_) => &[],
         };
-        let points = indices.iter().step_by((indices.len() / NUM_POINTS).max(1));
+        let points = indices
+            .iter()
+            .step_by((indices.len() / NUM_TRACKED_POINTS).max(1));
         let depth = |i: &u32| Some((*i, frame.scene.cloud.points.get(*i as usize)?.z));
         Self {
-            said,
+            verdicts,
             inputs: frame.inputs.to_owned(),
             camera_from_part,
-            has_stirred: false,
+            has_scene_moved: false,
             surface: points.filter_map(depth).collect(),
             grid: frame.scene.cloud.grid,
             has_left: false,
@@ -343,11 +350,12 @@ impl CountedPart {
                 .points
                 .get(*place as usize)
                 .map_or(f32::NAN, |p| p.z);
-            num_behind += u32::from(now > depth + BEHIND);
-            num_there += u32::from((now - depth).abs() <= BEHIND);
+            num_behind += u32::from(now > depth + BEHIND_MIN_DISTANCE_M);
+            num_there += u32::from((now - depth).abs() <= BEHIND_MIN_DISTANCE_M);
         }
         let share = |num: u32| f64::from(num) / self.surface.len().max(1) as f64;
-        share(num_behind) > LEFT_SHARE || (is_empty && share(num_there) < LEAST_THERE)
+        share(num_behind) > LEFT_MIN_SEEN_THROUGH_SHARE
+            || (is_empty && share(num_there) < PRESENT_MIN_SHARE)
     }
 }
 

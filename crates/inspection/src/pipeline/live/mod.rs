@@ -1,4 +1,4 @@
-//! Following one camera: which verdict counts after many frames, and what it rests on.
+//! Live: one verdict from many frames of one camera.
 //!
 //! ```text
 //! frame ─► MotionDetector ─► DepthAverage ─► pipeline::run ─► Consensus ─► LiveVerdict ─► HungParts

@@ -71,26 +71,26 @@ const NUM_SAMPLES: usize = 76_800;
 const NUM_SPELLS: usize = 3;
 /// Minimum number of frames in a spell, however far apart: a pixel at an edge, which flickers between two surfaces,
 /// must not by chance be on one of them throughout a spell and on the other throughout the next.
-const LEAST_FRAMES: usize = 5;
+const MIN_SPELL_FRAMES: usize = 5;
 /// Longest gap between frames; what happens in a longer one is unknown.
 const MAX_GAP: Duration = Duration::from_secs(2);
 /// Share of the pixels that may be off in a single frame, which is noisier than a spell.
-const MAX_OFF_AT_ONCE: f64 = 0.006;
+const MAX_OFF_SHARE: f64 = 0.006;
 /// Standard deviations by which a pixel of a single frame must differ to be off.
-const DEVIATIONS_AT_ONCE: f32 = 6.0;
+const OFF_MIN_DEVIATIONS: f32 = 6.0;
 /// Number of frames from which an incomplete spell is compared with a single frame.
-const FRAMES_TO_JUDGE: usize = 4;
+const MIN_JUDGED_FRAMES: usize = 4;
 /// Share of the pixels that may be restless, as those at edges are; more is shaking.
-const MAX_RESTLESS: f64 = 0.06;
+const MAX_RESTLESS_SHARE: f64 = 0.06;
 /// Multiple of the noise above which a pixel is restless.
-const RESTLESS: f32 = 3.5;
+const RESTLESS_MIN_NOISE_RATIO: f32 = 3.5;
 /// Smaller differences of the mean of 1/z, in 1/m, are ignored: 1 mm at 1 m.
-const LEAST_DIFFERENCE: f32 = 1e-3;
+const MIN_INVERSE_DEPTH_CHANGE: f32 = 1e-3;
 /// Share of a spell's frames in which a pixel must have a reading in one spell, and none in the other, to count as
 /// changed.
-const CERTAIN: f32 = 0.85;
+const CHANGED_MIN_FRAME_SHARE: f32 = 0.85;
 /// Noise assumed if the picture is too empty to measure it, metres at 1 m.
-const USUAL_NOISE: Metres = Metres(0.0015);
+const DEFAULT_NOISE_AT_1M: Metres = Metres(0.0015);
 
 /// Follows the frames of one camera.
 #[derive(Debug, Default)]
@@ -158,13 +158,13 @@ impl MotionDetector {
         }
         self.last_at = at;
         if self.is_empty() {
-            let noise = noise_of_picture(scene).unwrap_or(USUAL_NOISE);
+            let noise = noise_of_picture(scene).unwrap_or(DEFAULT_NOISE_AT_1M);
             self.noise = noise.0 as f32;
         }
         let samples = samples(scene, grid);
         let last = self.spells.back();
-        let last = last.or((self.filling.num_frames >= FRAMES_TO_JUDGE).then_some(&self.filling));
-        if last.is_some_and(|spell| self.off_share(spell, &samples) > MAX_OFF_AT_ONCE) {
+        let last = last.or((self.filling.num_frames >= MIN_JUDGED_FRAMES).then_some(&self.filling));
+        if last.is_some_and(|spell| self.off_share(spell, &samples) > MAX_OFF_SHARE) {
             self.restart_consensus(MotionState::Moving, at);
         }
         self.gather(&samples, at);
@@ -199,7 +199,7 @@ impl MotionDetector {
             filling, pivots, ..
         } = self;
         if filling.num_frames == 0 {
-            *filling = SampleWindow::of(samples.len(), at);
+            *filling = SampleWindow::new(samples.len(), at);
         }
         filling.num_frames += 1;
         let sums = filling.sums.iter_mut().zip(&mut filling.squares);
@@ -220,7 +220,7 @@ impl MotionDetector {
     fn is_full(&self, at: Duration) -> bool {
         let lasting = at.saturating_sub(self.filling.from);
         let is_long = lasting >= self.params.settle / NUM_SPELLS as u32;
-        is_long && self.filling.num_frames >= LEAST_FRAMES
+        is_long && self.filling.num_frames >= MIN_SPELL_FRAMES
     }
 
     /// Compares the full spell with the ones before.
@@ -230,11 +230,11 @@ impl MotionDetector {
         let differs = earlier
             .into_iter()
             .any(|earlier| self.changed_share(earlier, &spell) > self.params.max_changed);
-        if differs || self.moving_share(&spell) > MAX_RESTLESS {
+        if differs || self.moving_share(&spell) > MAX_RESTLESS_SHARE {
             // The motion lies before the newest spell or in it; if before, the spell may be the first of a long rest.
             let pivots = std::mem::take(&mut self.pivots);
             self.restart_consensus(MotionState::Moving, at);
-            if self.moving_share(&spell) <= MAX_RESTLESS {
+            if self.moving_share(&spell) <= MAX_RESTLESS_SHARE {
                 self.pivots = pivots;
                 self.spells.push_back(spell);
             }
@@ -264,8 +264,8 @@ impl MotionDetector {
                 continue;
             }
             num_read += 1;
-            let comes_or_goes =
-                share_a.max(share_b) >= CERTAIN && share_a.min(share_b) <= 1.0 - CERTAIN;
+            let comes_or_goes = share_a.max(share_b) >= CHANGED_MIN_FRAME_SHARE
+                && share_a.min(share_b) <= 1.0 - CHANGED_MIN_FRAME_SHARE;
             let is_changed = if share_a.min(share_b) < 0.5 {
                 comes_or_goes
             } else {
@@ -275,7 +275,8 @@ impl MotionDetector {
                 let own = scatter / (num_a + num_b - 2.0).max(1.0);
                 let variance = own.max(noise_sq) * (1.0 / num_a + 1.0 / num_b);
                 let difference = mean_a - mean_b;
-                difference * difference > limit * variance && difference.abs() > LEAST_DIFFERENCE
+                difference * difference > limit * variance
+                    && difference.abs() > MIN_INVERSE_DEPTH_CHANGE
             };
             num_changed += u32::from(is_changed);
         }
@@ -284,7 +285,7 @@ impl MotionDetector {
 
     /// Share of the samples that scatter more than the noise.
     fn moving_share(&self, spell: &SampleWindow) -> f64 {
-        let limit = (RESTLESS * self.noise).powi(2);
+        let limit = (RESTLESS_MIN_NOISE_RATIO * self.noise).powi(2);
         let (mut num_restless, mut num_read) = (0_u32, 0_u32);
         let sums = spell.sums.iter().zip(&spell.squares);
         for (count, (sum, square)) in spell.counts.iter().zip(sums) {
@@ -310,14 +311,14 @@ impl MotionDetector {
             let mean = spell.sums[i] / num;
             let own = (spell.squares[i] - num * mean * mean) / (num - 1.0);
             let off = sample - self.pivots[i] - mean;
-            num_off += u32::from(off * off > DEVIATIONS_AT_ONCE.powi(2) * own.max(noise_sq));
+            num_off += u32::from(off * off > OFF_MIN_DEVIATIONS.powi(2) * own.max(noise_sq));
         }
         f64::from(num_off) / f64::from(num_read.max(1))
     }
 }
 
 impl SampleWindow {
-    fn of(num_samples: usize, from: Duration) -> Self {
+    fn new(num_samples: usize, from: Duration) -> Self {
         Self {
             from,
             num_frames: 0,

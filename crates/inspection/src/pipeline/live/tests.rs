@@ -29,7 +29,7 @@ fn a_part_is_accepted_once_it_hangs_still_and_no_longer_when_it_moves() {
     let part = HangingPart::new(PartKind::Fender, 3);
     let follow = || {
         let mut watch = LiveTracker::new(&LiveParams::default());
-        let said = (0..52_u64).map(|number| {
+        let states = (0..52_u64).map(|number| {
             // Still, then moving away at 20 cm/s.
             let x = if number < 40 {
                 0.0
@@ -46,10 +46,10 @@ fn a_part_is_accepted_once_it_hangs_still_and_no_longer_when_it_moves() {
             let standing = watch.judge(&mut inspection, None, &recipe.accept);
             Some((number, own, standing, inspection.verdict))
         });
-        said.flatten().collect::<Vec<_>>()
+        states.flatten().collect::<Vec<_>>()
     };
-    let said = follow();
-    for (number, own, standing, verdict) in &said {
+    let states = follow();
+    for (number, own, standing, verdict) in &states {
         match number {
             0..=23 => {
                 assert!(*own, "frame {number} by itself");
@@ -68,7 +68,7 @@ fn a_part_is_accepted_once_it_hangs_still_and_no_longer_when_it_moves() {
         }
     }
     // The same frames give the same verdicts, bit for bit.
-    assert_eq!(follow(), said);
+    assert_eq!(follow(), states);
 }
 
 #[test]

@@ -13,10 +13,12 @@ use std::{
 };
 
 use capture::{
-    BackpressurePolicy, CameraLibraryError, CaptureError, Captured, DepthSource, Feed, FeedItem,
-    FeedState, GenicamError, GenicamSpec, Image, NextCapture, Recovery, SourceSpec, list, open,
+    ARAVIS, BackpressurePolicy, CameraError, CameraErrorKind, CaptureError, Captured, DepthSource,
+    Feed, FeedItem, FeedState, GenicamSpec, Image, NextCapture, Recovery, SourceSpec, open,
 };
 use geometry::{cloud::Grid, depth_frame::DepthFrame, error::Advice as _};
+
+use crate::errors::{camera_error, listed_by};
 
 /// Timeout longer than any step of a test, so that it ends only one that hangs.
 const PATIENCE: Duration = Duration::from_mins(1);
@@ -62,14 +64,12 @@ impl FakeCamera {
         };
         let until = Instant::now() + PATIENCE;
         while Instant::now() < until {
-            for listed in list() {
+            for listed in listed_by(&ARAVIS, |spec| matches!(spec, SourceSpec::Genicam(_))) {
                 if listed.title == format!("GenICam {ID}") {
                     return Some(camera);
                 }
-                if let Some(CaptureError::Genicam(GenicamError::Library(
-                    CameraLibraryError::NotInstalled { .. },
-                ))) = listed.trouble
-                {
+                let kind = listed.error.map(|error| error.kind);
+                if kind == Some(CameraErrorKind::LibraryMissing { path: None }) {
                     skipped("aravis is not installed (apt-get install libaravis-0.8-0)");
                     return None;
                 }
@@ -114,11 +114,8 @@ fn describe(path: &Path, mode: &str, reverse: &str) {
     fs::write(path, text).expect("written");
 }
 
-fn trouble(text: &str) -> GenicamError {
-    match open(&spec(text)).err().expect("does not open") {
-        CaptureError::Genicam(error) => error,
-        other => panic!("{other}"),
-    }
+fn open_error(text: &str) -> CameraError {
+    camera_error(open(&spec(text)).err().expect("does not open"))
 }
 
 fn next_capture(source: &mut dyn DepthSource) -> Captured {
@@ -178,10 +175,8 @@ fn every_pixel_of_a_depth_image_arrives() {
     check_pattern(&second);
     assert_ne!(first.depth, second.depth, "the pattern moves");
 
-    let Err(CaptureError::Genicam(error)) = open(&spec) else {
-        panic!("opened twice")
-    };
-    assert!(matches!(error, GenicamError::InUse), "{error}");
+    let error = camera_error(open(&spec).err().expect("opened twice"));
+    assert_eq!(error.kind, CameraErrorKind::Busy, "{error}");
     check_pattern(&depth_of(next_capture(source.as_mut())));
     drop(source);
     let mut again = open(&spec).expect("opens again");
@@ -194,20 +189,35 @@ fn grey_values_are_no_depth_and_another_camera_is_not_taken() {
     let Some(_camera) = FakeCamera::start(None) else {
         return;
     };
-    let error = trouble("genicam");
-    assert!(matches!(error, GenicamError::NoDepthFormat { .. }));
-    assert!(error.to_string().contains("Mono8"), "{error}");
-    assert!(error.advice().contains("format=Mono16"));
-    let error = trouble("genicam,format=Coord3D_C16:127.0.0.1");
-    assert!(
-        matches!(error, GenicamError::FormatNotOffered { .. }),
-        "{error}"
-    );
-    let error = trouble("genicam,format=Mono16");
-    assert!(matches!(error, GenicamError::Untold { .. }), "{error}");
-    let error = trouble("genicam:Other-3D-1");
+    for (source, words, advice) in [
+        (
+            "genicam",
+            ["offers no depth, only ", "Mono8"],
+            "format=Mono16",
+        ),
+        (
+            "genicam,format=Coord3D_C16:127.0.0.1",
+            ["does not offer Coord3D_C16, only ", "Mono8"],
+            "format option out",
+        ),
+        (
+            "genicam,format=Mono16",
+            ["does not report its Scan3dCoordinateScale", "depth images"],
+            "camera=FILE",
+        ),
+    ] {
+        let error = open_error(source);
+        assert!(
+            matches!(error.kind, CameraErrorKind::Unsuitable { .. }),
+            "{error}"
+        );
+        let text = error.to_string();
+        assert!(words.iter().all(|words| text.contains(words)), "{text}");
+        assert!(error.advice().contains(advice), "{}", error.advice());
+    }
+    let error = open_error("genicam:Other-3D-1");
     assert!(error.to_string().contains(&format!("only {ID}")), "{error}");
-    assert_eq!(CaptureError::from(error).recovery(), Recovery::Reopen);
+    assert_eq!(error.recovery(), Recovery::Reopen);
 }
 
 #[test]
@@ -225,9 +235,9 @@ fn a_3d_camera_says_itself_what_its_values_stand_for() {
     let frame = depth_of(captured);
     let lens = frame.intrinsics;
     assert_eq!((lens.width, lens.height), (512, 512));
-    let told = [lens.fx, lens.fy, lens.cx, lens.cy];
-    for (told, expected) in told.into_iter().zip([500.5, 500.5, 255.5, 250.0]) {
-        assert!((told - expected).abs() < 1e-9, "{told}");
+    let reported = [lens.fx, lens.fy, lens.cx, lens.cy];
+    for (reported, expected) in reported.into_iter().zip([500.5, 500.5, 255.5, 250.0]) {
+        assert!((reported - expected).abs() < 1e-9, "{reported}");
     }
     // A step of 0.25 mm, plus 100 mm spread over 65535 steps.
     let expected = 0.000_25 + 0.1 / 65_535.0;
@@ -256,7 +266,7 @@ fn a_3d_camera_says_itself_what_its_values_stand_for() {
         let Some(_camera) = FakeCamera::start(Some(&path)) else {
             return;
         };
-        let error = trouble("genicam");
+        let error = open_error("genicam");
         assert!(error.to_string().contains(words), "{error}");
         assert!(error.advice().contains(advice), "{}", error.advice());
     }
@@ -291,7 +301,7 @@ fn a_camera_that_is_gone_is_lost_and_found_again() {
         thread::sleep(Duration::from_millis(10));
     };
     assert!(
-        matches!(*error, CaptureError::Genicam(GenicamError::Lost { .. })),
+        matches!(&*error, CaptureError::Camera(error) if error.kind == CameraErrorKind::Disconnected),
         "{error}"
     );
     // Discard the frames captured before.

@@ -2,15 +2,13 @@
 
 use std::{env, ffi::OsStr, fs, time::Duration};
 
-use capture::{
-    CaptureError, Image, KinectError, KinectSpec, NextCapture, Recovery, SourceSpec, open,
-};
+use capture::{CameraErrorKind, Image, KinectSpec, NextCapture, Recovery, SourceSpec, open};
 use geometry::error::Advice as _;
 
 use capture::fixtures::{SHARED, compile_c};
 
 use crate::{
-    kinect::{listed, next_capture, open_kinect, skipped, trouble, trouble_of},
+    kinect::{listed, next_capture, open_error, open_kinect, skipped},
     own_process::{self, is_own},
 };
 
@@ -48,7 +46,8 @@ fn calls() -> String {
 
 #[test]
 fn the_newest_frame_comes_in_millimetres_with_the_cameras_own_focal_length() {
-    let test = "camera::the_newest_frame_comes_in_millimetres_with_the_cameras_own_focal_length";
+    let test =
+        "kinect::camera::the_newest_frame_comes_in_millimetres_with_the_cameras_own_focal_length";
     with_camera(test, "well", || {
         let mut kinect = open_kinect().expect("opens");
         assert_eq!(kinect.title(), "Kinect");
@@ -78,7 +77,7 @@ fn the_newest_frame_comes_in_millimetres_with_the_cameras_own_focal_length() {
 
 #[test]
 fn every_camera_is_listed_and_opened_by_its_serial_number() {
-    let test = "camera::every_camera_is_listed_and_opened_by_its_serial_number";
+    let test = "kinect::camera::every_camera_is_listed_and_opened_by_its_serial_number";
     with_camera(test, "well", || {
         let titles: Vec<String> = listed().into_iter().map(|listed| listed.title).collect();
         assert_eq!(titles, ["Kinect A00362", "Kinect B00417"]);
@@ -109,22 +108,19 @@ fn every_camera_is_listed_and_opened_by_its_serial_number() {
 
 #[test]
 fn while_it_is_open_here_it_is_listed_as_in_use() {
-    let test = "camera::while_it_is_open_here_it_is_listed_as_in_use";
+    let test = "kinect::camera::while_it_is_open_here_it_is_listed_as_in_use";
     with_camera(test, "well", || {
         let kinect = open_kinect().expect("opens");
-        let error = listed()
-            .pop()
-            .and_then(|last| last.trouble)
-            .expect("in use");
-        assert!(matches!(trouble_of(error), KinectError::InUse));
+        let error = listed().pop().and_then(|last| last.error).expect("in use");
+        assert_eq!(error.kind, CameraErrorKind::InUse);
         drop(kinect);
-        assert!(listed().pop().is_some_and(|last| last.trouble.is_none()));
+        assert!(listed().pop().is_some_and(|last| last.error.is_none()));
     });
 }
 
 #[test]
 fn an_unplugged_camera_is_an_error_that_opening_again_may_help() {
-    let test = "camera::an_unplugged_camera_is_an_error_that_opening_again_may_help";
+    let test = "kinect::camera::an_unplugged_camera_is_an_error_that_opening_again_may_help";
     with_camera(test, "unplugged", || {
         let mut kinect = open_kinect().expect("opens");
         for _ in 0..2 {
@@ -144,7 +140,7 @@ fn an_unplugged_camera_is_an_error_that_opening_again_may_help() {
 
 #[test]
 fn a_camera_that_sends_nothing_is_waited_for() {
-    let test = "camera::a_camera_that_sends_nothing_is_waited_for";
+    let test = "kinect::camera::a_camera_that_sends_nothing_is_waited_for";
     with_camera(test, "silent", || {
         let mut kinect = open_kinect().expect("opens");
         let next = kinect
@@ -157,37 +153,47 @@ fn a_camera_that_sends_nothing_is_waited_for() {
 }
 
 #[test]
-fn a_signal_is_no_trouble() {
-    with_camera("camera::a_signal_is_no_trouble", "signals", || {
-        let mut kinect = open_kinect().expect("opens");
-        for _ in 0..3 {
-            next_capture(kinect.as_mut()).expect("a frame");
-        }
-    });
+fn a_signal_is_no_open_error() {
+    with_camera(
+        "kinect::camera::a_signal_is_no_open_error",
+        "signals",
+        || {
+            let mut kinect = open_kinect().expect("opens");
+            for _ in 0..3 {
+                next_capture(kinect.as_mut()).expect("a frame");
+            }
+        },
+    );
 }
 
 /// Checks message, advice and calls in a state in which the camera does not open.
 fn refused(test: &str, state: &str, words: &str, advice: &str, expected_calls: &str) {
     with_camera(test, state, || {
-        let error = trouble();
+        let error = open_error();
         assert!(error.to_string().contains(words), "{error}");
         assert!(error.advice().contains(advice), "{}", error.advice());
         assert_eq!(calls(), expected_calls);
         // The second attempt fails in the same way: nothing is left behind.
-        assert_eq!(trouble().to_string(), error.to_string());
+        assert_eq!(open_error().to_string(), error.to_string());
     });
 }
 
 #[test]
 fn no_usb() {
-    refused("camera::no_usb", "no usb", "USB error -99", "USB", "init 0");
+    refused(
+        "kinect::camera::no_usb",
+        "no usb",
+        "USB error -99",
+        "USB",
+        "init 0",
+    );
 }
 
 #[test]
 fn no_device() {
     let calls = "init 0,select 2,shutdown 1";
     refused(
-        "camera::no_device",
+        "kinect::camera::no_device",
         "no device",
         "no Kinect is plugged in",
         "power supply",
@@ -199,7 +205,7 @@ fn no_device() {
 fn no_permission() {
     let calls = "init 0,select 2,shutdown 1";
     refused(
-        "camera::no_permission",
+        "kinect::camera::no_permission",
         "no permission",
         "does not allow",
         "plug the Kinect in again",
@@ -209,24 +215,25 @@ fn no_permission() {
 
 #[test]
 fn no_permission_is_listed() {
-    with_camera("camera::no_permission_is_listed", "no permission", || {
-        let kinects = listed();
-        assert_eq!(kinects.len(), 2);
-        for kinect in kinects {
-            let error: CaptureError = kinect.trouble.expect("not permitted");
-            assert!(matches!(
-                trouble_of(error),
-                KinectError::NoPermission { .. }
-            ));
-        }
-    });
+    with_camera(
+        "kinect::camera::no_permission_is_listed",
+        "no permission",
+        || {
+            let kinects = listed();
+            assert_eq!(kinects.len(), 2);
+            for kinect in kinects {
+                let error = kinect.error.expect("not permitted");
+                assert!(matches!(error.kind, CameraErrorKind::NoPermission { .. }));
+            }
+        },
+    );
 }
 
 #[test]
 fn busy() {
     let calls = "init 0,select 2,shutdown 1";
     refused(
-        "camera::busy",
+        "kinect::camera::busy",
         "busy",
         "in use by another program",
         "Close the other program",
@@ -238,7 +245,7 @@ fn busy() {
 fn half_open() {
     let calls = "init 0,select 2,open 0,shutdown 1";
     refused(
-        "camera::half_open",
+        "kinect::camera::half_open",
         "half open",
         "const shift",
         "Unplug",
@@ -250,7 +257,7 @@ fn half_open() {
 fn no_mode() {
     let calls = "init 0,select 2,open 0,close 1,shutdown 1";
     refused(
-        "camera::no_mode",
+        "kinect::camera::no_mode",
         "no mode",
         "in none of the supported formats",
         "another build",
@@ -262,7 +269,7 @@ fn no_mode() {
 fn no_bandwidth() {
     let calls = "init 0,select 2,open 0,mode 5,close 1,shutdown 1";
     refused(
-        "camera::no_bandwidth",
+        "kinect::camera::no_bandwidth",
         "no bandwidth",
         "cannot be started: Failed to submit",
         "another USB socket",
@@ -272,9 +279,9 @@ fn no_bandwidth() {
 
 #[test]
 fn a_library_without_a_function_that_is_needed_is_named_with_it() {
-    let test = "camera::a_library_without_a_function_that_is_needed_is_named_with_it";
+    let test = "kinect::camera::a_library_without_a_function_that_is_needed_is_named_with_it";
     with_camera(test, "old", || {
-        let error = trouble();
+        let error = open_error();
         assert!(
             error
                 .to_string()

@@ -49,7 +49,7 @@ impl Held {
 
 #[test]
 fn a_thousand_times_opened_and_closed_leaks_nothing() {
-    let test = "cycles::a_thousand_times_opened_and_closed_leaks_nothing";
+    let test = "kinect::cycles::a_thousand_times_opened_and_closed_leaks_nothing";
     if !is_own(test) {
         let Some(library) = fakenect() else { return };
         let folder = tempfile::tempdir().expect("a folder");

@@ -17,9 +17,11 @@ use std::{
 };
 
 use capture::{
-    CaptureError, Captured, DepthSource, KinectError, KinectSpec, NextCapture, SourceListing,
-    SourceSpec, list, open,
+    CameraError, CaptureError, Captured, DepthSource, FREENECT, KinectSpec, NextCapture,
+    SourceListing, SourceSpec, open,
 };
+
+use crate::errors::{camera_error, listed_by};
 
 /// Timeout longer than any step of a test, so that it ends only one that hangs.
 const PATIENCE: Duration = Duration::from_mins(1);
@@ -30,24 +32,13 @@ fn open_kinect() -> Result<Box<dyn DepthSource>, CaptureError> {
 }
 
 /// Returns why the Kinect does not open.
-fn trouble() -> KinectError {
-    trouble_of(open_kinect().err().expect("does not open"))
+fn open_error() -> CameraError {
+    camera_error(open_kinect().err().expect("does not open"))
 }
 
 /// The Kinects in the list of sources, including those that cannot be opened.
 fn listed() -> Vec<SourceListing> {
-    let is_kinect = |listed: &SourceListing| match &listed.spec {
-        Some(spec) => matches!(spec, SourceSpec::Kinect(_)),
-        None => matches!(listed.trouble, Some(CaptureError::Kinect(_))),
-    };
-    list().into_iter().filter(is_kinect).collect()
-}
-
-fn trouble_of(error: CaptureError) -> KinectError {
-    match error {
-        CaptureError::Kinect(error) => error,
-        other => panic!("{other}"),
-    }
+    listed_by(&FREENECT, |spec| matches!(spec, SourceSpec::Kinect(_)))
 }
 
 /// The next capture; `None` at the end of the session.

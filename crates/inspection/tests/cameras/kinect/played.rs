@@ -3,8 +3,8 @@
 use std::{ffi::OsStr, fs, path::Path, sync::mpsc, time::Duration};
 
 use capture::{
-    BackpressurePolicy, CaptureWarning, Captured, Feed, FeedState, Image, KinectError, KinectSpec,
-    KinectWarning, NextCapture, SourceSpec,
+    BackpressurePolicy, CameraErrorKind, CaptureWarning, Captured, Feed, FeedState, Image,
+    KinectSpec, NextCapture, SourceSpec,
 };
 use geometry::{depth_frame::DepthFrame, error::Advice as _};
 use inspection::pipeline::{Recipe, Unwatched, Verdict, run};
@@ -14,9 +14,8 @@ use inspection::fixtures::shipped_library;
 
 use crate::{
     kinect::{
-        PATIENCE, fakenect, next_capture, open_kinect,
+        PATIENCE, fakenect, next_capture, open_error, open_kinect,
         session::{self, CAMERA, step_width},
-        trouble,
     },
     own_process::{self, is_own},
 };
@@ -47,7 +46,7 @@ fn depth_of(captured: &Captured) -> &DepthFrame {
 fn frames_arrive_with_the_depth_that_was_seen_and_the_session_ends() {
     let write = |folder: &Path| session::write(folder, &session::frames(), 0.01);
     with_session(
-        "played::frames_arrive_with_the_depth_that_was_seen_and_the_session_ends",
+        "kinect::played::frames_arrive_with_the_depth_that_was_seen_and_the_session_ends",
         write,
         || {
             let mut kinect = open_kinect().expect("a session");
@@ -59,7 +58,7 @@ fn frames_arrive_with_the_depth_that_was_seen_and_the_session_ends() {
                 assert!(
                     captured
                         .warnings
-                        .contains(&CaptureWarning::Kinect(KinectWarning::DepthScaleAssumed))
+                        .contains(&CaptureWarning::AssumedDepthScale)
                 );
                 compare(depth_of(&captured), seen);
             }
@@ -102,7 +101,7 @@ fn compare(found: &DepthFrame, seen: &DepthFrame) {
 fn a_part_is_recognised_in_what_the_library_gives() {
     let write = |folder: &Path| session::write(folder, &session::frames()[..1], 0.0);
     with_session(
-        "played::a_part_is_recognised_in_what_the_library_gives",
+        "kinect::played::a_part_is_recognised_in_what_the_library_gives",
         write,
         || {
             let mut kinect = open_kinect().expect("a session");
@@ -129,34 +128,39 @@ fn a_part_is_recognised_in_what_the_library_gives() {
 #[test]
 fn stopping_works_from_any_state() {
     let write = |folder: &Path| session::write_endless(folder, &session::frames()[1]);
-    with_session("played::stopping_works_from_any_state", write, || {
-        // Opened, but no frame requested.
-        drop(open_kinect().expect("a session"));
-        // Running; it cannot be opened twice.
-        let mut kinect = open_kinect().expect("opened again");
-        next_capture(kinect.as_mut()).expect("a frame");
-        let error = trouble();
-        assert!(matches!(error, KinectError::InUse), "{error}");
-        next_capture(kinect.as_mut()).expect("the first is not disturbed");
-        drop(kinect);
-        // On the camera's own thread: before the first frame, between frames, and after its end.
-        let spec = || SourceSpec::Kinect(KinectSpec::default());
-        for num_before in [0, 3] {
-            let feed = Feed::start(spec(), BackpressurePolicy::Newest, || {}).expect("a thread");
-            for _ in 0..num_before {
-                feed.wait(PATIENCE).expect("a frame");
+    with_session(
+        "kinect::played::stopping_works_from_any_state",
+        write,
+        || {
+            // Opened, but no frame requested.
+            drop(open_kinect().expect("a session"));
+            // Running; it cannot be opened twice.
+            let mut kinect = open_kinect().expect("opened again");
+            next_capture(kinect.as_mut()).expect("a frame");
+            let error = open_error();
+            assert_eq!(error.kind, CameraErrorKind::InUse, "{error}");
+            next_capture(kinect.as_mut()).expect("the first is not disturbed");
+            drop(kinect);
+            // On the camera's own thread: before the first frame, between frames, and after its end.
+            let spec = || SourceSpec::Kinect(KinectSpec::default());
+            for num_before in [0, 3] {
+                let feed =
+                    Feed::start(spec(), BackpressurePolicy::Newest, || {}).expect("a thread");
+                for _ in 0..num_before {
+                    feed.wait(PATIENCE).expect("a frame");
+                }
+                drop(feed);
             }
-            drop(feed);
-        }
-        drop(open_kinect().expect("the camera was let go"));
-    });
+            drop(open_kinect().expect("the camera was let go"));
+        },
+    );
 }
 
 #[test]
 fn a_session_that_is_over_ends_the_feed_and_stays_over() {
     let write = |folder: &Path| session::write(folder, &session::frames()[1..2], 0.0);
     with_session(
-        "played::a_session_that_is_over_ends_the_feed_and_stays_over",
+        "kinect::played::a_session_that_is_over_ends_the_feed_and_stays_over",
         write,
         || {
             let (sender, receiver) = mpsc::channel();
@@ -189,14 +193,14 @@ fn a_session_that_is_over_ends_the_feed_and_stays_over() {
 fn a_session_that_would_end_the_program_is_refused_and_a_repaired_one_opens() {
     let write = |folder: &Path| session::write(folder, &session::frames()[1..2], 0.0);
     with_session(
-        "played::a_session_that_would_end_the_program_is_refused_and_a_repaired_one_opens",
+        "kinect::played::a_session_that_would_end_the_program_is_refused_and_a_repaired_one_opens",
         write,
         || {
             let folder = std::env::var_os("FAKENECT_PATH").expect("a session");
             let index = Path::new(&folder).join("INDEX.txt");
             let whole = fs::read_to_string(&index).expect("an index");
             fs::write(&index, format!("{whole}d-1290000001.000000-7.pgm\n")).expect("written");
-            let error = trouble();
+            let error = open_error();
             assert!(
                 error.to_string().contains("d-1290000001.000000-7.pgm"),
                 "{error}"
@@ -211,10 +215,15 @@ fn a_session_that_would_end_the_program_is_refused_and_a_repaired_one_opens() {
 
 #[test]
 fn without_a_session_there_is_a_word_about_it() {
-    let test = "played::without_a_session_there_is_a_word_about_it";
+    let test = "kinect::played::without_a_session_there_is_a_word_about_it";
     if is_own(test) {
-        let error = trouble();
-        assert!(matches!(error, KinectError::NoSession { .. }), "{error}");
+        let error = open_error();
+        let text = error.to_string();
+        assert!(text.contains("FAKENECT_PATH names none"), "{text}");
+        assert!(
+            matches!(error.kind, CameraErrorKind::Unsuitable { .. }),
+            "{text}"
+        );
         return;
     }
     let Some(library) = fakenect() else { return };

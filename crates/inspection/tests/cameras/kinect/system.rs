@@ -1,37 +1,39 @@
 //! The system's own libfreenect, with or without a Kinect.
 
-use capture::{CameraLibraryError, CaptureError, KinectError, KinectSpec, SourceSpec, open};
+use capture::{CameraErrorKind, KinectSpec, SourceSpec, open};
 use geometry::error::Advice as _;
 
 use crate::{
-    kinect::{listed, skipped, trouble_of},
+    errors::camera_error,
+    kinect::{listed, skipped},
     own_process::{self, is_own},
 };
 
 #[test]
 fn the_systems_library_is_found_by_itself_and_says_whether_a_kinect_is_there() {
-    let test = "system::the_systems_library_is_found_by_itself_and_says_whether_a_kinect_is_there";
+    let test =
+        "kinect::system::the_systems_library_is_found_by_itself_and_says_whether_a_kinect_is_there";
     if !is_own(test) {
         return own_process::run(test, &[]);
     }
     let kinects = listed();
     assert!(!kinects.is_empty());
     for kinect in kinects {
-        let Some(error) = kinect.trouble else {
+        let Some(error) = kinect.error else {
             assert!(kinect.spec.is_some());
             continue;
         };
         assert!(kinect.spec.is_none());
         println!("figures: {}: {error}. {}", kinect.title, error.advice());
-        match trouble_of(error) {
-            KinectError::Library(CameraLibraryError::NotInstalled { .. }) => {
+        match error.kind {
+            CameraErrorKind::LibraryMissing { path: None } => {
                 skipped("libfreenect is not installed");
             }
             // The errors of a machine without a Kinect, without USB, or without permission.
-            KinectError::NoDevice
-            | KinectError::NoUsb { .. }
-            | KinectError::NoPermission { .. } => {}
-            error => panic!("{error}"),
+            CameraErrorKind::NoDevice { wanted: None, .. }
+            | CameraErrorKind::LibraryNotStarted
+            | CameraErrorKind::NoPermission { .. } => {}
+            kind => panic!("{kind:?}"),
         }
     }
 }
@@ -45,7 +47,11 @@ fn a_place_without_the_library_is_named() {
         library,
     }))
     .err();
-    let error: CaptureError = error.expect("nothing there");
+    let error = camera_error(error.expect("nothing there"));
+    assert!(matches!(
+        error.kind,
+        CameraErrorKind::LibraryMissing { path: Some(_) }
+    ));
     assert!(
         error
             .to_string()

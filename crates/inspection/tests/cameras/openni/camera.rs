@@ -3,14 +3,12 @@
 use std::time::Duration;
 
 use capture::{
-    BackpressurePolicy, Feed, FeedItem, NextCapture, OpenNiError, OpenNiSpec, Recovery, SourceSpec,
-    open,
+    BackpressurePolicy, CameraErrorKind, Feed, FeedItem, NextCapture, OpenNiSpec, Recovery,
+    SourceSpec, open,
 };
 use geometry::error::Advice as _;
 
-use crate::openni::{
-    PATIENCE, check, listed, next_capture, next_frame, open_camera, trouble_of, with_camera,
-};
+use crate::openni::{PATIENCE, check, listed, next_capture, next_frame, open_camera, with_camera};
 
 /// Checks frames of a camera whose mirroring is on at first, whether or not it can be switched off.
 fn shows_what_it_saw(test: &str, state: &str, metres_per_unit: f64) {
@@ -39,7 +37,7 @@ fn shows_what_it_saw(test: &str, state: &str, metres_per_unit: f64) {
 #[test]
 fn depth_comes_in_metres_and_the_right_way_round() {
     shows_what_it_saw(
-        "camera::depth_comes_in_metres_and_the_right_way_round",
+        "openni::camera::depth_comes_in_metres_and_the_right_way_round",
         "well",
         0.001,
     );
@@ -48,7 +46,7 @@ fn depth_comes_in_metres_and_the_right_way_round() {
 #[test]
 fn a_picture_that_stays_mirrored_is_turned_back() {
     shows_what_it_saw(
-        "camera::a_picture_that_stays_mirrored_is_turned_back",
+        "openni::camera::a_picture_that_stays_mirrored_is_turned_back",
         "stuck",
         0.001,
     );
@@ -57,7 +55,7 @@ fn a_picture_that_stays_mirrored_is_turned_back() {
 #[test]
 fn a_picture_that_is_not_mirrored_stays_as_it_is() {
     shows_what_it_saw(
-        "camera::a_picture_that_is_not_mirrored_stays_as_it_is",
+        "openni::camera::a_picture_that_is_not_mirrored_stays_as_it_is",
         "upright",
         0.001,
     );
@@ -65,13 +63,17 @@ fn a_picture_that_is_not_mirrored_stays_as_it_is() {
 
 #[test]
 fn tenths_of_a_millimetre_are_read() {
-    shows_what_it_saw("camera::tenths_of_a_millimetre_are_read", "fine", 0.0001);
+    shows_what_it_saw(
+        "openni::camera::tenths_of_a_millimetre_are_read",
+        "fine",
+        0.0001,
+    );
 }
 
 #[test]
 fn a_camera_is_listed_and_opened_by_its_uri() {
     with_camera(
-        "camera::a_camera_is_listed_and_opened_by_its_uri",
+        "openni::camera::a_camera_is_listed_and_opened_by_its_uri",
         "well",
         |_| {},
         || {
@@ -83,11 +85,8 @@ fn a_camera_is_listed_and_opened_by_its_uri() {
             let mut camera = open(&spec).expect("opens");
             next_frame(camera.as_mut());
 
-            let error = listed()
-                .pop()
-                .and_then(|last| last.trouble)
-                .expect("in use");
-            assert!(matches!(trouble_of(error), OpenNiError::InUse));
+            let error = listed().pop().and_then(|last| last.error).expect("in use");
+            assert_eq!(error.kind, CameraErrorKind::InUse);
             next_frame(camera.as_mut());
             drop(camera);
 
@@ -107,7 +106,7 @@ fn a_camera_is_listed_and_opened_by_its_uri() {
 #[test]
 fn an_unplugged_camera_is_lost_and_found_again() {
     with_camera(
-        "camera::an_unplugged_camera_is_lost_and_found_again",
+        "openni::camera::an_unplugged_camera_is_lost_and_found_again",
         "unplugged",
         |_| {},
         || {
@@ -137,7 +136,7 @@ fn an_unplugged_camera_is_lost_and_found_again() {
 #[test]
 fn a_camera_that_sends_nothing_is_waited_for() {
     with_camera(
-        "camera::a_camera_that_sends_nothing_is_waited_for",
+        "openni::camera::a_camera_that_sends_nothing_is_waited_for",
         "silent",
         |_| {},
         || {
@@ -174,7 +173,7 @@ fn refused(test: &str, state: &str, words: &str, advice: &str) {
 #[test]
 fn no_camera() {
     refused(
-        "camera::no_camera",
+        "openni::camera::no_camera",
         "no camera",
         "no OpenNI camera is plugged in",
         "Plug the camera in",
@@ -184,7 +183,7 @@ fn no_camera() {
 #[test]
 fn busy() {
     refused(
-        "camera::busy",
+        "openni::camera::busy",
         "busy",
         "cannot be opened",
         "Close other programs",
@@ -194,7 +193,7 @@ fn busy() {
 #[test]
 fn no_bandwidth() {
     refused(
-        "camera::no_bandwidth",
+        "openni::camera::no_bandwidth",
         "no bandwidth",
         "cannot be started",
         "another USB socket",
@@ -204,7 +203,7 @@ fn no_bandwidth() {
 #[test]
 fn steps_of_disparity() {
     refused(
-        "camera::steps_of_disparity",
+        "openni::camera::steps_of_disparity",
         "shifts",
         "neither in millimetres",
         "in millimetres",
@@ -214,7 +213,7 @@ fn steps_of_disparity() {
 #[test]
 fn no_field_of_view() {
     refused(
-        "camera::no_field_of_view",
+        "openni::camera::no_field_of_view",
         "no view",
         "field of view",
         "driver",
@@ -224,7 +223,7 @@ fn no_field_of_view() {
 #[test]
 fn mirroring_that_is_not_told() {
     refused(
-        "camera::mirroring_that_is_not_told",
+        "openni::camera::mirroring_that_is_not_told",
         "untold",
         "is mirrored",
         "wrong poses",
@@ -234,7 +233,7 @@ fn mirroring_that_is_not_told() {
 #[test]
 fn mirroring_that_changes() {
     refused(
-        "camera::mirroring_that_changes",
+        "openni::camera::mirroring_that_changes",
         "turned",
         "has changed",
         "as they are",
@@ -244,7 +243,7 @@ fn mirroring_that_changes() {
 #[test]
 fn a_part_of_the_picture() {
     refused(
-        "camera::a_part_of_the_picture",
+        "openni::camera::a_part_of_the_picture",
         "cropped",
         "a part of its picture",
         "cropping off",

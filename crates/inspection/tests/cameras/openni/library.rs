@@ -11,23 +11,24 @@ use std::{
     thread,
 };
 
-use capture::{CameraLibraryError, OpenNiError, OpenNiSpec, SourceSpec, open};
+use capture::{CameraError, CameraErrorKind, OpenNiSpec, SourceSpec, open};
 use geometry::error::Advice as _;
 
 use capture::fixtures::{SHARED, compile_c};
 
 use crate::{
-    openni::{CAMERA, listed, skipped, system_library, trouble_of, with_camera},
+    errors::camera_error,
+    openni::{CAMERA, listed, skipped, system_library, with_camera},
     own_process::{self, is_own},
 };
 
 /// Returns why no camera opens with the library in this folder.
-fn trouble_in(folder: &Path) -> OpenNiError {
+fn error_with(folder: &Path) -> CameraError {
     let spec = OpenNiSpec {
         library: Some(folder.to_path_buf()),
         ..OpenNiSpec::default()
     };
-    trouble_of(
+    camera_error(
         open(&SourceSpec::OpenNi(spec))
             .err()
             .expect("does not open"),
@@ -36,21 +37,21 @@ fn trouble_in(folder: &Path) -> OpenNiError {
 
 #[test]
 fn the_systems_library_is_found_by_itself_and_says_whether_a_camera_is_there() {
-    let test = "library::the_systems_library_is_found_by_itself_and_says_whether_a_camera_is_there";
+    let test = "openni::library::the_systems_library_is_found_by_itself_and_says_whether_a_camera_is_there";
     if !is_own(test) {
         return own_process::run(test, &[]);
     }
     let listed = listed();
     assert!(!listed.is_empty());
     for camera in listed {
-        let Some(error) = camera.trouble else {
+        let Some(error) = camera.error else {
             assert!(camera.spec.is_some());
             continue;
         };
         assert!(camera.spec.is_none());
         println!("figures: {}: {error}. {}", camera.title, error.advice());
-        match trouble_of(error) {
-            error @ OpenNiError::Library(CameraLibraryError::NotInstalled { .. }) => {
+        match error.kind {
+            CameraErrorKind::LibraryMissing { path: None } => {
                 assert!(
                     error.advice().contains("PARTSIGHT_OPENNI"),
                     "{}",
@@ -59,8 +60,8 @@ fn the_systems_library_is_found_by_itself_and_says_whether_a_camera_is_there() {
                 skipped("libOpenNI2 is not installed (apt-get install libopenni2-0)");
             }
             // The error of a machine without a camera.
-            OpenNiError::NoDevice => {}
-            error => panic!("{error}"),
+            CameraErrorKind::NoDevice { wanted: None, .. } => {}
+            kind => panic!("{kind:?}"),
         }
     }
 }
@@ -68,11 +69,11 @@ fn the_systems_library_is_found_by_itself_and_says_whether_a_camera_is_there() {
 #[test]
 fn a_place_without_the_library_is_named() {
     let folder = tempfile::tempdir().expect("a folder");
-    let error = trouble_in(folder.path());
+    let error = error_with(folder.path());
     assert!(
         matches!(
-            &error,
-            OpenNiError::Library(CameraLibraryError::NotAt { path, .. }) if path == folder.path()
+            &error.kind,
+            CameraErrorKind::LibraryMissing { path: Some(path) } if path == folder.path()
         ),
         "{error}"
     );
@@ -83,19 +84,16 @@ fn a_place_without_the_library_is_named() {
     );
 
     fs::write(folder.path().join("libOpenNI2.so.0"), "no library").expect("written");
-    let error = trouble_in(folder.path());
+    let error = error_with(folder.path());
     assert!(
-        matches!(
-            error,
-            OpenNiError::Library(CameraLibraryError::Unusable { .. })
-        ),
+        matches!(error.kind, CameraErrorKind::LibraryNotLoaded { .. }),
         "{error}"
     );
 }
 
 #[test]
 fn another_library_and_one_without_drivers_are_told_apart() {
-    let test = "library::another_library_and_one_without_drivers_are_told_apart";
+    let test = "openni::library::another_library_and_one_without_drivers_are_told_apart";
     let Some(library) = system_library() else {
         return skipped("libOpenNI2 is not installed (apt-get install libopenni2-0)");
     };
@@ -105,8 +103,8 @@ fn another_library_and_one_without_drivers_are_told_apart() {
     let folder = tempfile::tempdir().expect("a folder");
     symlink(library, folder.path().join("libOpenNI2.so.0")).expect("linked");
     for _ in 0..2 {
-        let error = trouble_in(folder.path());
-        assert!(matches!(error, OpenNiError::NoDrivers { .. }), "{error}");
+        let error = error_with(folder.path());
+        assert_eq!(error.kind, CameraErrorKind::LibraryNotStarted, "{error}");
         assert!(error.to_string().contains("OpenNI2/Drivers"), "{error}");
     }
 
@@ -115,7 +113,7 @@ fn another_library_and_one_without_drivers_are_told_apart() {
     if let Err(why) = compile_c(CAMERA, &other, &SHARED) {
         return skipped(&why);
     }
-    let error = trouble_in(folder.path());
+    let error = error_with(folder.path());
     assert!(
         error.to_string().contains("no function oniInitialize"),
         "{error}"
@@ -124,7 +122,8 @@ fn another_library_and_one_without_drivers_are_told_apart() {
 
 #[test]
 fn the_working_folder_of_other_threads_stays_while_the_library_starts() {
-    let test = "library::the_working_folder_of_other_threads_stays_while_the_library_starts";
+    let test =
+        "openni::library::the_working_folder_of_other_threads_stays_while_the_library_starts";
     with_camera(
         test,
         "well",

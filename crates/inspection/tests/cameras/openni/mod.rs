@@ -9,7 +9,7 @@ mod camera;
 mod library;
 mod played;
 
-use crate::own_process;
+use crate::{errors::listed_by, own_process};
 use std::{
     env,
     ffi::OsStr,
@@ -21,13 +21,13 @@ use std::{
 
 use capture::fixtures::{SHARED, compile_c};
 use capture::{
-    CaptureError, Captured, DepthSource, Image, NextCapture, OpenNiError, OpenNiSpec,
-    SourceListing, SourceSpec, list, open,
+    CaptureError, Captured, DepthSource, Image, NextCapture, OPENNI, OpenNiSpec, SourceListing,
+    SourceSpec, open,
 };
 use geometry::depth_frame::DepthFrame;
 
 /// Source of a stub driver for OpenNI's library, which plays a camera.
-const CAMERA: &str = "tests/cameras/openni/camera.c";
+const CAMERA: &str = "crates/inspection/tests/cameras/openni/camera.c";
 /// Timeout longer than any step of a test, so that it ends only one that hangs.
 const PATIENCE: Duration = Duration::from_mins(1);
 
@@ -91,18 +91,7 @@ fn open_camera() -> Result<Box<dyn DepthSource>, CaptureError> {
 
 /// The OpenNI cameras in the list of sources.
 fn listed() -> Vec<SourceListing> {
-    let is_openni = |listed: &SourceListing| match &listed.spec {
-        Some(spec) => matches!(spec, SourceSpec::OpenNi(_)),
-        None => matches!(listed.trouble, Some(CaptureError::OpenNi(_))),
-    };
-    list().into_iter().filter(is_openni).collect()
-}
-
-fn trouble_of(error: CaptureError) -> OpenNiError {
-    match error {
-        CaptureError::OpenNi(error) => error,
-        other => panic!("{other}"),
-    }
+    listed_by(&OPENNI, |spec| matches!(spec, SourceSpec::OpenNi(_)))
 }
 
 /// The next capture; `None` at the end of a file.

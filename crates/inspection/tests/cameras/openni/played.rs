@@ -9,29 +9,35 @@ use std::{
 };
 
 use capture::{
-    BackpressurePolicy, CaptureError, DepthSource, Feed, FeedItem, FeedState, NextCapture,
-    OpenNiError, OpenNiSpec, Pace, Recovery, SourceSpec, open,
+    BackpressurePolicy, CameraErrorKind, CaptureError, DepthSource, Feed, FeedItem, FeedState,
+    NextCapture, OpenNiSpec, Pace, Recovery, SourceSpec, open,
 };
 use geometry::error::Advice as _;
 
 use capture::fixtures::compile_c;
 
-use crate::openni::{PATIENCE, check, frame_of, next_capture, trouble_of, with_camera};
+use crate::errors::camera_error;
+use crate::openni::{PATIENCE, check, frame_of, next_capture, with_camera};
 
 const NUM_FRAMES: usize = 12;
 
 /// Records the camera in that state, in its default mode and mirroring.
 fn record(folder: &Path, state: &str) {
     let program = folder.join("record");
-    compile_c("tests/cameras/openni/record.c", &program, &[]).expect("as the driver was");
+    compile_c(
+        "crates/inspection/tests/cameras/openni/record.c",
+        &program,
+        &[],
+    )
+    .expect("as the driver was");
     let output = Command::new(program)
         .args([folder.join("libOpenNI2.so.0"), folder.join("a.oni")])
         .arg(NUM_FRAMES.to_string())
         .env("STUB", OsStr::new(state))
         .output()
         .expect("started");
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{said}");
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{errors}");
 }
 
 fn file() -> PathBuf {
@@ -83,7 +89,7 @@ fn plays_whole(test: &str, state: &str, size: [usize; 2], metres_per_unit: f64) 
 #[test]
 fn a_file_of_a_mirrored_picture_is_turned_back() {
     plays_whole(
-        "played::a_file_of_a_mirrored_picture_is_turned_back",
+        "openni::played::a_file_of_a_mirrored_picture_is_turned_back",
         "well",
         [16, 12],
         0.001,
@@ -92,14 +98,14 @@ fn a_file_of_a_mirrored_picture_is_turned_back() {
 
 #[test]
 fn a_file_of_a_picture_that_is_not_mirrored_stays_as_it_is() {
-    let test = "played::a_file_of_a_picture_that_is_not_mirrored_stays_as_it_is";
+    let test = "openni::played::a_file_of_a_picture_that_is_not_mirrored_stays_as_it_is";
     plays_whole(test, "upright", [16, 12], 0.001);
 }
 
 #[test]
 fn a_file_in_tenths_of_a_millimetre_is_read() {
     plays_whole(
-        "played::a_file_in_tenths_of_a_millimetre_is_read",
+        "openni::played::a_file_in_tenths_of_a_millimetre_is_read",
         "fine",
         [64, 48],
         0.0001,
@@ -108,7 +114,7 @@ fn a_file_in_tenths_of_a_millimetre_is_read() {
 
 #[test]
 fn a_feed_plays_a_file_at_its_own_pace_and_ends() {
-    let test = "played::a_feed_plays_a_file_at_its_own_pace_and_ends";
+    let test = "openni::played::a_feed_plays_a_file_at_its_own_pace_and_ends";
     with_camera(
         test,
         "no camera",
@@ -131,25 +137,27 @@ fn a_feed_plays_a_file_at_its_own_pace_and_ends() {
 
 #[test]
 fn a_file_that_does_not_tell_its_mirroring_is_refused() {
-    let test = "played::a_file_that_does_not_tell_its_mirroring_is_refused";
+    let test = "openni::played::a_file_that_does_not_tell_its_mirroring_is_refused";
     with_camera(
         test,
         "well",
         |folder| record(folder, "untold"),
         || {
-            let error = trouble_of(open_file().err().expect("refused"));
+            let error = camera_error(open_file().err().expect("refused"));
             assert!(
-                matches!(error, OpenNiError::MirroringUnknown { .. }),
+                matches!(error.kind, CameraErrorKind::Unsuitable { .. }),
                 "{error}"
             );
-            assert!(error.to_string().contains("a.oni"), "{error}");
+            let text = error.to_string();
+            assert!(text.contains("a.oni"), "{text}");
+            assert!(text.contains("whether its picture is mirrored"), "{text}");
         },
     );
 }
 
 #[test]
 fn a_file_that_is_damaged_or_none_is_named() {
-    let test = "played::a_file_that_is_damaged_or_none_is_named";
+    let test = "openni::played::a_file_that_is_damaged_or_none_is_named";
     with_camera(
         test,
         "well",
@@ -181,7 +189,7 @@ fn a_file_that_is_damaged_or_none_is_named() {
 
 #[test]
 fn a_file_that_was_cut_off_is_refused_before_the_library_has_it() {
-    let test = "played::a_file_that_was_cut_off_is_refused_before_the_library_has_it";
+    let test = "openni::played::a_file_that_was_cut_off_is_refused_before_the_library_has_it";
     with_camera(
         test,
         "well",

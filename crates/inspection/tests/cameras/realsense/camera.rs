@@ -3,14 +3,15 @@
 use std::time::Duration;
 
 use capture::{
-    BackpressurePolicy, Feed, FeedItem, NextCapture, RealsenseError, RealsenseSpec, Recovery,
+    BackpressurePolicy, CameraErrorKind, Feed, FeedItem, NextCapture, RealsenseSpec, Recovery,
     SourceSpec,
 };
 use geometry::error::Advice as _;
 
+use crate::errors::camera_error;
 use crate::realsense::{
     PATIENCE, check, frame_of, listed, next_capture, next_frame, open_camera, open_text,
-    trouble_of, with_cameras,
+    with_cameras,
 };
 
 /// The pixel that shows the number of the camera.
@@ -18,7 +19,7 @@ const CAMERA_NUMBER: usize = 3 * 848 + 11;
 
 #[test]
 fn depth_comes_in_the_preferred_size_and_in_metres() {
-    let test = "camera::depth_comes_in_the_preferred_size_and_in_metres";
+    let test = "realsense::camera::depth_comes_in_the_preferred_size_and_in_metres";
     with_cameras(test, "well", || {
         let mut camera = open_camera().expect("opens");
         assert_eq!(camera.title(), "Intel RealSense D435 A1");
@@ -45,7 +46,7 @@ fn depth_comes_in_the_preferred_size_and_in_metres() {
 
 #[test]
 fn a_camera_is_listed_and_opened_by_its_serial_number() {
-    let test = "camera::a_camera_is_listed_and_opened_by_its_serial_number";
+    let test = "realsense::camera::a_camera_is_listed_and_opened_by_its_serial_number";
     with_cameras(test, "well", || {
         let found = listed();
         let titles: Vec<&str> = found.iter().map(|listed| &listed.title[..]).collect();
@@ -73,7 +74,7 @@ fn a_camera_is_listed_and_opened_by_its_serial_number() {
 
 #[test]
 fn a_camera_without_depth_is_passed_over_and_listed_as_such() {
-    let test = "camera::a_camera_without_depth_is_passed_over_and_listed_as_such";
+    let test = "realsense::camera::a_camera_without_depth_is_passed_over_and_listed_as_such";
     with_cameras(test, "tracking", || {
         let mut camera = open_camera().expect("opens the second");
         assert_eq!(camera.title(), "Intel RealSense D435 B2");
@@ -85,8 +86,11 @@ fn a_camera_without_depth_is_passed_over_and_listed_as_such() {
 
         let [tracking, depth] = <[_; 2]>::try_from(listed()).expect("two cameras");
         assert!(tracking.spec.is_none());
-        let error = trouble_of(tracking.trouble.expect("a reason"));
-        assert!(matches!(error, RealsenseError::NoDepth { .. }), "{error}");
+        let error = tracking.error.expect("a reason");
+        assert!(
+            matches!(error.kind, CameraErrorKind::NoDepth { .. }),
+            "{error}"
+        );
         let spec = depth.spec.expect("can be opened");
         assert_eq!(spec.to_string(), "realsense:B2");
     });
@@ -94,7 +98,7 @@ fn a_camera_without_depth_is_passed_over_and_listed_as_such() {
 
 #[test]
 fn a_preset_is_set_by_its_name_and_its_unit_is_read() {
-    let test = "camera::a_preset_is_set_by_its_name_and_its_unit_is_read";
+    let test = "realsense::camera::a_preset_is_set_by_its_name_and_its_unit_is_read";
     with_cameras(test, "well", || {
         let error = open_text("realsense,preset=Highest").err().expect("none");
         let text = error.to_string();
@@ -115,7 +119,7 @@ fn a_preset_is_set_by_its_name_and_its_unit_is_read() {
 
 #[test]
 fn an_unplugged_camera_is_lost_and_found_again() {
-    let test = "camera::an_unplugged_camera_is_lost_and_found_again";
+    let test = "realsense::camera::an_unplugged_camera_is_lost_and_found_again";
     with_cameras(test, "unplugged", || {
         let mut camera = open_camera().expect("opens");
         let error = loop {
@@ -141,7 +145,7 @@ fn an_unplugged_camera_is_lost_and_found_again() {
 
 #[test]
 fn a_camera_that_sends_nothing_is_waited_for_then_opened_again() {
-    let test = "camera::a_camera_that_sends_nothing_is_waited_for_then_opened_again";
+    let test = "realsense::camera::a_camera_that_sends_nothing_is_waited_for_then_opened_again";
     with_cameras(test, "silent", || {
         let mut camera = open_camera().expect("opens");
         let next = camera
@@ -150,8 +154,11 @@ fn a_camera_that_sends_nothing_is_waited_for_then_opened_again() {
         assert!(matches!(next, NextCapture::NotYet), "{next:?}");
         let error = next_capture(camera.as_mut()).expect_err("silent");
         assert_eq!(error.recovery(), Recovery::Reopen);
-        let error = trouble_of(error);
-        assert!(matches!(error, RealsenseError::Silent { .. }), "{error}");
+        let error = camera_error(error);
+        assert!(
+            matches!(error.kind, CameraErrorKind::NoFrames { .. }),
+            "{error}"
+        );
     });
 }
 
@@ -176,7 +183,7 @@ fn refused(test: &str, state: &str, words: &str, advice: &str) {
 fn no_camera() {
     let words = "no RealSense camera is plugged in";
     refused(
-        "camera::no_camera",
+        "realsense::camera::no_camera",
         "no camera",
         words,
         "Plug the camera in",
@@ -186,20 +193,20 @@ fn no_camera() {
 #[test]
 fn no_permission() {
     let words = "cannot be opened: failed to open usb interface: 0, error: RS2_USB_STATUS_ACCESS";
-    let test = "camera::no_permission";
+    let test = "realsense::camera::no_permission";
     refused(test, "no permission", words, "Close other programs");
 }
 
 #[test]
 fn a_camera_that_does_not_open_is_listed_with_the_reason() {
-    let test = "camera::a_camera_that_does_not_open_is_listed_with_the_reason";
+    let test = "realsense::camera::a_camera_that_does_not_open_is_listed_with_the_reason";
     with_cameras(test, "no permission", || {
         let found = listed();
         assert_eq!(found.len(), 2);
         for camera in found {
             assert!(camera.spec.is_none());
-            let error = trouble_of(camera.trouble.expect("a reason"));
-            assert!(matches!(error, RealsenseError::NotOpened { .. }), "{error}");
+            let error = camera.error.expect("a reason");
+            assert_eq!(error.kind, CameraErrorKind::NotOpened, "{error}");
         }
     });
 }
@@ -207,23 +214,38 @@ fn a_camera_that_does_not_open_is_listed_with_the_reason() {
 #[test]
 fn busy() {
     let words = "cannot be started: Device or resource busy";
-    refused("camera::busy", "busy", words, "Close other programs");
+    refused(
+        "realsense::camera::busy",
+        "busy",
+        words,
+        "Close other programs",
+    );
 }
 
 #[test]
 fn no_bandwidth() {
     let words = "cannot be started: not enough bandwidth";
-    refused("camera::no_bandwidth", "no bandwidth", words, "same hub");
+    refused(
+        "realsense::camera::no_bandwidth",
+        "no bandwidth",
+        words,
+        "same hub",
+    );
 }
 
 #[test]
 fn no_depth() {
-    refused("camera::no_depth", "no depth", "has no depth", "firmware");
+    refused(
+        "realsense::camera::no_depth",
+        "no depth",
+        "has no depth",
+        "firmware",
+    );
 }
 
 #[test]
 fn a_camera_that_may_get_its_firmware_is_tried_again() {
-    let test = "camera::a_camera_that_may_get_its_firmware_is_tried_again";
+    let test = "realsense::camera::a_camera_that_may_get_its_firmware_is_tried_again";
     with_cameras(test, "no depth", || {
         let error = open_camera().err().expect("no depth");
         assert_eq!(error.recovery(), Recovery::Reopen);
@@ -232,44 +254,54 @@ fn a_camera_that_may_get_its_firmware_is_tried_again() {
 
 #[test]
 fn a_lens_that_cannot_be_held() {
-    let test = "camera::a_lens_that_cannot_be_held";
+    let test = "realsense::camera::a_lens_that_cannot_be_held";
     refused(test, "lens", "inverse Brown-Conrady", "D400");
 }
 
 #[test]
 fn no_unit_of_depth() {
     let words = "a unit of depth of 0 m";
-    refused("camera::no_unit_of_depth", "no unit", words, "calibration");
+    refused(
+        "realsense::camera::no_unit_of_depth",
+        "no unit",
+        words,
+        "calibration",
+    );
 }
 
 #[test]
 fn a_frame_that_is_not_as_large_as_its_mode() {
-    let test = "camera::a_frame_that_is_not_as_large_as_its_mode";
+    let test = "realsense::camera::a_frame_that_is_not_as_large_as_its_mode";
     refused(test, "cut", "848×479 pixels", "cable");
 }
 
 #[test]
 fn a_frame_without_all_its_bytes() {
-    let test = "camera::a_frame_without_all_its_bytes";
+    let test = "realsense::camera::a_frame_without_all_its_bytes";
     refused(test, "short", "1760 in all", "cable");
 }
 
 #[test]
 fn a_queue_that_fails() {
     let words = "was lost: the queue is broken";
-    refused("camera::a_queue_that_fails", "crash", words, "cable");
+    refused(
+        "realsense::camera::a_queue_that_fails",
+        "crash",
+        words,
+        "cable",
+    );
 }
 
 #[test]
 fn another_version_of_the_library() {
-    let test = "camera::another_version_of_the_library";
+    let test = "realsense::camera::another_version_of_the_library";
     let words = "cannot be started: API version mismatch";
     refused(test, "other version", words, "newer librealsense 2");
 }
 
 #[test]
 fn no_presets() {
-    let test = "camera::no_presets";
+    let test = "realsense::camera::no_presets";
     with_cameras(test, "no presets", || {
         let error = open_text("realsense,preset=Default").err().expect("none");
         assert!(error.to_string().ends_with("\"Default\""), "{error}");

@@ -2,58 +2,59 @@
 
 use std::fs;
 
-use capture::{CameraLibraryError, RealsenseError};
+use capture::CameraErrorKind;
 use geometry::error::Advice as _;
 
 use capture::fixtures::{SHARED, compile_c};
 
 use crate::{
+    errors::camera_error,
     own_process::{self, is_own},
-    realsense::{listed, open_text, skipped, trouble_of},
+    realsense::{listed, open_text, skipped},
 };
 
 #[test]
 fn the_systems_library_is_found_by_itself_or_told_to_be_absent() {
-    let test = "library::the_systems_library_is_found_by_itself_or_told_to_be_absent";
+    let test = "realsense::library::the_systems_library_is_found_by_itself_or_told_to_be_absent";
     if !is_own(test) {
         return own_process::run(test, &[]);
     }
     let listed = listed();
     assert!(!listed.is_empty());
     for camera in listed {
-        let Some(error) = camera.trouble else {
+        let Some(error) = camera.error else {
             assert!(camera.spec.is_some());
             continue;
         };
         assert!(camera.spec.is_none());
         println!("figures: {}: {error}. {}", camera.title, error.advice());
-        match trouble_of(error) {
-            error @ RealsenseError::Library(CameraLibraryError::NotInstalled { .. }) => {
+        match error.kind {
+            CameraErrorKind::LibraryMissing { path: None } => {
                 for word in ["librealsense2", "https://", "PARTSIGHT_REALSENSE"] {
                     assert!(error.advice().contains(word), "{}", error.advice());
                 }
             }
             // The error of a machine without a camera.
-            RealsenseError::NoDevice => {}
-            error => panic!("{error}"),
+            CameraErrorKind::NoDevice { wanted: None, .. } => {}
+            kind => panic!("{kind:?}"),
         }
     }
 }
 
 #[test]
 fn a_place_without_the_library_and_other_libraries_are_told_apart() {
-    let test = "library::a_place_without_the_library_and_other_libraries_are_told_apart";
+    let test = "realsense::library::a_place_without_the_library_and_other_libraries_are_told_apart";
     if !is_own(test) {
         return own_process::run(test, &[]);
     }
     let folder = tempfile::tempdir().expect("a folder");
     let source = format!("realsense,library={}", folder.path().display());
-    let trouble = || trouble_of(open_text(&source).err().expect("does not open"));
-    let error = trouble();
+    let open_error = || camera_error(open_text(&source).err().expect("does not open"));
+    let error = open_error();
     assert!(
         matches!(
-            &error,
-            RealsenseError::Library(CameraLibraryError::NotAt { path, .. }) if path == folder.path()
+            &error.kind,
+            CameraErrorKind::LibraryMissing { path: Some(path) } if path == folder.path()
         ),
         "{error}"
     );
@@ -65,21 +66,22 @@ fn a_place_without_the_library_and_other_libraries_are_told_apart() {
 
     let library = folder.path().join("librealsense2.so.2.54");
     fs::write(&library, "no library").expect("written");
-    let error = trouble();
+    let error = open_error();
     assert!(
-        matches!(
-            error,
-            RealsenseError::Library(CameraLibraryError::Unusable { .. })
-        ),
+        matches!(error.kind, CameraErrorKind::LibraryNotLoaded { .. }),
         "{error}"
     );
 
     // The newer library takes precedence.
     let library = folder.path().join("librealsense2.so.2.55");
-    if let Err(why) = compile_c("tests/cameras/realsense/python.c", &library, &SHARED) {
+    if let Err(why) = compile_c(
+        "crates/inspection/tests/cameras/realsense/python.c",
+        &library,
+        &SHARED,
+    ) {
         return skipped("PARTSIGHT_REQUIRE_COMPILER", &why);
     }
-    let error = trouble();
+    let error = open_error();
     let text = error.to_string();
     assert!(
         text.contains("2.55 has no function rs2_get_error_message"),

@@ -10,7 +10,7 @@ mod camera;
 mod library;
 mod recorded;
 
-use crate::own_process;
+use crate::{errors::listed_by, own_process};
 use std::{
     env,
     ffi::OsStr,
@@ -19,13 +19,13 @@ use std::{
 
 use capture::fixtures::{SHARED, compile_c};
 use capture::{
-    CaptureError, Captured, DepthSource, Image, NextCapture, RealsenseError, RealsenseSpec,
-    SourceListing, SourceSpec, list, open,
+    CaptureError, Captured, DepthSource, Image, NextCapture, REALSENSE, RealsenseSpec,
+    SourceListing, SourceSpec, open,
 };
 use geometry::depth_frame::DepthFrame;
 
 /// Source of a stub library with the functions of librealsense, which plays two cameras.
-const CAMERA: &str = "tests/cameras/realsense/camera.c";
+const CAMERA: &str = "crates/inspection/tests/cameras/realsense/camera.c";
 /// Timeout longer than any step of a test, so that it ends only one that hangs.
 const PATIENCE: Duration = Duration::from_mins(1);
 
@@ -69,18 +69,7 @@ fn open_text(text: &str) -> Result<Box<dyn DepthSource>, CaptureError> {
 
 /// The RealSense cameras in the list of sources.
 fn listed() -> Vec<SourceListing> {
-    let is_realsense = |listed: &SourceListing| match &listed.spec {
-        Some(spec) => matches!(spec, SourceSpec::Realsense(_)),
-        None => matches!(listed.trouble, Some(CaptureError::Realsense(_))),
-    };
-    list().into_iter().filter(is_realsense).collect()
-}
-
-fn trouble_of(error: CaptureError) -> RealsenseError {
-    match error {
-        CaptureError::Realsense(error) => error,
-        other => panic!("{other}"),
-    }
+    listed_by(&REALSENSE, |spec| matches!(spec, SourceSpec::Realsense(_)))
 }
 
 /// The next capture; `None` at the end of a file.

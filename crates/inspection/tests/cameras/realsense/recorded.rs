@@ -11,16 +11,17 @@ use std::{
 };
 
 use capture::{
-    BackpressurePolicy, CaptureError, DepthSource, Feed, FeedItem, FeedState, NextCapture, Pace,
-    RealsenseError, RealsenseSpec, Recovery, SourceSpec, list, open,
+    BackpressurePolicy, CameraErrorKind, CaptureError, DepthSource, Feed, FeedItem, FeedState,
+    NextCapture, Pace, RealsenseSpec, Recovery, SourceSpec, open,
 };
 use geometry::{distortion::Distortion, error::Advice as _};
 
 use capture::fixtures::{SHARED, compile_c};
 
 use crate::{
+    errors::camera_error,
     own_process,
-    realsense::{PATIENCE, check, frame_of, next_capture, skipped, trouble_of},
+    realsense::{PATIENCE, check, frame_of, listed, next_capture, skipped},
 };
 
 const NUM_FRAMES: u16 = 60;
@@ -65,8 +66,8 @@ fn record(folder: &Path, model: &str) -> Result<(), String> {
         .env("LD_PRELOAD", python)
         .output()
         .expect("started");
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{said}");
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{errors}");
     Ok(())
 }
 
@@ -92,7 +93,8 @@ fn open_file() -> Result<Box<dyn DepthSource>, CaptureError> {
 
 #[test]
 fn every_frame_of_a_file_comes_as_it_was_recorded_and_then_the_end() {
-    let test = "recorded::every_frame_of_a_file_comes_as_it_was_recorded_and_then_the_end";
+    let test =
+        "realsense::recorded::every_frame_of_a_file_comes_as_it_was_recorded_and_then_the_end";
     with_file(test, BROWN_CONRADY, || {
         for _ in 0..2 {
             let mut played = open_file().expect("opens");
@@ -129,7 +131,7 @@ fn every_frame_of_a_file_comes_as_it_was_recorded_and_then_the_end() {
 
 #[test]
 fn a_file_is_let_go_before_its_end() {
-    let test = "recorded::a_file_is_let_go_before_its_end";
+    let test = "realsense::recorded::a_file_is_let_go_before_its_end";
     with_file(test, BROWN_CONRADY, || {
         for num in [0, 1, 2, 5, 20, 40] {
             let mut played = open_file().expect("opens");
@@ -143,7 +145,7 @@ fn a_file_is_let_go_before_its_end() {
 
 #[test]
 fn a_feed_plays_a_file_at_its_own_pace_and_ends() {
-    let test = "recorded::a_feed_plays_a_file_at_its_own_pace_and_ends";
+    let test = "realsense::recorded::a_feed_plays_a_file_at_its_own_pace_and_ends";
     with_file(test, BROWN_CONRADY, || {
         for pace in [Pace::AsTaken, Pace::PerSecond(60.0)] {
             let spec = spec(Some(pace));
@@ -163,21 +165,21 @@ fn a_feed_plays_a_file_at_its_own_pace_and_ends() {
 
 #[test]
 fn a_file_of_a_lens_that_cannot_be_held_is_refused() {
-    let test = "recorded::a_file_of_a_lens_that_cannot_be_held_is_refused";
+    let test = "realsense::recorded::a_file_of_a_lens_that_cannot_be_held_is_refused";
     with_file(test, KANNALA_BRANDT, || {
-        let error = trouble_of(open_file().err().expect("refused"));
+        let error = camera_error(open_file().err().expect("refused"));
         let text = error.to_string();
         assert!(
-            matches!(error, RealsenseError::UnknownLens { .. }),
+            matches!(error.kind, CameraErrorKind::Unsuitable { .. }),
             "{text}"
         );
-        assert!(text.contains("Kannala-Brandt"), "{text}");
+        assert!(text.contains("by the Kannala-Brandt model"), "{text}");
     });
 }
 
 #[test]
 fn a_file_that_is_damaged_cut_off_or_none_is_named() {
-    let test = "recorded::a_file_that_is_damaged_cut_off_or_none_is_named";
+    let test = "realsense::recorded::a_file_that_is_damaged_cut_off_or_none_is_named";
     with_file(test, BROWN_CONRADY, || {
         let path = file();
         let name = path.display().to_string();
@@ -216,16 +218,15 @@ fn a_file_that_is_damaged_cut_off_or_none_is_named() {
 
 #[test]
 fn librealsense_without_a_camera_says_so() {
-    let test = "recorded::librealsense_without_a_camera_says_so";
+    let test = "realsense::recorded::librealsense_without_a_camera_says_so";
     with_file(test, BROWN_CONRADY, || {
-        let error = list().into_iter().find_map(|listed| match listed.trouble {
-            Some(CaptureError::Realsense(error)) => Some(error),
-            _ => None,
-        });
         // A machine with a camera lists it instead.
-        if let Some(error) = error {
-            assert!(matches!(error, RealsenseError::NoDevice), "{error}");
-            assert_eq!(CaptureError::from(error).recovery(), Recovery::Reopen);
+        if let Some(error) = listed().into_iter().find_map(|listed| listed.error) {
+            assert!(
+                matches!(error.kind, CameraErrorKind::NoDevice { wanted: None, .. }),
+                "{error}"
+            );
+            assert_eq!(error.recovery(), Recovery::Reopen);
         }
         let mut played = open_file().expect("opens");
         let next = played.next(Duration::from_secs(5)).expect("no trouble");

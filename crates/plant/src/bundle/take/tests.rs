@@ -719,7 +719,7 @@ fn whichever_call_fails_the_library_is_the_former_version_or_the_new_one() {
         take(&library, &plant.store(), trusted, asked)
     };
     Writer {
-        test: "plant::bundle::take::tests::whichever_call_fails_the_library_is_the_former_version_or_the_new_one",
+        test: "bundle::take::tests::whichever_call_fails_the_library_is_the_former_version_or_the_new_one",
         prepare: &|folder| drop(install(folder, 1).expect("taken")),
         write: &|folder| install(folder, 2).map(|_| ()).map_err(|error| told(&error)),
         state: &|folder| state(&LibraryFolder::open(folder).expect("there")),

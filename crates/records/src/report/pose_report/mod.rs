@@ -1,8 +1,8 @@
-//! The pose report of an inspection: what was seen and decided, and where the part is, without ambiguity.
+//! The pose report of an inspection: the verdict, and the pose of the part in a robot's convention.
 //!
-//! One type holds all of it; JSON, a CSV row and a PDF page are three forms of it. All numbers come with their order,
-//! units and frame. The pose of a part that was not accepted has another name, and there are no numbers for the robot
-//! then: a program that looks only for those finds nothing to move by.
+//! One type holds all of it; JSON, a CSV row and a PDF page are its three forms. Every number has its order, unit and
+//! frame. The pose of a part that was not accepted has another name, and there are no numbers for the robot, so that no
+//! program moves one by it.
 
 mod blocks;
 mod csv;

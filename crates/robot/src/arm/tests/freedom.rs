@@ -1,7 +1,7 @@
 //! What the check may change about a path: turn and tilt of the nozzle, and moves with the gun off.
 
 use super::*;
-use crate::arm::{Way, chain::nozzle_at, way::SLOWEST};
+use crate::arm::{Way, chain::nozzle_at, way::MIN_TRAVEL_SPEED_M_S};
 
 /// Leaves the joints 2° beyond what these points need.
 fn limit_to(placed: &mut PlacedArm, points: &[ArmPoint]) {
@@ -100,7 +100,7 @@ fn a_move_with_the_gun_off_takes_the_time_that_the_joints_need() {
     let Way::Slower(speed) = found.points[10].way else {
         panic!("{:?}", found.points[10]);
     };
-    assert!((SLOWEST..25.1).contains(&speed), "{speed}");
+    assert!((MIN_TRAVEL_SPEED_M_S..25.1).contains(&speed), "{speed}");
     assert_eq!(found.changed_moves(), [1, 0]);
     for i in [9, 11] {
         let problem = &found.points[i].problem;

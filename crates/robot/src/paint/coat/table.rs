@@ -197,7 +197,7 @@ mod tests {
             let expected = Coat::ALL.iter().filter(|p| p.group == group).map(|p| {
                 let name = match p.place {
                     Place::Front => format!("**{}**", p.name),
-                    Place::Fold => p.name.to_owned(),
+                    Place::Fold | Place::Hidden => p.name.to_owned(),
                 };
                 let (text, range) = (p.text(&default), p.range_text());
                 format!("| `{}` | {name} | {text} | {range} | {} |", p.key, p.help)

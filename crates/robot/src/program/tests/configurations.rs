@@ -4,7 +4,7 @@ use super::*;
 use crate::arm::ARM_NAMES;
 
 /// The configurations that the program for the arm's maker gives for these joints, degrees, at each point.
-fn words_of(name: &str, format: ProgramFormat, degrees: &[[f64; 6]]) -> Vec<String> {
+fn words_of(name: &str, language: &'static RobotLanguage, degrees: &[[f64; 6]]) -> Vec<String> {
     let joints: Vec<Joints> = degrees.iter().copied().map(in_radians).collect();
     let points = points_for(&joints);
     let settings = ProgramSettings::default();
@@ -13,7 +13,7 @@ fn words_of(name: &str, format: ProgramFormat, degrees: &[[f64; 6]]) -> Vec<Stri
         reach: Some(&reach),
         ..program(&points, &settings)
     };
-    let read = parse::read(format, &text_of(&program, format));
+    let read = (language.reader.read)(&text_of(&program, language));
     assert_eq!(read.moves.len(), joints.len() + 2);
     let words = read.comments.join(" ");
     assert!(
@@ -26,7 +26,7 @@ fn words_of(name: &str, format: ProgramFormat, degrees: &[[f64; 6]]) -> Vec<Stri
     let first = all.next().expect("a joint move");
     let mut all: Vec<String> = all.collect();
     let last = all.pop().expect("the way back");
-    if format == ProgramFormat::Krl {
+    if language == &KRL {
         // Linear moves have none.
         assert!(all.iter().all(String::is_empty) && last.is_empty());
         return vec![first];
@@ -35,12 +35,12 @@ fn words_of(name: &str, format: ProgramFormat, degrees: &[[f64; 6]]) -> Vec<Stri
     all
 }
 
-fn format_of(arm: &str) -> ProgramFormat {
+fn format_of(arm: &str) -> &'static RobotLanguage {
     match arm {
-        "kr6-r900" => ProgramFormat::Krl,
-        "m-20ia" => ProgramFormat::Ls,
-        "gp25" => ProgramFormat::Jbi,
-        _ => ProgramFormat::Rapid,
+        "kr6-r900" => &KRL,
+        "m-20ia" => &LS,
+        "gp25" => &JBI,
+        _ => &RAPID,
     }
 }
 
@@ -71,14 +71,19 @@ fn drawn(arm: &str, degrees: &[f64; 6]) -> [bool; 2] {
 }
 
 /// Compares a configuration with the joints as the controllers' manuals define it.
-fn fits(format: ProgramFormat, words: &str, degrees: &[f64; 6], [ahead, before]: [bool; 2]) {
+fn fits(
+    language: &'static RobotLanguage,
+    words: &str,
+    degrees: &[f64; 6],
+    [ahead, before]: [bool; 2],
+) {
     let numbers = |text: &str| -> Vec<i32> {
         let numbers = text.split([',', ' ']).filter_map(|n| n.parse().ok());
         numbers.collect()
     };
     let what = format!("{words}: {degrees:?}");
-    match format {
-        ProgramFormat::Krl => {
+    match language.name {
+        "krl" => {
             let [s, t] = numbers(&words.replace("S ", "").replace("T ", ""))[..] else {
                 panic!("{what}");
             };
@@ -90,7 +95,7 @@ fn fits(format: ProgramFormat, words: &str, degrees: &[f64; 6], [ahead, before]:
             }
             assert!((0..8).contains(&s) && (0..64).contains(&t));
         }
-        ProgramFormat::Ls => {
+        "ls" => {
             let [letters, turns] = [&words[..5], &words[5..]];
             let wanted = format!(
                 "{} {} {}",
@@ -107,7 +112,7 @@ fn fits(format: ProgramFormat, words: &str, degrees: &[f64; 6], [ahead, before]:
                 assert!(left.abs() <= 180.0, "{what}");
             }
         }
-        ProgramFormat::Rapid => {
+        "rapid" => {
             let [cf1, cf4, cf6, cfx] = numbers(words)[..] else {
                 panic!("{what}");
             };
@@ -144,18 +149,18 @@ fn every_controller_is_told_the_configuration_that_was_checked() {
     let mut random = Pcg64::seed_from_u64(11);
     let reach = [170.0, 120.0, 150.0, 350.0, 125.0, 350.0];
     for arm in ARM_NAMES {
-        let format = format_of(arm);
+        let language = format_of(arm);
         let sets: Vec<[f64; 6]> = (0..400)
             .map(|_| reach.map(|most| random.random_range(-most..most)))
             .collect();
         let mut kinds = std::collections::BTreeSet::new();
         // KRL gives only the first.
-        let num = if format == ProgramFormat::Krl { 1 } else { 50 };
+        let num = if language == &KRL { 1 } else { 50 };
         for sets in sets.chunks(num) {
-            let found = words_of(arm, format, sets);
+            let found = words_of(arm, language, sets);
             assert_eq!(found.len(), sets.len());
             for (words, degrees) in found.iter().zip(sets) {
-                fits(format, words, degrees, drawn(arm, degrees));
+                fits(language, words, degrees, drawn(arm, degrees));
                 let [ahead, before] = drawn(arm, degrees);
                 kinds.insert([ahead, before, degrees[4] < 0.0]);
             }
@@ -217,17 +222,14 @@ fn the_borders_of_quarters_and_turns_belong_to_one_side_whatever_the_last_bit_is
 fn poses_that_controllers_showed_have_their_configuration() {
     // KUKA's home position.
     let home = [0.0, -90.0, 90.0, 0.0, 0.0, 0.0];
-    assert_eq!(
-        words_of("kr6-r900", ProgramFormat::Krl, &[home]),
-        ["S 2,T 2"]
-    );
+    assert_eq!(words_of("kr6-r900", &KRL, &[home]), ["S 2,T 2"]);
     // ABB's, with the wrist bent down.
     let home = [0.0, 0.0, 0.0, 0.0, 30.0, 0.0];
-    let found = words_of("irb2600", ProgramFormat::Rapid, &[home]);
+    let found = words_of("irb2600", &RAPID, &[home]);
     assert_eq!(found, ["0,0,0,0"]);
     // FANUC: J3 is -10.99° on the controller, where it is counted against the horizontal.
     let shown = [86.75, -45.63, -56.62, 56.19, -81.55, -94.01];
-    let found = words_of("m-20ia", ProgramFormat::Ls, &[shown]);
+    let found = words_of("m-20ia", &LS, &[shown]);
     assert_eq!(found, ["N U T, 0, 0, 0"]);
     // A YRC1000 with a larger arm of the same shape: home, B upwards, leaning back, T on either side.
     let home = [0.15, -39.5, 0.75, 0.0, -130.3, 0.0];
@@ -250,7 +252,7 @@ fn poses_that_controllers_showed_have_their_configuration() {
         "1,0,0,0,1,0",
         "1,0,0,0,1,0",
     ];
-    let found = words_of("gp25", ProgramFormat::Jbi, &shown);
+    let found = words_of("gp25", &JBI, &shown);
     let wanted = wanted.map(|wanted| format!("{wanted}{}", ",0".repeat(18)));
     assert_eq!(found, wanted);
 }
@@ -260,26 +262,26 @@ fn an_arm_of_another_maker_or_of_none_leaves_the_configuration_as_it_was() {
     let joints = vec![in_radians([20.0, 10.0, 5.0, 200.0, 40.0, -200.0]); 5];
     let points = points_for(&joints);
     let settings = ProgramSettings::default();
-    let words = |arm: Option<Arm>, format: ProgramFormat| -> Vec<String> {
+    let words = |arm: Option<Arm>, language: &'static RobotLanguage| -> Vec<String> {
         let reach = arm.map(|arm| reached(arm, &joints));
         let program = Program {
             reach: reach.as_ref(),
             ..program(&points, &settings)
         };
-        let text = text_of(&program, format);
+        let text = text_of(&program, language);
         assert!(!text.contains("ConfJ\\On"), "{text}");
-        let read = parse::read(format, &text);
+        let read = (language.reader.read)(&text);
         let says = read.comments.join(" ").contains("is not named here");
         assert_eq!(says, program.reach.is_some());
         let moves = read.moves.into_iter();
         moves.map(|found| found.configuration).collect()
     };
-    for format in ProgramFormat::ALL {
-        let bare = words(None, format);
+    for language in RobotLanguage::ALL {
+        let bare = words(None, language);
         for arm in ARM_NAMES {
-            if format_of(arm) != format {
+            if format_of(arm) != language {
                 let arm = Arm::named(arm).expect("known");
-                assert_eq!(words(Some(arm), format), bare, "{format:?}");
+                assert_eq!(words(Some(arm), language), bare, "{language:?}");
             }
         }
     }
@@ -293,14 +295,18 @@ fn an_arm_of_another_maker_or_of_none_leaves_the_configuration_as_it_was() {
         limits_deg = [[-180, 180], [-105, 155], [-86, 160], [-200, 200], [-155, 150], [-455, 455]]\n\
         speeds_deg_s = [210, 210, 265, 420, 420, 885]\n";
     std::fs::write(&path, text).expect("written");
-    for format in ProgramFormat::ALL {
+    for language in RobotLanguage::ALL {
         let arm = Arm::named(path.to_str().expect("a path")).expect("an arm");
-        assert_eq!(words(Some(arm), format), words(None, format), "{format:?}");
+        assert_eq!(
+            words(Some(arm), language),
+            words(None, language),
+            "{language:?}"
+        );
     }
     // A point that was not reached has the usual configuration; if RCONF cannot express the turns at one point, all have.
     let mut reach = reached(Arm::named("gp25").expect("known"), &joints);
     reach.1.points[2].joints = None;
-    let is_usual = |found: &parse::Move| found.configuration.starts_with("1,0,0,0,0,0,");
+    let is_usual = |found: &read::Move| found.configuration.starts_with("1,0,0,0,0,0,");
     for (joint_6, wanted, is_named) in [
         (0.0, [false, false, false, true, false, false, false], true),
         (400.0, [true; 7], false),
@@ -310,7 +316,7 @@ fn an_arm_of_another_maker_or_of_none_leaves_the_configuration_as_it_was() {
             reach: Some(&reach),
             ..program(&points, &settings)
         };
-        let read = parse::read(ProgramFormat::Jbi, &text_of(&program, ProgramFormat::Jbi));
+        let read = (JBI.reader.read)(&text_of(&program, &JBI));
         let usual: Vec<bool> = read.moves.iter().map(is_usual).collect();
         // The first one is the approach.
         assert_eq!(usual, wanted);

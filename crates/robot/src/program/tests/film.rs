@@ -29,7 +29,7 @@ struct Place {
 
 /// The path that the nozzle follows if the robot does what the file says: straight from pose to pose, at each move's
 /// speed, with this acceleration where the file states none. Only stops make it slower.
-fn followed(moves: &[parse::Move], part_from_robot: &RigidTransform, usual: f64) -> SprayPath {
+fn followed(moves: &[read::Move], part_from_robot: &RigidTransform, usual: f64) -> SprayPath {
     let at = |index: usize| moves[index].to.translation.vector;
     let mut places = Vec::new();
     for to in 1..moves.len() {
@@ -100,7 +100,7 @@ fn enrolled(name: &str) -> StoredPart {
 struct Painted {
     planned: Proposal,
     /// Share within the tolerance and mean thickness, as integrated here from each file.
-    read: Vec<(ProgramFormat, [f64; 2])>,
+    read: Vec<(&'static RobotLanguage, [f64; 2])>,
     /// As the export states them, for one language of each kind: moved on, switched early, stopped.
     stated: [WrittenFilm; 3],
 }
@@ -127,22 +127,18 @@ fn painted(name: &str) -> Painted {
         ..program(&points, &settings)
     };
     let part_from_robot = program.robot_from_part.inverse();
-    let read = ProgramFormat::ALL.map(|format| {
-        let moves = parse::read(format, &text_of(&program, format)).moves;
+    let read = RobotLanguage::ALL.map(|language| {
+        let moves = (language.reader.read)(&text_of(&program, language)).moves;
         let path = followed(&moves, &part_from_robot, coat.acceleration);
         let film = simulate(&surface, &path, &planned.coat, &[]).expect("simulated");
-        (format, [film.figures.within, film.figures.mean])
+        (language, [film.figures.within, film.figures.mean])
     });
-    let kinds = [
-        ProgramFormat::Krl,
-        ProgramFormat::UrScript,
-        ProgramFormat::Drl,
-    ];
-    let stated = kinds.map(|format| {
+    let kinds = [&KRL, &URSCRIPT, &DRL];
+    let stated = kinds.map(|language| {
         let enrolled = &reference.cloud;
         let film = WrittenFilm::of(
             &program,
-            format,
+            language,
             &planned.path,
             enrolled,
             meta.coverage,
@@ -170,14 +166,14 @@ fn written_programs_leave_the_film_that_was_planned_except_where_the_robot_has_t
             stated,
         } = painted(name);
         let planned = &planned.film.figures;
-        for (format, [within, mean]) in &read {
+        for (language, [within, mean]) in &read {
             let is_as_planned =
                 *within > planned.within - 0.02 && (mean / planned.mean - 1.0).abs() < 0.04;
-            let has_to_stop = *format == ProgramFormat::Drl;
+            let has_to_stop = language.reader.stops;
             assert_eq!(
                 is_as_planned,
                 may_stop || !has_to_stop,
-                "{name} {format:?}: {within} {mean}"
+                "{name} {language:?}: {within} {mean}"
             );
         }
         let [krl, urscript, drl] = &stated;
@@ -189,11 +185,17 @@ fn written_programs_leave_the_film_that_was_planned_except_where_the_robot_has_t
         assert!(drl.num_stops > 20, "{name}");
         assert_eq!(drl.doubt().is_none(), may_stop, "{name}");
         // The export also slows down in corners, and states more stops' worth of paint rather than less.
-        for (film, format) in stated.iter().zip([0, 3, 5]) {
-            let (_, [within, mean]) = read[format];
+        for (film, index) in stated.iter().zip([0, 3, 5]) {
+            let (language, [within, mean]) = read[index];
             let figures = &film.written.figures;
-            assert!((figures.within - within).abs() < 0.07, "{name} {format}");
-            assert!((figures.mean / mean - 1.0).abs() < 0.06, "{name} {format}");
+            assert!(
+                (figures.within - within).abs() < 0.07,
+                "{name} {language:?}"
+            );
+            assert!(
+                (figures.mean / mean - 1.0).abs() < 0.06,
+                "{name} {language:?}"
+            );
         }
     }
 }

@@ -12,13 +12,17 @@ fn straight(apart: f64, speeds: &[f64]) -> Vec<ProgramPoint> {
     points.collect()
 }
 
-fn motion(points: &[ProgramPoint], acceleration: f64, format: ProgramFormat) -> Vec<MotionPiece> {
+fn motion(
+    points: &[ProgramPoint],
+    acceleration: f64,
+    language: &'static RobotLanguage,
+) -> Vec<MotionPiece> {
     let settings = ProgramSettings::default();
     let program = Program {
         acceleration: Some(acceleration),
         ..program(points, &settings)
     };
-    program.motion(format).expect("a motion")
+    program.motion(language).expect("a motion")
 }
 
 fn seconds(pieces: &[MotionPiece]) -> f64 {
@@ -39,19 +43,19 @@ fn a_stop_costs_the_time_of_its_ramps() {
     // From a stop to a stop, braking and accelerating take as long again as half of each ramp at full speed.
     let ramps = 0.25 / 1.25;
     let ways = 6.0 * 0.1 / 0.25;
-    for (format, num_runs) in [
+    for (language, num_runs) in [
         // The approach, the path, and the way back.
-        (ProgramFormat::Krl, 3.0),
-        (ProgramFormat::UrScript, 3.0),
-        (ProgramFormat::Jbi, 3.0),
+        (&KRL, 3.0),
+        (&URSCRIPT, 3.0),
+        (&JBI, 3.0),
         // It also stops where the gun opens and closes.
-        (ProgramFormat::Drl, 5.0),
+        (&DRL, 5.0),
     ] {
-        let found = seconds(&motion(&points, 1.25, format));
+        let found = seconds(&motion(&points, 1.25, language));
         let expected = ways + num_runs * ramps;
         assert!(
             (found - expected).abs() < 0.003,
-            "{format:?}: {found} {expected}"
+            "{language:?}: {found} {expected}"
         );
     }
 }
@@ -59,14 +63,11 @@ fn a_stop_costs_the_time_of_its_ramps() {
 #[test]
 fn the_gun_switches_at_its_points_and_for_universal_robots_where_the_blend_begins() {
     let points = straight(0.1, &[0.25; 5]);
-    for format in ProgramFormat::ALL {
-        let early = match format {
-            ProgramFormat::UrScript => 0.005,
-            _ => 0.0,
-        };
-        let found = switches(&motion(&points, 4.0, format));
+    for language in RobotLanguage::ALL {
+        let early = language.reader.switches_before;
+        let found = switches(&motion(&points, 4.0, language));
         for (found, point) in found.iter().zip([0.1, 0.3]) {
-            assert!((found + early - point).abs() < 1e-9, "{format:?} {found}");
+            assert!((found + early - point).abs() < 1e-9, "{language:?} {found}");
         }
     }
 }
@@ -77,7 +78,7 @@ fn a_corner_is_cut_by_a_parabola_no_faster_than_its_curve_allows() {
     for (i, point) in points.iter_mut().enumerate().skip(3) {
         point.robot_from_nozzle = Isometry3::translation(1.0 + 0.1 * (i - 2) as f64, 0.2, 0.7);
     }
-    let pieces = motion(&points, 1.2, ProgramFormat::Krl);
+    let pieces = motion(&points, 1.2, &KRL);
     let corner = points[2].robot_from_nozzle.translation.vector;
     let nearest =
         |piece: &&MotionPiece| (piece.robot_from_nozzle[0].translation.vector - corner).norm();
@@ -100,7 +101,7 @@ fn with_a_known_acceleration_ways_take_their_planned_time_although_the_speed_cha
     ];
     let speeds = squared.map(f64::sqrt);
     let points = straight(0.025, &speeds);
-    let pieces = motion(&points, 4.0, ProgramFormat::Krl);
+    let pieces = motion(&points, 4.0, &KRL);
     // Three ways together, as a jet paints them.
     for first in 1..7 {
         let ways = first..first + 3;

@@ -28,13 +28,13 @@ const RAILS: [f64; 5] = [-1.5, -0.000_1, 0.25, 0.25, 19.999];
 fn a_rail_that_moves_is_the_external_axis_of_every_position() {
     let points = row();
     let settings = ProgramSettings::default();
-    for (arm, format, axis) in [
-        ("kr6-r900", ProgramFormat::Krl, "rail: E1, mm"),
-        ("m-20ia", ProgramFormat::Ls, "rail: E1, mm"),
-        ("irb4600", ProgramFormat::Rapid, "rail: eax_a, mm"),
-        ("gp25", ProgramFormat::Jbi, "rail: BC, base axis 1, mm"),
+    for (arm, language, axis) in [
+        ("kr6-r900", &KRL, "rail: E1, mm"),
+        ("m-20ia", &LS, "rail: E1, mm"),
+        ("irb4600", &RAPID, "rail: eax_a, mm"),
+        ("gp25", &JBI, "rail: BC, base axis 1, mm"),
         // The configuration is not known, but the rail is.
-        ("gp25", ProgramFormat::Krl, "rail: E1, mm"),
+        ("gp25", &KRL, "rail: E1, mm"),
     ] {
         let text = |speed: Option<f64>| {
             let reach = on_rail(arm, &RAILS, speed);
@@ -42,22 +42,22 @@ fn a_rail_that_moves_is_the_external_axis_of_every_position() {
                 reach: Some(&reach),
                 ..program(&points, &settings)
             };
-            text_of(&program, format)
+            text_of(&program, language)
         };
-        let read = parse::read(format, &text(Some(1.0)));
+        let read = (language.reader.read)(&text(Some(1.0)));
         let found: Vec<f64> = (read.moves.iter())
             .map(|found| found.rail.expect("written"))
             .collect();
         let wanted = [-12.345_678, -1.5, -0.000_1, 0.25, 0.25, 19.999, 0.0];
         assert_eq!(found.len(), wanted.len());
         for (found, wanted) in found.iter().zip(wanted) {
-            assert!((found - wanted).abs() <= 0.51e-6, "{format:?}: {found}");
+            assert!((found - wanted).abs() <= 0.51e-6, "{language:?}: {found}");
         }
         let words = read.comments.join(" ");
         assert!(words.contains(axis), "{words}");
         assert!(words.contains("0 where the cell was calibrated"), "{words}");
         // Everything else is as without a rail.
-        let still = parse::read(format, &text(None));
+        let still = (language.reader.read)(&text(None));
         assert!(!still.comments.join(" ").contains("rail:"));
         for (moved, still) in read.moves.iter().zip(&still.moves) {
             assert_eq!(still.rail, None);
@@ -72,15 +72,15 @@ fn a_rail_that_moves_is_the_external_axis_of_every_position() {
 fn linear_moves_may_use_the_whole_speed_of_the_rail_and_the_first_move_a_tenth() {
     let points = row();
     let settings = ProgramSettings::default();
-    let text = |arm: &str, format: ProgramFormat, speed: Option<f64>| {
+    let text = |arm: &str, language: &'static RobotLanguage, speed: Option<f64>| {
         let reach = on_rail(arm, &RAILS, speed);
         let program = Program {
             reach: Some(&reach),
             ..program(&points, &settings)
         };
-        text_of(&program, format)
+        text_of(&program, language)
     };
-    let rapid = text("irb4600", ProgramFormat::Rapid, Some(0.8));
+    let rapid = text("irb4600", &RAPID, Some(0.8));
     let of = |text: &str, verb: &str, speed: &str| {
         let moves = text.lines().filter(|line| line.trim().starts_with(verb));
         let moves: Vec<&str> = moves.collect();
@@ -89,7 +89,7 @@ fn linear_moves_may_use_the_whole_speed_of_the_rail_and_the_first_move_a_tenth()
     };
     of(&rapid, "MoveJ ", ",[100,50,80.000,100],");
     of(&rapid, "MoveL", ",500,800.000,1000],");
-    let krl = |speed| text("kr6-r900", ProgramFormat::Krl, speed);
+    let krl = |speed| text("kr6-r900", &KRL, speed);
     let moving = krl(Some(0.8));
     let (_, behind) = moving.split_once("\r\nPTP ").expect("a first move");
     let first = behind.lines().nth(1).expect("a line behind it");
@@ -101,14 +101,14 @@ fn linear_moves_may_use_the_whole_speed_of_the_rail_and_the_first_move_a_tenth()
 fn a_language_without_external_axes_is_refused_where_a_rail_moves() {
     let points = row();
     let settings = ProgramSettings::default();
-    for format in [ProgramFormat::UrScript, ProgramFormat::Drl] {
+    for language in [&URSCRIPT, &DRL] {
         let with = |speed: Option<f64>| {
             let reach = on_rail("gp25", &RAILS, speed);
             let program = Program {
                 reach: Some(&reach),
                 ..program(&points, &settings)
             };
-            program.texts(format, "paint")
+            program.texts(language, "paint")
         };
         assert!(with(None).is_ok());
         let error = with(Some(1.0)).expect_err("no axis");
@@ -129,21 +129,24 @@ fn a_path_in_several_programs_keeps_its_rail() {
         reach: Some(&reach),
         ..program(&points, &settings)
     };
-    for format in [ProgramFormat::Ls, ProgramFormat::Jbi] {
-        let texts = program.texts(format, "paint").expect("texts");
+    for language in [&LS, &JBI] {
+        let texts = program.texts(language, "paint").expect("texts");
         // The main program has the same axes as the programs that it calls.
-        let main = parse::read(format, &texts.main);
+        let main = (language.reader.read)(&texts.main);
         assert_eq!(main.calls.len(), texts.parts.len());
         let is_of_rail = texts.main.contains("///GROUP1 RB1,BS1");
-        assert_eq!(is_of_rail, format == ProgramFormat::Jbi);
+        assert_eq!(is_of_rail, language == &JBI);
         let parts = texts
             .parts
             .iter()
-            .map(|(_, text)| parse::read(format, text));
-        let moves: Vec<parse::Move> = parts.flat_map(|read| read.moves).collect();
+            .map(|(_, text)| (language.reader.read)(text));
+        let moves: Vec<read::Move> = parts.flat_map(|read| read.moves).collect();
         for (found, wanted) in moves[1..].iter().zip(&rails) {
             let rail = found.rail.expect("written");
-            assert!((rail - wanted).abs() < 1e-6, "{format:?}: {rail} {wanted}");
+            assert!(
+                (rail - wanted).abs() < 1e-6,
+                "{language:?}: {rail} {wanted}"
+            );
         }
     }
 }

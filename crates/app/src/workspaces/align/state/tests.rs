@@ -1,17 +1,18 @@
 use std::sync::Arc;
 
 use super::*;
-use crate::{
+use crate::workspaces::align::{scrubber::explanation, track::in_the_window};
+use geometry::{cloud::PointCloud, rigid::RigidTransform};
+use shell::{
+    context::TestShell,
     inspection::{
         camera::Camera, inspected::inspected_cell, library_cache::LibraryCache, source::CellChoice,
     },
-    language::Language,
-    shell::{context::TestShell, session::Shown},
-    workspaces::align::{scrubber::explanation, track::in_the_window},
+    session::Shown,
 };
-use geometry::{cloud::PointCloud, rigid::RigidTransform};
 use simulate::{PartKind, Side};
 use stages::pose::PoseMethod;
+use ui::language::Language;
 
 /// The workspace without a window; jobs run when the test asks.
 struct Bench {

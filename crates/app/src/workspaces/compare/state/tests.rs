@@ -3,10 +3,7 @@ use std::path::Path;
 use jiff::Timestamp;
 
 use super::*;
-use crate::{
-    shell::context::TestShell,
-    workspaces::compare::{kept_recipes::RecipeChange, matrix::Matrix},
-};
+use crate::workspaces::compare::{kept_recipes::RecipeChange, matrix::Matrix};
 use geometry::cloud::PointCloud;
 use inspection::pipeline::{RecipeFolder, Replace};
 use records::{
@@ -15,6 +12,7 @@ use records::{
     },
     history::FrameRecord,
 };
+use shell::context::TestShell;
 use stages::scene::{PictureEdge, scene_from_cloud};
 
 fn kept(name: &str) -> KeptCase {

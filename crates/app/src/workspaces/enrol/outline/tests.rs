@@ -5,16 +5,14 @@ use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64Mcg;
 
 use super::*;
-use crate::{
-    inspection::{
-        camera::Camera,
-        source::{Origin, SceneSource},
-    },
-    ui::viewport::ViewCamera,
-};
 use geometry::cloud::{Grid, PointCloud};
 use inspection::library::EnrolParams;
+use shell::inspection::{
+    camera::Camera,
+    source::{Origin, SceneSource},
+};
 use stages::scene::SceneCloud;
+use ui::viewport::ViewCamera;
 
 /// Size of the view, logical pixels.
 const SIZE: Vec2 = Vec2::new(800.0, 600.0);

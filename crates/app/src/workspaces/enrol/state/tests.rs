@@ -11,20 +11,22 @@ use super::{
     },
     *,
 };
-use crate::{
-    inspection::{
-        camera::Camera,
-        inspected::{SceneOrScan, inspected_cell},
-        library_cache::LibraryCache,
-        source::{CellChoice, Origin, SceneSource},
-    },
-    shell::{context::TestShell, notice::NoticeKind, session::Shown},
-    ui::viewport::ViewCamera,
-};
 use geometry::cloud::PointCloud;
 use inspection::library::{LibraryFolder, PartNaming};
+use shell::{
+    context::TestShell,
+    inspection::{
+        camera::Camera,
+        inspected::inspected_cell,
+        library_cache::LibraryCache,
+        source::{CellChoice, Origin, SceneOrScan, SceneSource},
+    },
+    notice::NoticeKind,
+    session::Shown,
+};
 use simulate::{PartKind, Side};
 use stages::scene::SceneCloud;
+use ui::viewport::ViewCamera;
 
 /// The workspace without a window or threads.
 struct Bench {
@@ -627,6 +629,7 @@ fn of_a_draft_whose_scene_is_gone_the_words_come_back_with_the_next() {
     let camera = Origin::Frame {
         name: "Kinect frame 12".into(),
         is_simulated: false,
+        capture: None,
     };
     let gone = Origin::File {
         path: "no such folder/door.pcd".into(),
@@ -663,6 +666,7 @@ fn without_its_scene_a_draft_is_no_reference_of_another_part_any_more() {
         origin: Origin::Frame {
             name: "Kinect frame 12".into(),
             is_simulated: false,
+            capture: None,
         },
         form,
         ..kept

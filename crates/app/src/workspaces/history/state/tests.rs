@@ -1,20 +1,18 @@
 //! Tests of the list, the selection and the inspections in memory, without a writer thread.
 
 use super::*;
-use crate::{
-    inspection::{inspected::inspected_cell, source::CellChoice},
-    language::Language,
-    shell::{
-        context::TestShell,
-        message::{Event, Message, ReinspectionPurpose},
-        session::UserRole,
-    },
-    workspaces::history::Direction,
-};
+use crate::workspaces::history::Direction;
 use records::{
     fixtures::history_entry,
     history::{HistoryEvent, HungId, SceneTitle, StoredVerdict},
 };
+use shell::{
+    context::TestShell,
+    inspection::{inspected::inspected_cell, source::CellChoice},
+    message::{Event, Message},
+    session::{ReinspectionPurpose, UserRole},
+};
+use ui::language::Language;
 
 fn inspected(number: u64) -> Arc<Inspected> {
     Arc::new(inspected_cell(CellChoice::Empty, number))

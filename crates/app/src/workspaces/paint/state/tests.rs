@@ -1,14 +1,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::*;
-use crate::{
-    inspection::{
-        camera::Camera, inspected::inspected_cell, library_cache::LibraryCache, source::CellChoice,
-    },
-    shell::{context::TestShell, session::Shown},
-    ui::{parameter_control::ParameterChange, viewport::Role},
-    workspaces::paint::RegionUse,
-};
+use crate::workspaces::paint::RegionUse;
 use geometry::rigid::from_euler_zyx;
 use inspection::{
     fixtures::{add_reference, copy_library},
@@ -18,7 +11,15 @@ use robot::{
     RobotFrame,
     paint::{KeepOut, PathEdit},
 };
+use shell::{
+    context::TestShell,
+    inspection::{
+        camera::Camera, inspected::inspected_cell, library_cache::LibraryCache, source::CellChoice,
+    },
+    session::Shown,
+};
 use simulate::{PartKind, Side};
+use ui::{parameter_control::ParameterChange, viewport::Role};
 
 /// The workspace in front, without a window; its tasks run when the test asks.
 struct Bench {
@@ -519,7 +520,7 @@ fn what_is_drawn_follows_a_renamed_part_and_is_dropped_if_that_is_enrolled_anew_
 #[test]
 fn escape_gives_the_drag_back_to_the_view() {
     let mut bench = Bench::new();
-    let lasso = PaintTool::Outline(crate::ui::viewport::DrawnShape::Lasso, RegionUse::KeepOut);
+    let lasso = PaintTool::Outline(ui::viewport::DrawnShape::Lasso, RegionUse::KeepOut);
     bench.act(PaintAction::Use(lasso));
     let Bench { paint, shell, .. } = &mut bench;
     paint.on_event(&Event::Escape, &shell.context());
@@ -606,10 +607,10 @@ fn another_base_is_checked_written_and_an_undoable_step() {
     bench.run_set_up(PaintAction::SetUp(moved.clone()));
     assert_eq!(bench.reached().check.num_reached(), better.num_reached);
     // Nothing else is undone.
-    bench.shell.session.program.gun_output = 7;
-    let with_output = |setup: ProgramSetup| ProgramSetup {
-        gun_output: 7,
-        ..setup
+    bench.shell.session.program.params.gun_output = 7;
+    let with_output = |mut setup: ProgramSetup| {
+        setup.params.gun_output = 7;
+        setup
     };
     for (action, wanted) in [
         (PaintAction::Undo, far),

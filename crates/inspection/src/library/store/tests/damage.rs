@@ -87,7 +87,7 @@ fn a_cut_foreign_or_missing_cloud_is_named_and_the_others_load() {
     ));
     let meta = fs::read_to_string(damaged.join(META)).expect("text");
     let mut meta: PartMeta = toml::from_str(&meta).expect("TOML");
-    meta.cloud = crate::library::FileCheck::of(&fs::read(&cloud).expect("bytes"), 300);
+    meta.cloud = crate::library::FileCheck::from_bytes(&fs::read(&cloud).expect("bytes"), 300);
     fs::write(damaged.join(META), meta_text(&meta).expect("TOML")).expect("written");
     assert!(matches!(problem(&load(&library)), EntryError::Reference(_)));
 }
@@ -128,9 +128,9 @@ fn signature_and_thumbnail_can_be_missed_and_a_thorough_look_finds_them_damaged(
     fs::write(damaged.join(THUMBNAIL), "no picture").expect("written");
     assert!(load(&library).warnings.is_empty());
     let verified = library.verify(&ReferenceParams::default()).expect("listed");
-    let troubles: Vec<_> = verified.warnings.iter().map(|w| &w.trouble).collect();
+    let issues: Vec<_> = verified.warnings.iter().map(|w| &w.issue).collect();
     assert_eq!(
-        troubles,
+        issues,
         [
             &EntryIssue::Stale { file: SIGNATURE },
             &EntryIssue::Stale { file: THUMBNAIL }

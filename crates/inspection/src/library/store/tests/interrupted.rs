@@ -22,7 +22,7 @@ fn a_writer_killed_between_the_renames_loses_no_part() {
     fs::rename(&folder, library.path().join(".old-plate")).expect("aside");
     let loaded = load(&library);
     assert_eq!(loaded.library.references[0].cloud, part("plate", 0.4).cloud);
-    assert_eq!(loaded.warnings[0].trouble, EntryIssue::LeftAside);
+    assert_eq!(loaded.warnings[0].issue, EntryIssue::LeftAside);
     library.save(&part("other", 0.5)).expect("saved");
     assert!(folder.join(META).exists());
     assert!(load(&library).warnings.is_empty());
@@ -55,7 +55,7 @@ fn a_writer_killed_while_it_renames_leaves_one_of_the_two_names() {
     let aside = library.path().join(".old-plate+sheet");
     fs::rename(&folder, &aside).expect("aside");
     assert_eq!(library.names().expect("listed"), ["plate"]);
-    assert_eq!(load(&library).warnings[0].trouble, EntryIssue::LeftAside);
+    assert_eq!(load(&library).warnings[0].issue, EntryIssue::LeftAside);
     library.save(&part("other", 0.5)).expect("saved");
     assert_eq!(library.names().expect("listed"), ["other", "plate"]);
     fs::rename(&folder, &aside).expect("aside");

@@ -24,7 +24,7 @@ fn unlike(name: &str) -> Rejection {
 fn consensus(frames: impl IntoIterator<Item = (Verdict, f64)>) -> Consensus {
     let mut all = Consensus::new(ConsensusParams::default());
     for (number, (verdict, x)) in frames.into_iter().enumerate() {
-        all.said.push_back(FrameVerdict {
+        all.frames.push_back(FrameVerdict {
             at: Duration::from_millis(33 * number as u64),
             verdict,
             reference: Some("door".into()),
@@ -129,10 +129,10 @@ fn scattered_poses_are_not_accepted() {
 fn poses_of_two_references_are_not_one_pose_though_they_lie_together() {
     let of_last = |num_of_other: usize, last: &str| {
         let mut all = consensus((0..10).map(|_| (part("door", 0.99, None), 0.0)));
-        for said in all.said.iter_mut().take(num_of_other) {
-            said.reference = Some("door_b".into());
+        for frame in all.frames.iter_mut().take(num_of_other) {
+            frame.reference = Some("door_b".into());
         }
-        all.said[9].reference = Some(last.into());
+        all.frames[9].reference = Some(last.into());
         all.agreed(Duration::ZERO, &AcceptParams::default())
             .expect("enough frames")
     };
@@ -176,9 +176,9 @@ fn no_pose_where_none_was_found_rejects_as_the_frames_do() {
     let no_pose = Rejection::NoPose(PoseError::NoReferenceCloud);
     let frames = (0..6).map(|_| (part("door", 0.99, Some(no_pose.clone())), 0.0));
     let mut all = consensus(frames);
-    all.said
+    all.frames
         .iter_mut()
-        .for_each(|said| said.camera_from_part = None);
+        .for_each(|frame| frame.camera_from_part = None);
     let found = all
         .agreed(Duration::ZERO, &AcceptParams::default())
         .expect("enough");

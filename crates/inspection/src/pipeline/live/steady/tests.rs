@@ -68,17 +68,17 @@ fn noise_alone_is_steady_from_the_first_frame_on() {
     ] {
         let mut hanging = Hanging::new(kind, noise, seed);
         hanging.0.setup.clutter = clutter;
-        let said = hanging.watched(45, |_| RigidTransform::identity());
+        let states = hanging.watched(45, |_| RigidTransform::identity());
         assert!(
-            said[..20].iter().all(|s| *s == MotionState::Watching),
-            "{said:?}"
+            states[..20].iter().all(|s| *s == MotionState::Watching),
+            "{states:?}"
         );
         assert!(
-            said[32..].iter().all(|s| s.is_steady()),
-            "{kind} at {noise}: {said:?}"
+            states[32..].iter().all(|s| s.is_steady()),
+            "{kind} at {noise}: {states:?}"
         );
-        let Some(MotionState::Steady { since, lasting }) = said.last() else {
-            panic!("{said:?}");
+        let Some(MotionState::Steady { since, lasting }) = states.last() else {
+            panic!("{states:?}");
         };
         assert_eq!((*since, *lasting), (Duration::ZERO, FRAME * 44));
     }
@@ -88,8 +88,8 @@ fn noise_alone_is_steady_from_the_first_frame_on() {
 fn a_slow_camera_is_steady_too_after_more_time() {
     let hanging = Hanging::new(PartKind::Grille, 1.0, 4);
     let apart = Duration::from_millis(125);
-    let said = hanging.watched_every(apart, 30, |_| RigidTransform::identity());
-    assert!(said[18..].iter().all(|s| s.is_steady()), "{said:?}");
+    let states = hanging.watched_every(apart, 30, |_| RigidTransform::identity());
+    assert!(states[18..].iter().all(|s| s.is_steady()), "{states:?}");
 }
 
 #[test]
@@ -135,9 +135,9 @@ fn what_drifts_swings_or_turns_slowly_is_never_steady() {
         ),
     ];
     for (name, kind, noise, moved) in cases {
-        let said = Hanging::new(kind, noise, 5).watched(40, moved);
-        let steady = said.iter().filter(|s| s.is_steady()).count();
-        assert_eq!(steady, 0, "{name} of {kind} at noise {noise}: {said:?}");
+        let states = Hanging::new(kind, noise, 5).watched(40, moved);
+        let steady = states.iter().filter(|s| s.is_steady()).count();
+        assert_eq!(steady, 0, "{name} of {kind} at noise {noise}: {states:?}");
     }
 }
 
@@ -146,12 +146,12 @@ fn motion_after_a_rest_is_said_at_once_and_creeping_within_seconds() {
     let hanging = Hanging::new(PartKind::Fender, 1.0, 6);
     // Pushed at 30 cm/s after 36 frames.
     let pushed = |t: f64| shifted(0.3 * (t - 36.0 / 30.0).max(0.0), 0.0, 0.0);
-    let said = hanging.watched(40, pushed);
-    assert!(said[35].is_steady());
-    assert_eq!(said[38], MotionState::Moving, "{said:?}");
+    let states = hanging.watched(40, pushed);
+    assert!(states[35].is_steady());
+    assert_eq!(states[38], MotionState::Moving, "{states:?}");
     let creeping = |t: f64| shifted(0.001 * t, 0.0, 0.0);
-    let said = hanging.watched_every(Duration::from_millis(100), 70, creeping);
-    assert!(said.contains(&MotionState::Moving), "{said:?}");
+    let states = hanging.watched_every(Duration::from_millis(100), 70, creeping);
+    assert!(states.contains(&MotionState::Moving), "{states:?}");
 }
 
 #[test]
@@ -176,8 +176,8 @@ fn a_gap_in_time_and_another_picture_begin_anew_and_a_cloud_without_rows_is_neve
     let mut bare = scene;
     bare.cloud.grid = None;
     for number in 0..40 {
-        let said = watch.see(&bare, seconds(1.0 + 0.04 * f64::from(number)));
-        assert_eq!(said, MotionState::Watching);
+        let states = watch.see(&bare, seconds(1.0 + 0.04 * f64::from(number)));
+        assert_eq!(states, MotionState::Watching);
     }
 }
 

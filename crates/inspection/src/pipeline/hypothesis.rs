@@ -1,0 +1,157 @@
+//! Explanations of a scene whose likeliest surface is no enrolled part, tried one after the other.
+
+use super::{
+    Inspection, PoseChoice, Recipe,
+    mirror::check_mirror_image,
+    surface::{InspectionInputs, inspect_surface},
+    watch::{Cancelled, Stage},
+};
+use stages::{
+    confirm::CUT_SHARE,
+    pose::PoseMethod,
+    rank::Matcher,
+    segment::{Bars, SegmentedPart, other_segments, without_bars},
+};
+
+/// What may hang there, if the likeliest surface is not accepted as a part.
+#[derive(Clone, Copy)]
+enum Hypothesis {
+    /// A part, and it is another surface of the scene.
+    OtherSurface,
+    /// The mirror image of a part.
+    MirrorImage,
+    /// A piece of a part, which looks like a whole one.
+    Piece,
+    /// A part on a stand, whose bars were taken for some of the part.
+    PartOnStand,
+}
+
+/// In the order in which they are tried, until one is accepted.
+const HYPOTHESES: [Hypothesis; 4] = [
+    Hypothesis::OtherSurface,
+    Hypothesis::MirrorImage,
+    Hypothesis::Piece,
+    Hypothesis::PartOnStand,
+];
+
+/// Maximum number of other surfaces that are tried.
+const MAX_OTHER_SURFACES: usize = 3;
+/// A surface replaces the one before only above this score; below it neither is an enrolled part.
+const MIN_REPLACING_SCORE: f64 = 0.1;
+
+/// Tries the hypotheses on an inspection of the likeliest surface, and keeps what is most likely an enrolled part.
+pub(super) fn try_hypotheses(
+    inspection: &mut Inspection,
+    inputs: &InspectionInputs<'_>,
+) -> Result<(), Cancelled> {
+    if !is_unexplained(inspection, inputs.recipe) {
+        return Ok(());
+    }
+    let Ok(likeliest) = inspection.segmentation.part.clone() else {
+        return Ok(());
+    };
+    let evidence = inspection.ranking.entries.first().and_then(|e| e.evidence);
+    let looks_whole = evidence.is_some_and(|evidence| evidence.cut < CUT_SHARE);
+    for hypothesis in HYPOTHESES {
+        let is_plausible = match hypothesis {
+            Hypothesis::OtherSurface | Hypothesis::MirrorImage => true,
+            Hypothesis::Piece => looks_whole && !inspection.verdict.is_likeness(),
+            Hypothesis::PartOnStand => !inspection.verdict.is_likeness(),
+        };
+        if is_plausible {
+            hypothesis.attempt(inspection, &likeliest, inputs)?;
+        }
+        if !is_unexplained(inspection, inputs.recipe) {
+            break;
+        }
+    }
+    Ok(())
+}
+
+/// True if nothing is accepted yet, and the recipe does not use the paper's methods, which know only one surface.
+fn is_unexplained(inspection: &Inspection, recipe: &Recipe) -> bool {
+    let is_ours = recipe.rank.matcher == Matcher::Default
+        && recipe.pose == PoseChoice::By(PoseMethod::Global);
+    is_ours && !inspection.verdict.is_accepted() && !inspection.ranking.entries.is_empty()
+}
+
+impl Hypothesis {
+    fn attempt(
+        self,
+        inspection: &mut Inspection,
+        likeliest: &SegmentedPart,
+        inputs: &InspectionInputs<'_>,
+    ) -> Result<(), Cancelled> {
+        let InspectionInputs {
+            scene,
+            recipe,
+            clock,
+            ..
+        } = *inputs;
+        match self {
+            Self::OtherSurface => {
+                let others = clock.time(Stage::Segment, || {
+                    let known = &inspection.segmentation;
+                    other_segments(scene, known, &recipe.segment, MAX_OTHER_SURFACES)
+                })?;
+                try_surfaces(inspection, others.into_iter().map(Ok), inputs)
+            }
+            Self::MirrorImage => check_mirror_image(inspection, inputs),
+            Self::Piece => {
+                let piece = SegmentedPart {
+                    is_piece: true,
+                    ..likeliest.clone()
+                };
+                try_surface(inspection, piece, inputs)
+            }
+            Self::PartOnStand => {
+                let mut num_before = 0;
+                let bare = [Bars::All, Bars::AllButSlats]
+                    .into_iter()
+                    .filter_map(|bars| {
+                        let bare =
+                            clock.time(Stage::Segment, || without_bars(scene, likeliest, bars));
+                        let bare = match bare {
+                            Ok(bare) => bare?,
+                            Err(cancelled) => return Some(Err(cancelled)),
+                        };
+                        // A stand without slats leaves the same surface twice.
+                        let is_new = bare.indices.len() != num_before;
+                        num_before = bare.indices.len();
+                        is_new.then_some(Ok(bare))
+                    });
+                try_surfaces(inspection, bare, inputs)
+            }
+        }
+    }
+}
+
+/// Tries surfaces until one is accepted.
+fn try_surfaces(
+    inspection: &mut Inspection,
+    surfaces: impl Iterator<Item = Result<SegmentedPart, Cancelled>>,
+    inputs: &InspectionInputs<'_>,
+) -> Result<(), Cancelled> {
+    for surface in surfaces {
+        try_surface(inspection, surface?, inputs)?;
+        if inspection.verdict.is_accepted() {
+            break;
+        }
+    }
+    Ok(())
+}
+
+/// Inspects a surface, and keeps it if it is more likely an enrolled part than the present one.
+pub(super) fn try_surface(
+    inspection: &mut Inspection,
+    surface: SegmentedPart,
+    inputs: &InspectionInputs<'_>,
+) -> Result<(), Cancelled> {
+    let min_score = inspection.best_score().max(MIN_REPLACING_SCORE);
+    let found = inspect_surface(&surface, inputs, min_score)?;
+    if found.best_score() > min_score {
+        inspection.segmentation.take(surface);
+        found.keep(inspection);
+    }
+    Ok(())
+}

@@ -1,0 +1,234 @@
+//! Carries out the actions of the window outside the workspaces.
+
+use std::path::{self, PathBuf};
+
+use crate::{
+    action::{Action, DialogRequest, Effect},
+    inspection::scan_choice::ScanFiles,
+    message::Event,
+    notice::Notice,
+    roles,
+    session::{Source, WorkspaceKind},
+    source::live::{self, LiveAction},
+    state::{Closing, State, notify},
+};
+use capture::{Pace, RecordingSpec, SourceSpec, WatchedFrom, WatchedSpec};
+use ui::language::text;
+
+/// Carries out an action.
+pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
+    let action = roles::permitted(state, action)?;
+    match action {
+        Action::Capture => return state.capture(),
+        Action::UseCell(choice) => {
+            state.inspector.former_source = None;
+            state.session.source = Source::Cell(choice);
+            return live::source_changed(state);
+        }
+        Action::TakeEmptyCell => state.take_empty_cell(),
+        Action::ForgetEmptyCell => {
+            state.session.empty_cell = None;
+            notify(state, Notice::done(text!("shell-empty-cell-discarded")));
+            live::restart_consensus(state);
+        }
+        Action::Ask(DialogRequest::Scene) if state.session.workspace == WorkspaceKind::Enrol => {
+            return Some(Effect::ShowDialog(DialogRequest::Part));
+        }
+        Action::Ask(ask) => return Some(Effect::ShowDialog(ask)),
+        Action::Chosen(ask, path) => return chosen(state, ask, path),
+        Action::Open(path) if path.is_dir() => return chosen(state, DialogRequest::Scan, path),
+        Action::Open(path) => return chosen(state, DialogRequest::Scene, path),
+        Action::UseFoundLibrary => state.open_library(None),
+        Action::CancelInspection => state.cancel_inspection(),
+        Action::GoTo(workspace) => {
+            state.session.workspace = workspace;
+            if workspace == WorkspaceKind::Inspect {
+                live::show_unseen(state);
+            }
+        }
+        Action::WrongPart => {
+            let part = state.session.current_result()?.hung().clone();
+            state.session.workspace = WorkspaceKind::History;
+            return Some(Effect::Tell(Event::WrongPart(part)));
+        }
+        Action::CloseTop => {
+            if state.is_help_open {
+                state.is_help_open = false;
+            } else {
+                return Some(Effect::Tell(Event::Escape));
+            }
+        }
+        Action::SwitchUnits => state.session.units = state.session.units.other(),
+        Action::UseConvention(convention) => state.session.convention = convention,
+        Action::SwitchTheme => state.session.theme = state.session.theme.other(),
+        Action::Speak(language) => {
+            state.session.language = language;
+            state.session.chosen_language = Some(language);
+        }
+        Action::ToggleHelp => state.is_help_open = !state.is_help_open,
+        Action::Dismiss(index) => {
+            if index < state.notices.len() {
+                state.notices.remove(index);
+            }
+        }
+        Action::DismissAll => state.notices.clear(),
+        Action::Reread(index) => {
+            if index < state.notices.len() {
+                let notice = state.notices.remove(index);
+                return notice.in_millimetres.map(Effect::TakeFile);
+            }
+        }
+        Action::Notify(notice) => notify(state, notice),
+        Action::CloseAnyway => {
+            state.closing = Closing::Confirmed;
+            return Some(Effect::Close);
+        }
+        Action::StayOpen => state.closing = Closing::No,
+        Action::Role(action) => return roles::apply(state, action),
+        Action::Live(action) => return live::apply(state, action),
+        Action::Make(effect) => return Some(effect),
+    }
+    None
+}
+
+/// Handles the file or folder that was chosen.
+fn chosen(state: &mut State, ask: DialogRequest, path: PathBuf) -> Option<Effect> {
+    // The path is remembered, and the next start may be in another working folder.
+    let path = path::absolute(&path).unwrap_or(path);
+    match ask {
+        DialogRequest::Scene | DialogRequest::Part => state.open(Source::File(path)),
+        DialogRequest::Scan => state.open(Source::Scan(ScanFiles::of_folder(path))),
+        DialogRequest::Recording => {
+            let spec = SourceSpec::Recording(RecordingSpec {
+                folder: path,
+                pace: Some(Pace::AsTaken),
+                camera: None,
+            });
+            live::apply(state, LiveAction::Use(spec))
+        }
+        DialogRequest::WatchedFolder => {
+            let spec = SourceSpec::Watched(WatchedSpec {
+                folder: path,
+                from: WatchedFrom::default(),
+            });
+            live::apply(state, LiveAction::Use(spec))
+        }
+        DialogRequest::RecordTo => live::apply(state, LiveAction::Record(path)),
+        DialogRequest::Library => {
+            state.open_library(Some(path));
+            None
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{inspection::source::SceneOrScan, notice::NoticeTopic, state::remove_notices};
+
+    #[test]
+    fn captures_are_enrolled_while_the_workspace_is_in_front_and_inspected_otherwise() {
+        let mut state = State::default();
+        for action in [Action::Capture, Action::Open("door.pcd".into())] {
+            assert!(apply(&mut state, action).is_none());
+            assert!(state.inspector.running().is_some());
+        }
+        state.session.workspace = WorkspaceKind::Enrol;
+        for action in [Action::Capture, Action::Open("door.pcd".into())] {
+            let effect = apply(&mut state, action);
+            assert!(
+                matches!(effect, Some(Effect::Take(SceneOrScan::Scene(_), _))),
+                "{effect:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_relative_path_is_remembered_from_the_root_on() {
+        use crate::settings::Settings;
+        let here = std::env::current_dir().expect("a folder");
+        let mut state = State::default();
+        apply(&mut state, Action::Open("door.pcd".into()));
+        let remembered = Settings::of(&state, None).source;
+        assert_eq!(remembered, Source::File(here.join("door.pcd")));
+        apply(&mut state, Action::Open("src".into()));
+        let scan = ScanFiles::of_folder(here.join("src"));
+        let remembered = Settings::of(&state, None).source;
+        assert_eq!(remembered, Source::Scan(scan));
+        let watched = Action::Chosen(DialogRequest::WatchedFolder, "captures".into());
+        apply(&mut state, watched);
+        let remembered = Settings::of(&state, None).source;
+        let Some(SourceSpec::Watched(spec)) = remembered.followed() else {
+            panic!("{remembered:?}");
+        };
+        assert_eq!(spec.folder, here.join("captures"));
+        let library = Action::Chosen(DialogRequest::Library, "src".into());
+        apply(&mut state, library);
+        assert!(state.inspector.run_waiting());
+        crate::source::inspector::update(&mut state);
+        let remembered = Settings::of(&state, None).library;
+        assert_eq!(remembered, Some(here.join("src")));
+    }
+
+    #[test]
+    fn escape_closes_the_shortcuts_before_the_enlarged_stage() {
+        let mut state = State::default();
+        apply(&mut state, Action::ToggleHelp);
+        assert!(apply(&mut state, Action::CloseTop).is_none());
+        assert!(!state.is_help_open);
+        let effect = apply(&mut state, Action::CloseTop);
+        assert!(matches!(effect, Some(Effect::Tell(Event::Escape))));
+    }
+
+    #[test]
+    fn only_the_latest_notices_stay_and_none_twice() {
+        let mut state = State::default();
+        for number in [0, 1, 2, 3, 4, 5, 5] {
+            apply(
+                &mut state,
+                Action::Notify(Notice::look(number.to_string(), "")),
+            );
+        }
+        let what: Vec<_> = state.notices.iter().map(|n| n.what.as_str()).collect();
+        assert_eq!(what, ["2", "3", "4", "5"]);
+        apply(&mut state, Action::Dismiss(0));
+        apply(&mut state, Action::Dismiss(9));
+        assert_eq!(state.notices.len(), 3);
+    }
+
+    #[test]
+    fn troubles_with_one_way_out_are_one_notice_that_counts_them() {
+        let mut state = State::default();
+        let unread = |file: &str| Notice::look(format!("{file} ends early"), "Copy it again");
+        for file in ["a.png", "b.png", "b.png", "c.png"] {
+            apply(&mut state, Action::Notify(unread(file)));
+        }
+        let other = Notice::look("no camera", "Plug it in");
+        apply(&mut state, Action::Notify(other));
+        let shown = state.notices.iter();
+        let shown: Vec<_> = shown.map(|n| (n.what.as_str(), n.num_more)).collect();
+        assert_eq!(shown, [("c.png ends early", 2), ("no camera", 0)]);
+        apply(&mut state, Action::DismissAll);
+        assert!(state.notices.is_empty());
+    }
+
+    #[test]
+    fn a_success_replaces_the_former_one_and_a_topic_has_one_notice() {
+        let mut state = State::default();
+        let port =
+            |number: u8| Notice::look(format!("port {number}"), "").about(NoticeTopic::Answering);
+        for notice in [
+            Notice::undoable("Saved"),
+            port(1),
+            Notice::undoable("Undone: Saved"),
+            port(2),
+            Notice::done("Saved again"),
+        ] {
+            apply(&mut state, Action::Notify(notice));
+        }
+        let what: Vec<_> = state.notices.iter().map(|n| n.what.as_str()).collect();
+        assert_eq!(what, ["port 2", "Saved again"]);
+        remove_notices(&mut state, NoticeTopic::Answering);
+        assert_eq!(state.notices.len(), 1);
+    }
+}

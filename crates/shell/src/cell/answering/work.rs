@@ -1,0 +1,506 @@
+//! The server's task: runs the server, and inspects a frame of the window's source for each trigger.
+
+use std::{
+    io,
+    ops::ControlFlow,
+    sync::{
+        Arc, Mutex,
+        atomic::{AtomicBool, Ordering},
+        mpsc::{self, Receiver},
+    },
+    time::Duration,
+};
+
+use jiff::Timestamp;
+
+use super::rows::TriggerRows;
+use crate::{
+    inspection::{
+        inspected::entry_of,
+        library_cache::{LibraryCache, LibraryView, LoadedLibrary},
+        source::{Captured, Origin},
+    },
+    session::Session,
+    source::live::FollowedParts,
+    trace::current_trace::CurrentTrace,
+};
+use capture::{self, CaptureError, Feed, SourceSpec};
+use geometry::error::{Advice as _, guarded, lock};
+use inspection::{
+    library::{GivenNumbers, LibraryPlace, PartNumbers},
+    pipeline::{NamedRecipe, ProgressObserver as _, Unwatched},
+};
+use records::{
+    history::{HungId, Traceability, Writer},
+    report::segmentation_picture,
+};
+use robot::RobotFrame;
+use serve::{
+    Answer, Asked, CameraState, ClientEvent, Found, InspectionRecord, Inspector, ListenAddress,
+    Listener, PoseKind, ServeError, Server, ServerHandle, ServerSettings, Trouble, VerdictCode,
+};
+use stages::scene::{EmptyCell, SceneCloud};
+use station::{
+    Answered, Answering, Camera, Inspected, NewFrame, NumberedPart, PartFinder, Subject,
+};
+use ui::{
+    language::text,
+    task::{TaskContext, TaskError},
+    user_error::UserError,
+};
+
+/// How long a trigger waits for its frame, as in `partsight serve`.
+const FRAME_TIMEOUT: Duration = Duration::from_secs(5);
+/// Capacity for client events that the task has not read yet; further ones are dropped.
+const MAX_EVENTS: usize = 64;
+
+/// Status of the server.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AnsweringStatus {
+    /// Address of the listener, with the port that the system chose.
+    pub at: ListenAddress,
+    /// Number of connections.
+    pub num_clients: usize,
+    /// The last event of any connection.
+    pub client: Option<ClientEvent>,
+    /// The answer to the last trigger.
+    pub last: Option<LastAnswer>,
+    /// Why the last inspection was not kept, which does not affect its answer, or why the parts have no stored numbers.
+    pub trouble: Option<UserError>,
+}
+
+/// The last trigger and its answer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LastAnswer {
+    /// When the trigger arrived.
+    pub at: Timestamp,
+    /// The answer; the default until it is given.
+    pub answer: Answer,
+}
+
+/// The inputs for answering a trigger. The window replaces them while the server runs.
+#[derive(Clone, Debug)]
+pub(super) struct AnswerInputs {
+    /// The source, while Live follows one.
+    followed: Option<SourceSpec>,
+    recipe: Arc<NamedRecipe>,
+    empty_cell: Option<Arc<EmptyCell>>,
+    robot: Arc<RobotFrame>,
+    pose: PoseKind,
+    trace: CurrentTrace,
+}
+
+impl AnswerInputs {
+    pub(super) fn of(session: &Session, robot: Arc<RobotFrame>) -> Self {
+        let followed = session.is_live().then(|| session.source.followed());
+        Self {
+            followed: followed.flatten(),
+            recipe: Arc::clone(&session.recipe),
+            empty_cell: session.empty_cell.clone(),
+            robot,
+            pose: session.answering.pose,
+            trace: session.trace.clone(),
+        }
+    }
+}
+
+/// What the server's task needs.
+pub(super) struct AnswerRequest {
+    pub(super) listener: Listener,
+    pub(super) inputs: Arc<Mutex<AnswerInputs>>,
+    pub(super) is_ending: Arc<AtomicBool>,
+    pub(super) library_cache: LibraryCache,
+    /// The parts that Live sees.
+    pub(super) parts: Arc<Mutex<FollowedParts>>,
+    /// Called when the history may have changed.
+    pub(super) on_history: Box<dyn Fn() + Send>,
+}
+
+/// Runs the server until `is_ending` is set or the task is cancelled. On return, all answered inspections are in the history.
+pub(super) fn answer(
+    request: AnswerRequest,
+    context: &TaskContext<AnsweringStatus>,
+) -> Result<AnsweringStatus, TaskError> {
+    let AnswerRequest {
+        listener,
+        inputs,
+        is_ending,
+        library_cache,
+        parts,
+        on_history,
+    } = request;
+    let followed = Arc::<Mutex<Option<SourceSpec>>>::default();
+    let camera = {
+        let (followed, library_cache) = (Arc::clone(&followed), library_cache.clone());
+        Camera::start_with(move || {
+            let followed = lock(&followed).clone();
+            Ok(followed_feed(followed.as_ref(), &library_cache))
+        })
+    };
+    let camera = Arc::new(camera.map_err(|error| UserError::of(&error))?);
+    let (tell, events) = mpsc::sync_channel(MAX_EVENTS);
+    let of_server = Arc::clone(&camera);
+    let server = Server::start(
+        &[listener],
+        ServerSettings::default(),
+        move || of_server.status(),
+        move |event| {
+            // Dropped if the channel is full: only the last one is shown anyway.
+            let _ = tell.try_send(event);
+        },
+    );
+    let mut server = server.map_err(|error| in_words(&error))?;
+    let writer = Writer::start(Arc::clone(library_cache.history()), on_history);
+    let writer = writer.map_err(|error| UserError {
+        what: text!("shell-no-thread", error = error.to_string()),
+        advice: text!("shell-no-thread-advice"),
+    })?;
+    let now = lock(&inputs).clone();
+    let mut session = AnsweringSession {
+        context,
+        is_ending: &is_ending,
+        inputs: &inputs,
+        library_cache: &library_cache,
+        parts: &parts,
+        followed,
+        finder: PartFinder {
+            parts: Vec::new(),
+            robot: (*now.robot).clone(),
+            kind: now.pose,
+        },
+        library: None,
+        unkept: None,
+        unnumbered: None,
+        camera,
+        events,
+        handle: server.handle(),
+        rows: TriggerRows::new(writer, Arc::clone(&parts)),
+        last: None,
+        part: None,
+        status: AnsweringStatus {
+            at: server.addresses().first().copied().unwrap_or(listener.at),
+            num_clients: 0,
+            client: None,
+            last: None,
+            trouble: None,
+        },
+        told: None,
+    };
+    server.run(&mut session);
+    Ok(session.finish())
+}
+
+/// Explains why the server does not listen, and what to do in the window.
+fn in_words(error: &ServeError) -> UserError {
+    match error {
+        ServeError::Bind { at, source, .. } if source.kind() == io::ErrorKind::AddrInUse => {
+            UserError {
+                what: text!("robot-port-in-use", at = at),
+                advice: text!("robot-port-in-use-advice"),
+            }
+        }
+        ServeError::Bind { .. } => UserError {
+            what: error.to_string(),
+            advice: text!("robot-cannot-listen-advice"),
+        },
+        ServeError::NoThread { .. } => UserError::of(error),
+    }
+}
+
+/// Returns a feed of the source that the window follows, and the rule for which of its frames are new.
+fn followed_feed(followed: Option<&SourceSpec>, library_cache: &LibraryCache) -> (Feed, NewFrame) {
+    match followed {
+        Some(spec) => (library_cache.camera().tap(spec), NewFrame::of_source(spec)),
+        None => (
+            Feed::failed(CaptureError::NotFollowed),
+            NewFrame::SecondArrived,
+        ),
+    }
+}
+
+/// Answers triggers on the thread that runs the server.
+struct AnsweringSession<'a> {
+    context: &'a TaskContext<AnsweringStatus>,
+    is_ending: &'a AtomicBool,
+    inputs: &'a Mutex<AnswerInputs>,
+    library_cache: &'a LibraryCache,
+    parts: &'a Mutex<FollowedParts>,
+    camera: Arc<Camera>,
+    /// The source that the camera is started with.
+    followed: Arc<Mutex<Option<SourceSpec>>>,
+    finder: PartFinder,
+    /// The library whose parts `finder` has.
+    library: Option<Arc<LoadedLibrary>>,
+    /// Why the last inspection was not kept.
+    unkept: Option<UserError>,
+    /// Why the parts have no stored numbers.
+    unnumbered: Option<UserError>,
+    events: Receiver<ClientEvent>,
+    handle: ServerHandle,
+    rows: TriggerRows,
+    /// The inspection whose answer is on its way.
+    last: Option<AnsweredFrame>,
+    /// The part of the last answer.
+    part: Option<AnsweredPart>,
+    status: AnsweringStatus,
+    told: Option<AnsweringStatus>,
+}
+
+/// An inspection to be kept in the history.
+struct AnsweredFrame {
+    origin: Origin,
+    subject: Subject,
+    answered: Answered,
+    recipe: Arc<NamedRecipe>,
+    library: Arc<LibraryView>,
+    trace: Traceability,
+    /// Tells which part it is.
+    part: Receiver<HungId>,
+}
+
+/// A part that a robot was told about.
+struct AnsweredPart {
+    name: String,
+    /// Which part it is as far as was known when its frame came, then also as Live saw it.
+    hung: Vec<HungId>,
+    /// Tells what Live saw.
+    told: Receiver<HungId>,
+}
+
+impl AnsweredPart {
+    /// True if a person has reported it as wrong.
+    fn is_reported(&mut self, parts: &Mutex<FollowedParts>) -> bool {
+        self.hung.extend(self.told.try_recv().ok());
+        let parts = lock(parts);
+        let mut hung = self.hung.iter();
+        hung.any(|hung| parts.is_reported(hung, &self.name))
+    }
+}
+
+impl Inspector for AnsweringSession<'_> {
+    fn inspect(&mut self, asked: &Asked) -> Found {
+        self.status.last = Some(LastAnswer {
+            at: asked.by_clock,
+            answer: Answer::default(),
+        });
+        let inputs = self.follow();
+        let is_ending = || self.is_ending();
+        let captured = match self.camera.frame_after(asked, FRAME_TIMEOUT, is_ending) {
+            Ok(captured) => captured,
+            Err(why) => return Found::error((&why).into()),
+        };
+        let source = inputs.followed.as_ref();
+        let source = source.map_or_else(String::new, ToString::to_string);
+        // At once: by the end of the inspection another part may hang there.
+        let mut parts = lock(self.parts);
+        let hung = vec![parts.part_now(&source, true)];
+        let [part, told] = [(); 2].map(|()| parts.part_of_frame(source.clone(), captured.arrived));
+        drop(parts);
+        let num_dropped = self.camera.feed_status().num_dropped;
+        let origin = Origin::of_capture(&captured, &source, num_dropped);
+        let subject = origin.subject(source);
+        let loaded = self.library_cache.get();
+        self.know(&loaded, &inputs);
+        let recipe = &inputs.recipe;
+        let fitted = loaded.fitting(recipe, &Unwatched);
+        let answering = Answering {
+            camera: &self.camera,
+            finder: &self.finder,
+            library: &fitted.expect("not cancelled"),
+            recipe,
+            at_most: FRAME_TIMEOUT,
+            is_ending: &|| self.is_ending(),
+        };
+        let trace = inputs.trace.remembered();
+        let scene_of = |captured| self.scene_of(captured, &inputs);
+        let answered = match answering.answer(captured, &subject, &trace, scene_of) {
+            Ok(answered) => answered,
+            Err(why) => return Found::error((&why).into()),
+        };
+        let mut found = answered.found.clone();
+        let mut answered_part = AnsweredPart {
+            name: found.part.clone(),
+            hung,
+            told,
+        };
+        if found.verdict == VerdictCode::Accepted && answered_part.is_reported(self.parts) {
+            found.refuse(Trouble::reported_wrong());
+        }
+        self.part = Some(answered_part);
+        self.last = Some(AnsweredFrame {
+            origin,
+            subject,
+            answered,
+            recipe: Arc::clone(recipe),
+            library: Arc::clone(&loaded.shown),
+            trace,
+            part,
+        });
+        found
+    }
+
+    fn recorded(&mut self, record: InspectionRecord) {
+        if let Some(last) = &mut self.status.last {
+            last.answer = record.answer();
+        }
+    }
+
+    fn answered(&mut self) {
+        if let Some(last) = self.last.take() {
+            self.unkept = None;
+            if let Err(fault) = guarded(|| self.keep(last)) {
+                self.unkept = Some(UserError::of(&fault));
+            }
+        }
+        self.publish();
+    }
+
+    fn turn(&mut self) -> ControlFlow<()> {
+        self.status.client = self.events.try_iter().last().or(self.status.client.take());
+        let inputs = self.follow();
+        self.rows.update(inputs.followed.is_some());
+        let parts = self.parts;
+        if self.part.take_if(|part| part.is_reported(parts)).is_some() {
+            // Or LAST and PATH would still give its pose.
+            self.handle.refuse_last(&Trouble::reported_wrong());
+        }
+        let loaded = self.library_cache.get();
+        if loaded.shown.unloaded.is_none() {
+            // Before the first trigger, so that the numbers can be looked up for the robots' programs.
+            self.know(&loaded, &inputs);
+        }
+        self.tell_dropped();
+        self.publish();
+        if self.is_ending() {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    }
+}
+
+impl AnsweringSession<'_> {
+    fn is_ending(&self) -> bool {
+        self.context.is_cancelled() || self.is_ending.load(Ordering::Relaxed)
+    }
+
+    /// Returns the current inputs. Restarts the camera if the window follows another source, or follows its source again.
+    fn follow(&mut self) -> AnswerInputs {
+        let inputs = lock(self.inputs).clone();
+        let before = std::mem::replace(&mut *lock(&self.followed), inputs.followed.clone());
+        let is_over = || self.camera.status().state == CameraState::Over;
+        if inputs.followed != before || inputs.followed.is_some() && is_over() {
+            // Starting cannot fail: a missing source is a feed that has failed.
+            let _ = self.camera.restart();
+        }
+        inputs
+    }
+
+    /// The scene to inspect of a frame.
+    fn scene_of(&self, captured: capture::Captured, inputs: &AnswerInputs) -> Arc<SceneCloud> {
+        let Captured { mut scene, .. } = captured.into();
+        if let Some(cell) = &inputs.empty_cell {
+            Arc::make_mut(&mut scene).empty_cell = Some(Arc::clone(cell));
+        }
+        if let Some(spec) = &inputs.followed {
+            self.library_cache.camera().share_view(spec, &mut scene);
+        }
+        scene
+    }
+
+    /// Updates the finder with the library, the calibration and the kind of pose. If poses mean something else than before,
+    /// robots learn it from the boot number; another convention starts another server.
+    fn know(&mut self, loaded: &Arc<LoadedLibrary>, inputs: &AnswerInputs) {
+        if self.finder.robot != *inputs.robot || self.finder.kind != inputs.pose {
+            self.finder.robot.clone_from(&inputs.robot);
+            self.finder.kind = inputs.pose;
+            self.handle.renew();
+        }
+        let is_it = |known: &Arc<LoadedLibrary>| Arc::ptr_eq(known, loaded);
+        if !self.library.as_ref().is_some_and(is_it) {
+            self.library = Some(Arc::clone(loaded));
+            let numbers = self.numbers_of(loaded);
+            self.library_cache.note_numbers(&numbers);
+            let shown = &loaded.shown;
+            let parts = shown.parts.iter().zip(&shown.spray_paths);
+            let parts = parts.map(|(part, stored)| NumberedPart {
+                number: numbers.of(&part.name).unwrap_or(0),
+                path: (stored.as_ref().filter(|stored| stored.off.is_none()))
+                    .map(|stored| stored.path.clone()),
+                is_simulated: part.simulated,
+            });
+            self.finder.parts = parts.collect();
+        }
+    }
+
+    /// The numbers of the parts; none if they cannot be read.
+    fn numbers_of(&mut self, loaded: &LoadedLibrary) -> PartNumbers {
+        let given = loaded.place.as_ref().map(LibraryPlace::give_numbers);
+        let (numbers, trouble) = match given.transpose() {
+            Ok(None) => (PartNumbers::default(), None),
+            Ok(Some(GivenNumbers { numbers, unstored })) => {
+                let trouble = unstored.map(|error| UserError {
+                    what: text!("robot-numbers-not-stored", reason = error.to_string()),
+                    advice: error.advice(),
+                });
+                (numbers, trouble)
+            }
+            Err(error) => (PartNumbers::default(), Some(UserError::of(&error))),
+        };
+        self.unnumbered = trouble;
+        numbers
+    }
+
+    /// Hands an inspection to the history, as one of the part that hangs there.
+    fn keep(&mut self, last: AnsweredFrame) {
+        let AnsweredFrame {
+            origin,
+            subject,
+            answered,
+            recipe,
+            library,
+            trace,
+            part,
+        } = last;
+        let Answered {
+            scene, inspection, ..
+        } = &answered;
+        let inspected = Inspected {
+            subject: &subject,
+            scene,
+            inspection,
+            recipe: &recipe,
+            robot: Some(&self.finder.robot),
+        };
+        let picture = segmentation_picture(scene, &inspection.segmentation);
+        let entry = entry_of(&inspected, &origin, &library, trace, picture.as_ref());
+        self.rows.add(entry, part);
+        self.tell_dropped();
+    }
+
+    fn tell_dropped(&mut self) {
+        if self.rows.take_dropped() != [0; 2] {
+            self.unkept = Some(UserError {
+                what: text!("history-crowded"),
+                advice: text!("history-crowded-advice"),
+            });
+        }
+    }
+
+    /// Publishes the status if it has changed.
+    fn publish(&mut self) {
+        self.status.num_clients = self.handle.num_clients();
+        let trouble = self.unkept.as_ref().or(self.unnumbered.as_ref());
+        self.status.trouble = trouble.cloned();
+        if self.told.as_ref() != Some(&self.status) {
+            self.told = Some(self.status.clone());
+            self.context.latest(self.status.clone());
+        }
+    }
+
+    /// Waits until the history has written everything handed over.
+    fn finish(self) -> AnsweringStatus {
+        drop(self.rows);
+        self.status
+    }
+}

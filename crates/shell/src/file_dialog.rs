@@ -1,0 +1,375 @@
+//! The system's file dialogs, polled without blocking.
+
+use std::{
+    cell::{Cell, RefCell, RefMut},
+    fmt,
+    path::{Path, PathBuf},
+    pin::Pin,
+    rc::Rc,
+    sync::{Arc, Mutex},
+    task::{Context, Poll, Wake, Waker},
+    time::{Duration, Instant},
+};
+
+use super::{notice::Notice, path_entry::PathEntry};
+use files::{POINT_ENDINGS, disk, folder_of, words_of};
+use geometry::error::lock;
+use ui::language::text;
+
+/// A kind of files: its name and its endings.
+pub type FileFilter = (String, &'static [&'static str]);
+
+/// What a file dialog asks for.
+#[derive(Clone, Debug)]
+pub struct FileRequest {
+    /// Title of the dialog.
+    pub title: String,
+    /// Kinds of files to offer.
+    pub filters: Vec<FileFilter>,
+    /// Whether a file or a folder is chosen, to read or to write.
+    pub choice: FileChoice,
+}
+
+/// The choice made in a file dialog.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum FileChoice {
+    /// A file to read.
+    File,
+    /// A folder to read.
+    Folder,
+    /// A file to write, with this suggested name.
+    NewFile(String),
+    /// A folder to write into.
+    FolderToWrite,
+}
+
+/// A filter that accepts every file.
+pub fn all_files() -> FileFilter {
+    (text!("shell-all-files"), &["*"])
+}
+
+/// A filter for all files that hold points.
+pub fn points() -> FileFilter {
+    (text!("shell-scenes-clouds-meshes"), POINT_ENDINGS)
+}
+
+/// The file dialog of one owner, who distinguishes its requests by `K`.
+pub struct FileDialog<K> {
+    open: Option<(K, OpenDialog)>,
+}
+
+/// Allows only one dialog at a time, because a second would hide behind the first. Clones share it, and the path being typed
+/// where the system has no dialog.
+#[derive(Clone, Debug, Default)]
+pub struct DialogLock(Rc<SharedDialog>);
+
+#[derive(Debug, Default)]
+struct SharedDialog {
+    is_open: Cell<bool>,
+    typed: RefCell<Option<PathEntry>>,
+    /// Folders of the last typed paths: to read, and to write.
+    folders: RefCell<[Option<PathBuf>; 2]>,
+}
+
+impl<K> Default for FileDialog<K> {
+    fn default() -> Self {
+        Self { open: None }
+    }
+}
+
+impl<K: fmt::Debug> fmt::Debug for FileDialog<K> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let asked = self.open.as_ref().map(|(asked, _)| asked);
+        f.debug_tuple("FileDialog").field(&asked).finish()
+    }
+}
+
+impl<K: Copy> FileDialog<K> {
+    /// Opens the system's dialog, unless one is open.
+    pub fn open(
+        &mut self,
+        asked: K,
+        request: &FileRequest,
+        lock: &DialogLock,
+        egui: &egui::Context,
+    ) {
+        if let Some(guard) = lock.take() {
+            let dialog = OpenDialog::of(request.clone(), answer(request), guard, egui);
+            self.open = Some((asked, dialog));
+        }
+    }
+
+    /// Returns the chosen path, or why none can be chosen; `None` while the dialog is open and after it was cancelled.
+    pub fn poll(&mut self) -> Option<(K, Result<PathBuf, Notice>)> {
+        let (asked, dialog) = self.open.as_mut()?;
+        let asked = *asked;
+        let Poll::Ready(closed) = dialog.poll() else {
+            return None;
+        };
+        self.open = None;
+        closed.map(|closed| (asked, closed))
+    }
+}
+
+impl DialogLock {
+    /// True while a dialog is open.
+    pub fn is_open(&self) -> bool {
+        self.0.is_open.get()
+    }
+
+    /// The path being typed, if any.
+    pub(super) fn typed(&self) -> RefMut<'_, Option<PathEntry>> {
+        self.0.typed.borrow_mut()
+    }
+
+    /// Folder in which typing a path starts.
+    fn folder(&self, choice: &FileChoice) -> PathBuf {
+        let known = self.0.folders.borrow()[usize::from(choice.is_written())].clone();
+        known.unwrap_or_else(|| usual_folder(choice))
+    }
+
+    fn remember(&self, choice: &FileChoice, path: &Path) {
+        let folder = match choice {
+            FileChoice::FolderToWrite => path,
+            _ => folder_of(path),
+        };
+        self.0.folders.borrow_mut()[usize::from(choice.is_written())] = Some(folder.to_owned());
+    }
+
+    fn take(&self) -> Option<DialogGuard> {
+        (!self.0.is_open.replace(true)).then(|| DialogGuard(self.clone()))
+    }
+}
+
+/// Releases the lock when the dialog is closed.
+struct DialogGuard(DialogLock);
+
+impl Drop for DialogGuard {
+    fn drop(&mut self) {
+        let shared = &self.0.0;
+        shared.is_open.set(false);
+        shared.typed.replace(None);
+    }
+}
+
+/// An open dialog.
+struct OpenDialog {
+    request: FileRequest,
+    answer: Answer<PathBuf>,
+    waker: Arc<DialogWaker>,
+    /// When it was first polled, which is what opens it.
+    opened: Option<Instant>,
+    /// True once it has failed to open and a path is typed instead.
+    is_typed: bool,
+    guard: DialogGuard,
+}
+
+/// Resolves to the chosen path.
+type Answer<T> = Pin<Box<dyn Future<Output = Option<T>>>>;
+
+/// No user closes a dialog faster than this: it never opened.
+const TOO_QUICK: Duration = Duration::from_millis(250);
+
+/// Woken by the dialog's own thread as it closes, however much later the next frame comes.
+struct DialogWaker {
+    egui: egui::Context,
+    closed: Mutex<Option<Instant>>,
+}
+
+impl DialogWaker {
+    fn closed(&self) -> Option<Instant> {
+        *lock(&self.closed)
+    }
+}
+
+impl Wake for DialogWaker {
+    fn wake(self: Arc<Self>) {
+        *lock(&self.closed) = Some(Instant::now());
+        self.egui.request_repaint();
+    }
+}
+
+fn answer(request: &FileRequest) -> Answer<PathBuf> {
+    let mut dialog = rfd::AsyncFileDialog::new().set_title(&request.title);
+    for (name, endings) in &request.filters {
+        dialog = dialog.add_filter(name, endings);
+    }
+    let answer: Answer<rfd::FileHandle> = match &request.choice {
+        FileChoice::File => Box::pin(dialog.pick_file()),
+        FileChoice::Folder | FileChoice::FolderToWrite => Box::pin(dialog.pick_folder()),
+        FileChoice::NewFile(name) => Box::pin(dialog.set_file_name(name).save_file()),
+    };
+    Box::pin(async move { Some(answer.await?.path().to_owned()) })
+}
+
+impl OpenDialog {
+    fn of(
+        request: FileRequest,
+        answer: Answer<PathBuf>,
+        guard: DialogGuard,
+        egui: &egui::Context,
+    ) -> Self {
+        Self {
+            request,
+            answer,
+            waker: Arc::new(DialogWaker {
+                egui: egui.clone(),
+                closed: Mutex::new(None),
+            }),
+            opened: None,
+            is_typed: false,
+            guard,
+        }
+    }
+
+    /// Ready once the dialog was closed, with the result, if any.
+    fn poll(&mut self) -> Poll<Option<Result<PathBuf, Notice>>> {
+        if !self.is_typed {
+            let opened = *self.opened.get_or_insert_with(Instant::now);
+            let waker = Waker::from(Arc::clone(&self.waker));
+            let answer = self.answer.as_mut();
+            let Poll::Ready(path) = answer.poll(&mut Context::from_waker(&waker)) else {
+                return Poll::Pending;
+            };
+            if path.is_some() || self.open_time(opened) >= TOO_QUICK {
+                return Poll::Ready(path.map(Ok));
+            }
+            self.is_typed = true;
+            let lock = &self.guard.0;
+            let folder = lock.folder(&self.request.choice);
+            *lock.typed() = Some(PathEntry::new(self.request.clone(), folder));
+            self.waker.egui.request_repaint();
+        }
+        let typed = self
+            .guard
+            .0
+            .typed()
+            .as_ref()
+            .map(|typed| typed.outcome.clone());
+        typed
+            .unwrap_or(Poll::Ready(None))
+            .map(|path| path.map(|path| self.made(path)))
+    }
+
+    /// Creates the folder to write into for a typed path, because writing a file does not create it.
+    fn made(&self, path: PathBuf) -> Result<PathBuf, Notice> {
+        let choice = &self.request.choice;
+        let folder = match choice {
+            FileChoice::File | FileChoice::Folder => None,
+            FileChoice::NewFile(_) => Some(folder_of(&path)),
+            FileChoice::FolderToWrite => Some(path.as_path()),
+        };
+        if let Some(folder) = folder {
+            disk::create_dir_all(folder).map_err(|error| {
+                let what = text!(
+                    "shell-cannot-be-made",
+                    path = folder.display().to_string(),
+                    why = words_of(&error)
+                );
+                Notice::look(what, text!("shell-choose-another-folder"))
+            })?;
+        }
+        self.guard.0.remember(choice, &path);
+        Ok(path)
+    }
+
+    /// How long the dialog was open. Timing by frames would be wrong: with Live running, a frame may take longer than failing
+    /// does.
+    fn open_time(&self, opened: Instant) -> Duration {
+        let closed = self.waker.closed().unwrap_or_else(Instant::now);
+        closed.saturating_duration_since(opened)
+    }
+}
+
+impl FileChoice {
+    fn is_written(&self) -> bool {
+        matches!(self, Self::NewFile(_) | Self::FolderToWrite)
+    }
+}
+
+/// Folder for the first typed path: the home folder to read, a folder of its own to write.
+fn usual_folder(choice: &FileChoice) -> PathBuf {
+    let Some(user) = directories::UserDirs::new() else {
+        return PathBuf::from("/");
+    };
+    if !choice.is_written() {
+        return user.home_dir().to_owned();
+    }
+    let documents = user.document_dir().unwrap_or(user.home_dir());
+    documents.join("Partsight")
+}
+
+#[cfg(test)]
+mod tests {
+    use std::{future::poll_fn, thread};
+
+    use super::*;
+
+    /// Makes a dialog that closes by itself after this time with nothing chosen.
+    fn closing_after(time: Duration) -> OpenDialog {
+        let mut thread = None;
+        let answer = poll_fn(move |context| {
+            if thread.is_some() {
+                return Poll::Ready(None);
+            }
+            let waker = context.waker().clone();
+            thread = Some(thread::spawn(move || {
+                thread::sleep(time);
+                waker.wake();
+            }));
+            Poll::Pending
+        });
+        let guard = DialogLock::default().take().expect("no other dialog");
+        let egui = egui::Context::default();
+        let request = FileRequest {
+            title: "Open".into(),
+            filters: Vec::new(),
+            choice: FileChoice::File,
+        };
+        OpenDialog::of(request, Box::pin(answer), guard, &egui)
+    }
+
+    /// Polls the dialog again only long after it has closed.
+    fn after_a_slow_frame(dialog: &mut OpenDialog) -> Poll<Option<Result<PathBuf, Notice>>> {
+        thread::sleep(TOO_QUICK);
+        assert!(dialog.poll().is_pending());
+        while dialog.waker.closed().is_none() {
+            thread::sleep(Duration::from_millis(1));
+        }
+        thread::sleep(2 * TOO_QUICK);
+        dialog.poll()
+    }
+
+    #[test]
+    fn a_dialog_that_never_opened_is_told_from_a_cancelled_one_in_slow_frames_too() {
+        let mut failed = closing_after(Duration::ZERO);
+        assert!(after_a_slow_frame(&mut failed).is_pending());
+        let lock = failed.guard.0.clone();
+        assert!(lock.typed().is_some(), "a path can be typed");
+        let typed = PathBuf::from("/captures/door.pcd");
+        if let Some(entry) = lock.typed().as_mut() {
+            entry.outcome = Poll::Ready(Some(typed.clone()));
+        }
+        let answer = failed.poll();
+        assert!(matches!(answer, Poll::Ready(Some(Ok(path))) if path == typed));
+        drop(failed);
+        assert!(lock.typed().is_none() && !lock.is_open());
+        // The next path starts there.
+        assert_eq!(lock.folder(&FileChoice::File), Path::new("/captures"));
+        let mut cancelled = closing_after(2 * TOO_QUICK);
+        assert!(matches!(
+            after_a_slow_frame(&mut cancelled),
+            Poll::Ready(None)
+        ));
+    }
+
+    #[test]
+    fn one_dialog_is_open_at_a_time() {
+        let lock = DialogLock::default();
+        let first = lock.take().expect("free");
+        assert!(lock.take().is_none() && lock.is_open());
+        drop(first);
+        assert!(!lock.is_open());
+        assert!(lock.take().is_some());
+    }
+}

@@ -1,0 +1,289 @@
+//! Shortcuts, and the list of them.
+
+use egui::{Id, Key, KeyboardShortcut, Modifiers, RichText, ScrollArea, vec2};
+
+use crate::{
+    action::{Action, DialogRequest, Effect},
+    cell::RobotAction,
+    message::Event,
+    roles::{self, RoleAction},
+    session::WorkspaceKind,
+    source::live::LiveAction,
+    state::State,
+};
+use ui::{
+    key_binding::{KeyBinding, Shortcut},
+    language::{keys, text},
+    theme::{font, space},
+    widgets,
+};
+
+/// The shortcuts of the whole window.
+const SHORTCUTS: [Shortcut<Action>; 13] = [
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::Space,
+        keys: || keys("Space"),
+        does: || text!("shell-does-capture"),
+        action: || Action::Capture,
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::L,
+        keys: || keys("L"),
+        does: || text!("shell-does-live"),
+        action: || Action::Live(LiveAction::Toggle),
+    },
+    Shortcut {
+        modifiers: Modifiers::COMMAND,
+        key: Key::L,
+        keys: || keys("Ctrl L"),
+        does: || text!("shell-does-record"),
+        action: || Action::Live(LiveAction::ToggleRecording),
+    },
+    // Before Ctrl O, which would match it too.
+    Shortcut {
+        modifiers: Modifiers::COMMAND.plus(Modifiers::SHIFT),
+        key: Key::O,
+        keys: || keys("Ctrl Shift O"),
+        does: || text!("shell-does-open-scan"),
+        action: || Action::Ask(DialogRequest::Scan),
+    },
+    Shortcut {
+        modifiers: Modifiers::COMMAND,
+        key: Key::O,
+        keys: || keys("Ctrl O"),
+        does: || text!("shell-open-scene"),
+        action: || Action::Ask(DialogRequest::Scene),
+    },
+    Shortcut {
+        modifiers: Modifiers::COMMAND,
+        key: Key::E,
+        keys: || keys("Ctrl E"),
+        does: || text!("shell-does-export"),
+        action: || Action::Make(Effect::Tell(Event::Export)),
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::B,
+        keys: || keys("B"),
+        does: || text!("shell-does-robot"),
+        action: || Action::Make(Effect::Robot(RobotAction::Toggle)),
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::U,
+        keys: || keys("U"),
+        does: || text!("shell-does-units"),
+        action: || Action::SwitchUnits,
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::T,
+        keys: || keys("T"),
+        does: || text!("shell-does-theme"),
+        action: || Action::SwitchTheme,
+    },
+    Shortcut {
+        modifiers: Modifiers::COMMAND,
+        key: Key::K,
+        keys: || keys("Ctrl K"),
+        does: || text!("shell-does-role"),
+        action: || Action::Role(RoleAction::Switch),
+    },
+    Shortcut {
+        modifiers: Modifiers::COMMAND,
+        key: Key::Q,
+        keys: || keys("Ctrl Q"),
+        does: || text!("shell-does-quit"),
+        action: || Action::Make(Effect::Close),
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::F1,
+        keys: || keys("F1"),
+        does: || text!("shell-does-help"),
+        action: || Action::ToggleHelp,
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::Escape,
+        keys: || keys("Esc"),
+        does: || text!("shell-does-escape"),
+        action: || Action::CloseTop,
+    },
+];
+
+/// Keys of the 3-D view and of the focus, only for the list; the last one is only the engineer's.
+fn other_keys() -> [[String; 2]; 8] {
+    [
+        [keys("Ctrl + − 0"), text!("shell-does-size")],
+        [text!("shell-keys-tab"), text!("shell-does-tab")],
+        [text!("shell-keys-turn"), text!("shell-does-turn")],
+        [text!("shell-keys-shift"), text!("shell-does-shift")],
+        [text!("shell-keys-zoom"), text!("shell-does-zoom")],
+        [text!("shell-keys-fit"), text!("shell-does-fit")],
+        ["Z, Y, X".to_owned(), text!("shell-does-look")],
+        ["M".to_owned(), text!("shell-does-measure")],
+    ]
+}
+
+/// Keys of the picture and the 3-D view for correcting a part, only for the list.
+fn picture_keys() -> [[String; 2]; 3] {
+    [
+        [text!("shell-keys-drawing"), text!("shell-does-drawing")],
+        [text!("shell-keys-box"), text!("shell-does-box")],
+        [text!("shell-keys-resize"), text!("shell-does-resize")],
+    ]
+}
+
+/// Keys of the workspaces, in the order of the rail.
+const RAIL_KEYS: [(Key, &str); 6] = [
+    (Key::Num1, "1"),
+    (Key::Num2, "2"),
+    (Key::Num3, "3"),
+    (Key::Num4, "4"),
+    (Key::Num5, "5"),
+    (Key::Num6, "6"),
+];
+
+/// Part of the window's height that the list leaves free, for heading, button, edges, and a notice above it, logical pixels.
+const HELP_MARGIN: f32 = 230.0;
+
+/// True for the window's keys that act in the operator's view, where a PIN protects the source.
+fn is_operators(binding: &KeyBinding, has_pin: bool) -> bool {
+    let is_with_ctrl = binding.modifiers.command;
+    match binding.key {
+        Key::Space | Key::T | Key::F1 => true,
+        Key::L => !is_with_ctrl,
+        Key::E | Key::K | Key::Q => is_with_ctrl,
+        Key::O => is_with_ctrl && !has_pin,
+        _ => false,
+    }
+}
+
+/// Collects the actions of pressed keys. Called after the panels, so that a focused control gets its keys first.
+///
+/// The space bar presses a focused control; `space_is_free` means that the focused one does not use it. While the user types
+/// text, only keys with Ctrl are shortcuts; the Enter that ends typing belongs to the text, too. Behind a dialog there are no
+/// shortcuts: the dialog gets the keys.
+pub fn shortcuts(
+    ctx: &egui::Context,
+    state: &State,
+    own: &[KeyBinding],
+    space_is_free: bool,
+    is_behind_dialog: bool,
+    actions: &mut Vec<Action>,
+) {
+    let is_writing = ctx.text_edit_focused();
+    let was_writing = remember_writing(ctx, is_writing);
+    if is_behind_dialog {
+        return;
+    }
+    let is_pressing = !space_is_free && ctx.memory(|memory| memory.focused().is_some());
+    let workspace = state.session.workspace;
+    let own = own.iter().copied().enumerate();
+    let own = own.map(|(index, binding)| (binding, Action::Make(Effect::Press(workspace, index))));
+    let named = SHORTCUTS
+        .iter()
+        .map(|shortcut| (shortcut.binding(), (shortcut.action)()));
+    for (binding, action) in own.chain(named) {
+        let is_plain = binding.modifiers.is_none();
+        // In a text field, Ctrl Z undoes typing.
+        let is_of_text = is_plain || binding.key == Key::Z;
+        let presses = matches!(binding.key, Key::Space | Key::Enter);
+        // Escape does nothing in a text field but leave it, so that the same press may also close what is open.
+        let is_taken = is_writing || was_writing && binding.key != Key::Escape;
+        if presses && is_pressing || is_of_text && is_taken {
+            continue;
+        }
+        let keys = KeyboardShortcut::new(binding.modifiers, binding.key);
+        if ctx.input_mut(|input| input.consume_shortcut(&keys)) {
+            actions.push(action);
+        }
+    }
+    if is_writing || was_writing {
+        return;
+    }
+    for ((key, _), workspace) in RAIL_KEYS.into_iter().zip(WorkspaceKind::ALL) {
+        if ctx.input_mut(|input| input.consume_key(Modifiers::NONE, key)) {
+            actions.push(Action::GoTo(workspace));
+        }
+    }
+}
+
+/// Returns whether a text field had the focus when this frame began, and remembers whether one has it now.
+///
+/// A single-line text field loses the focus in the same frame in which Enter is pressed.
+fn remember_writing(ctx: &egui::Context, is_writing: bool) -> bool {
+    let id = Id::unique("a text is being written");
+    ctx.data_mut(|data| {
+        let was_writing = data.get_temp(id).unwrap_or(false);
+        data.insert_temp(id, is_writing);
+        was_writing
+    })
+}
+
+/// Texts of the shortcuts, each before the one with Shift, which is matched first.
+fn listed(bindings: impl Iterator<Item = KeyBinding>) -> impl Iterator<Item = [String; 2]> {
+    let mut all: Vec<KeyBinding> = Vec::new();
+    for binding in bindings {
+        let with_shift = all.pop_if(|last| last.key == binding.key && last.modifiers.shift);
+        all.push(binding);
+        all.extend(with_shift);
+    }
+    all.into_iter()
+        .map(|binding| [(binding.keys)(), (binding.does)()])
+}
+
+/// Draws the list of shortcuts.
+pub fn help(ctx: &egui::Context, state: &State, own: &[KeyBinding], actions: &mut Vec<Action>) {
+    if !state.is_help_open {
+        return;
+    }
+    let modal = widgets::dialog(ctx, "help", |ui| {
+        ui.set_max_width(640.0);
+        let height = ui.spacing().interact_size.y;
+        ui.spacing_mut().interact_size.y = 24.0;
+        ui.heading(text!("shell-shortcuts"));
+        ui.add_space(space::SMALL);
+        let room = ctx.content_rect().height() - HELP_MARGIN;
+        let list = egui::Grid::new("shortcuts")
+            .num_columns(2)
+            .spacing(vec2(24.0, 6.0));
+        let is_operator = state.session.is_operator_view();
+        let has_pin = state.roles.pin.is_some();
+        // The scroll bar is beside the list, not over it.
+        ui.spacing_mut().scroll.floating_allocated_width = space::MEDIUM;
+        let list_area = ScrollArea::vertical().max_height(room);
+        list_area.min_scrolled_height(room).show(ui, |ui| {
+            list.show(ui, |ui| {
+                let own = if is_operator { &[][..] } else { own };
+                let own = listed(own.iter().copied());
+                let named = SHORTCUTS.iter().map(Shortcut::binding);
+                let named = listed(named.filter(|key| !is_operator || is_operators(key, has_pin)));
+                let of_rail = RAIL_KEYS.into_iter().zip(WorkspaceKind::ALL);
+                let of_rail =
+                    of_rail.filter(|(_, kind)| !is_operator || roles::is_operators(*kind));
+                let of_rail = of_rail.map(|((_, rail), workspace)| [keys(rail), workspace.title()]);
+                let is_enrolling = state.session.workspace == WorkspaceKind::Enrol;
+                let of_picture = is_enrolling.then(picture_keys).into_iter().flatten();
+                // Only the engineer measures.
+                let num = other_keys().len() - usize::from(is_operator);
+                let others = of_picture.chain(other_keys().into_iter().take(num));
+                for [keys, does] in named.chain(own).chain(of_rail).chain(others) {
+                    ui.label(RichText::new(keys).font(font::body_strong()));
+                    ui.weak(does);
+                    ui.end_row();
+                }
+            });
+        });
+        ui.spacing_mut().interact_size.y = height;
+        ui.add_space(space::MEDIUM);
+        widgets::default_button(ui, &text!("shell-close"), true)
+    });
+    let is_pressed_again = || ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::F1));
+    if modal.inner || modal.should_close() || is_pressed_again() {
+        actions.push(Action::ToggleHelp);
+    }
+}

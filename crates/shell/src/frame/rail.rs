@@ -1,0 +1,104 @@
+//! The rail on the left: the workspaces; the operator sees only theirs.
+
+use egui::{Color32, Frame, Painter, Panel, Pos2, Rect, Sense, Stroke, Ui, pos2, vec2};
+
+use crate::{
+    action::Action,
+    roles::{UserRole, chip, is_operators},
+    session::WorkspaceKind,
+    state::State,
+};
+use ui::{
+    theme::{Theme, font, space},
+    widgets::focus_ring,
+};
+
+/// Draws the rail.
+pub fn ui(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
+    let theme = Theme::of(ui);
+    let frame = Frame::new().fill(theme.panel);
+    Panel::left("rail")
+        .exact_size(space::RAIL)
+        .resizable(false)
+        .frame(frame)
+        .show(ui, |ui| {
+            // The keys of the other workspaces still work and ask for the engineer's view.
+            let is_engineer = state.session.role == UserRole::Engineer;
+            let listed = |workspace: &WorkspaceKind| is_engineer || is_operators(*workspace);
+            for workspace in WorkspaceKind::ALL.into_iter().filter(listed) {
+                let is_front = state.session.workspace == workspace;
+                let size = vec2(ui.available_width(), space::RAIL);
+                let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+                let painter = ui.painter();
+                if is_front {
+                    painter.rect_filled(rect, 0.0, theme.control);
+                    let bar = Rect::from_min_size(rect.min, vec2(3.0, rect.height()));
+                    painter.rect_filled(bar, 0.0, theme.accent);
+                }
+                let colour = if is_front {
+                    theme.text
+                } else {
+                    theme.weak_text
+                };
+                let icon = rect.center() - vec2(0.0, 9.0);
+                sign(painter, workspace, icon, Stroke::new(1.6, colour));
+                label(painter, rect, &workspace.title(), colour);
+                focus_ring(ui, rect, &response);
+                response.widget_info(|| {
+                    let label = workspace.title();
+                    egui::WidgetInfo::selected(egui::Role::Tab, true, is_front, label)
+                });
+                if response.clicked() {
+                    actions.push(Action::GoTo(workspace));
+                }
+            }
+            chip(ui, state, actions);
+        });
+}
+
+/// Draws a name below a sign, in a smaller font if it is too long.
+pub(crate) fn label(painter: &Painter, rect: Rect, name: &str, colour: Color32) {
+    let laid_out = |font| painter.layout_no_wrap(name.to_owned(), font, colour);
+    let mut galley = laid_out(font::small());
+    if galley.size().x > rect.width() - space::SMALL {
+        galley = laid_out(font::scale());
+    }
+    let at = rect.center() + vec2(0.0, 14.0) - galley.size() / 2.0;
+    painter.galley(at, galley, colour);
+}
+
+/// Draws the sign of a workspace.
+fn sign(painter: &Painter, workspace: WorkspaceKind, centre: Pos2, stroke: Stroke) {
+    let at = |x: f32, y: f32| pos2(centre.x + x, centre.y + y);
+    match workspace {
+        WorkspaceKind::Inspect => {
+            painter.circle_stroke(centre, 8.0, stroke);
+            painter.circle_filled(centre, 2.4, stroke.color);
+        }
+        WorkspaceKind::Enrol => {
+            painter.line_segment([at(-7.0, 0.0), at(7.0, 0.0)], stroke);
+            painter.line_segment([at(0.0, -7.0), at(0.0, 7.0)], stroke);
+        }
+        WorkspaceKind::Compare => {
+            let frame = Rect::from_center_size(centre, vec2(16.0, 12.0));
+            painter.rect_stroke(frame, 1.0, stroke, egui::StrokeKind::Middle);
+            painter.line_segment([at(0.0, -6.0), at(0.0, 6.0)], stroke);
+        }
+        WorkspaceKind::Align => {
+            let corners = [at(-8.0, 5.0), at(-3.0, -7.0), at(8.0, -4.0), at(3.0, 7.0)];
+            painter.add(egui::Shape::closed_line(corners.to_vec(), stroke));
+        }
+        WorkspaceKind::Paint => {
+            for y in [-5.0, 0.0, 5.0] {
+                let wave = (-8_i8..=8).map(f32::from);
+                let wave = wave.map(|x| at(x, y + 1.6 * (x * 0.6).sin()));
+                painter.line(wave.collect(), stroke);
+            }
+        }
+        WorkspaceKind::History => {
+            for y in [-6.0, 0.0, 6.0] {
+                painter.line_segment([at(-8.0, y), at(8.0, y)], stroke);
+            }
+        }
+    }
+}

@@ -1,0 +1,355 @@
+//! The top bar above the workspaces.
+
+use egui::{Align, Button, Color32, Frame, Layout, Margin, Panel, RichText, Ui, Vec2};
+
+use crate::{
+    action::{Action, DialogRequest, Effect},
+    cell::{self, RobotAction, RobotCell},
+    inspection::{figures::StagePanel, library_cache::LibraryView, source::file_name},
+    language::robot::calibration_name,
+    session::{Session, WorkspaceKind},
+    source::{
+        live::{self, LiveAction},
+        source_menu,
+    },
+    state::State,
+};
+use ui::{
+    language::{Language, keys, text},
+    task::Running,
+    theme::{Theme, ThemeChoice, font, space},
+    widgets::{labelled, shortened, status_label, text_button},
+};
+
+/// Width of the window, logical pixels, below which the bar has no room for keys.
+pub const NARROW: f32 = 1100.0;
+/// Width of the bar that is left to the status of Live, logical pixels.
+const LIVE_STATUS_WIDTH_PX: f32 = 180.0;
+/// Width below which the running work is not named beside its spinner, logical pixels: most words would be cut.
+const MIN_TEXT_WIDTH_PX: f32 = 64.0;
+
+/// How much of the library its menu shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum LibraryForm {
+    /// Number of parts and, if there is room, the name.
+    Full,
+    /// The number alone.
+    Short,
+    /// Nothing.
+    Hidden,
+}
+
+impl LibraryForm {
+    /// The form for this room, logical pixels. Running work with its cancel button, and the status of Live, take precedence;
+    /// work ends soon, but while Live runs the menu stays.
+    fn of(room: f32, is_at_work: bool, has_live_chip: bool) -> Self {
+        match (is_at_work, has_live_chip) {
+            (true, _) if room > 480.0 => Self::Full,
+            (true, _) if room > 250.0 => Self::Short,
+            (true, _) => Self::Hidden,
+            (false, true) if room <= 300.0 => Self::Short,
+            (false, _) => Self::Full,
+        }
+    }
+}
+
+/// The running work shown in the bar.
+pub struct Progress {
+    /// The work.
+    pub running: Running,
+    /// The action that cancels it, if there is one.
+    pub cancel: Option<Action>,
+}
+
+/// Draws the top bar.
+pub fn ui(
+    ui: &mut Ui,
+    state: &State,
+    robot: &RobotCell,
+    work: Option<Progress>,
+    actions: &mut Vec<Action>,
+) {
+    let theme = Theme::of(ui);
+    let frame = Frame::new()
+        .fill(theme.panel)
+        .inner_margin(Margin::symmetric(14, 0));
+    Panel::top("top bar")
+        .exact_size(space::TOP_BAR)
+        .resizable(false)
+        .frame(frame)
+        .show(ui, |ui| {
+            ui.horizontal_centered(|ui| {
+                // In a narrow window, the controls and the status of Live need the room of the name.
+                if ui.ctx().content_rect().width() >= NARROW {
+                    let name = RichText::new("Partsight").font(font::body_strong());
+                    ui.label(name);
+                    ui.add_space(space::LARGE);
+                }
+                source_menu::ui(ui, state, actions);
+                robot_button(ui, state, robot, actions);
+                let name = text!("shell-capture");
+                let capture = RichText::new(&name).font(font::body_strong());
+                // The accent marks the next button to press; while a source is followed, there is none.
+                let capture = if state.session.is_live() {
+                    with_key(ui, Button::new(capture), "Space", theme.weak_text)
+                } else {
+                    let capture = Button::new(capture.color(theme.on_accent));
+                    with_key(ui, capture, "Space", theme.on_accent).fill(theme.accent)
+                };
+                if labelled(ui, capture, &name).clicked() {
+                    actions.push(Action::Capture);
+                }
+                live_button(ui, state, actions);
+                let name = text!("shell-open");
+                let open = with_key(ui, Button::new(&*name), "Ctrl O", theme.weak_text);
+                if labelled(ui, open, &name).clicked() {
+                    actions.push(Action::Ask(DialogRequest::Scene));
+                }
+                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                    settings(ui, state, work.is_some(), actions);
+                    ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                        let session = &state.session;
+                        let shares = work.is_some() || has_live_chip(session);
+                        cell::chip(ui, robot, session, shares);
+                        progress(ui, state, work, actions);
+                    });
+                });
+            });
+        });
+}
+
+/// True while the status of Live is in the bar; in Inspect it is on the verdict card.
+fn has_live_chip(session: &Session) -> bool {
+    session.is_live() && session.workspace != WorkspaceKind::Inspect
+}
+
+/// Adds the key to a button if there is room.
+fn with_key<'a>(ui: &Ui, button: Button<'a>, key: &str, colour: Color32) -> Button<'a> {
+    if ui.ctx().content_rect().width() < NARROW {
+        return button;
+    }
+    let key = RichText::new(keys(key)).small();
+    button.shortcut_text(key.color(colour))
+}
+
+/// Draws the button that starts and stops following the source.
+fn live_button(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
+    let theme = Theme::of(ui);
+    let is_live = state.session.is_live();
+    let colour = if is_live { theme.on_accent } else { theme.text };
+    let key = if is_live {
+        theme.on_accent
+    } else {
+        theme.weak_text
+    };
+    let name = text!("shell-live");
+    let text = RichText::new(&name).font(font::body_strong()).color(colour);
+    let button = Button::selectable(is_live, text)
+        .frame_when_inactive(true)
+        .min_size(Vec2::splat(space::TARGET));
+    let button = with_key(ui, button, "L", key);
+    let response = ui.add(button);
+    response.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, is_live, &name));
+    let says = if is_live {
+        text!("shell-stop-live-says")
+    } else {
+        text!("shell-live-says")
+    };
+    if response.on_hover_text(says).clicked() {
+        actions.push(Action::Live(LiveAction::Toggle));
+    }
+}
+
+/// Draws the button of the robot's cell, which shows whether it is calibrated.
+fn robot_button(ui: &mut Ui, state: &State, robot: &RobotCell, actions: &mut Vec<Action>) {
+    let theme = Theme::of(ui);
+    let name = text!("shell-robot");
+    let button = with_key(ui, Button::new(&*name), "B", theme.weak_text);
+    let says = match (&state.session.robot, robot.in_use()) {
+        (Some(frame), _) => {
+            text!("shell-calibrated-by", name = calibration_name(&frame.name))
+        }
+        (None, Some(in_use)) if in_use.is_edited => text!("shell-calibration-edited"),
+        (None, Some(_)) => text!("shell-no-flange-pose"),
+        (None, None) => text!("shell-not-calibrated"),
+    };
+    if labelled(ui, button, &name).on_hover_text(says).clicked() {
+        actions.push(Action::Make(Effect::Robot(RobotAction::Toggle)));
+    }
+}
+
+/// Draws help, colours, units and library, from right to left.
+fn settings(ui: &mut Ui, state: &State, is_at_work: bool, actions: &mut Vec<Action>) {
+    let theme = Theme::of(ui);
+    let name = text!("shell-help");
+    let help = with_key(ui, Button::new(&*name), "F1", theme.weak_text);
+    if labelled(ui, help, &name).clicked() {
+        actions.push(Action::ToggleHelp);
+    }
+    let name = state.session.theme.title();
+    let says = match state.session.theme.other() {
+        ThemeChoice::Dark => text!("shell-to-dark"),
+        ThemeChoice::Light => text!("shell-to-light"),
+    };
+    let colours = text_button(ui, &name);
+    if colours.on_hover_text(says).clicked() {
+        actions.push(Action::SwitchTheme);
+    }
+    let units = labelled(
+        ui,
+        Button::new(state.session.units.title()),
+        state.session.units.title(),
+    );
+    let other = state.session.units.other().title();
+    if units
+        .on_hover_text(text!("shell-to-units", units = other))
+        .clicked()
+    {
+        actions.push(Action::SwitchUnits);
+    }
+    language_menu(ui, state, actions);
+    let room = ui.available_width();
+    let form = LibraryForm::of(room, is_at_work, has_live_chip(&state.session));
+    let library = state.session.library.as_ref();
+    if let Some(library) = library.filter(|_| form != LibraryForm::Hidden) {
+        library_menu(ui, state, library, form, actions);
+    }
+}
+
+/// Draws the menu of languages, each by its own name.
+pub(super) fn language_menu(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
+    let now = state.session.language;
+    let menu = ui.menu_button(format!("{} ▼", now.sign()), |ui| {
+        for language in Language::ALL {
+            let button = Button::selectable(language == now, language.own_name());
+            if ui.add(button).clicked() {
+                actions.push(Action::Speak(language));
+                ui.close();
+            }
+        }
+    });
+    let label = text!("shell-language-of", language = now.own_name());
+    let button = menu.response;
+    button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &label));
+    button.on_hover_text(text!("shell-language-says"));
+}
+
+/// Draws the menu of the library in use and others.
+fn library_menu(
+    ui: &mut Ui,
+    state: &State,
+    library: &LibraryView,
+    form: LibraryForm,
+    actions: &mut Vec<Action>,
+) {
+    let num = library.parts.len();
+    let opened = |text: String| format!("{text} ▼");
+    let shared = if has_live_chip(&state.session) {
+        LIVE_STATUS_WIDTH_PX
+    } else {
+        0.0
+    };
+    let text = if library.unloaded.is_some() {
+        opened(text!("shell-no-library"))
+    } else if ui.available_width() > 300.0 + shared {
+        let name = shortened(&file_name(&library.path), 20);
+        opened(text!("shell-library-named", num = num, name = name))
+    } else {
+        opened(text!("shell-num-parts", num = num))
+    };
+    let shown = match (form, library.unloaded.is_some()) {
+        (LibraryForm::Short, true) => opened("!".to_owned()),
+        (LibraryForm::Short, false) => opened(num.to_string()),
+        (LibraryForm::Full | LibraryForm::Hidden, _) => text.clone(),
+    };
+    let menu = ui.menu_button(shown, |ui| {
+        ui.set_min_width(260.0);
+        ui.label(RichText::new(text!("shell-library-in-use")).font(font::heading()));
+        ui.label(library.path.display().to_string());
+        if let Some(version) = &library.version {
+            ui.label(version);
+        }
+        if let Some(trouble) = &library.unloaded {
+            ui.label(&trouble.what);
+        }
+        ui.separator();
+        if ui.button(text!("shell-use-another-library")).clicked() {
+            actions.push(Action::Ask(DialogRequest::Library));
+            ui.close();
+        }
+        let is_other = state.session.chosen_library.is_some() || library.unloaded.is_some();
+        if is_other && ui.button(text!("shell-use-usual-library")).clicked() {
+            actions.push(Action::UseFoundLibrary);
+            ui.close();
+        }
+    });
+    let button = menu.response;
+    button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &text));
+    if form == LibraryForm::Short {
+        let full = text.trim_end_matches(" ▼");
+        button.on_hover_text(full);
+    }
+}
+
+/// Draws the running work and its cancel button.
+pub(super) fn progress(
+    ui: &mut Ui,
+    state: &State,
+    work: Option<Progress>,
+    actions: &mut Vec<Action>,
+) {
+    let theme = Theme::of(ui);
+    let Some(Progress { running, cancel }) = work else {
+        if has_live_chip(&state.session) {
+            live::chip(ui, &state.session);
+        }
+        return;
+    };
+    ui.add_space(space::SMALL);
+    if let Some(cancel) = cancel
+        && text_button(ui, &text!("shell-cancel")).clicked()
+    {
+        actions.push(cancel);
+    }
+    let spinner = ui.add(egui::Spinner::new().size(18.0).color(theme.accent));
+    let text = match (running.progress, running.stage.map(StagePanel::of)) {
+        (Some((done, total)), _) => {
+            text!(
+                "shell-progress",
+                work = shortened(&running.title, 28),
+                done = done,
+                total = total
+            )
+        }
+        (None, Some(panel)) => {
+            text!(
+                "shell-progress",
+                work = panel.title(),
+                done = panel as usize + 1,
+                total = StagePanel::ALL.len()
+            )
+        }
+        (None, None) => shortened(&running.title, 28),
+    };
+    if ui.available_width() < MIN_TEXT_WIDTH_PX {
+        spinner.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &text));
+        spinner.on_hover_text(text);
+    } else {
+        status_label(ui, &text, font::body(), theme.weak_text);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_library_stays_reachable_beside_the_status_of_live() {
+        for room in [60.0, 184.0, 300.0] {
+            assert_eq!(LibraryForm::of(room, false, true), LibraryForm::Short);
+        }
+        assert_eq!(LibraryForm::of(301.0, false, true), LibraryForm::Full);
+        assert_eq!(LibraryForm::of(184.0, false, false), LibraryForm::Full);
+        assert_eq!(LibraryForm::of(184.0, true, false), LibraryForm::Hidden);
+    }
+}

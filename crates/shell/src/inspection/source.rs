@@ -1,0 +1,526 @@
+//! Sources of scenes: the simulated cell, files, and cameras.
+
+use std::{path::PathBuf, sync::Arc, time::SystemTime};
+
+use super::{
+    camera::{Camera, NoFrame},
+    scan_choice::{ScanFiles, ScanOrder},
+};
+use crate::language::results::{object, scene_title};
+use capture::{self, CaptureWarning, CellScene, Image, SimulatedSpec, SourceSpec};
+use files::{self, FileContent, FileError};
+use geometry::error::Advice;
+use records::history::{FrameError, FrameRecord, SceneTitle, read_frame};
+use simulate::{
+    CellSetup, ObjectKind, PartKind, PartPose, PoseRange, Side, SimulatedObject, frame,
+};
+use stages::scene::{EmptyCell, SceneCloud, scene_from_frame, scene_from_image};
+use station::{CaptureFacts, Subject, written_at};
+use ui::{language::text, task::TaskError, user_error::UserError, widgets::sentence};
+
+pub use files::file_name;
+
+/// What hangs in the simulated cell when a frame is captured.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum CellChoice {
+    /// The eight parts in turn.
+    #[default]
+    InTurn,
+    /// Always this part.
+    Part(PartKind, Side),
+    /// Always this object, which is not an enrolled part.
+    Foreign(ObjectKind),
+    /// Nothing.
+    Empty,
+}
+
+impl CellChoice {
+    /// All choices, in the order of the source menu.
+    pub fn all() -> impl Iterator<Item = Self> {
+        let sides = |kind: PartKind| {
+            let sides = if kind.is_sided() {
+                &Side::ALL[..]
+            } else {
+                &[Side::Left]
+            };
+            sides.iter().map(move |side| Self::Part(kind, *side))
+        };
+        std::iter::once(Self::InTurn)
+            .chain(PartKind::ALL.into_iter().flat_map(sides))
+            .chain([
+                Self::Foreign(ObjectKind::Hood),
+                Self::Foreign(ObjectKind::Wheel),
+            ])
+            .chain([Self::Empty])
+    }
+
+    /// Returns the name shown to the user.
+    pub fn title(self) -> String {
+        match self {
+            Self::InTurn => text!("shell-every-part"),
+            Self::Part(kind, side) if kind.is_sided() => {
+                format!("{}, {}", kind.title(), side.name())
+            }
+            Self::Part(kind, _) => kind.title().into(),
+            Self::Foreign(kind) => text!("shell-not-enrolled", what = object(kind)),
+            Self::Empty => text!("shell-empty-cell"),
+        }
+    }
+
+    /// Returns the same cell as a continuous camera.
+    pub fn followed(self) -> SimulatedSpec {
+        let mut spec = SimulatedSpec::default();
+        match self {
+            Self::InTurn => {}
+            Self::Part(kind, side) => {
+                spec.scene = CellScene::Part(kind);
+                spec.side = side;
+            }
+            Self::Foreign(kind) => spec.scene = CellScene::Object(kind),
+            Self::Empty => spec.scene = CellScene::Empty,
+        }
+        spec
+    }
+
+    /// Returns what hangs there in the frame of this number, counted from 1.
+    pub fn subject(self, number: u64) -> SimulatedObject {
+        /// The first frame shows a front door, like the first example of the command line.
+        const FIRST: u64 = 3;
+        let part = |kind, side| SimulatedObject::Part {
+            kind,
+            side,
+            model_seed: 0,
+        };
+        match self {
+            Self::InTurn => {
+                let num_kinds = PartKind::ALL.len() as u64;
+                part(
+                    PartKind::ALL[((number + FIRST) % num_kinds) as usize],
+                    Side::Left,
+                )
+            }
+            Self::Part(kind, side) => part(kind, side),
+            Self::Foreign(kind) => SimulatedObject::Object(kind),
+            Self::Empty => SimulatedObject::Nothing,
+        }
+    }
+}
+
+/// The source of single frames of the simulated cell, as the history stores it.
+pub(crate) const CELL_SOURCE: &str = "simulated cell";
+
+/// Origin of a scene.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Origin {
+    /// A frame of the simulated cell.
+    Simulated {
+        /// What hung in the cell.
+        choice: CellChoice,
+        /// Number of the frame, which is also its seed.
+        number: u64,
+    },
+    /// A file.
+    File {
+        /// Path of the file.
+        path: PathBuf,
+        /// True if the file says that it is simulated.
+        is_simulated: bool,
+    },
+    /// The shots of a scan, put together.
+    Scan {
+        /// Name of their folder or files.
+        name: String,
+        /// Number of shots that were used.
+        num_shots: usize,
+        /// True if it is simulated.
+        is_simulated: bool,
+        /// Files of the shots.
+        #[serde(default)]
+        files: ScanFiles,
+    },
+    /// A frame of a camera, a recording or a watched folder.
+    Frame {
+        /// Name shown to the user.
+        name: String,
+        /// True if it is simulated, or was when it was recorded.
+        is_simulated: bool,
+        /// The capture, if it is known.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        capture: Option<CaptureFacts>,
+    },
+}
+
+impl Origin {
+    /// The origin of a capture of this source.
+    pub fn of_capture(captured: &capture::Captured, source: &str, num_dropped: u64) -> Self {
+        Self::Frame {
+            name: captured.name.clone(),
+            is_simulated: captured.is_simulated,
+            capture: Some(CaptureFacts::new(captured, source, num_dropped)),
+        }
+    }
+
+    /// What was inspected, as records name it; `source` is the name of the source for the history.
+    pub fn subject(&self, source: String) -> Subject {
+        // The names in the line of JSON are those that the commands write.
+        let (scene, capture) = match self {
+            Self::Simulated { number, .. } => (format!("simulated frame {number}"), None),
+            Self::File { path, .. } => (path.display().to_string(), None),
+            Self::Scan { .. } => (self.scene_title().to_string(), None),
+            Self::Frame { name, capture, .. } => (name.clone(), capture.clone()),
+        };
+        Subject {
+            title: self.scene_title(),
+            capture,
+            ..Subject::of_scene(scene, source, self.is_simulated())
+        }
+    }
+
+    /// Returns the title in the language of the window.
+    pub fn shown_title(&self) -> String {
+        scene_title(&self.scene_title(), self.is_simulated())
+    }
+
+    /// Returns what the scene is called, as the history stores it.
+    pub(crate) fn scene_title(&self) -> SceneTitle {
+        match self {
+            Self::Simulated { number, .. } => SceneTitle::SimulatedFrame(*number),
+            Self::File { path, .. } => SceneTitle::Named(file_name(path)),
+            Self::Scan {
+                name, num_shots, ..
+            } => SceneTitle::Scan {
+                name: name.clone(),
+                num_shots: *num_shots,
+            },
+            Self::Frame {
+                name, is_simulated, ..
+            } => match SceneTitle::of_frame(name, *is_simulated) {
+                SceneTitle::Named(name) => SceneTitle::Named(sentence(&name)),
+                numbered => numbered,
+            },
+        }
+    }
+
+    /// Returns the title in English, as cases and reports store it.
+    pub fn title(&self) -> String {
+        let title = self.scene_title();
+        match (&title, self.is_simulated()) {
+            (SceneTitle::SimulatedFrame(_), _) => sentence(&title.to_string()),
+            (_, true) => format!("{title}, simulated"),
+            (_, false) => title.to_string(),
+        }
+    }
+
+    /// True if the scene is simulated.
+    pub fn is_simulated(&self) -> bool {
+        match self {
+            Self::Simulated { .. } => true,
+            Self::File { is_simulated, .. }
+            | Self::Scan { is_simulated, .. }
+            | Self::Frame { is_simulated, .. } => *is_simulated,
+        }
+    }
+
+    /// When a scene of this origin that was just taken was captured: see [`written_at`] for files; else now.
+    pub fn captured_at(&self) -> SystemTime {
+        match self {
+            Self::Simulated { .. } | Self::Frame { .. } => SystemTime::now(),
+            Self::File { path, .. } => written_at([path.as_path()]),
+            Self::Scan { files, .. } => {
+                let added = files.added.iter().map(|(frame, _)| frame);
+                written_at(files.frames.iter().chain(added).map(PathBuf::as_path))
+            }
+        }
+    }
+
+    /// Returns a source that gives the same scene again, by simulating the same frame or reading the files again. `None` for a
+    /// frame of a camera, which cannot be had again.
+    pub fn source(&self) -> Option<SceneOrScan> {
+        Some(match self {
+            Self::Simulated { choice, number } => SceneOrScan::Scene(SceneSource::Cell {
+                choice: *choice,
+                number: *number,
+            }),
+            Self::File { path, .. } => SceneOrScan::Scene(SceneSource::File(path.clone())),
+            Self::Scan { files, .. } if !files.frames.is_empty() => {
+                SceneOrScan::Scan(ScanOrder::Open(files.clone()))
+            }
+            Self::Scan { .. } | Self::Frame { .. } => return None,
+        })
+    }
+}
+
+/// A source that can deliver a scene.
+#[derive(Clone, Debug)]
+pub enum SceneSource {
+    /// A frame of the simulated cell.
+    Cell {
+        /// What hangs in the cell.
+        choice: CellChoice,
+        /// Number and seed of the frame.
+        number: u64,
+    },
+    /// A file.
+    File(PathBuf),
+    /// The next frame of a camera, a recording or a watched folder.
+    Camera(Box<SourceSpec>),
+    /// A scene already in memory.
+    AtHand(Arc<SceneCloud>, Origin),
+    /// Another source, whose camera recorded this empty cell.
+    WithEmptyCell(Arc<EmptyCell>, Box<SceneSource>),
+    /// A frame kept in the history.
+    Kept(Box<HistoryFrame>),
+}
+
+/// A frame kept in the history.
+#[derive(Clone, Debug)]
+pub struct HistoryFrame {
+    /// Folder of the kept frames.
+    pub folder: PathBuf,
+    /// Its file, and data that the file does not contain.
+    pub frame: FrameRecord,
+    /// Origin of the scene.
+    pub origin: Origin,
+}
+
+/// A scene and its origin.
+#[derive(Clone, Debug)]
+pub struct Captured {
+    /// The captured scene.
+    pub scene: Arc<SceneCloud>,
+    /// Origin of the scene.
+    pub origin: Origin,
+    /// Problems found while reading it.
+    pub warnings: Vec<CaptureWarning>,
+}
+
+/// Why a source delivered no scene.
+#[derive(Debug, thiserror::Error)]
+pub enum SceneError {
+    /// The file cannot be read.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// The camera delivered no frame.
+    #[error(transparent)]
+    Camera(#[from] NoFrame),
+    /// The frame in the history cannot be read.
+    #[error(transparent)]
+    Kept(#[from] FrameError),
+    /// The file is a mesh, not a scene of a camera.
+    #[error("{}: a mesh, expected a depth camera's capture", path.display())]
+    MeshIsNoScene {
+        /// Path of the file.
+        path: PathBuf,
+    },
+}
+
+impl Advice for SceneError {
+    fn advice(&self) -> String {
+        match self {
+            Self::File(error) => error.advice(),
+            Self::Camera(error) => error.advice(),
+            Self::Kept(error) => error.advice(),
+            Self::MeshIsNoScene { .. } => {
+                "Open it in the Enrol workspace (2) to enrol it as a reference".into()
+            }
+        }
+    }
+}
+
+impl From<SceneError> for TaskError {
+    fn from(error: SceneError) -> Self {
+        match error {
+            SceneError::Camera(NoFrame::Cancelled) => Self::Cancelled,
+            error => UserError::of(&error).into(),
+        }
+    }
+}
+
+impl SceneSource {
+    /// Returns the name of the source for the history.
+    pub fn in_words(&self) -> String {
+        match self {
+            Self::Cell { .. } => CELL_SOURCE.into(),
+            Self::File(path) => path.display().to_string(),
+            Self::Camera(spec) => spec.to_string(),
+            Self::WithEmptyCell(_, source) => source.in_words(),
+            Self::AtHand(_, origin) => origin.scene_title().to_string(),
+            Self::Kept(kept) => kept.origin.scene_title().to_string(),
+        }
+    }
+
+    /// Captures, reads or returns the scene; waiting for a frame ends when `is_cancelled`.
+    pub fn take(
+        &self,
+        camera: &Camera,
+        is_cancelled: &dyn Fn() -> bool,
+    ) -> Result<Captured, SceneError> {
+        match self {
+            Self::Cell { choice, number } => {
+                let mut setup = CellSetup::new(choice.subject(*number), *number);
+                setup.pose = PartPose::Drawn(PoseRange::facing());
+                Ok(Captured {
+                    scene: Arc::new(scene_from_frame(&frame(&setup).frame)),
+                    origin: Origin::Simulated {
+                        choice: *choice,
+                        number: *number,
+                    },
+                    warnings: Vec::new(),
+                })
+            }
+            Self::File(path) => {
+                let opened = files::open(path)?;
+                let warnings = opened
+                    .warnings_as_capture()
+                    .into_iter()
+                    .map(Into::into)
+                    .collect();
+                let scene = match opened {
+                    FileContent::Cloud(cloud) => scene_from_image(Image::Cloud(cloud)),
+                    FileContent::Depth(frame) => scene_from_image(Image::Depth(frame)),
+                    FileContent::Mesh(_) => {
+                        return Err(SceneError::MeshIsNoScene { path: path.clone() });
+                    }
+                };
+                Ok(Captured {
+                    origin: Origin::File {
+                        path: path.clone(),
+                        is_simulated: scene.cloud.is_simulated,
+                    },
+                    scene: Arc::new(scene),
+                    warnings,
+                })
+            }
+            Self::Camera(spec) => {
+                let captured = camera.next(spec, is_cancelled)?;
+                let origin = Origin::of_capture(&captured, &spec.to_string(), 0);
+                let mut captured = Captured {
+                    origin,
+                    ..captured.into()
+                };
+                camera.share_view(spec, &mut captured.scene);
+                Ok(captured)
+            }
+            Self::WithEmptyCell(cell, source) => {
+                let mut captured = source.take(camera, is_cancelled)?;
+                let mut scene = Arc::unwrap_or_clone(captured.scene);
+                scene.empty_cell = Some(Arc::clone(cell));
+                captured.scene = Arc::new(scene);
+                Ok(captured)
+            }
+            Self::Kept(kept) => Ok(Captured {
+                scene: Arc::new(read_frame(&kept.folder, &kept.frame)?),
+                origin: kept.origin.clone(),
+                warnings: Vec::new(),
+            }),
+            Self::AtHand(scene, origin) => Ok(Captured {
+                scene: Arc::clone(scene),
+                origin: origin.clone(),
+                warnings: Vec::new(),
+            }),
+        }
+    }
+}
+
+impl From<capture::Captured> for Captured {
+    fn from(frame: capture::Captured) -> Self {
+        Self {
+            scene: Arc::new(scene_from_image(frame.image)),
+            origin: Origin::Frame {
+                name: frame.name,
+                is_simulated: frame.is_simulated,
+                capture: None,
+            },
+            warnings: frame.warnings,
+        }
+    }
+}
+
+/// Something to inspect or enrol.
+#[derive(Clone, Debug)]
+pub enum SceneOrScan {
+    /// A scene.
+    Scene(SceneSource),
+    /// The shots of a scan, to be put together.
+    Scan(ScanOrder),
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ui::language::Language;
+
+    #[test]
+    fn the_first_frame_is_a_front_door_and_all_eight_parts_come_in_turn() {
+        let kind = |number| match CellChoice::InTurn.subject(number) {
+            SimulatedObject::Part { kind, .. } => kind,
+            other => panic!("{other:?}"),
+        };
+        assert_eq!(kind(1), PartKind::FrontDoor);
+        let seen: std::collections::BTreeSet<_> = (1..=8).map(kind).collect();
+        assert_eq!(seen.len(), 8);
+    }
+
+    #[test]
+    fn where_a_scene_came_from_is_shown_in_the_language_of_the_window_and_kept_in_english() {
+        let frame = |name: &str, is_simulated| Origin::Frame {
+            name: name.into(),
+            is_simulated,
+            capture: None,
+        };
+        let origins = [
+            (
+                Origin::Simulated {
+                    choice: CellChoice::InTurn,
+                    number: 7,
+                },
+                ["Simulated frame 7", "Simuliertes Bild 7"],
+            ),
+            (
+                frame("simulated frame 12", true),
+                ["Simulated frame 12", "Simuliertes Bild 12"],
+            ),
+            (
+                frame("kinect frame 12", true),
+                ["Kinect frame 12, simulated", "Kinect frame 12, simuliert"],
+            ),
+            (frame("kinect frame 12", false), ["Kinect frame 12"; 2]),
+            (
+                Origin::File {
+                    path: "a/door.pcd".into(),
+                    is_simulated: true,
+                },
+                ["door.pcd, simulated", "door.pcd, simuliert"],
+            ),
+            (
+                Origin::Scan {
+                    name: "door".into(),
+                    num_shots: 3,
+                    is_simulated: true,
+                    files: ScanFiles::default(),
+                },
+                ["door · 3 shots, simulated", "door · 3 Aufnahmen, simuliert"],
+            ),
+        ];
+        for (origin, [kept, shown]) in origins {
+            assert_eq!(origin.shown_title(), kept);
+            Language::German.make_current();
+            let titles = [origin.title(), origin.shown_title()];
+            Language::English.make_current();
+            assert_eq!(titles, [kept, shown]);
+        }
+    }
+
+    #[test]
+    fn a_mesh_is_refused_in_words() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("part.obj");
+        std::fs::write(&path, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("written");
+        let refused = SceneSource::File(path)
+            .take(&Camera::default(), &|| false)
+            .expect_err("refused");
+        assert!(refused.to_string().contains("a mesh") && refused.advice().contains("Enrol"));
+    }
+}

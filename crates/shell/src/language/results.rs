@@ -1,0 +1,616 @@
+//! Texts about results in the language of the window. In English they equal those of the library itself, except where
+//! those name a command.
+//!
+//! Each kind of result is matched exhaustively, so that a new one does not compile without its text.
+
+use crate::inspection::source::CELL_SOURCE;
+use capture::SourceSpec;
+use inspection::{
+    library::Side,
+    pipeline::{AS_IN_THE_PAPER, AcceptParams, RecipeLabel, RefusalKind, is_like},
+};
+use records::history::{KeepFrames, SceneTitle, StoredVerdict, Summary};
+use robot::cell_check::{CellFinding, CellViewError};
+use simulate::ObjectKind;
+use stages::{
+    pose::Stopped,
+    scan::{Doubt, Excluded},
+    stand_off::StandOffError,
+};
+use ui::language::{Language, advised, described, text};
+
+/// Formats a number with a fixed number of decimals.
+macro_rules! fixed {
+    ($value:expr, $decimals:literal) => {
+        format!("{:.*}", $decimals, $value)
+    };
+}
+
+/// Says whether an inspection was accepted, for whatever reason it was not.
+pub fn accepted_or_not(is_accepted: bool) -> String {
+    if is_accepted {
+        text!("results-accepted")
+    } else {
+        text!("results-not-accepted")
+    }
+}
+
+/// Returns the name of a stored verdict.
+pub fn stored_verdict(verdict: StoredVerdict) -> String {
+    match verdict {
+        StoredVerdict::Accepted => accepted_or_not(true),
+        StoredVerdict::Rejected => accepted_or_not(false),
+        StoredVerdict::Unknown => text!("results-unknown"),
+        StoredVerdict::NoPart => text!("results-no-part"),
+    }
+}
+
+/// Describes which frames are kept.
+pub fn keep_frames(keep: KeepFrames) -> String {
+    match keep {
+        KeepFrames::All => text!("results-keep-all"),
+        KeepFrames::NotAccepted => text!("results-keep-not-accepted"),
+        KeepFrames::None => text!("results-keep-none"),
+    }
+}
+
+/// True if score and margin show which part it is. Whatever else speaks against it, such as its pose, it is called by its name.
+pub fn is_recognised([score, margin]: [f64; 2], accept: &AcceptParams) -> bool {
+    score >= accept.min_score && margin >= accept.min_margin
+}
+
+/// Returns the title of an inspection.
+pub fn inspection_title(past: &Summary) -> String {
+    if let Some(part) = recognised_part(past) {
+        return text!("results-title-refused", part = part);
+    }
+    if let Some(part) = past.mirror_of() {
+        return text!("results-title-mirrored", part = part);
+    }
+    let part = &past.title;
+    match past.verdict {
+        StoredVerdict::Accepted => part.clone(),
+        StoredVerdict::Rejected => text!("results-title-not-recognised", part = part),
+        StoredVerdict::Unknown if past.score.is_some_and(|[score, _]| !is_like(score)) => {
+            text!("inspect-unknown-part")
+        }
+        StoredVerdict::Unknown => text!("results-title-unknown", part = part),
+        StoredVerdict::NoPart => text!("results-no-part"),
+    }
+}
+
+/// Returns the title of a part that was recognised and yet not accepted. The limits of its recipe are not in the row: those
+/// of the built-in recipe decide.
+pub fn recognised_part(past: &Summary) -> Option<&str> {
+    let is_recognised = is_recognised(past.score?, &AcceptParams::default());
+    let is_refused = past.verdict == StoredVerdict::Rejected;
+    (is_refused && is_recognised).then_some(past.title.as_str())
+}
+
+/// Returns the title of a scene.
+pub fn scene_title(scene: &SceneTitle, is_simulated: bool) -> String {
+    let title = match scene {
+        SceneTitle::SimulatedFrame(number) => {
+            return text!("shell-simulated-frame", number = *number);
+        }
+        SceneTitle::Named(name) => name.clone(),
+        SceneTitle::Scan { name, num_shots } => {
+            format!("{name} · {}", text!("shots-all-used", num = *num_shots))
+        }
+    };
+    if is_simulated {
+        text!("shell-of-simulator", name = title)
+    } else {
+        title
+    }
+}
+
+/// Returns the title of a source; only the simulated cell has a name of its own.
+pub fn source_title(source: &str, is_simulated: bool) -> String {
+    let cell = || text!("shell-simulated-cell");
+    if source == CELL_SOURCE {
+        return cell();
+    }
+    match source.parse() {
+        Ok(SourceSpec::Simulated(_)) if is_simulated => match source.split_once([',', ':']) {
+            Some((_, settings)) => format!("{} · {settings}", cell()),
+            None => cell(),
+        },
+        _ => source.to_owned(),
+    }
+}
+
+/// Returns the texts that the list shows for data, in lower case, each with what the search text has for them.
+pub fn searched_texts() -> Vec<[String; 2]> {
+    let verdict = |verdict: StoredVerdict| format!("={}", verdict.name());
+    let both = [
+        (
+            text!("shell-simulated-frame", number = ""),
+            "=simulated_frame ".to_owned(),
+        ),
+        (
+            text!("shell-of-simulator", name = ""),
+            "=simulated".to_owned(),
+        ),
+        (text!("shots-all-used", num = ""), "=shots ".to_owned()),
+        (text!("shell-simulated-cell"), format!("\n{CELL_SOURCE}")),
+        (text!("shell-simulated-cell"), "\nsimulated".to_owned()),
+        (
+            text!("results-not-accepted"),
+            verdict(StoredVerdict::Rejected),
+        ),
+        (text!("results-unknown"), verdict(StoredVerdict::Unknown)),
+        (
+            text!("results-title-mirrored", part = ""),
+            "=mirrored".to_owned(),
+        ),
+        (text!("results-no-part"), verdict(StoredVerdict::NoPart)),
+    ];
+    both.map(|(shown, searched)| [shown.to_lowercase(), searched])
+        .into()
+}
+
+/// Returns the name of a kind of refusal, for counts.
+pub fn refusal_kind(kind: &RefusalKind) -> String {
+    let name = kind.message().attribute(Language::current(), "kind");
+    name.unwrap_or_else(|| kind.to_string())
+}
+
+/// Explains why an estimation ended.
+pub fn stopped(stopped: Stopped) -> String {
+    match stopped {
+        Stopped::Converged => text!("results-converged"),
+        Stopped::BelowTarget => text!("results-below-target"),
+        Stopped::IterationLimit => text!("results-iteration-limit"),
+        Stopped::NoProgress => text!("results-no-progress"),
+    }
+}
+
+/// Explains why there is no stand-off.
+pub fn stand_off_error(error: &StandOffError) -> String {
+    match error {
+        StandOffError::NoSurface => text!("inspect-no-surface"),
+        StandOffError::NoneMeets { num_taught } => {
+            text!("inspect-none-meets", num = *num_taught)
+        }
+    }
+}
+
+/// Describes the finding of a check of the cell.
+pub(crate) fn cell_finding(finding: CellFinding) -> String {
+    match finding {
+        CellFinding::InPlace => text!("results-cell-in-place"),
+        CellFinding::PartMoved => text!("results-cell-part-moved"),
+        CellFinding::CameraMoved => text!("results-cell-camera-moved"),
+        CellFinding::PartOrCameraMoved => text!("results-cell-part-or-camera-moved"),
+        CellFinding::Noisier => text!("results-cell-noisier"),
+    }
+}
+
+/// Advises what to do about a finding.
+pub(crate) fn cell_finding_advice(finding: CellFinding) -> String {
+    match finding {
+        CellFinding::InPlace => text!("results-cell-in-place-advice"),
+        CellFinding::PartMoved => text!("results-cell-part-moved-advice"),
+        CellFinding::CameraMoved => text!("results-cell-camera-moved-advice"),
+        CellFinding::PartOrCameraMoved => text!("results-cell-part-or-camera-moved-advice"),
+        CellFinding::Noisier => text!("results-cell-noisier-advice"),
+    }
+}
+
+/// Explains why frames cannot serve as a baseline of the cell or be compared with it.
+pub(crate) fn cell_view_error(error: &CellViewError) -> String {
+    match error {
+        CellViewError::NoFrame => text!("results-cell-no-frame"),
+        CellViewError::Moving { frame, moved } => text!(
+            "results-cell-moving",
+            frame = *frame,
+            shift = moved.shift.to_string(),
+            turn = moved.rotation.to_string()
+        ),
+        CellViewError::OtherPart { frame, overlap } => text!(
+            "results-cell-other-part",
+            frame = *frame,
+            overlap = fixed!(overlap * 100.0, 0)
+        ),
+        CellViewError::Pose { frame, error } => {
+            text!(
+                "results-cell-pose",
+                frame = *frame,
+                error = described(error)
+            )
+        }
+    }
+}
+
+/// Advises what to do about such frames.
+pub(crate) fn cell_view_error_advice(error: &CellViewError) -> String {
+    match error {
+        CellViewError::NoFrame => text!("results-cell-no-frame-advice"),
+        CellViewError::Moving { .. } => text!("results-cell-moving-advice"),
+        CellViewError::OtherPart { .. } => text!("results-cell-other-part-advice"),
+        CellViewError::Pose { error, .. } => advised(error),
+    }
+}
+
+/// Explains in a few words why a shot was left out.
+pub fn excluded_in_short(why: &Excluded) -> String {
+    match why {
+        Excluded::WrongPose { .. } => text!("shots-wrong-pose"),
+        Excluded::Contradicts { .. } | Excluded::LookedPast { .. } => text!("shots-contradicts"),
+        Excluded::OverlapsNone => text!("shots-overlaps-none"),
+        Excluded::PartMoved { .. } => text!("shots-part-moved"),
+    }
+}
+
+/// Explains why a shot was left out.
+pub fn excluded(why: &Excluded) -> String {
+    match why {
+        Excluded::WrongPose { moved } => text!(
+            "shots-wrong-pose-by",
+            shift = moved.shift.to_string(),
+            turn = moved.rotation.to_string()
+        ),
+        Excluded::Contradicts { share } => {
+            text!("shots-contradicts-by", share = fixed!(share * 100.0, 0))
+        }
+        Excluded::LookedPast { share } => {
+            text!("shots-looked-past-by", share = fixed!(share * 100.0, 1))
+        }
+        Excluded::OverlapsNone => text!("shots-overlaps-none-says"),
+        Excluded::PartMoved { share } => {
+            text!("shots-part-moved-by", share = fixed!(share * 100.0, 0))
+        }
+    }
+}
+
+/// Warns of shots that were used and do not agree, and advises what to do.
+pub fn doubt(doubt: &Doubt) -> [String; 2] {
+    match doubt {
+        Doubt::PoorAgreement { name, share } => [
+            text!(
+                "shots-poor-agreement",
+                shot = name.as_str(),
+                share = fixed!((1.0 - share) * 100.0, 1)
+            ),
+            text!("shots-poor-agreement-advice"),
+        ],
+        Doubt::PosesApart {
+            names: [a, b],
+            apart,
+        } => [
+            text!(
+                "shots-poses-apart",
+                a = a.as_str(),
+                b = b.as_str(),
+                apart = apart.to_string()
+            ),
+            text!("shots-poses-apart-advice"),
+        ],
+    }
+}
+
+/// Advises what to do about an excluded shot.
+pub fn excluded_advice(why: &Excluded) -> String {
+    match why {
+        Excluded::WrongPose { .. } | Excluded::Contradicts { .. } | Excluded::LookedPast { .. } => {
+            text!("shots-excluded-advice")
+        }
+        Excluded::OverlapsNone => text!("shots-overlaps-none-advice"),
+        Excluded::PartMoved { .. } => text!("shots-part-moved-advice"),
+    }
+}
+
+/// States the side that a part is painted from.
+pub fn painted_from(side: Side) -> String {
+    match side {
+        Side::Front => text!("enrol-painted-from-front"),
+        Side::Back => text!("enrol-painted-from-back"),
+        Side::Left => text!("enrol-painted-from-left"),
+        Side::Right => text!("enrol-painted-from-right"),
+        Side::Top => text!("enrol-painted-from-top"),
+        Side::Bottom => text!("enrol-painted-from-bottom"),
+    }
+}
+
+/// Returns the label of a traceability field.
+pub fn traced(name: &str) -> String {
+    match name {
+        "serial" => text!("inspect-serial"),
+        "order" => text!("inspect-order"),
+        "operator" => text!("inspect-operator"),
+        name => name.to_owned(),
+    }
+}
+
+/// Returns the name of a recipe, marked if it was modified; the name itself is not translated.
+pub fn recipe_label(label: &RecipeLabel) -> String {
+    let name = recipe_name(&label.name);
+    if label.is_changed {
+        text!("results-recipe-modified", name = name)
+    } else {
+        name
+    }
+}
+
+/// Returns the name of a recipe: a text for the paper's, else what the user named it.
+pub fn recipe_name(name: &str) -> String {
+    match name {
+        AS_IN_THE_PAPER => text!("results-recipe-as-in-the-paper"),
+        name => name.to_owned(),
+    }
+}
+
+/// Returns the name of an object that is not enrolled but may hang in the simulated cell.
+pub(crate) fn object(kind: ObjectKind) -> String {
+    match kind {
+        ObjectKind::Hood => text!("results-object-hood"),
+        ObjectKind::Wheel => text!("results-object-wheel"),
+        ObjectKind::Box => text!("results-object-box"),
+        ObjectKind::Chair => text!("results-object-chair"),
+        ObjectKind::Board => text!("results-object-board"),
+        ObjectKind::Ladder => text!("results-object-ladder"),
+        ObjectKind::Stool => text!("results-object-stool"),
+        ObjectKind::Bucket => text!("results-object-bucket"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+    use geometry::error::Advice as _;
+    use geometry::{
+        rigid::PoseDelta,
+        units::{Metres, Radians},
+    };
+    use inspection::{
+        fixtures::rejections,
+        pipeline::{Refusal, Rejection},
+    };
+    use records::{
+        fixtures::history_entry,
+        history::{Filter, Record},
+    };
+    use stages::fixtures::pose_errors;
+
+    #[test]
+    fn in_english_the_window_says_what_the_library_says() {
+        for finding in [
+            CellFinding::InPlace,
+            CellFinding::PartMoved,
+            CellFinding::CameraMoved,
+            CellFinding::PartOrCameraMoved,
+            CellFinding::Noisier,
+        ] {
+            assert_eq!(cell_finding(finding), finding.describe());
+            assert_eq!(cell_finding_advice(finding), finding.advice());
+        }
+        let mut cell_errors = vec![
+            CellViewError::NoFrame,
+            CellViewError::Moving {
+                frame: 3,
+                moved: PoseDelta {
+                    shift: Metres(0.0154),
+                    rotation: Radians(0.02),
+                },
+            },
+            CellViewError::OtherPart {
+                frame: 1,
+                overlap: 0.618,
+            },
+        ];
+        let of_pose = |error| CellViewError::Pose { frame: 2, error };
+        cell_errors.extend(pose_errors().into_iter().map(of_pose));
+        for error in cell_errors {
+            assert_eq!(cell_view_error(&error), error.to_string());
+            assert_eq!(cell_view_error_advice(&error), error.advice());
+        }
+        for verdict in StoredVerdict::ALL {
+            assert_eq!(stored_verdict(verdict), verdict.title());
+        }
+        for keep in KeepFrames::ALL {
+            assert_eq!(keep_frames(keep), keep.title());
+        }
+        for kind in ObjectKind::ALL {
+            assert_eq!(object(kind), kind.name());
+        }
+        let name = |why: Stopped| why.name().replace('_', " ");
+        for why in [
+            Stopped::Converged,
+            Stopped::BelowTarget,
+            Stopped::IterationLimit,
+            Stopped::NoProgress,
+        ] {
+            assert_eq!(stopped(why), name(why));
+        }
+    }
+
+    /// A refused front door whose title was "Door, left" at that time.
+    fn refused_door(verdict: StoredVerdict) -> Record {
+        let mut past = history_entry(1, verdict, "front_door").record;
+        past.summary.title = "Door, left".into();
+        past
+    }
+
+    #[test]
+    fn the_title_of_an_unknown_part_names_no_part_that_it_is_not_like() {
+        let mut past = refused_door(StoredVerdict::Unknown);
+        let mut shown = |score| {
+            past.summary.score = Some([score, score]);
+            inspection_title(&past.summary)
+        };
+        assert!(shown(0.3).contains("Door, left"));
+        assert!(!shown(0.004).contains("Door, left"));
+    }
+
+    #[test]
+    fn a_part_that_is_only_in_doubt_where_it_is_has_its_name_in_the_title() {
+        let mut past = refused_door(StoredVerdict::Rejected);
+        let mut shown = |score| {
+            past.summary.score = Some(score);
+            inspection_title(&past.summary)
+        };
+        assert_eq!(shown([0.97, 0.97]), "Door, left · not accepted");
+        for score in [[0.89, 0.97], [0.97, 0.43]] {
+            assert_eq!(shown(score), "Not recognised · nearest Door, left");
+        }
+    }
+
+    #[test]
+    fn a_stored_scene_is_shown_in_the_language_of_the_window_and_files_keep_their_names() {
+        let named = |name: &str| SceneTitle::Named(name.to_owned());
+        let scan = || SceneTitle::Scan {
+            name: "shots".into(),
+            num_shots: 3,
+        };
+        let titles = [
+            (
+                SceneTitle::SimulatedFrame(7),
+                true,
+                "Simulated frame 7",
+                "Simuliertes Bild 7",
+            ),
+            (
+                named("door.pcd"),
+                true,
+                "door.pcd, simulated",
+                "door.pcd, simuliert",
+            ),
+            (scan(), false, "shots · 3 shots", "shots · 3 Aufnahmen"),
+            (
+                scan(),
+                true,
+                "shots · 3 shots, simulated",
+                "shots · 3 Aufnahmen, simuliert",
+            ),
+            (
+                named("Simulated frame 7"),
+                false,
+                "Simulated frame 7",
+                "Simulated frame 7",
+            ),
+            (
+                named("Kinect frame 12"),
+                false,
+                "Kinect frame 12",
+                "Kinect frame 12",
+            ),
+        ];
+        for (language, place) in [(Language::English, 0), (Language::German, 1)] {
+            language.make_current();
+            for (title, is_simulated, english, german) in &titles {
+                let expected = [english, german][place];
+                assert_eq!(scene_title(title, *is_simulated), *expected);
+            }
+        }
+        Language::English.make_current();
+    }
+
+    #[test]
+    fn the_simulated_cell_has_one_name_whether_it_is_followed_or_captured() {
+        Language::German.make_current();
+        let sources = [
+            CELL_SOURCE,
+            "simulated",
+            "simulated,side=right:fender",
+            "/data/door.pcd",
+        ];
+        let shown = sources.map(|source| source_title(source, true));
+        let both = searched_texts();
+        Language::English.make_current();
+        let cell = "Simulierte Zelle";
+        assert_eq!(
+            shown,
+            [
+                cell,
+                cell,
+                "Simulierte Zelle · side=right:fender",
+                "/data/door.pcd"
+            ]
+        );
+        let mut row = history_entry(1, StoredVerdict::Accepted, "fender")
+            .record
+            .summary;
+        row.source = "simulated".into();
+        let filter = Filter {
+            text: "Zelle".into(),
+            shown: both,
+            ..Filter::default()
+        };
+        assert!(filter.passes(&row));
+    }
+
+    #[test]
+    fn the_words_that_the_list_has_for_a_verdict_find_it() {
+        let rows = StoredVerdict::ALL.map(|verdict| refused_door(verdict).summary);
+        for language in Language::ALL {
+            language.make_current();
+            for (verdict, row) in StoredVerdict::ALL.into_iter().zip(&rows) {
+                let filter = Filter {
+                    text: stored_verdict(verdict),
+                    shown: searched_texts(),
+                    ..Filter::default()
+                };
+                let is_accepted = verdict == StoredVerdict::Accepted;
+                assert_eq!(filter.passes(row), !is_accepted, "{language:?} {verdict:?}");
+            }
+        }
+        Language::English.make_current();
+    }
+
+    #[test]
+    fn a_stored_refusal_is_shown_in_the_language_of_the_window_and_names_parts_as_the_list_does() {
+        let mut past = refused_door(StoredVerdict::Rejected);
+        past.detail.refusal = Some(Refusal::Rejected(Rejection::SmallMargin {
+            part: "front_door".into(),
+            other: "back_door".into(),
+            margin: 0.12,
+            threshold: 0.6,
+        }));
+        let title_of = |name: &str| format!("the {name} of today");
+        let shown = || {
+            let why = past.titled_refusal(title_of).expect("refused");
+            [described(&why), advised(&why)]
+        };
+        assert_eq!(
+            shown()[0],
+            "Door, left and the back_door of today fit almost equally well (margin 0.12, needed 0.60)"
+        );
+        Language::German.make_current();
+        let [reason, advice] = shown();
+        Language::English.make_current();
+        assert!(reason.starts_with("Door, left "), "{reason}");
+        for part in [" the back_door of today ", "Vorsprung 0.12"] {
+            assert!(reason.contains(part), "{reason}");
+        }
+        assert!(advice.contains("Sichtseite"), "{advice}");
+    }
+
+    #[test]
+    fn no_two_kinds_of_rejection_have_the_same_name() {
+        let kinds: BTreeSet<RefusalKind> = rejections()
+            .into_iter()
+            .map(|why| Refusal::Rejected(why).kind())
+            .collect();
+        for language in Language::ALL {
+            language.make_current();
+            let names: BTreeSet<String> = kinds.iter().map(refusal_kind).collect();
+            assert_eq!(names.len(), kinds.len(), "{language:?}");
+        }
+        Language::English.make_current();
+    }
+
+    #[test]
+    fn a_part_that_certainly_does_not_hang_there_is_not_named() {
+        let says = |score: f64| {
+            described(&Rejection::Unknown {
+                nearest: "Fender".to_owned(),
+                score,
+            })
+        };
+        assert!(!says(0.004).contains("Fender"));
+        assert!(says(0.3).contains("Fender"));
+    }
+}

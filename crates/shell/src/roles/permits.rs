@@ -1,0 +1,83 @@
+//! What the operator's view permits.
+
+use super::{Action, RoleAction, WorkspaceKind};
+use crate::{
+    action::{DialogRequest, Effect},
+    cell::{CheckAction, RobotAction},
+    source::live::LiveAction,
+};
+
+/// True for workspaces that cannot change anything verdicts depend on.
+pub(crate) fn is_operators(workspace: WorkspaceKind) -> bool {
+    match workspace {
+        WorkspaceKind::Inspect | WorkspaceKind::History => true,
+        WorkspaceKind::Enrol
+        | WorkspaceKind::Compare
+        | WorkspaceKind::Align
+        | WorkspaceKind::Paint => false,
+    }
+}
+
+/// True for actions that change recipe, thresholds, library or cell, and for those of the engineer's workspaces; with a PIN,
+/// also for those that change the source.
+///
+/// Lists every action, so that each new one needs a decision.
+pub(super) fn needs_engineer(action: &Action, has_pin: bool) -> bool {
+    match action {
+        Action::GoTo(workspace) | Action::Make(Effect::Press(workspace, _)) => {
+            !is_operators(*workspace)
+        }
+        Action::Ask(ask)
+        | Action::Chosen(ask, _)
+        | Action::Make(Effect::ShowDialog(ask)) => asks_for_engineer(*ask, has_pin),
+        Action::Role(action) => matches!(
+            action,
+            RoleAction::SetPin | RoleAction::RemovePin | RoleAction::LockAfter(_)
+        ),
+        // Choosing another source changes what is captured next; an opened file becomes the source.
+        Action::Live(LiveAction::Use(_) | LiveAction::SetUp(Some(_)))
+        | Action::UseCell(_)
+        | Action::Open(_)
+        | Action::Make(Effect::Take(..) | Effect::TakeFile(_)) => has_pin,
+        Action::Make(Effect::Robot(action)) => !matches!(
+            action,
+            RobotAction::Close | RobotAction::Check(CheckAction::Cancel)
+        ),
+        // The robot's controller expects a certain convention.
+        Action::UseConvention(_)
+        | Action::TakeEmptyCell
+        | Action::ForgetEmptyCell
+        | Action::UseFoundLibrary
+        // Verdicts depend on the averaging of depth.
+        | Action::Live(LiveAction::Average(_)) => true,
+        Action::Live(_)
+        | Action::Capture
+        | Action::CancelInspection
+        | Action::Make(
+            Effect::CancelTask(_) | Effect::EngineerIn(_) | Effect::Tell(_) | Effect::Close,
+        )
+        | Action::CloseTop
+        | Action::SwitchUnits
+        | Action::SwitchTheme
+        | Action::Speak(_)
+        | Action::ToggleHelp
+        | Action::Dismiss(_)
+        | Action::DismissAll
+        | Action::Reread(_)
+        | Action::Notify(_)
+        | Action::CloseAnyway
+        | Action::StayOpen
+        | Action::WrongPart => false,
+    }
+}
+
+fn asks_for_engineer(ask: DialogRequest, has_pin: bool) -> bool {
+    match ask {
+        DialogRequest::Library | DialogRequest::Part => true,
+        DialogRequest::Scene
+        | DialogRequest::Scan
+        | DialogRequest::Recording
+        | DialogRequest::WatchedFolder => has_pin,
+        DialogRequest::RecordTo => false,
+    }
+}

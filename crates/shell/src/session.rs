@@ -1,0 +1,329 @@
+//! State shared by the workspaces. They read it; only the shell changes it.
+
+use std::{path::PathBuf, sync::Arc};
+
+use serde::{Deserialize, Serialize};
+
+use super::shift::{ShiftParts, ShiftStarts};
+use crate::{
+    cell::{AnswerSetup, program_setup::ProgramSetup},
+    inspection::{
+        inspected::{InspectJob, InspectRequest, Inspected},
+        library_cache::LibraryView,
+        scan_choice::{ScanFiles, ScanOrder, ScanRequest},
+        source::{CellChoice, SceneOrScan},
+        unit_system::UnitSystem,
+    },
+    source::live::LiveState,
+    trace::current_trace::CurrentTrace,
+};
+use capture::SourceSpec;
+use inspection::pipeline::NamedRecipe;
+use records::history::StoredVerdict;
+use robot::{Convention, RobotFrame};
+use stages::scene::EmptyCell;
+use station::Currency;
+pub use ui::theme::ThemeChoice;
+use ui::{
+    language::{Language, text},
+    user_error::UserError,
+};
+
+/// State shared by the workspaces.
+#[derive(Debug, Default)]
+pub struct Session {
+    /// Where Capture takes a scene from.
+    pub source: Source,
+    /// The empty cell, if one was captured.
+    pub empty_cell: Option<Arc<EmptyCell>>,
+    /// Recently opened scenes, newest first.
+    pub recent: Vec<PathBuf>,
+    /// The result in front.
+    pub shown: Option<Shown>,
+    /// What the inspector is working on.
+    pub inspecting: Option<Inspecting>,
+    /// Why the last run of the inspector failed.
+    pub failed: Option<UserError>,
+    /// State of the followed source.
+    pub live: LiveState,
+    /// The library in use, once loaded.
+    pub library: Option<Arc<LibraryView>>,
+    /// The library's folder, if the user chose one in the window.
+    pub chosen_library: Option<PathBuf>,
+    /// The recipe for inspections.
+    pub recipe: Arc<NamedRecipe>,
+    /// The convention in which poses are shown, copied and written; [`AnswerSetup`] has that of the answers to robots.
+    pub convention: Convention,
+    /// The arm and the gun of robot programs.
+    pub program: ProgramSetup,
+    /// The robot frame, with the camera's pose in the robot's base, if the cell is calibrated.
+    pub robot: Option<Arc<RobotFrame>>,
+    /// Whether and where robots are answered.
+    pub answering: AnswerSetup,
+    /// Which calibration of the robot's cell is used.
+    pub cell: RememberedCell,
+    /// File of the user's own calibration; `None` if there is no place for it, and then nothing is written.
+    pub usual_cell: Option<PathBuf>,
+    /// Units of shown lengths and angles.
+    pub units: UnitSystem,
+    /// The colour theme.
+    pub theme: ThemeChoice,
+    /// The language of the window.
+    pub language: Language,
+    /// The language that the user chose; `None` for the system's.
+    pub chosen_language: Option<Language>,
+    /// Role of the current user.
+    pub role: UserRole,
+    /// Traceability of the next inspection.
+    pub trace: CurrentTrace,
+    /// When shifts start.
+    pub shift_starts: ShiftStarts,
+    /// The parts of this shift, counted in the operator's view.
+    pub shift: ShiftParts,
+    /// True while the history cannot write inspections, which stay in memory.
+    pub is_history_failing: bool,
+    /// The workspace in front.
+    pub workspace: WorkspaceKind,
+}
+
+impl Session {
+    /// Makes a job to inspect something with the recipe and the calibration in use.
+    pub fn inspect_job(&self, source: SceneOrScan) -> InspectJob {
+        match source {
+            SceneOrScan::Scene(source) => InspectJob::Scene(InspectRequest {
+                source,
+                recipe: Arc::clone(&self.recipe),
+            }),
+            SceneOrScan::Scan(order) => InspectJob::Scan(self.scan_request(order)),
+        }
+    }
+
+    /// Makes a request to put shots together with the recipe and the calibration in use.
+    pub fn scan_request(&self, order: ScanOrder) -> ScanRequest {
+        ScanRequest {
+            order,
+            calibration: self.calibration_path(),
+            recipe: Arc::clone(&self.recipe),
+        }
+    }
+
+    /// True while a source is followed.
+    pub fn is_live(&self) -> bool {
+        self.live.is_on
+    }
+
+    /// True while a folder is followed, in which every capture is of another part.
+    pub fn is_watching(&self) -> bool {
+        self.is_live() && self.source.is_watched()
+    }
+
+    /// True while the operator's view replaces the bars, the rail and the panels of Inspect.
+    pub fn is_operator_view(&self) -> bool {
+        self.role == UserRole::Operator && self.workspace == WorkspaceKind::Inspect
+    }
+
+    /// True while a newer result than the one shown is on its way or awaited.
+    pub fn is_old(&self) -> bool {
+        let shown = self.shown.as_ref();
+        shown.is_some_and(|shown| self.inspecting.is_some() || shown.is_outdated)
+    }
+
+    /// The latest inspection: what Live inspected behind another workspace, else the result in front if it is wanted.
+    pub fn latest(&self, is_wanted: impl FnOnce(&Shown) -> bool) -> Option<&Arc<Inspected>> {
+        let shown = self.shown.as_ref().filter(|shown| is_wanted(shown));
+        let unseen = self.live.unseen.as_ref();
+        unseen.or_else(|| shown.map(|shown| &shown.inspected))
+    }
+
+    /// True if Live inspected the latest result and was switched off or has ended since: the line may have gone on, so another
+    /// part may hang there now. Whoever looks at the result still may, so it is not outdated.
+    pub(crate) fn is_after_live(&self) -> bool {
+        let shown = self.shown.as_ref();
+        let is_of_live = shown.is_some_and(|shown| shown.session.is_some());
+        !self.is_live() && (is_of_live || self.live.unseen.is_some())
+    }
+
+    /// The latest result while its verdict counts: not while the part moves or is only looked at, nor for a past inspection,
+    /// nor once it is outdated, nor that of Live once Live is off, nor while another inspection runs or after one has failed. In
+    /// the history it is the newest one.
+    pub(crate) fn current_result(&self) -> Option<&Inspected> {
+        let inspected = &**self.latest(|_| true)?;
+        let counts = match self.currency(inspected) {
+            Currency::Current | Currency::CapturedAt(_) => !inspected.is_open(),
+            Currency::Moving | Currency::SourceLost | Currency::Superseded => false,
+        };
+        // An empty cell that is followed is not recorded.
+        let is_recorded = inspected.followed.is_none()
+            || inspected.entry.record.summary.verdict != StoredVerdict::NoPart;
+        (counts && is_recorded).then_some(inspected)
+    }
+
+    /// The robot frame of an inspection: from the scan itself, else from the calibration of the cell.
+    pub fn robot_of<'a>(&'a self, inspected: &'a Inspected) -> Option<&'a Arc<RobotFrame>> {
+        match &inspected.scan {
+            Some(scan) => Some(&scan.robot),
+            None => self.robot.as_ref(),
+        }
+    }
+
+    /// File of the calibration in use, even while it is still being loaded; the user's own may not exist.
+    pub fn calibration_path(&self) -> Option<PathBuf> {
+        match &self.cell {
+            RememberedCell::Usual => self.usual_cell.clone(),
+            RememberedCell::Forgotten => None,
+            RememberedCell::File(path) => Some(path.clone()),
+        }
+    }
+}
+
+/// The calibration that the window starts with.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RememberedCell {
+    /// The user's own, if it exists.
+    #[default]
+    Usual,
+    /// None, because the user discarded it.
+    Forgotten,
+    /// The one in this file.
+    File(PathBuf),
+}
+
+/// What the inspector is working on.
+#[derive(Clone, Debug)]
+pub struct Inspecting {
+    /// Description for the user.
+    pub title: String,
+    /// Purpose of the inspection.
+    pub purpose: ReinspectionPurpose,
+    /// True while it waits for a new file in a watched folder.
+    pub is_waiting: bool,
+}
+
+/// Purpose of an inspection, returned with its result.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ReinspectionPurpose {
+    /// A new inspection.
+    New,
+    /// Repeats the inspection of the scene in front because something that it depends on has changed.
+    Repeated,
+    /// Repeats a past inspection.
+    Past,
+    /// Uses other shots of the scan that Inspect shows.
+    Shots,
+}
+
+/// Where Capture takes a scene from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Source {
+    /// The simulated cell.
+    Cell(CellChoice),
+    /// A file, read again at each capture.
+    File(PathBuf),
+    /// The shots of a scan, read again at each capture.
+    Scan(ScanFiles),
+    /// A camera, a recording, a watched folder, or a simulated cell with settings of its own.
+    Camera(Box<SourceSpec>),
+}
+
+impl Source {
+    /// The part of the source that can be followed; `None` for a single file or a scan.
+    pub fn followed(&self) -> Option<SourceSpec> {
+        match self {
+            Self::Cell(choice) => Some(SourceSpec::Simulated(choice.followed())),
+            Self::File(_) | Self::Scan(_) => None,
+            Self::Camera(spec) => Some((**spec).clone()),
+        }
+    }
+
+    /// True for a watched folder, which has no frame until a file is saved to it.
+    pub fn is_watched(&self) -> bool {
+        matches!(self, Self::Camera(spec) if matches!(**spec, SourceSpec::Watched(_)))
+    }
+}
+
+impl Default for Source {
+    fn default() -> Self {
+        Self::Cell(CellChoice::default())
+    }
+}
+
+/// The result in front, with its generation.
+#[derive(Clone, Debug)]
+pub struct Shown {
+    /// A number that differs for each result, so that data derived from it can be matched.
+    pub generation: u64,
+    /// The result.
+    pub inspected: Arc<Inspected>,
+    /// True if it comes from the history.
+    pub is_past: bool,
+    /// The session of following that it belongs to, if it is a frame of a followed source, also when that was inspected again.
+    pub session: Option<u64>,
+    /// True once the source was changed, lost, followed anew or captured from: another part may hang there now.
+    pub is_outdated: bool,
+}
+
+/// The workspaces that the rail lists.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum WorkspaceKind {
+    /// Which part hangs there, and whether it is accepted; for the operator.
+    #[default]
+    Inspect,
+    /// Enrols new parts.
+    Enrol,
+    /// Shows why a scene was recognised as it was; for the engineer.
+    Compare,
+    /// Compares methods of pose estimation.
+    Align,
+    /// Spray paths over enrolled parts, and their film.
+    Paint,
+    /// Past inspections.
+    History,
+}
+
+impl WorkspaceKind {
+    /// All workspaces, in the order of the rail and of the number keys.
+    pub const ALL: [Self; 6] = [
+        Self::Inspect,
+        Self::Enrol,
+        Self::Compare,
+        Self::Align,
+        Self::Paint,
+        Self::History,
+    ];
+
+    /// Returns the name shown to the user.
+    pub fn title(self) -> String {
+        match self {
+            Self::Inspect => text!("shell-inspect"),
+            Self::Enrol => text!("shell-enrol"),
+            Self::Compare => text!("shell-compare"),
+            Self::Align => text!("shell-align"),
+            Self::Paint => text!("shell-paint"),
+            Self::History => text!("shell-history"),
+        }
+    }
+}
+
+/// Role of the user.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum UserRole {
+    /// Watches verdicts, captures and exports.
+    Operator,
+    /// May change everything.
+    #[default]
+    Engineer,
+}
+
+impl UserRole {
+    /// Returns the name shown to the user.
+    pub fn title(self) -> String {
+        match self {
+            Self::Operator => text!("shell-operator"),
+            Self::Engineer => text!("shell-engineer"),
+        }
+    }
+}

@@ -1,0 +1,591 @@
+//! Settings kept from one start of the window to the next, in a text file that people can read and edit.
+
+use std::{
+    io::{self, Read as _},
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+use serde::{Deserialize, Deserializer, Serialize, de::IntoDeserializer as _};
+use toml::{Table, Value};
+
+use super::{
+    roles::{LOCK_AFTER, Pin, RoleState, is_operators},
+    session::{RememberedCell, Session, Source, ThemeChoice, UserRole, WorkspaceKind},
+    shift::ShiftStarts,
+    state::State,
+};
+use crate::{
+    cell::{AnswerSetup, program_setup::ProgramSetup},
+    inspection::{library_cache::LibraryCache, unit_system::UnitSystem},
+    source::live::LiveState,
+    trace::current_trace::CurrentTrace,
+};
+use files::{advice_on, disk, open_regular, user_settings, write_text};
+use geometry::error::Advice as _;
+use inspection::pipeline::{NamedRecipe, Recipe, RecipeLabel, parameters::is_valid};
+use records::history::Traceability;
+use robot::Convention;
+use ui::{
+    language::{Language, text},
+    task::TaskRunner,
+    user_error::UserError,
+};
+
+/// Version of the file format.
+const SCHEMA: u32 = 1;
+/// Maximum size of the file, bytes.
+const MAX_BYTES: u64 = 1 << 20;
+/// Valid sides of a window, logical pixels: other values come from a broken file or another desktop.
+const SIDES: std::ops::RangeInclusive<f32> = 320.0..=16_384.0;
+
+/// The remembered settings.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Settings {
+    /// Version of the file format; a newer one is not read.
+    pub schema: u32,
+    /// The colour theme.
+    pub theme: ThemeChoice,
+    /// Units that are shown.
+    pub units: UnitSystem,
+    /// The language chosen in the window; `None` for the system's.
+    #[serde(deserialize_with = "language")]
+    pub language: Option<Language>,
+    /// The convention in which poses are shown, copied and written.
+    pub convention: Convention,
+    /// The arm and the gun of robot programs.
+    pub program: ProgramSetup,
+    /// The workspace in front.
+    pub workspace: WorkspaceKind,
+    /// The library chosen in the window; `None` for the one that the command line would find.
+    pub library: Option<PathBuf>,
+    /// Recently opened scenes, newest first.
+    pub recent: Vec<PathBuf>,
+    /// Inner width and height of the window, logical pixels.
+    pub window: Option<[f32; 2]>,
+    /// Where Capture takes a scene from.
+    pub source: Source,
+    /// Whether the source was followed.
+    pub live: bool,
+    /// Parameters of the inspection; `None` for the defaults of the running version.
+    pub recipe: Option<Recipe>,
+    /// The name of the recipe.
+    pub recipe_label: RecipeLabel,
+    /// Number of frames that depth is averaged over while a source is followed.
+    pub average: usize,
+    /// Minutes without input after which the window returns to the operator's view.
+    pub lock_after: u32,
+    /// PIN of the engineer's view, if one is set.
+    pub pin: Option<Pin>,
+    /// The last role; with a PIN the window starts in the operator's view regardless.
+    pub role: UserRole,
+    /// Starts of the shifts, such as 06:00; the operator's view counts the parts since the last one.
+    pub shifts: ShiftStarts,
+    /// The calibration of the robot's cell in use.
+    pub cell: RememberedCell,
+    /// Whether and where robots are answered.
+    pub answering: AnswerSetup,
+    /// Production order and operator; the serial number is not kept.
+    pub traceability: Traceability,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            schema: SCHEMA,
+            theme: ThemeChoice::default(),
+            units: UnitSystem::default(),
+            language: None,
+            convention: Convention::default(),
+            program: ProgramSetup::default(),
+            workspace: WorkspaceKind::default(),
+            library: None,
+            recent: Vec::new(),
+            window: None,
+            source: Source::default(),
+            live: false,
+            recipe: None,
+            recipe_label: RecipeLabel::default(),
+            average: 1,
+            lock_after: LOCK_AFTER[1],
+            pin: None,
+            role: UserRole::default(),
+            shifts: ShiftStarts::default(),
+            cell: RememberedCell::default(),
+            answering: AnswerSetup::default(),
+            traceability: Traceability::default(),
+        }
+    }
+}
+
+impl Settings {
+    /// Extracts the settings from the state.
+    pub fn of(state: &State, window: Option<[f32; 2]>) -> Self {
+        Self {
+            schema: SCHEMA,
+            theme: state.session.theme,
+            units: state.session.units,
+            language: state.session.chosen_language,
+            convention: state.session.convention,
+            program: state.session.program.clone(),
+            workspace: state.session.workspace,
+            library: state.session.chosen_library.clone(),
+            recent: state.session.recent.clone(),
+            window,
+            source: state.session.source.clone(),
+            live: state.session.is_live(),
+            recipe: (**state.session.recipe != Recipe::default())
+                .then(|| Recipe::clone(&state.session.recipe)),
+            recipe_label: state.session.recipe.label.clone(),
+            average: state.session.live.params.average,
+            lock_after: state.roles.lock_after,
+            pin: state.roles.pin.clone(),
+            role: state.session.role,
+            shifts: state.session.shift_starts.clone(),
+            cell: state.session.cell.clone(),
+            answering: state.session.answering,
+            traceability: state.session.trace.remembered(),
+        }
+    }
+
+    /// Makes the state to start with; its tasks run on `runner` and share `library_cache`.
+    pub fn into_state(self, runner: &TaskRunner, library_cache: &LibraryCache) -> State {
+        let roles = RoleState::starting(self.pin.clone(), self.lock_after);
+        let role = roles.first_role(self.role);
+        let session = Session {
+            theme: self.theme,
+            units: self.units,
+            language: self.language.unwrap_or_default(),
+            chosen_language: self.language,
+            workspace: match role {
+                UserRole::Operator if !is_operators(self.workspace) => WorkspaceKind::Inspect,
+                _ => self.workspace,
+            },
+            convention: self.convention,
+            program: self.program,
+            chosen_library: self.library,
+            recent: self.recent,
+            source: self.source,
+            recipe: Arc::new(NamedRecipe {
+                label: self.recipe_label,
+                parameters: Arc::new(self.recipe.unwrap_or_default()),
+            }),
+            role,
+            cell: self.cell,
+            answering: self.answering,
+            trace: CurrentTrace::starting(self.traceability),
+            shift_starts: self.shifts,
+            live: LiveState::averaging(self.average),
+            ..Session::default()
+        };
+        State {
+            session,
+            roles,
+            ..State::new(runner, library_cache)
+        }
+    }
+}
+
+/// Path of the user's settings, if the system has a place for them.
+pub fn users_file() -> Option<PathBuf> {
+    user_settings()
+}
+
+/// Why a settings file was not used.
+#[derive(Debug, thiserror::Error)]
+enum BadSettings {
+    #[error("it cannot be read: {}", files::words_of(.0))]
+    Unreadable(#[from] io::Error),
+    #[error("it is larger than {MAX_BYTES} bytes")]
+    TooLarge,
+    #[error("it is not in Partsight's format ({0})")]
+    Garbled(String),
+    #[error("it was written by a newer version of Partsight ({found}, this one knows {SCHEMA})")]
+    Newer { found: u32 },
+}
+
+/// The part of the file that all versions share.
+#[derive(Deserialize)]
+struct Versioned {
+    #[serde(default)]
+    schema: u32,
+}
+
+/// The settings of a file, and the keys whose values cannot be used.
+struct ReadSettings {
+    settings: Settings,
+    bad_keys: Vec<String>,
+}
+
+/// Reads a language by its name or its code, such as `en`.
+fn language<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Language>, D::Error> {
+    let Some(name) = Option::<String>::deserialize(from)? else {
+        return Ok(None);
+    };
+    if let Some(language) = Language::from_locale(&name) {
+        return Ok(Some(language));
+    }
+    Language::deserialize(name.into_deserializer()).map(Some)
+}
+
+/// Reads the file. A missing one is no error. An unusable one is set aside, which frees its name; one with unusable values
+/// too, and the rest of it is written and used.
+pub fn load(path: &Path) -> (Settings, Option<UserError>) {
+    match read(path) {
+        Ok(ReadSettings { settings, bad_keys }) => {
+            let trouble =
+                (!bad_keys.is_empty()).then(|| values_not_used(path, &settings, &bad_keys));
+            (settings, trouble)
+        }
+        Err(BadSettings::Unreadable(error)) if error.kind() == io::ErrorKind::NotFound => {
+            (Settings::default(), None)
+        }
+        Err(bad) => {
+            let what = text!(
+                "shell-settings-not-used",
+                path = path.display().to_string(),
+                why = bad.to_string()
+            );
+            let advice = match set_aside(path) {
+                Ok(aside) => text!(
+                    "shell-settings-set-aside",
+                    path = aside.display().to_string()
+                ),
+                Err(error) => move_away(&error),
+            };
+            (Settings::default(), Some(UserError { what, advice }))
+        }
+    }
+}
+
+/// Keeps a file with unusable values beside, and writes the others to its place.
+fn values_not_used(path: &Path, settings: &Settings, bad_keys: &[String]) -> UserError {
+    let advice = match set_aside(path) {
+        Ok(aside) => {
+            // If this fails, writing the next change reports it.
+            let _ = save(path, settings);
+            text!(
+                "shell-settings-kept-beside",
+                path = aside.display().to_string()
+            )
+        }
+        Err(error) => move_away(&error),
+    };
+    UserError {
+        what: text!(
+            "shell-settings-values-not-used",
+            keys = bad_keys.join(", "),
+            num = bad_keys.len(),
+            path = path.display().to_string()
+        ),
+        advice,
+    }
+}
+
+fn move_away(error: &io::Error) -> String {
+    text!("shell-settings-move-away", why = files::words_of(error))
+}
+
+/// Returns the last size of the window, without reporting problems with the file.
+pub fn window_size(path: &Path) -> Option<[f32; 2]> {
+    read(path).ok()?.settings.window
+}
+
+fn read(path: &Path) -> Result<ReadSettings, BadSettings> {
+    let mut text = String::new();
+    let file = open_regular(path)?;
+    let num_read = file.take(MAX_BYTES + 1).read_to_string(&mut text)?;
+    if num_read as u64 > MAX_BYTES {
+        return Err(BadSettings::TooLarge);
+    }
+    let garbled = |error: toml::de::Error| {
+        let message = error.message();
+        BadSettings::Garbled(message.lines().next().unwrap_or(message).to_owned())
+    };
+    let Versioned { schema: found } = toml::from_str(&text).map_err(garbled)?;
+    if found > SCHEMA {
+        return Err(BadSettings::Newer { found });
+    }
+    let table: Table = toml::from_str(&text).map_err(garbled)?;
+    let (table, mut bad_keys) = usable(table);
+    let has_live = table.contains_key("live");
+    let mut settings: Settings = table.try_into().map_err(garbled)?;
+    if !has_live {
+        // Formerly, the window always started to follow a watched folder.
+        settings.live = settings.source.is_watched();
+    }
+    let is_sensible = |size: &[f32; 2]| size.iter().all(|side| SIDES.contains(side));
+    settings.window = settings.window.filter(is_sensible);
+    let replaced = settings.program.replace_unusable().into_iter();
+    bad_keys.extend(replaced.map(|key| format!("program.{key}")));
+    Ok(ReadSettings { settings, bad_keys })
+}
+
+/// Removes the keys whose values cannot be used, and returns their names. Tables stay whole or go: half of a recipe, or
+/// half of a robot's set-up, would be another one.
+fn usable(mut table: Table) -> (Table, Vec<String>) {
+    let is_bad = |(key, value): (&String, &Value)| {
+        let alone = Table::from_iter([(key.clone(), value.clone())]);
+        let read = alone.try_into::<Settings>();
+        let is_usable = read.is_ok_and(|read| read.recipe.is_none_or(|recipe| is_valid(&recipe)));
+        (!is_usable).then(|| key.clone())
+    };
+    let bad_keys: Vec<String> = table.iter().filter_map(is_bad).collect();
+    table.retain(|key, _| !bad_keys.iter().any(|bad| bad == key));
+    if bad_keys.iter().any(|key| key == "recipe") {
+        table.remove("recipe_label");
+    }
+    (table, bad_keys)
+}
+
+/// Renames a file to a free name beside it.
+pub fn set_aside(path: &Path) -> io::Result<PathBuf> {
+    let ending = path.extension().unwrap_or_default().to_string_lossy();
+    for number in 1..1000 {
+        let aside = path.with_extension(format!("broken-{number}.{ending}"));
+        if !aside.exists() {
+            disk::rename(path, &aside)?;
+            return Ok(aside);
+        }
+    }
+    Err(io::Error::other(
+        "a thousand files have already been set aside",
+    ))
+}
+
+/// Writes the file atomically.
+pub fn save(path: &Path, settings: &Settings) -> Result<(), UserError> {
+    let not_kept = |why: String, advice: &str| UserError {
+        what: text!("shell-settings-not-kept", why = why),
+        advice: text!("shell-settings-not-kept-advice", advice = advice),
+    };
+    let text = toml::to_string(settings)
+        .map_err(|error| not_kept(error.to_string(), &text!("shell-report-settings")))?;
+    let folder = path.parent().unwrap_or(Path::new("."));
+    disk::create_dir_all(folder).map_err(|error| {
+        let words = files::words_of(&error);
+        not_kept(format!("{}: {words}", folder.display()), advice_on(&error))
+    })?;
+    write_text(path, &text).map_err(|error| not_kept(error.to_string(), &error.advice()))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+    use crate::inspection::scan_choice::ScanFiles;
+    use geometry::units::Metres;
+    use robot::program::ProgramParams;
+    use serve::PoseKind;
+
+    fn unusual() -> Settings {
+        let mut recipe = Recipe::default();
+        recipe.accept.min_score = 0.91;
+        Settings {
+            theme: ThemeChoice::Light,
+            units: UnitSystem::MetresRadians,
+            language: Some(Language::Spanish),
+            convention: Convention::Staubli,
+            library: Some("/media/stick/reference_parts".into()),
+            recent: vec!["a.pcd".into(), "b c.ply".into()],
+            window: Some([1024.0, 768.0]),
+            source: Source::Camera(Box::new(
+                "recording,pace=step:a b".parse().expect("a source"),
+            )),
+            recipe: Some(recipe),
+            recipe_label: RecipeLabel {
+                name: "glossy".into(),
+                is_changed: true,
+            },
+            average: 4,
+            lock_after: 15,
+            pin: Some(Pin::of("4711")),
+            role: UserRole::Operator,
+            shifts: ["05:30".to_owned(), "17:30".to_owned()]
+                .to_vec()
+                .try_into()
+                .expect("times of day"),
+            cell: RememberedCell::File("/media/stick/cell.toml".into()),
+            answering: AnswerSetup {
+                is_on: true,
+                at: "eki=192.168.1.10:54600".parse().expect("an address"),
+                pose: PoseKind::RobotOffset,
+                convention: Convention::Doosan,
+            },
+            ..Settings::default()
+        }
+    }
+
+    #[test]
+    fn what_is_saved_comes_back() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("new").join("settings.toml");
+        let scan = Settings {
+            source: Source::Scan(ScanFiles {
+                frames: vec!["a b".into()],
+                poses: Some("truth.json".into()),
+                added: vec![("c.png".into(), "c.json".into())],
+                dropped: ["d.png".into()].into(),
+            }),
+            ..Settings::default()
+        };
+        for settings in [Settings::default(), unusual(), scan] {
+            save(&path, &settings).expect("saved");
+            assert_eq!(load(&path), (settings.clone(), None));
+            let runner = TaskRunner::without_threads();
+            let state = settings
+                .clone()
+                .into_state(&runner, &LibraryCache::default());
+            assert_eq!(Settings::of(&state, settings.window), settings);
+        }
+    }
+
+    #[test]
+    fn a_missing_file_is_no_trouble() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let (settings, trouble) = load(&folder.path().join("settings.toml"));
+        assert_eq!((settings, trouble), (Settings::default(), None));
+    }
+
+    #[test]
+    fn a_bad_file_is_set_aside_and_never_lost() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("settings.toml");
+        let bad: [&[u8]; 3] = [b"theme = [", b"schema = 99\nnew = 1", b"\xff\xfe\x00"];
+        for (number, contents) in bad.into_iter().enumerate() {
+            fs::write(&path, contents).expect("written");
+            let (settings, trouble) = load(&path);
+            assert_eq!(settings, Settings::default());
+            let trouble = trouble.expect("said");
+            let aside = folder
+                .path()
+                .join(format!("settings.broken-{}.toml", number + 1));
+            assert!(trouble.advice.contains(&aside.display().to_string()));
+            assert_eq!(fs::read(&aside).expect("kept"), contents);
+            assert!(!path.exists());
+        }
+    }
+
+    #[test]
+    fn only_the_values_that_cannot_be_used_go_back_to_their_defaults() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("settings.toml");
+        let bad = [
+            ("theme = \"Purple\"", "theme"),
+            ("window = [\"wide\", 3]", "window"),
+            ("shifts = [\"six\"]", "shifts"),
+            ("language = \"klingon\"", "language"),
+            (
+                "[answering]\nis_on = true\nat = \"ascii=robot\"",
+                "answering",
+            ),
+            ("[recipe.accept]\nmin_score = \"high\"", "recipe"),
+            ("[recipe.accept]\nmin_score = -5.0", "recipe"),
+            ("[recipe.accept]\nmin_score = nan", "recipe"),
+            ("[recipe.project]\npixel = 0.0", "recipe"),
+            ("[recipe.signature]\nnum_rays = 300", "recipe"),
+            ("[program]\nspeed = -1.0", "program.speed"),
+        ];
+        for (number, (line, key)) in bad.into_iter().enumerate() {
+            let text = format!("average = 4\nlock_after = 15\n{line}\n");
+            fs::write(&path, &text).expect("written");
+            let (settings, trouble) = load(&path);
+            let kept = Settings {
+                average: 4,
+                lock_after: 15,
+                ..Settings::default()
+            };
+            assert_eq!(settings, kept, "{line}");
+            let trouble = trouble.expect("said");
+            assert!(
+                trouble.what.starts_with(&format!("{key} in ")),
+                "{trouble:?}"
+            );
+            let aside = folder
+                .path()
+                .join(format!("settings.broken-{}.toml", number + 1));
+            assert!(trouble.advice.contains(&aside.display().to_string()));
+            assert_eq!(fs::read_to_string(&aside).expect("kept"), text);
+            // The next start has nothing to complain about.
+            assert_eq!(load(&path), (kept, None), "{line}");
+        }
+    }
+
+    #[test]
+    fn a_language_may_be_given_by_its_code() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("settings.toml");
+        for (name, language) in [
+            ("en", Language::English),
+            ("de", Language::German),
+            ("es", Language::Spanish),
+            ("zh", Language::Chinese),
+            ("german", Language::German),
+        ] {
+            fs::write(&path, format!("language = \"{name}\"\n")).expect("written");
+            let wanted = Settings {
+                language: Some(language),
+                ..Settings::default()
+            };
+            assert_eq!(load(&path), (wanted, None), "{name}");
+        }
+    }
+
+    #[test]
+    fn numbers_of_a_robot_program_that_cannot_be_are_named_and_the_usual_ones() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("settings.toml");
+        let text = "[program]\narm = \"gp25\"\nspeed = nan\nblend = inf\nclearance = 0.03\n\
+                    base = [nan, -800.0, 0.0, 500.0, 0.0, 90.0]\n";
+        fs::write(&path, text).expect("written");
+        let (settings, trouble) = load(&path);
+        let named = "program.speed, program.blend, program.base in ";
+        let trouble = trouble.expect("said");
+        assert!(trouble.what.starts_with(named), "{trouble:?}");
+        let wanted = ProgramSetup {
+            arm: Some("gp25".into()),
+            base: [0.0, -800.0, 0.0, 0.0, 0.0, 90.0],
+            params: ProgramParams {
+                clearance: Metres(0.03),
+                ..ProgramParams::default()
+            },
+            ..ProgramSetup::default()
+        };
+        assert_eq!(settings.program, wanted);
+    }
+
+    #[test]
+    fn a_window_of_no_size_opens_as_usual() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("settings.toml");
+        fs::write(&path, "window = [0.0, nan]").expect("written");
+        assert_eq!(load(&path).0.window, None);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn whichever_call_fails_the_settings_are_the_old_ones_or_the_new() {
+        let place = |folder: &Path| folder.join("deep").join("settings.toml");
+        let averaged = |average| Settings {
+            average,
+            ..Settings::default()
+        };
+        files::disk::faults::Writer {
+            test: "settings::tests::whichever_call_fails_the_settings_are_the_old_ones_or_the_new",
+            prepare: &|folder| save(&place(folder), &averaged(2)).expect("written"),
+            write: &|folder| {
+                let saved = save(&place(folder), &averaged(5));
+                saved.map_err(|error| format!("{}; {}", error.what, error.advice))
+            },
+            state: &|folder| {
+                let (settings, error) = load(&place(folder));
+                assert_eq!(error, None);
+                settings.average.to_string()
+            },
+            between: &[],
+        }
+        .fails_at_every_call();
+    }
+}

@@ -1,0 +1,434 @@
+//! The parts of this shift, counted in the history for the operator's view.
+//!
+//! They are the parts of the source that the view follows, or followed before a file or a scan was opened. Opened files and
+//! scans, single frames of the simulated cell and captures taken in Enrol have other sources in the history.
+
+use std::{cmp::Reverse, sync::Arc, time::Duration};
+
+use jiff::{Timestamp, Zoned, civil};
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    inspection::inspected::Inspected,
+    session::{Session, Source, UserRole},
+};
+use geometry::error::lock;
+use inspection::library::Truth;
+use records::history::{Filter, HistoryBuffer, HistoryError, HungId, StoredVerdict, Summary};
+use ui::{
+    language::text,
+    task::{Task, TaskRunner},
+    user_error::UserError,
+};
+
+/// Seconds after which a failed count is repeated.
+const RETRY_DELAY_S: f64 = 10.0;
+/// Maximum number of parts listed.
+const MAX_LISTED: usize = 12;
+
+/// The local times of day at which shifts start; without any, a shift is a day.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "Vec<String>", into = "Vec<String>")]
+pub struct ShiftStarts(Vec<civil::Time>);
+
+impl Default for ShiftStarts {
+    fn default() -> Self {
+        Self([6, 14, 22].map(|hour| civil::time(hour, 0, 0, 0)).into())
+    }
+}
+
+impl TryFrom<Vec<String>> for ShiftStarts {
+    type Error = String;
+
+    fn try_from(written: Vec<String>) -> Result<Self, String> {
+        let times = written.iter().map(|text| {
+            civil::Time::strptime("%H:%M", text)
+                .map_err(|_no_time| format!("\"{text}\" is no time of day such as 06:00"))
+        });
+        times.collect::<Result<_, _>>().map(Self)
+    }
+}
+
+impl From<ShiftStarts> for Vec<String> {
+    fn from(starts: ShiftStarts) -> Self {
+        let times = starts.0.iter();
+        times
+            .map(|time| time.strftime("%H:%M").to_string())
+            .collect()
+    }
+}
+
+impl ShiftStarts {
+    /// Returns start and end of the shift at this moment. A start that the clock skips (summer time) is delayed by the skipped
+    /// time.
+    pub fn around(&self, now: &Zoned) -> [Option<Zoned>; 2] {
+        let midnight = [civil::Time::midnight()];
+        let times = if self.0.is_empty() {
+            &midnight[..]
+        } else {
+            &self.0
+        };
+        let today = now.date();
+        let days = [today.yesterday().ok(), Some(today), today.tomorrow().ok()];
+        let starts = days.into_iter().flatten().flat_map(|day| {
+            let zone = now.time_zone();
+            times
+                .iter()
+                .filter_map(move |time| day.to_datetime(*time).to_zoned(zone.clone()).ok())
+        });
+        let (past, coming): (Vec<Zoned>, Vec<Zoned>) = starts.partition(|start| start <= now);
+        [past.into_iter().max(), coming.into_iter().min()]
+    }
+}
+
+/// The parts of this shift.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ShiftParts {
+    /// Start of the shift; `None` until the parts were counted.
+    pub since: Option<Zoned>,
+    /// The source that they hung in front of; `None` while there was only a file or a scan.
+    pub source: Option<Source>,
+    /// Accepted parts, except those that were reported as wrong.
+    pub num_ok: usize,
+    /// All other parts.
+    pub num_not_ok: usize,
+    /// The last parts, accepted or not, newest first.
+    pub last: Vec<Summary>,
+    /// The latest part with its true label, if it has one; known in both views.
+    pub labelled: Option<(HungId, Truth)>,
+}
+
+impl ShiftParts {
+    /// What really hung there, if the part was accepted as another one and a person has reported that.
+    pub fn reported_as(&self, inspected: &Inspected) -> Option<&Truth> {
+        let (part, truth) = self.labelled.as_ref()?;
+        let summary = Summary {
+            label: Some(truth.clone()),
+            ..inspected.entry.record.summary.clone()
+        };
+        (*part == summary.hung && summary.is_wrongly_accepted()).then_some(truth)
+    }
+}
+
+/// What a count depends on.
+#[derive(Debug, PartialEq)]
+struct CountInputs {
+    /// Revision of the history.
+    num_events: u64,
+    since: Timestamp,
+    source: Option<Source>,
+    latest: Option<HungId>,
+    role: UserRole,
+}
+
+/// Counts the parts whenever the history has changed.
+#[derive(Debug)]
+pub struct ShiftWatch {
+    counting: Task<ShiftParts>,
+    /// The inputs of the last count.
+    counted: Option<CountInputs>,
+    /// The source in use, or the one before, if that in use is a file or a scan.
+    source: Option<Source>,
+    /// When to repeat a failed count, seconds of egui's clock.
+    retry_at: Option<f64>,
+}
+
+impl ShiftWatch {
+    /// Makes a watch that has counted nothing yet.
+    pub fn new(runner: &TaskRunner) -> Self {
+        Self {
+            counting: Task::new("shift", runner),
+            counted: None,
+            source: None,
+            retry_at: None,
+        }
+    }
+
+    /// True while nothing is being counted.
+    pub fn is_idle(&self) -> bool {
+        self.counting.running().is_none()
+    }
+
+    /// Takes over a finished count, and counts again if it is outdated. In the engineer's view only the true label of the latest part
+    /// is looked up.
+    pub fn update(
+        &mut self,
+        session: &mut Session,
+        history: &Arc<HistoryBuffer>,
+        ctx: &egui::Context,
+    ) {
+        let time = ctx.input(|input| input.time);
+        match self.counting.poll() {
+            Some(Ok(parts)) => {
+                let counted = self.counted.as_ref();
+                if let Some(part) = counted.and_then(|counted| counted.latest.as_ref()) {
+                    let label = parts.labelled.as_ref().map(|(_, label)| label);
+                    // Whoever answers robots does not wait for the history.
+                    lock(&session.live.parts).label(part, label);
+                }
+                session.shift = parts;
+            }
+            // The History workspace reports why the history cannot be read.
+            Some(Err(_)) => self.retry_at = Some(time + RETRY_DELAY_S),
+            None => {}
+        }
+        if session.source.followed().is_some() {
+            self.source = Some(session.source.clone());
+        }
+        let now = geometry::clock::zoned_now();
+        let [Some(since), end] = session.shift_starts.around(&now) else {
+            return;
+        };
+        if let Some(left) = end.and_then(|end| Duration::try_from(now.duration_until(&end)).ok()) {
+            ctx.request_repaint_after(left + Duration::from_secs(1));
+        }
+        if let Some(at) = self.retry_at {
+            ctx.request_repaint_after_secs((at - time).max(0.0) as f32);
+        }
+        let is_retry = self.retry_at.is_some_and(|at| at <= time);
+        let source = self.source.clone();
+        let role = session.role;
+        let latest = session.latest(|_| true);
+        let latest = latest.map(|part| part.hung().clone());
+        let wanted = Some(CountInputs {
+            num_events: history.num_events(),
+            since: since.timestamp(),
+            source: source.clone(),
+            latest: latest.clone(),
+            role,
+        });
+        if is_retry || self.counted != wanted {
+            self.counted = wanted;
+            self.retry_at = None;
+            let history = Arc::clone(history);
+            let former = session.shift.clone();
+            let count = move |_: &_| {
+                let labelled = latest.map_or(Ok(None), |hung| label_of(&history, hung));
+                let parts = if role == UserRole::Operator {
+                    let followed = source.as_ref().and_then(Source::followed);
+                    let followed = followed.map_or_else(String::new, |spec| spec.to_string());
+                    count(&history, since, &followed).map(|parts| ShiftParts { source, ..parts })
+                } else {
+                    Ok(former)
+                };
+                let parts = parts.and_then(|parts| {
+                    Ok(ShiftParts {
+                        labelled: labelled?,
+                        ..parts
+                    })
+                });
+                parts.map_err(|error| UserError::of(&error).into())
+            };
+            self.counting.start(text!("shell-counting-parts"), count);
+        }
+    }
+}
+
+/// Returns a part with its true label, if it has one.
+fn label_of(
+    history: &HistoryBuffer,
+    hung: HungId,
+) -> Result<Option<(HungId, Truth)>, HistoryError> {
+    let label = history.part(&hung)?.and_then(|row| row.label);
+    Ok(label.map(|label| (hung, label)))
+}
+
+/// Counts the parts of a source since a moment: all inspections of a hung part are one part, and an empty cell is none.
+fn count(history: &HistoryBuffer, since: Zoned, source: &str) -> Result<ShiftParts, HistoryError> {
+    let all = Filter {
+        since: Some(since.timestamp()),
+        source: Some(source.to_owned()),
+        ..Filter::default()
+    };
+    let mut outcomes = history.outcomes(&all)?;
+    outcomes.retain(|part| part.verdict != StoredVerdict::NoPart);
+    let num_ok = outcomes.iter().filter(|part| part.is_ok).count();
+    let mut last = Vec::new();
+    for verdict in StoredVerdict::ALL {
+        if verdict != StoredVerdict::NoPart {
+            let filter = Filter {
+                verdict: Some(verdict),
+                ..all.clone()
+            };
+            last.extend(history.page(&filter, 0, MAX_LISTED)?.rows);
+        }
+    }
+    last.sort_by_key(|row| Reverse(row.at));
+    last.truncate(MAX_LISTED);
+    Ok(ShiftParts {
+        since: Some(since),
+        num_ok,
+        num_not_ok: outcomes.len() - num_ok,
+        last,
+        ..ShiftParts::default()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Instant;
+
+    use super::*;
+    use crate::{
+        inspection::{inspected::inspected_cell, source::CellChoice},
+        session::Shown,
+        state::State,
+    };
+    use capture::fixtures::moment;
+    use records::fixtures::history_entry;
+
+    #[test]
+    fn a_part_that_was_reported_as_wrong_is_not_ok_and_both_views_know_it() {
+        for role in [UserRole::Operator, UserRole::Engineer] {
+            let mut state = State::default();
+            state.session.role = role;
+            let (history, ctx) = (Arc::new(HistoryBuffer::new(None)), egui::Context::default());
+            let inspected = Arc::new(inspected_cell(CellChoice::InTurn, 1));
+            let followed = state.session.source.followed().expect("the cell");
+            let mut entry = inspected.entry.clone();
+            entry.record.summary.source = followed.to_string();
+            history.add(1, entry, Instant::now());
+            history.set_label(-1, Some(&Truth::NotEnrolled));
+            state.session.shown = Some(Shown {
+                generation: 1,
+                inspected: Arc::clone(&inspected),
+                is_past: false,
+                session: None,
+                is_outdated: false,
+            });
+            state.shift_watch.update(&mut state.session, &history, &ctx);
+            assert!(state.shift_watch.counting.run_waiting());
+            state.shift_watch.update(&mut state.session, &history, &ctx);
+            let shift = &state.session.shift;
+            assert_eq!(shift.reported_as(&inspected), Some(&Truth::NotEnrolled));
+            let num = usize::from(role == UserRole::Operator);
+            assert_eq!((shift.num_ok, shift.num_not_ok), (0, num), "{role:?}");
+
+            // So does whoever answers robots.
+            let name = inspected.entry.record.summary.part.as_deref();
+            let is_reported = |state: &State| {
+                let parts = lock(&state.session.live.parts);
+                parts.is_reported(inspected.hung(), name.expect("a part"))
+            };
+            assert!(is_reported(&state));
+            history.set_label(-1, None);
+            state.shift_watch.update(&mut state.session, &history, &ctx);
+            assert!(state.shift_watch.counting.run_waiting());
+            state.shift_watch.update(&mut state.session, &history, &ctx);
+            assert!(!is_reported(&state));
+        }
+    }
+
+    #[test]
+    fn only_parts_of_the_source_that_is_followed_are_counted() {
+        let history = HistoryBuffer::new(None);
+        // The last three: a start of the window, an opened file and a scene that was enrolled.
+        let sources = [
+            "kinect",
+            "kinect",
+            "simulated cell",
+            "/data/door.pcd",
+            "Kinect frame 12",
+        ];
+        for (seconds, source) in (1..).zip(sources) {
+            let mut entry = history_entry(seconds, StoredVerdict::Accepted, "fender");
+            entry.record.summary.source = source.into();
+            history.add(seconds as u64, entry, Instant::now());
+        }
+        let counted = |source| {
+            let since = moment(0).to_zoned(jiff::tz::TimeZone::UTC);
+            let parts = count(&history, since, source).expect("counted");
+            assert_eq!(parts.last.len(), parts.num_ok);
+            parts.num_ok
+        };
+        assert_eq!(["kinect", "simulated", ""].map(counted), [2, 0, 0]);
+    }
+
+    #[test]
+    fn an_opened_file_does_not_change_what_is_counted_and_the_source_is_named() {
+        let mut state = State::default();
+        state.session.role = UserRole::Operator;
+        let (history, ctx) = (Arc::new(HistoryBuffer::new(None)), egui::Context::default());
+        let mut entry = history_entry(1, StoredVerdict::Accepted, "fender");
+        entry.record.summary.at = geometry::clock::now();
+        history.add(1, entry, Instant::now());
+        let cell = state.session.source.clone();
+        for source in [cell.clone(), Source::File("/data/door.pcd".into())] {
+            state.session.source = source;
+            state.shift_watch.update(&mut state.session, &history, &ctx);
+            state.shift_watch.counting.run_waiting();
+            state.shift_watch.update(&mut state.session, &history, &ctx);
+            let shift = &state.session.shift;
+            assert_eq!((shift.num_ok, shift.source.as_ref()), (1, Some(&cell)));
+        }
+    }
+
+    fn around(starts: &[&str], now: &str) -> [String; 2] {
+        let starts: Vec<String> = starts.iter().map(|time| (*time).to_owned()).collect();
+        let starts = ShiftStarts::try_from(starts).expect("times of day");
+        let now: Zoned = now.parse().expect("a moment");
+        starts.around(&now).map(|at| {
+            let at = at.expect("a start").timestamp();
+            at.to_string()
+        })
+    }
+
+    #[test]
+    fn a_failed_count_is_repeated_after_a_while() {
+        let mut state = State::default();
+        state.session.role = UserRole::Operator;
+        let (history, ctx) = (Arc::new(HistoryBuffer::new(None)), egui::Context::default());
+        state.shift_watch.update(&mut state.session, &history, &ctx);
+        let counting = &mut state.shift_watch.counting;
+        assert!(counting.running().is_some());
+        let failed = UserError {
+            what: "the history cannot be read".into(),
+            advice: String::new(),
+        };
+        counting.start("fails", move |_| Err(failed.into()));
+        assert!(counting.run_waiting());
+        for _ in 0..2 {
+            state.shift_watch.update(&mut state.session, &history, &ctx);
+            assert!(state.shift_watch.is_idle(), "not in every frame");
+        }
+        ctx.input_mut(|input| input.time += RETRY_DELAY_S);
+        state.shift_watch.update(&mut state.session, &history, &ctx);
+        assert!(state.shift_watch.counting.run_waiting());
+        state.shift_watch.update(&mut state.session, &history, &ctx);
+        assert!(state.session.shift.since.is_some());
+    }
+
+    #[test]
+    fn a_shift_lasts_from_one_start_to_the_next() {
+        let three = ["14:00", "22:00", "06:00"];
+        let at = |time: &str| around(&three, &format!("2026-11-21T{time}+01:00[Europe/Berlin]"));
+        let early = ["2026-11-21T05:00:00Z", "2026-11-21T13:00:00Z"];
+        assert_eq!(at("06:00:00"), early);
+        assert_eq!(at("13:59:59"), early);
+        let late = ["2026-11-20T21:00:00Z", "2026-11-21T05:00:00Z"];
+        assert_eq!(at("05:59:59"), late, "it began yesterday");
+        assert_eq!(
+            at("22:30:00"),
+            ["2026-11-21T21:00:00Z", "2026-11-22T05:00:00Z"]
+        );
+        // Without starts, a shift is a day.
+        let day = around(&[], "2026-11-21T15:00:00+01:00[Europe/Berlin]");
+        assert_eq!(day, ["2026-11-20T23:00:00Z", "2026-11-21T23:00:00Z"]);
+    }
+
+    #[test]
+    fn a_start_that_the_clock_skips_comes_later_that_day() {
+        let night = around(&["02:30"], "2026-03-29T12:00:00+02:00[Europe/Berlin]");
+        assert_eq!(night, ["2026-03-29T01:30:00Z", "2026-03-30T00:30:00Z"]);
+    }
+
+    #[test]
+    fn starts_are_written_as_times_of_day() {
+        let written: Vec<String> = ShiftStarts::default().into();
+        assert_eq!(written, ["06:00", "14:00", "22:00"]);
+        for bad in ["25:00", "noon", ""] {
+            let refused = ShiftStarts::try_from(vec![bad.to_owned()]);
+            assert!(refused.is_err_and(|why| why.contains("06:00")), "{bad}");
+        }
+    }
+}

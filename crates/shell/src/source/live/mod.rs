@@ -1,0 +1,27 @@
+//! Live: follows a camera and inspects as many of its frames as possible; a verdict counts once the part hangs still.
+//!
+//! The camera's thread hands over its newest frame, the task's thread inspects it, and the window shows the latest result. No
+//! thread waits for another: frames that arrive during an inspection are dropped.
+
+mod live_state;
+mod parts;
+mod set_up;
+pub mod state;
+mod status;
+mod work;
+
+pub use self::{
+    live_state::{LiveAction, LiveState},
+    set_up::set_up,
+    state::{Follower, close, update},
+    status::card,
+    work::{LiveAnswer, LiveStatus, LiveStatusUpdate, SourceState},
+};
+pub(crate) use self::{
+    parts::FollowedParts,
+    state::{
+        apply, give_way, outdate_shown, restart_consensus, show_unseen, source_changed,
+        tell_if_lost,
+    },
+    status::{chip, words},
+};

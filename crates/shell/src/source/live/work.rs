@@ -1,0 +1,539 @@
+//! The task of Live: takes the newest frame, inspects it and publishes the status.
+
+use std::{
+    collections::VecDeque,
+    path::{Path, PathBuf},
+    sync::{Arc, Mutex, mpsc::SyncSender},
+    time::{Duration, Instant},
+};
+
+use super::parts::FollowedParts;
+use crate::{
+    inspection::{
+        inspected::{FinishedInspection, InspectRequest, Inspected, LiveFrameContext, inspect},
+        library_cache::LibraryCache,
+        recording::Recorded,
+        source::{Captured as SceneOrigin, Origin, SceneSource},
+    },
+    trace::current_trace::CurrentTrace,
+};
+use capture::{Captured, Feed, FeedItem, FeedState, FrameRate, SourceSpec};
+use geometry::error::{Fault, guarded, lock};
+use inspection::pipeline::{
+    self, NamedRecipe, ProgressObserver, Verdict,
+    live::{FrameRole, HungFrame, LiveParams, LiveTracker, LiveVerdict, MotionState},
+};
+use records::history::{NewEntry, StoredVerdict, Traceability};
+use stages::{reference::Reference, scene::EmptyCell};
+use ui::{
+    task::{TaskContext, TaskError},
+    user_error::UserError,
+};
+
+/// Which source to follow, and how.
+#[derive(Clone, Debug)]
+pub(super) struct LiveStart {
+    /// The source to follow.
+    pub(super) spec: SourceSpec,
+    /// All parameters of the inspection.
+    pub(super) recipe: Arc<NamedRecipe>,
+    /// When a verdict counts.
+    pub(super) params: LiveParams,
+    /// The empty cell of the source, if known.
+    pub(super) empty_cell: Option<Arc<EmptyCell>>,
+    /// The folder to record into, if any.
+    pub(super) record: Option<PathBuf>,
+    /// Traceability of the next part.
+    pub(super) trace: CurrentTrace,
+    /// The parts that hang there: they outlive this, when the same source is followed with other settings.
+    pub(super) parts: Arc<Mutex<FollowedParts>>,
+    /// Where the inspections to be recorded go.
+    pub(super) recorder: SyncSender<LiveRecord>,
+    /// Number of the run, for [`LiveRecord`].
+    pub(super) run: u64,
+    /// The newest capture, if it is to be inspected again before the next ones.
+    pub(super) again: Option<Arc<Inspected>>,
+}
+
+impl LiveStart {
+    /// Records a part that left before its verdict counted.
+    fn record_left(&self, left: Option<Arc<Inspected>>) {
+        record_left(left, &self.recorder, || self.trace.take(true));
+    }
+}
+
+/// An inspection to be recorded, or a frame without one, in the order of the frames. It has a channel of its own, so that it is
+/// recorded even if its job was replaced meanwhile.
+#[derive(Debug)]
+pub(super) enum LiveRecord {
+    /// A verdict that counts and was not reported before.
+    Counts {
+        /// The inspection that it stands on.
+        inspected: Arc<Inspected>,
+        /// The run that it belongs to.
+        run: u64,
+    },
+    /// A part left before its verdict counted, or following stopped before.
+    Left(Box<NewEntry>),
+    /// A frame of the source could not be read or inspected.
+    Skipped {
+        /// Name of the frame, or of its file.
+        name: String,
+        /// Why, and what to do.
+        error: UserError,
+        /// True if the program failed at it, although it could be read.
+        is_fault: bool,
+        /// The run that it belongs to.
+        run: u64,
+    },
+}
+
+/// Maximum number of unread records, whose points and pictures take up to 15 MB each; the job waits beyond that.
+pub(super) const MAX_UNREAD: usize = 32;
+
+fn send(recorder: &SyncSender<LiveRecord>, record: LiveRecord) {
+    // Fails only if the window is gone.
+    let _ = recorder.send(record);
+}
+
+/// Records a part whose verdict did not count, with this traceability.
+fn record_left(
+    left: Option<Arc<Inspected>>,
+    recorder: &SyncSender<LiveRecord>,
+    trace: impl FnOnce() -> Traceability,
+) {
+    if let Some(left) = left {
+        let entry = left.entry_of(trace());
+        send(recorder, LiveRecord::Left(Box::new(entry)));
+    }
+}
+
+/// A result of the task.
+#[derive(Clone, Debug)]
+pub enum LiveAnswer {
+    /// The latest status.
+    Stands(Box<LiveStatusUpdate>),
+    /// The recording has failed and ended.
+    NotRecorded(UserError),
+    /// The source has no more frames.
+    AtItsEnd,
+    /// The camera is closed.
+    Rests,
+}
+
+/// The status, with the inspection to show.
+#[derive(Clone, Debug)]
+pub struct LiveStatusUpdate {
+    /// Status in figures.
+    pub status: LiveStatus,
+    /// The last frame whose inspection was prepared for the panels; `None` if there is none since the source was lost.
+    pub inspected: Option<Arc<Inspected>>,
+}
+
+/// Status of following a source, in figures.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LiveStatus {
+    /// Whether frames arrive.
+    pub source: SourceState,
+    /// Whether the scene moves; `None` for a source whose captures are independent.
+    pub stillness: Option<MotionState>,
+    /// The verdict so far.
+    pub standing: LiveVerdict,
+    /// Frames per second that arrive, and that are inspected.
+    pub rates: [Option<f64>; 2],
+    /// Median time from a frame's arrival to its verdict, over the last frames.
+    pub latency: Option<Duration>,
+    /// Frames inspected since the start.
+    pub num_inspected: u64,
+    /// Frames dropped for a newer one since the start.
+    pub num_dropped: u64,
+    /// Number of frames that depth is averaged over.
+    pub num_averaged: usize,
+    /// What has been recorded so far, while recording.
+    pub recorded: Option<Recorded>,
+}
+
+/// Whether frames arrive.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum SourceState {
+    /// The source is being opened.
+    Opening,
+    /// Frames arrive or are awaited.
+    Running,
+    /// The source is lost; opening it again is tried automatically.
+    Lost(UserError),
+}
+
+/// Time to wait for a frame before checking for cancellation again.
+const TURN: Duration = Duration::from_millis(50);
+/// Number of latencies that the median is taken of.
+const NUM_LATENCIES: usize = 15;
+
+/// Follows a source until it ends or the task is cancelled.
+pub(super) fn follow(
+    request: &LiveStart,
+    library_cache: &LibraryCache,
+    context: &TaskContext<LiveAnswer>,
+) -> Result<LiveAnswer, TaskError> {
+    let left = lock(&request.parts).begin(&request.spec);
+    request.record_left(left);
+    // The camera stays open afterwards: the next job may follow the same source.
+    let feed = library_cache.camera().feed(&request.spec);
+    let followed = feed
+        .map_err(|error| TaskError::from(UserError::of(&error)))
+        .and_then(|feed| LiveSession::new(request, library_cache, context).follow(&feed));
+    let left = match &followed {
+        Ok(_) => lock(&request.parts).end(),
+        // The part may still hang there when the source is followed again.
+        Err(TaskError::Failed(_)) => lock(&request.parts).rows.take_best(),
+        // The next job goes on with the part.
+        Err(TaskError::Cancelled) => None,
+    };
+    request.record_left(left);
+    followed
+}
+
+/// Ends the recording and closes the camera. A part that hangs there without a verdict that counts is recorded with this
+/// traceability.
+pub(super) fn rest(
+    library_cache: &LibraryCache,
+    parts: &Mutex<FollowedParts>,
+    recorder: &SyncSender<LiveRecord>,
+    trace: impl FnOnce() -> Traceability,
+) -> LiveAnswer {
+    let left = lock(parts).rows.take_best();
+    record_left(left, recorder, trace);
+    library_cache.recording().end();
+    library_cache.camera().rest();
+    LiveAnswer::Rests
+}
+
+struct LiveSession<'a> {
+    library_cache: &'a LibraryCache,
+    context: &'a TaskContext<LiveAnswer>,
+    request: &'a LiveStart,
+    /// The folder to record into; `None` after a failure.
+    record: Option<&'a Path>,
+    recorded: Option<Recorded>,
+    recipe_identity: String,
+    /// `None` for a source whose captures are independent.
+    watch: Option<LiveTracker>,
+    rate: FrameRate,
+    latencies: VecDeque<Duration>,
+    standing: LiveVerdict,
+    stillness: Option<MotionState>,
+    num_inspected: u64,
+    /// Frames that the source had dropped before the start.
+    dropped_before: u64,
+    inspected: Option<Arc<Inspected>>,
+    told: Option<LiveStatus>,
+}
+
+/// Passes cancellation on but no stages: frames come too fast to read them.
+struct SilentContext<'a>(&'a TaskContext<LiveAnswer>);
+
+impl ProgressObserver for SilentContext<'_> {
+    fn is_cancelled(&self) -> bool {
+        self.0.is_cancelled()
+    }
+}
+
+impl<'a> LiveSession<'a> {
+    fn new(
+        request: &'a LiveStart,
+        library_cache: &'a LibraryCache,
+        context: &'a TaskContext<LiveAnswer>,
+    ) -> Self {
+        let stands_for_itself = matches!(request.spec, SourceSpec::Watched(_));
+        let watch = (!stands_for_itself).then(|| LiveTracker::new(&request.params));
+        Self {
+            library_cache,
+            context,
+            request,
+            record: request.record.as_deref(),
+            recorded: None,
+            recipe_identity: request.recipe.identity(),
+            stillness: watch.as_ref().map(LiveTracker::stillness),
+            watch,
+            rate: FrameRate::default(),
+            latencies: VecDeque::new(),
+            standing: LiveVerdict::Open,
+            num_inspected: 0,
+            dropped_before: 0,
+            inspected: None,
+            told: None,
+        }
+    }
+
+    fn follow(mut self, feed: &Feed) -> Result<LiveAnswer, TaskError> {
+        self.dropped_before = feed.status().num_dropped;
+        if let Some(before) = &self.request.again {
+            match guarded(|| self.inspect_again(before)) {
+                Ok(inspected) => inspected?,
+                Err(fault) => self.fails_at(before.origin.title(), &fault),
+            }
+            self.publish_status(feed);
+        }
+        loop {
+            self.context.check()?;
+            match feed.wait(TURN) {
+                Some(FeedItem::Captured(captured)) => {
+                    self.write(&captured, feed);
+                    let name = captured.name.clone();
+                    let num_dropped = feed.status().num_dropped;
+                    match guarded(|| self.take(captured, num_dropped)) {
+                        Ok(taken) => taken?,
+                        Err(fault) => self.fails_at(name, &fault),
+                    }
+                }
+                Some(FeedItem::Skipped(skipped)) => {
+                    let error = UserError::of(&*skipped.error);
+                    self.skip(skipped.name, error, false);
+                }
+                None => match feed.status().state {
+                    FeedState::Ended | FeedState::Stopped => return Ok(LiveAnswer::AtItsEnd),
+                    FeedState::Failed(error) => return Err(UserError::of(&*error).into()),
+                    FeedState::Opening | FeedState::Running | FeedState::Lost { .. } => {}
+                },
+            }
+            self.publish_status(feed);
+        }
+    }
+
+    /// Records the frame, if recording, before anything else is done with it.
+    fn write(&mut self, captured: &Captured, feed: &Feed) {
+        let recording = self.library_cache.recording();
+        match recording.write(self.record, captured, &self.request.spec, &feed.status()) {
+            Ok(recorded) => self.recorded = recorded,
+            Err(error) => {
+                self.record = None;
+                self.recorded = None;
+                let error = UserError::of(&error);
+                self.context.partial(LiveAnswer::NotRecorded(error));
+            }
+        }
+    }
+
+    /// Reports a frame at which the program failed; the next one is inspected as usual.
+    fn fails_at(&mut self, name: String, fault: &Fault) {
+        self.standing = LiveVerdict::Open;
+        let UserError { what, advice } = UserError::of(fault);
+        let what = format!("{name}: {what}");
+        self.skip(name, UserError { what, advice }, true);
+    }
+
+    fn skip(&mut self, name: String, error: UserError, is_fault: bool) {
+        let record = LiveRecord::Skipped {
+            name,
+            error,
+            is_fault,
+            run: self.request.run,
+        };
+        send(&self.request.recorder, record);
+        // The next status is published, which wakes the window.
+        self.told = None;
+    }
+
+    /// Inspects a capture again, as another inspection of its part.
+    fn inspect_again(&mut self, before: &Inspected) -> Result<(), TaskError> {
+        let mut scene = Arc::clone(&before.scene);
+        let cell = &self.request.empty_cell;
+        if scene.empty_cell.as_ref().map(Arc::as_ptr) != cell.as_ref().map(Arc::as_ptr) {
+            Arc::make_mut(&mut scene).empty_cell.clone_from(cell);
+        }
+        let request = InspectRequest {
+            source: SceneSource::AtHand(scene, before.origin.clone()),
+            recipe: Arc::clone(&self.request.recipe),
+        };
+        let watching = SilentContext(self.context);
+        let mut inspected = inspect(&request, self.library_cache, &watching)?;
+        inspected.captured_at = before.captured_at;
+        inspected.entry.record.summary.source = self.request.spec.to_string();
+        inspected.set_part(before.hung().clone(), before.trace().clone());
+        self.num_inspected += 1;
+        self.record_counted(Arc::new(inspected));
+        Ok(())
+    }
+
+    /// Inspects a frame.
+    fn take(&mut self, captured: Captured, num_dropped: u64) -> Result<(), TaskError> {
+        let loaded = self.library_cache.get();
+        let watching = SilentContext(self.context);
+        let recipe = &self.request.recipe;
+        let fitted = loaded.fitting(recipe, &watching);
+        let fitted = fitted.ok_or(TaskError::Cancelled)?;
+        let (arrived, at) = (captured.arrived, seconds(&captured));
+        let origin = Origin::of_capture(&captured, &self.request.spec.to_string(), num_dropped);
+        let SceneOrigin {
+            mut scene,
+            warnings,
+            ..
+        } = captured.into();
+        if let Some(cell) = &self.request.empty_cell {
+            Arc::make_mut(&mut scene).empty_cell = Some(Arc::clone(cell));
+        }
+        if let Some(watch) = &mut self.watch {
+            scene = watch.look(scene, at);
+        }
+        let mut inspection = pipeline::run(&scene, &fitted, recipe, &watching)?;
+        let best = inspection.best_reference(&fitted);
+        let middle = best.and_then(Reference::middle);
+        let inputs = format!("{} {}", self.recipe_identity, loaded.shown.identity);
+        let mut followed = None;
+        // If captures are independent, each is a hung part of its own.
+        let mut role = FrameRole::First;
+        if let Some(watch) = &mut self.watch {
+            self.standing = watch.judge(&mut inspection, middle, &recipe.accept);
+            self.stillness = Some(watch.stillness());
+            followed = Some(LiveFrameContext {
+                stillness: watch.stillness(),
+                standing: self.standing.clone(),
+            });
+            let frame = HungFrame {
+                scene: &scene,
+                at,
+                inspection: &inspection,
+                verdict: &self.standing,
+                middle,
+                inputs: &inputs,
+            };
+            role = lock(&self.request.parts).rows.role_of(&frame);
+            if role == FrameRole::Nothing {
+                self.see(&frame, arrived);
+            }
+        }
+        self.num_inspected += 1;
+        self.rate.came(Instant::now());
+        self.latencies.push_front(arrived.elapsed());
+        self.latencies.truncate(NUM_LATENCIES);
+
+        if role == FrameRole::Nothing && !self.context.is_latest_read() {
+            // The window has not even shown the previous one.
+            return Ok(());
+        }
+        let found = FinishedInspection {
+            scan: None,
+            scene,
+            origin,
+            warnings,
+            recipe: Arc::clone(recipe),
+            inspection,
+            followed,
+            source: self.request.spec.to_string(),
+            robot: self.library_cache.robot(),
+        };
+        let inspected = found.prepared(&fitted, &loaded.shown);
+        if self.watch.is_some() && role != FrameRole::Nothing {
+            // Not before: after a panic on the way here, the next frame shall be recorded in place of this one.
+            let frame = HungFrame {
+                scene: &inspected.scene,
+                at,
+                inspection: &inspected.inspection,
+                verdict: &self.standing,
+                middle,
+                inputs: &inputs,
+            };
+            self.see(&frame, arrived);
+        }
+        self.keep(inspected, role, arrived);
+        Ok(())
+    }
+
+    /// Takes in a frame, and records the part that left before it.
+    fn see(&self, frame: &HungFrame<'_>, arrived: Instant) {
+        let shows_part = matches!(frame.inspection.verdict, Verdict::Part { .. });
+        let mut parts = lock(&self.request.parts);
+        let (left, _) = parts.rows.see(frame);
+        parts.seen(arrived, shows_part);
+        // Recording may wait for the window.
+        drop(parts);
+        self.request.record_left(left);
+    }
+
+    /// Keeps the inspection of a frame to be shown, and records it if it is the first or another one of its part.
+    fn keep(&mut self, mut inspected: Inspected, role: FrameRole, arrived: Instant) {
+        // What a trigger found out about the part before lies below.
+        inspected.entry.stands_for_part = matches!(role, FrameRole::First | FrameRole::Best);
+        let mut parts = lock(&self.request.parts);
+        let hung = match self.watch {
+            Some(_) => parts.rows.id().clone(),
+            None => inspected.hung().clone(),
+        };
+        let trace = match role {
+            FrameRole::First => {
+                let is_part = inspected.entry.record.summary.verdict != StoredVerdict::NoPart;
+                let trace = self.request.trace.take(is_part);
+                parts.counted = Some((hung.clone(), trace.clone()));
+                Some(trace)
+            }
+            FrameRole::Again => parts.counted.as_ref().map(|(_, trace)| trace.clone()),
+            FrameRole::Nothing => parts.trace_of_hanging().cloned(),
+            FrameRole::Best => None,
+        };
+        inspected.set_part(hung, trace.unwrap_or_default());
+        let inspected = Arc::new(inspected);
+        if self.watch.is_none() {
+            parts.seen_alone(arrived, inspected.hung());
+        } else if role == FrameRole::Best {
+            parts.rows.hold(Arc::clone(&inspected));
+        }
+        drop(parts);
+        if matches!(role, FrameRole::First | FrameRole::Again) {
+            self.record_counted(inspected);
+        } else {
+            self.inspected = Some(inspected);
+        }
+    }
+
+    /// Keeps an inspection to be shown, and records it.
+    fn record_counted(&mut self, inspected: Arc<Inspected>) {
+        self.inspected = Some(Arc::clone(&inspected));
+        let run = self.request.run;
+        let record = LiveRecord::Counts { inspected, run };
+        send(&self.request.recorder, record);
+    }
+
+    /// Publishes the status if another frame was inspected or the state of the source has changed.
+    fn publish_status(&mut self, feed: &Feed) {
+        let feed = feed.status();
+        let source = match feed.state {
+            FeedState::Opening => SourceState::Opening,
+            FeedState::Lost { error, .. } => SourceState::Lost(UserError::of(&*error)),
+            _ => SourceState::Running,
+        };
+        if matches!(source, SourceState::Lost(_)) {
+            // After the source returns, a part must be seen hanging still again, and a folder needs a new capture.
+            self.standing = LiveVerdict::Open;
+            self.inspected = None;
+        }
+        let mut latencies: Vec<Duration> = self.latencies.iter().copied().collect();
+        latencies.sort_unstable();
+        let status = LiveStatus {
+            source,
+            stillness: self.stillness,
+            standing: self.standing.clone(),
+            rates: [feed.rate, self.rate.per_second(Instant::now())],
+            latency: latencies.get(latencies.len() / 2).copied(),
+            num_inspected: self.num_inspected,
+            num_dropped: feed.num_dropped.saturating_sub(self.dropped_before),
+            num_averaged: self.watch.as_ref().map_or(1, LiveTracker::num_averaged),
+            recorded: self.recorded.clone(),
+        };
+        let is_news = self.told.as_ref().is_none_or(|told| {
+            told.num_inspected != status.num_inspected || told.source != status.source
+        });
+        if is_news {
+            self.told = Some(status.clone());
+            let told = LiveStatusUpdate {
+                status,
+                inspected: self.inspected.clone(),
+            };
+            self.context.latest(LiveAnswer::Stands(Box::new(told)));
+        }
+    }
+}
+
+/// Time of the camera's clock, from an arbitrary origin.
+fn seconds(captured: &Captured) -> Duration {
+    Duration::try_from(captured.taken_at.as_duration()).unwrap_or_default()
+}

@@ -1,0 +1,249 @@
+//! The menu that chooses the source of Capture and Live.
+
+use std::mem::discriminant;
+
+use egui::{Button, RichText, ScrollArea, Ui, Vec2};
+
+use super::live::LiveAction;
+use crate::{
+    action::{Action, DialogRequest},
+    frame::top_bar::NARROW,
+    inspection::source::{CellChoice, file_name},
+    session::Source,
+    state::State,
+};
+use capture::{GenicamSpec, KinectSpec, OpenNiSpec, RealsenseSpec, SimulatedSpec, SourceSpec};
+use ui::{
+    language::text,
+    theme::{font, space},
+    widgets::{shortened, show_scroll_bar},
+};
+
+/// Width of a column, logical pixels.
+const COLUMN_WIDTH_PX: f32 = 230.0;
+/// Numbers of frames that depth can be averaged over: the noise falls with the square root.
+const AVERAGED: [usize; 4] = [1, 4, 8, 16];
+/// Part of the window's height that the menu leaves free, logical pixels.
+const MARGIN: f32 = 90.0;
+/// Maximum number of letters of a source for which a narrow window shows the word before it, too.
+const SHORT: usize = 14;
+
+/// Returns the text on the button, shortened in a narrow window.
+fn title(ui: &Ui, source: &str) -> String {
+    let is_narrow = ui.ctx().content_rect().width() < NARROW;
+    if is_narrow && source.chars().count() > SHORT {
+        format!("{} ▼", shortened(source, 22))
+    } else {
+        format!(
+            "{} ▼",
+            text!("shell-source-button", source = shortened(source, 40))
+        )
+    }
+}
+
+/// Draws the button and, once pressed, the menu.
+pub fn ui(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
+    ui.menu_button(title(ui, &now(&state.session.source)), |ui| {
+        let height = ui.ctx().content_rect().height() - MARGIN;
+        // A menu is less high than the window by itself.
+        ui.set_max_height(height);
+        ui.horizontal_top(|ui| {
+            column(ui, height, "cell", |ui| simulated(ui, state, actions));
+            ui.separator();
+            column(ui, height, "others", |ui| others(ui, state, actions));
+        });
+    })
+    .response
+    .on_hover_text(text!("shell-source-says"));
+}
+
+fn column(ui: &mut Ui, height: f32, name: &str, content: impl FnOnce(&mut Ui)) {
+    ui.vertical(|ui| {
+        ui.set_width(COLUMN_WIDTH_PX);
+        show_scroll_bar(ui);
+        ScrollArea::vertical()
+            .id_salt(name)
+            .max_height(height)
+            .show(ui, content);
+    });
+}
+
+/// Returns the name of the source in use.
+pub(crate) fn now(source: &Source) -> String {
+    match source {
+        Source::Cell(CellChoice::InTurn) => text!("shell-simulated-cell"),
+        Source::Cell(choice) => text!("shell-simulated", what = choice.title()),
+        Source::File(path) => shortened(&file_name(path), 24),
+        Source::Scan(files) => text!("shell-scan-of", name = shortened(&files.title(), 22)),
+        Source::Camera(spec) => match &**spec {
+            SourceSpec::Simulated(_) => text!("shell-cell-set-up"),
+            SourceSpec::Recording(spec) => {
+                text!(
+                    "shell-recording-of",
+                    name = shortened(&file_name(&spec.folder), 18)
+                )
+            }
+            SourceSpec::Watched(spec) => {
+                text!(
+                    "shell-folder-of",
+                    name = shortened(&file_name(&spec.folder), 20)
+                )
+            }
+            SourceSpec::Kinect(_) => "Kinect".to_owned(),
+            SourceSpec::Genicam(_) => shortened(&spec.title(), 22),
+            SourceSpec::OpenNi(_) => "OpenNI".to_owned(),
+            SourceSpec::Realsense(_) => "RealSense".to_owned(),
+        },
+    }
+}
+
+fn heading(ui: &mut Ui, text: String) {
+    ui.label(RichText::new(text).font(font::heading()));
+}
+
+fn simulated(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
+    heading(ui, text!("shell-simulated-cell"));
+    let (is_set_up, spec) = match &state.session.source {
+        Source::Camera(spec) => match &**spec {
+            SourceSpec::Simulated(spec) => (true, spec.clone()),
+            _ => (false, SimulatedSpec::default()),
+        },
+        Source::Cell(choice) => (false, choice.followed()),
+        Source::File(_) | Source::Scan(_) => (false, SimulatedSpec::default()),
+    };
+    if ui
+        .selectable_label(is_set_up, text!("shell-set-up-cell"))
+        .clicked()
+    {
+        actions.push(Action::Live(LiveAction::SetUp(Some(spec))));
+        ui.close();
+    }
+    for choice in CellChoice::all() {
+        let is_chosen = state.session.source == Source::Cell(choice);
+        if ui.selectable_label(is_chosen, choice.title()).clicked() {
+            actions.push(Action::UseCell(choice));
+            ui.close();
+        }
+    }
+}
+
+fn others(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
+    let camera = match &state.session.source {
+        Source::Camera(spec) => Some(&**spec),
+        Source::Cell(_) | Source::File(_) | Source::Scan(_) => None,
+    };
+    heading(ui, text!("shell-cameras-and-folders"));
+    cameras(ui, camera, actions);
+    let is_recording = matches!(camera, Some(SourceSpec::Recording(_)));
+    let is_watched = matches!(camera, Some(SourceSpec::Watched(_)));
+    for (is_chosen, text, says, ask) in [
+        (
+            is_recording,
+            text!("shell-play-recording"),
+            text!("shell-play-recording-says"),
+            DialogRequest::Recording,
+        ),
+        (
+            is_watched,
+            text!("shell-watch-folder"),
+            text!("shell-watch-folder-says"),
+            DialogRequest::WatchedFolder,
+        ),
+        (
+            false,
+            text!("shell-open-file"),
+            text!("shell-open-file-says"),
+            DialogRequest::Scene,
+        ),
+        (
+            matches!(state.session.source, Source::Scan(_)),
+            text!("shell-open-scan"),
+            text!("shell-open-scan-says"),
+            DialogRequest::Scan,
+        ),
+    ] {
+        if ui
+            .selectable_label(is_chosen, text)
+            .on_hover_text(says)
+            .clicked()
+        {
+            actions.push(Action::Ask(ask));
+            ui.close();
+        }
+    }
+    ui.separator();
+    heading(ui, text!("shell-average-depth"));
+    ui.horizontal(|ui| {
+        for num in AVERAGED {
+            let is_chosen = state.session.live.params.average == num;
+            let text = match num {
+                1 => text!("shell-one-frame"),
+                num => num.to_string(),
+            };
+            let button = Button::selectable(is_chosen, text).min_size(Vec2::splat(space::TARGET));
+            if ui.add(button).clicked() {
+                actions.push(Action::Live(LiveAction::Average(num)));
+            }
+        }
+    });
+    ui.separator();
+    empty_cell(ui, state, actions);
+    if !state.session.recent.is_empty() {
+        ui.separator();
+        heading(ui, text!("shell-recent-files"));
+    }
+    for path in &state.session.recent {
+        let is_chosen = match &state.session.source {
+            Source::File(file) => file == path,
+            Source::Scan(files) => files.folder() == Some(path),
+            Source::Cell(_) | Source::Camera(_) => false,
+        };
+        let name = shortened(&file_name(path), 28);
+        let entry = ui.selectable_label(is_chosen, name);
+        if entry.on_hover_text(path.display().to_string()).clicked() {
+            actions.push(Action::Open(path.clone()));
+            ui.close();
+        }
+    }
+}
+
+fn cameras(ui: &mut Ui, chosen: Option<&SourceSpec>, actions: &mut Vec<Action>) {
+    for (name, spec) in [
+        ("Kinect", SourceSpec::Kinect(KinectSpec::default())),
+        ("GenICam", SourceSpec::Genicam(GenicamSpec::default())),
+        (
+            "Xtion, Astra (OpenNI)",
+            SourceSpec::OpenNi(OpenNiSpec::default()),
+        ),
+        ("RealSense", SourceSpec::Realsense(RealsenseSpec::default())),
+    ] {
+        let is_chosen = chosen.is_some_and(|chosen| discriminant(chosen) == discriminant(&spec));
+        if ui.selectable_label(is_chosen, name).clicked() {
+            actions.push(Action::Live(LiveAction::Use(spec)));
+            ui.close();
+        }
+    }
+}
+
+/// Draws the entries for capturing and discarding the empty cell.
+fn empty_cell(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
+    heading(ui, text!("shell-empty-cell"));
+    let take = Button::new(text!("shell-capture-empty-cell"));
+    let take = ui
+        .add_enabled(state.session.shown.is_some(), take)
+        .on_hover_text(text!("shell-capture-empty-cell-says"))
+        .on_disabled_hover_text(text!("align-nothing-inspected"));
+    if take.clicked() {
+        actions.push(Action::TakeEmptyCell);
+        ui.close();
+    }
+    let forget = Button::new(text!("shell-discard-empty-cell"));
+    if ui
+        .add_enabled(state.session.empty_cell.is_some(), forget)
+        .on_disabled_hover_text(text!("shell-no-empty-cell"))
+        .clicked()
+    {
+        actions.push(Action::ForgetEmptyCell);
+        ui.close();
+    }
+}

@@ -1,0 +1,96 @@
+//! State of the window outside the workspaces: the session that they share, and the parts that change it.
+
+use super::{
+    notice::{Notice, NoticeTopic},
+    roles::RoleState,
+    session::Session,
+    shift::ShiftWatch,
+};
+use crate::{
+    inspection::library_cache::LibraryCache,
+    source::{inspector::Inspector, live::Follower},
+};
+use ui::task::TaskRunner;
+
+/// State of the window outside the workspaces. [`apply`](crate::apply::apply) changes it.
+#[derive(Debug)]
+pub struct State {
+    /// State shared by the workspaces.
+    pub session: Session,
+    /// Captures, opens and inspects scenes.
+    pub inspector: Inspector,
+    /// Follows the source.
+    pub follower: Follower,
+    /// Notices, oldest first.
+    pub notices: Vec<Notice>,
+    /// True while the list of shortcuts is open.
+    pub is_help_open: bool,
+    /// Whether the window may close.
+    pub closing: Closing,
+    /// The last generation number given to a result.
+    pub generation: u64,
+    /// PIN, lock and open question of the roles.
+    pub roles: RoleState,
+    /// Counts the parts of this shift.
+    pub shift_watch: ShiftWatch,
+}
+
+/// Whether the window may close.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum Closing {
+    /// No close was requested.
+    #[default]
+    No,
+    /// The user is asked.
+    Asked {
+        /// What would be lost, and which robots would get no answer: one line each.
+        what: String,
+        /// True if data would be lost.
+        is_unsaved: bool,
+    },
+    /// The window closes, whatever is lost.
+    Confirmed,
+}
+
+#[cfg(any(test, feature = "fixtures"))]
+impl Default for State {
+    fn default() -> Self {
+        Self::new(&TaskRunner::without_threads(), &LibraryCache::default())
+    }
+}
+
+impl State {
+    /// Makes the state before the first capture.
+    pub fn new(runner: &TaskRunner, library_cache: &LibraryCache) -> Self {
+        Self {
+            session: Session::default(),
+            inspector: Inspector::new(runner, library_cache),
+            follower: Follower::new(runner, library_cache),
+            notices: Vec::new(),
+            is_help_open: false,
+            closing: Closing::default(),
+            generation: 0,
+            roles: RoleState::default(),
+            shift_watch: ShiftWatch::new(runner),
+        }
+    }
+}
+
+/// Maximum number of notices; the oldest is dropped for another.
+const MAX_NOTICES: usize = 4;
+
+/// Removes the notices about this.
+pub fn remove_notices(state: &mut State, topic: NoticeTopic) {
+    state.notices.retain(|notice| notice.topic != topic);
+}
+
+/// Shows a notice.
+pub fn notify(state: &mut State, mut notice: Notice) {
+    let covered = state.notices.iter();
+    let num_covered: usize = covered.map(|known| known.num_covered_by(&notice)).sum();
+    notice.num_more += num_covered;
+    state.notices.retain(|known| !known.gives_way_to(&notice));
+    state.notices.push(notice);
+    let num_over = state.notices.len().saturating_sub(MAX_NOTICES);
+    state.notices.drain(..num_over);
+}

@@ -1,0 +1,325 @@
+//! Converts an inspection into a robot's result: a pose in its base frame, or why there is none.
+
+use std::time::{Duration, Instant};
+
+use super::Doubt;
+use geometry::rigid::RigidTransform;
+use inspection::{
+    library::SprayPath,
+    pipeline::{Inspection, Recipe, Refusal, Rejection, Verdict},
+};
+use robot::{
+    RobotFrame,
+    spray::{BandStatus, carry},
+};
+use serve::{Answer, Found, PathStep, PoseKind, Trouble, VerdictCode};
+use stages::pose::PoseEstimate;
+
+/// Data about a reference of the library that a client gets besides its name.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct NumberedPart {
+    /// Number from 1; 0 if it has none.
+    pub number: u32,
+    /// Its stored spray path.
+    pub path: Option<SprayPath>,
+    /// True if it was enrolled from a simulation.
+    pub is_simulated: bool,
+}
+
+/// When a frame was captured, and whether its answer is marked.
+#[derive(Clone, Copy, Debug)]
+pub struct FrameOrigin {
+    /// When it was captured or, if it is replayed, when it was replayed.
+    pub captured: Instant,
+    /// The camera's time of it, from any origin: that by which motion is judged.
+    pub at: Duration,
+    /// True if the frame is simulated or replayed: [`Answer::SIMULATED`].
+    pub is_simulated: bool,
+    /// False if the source does not show whether the part hung still: [`Answer::MOTION_UNCHECKED`].
+    pub is_motion_checked: bool,
+}
+
+/// The reason word of a part that moves: shorter than its kind of refusal, for programs that compare it.
+const MOVING: &str = "moving";
+
+/// Converts inspections into results for clients.
+#[derive(Clone, Debug)]
+pub struct PartFinder {
+    /// One entry per reference, in the order of the library.
+    pub parts: Vec<NumberedPart>,
+    /// Position of the camera in the robot's base frame.
+    pub robot: RobotFrame,
+    /// Which pose is sent.
+    pub kind: PoseKind,
+}
+
+impl PartFinder {
+    /// Converts an inspection by `recipe` into its result. An accepted part with an ambiguous pose is refused: a robot
+    /// cannot look which of the poses is right.
+    pub fn found(&self, inspection: &Inspection, recipe: &Recipe, origin: FrameOrigin) -> Found {
+        let verdict = &inspection.verdict;
+        let best = inspection.ranking.entries.first();
+        let numbered = best.and_then(|best| self.parts.get(best.reference));
+        let named = verdict.guess().filter(|_| !verdict.is_unknown());
+        // An unknown part has no reference, so none that could be simulated.
+        let of_named = named.and(numbered);
+        let is_simulated = origin.is_simulated || of_named.is_some_and(|part| part.is_simulated);
+        let mut found = Found {
+            captured: Some(origin.captured),
+            part: named.unwrap_or_default().to_owned(),
+            number: of_named.map_or(0, |part| part.number),
+            marks: if is_simulated { Answer::SIMULATED } else { 0 },
+            ..Found::default()
+        };
+        if let (Some(why), Some([what, advice])) = (verdict.refusal(), verdict.complaint()) {
+            found.verdict = match verdict {
+                Verdict::Part { .. } => VerdictCode::Refused,
+                Verdict::NoPart(_) => VerdictCode::NoPart,
+            };
+            let reason = if matches!(why, Refusal::Rejected(Rejection::NotSteady { .. })) {
+                MOVING.to_owned()
+            } else {
+                why.kind().to_string()
+            };
+            found.trouble = Trouble::new(reason, &what, &advice);
+            return found;
+        }
+        let pose = inspection.found_pose();
+        if pose.is_some_and(PoseEstimate::is_ambiguous) {
+            found.verdict = VerdictCode::Refused;
+            found.trouble = Trouble::of(Doubt::Ambiguous.kind(), &Doubt::Ambiguous);
+            return found;
+        }
+        found.verdict = VerdictCode::Accepted;
+        if verdict.is_approximate() {
+            found.marks |= Answer::APPROXIMATE;
+        }
+        if !origin.is_motion_checked {
+            found.marks |= Answer::MOTION_UNCHECKED;
+        }
+        if let Some(pose) = pose {
+            let camera_from_part = pose.camera_from_part();
+            found.pose = Some(match self.kind {
+                PoseKind::RobotFromPart => self.robot.robot_from_part(&camera_from_part),
+                PoseKind::RobotOffset => self.robot.robot_offset(&camera_from_part),
+            });
+            let path = numbered.and_then(|numbered| numbered.path.as_ref());
+            found.path = path.map_or_else(Vec::new, |path| {
+                self.carried(path, &camera_from_part, inspection, recipe)
+            });
+        }
+        found
+    }
+
+    fn carried(
+        &self,
+        path: &SprayPath,
+        camera_from_part: &RigidTransform,
+        inspection: &Inspection,
+        recipe: &Recipe,
+    ) -> Vec<PathStep> {
+        let Ok(part) = &inspection.segmentation.part else {
+            return Vec::new();
+        };
+        let carried = carry(path, camera_from_part, &part.cloud, &recipe.stand_off);
+        let steps = carried.points.iter().map(|point| {
+            let mark = |holds, mark| if holds { mark } else { 0 };
+            PathStep {
+                robot_from_nozzle: self.robot.robot_from_camera * point.camera_from_nozzle,
+                marks: mark(point.is_gun_on, Answer::GUN_ON)
+                    | mark(point.band == BandStatus::Inside, Answer::IN_BAND),
+                speed: point.speed,
+            }
+        });
+        steps.collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Point3, Unit, Vector3};
+
+    use super::*;
+    use geometry::{rigid::from_euler_zyx, units::Metres};
+    use inspection::{
+        fixtures::shipped_library,
+        library::{Library, PathPoint},
+        pipeline::{Unwatched, live::refuse_moving, run},
+    };
+    use simulate::{PartKind, Side};
+    use stages::{fixtures::facing_part, scene::SceneCloud};
+
+    fn finder(library: &Library, kind: PoseKind) -> PartFinder {
+        let point = |x| PathPoint {
+            nozzle: Point3::new(x, 0.0, 1.0),
+            direction: Unit::new_normalize(Vector3::z()),
+            stand_off: Some(Metres::from_mm(150.0)),
+            is_gun_on: x > 0.0,
+            speed: Some(0.25),
+            fan: None,
+        };
+        let path = SprayPath::new(vec![point(-0.1), point(0.1)]);
+        let parts = (1..).take(library.references.len());
+        let parts = parts.map(|number| NumberedPart {
+            number,
+            path: path.clone(),
+            is_simulated: false,
+        });
+        PartFinder {
+            parts: parts.collect(),
+            robot: RobotFrame {
+                robot_from_camera: from_euler_zyx([-2.2, 0.1, -1.6, 1.5, -0.2, 2.0]),
+                name: "cell 1".into(),
+            },
+            kind,
+        }
+    }
+
+    fn origin() -> FrameOrigin {
+        FrameOrigin {
+            captured: Instant::now(),
+            at: Duration::ZERO,
+            is_simulated: true,
+            is_motion_checked: true,
+        }
+    }
+
+    #[test]
+    fn an_accepted_part_has_its_pose_in_the_base_frame_and_its_path() {
+        let library = shipped_library();
+        let recipe = Recipe::default();
+        let scene = facing_part(PartKind::Fender, Side::Left, 5);
+        let inspection = run(&scene, &library, &recipe, &Unwatched).expect("not cancelled");
+        let pose = inspection.found_pose();
+        let pose = pose.expect("found").camera_from_part();
+        let best = inspection
+            .ranking
+            .entries
+            .first()
+            .expect("ranked")
+            .reference;
+        for kind in [PoseKind::RobotFromPart, PoseKind::RobotOffset] {
+            let finder = finder(&library, kind);
+            let expected = match kind {
+                PoseKind::RobotFromPart => finder.robot.robot_from_part(&pose),
+                PoseKind::RobotOffset => finder.robot.robot_offset(&pose),
+            };
+            let found = finder.found(&inspection, &recipe, origin());
+            assert_eq!(
+                found.verdict,
+                VerdictCode::Accepted,
+                "{}",
+                found.trouble.message
+            );
+            assert_eq!(found.part, "fender");
+            assert_eq!(found.number as usize, best + 1);
+            assert_eq!(found.marks & Answer::SIMULATED, Answer::SIMULATED);
+            assert_eq!(found.pose, Some(expected));
+            assert_eq!(found.path.len(), 2);
+            let guns = found.path.iter().map(|step| step.marks & Answer::GUN_ON);
+            assert_eq!(guns.collect::<Vec<_>>(), [0, Answer::GUN_ON]);
+            // The path follows the part, whichever pose is sent.
+            let mouth = found.path[0].robot_from_nozzle.translation.vector;
+            let taught = Point3::new(-0.1, 0.0, 1.0);
+            let carried = finder.robot.robot_from_camera * (pose * taught);
+            assert!((mouth - carried.coords).norm() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn what_is_not_accepted_has_a_reason_and_no_pose() {
+        let recipe = Recipe::default();
+        let library = shipped_library();
+        let finder = finder(&library, PoseKind::default());
+        let of = |inspection: &Inspection| {
+            let found = finder.found(inspection, &recipe, origin());
+            assert_eq!((found.pose, found.path.len()), (None, 0));
+            assert!(found.trouble.message.contains("to do"));
+            (found.verdict, found.trouble.reason)
+        };
+        let nothing = run(&SceneCloud::default(), &library, &recipe, &Unwatched).expect("run");
+        assert_eq!(of(&nothing).0, VerdictCode::NoPart);
+        let strict = Recipe {
+            accept: inspection::pipeline::AcceptParams {
+                min_score: 1.1,
+                ..Default::default()
+            },
+            ..Recipe::default()
+        };
+        let scene = facing_part(PartKind::Fender, Side::Left, 5);
+        let refused = run(&scene, &library, &strict, &Unwatched).expect("run");
+        let (verdict, reason) = of(&refused);
+        assert_eq!(verdict, VerdictCode::Refused);
+        assert!(!reason.is_empty() && reason != "ambiguous_pose");
+    }
+
+    #[test]
+    fn a_part_that_moves_is_refused_and_one_that_may_move_is_marked() {
+        let library = shipped_library();
+        let recipe = Recipe::default();
+        let scene = facing_part(PartKind::Fender, Side::Left, 5);
+        let mut inspection = run(&scene, &library, &recipe, &Unwatched).expect("run");
+        let finder = finder(&library, PoseKind::default());
+        let unknown = FrameOrigin {
+            is_motion_checked: false,
+            ..origin()
+        };
+        let found = finder.found(&inspection, &recipe, unknown);
+        assert_eq!(found.verdict, VerdictCode::Accepted);
+        assert_eq!(found.marks, Answer::SIMULATED | Answer::MOTION_UNCHECKED);
+        refuse_moving(&mut inspection);
+        let found = finder.found(&inspection, &recipe, origin());
+        assert_eq!(found.verdict, VerdictCode::Refused);
+        assert_eq!((found.pose, found.path.len()), (None, 0));
+        assert_eq!(found.trouble.reason, "moving");
+        assert_eq!((&*found.part, found.marks), ("fender", Answer::SIMULATED));
+    }
+
+    #[test]
+    fn a_simulated_part_marks_the_answer_only_if_it_is_named() {
+        let library = shipped_library();
+        let mut finder = finder(&library, PoseKind::default());
+        for part in &mut finder.parts {
+            part.is_simulated = true;
+        }
+        let seen = FrameOrigin {
+            is_simulated: false,
+            ..origin()
+        };
+        let scene = facing_part(PartKind::Fender, Side::Left, 5);
+        for (unknown_below, marks) in [(0.0, Answer::SIMULATED), (1.1, 0)] {
+            let recipe = Recipe {
+                accept: inspection::pipeline::AcceptParams {
+                    min_score: 1.1,
+                    min_likeness: 1.1,
+                    unknown_below,
+                    ..Default::default()
+                },
+                ..Recipe::default()
+            };
+            let inspection = run(&scene, &library, &recipe, &Unwatched).expect("run");
+            assert_eq!(inspection.verdict.is_unknown(), marks == 0);
+            assert_eq!(finder.found(&inspection, &recipe, seen).marks, marks);
+        }
+    }
+
+    #[test]
+    fn a_pose_that_is_ambiguous_does_not_count() {
+        let library = shipped_library();
+        let recipe = Recipe::default();
+        let scene = facing_part(PartKind::Fender, Side::Left, 5);
+        let mut inspection = run(&scene, &library, &recipe, &Unwatched).expect("run");
+        assert!(inspection.verdict.is_accepted());
+        let Some(Ok(pose)) = &mut inspection.pose else {
+            panic!("a pose");
+        };
+        pose.runner_up = Some(stages::pose::RunnerUp {
+            target_from_source: pose.target_from_source,
+            ratio: 1.01,
+        });
+        let found = finder(&library, PoseKind::default()).found(&inspection, &recipe, origin());
+        assert_eq!(found.verdict, VerdictCode::Refused);
+        assert_eq!(found.trouble.reason, "ambiguous_pose");
+        assert_eq!((found.pose, found.path.len()), (None, 0));
+    }
+}

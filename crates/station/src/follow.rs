@@ -1,0 +1,154 @@
+//! The parts that hang before a followed camera one after the other: one inspection of each is recorded and published.
+
+use std::{sync::Arc, time::Duration};
+
+use jiff::Timestamp;
+use nalgebra::Point3;
+
+use inspection::pipeline::{
+    AcceptParams, Inspection, Verdict,
+    live::{FrameRole, HungFrame, LiveParams, LiveTracker, MotionState, refuse_moving},
+};
+use records::history::{HungId, HungRows, NewEntry};
+use stages::scene::SceneCloud;
+
+/// Follows one camera whose every frame is shown with its own verdict. `E` is what is recorded of a part.
+pub struct PartFollower<E = NewEntry> {
+    tracker: LiveTracker,
+    rows: HungRows<E>,
+    at: Duration,
+    /// The verdict of the last frame by itself.
+    own: Option<Verdict>,
+}
+
+impl<E> Default for PartFollower<E> {
+    fn default() -> Self {
+        Self {
+            tracker: LiveTracker::new(&LiveParams::default()),
+            rows: HungRows::default(),
+            at: Duration::ZERO,
+            own: None,
+        }
+    }
+}
+
+impl<E> PartFollower<E> {
+    /// Takes in a frame, and returns the scene to inspect. Call it for every frame.
+    pub fn look(&mut self, scene: Arc<SceneCloud>, taken_at: Timestamp) -> Arc<SceneCloud> {
+        self.at = Duration::try_from(taken_at.as_duration()).unwrap_or_default();
+        self.own = None;
+        self.tracker.look(scene, self.at)
+    }
+
+    /// Refuses the part of the frame's own inspection if it moves.
+    pub fn refuse_if_moving(&mut self, inspection: &mut Inspection) {
+        self.own = Some(inspection.verdict.clone());
+        self.refuse(inspection);
+    }
+
+    fn refuse(&self, inspection: &mut Inspection) {
+        if self.tracker.stillness() == MotionState::Moving {
+            refuse_moving(inspection);
+        }
+    }
+
+    /// Returns what to record now, after [`Self::refuse_if_moving`] for the same frame. The verdict that counts is formed
+    /// from several frames; for a part that leaves before, the frame that shows it best is recorded with its own verdict.
+    /// `middle` is the middle of the named part, part space, metres. `entry` also gets whether the part is known to have
+    /// hung still.
+    pub fn take(
+        &mut self,
+        scene: &SceneCloud,
+        mut inspection: Inspection,
+        middle: Option<Point3<f64>>,
+        accept: &AcceptParams,
+        entry: impl Fn(&Inspection, HungId, bool) -> E,
+    ) -> [Option<E>; 2] {
+        // Frames are counted by their own verdicts.
+        if let Some(own) = self.own.take() {
+            inspection.verdict = own;
+        }
+        let own = inspection.verdict.clone();
+        let verdict = self.tracker.judge(&mut inspection, middle, accept);
+        let (left, role) = self.rows.see(&HungFrame {
+            scene,
+            at: self.at,
+            inspection: &inspection,
+            verdict: &verdict,
+            middle,
+            // Recipe and library do not change between frames.
+            inputs: "",
+        });
+        let id = self.rows.id().clone();
+        let now = match role {
+            FrameRole::Nothing => None,
+            FrameRole::Best => {
+                inspection.verdict = own;
+                self.refuse(&mut inspection);
+                self.rows.hold(entry(&inspection, id, false));
+                None
+            }
+            FrameRole::First | FrameRole::Again => Some(entry(&inspection, id, true)),
+        };
+        [left, now]
+    }
+
+    /// Ends the source. Returns what is still to be recorded.
+    pub fn end(mut self) -> Option<E> {
+        self.rows.end()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use jiff::SignedDuration;
+
+    use super::*;
+    use capture::{CellScene, SimulatedCell, SimulatedSpec};
+    use inspection::{
+        fixtures::shipped_library,
+        pipeline::{Recipe, Unwatched, run},
+    };
+    use stages::scene::scene_from_image;
+
+    #[test]
+    fn a_frame_of_a_part_that_swings_in_is_refused_and_one_of_a_part_at_rest_is_not() {
+        let mut cell = SimulatedCell::new(SimulatedSpec {
+            scene: CellScene::Line { every: 6.0 },
+            frames_per_second: 15.0,
+            ..SimulatedSpec::default()
+        });
+        let mut scene_at = |number: u64| Arc::new(scene_from_image(cell.frame(number).0));
+        let recipe = Recipe::default();
+        let seen = run(&scene_at(46), &shipped_library(), &recipe, &Unwatched);
+        let seen = seen.expect("not cancelled");
+        assert!(seen.verdict.is_accepted());
+        let mut followed = PartFollower::default();
+        let mut kept = Vec::new();
+        for number in 1..=73_u64 {
+            let scene = scene_at(number);
+            let seconds = (number - 1) as f64 / 15.0;
+            let taken_at = Timestamp::UNIX_EPOCH + SignedDuration::from_secs_f64(seconds);
+            let scene = followed.look(scene, taken_at);
+            // As if every frame by itself were accepted.
+            let mut inspection = seen.clone();
+            followed.refuse_if_moving(&mut inspection);
+            let is_accepted = inspection.verdict.is_accepted();
+            match seconds {
+                // It comes in, and then swings by less and less.
+                0.4..2.0 => assert!(!is_accepted, "after {seconds} s"),
+                4.4.. => assert!(is_accepted, "after {seconds} s"),
+                _ => {}
+            }
+            let entry =
+                |inspection: &Inspection, _, is_still| (inspection.verdict.is_accepted(), is_still);
+            let entries = followed.take(&scene, inspection, None, &recipe.accept, entry);
+            kept.extend(entries.into_iter().flatten().map(|entry| (seconds, entry)));
+        }
+        // One verdict that counts, formed at rest from frames by their own verdicts.
+        let [(seconds, entry)] = kept[..] else {
+            panic!("{kept:?}");
+        };
+        assert!(seconds > 2.0 && entry == (true, true), "{kept:?}");
+    }
+}

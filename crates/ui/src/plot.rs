@@ -1,0 +1,421 @@
+//! Plots: curves over two axes, drawn by `egui_plot` in the window's colours. A plot neither moves nor zooms, so that the
+//! wheel scrolls the panel around it.
+
+use egui::{
+    Align2, Color32, FontId, Painter, Pos2, Rangef, Rect, Sense, Shape, Stroke, Ui, UiBuilder,
+    Vec2, WidgetInfo, pos2,
+    text::{LayoutJob, TextFormat},
+    vec2,
+};
+use egui_plot::{
+    AxisHints, GridInput, GridMark, HoverPosition, Line, LineStyle, Plot, PlotPoints,
+    PlotTransform, PlotUi,
+};
+use jiff::Zoned;
+
+use super::theme::{ROUNDING, Theme, font, space};
+use crate::language::text;
+
+/// Margin beyond both ends of an axis, as a share of its range: a line at the end stays fully visible.
+const MARGIN: f64 = 0.03;
+/// With more powers of ten than this, only every second one is marked.
+const MANY_POWERS: usize = 8;
+/// Height of a plot over time, logical pixels.
+const OVER_TIME: f32 = 150.0;
+
+/// The range of an axis and its tick marks.
+#[derive(Clone, Debug)]
+pub struct Axis {
+    range: [f64; 2],
+    marks: Vec<(f64, String)>,
+}
+
+impl Axis {
+    pub fn new(range: [f64; 2], marks: Vec<(f64, String)>) -> Self {
+        Self { range, marks }
+    }
+
+    /// Makes a logarithmic axis: `range` and curves are base-10 logarithms.
+    pub fn powers(range: [f64; 2], name: impl Fn(i32) -> String) -> Self {
+        let inside = |power: &i32| (range[0]..=range[1]).contains(&f64::from(*power));
+        let powers: Vec<i32> = (-20..=20).filter(inside).collect();
+        let step = if powers.len() > MANY_POWERS { 2 } else { 1 };
+        let powers = powers.into_iter().filter(|power| power % step == 0);
+        let marks = powers.map(|power| (f64::from(power), name(power)));
+        Self::new(range, marks.collect())
+    }
+
+    fn in_sight(&self) -> [f64; 2] {
+        let [low, high] = self.range;
+        let margin = ((high - low) * MARGIN).max(1e-6);
+        [low - margin, high + margin]
+    }
+
+    fn grid(&self) -> impl Fn(GridInput) -> Vec<GridMark> + use<> {
+        let [low, high] = self.in_sight();
+        let values: Vec<f64> = self.marks.iter().map(|(value, _)| *value).collect();
+        move |_| {
+            // Report a large spacing, so that every mark is labelled; whoever sets the marks leaves room for them.
+            let step_size = high - low;
+            let mark = |value: &f64| GridMark {
+                value: *value,
+                step_size,
+            };
+            values.iter().map(mark).collect()
+        }
+    }
+
+    fn hints(self, hints: AxisHints<'_>, thickness: f32) -> AxisHints<'_> {
+        hints
+            .min_thickness(thickness)
+            .label_spacing(Rangef::new(0.0, 1.0))
+            .formatter(move |mark, _| {
+                let is_it = |(value, _): &&(f64, String)| value.total_cmp(&mark.value).is_eq();
+                let found = self.marks.iter().find(is_it);
+                found.map_or_else(String::new, |(_, text)| text.clone())
+            })
+    }
+}
+
+/// Returns the space needed for the text of the marks, logical pixels.
+fn text_size<'m>(
+    ui: &Ui,
+    font: &FontId,
+    marks: impl IntoIterator<Item = &'m (f64, String)>,
+) -> Vec2 {
+    let sizes = marks.into_iter().map(|(_, text)| {
+        let painter = ui.painter();
+        let galley = painter.layout_no_wrap(text.clone(), font.clone(), Color32::WHITE);
+        galley.size()
+    });
+    sizes.fold(Vec2::ZERO, Vec2::max)
+}
+
+/// A plot without its curves.
+pub struct Axes<'a> {
+    /// Title, as pieces of text with a colour each; empty for none.
+    pub title: Vec<(String, Color32)>,
+    /// Axis from left to right.
+    pub across: Axis,
+    /// Axis from bottom to top.
+    pub up: Axis,
+    /// Font of title and marks.
+    pub font: FontId,
+    /// Makes the text shown beside the pointer from a value of the `across` axis.
+    pub read: Option<Box<dyn Fn(f64) -> String + 'a>>,
+}
+
+impl<'a> Axes<'a> {
+    /// Draws the axes into a rectangle, then the curves that `draw` adds. Returns the transform from values to the screen.
+    pub fn show(
+        self,
+        ui: &mut Ui,
+        rect: Rect,
+        draw: impl FnOnce(&mut PlotUi<'a>) + 'a,
+    ) -> PlotTransform {
+        let theme = Theme::of(ui);
+        let Self {
+            title,
+            across,
+            up,
+            font,
+            read,
+        } = self;
+        let mut job = LayoutJob::default();
+        for (text, colour) in &title {
+            job.append(text, 0.0, TextFormat::simple(font.clone(), *colour));
+        }
+        let title = ui.painter().layout_job(job);
+        let below = text_size(ui, &font, &across.marks);
+        let beside = text_size(ui, &font, &up.marks);
+        // Half of the last mark's text extends beyond the end of its axis.
+        let right = text_size(ui, &font, across.marks.last()).x / 2.0;
+        let top = title.size().y.max(beside.y / 2.0);
+        let bottom = if below.y > 0.0 { 0.0 } else { beside.y / 2.0 };
+        let area = Rect::from_min_max(rect.min + vec2(0.0, top), rect.max - vec2(right, bottom));
+        let (x, y) = (across.in_sight(), up.in_sight());
+        let mut ui = ui.new_child(UiBuilder::new().max_rect(area));
+        let hints = |axis: AxisHints<'a>| {
+            let axis = axis.tick_label_font(font.clone());
+            axis.tick_label_color(theme.weak_text)
+        };
+        // The plot keeps no lasting state, so its id may change.
+        let plot = Plot::new("plot")
+            .id(ui.unique_id().with("plot"))
+            .min_size(Vec2::ZERO)
+            .allow_drag(false)
+            .allow_zoom(false)
+            .allow_scroll(false)
+            .allow_boxed_zoom(false)
+            .allow_axis_zoom_drag(false)
+            .allow_double_click_reset(false)
+            .sense(egui::Sense::hover())
+            .show_background(false)
+            .show_axes([below.y > 0.0, beside.y > 0.0])
+            .x_grid_spacer(across.grid())
+            .y_grid_spacer(up.grid())
+            .grid_color(theme.edge)
+            .grid_fade(0.0)
+            .custom_x_axes(vec![hints(across.hints(AxisHints::new_x(), below.y))])
+            .custom_y_axes(vec![hints(up.hints(AxisHints::new_y(), beside.x + 8.0))])
+            .cursor_color(theme.text)
+            .show_x(read.is_some())
+            .show_y(false)
+            .label_formatter(move |at| {
+                let (HoverPosition::NearDataPoint { position, .. }
+                | HoverPosition::Elsewhere { position }) = at;
+                read.as_ref().map(|read| read(position.x))
+            });
+        let shown = plot.show(&mut ui, move |plot| {
+            plot.set_plot_bounds_x(x[0]..=x[1]);
+            plot.set_plot_bounds_y(y[0]..=y[1]);
+            draw(plot);
+        });
+        // Above the curves, or further left if the title is too wide.
+        let left = shown.transform.frame().left();
+        let left = left.min(rect.right() - title.size().x).max(rect.left());
+        let corner = pos2(left, rect.top());
+        ui.painter()
+            .with_clip_rect(rect)
+            .galley(corner, title, theme.text);
+        shown.transform
+    }
+}
+
+/// L or Θ of the rays of a scene and of an enrolled part.
+pub struct RayCurves<'a> {
+    /// L or Θ.
+    pub name: &'static str,
+    /// Factor from stored to shown values, unit sign and decimals; `None` in a picture too small for text.
+    pub unit: Option<(f64, &'static str, usize)>,
+    /// Values of the scene, one per ray.
+    pub scene: &'a [f32],
+    /// Values of the part, one per ray.
+    pub part: Option<&'a [f32]>,
+}
+
+impl RayCurves<'_> {
+    /// Draws both curves, the part's dashed.
+    pub fn show(self, ui: &mut Ui, area: Rect) {
+        let theme = Theme::of(ui);
+        let Self {
+            name,
+            unit,
+            scene,
+            part,
+        } = self;
+        let colour = match name {
+            "L" => theme.first_series,
+            _ => theme.second_series,
+        };
+        let range = range_of(scene.iter().chain(part.into_iter().flatten()));
+        let num = scene.len().max(part.map_or(0, <[f32]>::len));
+        let last = num.saturating_sub(1).max(1) as f64;
+        let mut axes = Axes {
+            title: Vec::new(),
+            across: Axis::new([0.0, last], Vec::new()),
+            up: Axis::new(range, Vec::new()),
+            font: font::small(),
+            read: None,
+        };
+        if let Some((per, unit, decimals)) = unit {
+            let text = move |value: f64| format!("{:.decimals$}", value * per);
+            axes.title.push((format!("{name}, {unit}"), colour));
+            axes.up.marks = range.map(|value| (value, text(value))).to_vec();
+            axes.read = Some(Box::new(move |x| {
+                let place = x.round().clamp(0.0, last) as usize;
+                let value = |values: &[f32]| {
+                    let value = values.get(place).copied();
+                    value.map_or("–".to_owned(), |value| text(f64::from(value)))
+                };
+                let part = part.map_or("–".to_owned(), value);
+                text!(
+                    "view-ray",
+                    place = place,
+                    query = value(scene),
+                    part = part,
+                    unit = unit
+                )
+            }));
+        }
+        axes.show(ui, area, |plot| {
+            if let Some(part) = part {
+                let dashed = LineStyle::Dashed { length: 6.0 };
+                let line = curve(part, theme.reference_series).width(1.3);
+                plot.line(line.style(dashed));
+            }
+            plot.line(curve(scene, colour));
+        });
+    }
+}
+
+/// Plots curves over moments in time order, with dates along the axis. `written` formats a value; the vertical range spans at
+/// least `least_span` and ends at `most`.
+pub fn over_time(
+    ui: &mut Ui,
+    at: &[Zoned],
+    title: &str,
+    curves: &[(&str, &[f32], Color32)],
+    (written, least_span, most): (&dyn Fn(f64) -> String, f64, f64),
+    theme: &Theme,
+) {
+    let size = vec2(ui.available_width(), OVER_TIME);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(egui::Role::Label, true, title));
+    ui.painter().rect_filled(rect, ROUNDING, theme.panel);
+    ui.add_space(space::SMALL);
+    let last = at.len().saturating_sub(1).max(1);
+    let room = (size.x / 110.0).max(1.0) as usize;
+    let step = at.len().div_ceil(room).max(1);
+    let known = curves.iter().flat_map(|(_, values, _)| *values);
+    let range = range_of(known.filter(|value| value.is_finite()));
+    let [low, high] = range_around(range, least_span, most);
+    let axes = Axes {
+        title: vec![(title.to_owned(), theme.text)],
+        across: Axis::new([0.0, last as f64], dates(at, step)),
+        up: Axis::new(
+            [low, high],
+            [low, high].map(|value| (value, written(value))).to_vec(),
+        ),
+        font: font::small(),
+        read: Some(Box::new(|across| {
+            let place = (across.round().max(0.0) as usize).min(at.len() - 1);
+            let at = at[place].strftime("%Y-%m-%d %H:%M:%S");
+            let values = curves.iter().map(|(name, values, _)| {
+                let value = f64::from(values[place]);
+                let value = if value.is_finite() {
+                    written(value)
+                } else {
+                    "–".into()
+                };
+                format!("{name} {value}").trim_start().to_owned()
+            });
+            let values: Vec<String> = values.collect();
+            format!("{at}: {}", values.join(", "))
+        })),
+    };
+    let shown = axes.show(ui, rect.shrink(space::MEDIUM), |plot| {
+        for (_, values, colour) in curves {
+            let points = values
+                .iter()
+                .enumerate()
+                .filter(|(_, value)| value.is_finite());
+            let points: PlotPoints<'_> = points
+                .map(|(place, value)| [place as f64, f64::from(*value)])
+                .collect();
+            plot.line(Line::new("", points).color(*colour).width(1.4));
+        }
+    });
+    if curves.len() > 1 {
+        let names = curves
+            .iter()
+            .map(|(name, _, colour)| (*name, *colour, LineStyle::Solid));
+        legend(ui.painter(), &shown, names);
+    }
+}
+
+/// Marks every `step`th moment by its date and time: with seconds if two marks in a row would read the same, and only once
+/// if they still do.
+fn dates(at: &[Zoned], step: usize) -> Vec<(f64, String)> {
+    let written = |format: &str| -> Vec<(f64, String)> {
+        let marked = at.iter().enumerate().step_by(step);
+        marked
+            .map(|(place, at)| (place as f64, at.strftime(format).to_string()))
+            .collect()
+    };
+    let mut dates = written("%m-%d %H:%M");
+    if dates.windows(2).any(|pair| pair[0].1 == pair[1].1) {
+        dates = written("%m-%d %H:%M:%S");
+        dates.dedup_by(|next, date| next.1 == date.1);
+    }
+    dates
+}
+
+/// Widens a range a little, or to `least_span`, but not beyond `most`.
+fn range_around([low, high]: [f64; 2], least_span: f64, most: f64) -> [f64; 2] {
+    // Noise must not look as large as a drift.
+    let spare = 0.5 * (least_span - (high - low)).max(0.1 * (high - low));
+    [low - spare, (high + spare).min(most)]
+}
+
+/// Makes a curve of values at 0, 1, 2…
+pub fn curve(values: &[f32], colour: Color32) -> Line<'static> {
+    let points = PlotPoints::from_ys_f32(values);
+    Line::new("", points).color(colour).width(1.6)
+}
+
+/// Returns smallest and largest; 0 and 1 if there are none.
+pub fn range_of<'v>(values: impl IntoIterator<Item = &'v f32>) -> [f64; 2] {
+    let values = values.into_iter().map(|value| f64::from(*value));
+    let ends = values.fold(None, |ends: Option<[f64; 2]>, value| {
+        let [low, high] = ends.unwrap_or([value; 2]);
+        Some([low.min(value), high.max(value)])
+    });
+    ends.unwrap_or([0.0, 1.0])
+}
+
+/// Draws the names of the curves from the top left corner of a plot down, each after a sample of its line: colour alone must
+/// not distinguish them.
+pub fn legend<'n>(
+    painter: &Painter,
+    plot: &PlotTransform,
+    curves: impl IntoIterator<Item = (&'n str, Color32, LineStyle)>,
+) {
+    for (row, (name, colour, style)) in (0_u8..).zip(curves) {
+        let start = plot.frame().left_top() + vec2(8.0, 10.0 + 15.0 * f32::from(row));
+        let ends = [start, start + vec2(26.0, 0.0)];
+        painter.extend(line(&ends, Stroke::new(2.0, colour), style));
+        let at = ends[1] + vec2(6.0, 0.0);
+        painter.text(at, Align2::LEFT_CENTER, name, font::small(), colour);
+    }
+}
+
+/// Draws a line in a style as `egui_plot` does.
+fn line(points: &[Pos2], stroke: Stroke, style: LineStyle) -> Vec<Shape> {
+    match style {
+        LineStyle::Solid => vec![Shape::line(points.to_vec(), stroke)],
+        LineStyle::Dashed { length } => Shape::dashed_line(points, stroke, length, length * 0.618),
+        LineStyle::Dotted { spacing } => {
+            Shape::dotted_line(points, stroke.color, spacing, stroke.width)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use jiff::{Timestamp, tz::TimeZone};
+
+    use super::*;
+
+    #[test]
+    fn moments_within_a_minute_are_marked_with_seconds_and_each_mark_reads_once() {
+        let marks = |seconds: &[i64], step| {
+            let at = seconds.iter().map(|seconds| {
+                let at = Timestamp::from_second(*seconds).expect("a moment");
+                at.to_zoned(TimeZone::UTC)
+            });
+            dates(&at.collect::<Vec<Zoned>>(), step)
+        };
+        let mark = |place: f64, text: &str| (place, text.to_owned());
+        assert_eq!(
+            marks(&[0, 30, 90, 7200], 2),
+            [mark(0.0, "01-01 00:00"), mark(2.0, "01-01 00:01")]
+        );
+        assert_eq!(
+            marks(&[0, 5, 5, 90], 1),
+            [
+                mark(0.0, "01-01 00:00:00"),
+                mark(1.0, "01-01 00:00:05"),
+                mark(3.0, "01-01 00:01:30")
+            ]
+        );
+    }
+
+    #[test]
+    fn an_axis_of_scores_ends_at_one() {
+        let [low, high] = range_around([0.92, 0.99], 0.1, 1.0);
+        assert!(low < 0.92 && high.total_cmp(&1.0).is_eq(), "{low} {high}");
+        let [low, high] = range_around([0.5, 0.75], 0.1, f64::INFINITY);
+        assert!(low < 0.5 && high > 0.75, "{low} {high}");
+    }
+}

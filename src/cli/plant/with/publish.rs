@@ -1,0 +1,168 @@
+//! What `inspect --source --mqtt` publishes: the inspection of each part that the history keeps, and the camera's
+//! status.
+
+use clap::Args;
+
+use super::mqtt::{ChosenBroker, MqttChoice, end_link, show_news};
+use crate::cli::{
+    console::{Console, advised_error},
+    numbers::NumbersChoice,
+};
+use capture::{Captured, FeedState, SkippedCapture, SourceSpec};
+use geometry::error::Fault;
+use inspection::{
+    library::{LibraryLoad, LibraryPlace},
+    pipeline::{Inspection, Recipe},
+};
+use plant::mqtt::MqttLink;
+use records::history::Traceability;
+use robot::RobotFrame;
+use serve::{CameraStatus, Found, InspectionRecorder, ServerSettings, Trouble};
+use station::{FrameOrigin, NewFrame, NoFrame, PartFinder, camera_status};
+
+/// Where `inspect` publishes.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct PublishArgs {
+    #[command(flatten)]
+    mqtt: MqttChoice,
+    #[command(flatten)]
+    numbers: NumbersChoice,
+}
+
+impl PublishArgs {
+    /// Refuses options that would be ignored.
+    pub(in crate::cli) fn check(&self, source: Option<&SourceSpec>) -> anyhow::Result<()> {
+        let is_wanted = self.mqtt.is_wanted();
+        if is_wanted && source.is_none() {
+            return Err(advised_error(
+                "--mqtt needs --source",
+                "Follow a camera, a recording or a folder, such as --source watch:DIR",
+            ));
+        }
+        if !is_wanted && self.numbers != NumbersChoice::default() {
+            return Err(advised_error(
+                "--as, --transform and --number need --mqtt",
+                "Leave them out, or give a broker with --mqtt",
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// A broker, and the form of the published results.
+pub(in crate::cli) struct ChosenPublisher {
+    broker: ChosenBroker,
+    finder: PartFinder,
+}
+
+impl ChosenPublisher {
+    /// Returns the chosen publisher, if any.
+    pub(in crate::cli) fn new(
+        args: &PublishArgs,
+        place: &LibraryPlace,
+        load: &LibraryLoad,
+        robot: Option<&RobotFrame>,
+        console: &Console,
+    ) -> anyhow::Result<Option<Self>> {
+        let Some(broker) = args.mqtt.access(args.numbers.convention)? else {
+            return Ok(None);
+        };
+        let Some(robot) = robot else {
+            return Err(advised_error(
+                "--mqtt publishes poses in the robot's base frame, but no calibration says where the camera sits",
+                "Make one with partsight calibrate, or name one with --calibration",
+            ));
+        };
+        let finder = PartFinder {
+            parts: args.numbers.parts(place, load, console)?,
+            robot: robot.clone(),
+            kind: args.numbers.kind(),
+        };
+        Ok(Some(Self { broker, finder }))
+    }
+
+    /// Connects without waiting for the broker.
+    pub(in crate::cli) fn start(
+        self,
+        source: &SourceSpec,
+        load: &LibraryLoad,
+        trace: &Traceability,
+        console: &Console,
+    ) -> anyhow::Result<Publisher> {
+        let Self { broker, finder } = self;
+        let recorder = InspectionRecorder::new(ServerSettings::default().max_age);
+        let link = broker.start(recorder.boot(), finder.kind, load, trace, console)?;
+        Ok(Publisher {
+            link,
+            finder,
+            recorder,
+            new_frame: NewFrame::of_source(source),
+            camera: CameraStatus::default(),
+            origin: None,
+        })
+    }
+}
+
+/// Publishes inspections as a server does.
+pub(in crate::cli) struct Publisher {
+    link: MqttLink,
+    finder: PartFinder,
+    recorder: InspectionRecorder,
+    new_frame: NewFrame,
+    camera: CameraStatus,
+    /// Origin of the frame that is being inspected.
+    origin: Option<FrameOrigin>,
+}
+
+impl Publisher {
+    /// Publishes changes of the camera's status, and shows events of the connection.
+    pub(in crate::cli) fn look(&mut self, state: &FeedState, console: &Console) {
+        self.camera = camera_status(state);
+        self.link.set_camera(self.camera.clone());
+        show_news(&self.link, console);
+    }
+
+    /// Sets the frame that is inspected next.
+    pub(in crate::cli) fn begin(&mut self, captured: &Captured) {
+        self.origin = Some(self.new_frame.origin_of(captured));
+    }
+
+    /// Returns the result of inspecting that frame. `is_still`: frames of the source, if it shows motion at all, have shown
+    /// that the part hung still.
+    pub(in crate::cli) fn found(
+        &self,
+        inspection: &Inspection,
+        recipe: &Recipe,
+        is_still: bool,
+    ) -> Option<Found> {
+        let mut origin = self.origin?;
+        origin.is_motion_checked &= is_still;
+        Some(self.finder.found(inspection, recipe, origin))
+    }
+
+    /// Publishes an inspection.
+    pub(in crate::cli) fn publish(&mut self, found: Found) {
+        let record = self.recorder.record(found, self.camera.clone());
+        self.link.inspected(record);
+    }
+
+    /// Publishes that something could not be read.
+    pub(in crate::cli) fn skipped(&mut self, skipped: &SkippedCapture) {
+        let why = NoFrame::Unreadable {
+            name: skipped.name.clone(),
+            error: skipped.error.clone(),
+        };
+        self.publish(Found::error((&why).into()));
+    }
+
+    /// Publishes that the program failed at a frame.
+    pub(in crate::cli) fn failed(&mut self, fault: &Fault) {
+        self.publish(Found::error(Trouble::of("fault", fault)));
+    }
+
+    /// Sends what is queued, for a few seconds at most, and disconnects.
+    pub(in crate::cli) fn end(self, console: &Console) {
+        show_news(&self.link, console);
+        end_link(self.link, console);
+    }
+}

@@ -1,0 +1,265 @@
+//! No interfaces of a plant: no options, no subcommands, and nothing that could run.
+
+use std::{net::SocketAddr, path::PathBuf};
+
+use clap::{ArgMatches, Args, Command, FromArgMatches, Subcommand, error::ErrorKind};
+
+use crate::cli::{
+    LibraryChoice, Outcome,
+    console::{Console, advised_error},
+    history,
+    numbers::NumbersChoice,
+    report::Schema,
+};
+use capture::{Captured, FeedState, SkippedCapture, SourceSpec};
+use geometry::error::Fault;
+use inspection::{
+    library::{LibraryLoad, LibraryPlace, TakenVersion},
+    pipeline::{Inspection, Recipe},
+};
+use records::history::{History, HistoryEvent, Traceability};
+use robot::RobotFrame;
+use serve::{CameraStatus, Found, InspectionRecord, Server, ServerHandle};
+use stages::reference::ReferenceParams;
+use station::NumberedPart;
+
+/// Schemas of `report --schema`.
+pub(in crate::cli) const SCHEMAS: &[Schema] = &[];
+
+/// Subcommands that do not exist.
+#[derive(Debug)]
+pub(in crate::cli) enum NoCommand {}
+
+pub(in crate::cli) use NoCommand as LibraryCommand;
+pub(in crate::cli) use NoCommand as HistoryCommand;
+
+impl FromArgMatches for NoCommand {
+    fn from_arg_matches(_: &ArgMatches) -> Result<Self, clap::Error> {
+        Err(clap::Error::new(ErrorKind::InvalidSubcommand))
+    }
+
+    fn update_from_arg_matches(&mut self, _: &ArgMatches) -> Result<(), clap::Error> {
+        match *self {}
+    }
+}
+
+impl Subcommand for NoCommand {
+    fn augment_subcommands(command: Command) -> Command {
+        command
+    }
+
+    fn augment_subcommands_for_update(command: Command) -> Command {
+        command
+    }
+
+    fn has_subcommand(_: &str) -> bool {
+        false
+    }
+}
+
+pub(in crate::cli) fn library(
+    command: &LibraryCommand,
+    _: &LibraryChoice,
+    _: &mut Console,
+) -> anyhow::Result<Outcome> {
+    match *command {}
+}
+
+pub(in crate::cli) fn history(
+    command: &HistoryCommand,
+    _: &mut History,
+    _: &Console,
+) -> anyhow::Result<Outcome> {
+    match *command {}
+}
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct FromChoice {}
+
+pub(in crate::cli) fn overview(
+    _: &history::Command,
+    _: &mut Console,
+) -> anyhow::Result<Option<Outcome>> {
+    Ok(None)
+}
+
+pub(in crate::cli) fn taken_version(_: &LibraryPlace, _: &Console) -> Option<String> {
+    None
+}
+
+pub(in crate::cli) fn version_of(_: &LibraryPlace) -> Result<Option<TakenVersion>, [String; 2]> {
+    Ok(None)
+}
+
+#[derive(Clone, Debug, Args)]
+pub(in crate::cli) struct HistoryToChoice {}
+
+impl HistoryToChoice {
+    pub(in crate::cli) fn chosen(&self, _: &Console) -> anyhow::Result<Option<ChosenDatabase>> {
+        Ok(None)
+    }
+}
+
+pub(in crate::cli) enum ChosenDatabase {}
+
+pub(in crate::cli) enum HistorySender {}
+
+impl HistorySender {
+    pub(in crate::cli) fn start(_: PathBuf, database: ChosenDatabase) -> anyhow::Result<Self> {
+        match database {}
+    }
+
+    pub(in crate::cli) fn show_news(&self, _: &Console, _: impl Fn(HistoryEvent, &Console)) {
+        match *self {}
+    }
+
+    pub(in crate::cli) fn end(self, _: &Console, _: impl Fn(HistoryEvent, &Console)) {
+        match self {}
+    }
+}
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct PublishArgs {}
+
+impl PublishArgs {
+    pub(in crate::cli) fn check(&self, _: Option<&SourceSpec>) -> anyhow::Result<()> {
+        Ok(())
+    }
+}
+
+pub(in crate::cli) enum ChosenPublisher {}
+
+impl ChosenPublisher {
+    pub(in crate::cli) fn new(
+        _: &PublishArgs,
+        _: &LibraryPlace,
+        _: &LibraryLoad,
+        _: Option<&RobotFrame>,
+        _: &Console,
+    ) -> anyhow::Result<Option<Self>> {
+        Ok(None)
+    }
+
+    pub(in crate::cli) fn start(
+        self,
+        _: &SourceSpec,
+        _: &LibraryLoad,
+        _: &Traceability,
+        _: &Console,
+    ) -> anyhow::Result<Publisher> {
+        match self {}
+    }
+}
+
+pub(in crate::cli) enum Publisher {}
+
+impl Publisher {
+    pub(in crate::cli) fn look(&mut self, _: &FeedState, _: &Console) {
+        match *self {}
+    }
+
+    pub(in crate::cli) fn begin(&mut self, _: &Captured) {
+        match *self {}
+    }
+
+    pub(in crate::cli) fn found(&self, _: &Inspection, _: &Recipe, _: bool) -> Option<Found> {
+        match *self {}
+    }
+
+    pub(in crate::cli) fn publish(&mut self, _: Found) {
+        match *self {}
+    }
+
+    pub(in crate::cli) fn skipped(&mut self, _: &SkippedCapture) {
+        match *self {}
+    }
+
+    pub(in crate::cli) fn failed(&mut self, _: &Fault) {
+        match *self {}
+    }
+
+    pub(in crate::cli) fn end(self, _: &Console) {
+        match self {}
+    }
+}
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct HttpArgs {
+    /// Needs a build with the feature plant
+    #[arg(long, value_name = "[IP:]PORT", hide = true)]
+    http: Option<String>,
+}
+
+impl HttpArgs {
+    pub(in crate::cli) fn is_wanted(&self) -> bool {
+        self.http.is_some()
+    }
+}
+
+#[derive(Clone, Debug, Args)]
+pub(in crate::cli) struct MqttChoice {}
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct TakeArgs {}
+
+pub(in crate::cli) struct TakenLibrary {
+    pub(in crate::cli) load: LibraryLoad,
+    pub(in crate::cli) parts: Vec<NumberedPart>,
+}
+
+pub(in crate::cli) struct ChosenServices;
+
+impl ChosenServices {
+    pub(in crate::cli) fn new(
+        _: &NumbersChoice,
+        http: &HttpArgs,
+        _: &MqttChoice,
+        _: &TakeArgs,
+    ) -> anyhow::Result<Self> {
+        if http.is_wanted() {
+            return Err(advised_error(
+                "this build has no HTTP",
+                "Build it with the feature plant: cargo build --release --features plant",
+            ));
+        }
+        Ok(Self)
+    }
+
+    pub(in crate::cli) fn start<'a>(
+        self,
+        _: &Server,
+        _: &'a LibraryPlace,
+        _: &LibraryLoad,
+        _: ReferenceParams,
+        _: &Traceability,
+        _: &Console,
+    ) -> anyhow::Result<Services<'a>> {
+        Ok(Services(std::marker::PhantomData))
+    }
+}
+
+pub(in crate::cli) struct Services<'a>(std::marker::PhantomData<&'a LibraryPlace>);
+
+impl Services<'_> {
+    pub(in crate::cli) fn inspected(&self, _: InspectionRecord) {}
+
+    pub(in crate::cli) fn turn(&self, _: CameraStatus, _: &Console) {}
+
+    pub(in crate::cli) fn taken_library(&mut self, _: &Console) -> Option<TakenLibrary> {
+        None
+    }
+
+    pub(in crate::cli) fn end(self, _: &Console) {}
+}
+
+pub(in crate::cli) enum BenchHttp {}
+
+impl BenchHttp {
+    pub(in crate::cli) fn start(_: ServerHandle) -> anyhow::Result<Option<Self>> {
+        Ok(None)
+    }
+
+    pub(in crate::cli) fn address(&self) -> SocketAddr {
+        match *self {}
+    }
+}
