@@ -92,8 +92,8 @@ fn a_saved_recipe_is_used_by_name_by_file_and_by_default() {
     let list = place.accepted(&["recipe", "list", "--json"]).lines();
     let names: Vec<_> = list.iter().map(|line| line["name"].clone()).collect();
     assert_eq!(names, ["built-in", "as-in-the-paper", "strict"]);
-    assert_eq!(list[1]["is_default"], true);
-    assert_eq!(list[1]["notes"], "no doubt");
+    assert_eq!(list[2]["is_default"], true);
+    assert_eq!(list[2]["notes"], "no doubt");
     let show = place
         .accepted(&["recipe", "show", "strict", "--json"])
         .json();

@@ -97,7 +97,7 @@ fn find_device(aravis: &Functions, wanted: Option<&str>) -> Result<String, Camer
 /// Chooses the pixel format: the requested one, else depth if its numbers are known, else points.
 fn choose(
     asked: Option<GenicamFormat>,
-    offered: Vec<String>,
+    offered: &[String],
     knows_camera: bool,
 ) -> Result<GenicamFormat, CameraError> {
     let is_offered = |format: &GenicamFormat| offered.iter().any(|name| name == format.name());
@@ -109,7 +109,7 @@ fn choose(
                 format!(
                     "the camera does not offer {}{}",
                     format.name(),
-                    only(&offered)
+                    only(offered)
                 ),
                 "Leave the source's format option out, or name one that the camera offers",
             ))
@@ -125,7 +125,7 @@ fn choose(
         .find(is_offered)
         .ok_or_else(|| {
             ARAVIS.unsuitable(
-                format!("the camera offers no depth{}", only(&offered)),
+                format!("the camera offers no depth{}", only(offered)),
                 "Use a 3-D camera; if its Mono16 is depth, say so and give its numbers: genicam,format=Mono16,camera=FILE",
             )
         })
@@ -145,7 +145,7 @@ impl Genicam {
         let _ = device.set(c"ComponentSelector", c"Range");
         let offered = device.pixel_formats().map_err(not_opened)?;
         let knows_camera = file.is_some() || device.has(FOCAL_LENGTH).map_err(not_opened)?;
-        let format = choose(spec.format, offered, knows_camera)?;
+        let format = choose(spec.format, &offered, knows_camera)?;
         let name = CString::new(format.name()).unwrap_or_default();
         device.set(c"PixelFormat", &name).map_err(not_opened)?;
         let nodes = Scan3d::read(&device, format).map_err(not_opened)?;
@@ -260,7 +260,8 @@ mod tests {
     #[test]
     fn depth_is_preferred_where_its_numbers_are_known_and_mono16_is_never_guessed() {
         use GenicamFormat::{Coord3dAbc32f, Coord3dC16, Mono16};
-        let offered = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect();
+        let offered =
+            |names: &[&str]| -> Vec<String> { names.iter().map(|&name| name.to_owned()).collect() };
         let both = ["Mono8", "Mono16", "Coord3D_C16", "Coord3D_ABC32f"];
         for (asked, names, knows_camera, expected) in [
             (None, &both[..], true, Coord3dC16),
@@ -269,15 +270,15 @@ mod tests {
             (None, &both[3..], true, Coord3dAbc32f),
             (Some(Mono16), &both[..], true, Mono16),
         ] {
-            let chosen = choose(asked, offered(names), knows_camera).expect("offered");
+            let chosen = choose(asked, &offered(names), knows_camera).expect("offered");
             assert_eq!(chosen, expected, "{names:?} {knows_camera}");
         }
-        let refused = choose(None, offered(&both[..2]), true).expect_err("grey values");
+        let refused = choose(None, &offered(&both[..2]), true).expect_err("grey values");
         assert!(
             refused.to_string().contains("only Mono8, Mono16"),
             "{refused}"
         );
-        let refused = choose(Some(Mono16), offered(&both[..1]), true).expect_err("not offered");
+        let refused = choose(Some(Mono16), &offered(&both[..1]), true).expect_err("not offered");
         assert!(
             refused.to_string().contains("does not offer Mono16"),
             "{refused}"

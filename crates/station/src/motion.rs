@@ -23,8 +23,8 @@ use stages::scene::scene_from_image;
 const TURN: Duration = Duration::from_millis(100);
 /// Frames that follow sooner are not looked at: a faster camera shows no more of a motion.
 const MIN_APART: Duration = Duration::from_millis(25);
-/// How long it may take until the thread has seen a frame that has arrived; usually a few milliseconds.
-const MAX_LAG: Duration = Duration::from_secs(1);
+/// Maximum time until the thread has seen a frame that has arrived: usually milliseconds, but more on a busy computer.
+const MAX_LAG: Duration = Duration::from_secs(3);
 
 /// Watches a source until it is dropped.
 pub(super) struct MotionWatch {

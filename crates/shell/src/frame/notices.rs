@@ -34,7 +34,7 @@ fn display_seconds(kind: NoticeKind) -> Option<f64> {
     }
 }
 
-/// Reserves room at the bottom of the window, or finds it in the operator's view; [`ui`] draws the notices there.
+/// Reserves room at the bottom of the window, or finds it in the operator's view; [`ui()`] draws the notices there.
 pub fn room(ui: &mut Ui, state: &State) -> Option<Rect> {
     if state.session.is_operator_view() {
         let view = ui.available_rect_before_wrap();

@@ -104,7 +104,7 @@ pub fn spray_path(
         Err(_) => None,
     };
     let content = match &program {
-        Some((language, target)) => target.content(*language),
+        Some((language, target)) => target.content(language),
         None => RobotFileContent::Poses {
             convention,
             params: &inspected.recipe.stand_off,

@@ -202,7 +202,7 @@ impl EnrolState {
         match action {
             EnrolAction::TakeShown => self.take_shown(cx),
             EnrolAction::SeeInspected => {
-                cx.send(Message::Act(Action::GoTo(WorkspaceKind::Inspect)))
+                cx.send(Message::Act(Action::GoTo(WorkspaceKind::Inspect)));
             }
             EnrolAction::Correct(edit) => {
                 self.is_outline_new = matches!(edit, Edit::Outline(..));

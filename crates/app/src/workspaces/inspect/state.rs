@@ -185,7 +185,7 @@ impl InspectState {
             InspectAction::CopyPose => copy_pose(cx),
             InspectAction::Compare => cx.send(Message::Act(Action::GoTo(WorkspaceKind::Compare))),
             InspectAction::ToggleRecording => {
-                cx.send(Message::Act(Action::Live(LiveAction::ToggleRecording)))
+                cx.send(Message::Act(Action::Live(LiveAction::ToggleRecording)));
             }
             InspectAction::Shots(action) => self.change_shots(action, cx),
             InspectAction::Ask(file) => {

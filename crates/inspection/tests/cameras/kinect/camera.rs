@@ -24,7 +24,11 @@ fn with_camera(test: &str, state: &str, body: impl FnOnce()) {
     let library = folder.path().join("libfreenect.so.0.5");
     let mut options = SHARED.to_vec();
     options.extend((state == "old").then_some("-DOLD"));
-    if let Err(why) = compile_c("tests/cameras/kinect/camera.c", &library, &options) {
+    if let Err(why) = compile_c(
+        "crates/inspection/tests/cameras/kinect/camera.c",
+        &library,
+        &options,
+    ) {
         return skipped(&why);
     }
     let log = folder.path().join("calls");

@@ -54,9 +54,17 @@ fn record(folder: &Path, model: &str) -> Result<(), String> {
     let library = library.ok_or("PARTSIGHT_TEST_REALSENSE names no library")?;
     let library = fs::canonicalize(library).expect("PARTSIGHT_TEST_REALSENSE is there");
     let python = folder.join(PYTHON);
-    compile_c("tests/cameras/realsense/python.c", &python, &SHARED)?;
+    compile_c(
+        "crates/inspection/tests/cameras/realsense/python.c",
+        &python,
+        &SHARED,
+    )?;
     let program = folder.join("record");
-    compile_c("tests/cameras/realsense/record.c", &program, &[])?;
+    compile_c(
+        "crates/inspection/tests/cameras/realsense/record.c",
+        &program,
+        &[],
+    )?;
     let linked = folder.join("librealsense2.so");
     symlink(library, &linked).expect("linked");
     let output = Command::new(program)

@@ -130,6 +130,10 @@ fn frame(pose: &RigidTransform, configuration: Option<&str>, rail: Option<f64>) 
     format!("{{{}}}", all.join(","))
 }
 
+#[expect(
+    clippy::unnecessary_wraps,
+    reason = "another controller may not name every configuration"
+)]
 fn configuration(posture: &Posture) -> Option<String> {
     let bits = |all: &[bool]| -> u8 {
         let all = all.iter().enumerate();

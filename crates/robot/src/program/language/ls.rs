@@ -161,6 +161,10 @@ fn whole(program: &Program<'_>, name: &str, moves: &Lines, points: &Lines) -> Li
     lines
 }
 
+#[expect(
+    clippy::unnecessary_wraps,
+    reason = "another controller may not name every configuration"
+)]
 fn configuration(posture: &Posture) -> Option<String> {
     let [_, _, _, j4, j5, j6] = posture.degrees;
     let flip = if j5 < 0.0 { 'N' } else { 'F' };

@@ -161,6 +161,10 @@ fn zone(blend: f64) -> String {
     format!("[FALSE,{radius},{turn},{turn},{degrees},{turn},{degrees}]")
 }
 
+#[expect(
+    clippy::unnecessary_wraps,
+    reason = "another controller may not name every configuration"
+)]
 fn configuration(posture: &Posture) -> Option<String> {
     let [a1, _, _, a4, a5, a6] = posture.degrees;
     let [cf1, cf4, cf6] = [a1, a4, a6].map(|angle| (angle / 90.0).floor() as i32);
