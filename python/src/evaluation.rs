@@ -3,9 +3,9 @@
 
 use std::{path::PathBuf, time::Duration};
 
+use bench::EvaluationReport;
 use partsight::{
     Inspection, Metres, Radians, SceneCloud, Timings,
-    bench::EvaluationReport,
     cases::{
         CaseError, CaseFolder, CaseJudge, CaseList, CaseResult, FoundVerdict, KeptCase, PackedCase,
         RecipeRecord, SCHEMA_VERSION, Truth,
