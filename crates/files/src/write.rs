@@ -237,7 +237,7 @@ mod tests {
     #[cfg(unix)]
     #[test]
     fn whichever_call_fails_a_file_holds_its_old_content_or_the_new() {
-        use crate::disk::faults::{Writer, told};
+        use crate::disk::faults::{Writer, with_advice};
 
         Writer {
             test: "write::tests::whichever_call_fails_a_file_holds_its_old_content_or_the_new",
@@ -248,7 +248,7 @@ mod tests {
                     // More than the buffer holds.
                     writer.write_all(&vec![b'x'; 20_000])
                 });
-                written.map_err(|error| told(&error))
+                written.map_err(|error| with_advice(&error))
             },
             state: &|folder| {
                 let text = fs::read_to_string(folder.join("kept.txt")).unwrap();

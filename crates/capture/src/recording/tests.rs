@@ -367,7 +367,7 @@ fn a_drive_that_is_pulled_out_is_waited_for() {
 #[cfg(unix)]
 #[test]
 fn whichever_call_fails_a_recording_holds_whole_frames_alone() {
-    use files::disk::faults::{Writer, told};
+    use files::disk::faults::{Writer, with_advice};
     use geometry::fixtures::small_frame;
 
     let template = simulated(1).remove(0);
@@ -388,9 +388,9 @@ fn whichever_call_fails_a_recording_holds_whole_frames_alone() {
                 Err(CaptureError::FolderInUse { .. }) => create("another"),
                 created => created,
             };
-            let mut recorder = recorder.map_err(|error| told(&error))?;
+            let mut recorder = recorder.map_err(|error| with_advice(&error))?;
             for frame in &frames {
-                recorder.write(frame).map_err(|error| told(&error))?;
+                recorder.write(frame).map_err(|error| with_advice(&error))?;
             }
             Ok(())
         },

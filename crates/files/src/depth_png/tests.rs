@@ -277,7 +277,7 @@ fn a_line_of_pixels_takes_no_memory_and_what_is_no_png_is_named() {
 #[cfg(unix)]
 #[test]
 fn whichever_call_fails_a_depth_image_never_has_the_camera_of_another() {
-    use crate::disk::faults::{Writer, told};
+    use crate::disk::faults::{Writer, with_advice};
 
     let frame = |fx: f64, depth: u16| {
         let mut frame = small_frame(6, (0..24).map(|i| depth + i));
@@ -291,7 +291,7 @@ fn whichever_call_fails_a_depth_image_never_has_the_camera_of_another() {
         },
         write: &|folder| {
             let written = write_depth_png(&folder.join("depth.png"), &frame(600.0, 1900));
-            written.map_err(|error| told(&error))
+            written.map_err(|error| with_advice(&error))
         },
         state: &|folder| match crate::open(&folder.join("depth.png")) {
             Ok(FileContent::Depth(frame)) => {

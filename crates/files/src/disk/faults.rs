@@ -74,7 +74,7 @@ fn with_fault<T>(plan: Plan, write: impl FnOnce() -> T) -> (T, bool) {
 
 impl Fault {
     /// Returns true if message and advice describe the fault.
-    fn is_told_by(self, message: &str) -> bool {
+    fn is_described_by(self, message: &str) -> bool {
         let says = |words: &[&str]| words.iter().any(|words| message.contains(words));
         match self {
             Self::Full => says(&["the disk is full"]) && says(&["room"]),
@@ -86,7 +86,7 @@ impl Fault {
 }
 
 /// Returns an error with its advice, as [`Writer::write`] reports it.
-pub fn told(error: &(impl std::error::Error + Advice)) -> String {
+pub fn with_advice(error: &(impl std::error::Error + Advice)) -> String {
     format!("{error}; {}", error.advice())
 }
 
@@ -114,8 +114,10 @@ impl Writer<'_> {
     /// Makes every call fail in every way, and checks the state afterwards.
     #[allow(clippy::print_stderr, reason = "figures of a test are to be read")]
     pub fn fails_at_every_call(&self) {
-        if let Ok(told) = env::var(KILLED) {
-            let (at, folder) = told.split_once(' ').expect("a number and a folder");
+        if let Ok(at_and_folder) = env::var(KILLED) {
+            let (at, folder) = at_and_folder
+                .split_once(' ')
+                .expect("a number and a folder");
             let plan = Plan {
                 fault: Fault::Killed,
                 left: at.parse().expect("a number"),
@@ -164,10 +166,10 @@ impl Writer<'_> {
         let (written, has_struck) = with_fault(plan, || (self.write)(folder.path()));
         let found = (self.state)(folder.path());
         match written {
-            Ok(()) => assert_eq!(found, new, "{plan:?} was not told"),
+            Ok(()) => assert_eq!(found, new, "{plan:?} was not reported"),
             Err(message) => {
                 assert!(has_struck, "{message}");
-                assert!(plan.fault.is_told_by(&message), "{plan:?}: {message}");
+                assert!(plan.fault.is_described_by(&message), "{plan:?}: {message}");
                 self.is_whole(&found, old, new, &format!("{plan:?}: {message}"));
             }
         }

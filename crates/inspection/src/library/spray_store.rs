@@ -205,7 +205,7 @@ mod tests {
         test: &str,
         change: &dyn Fn(&LibraryFolder) -> Result<(), LibraryError>,
     ) {
-        use files::disk::faults::{Writer, told};
+        use files::disk::faults::{Writer, with_advice};
 
         let open = |folder: &Path| LibraryFolder::open(folder).expect("a library");
         Writer {
@@ -219,7 +219,7 @@ mod tests {
                 let stored = open(folder).set_spray_path(&name("fender"), Some(&path(0.1)));
                 stored.expect("stored");
             },
-            write: &|folder| change(&open(folder)).map_err(|error| told(&error)),
+            write: &|folder| change(&open(folder)).map_err(|error| with_advice(&error)),
             state: &|folder| {
                 let library = open(folder);
                 let stored = library.spray_path("fender").expect("read").expect("a path");

@@ -195,7 +195,9 @@ impl RecipeFile {
     /// The built-in recipe of this name, as if read from a file.
     pub fn built_in_named(name: &PartName) -> Option<Self> {
         let notes = match name.as_str() {
-            AS_IN_THE_PAPER => "The paper's matcher, and ICP-GA for the pose",
+            AS_IN_THE_PAPER => {
+                "The paper's matcher, and ICP-GA for the pose: to compare, since it takes parts for others"
+            }
             _ => "",
         };
         Some(Self {

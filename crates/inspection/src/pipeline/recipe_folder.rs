@@ -455,7 +455,7 @@ mod tests {
     #[cfg(unix)]
     #[test]
     fn whichever_call_fails_no_recipe_is_lost() {
-        use files::disk::faults::{Writer, told};
+        use files::disk::faults::{Writer, with_advice};
 
         const TEST: &str = "pipeline::recipe_folder::tests::whichever_call_fails_no_recipe_is_lost";
         type Change = fn(&RecipeFolder) -> Result<(), RecipeError>;
@@ -496,7 +496,7 @@ mod tests {
                     if !is_mine(folder) {
                         return Ok(());
                     }
-                    change(&at(folder)).map_err(|error| told(&error))
+                    change(&at(folder)).map_err(|error| with_advice(&error))
                 },
                 state: &|folder| {
                     let list = at(folder).list().expect("listed");

@@ -928,7 +928,7 @@ fn a_serial_number_that_comes_later_is_added_to_the_inspections_of_its_part_that
 #[cfg(unix)]
 #[test]
 fn whichever_call_fails_an_inspection_is_in_the_history_with_its_frame_or_not_at_all() {
-    use files::disk::faults::{Writer, told};
+    use files::disk::faults::{Writer, with_advice};
 
     let add = |folder: &std::path::Path, seconds| -> Result<(), HistoryError> {
         let mut history = History::open(folder)?.history;
@@ -938,7 +938,7 @@ fn whichever_call_fails_an_inspection_is_in_the_history_with_its_frame_or_not_at
     Writer {
         test: "history::tests::whichever_call_fails_an_inspection_is_in_the_history_with_its_frame_or_not_at_all",
         prepare: &|folder| add(folder, 1).expect("written"),
-        write: &|folder| add(folder, 2).map_err(|error| told(&error)),
+        write: &|folder| add(folder, 2).map_err(|error| with_advice(&error)),
         state: &|folder| {
             let history = open_history(folder);
             let page = history.page(&Filter::default(), 0, 10).expect("asked");

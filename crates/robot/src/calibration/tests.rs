@@ -338,7 +338,7 @@ fn lengths_in_the_wrong_unit_are_questioned() {
 #[cfg(unix)]
 #[test]
 fn whichever_call_fails_a_calibration_is_the_old_one_or_the_new() {
-    use files::disk::faults::{Writer, told};
+    use files::disk::faults::{Writer, with_advice};
 
     let called = |name: &str| CellCalibration {
         name: name.into(),
@@ -350,7 +350,7 @@ fn whichever_call_fails_a_calibration_is_the_old_one_or_the_new() {
         prepare: &|folder| called("old").save(&place(folder)).expect("written"),
         write: &|folder| {
             let saved = called("new").save_keeping_former(&place(folder));
-            saved.map(|_| ()).map_err(|error| told(&error))
+            saved.map(|_| ()).map_err(|error| with_advice(&error))
         },
         state: &|folder| {
             let loaded = CellCalibration::load(&place(folder)).expect("read");

@@ -231,7 +231,7 @@ fn a_damaged_baseline_or_list_says_what_to_do() {
 fn whichever_call_fails_a_baseline_is_the_old_one_or_the_new() {
     use std::path::Path;
 
-    use files::disk::faults::{Writer, told};
+    use files::disk::faults::{Writer, with_advice};
 
     let of_frames = |num_frames| CellBaseline {
         num_frames,
@@ -242,7 +242,11 @@ fn whichever_call_fails_a_baseline_is_the_old_one_or_the_new() {
     Writer {
         test: "cell_check::tests::whichever_call_fails_a_baseline_is_the_old_one_or_the_new",
         prepare: &|folder| place(folder).save(&old).expect("written"),
-        write: &|folder| place(folder).save(&new).map_err(|error| told(&error)),
+        write: &|folder| {
+            place(folder)
+                .save(&new)
+                .map_err(|error| with_advice(&error))
+        },
         state: &|folder| {
             place(folder)
                 .baseline()

@@ -705,7 +705,7 @@ fn a_library_with_a_damaged_part_or_path_or_no_part_is_not_published() {
 #[cfg(unix)]
 #[test]
 fn whichever_call_fails_the_library_is_the_former_version_or_the_new_one() {
-    use files::disk::faults::{Writer, told};
+    use files::disk::faults::{Writer, with_advice};
 
     let plant = Plant::with_two_versions();
     let trusted = plant.key().trusted();
@@ -721,7 +721,7 @@ fn whichever_call_fails_the_library_is_the_former_version_or_the_new_one() {
     Writer {
         test: "bundle::take::tests::whichever_call_fails_the_library_is_the_former_version_or_the_new_one",
         prepare: &|folder| drop(install(folder, 1).expect("taken")),
-        write: &|folder| install(folder, 2).map(|_| ()).map_err(|error| told(&error)),
+        write: &|folder| install(folder, 2).map(|_| ()).map_err(|error| with_advice(&error)),
         state: &|folder| state(&LibraryFolder::open(folder).expect("there")),
         between: &[],
     }

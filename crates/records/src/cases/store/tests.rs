@@ -355,7 +355,7 @@ fn a_packed_case_is_the_same_without_its_folder_and_its_damage_is_reported_the_s
 #[cfg(unix)]
 #[test]
 fn whichever_call_fails_a_case_is_kept_whole_or_not_at_all() {
-    use files::disk::faults::{Writer, told};
+    use files::disk::faults::{Writer, with_advice};
 
     let scene = crumb();
     let at = |folder: &Path| CaseFolder::at(folder.join("cases"));
@@ -381,7 +381,7 @@ fn whichever_call_fails_a_case_is_kept_whole_or_not_at_all() {
         },
         write: &|folder| {
             let kept = at(folder).keep(&scene, about("fender"));
-            kept.map(|_| ()).map_err(|error| told(&error))
+            kept.map(|_| ()).map_err(|error| with_advice(&error))
         },
         state: &state,
         between: &[],
@@ -392,7 +392,7 @@ fn whichever_call_fails_a_case_is_kept_whole_or_not_at_all() {
 #[cfg(unix)]
 #[test]
 fn whichever_call_fails_a_case_is_removed_whole_or_not_at_all() {
-    use files::disk::faults::{Writer, told};
+    use files::disk::faults::{Writer, with_advice};
 
     let scene = crumb();
     let at = |folder: &Path| CaseFolder::at(folder.join("cases"));
@@ -403,7 +403,7 @@ fn whichever_call_fails_a_case_is_removed_whole_or_not_at_all() {
         },
         write: &|folder| {
             let removed = at(folder).remove("door");
-            removed.map(|_| ()).map_err(|error| told(&error))
+            removed.map(|_| ()).map_err(|error| with_advice(&error))
         },
         state: &|folder| {
             let list = at(folder).list().expect("listed");
@@ -423,7 +423,7 @@ fn whichever_call_fails_a_case_is_removed_whole_or_not_at_all() {
 #[cfg(unix)]
 #[test]
 fn whichever_call_fails_a_case_has_its_old_truth_or_the_new() {
-    use files::disk::faults::{Writer, told};
+    use files::disk::faults::{Writer, with_advice};
 
     let scene = crumb();
     let at = |folder: &Path| CaseFolder::at(folder.join("cases"));
@@ -434,7 +434,7 @@ fn whichever_call_fails_a_case_has_its_old_truth_or_the_new() {
         },
         write: &|folder| {
             let changed = at(folder).set_truth("door", Truth::NotEnrolled);
-            changed.map(|_| ()).map_err(|error| told(&error))
+            changed.map(|_| ()).map_err(|error| with_advice(&error))
         },
         state: &|folder| {
             let list = at(folder).list().expect("listed");

@@ -4,9 +4,8 @@
 //! of a blended move, at a moment that could not be established, so the robot stops at the point where the gun switches.
 //! There are no external axes. Doosan, *Programming Manual*, motion and I/O.
 //!
-//! Asynchronous moves (`amovel`, `amovesx`, `amoveb`) do not help: an output can only follow a time after their start, they
-//! take no blend radius, and the next move has to wait for their end or cuts them short; those along several points have
-//! one speed for all of them.
+//! Asynchronous moves (`amovel`) are not used: public sources show outputs that follow a time after their start, but no
+//! output that is tied to a place on the path.
 
 use super::{RobotLanguage, ToolName};
 use crate::{

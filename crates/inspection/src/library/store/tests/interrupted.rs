@@ -72,7 +72,7 @@ fn fails_at_every_call(
     change: &dyn Fn(&LibraryFolder) -> Result<(), LibraryError>,
     between: &[&str],
 ) {
-    use files::disk::faults::{Writer, told};
+    use files::disk::faults::{Writer, with_advice};
 
     let plate = part("plate", 0.4);
     let open = |folder: &Path| LibraryFolder::open(folder).expect("there");
@@ -81,7 +81,7 @@ fn fails_at_every_call(
         prepare: &|folder| {
             open(folder).save(&plate).expect("saved");
         },
-        write: &|folder| change(&open(folder)).map_err(|error| told(&error)),
+        write: &|folder| change(&open(folder)).map_err(|error| with_advice(&error)),
         state: &|folder| {
             let library = open(folder);
             let load = library.verify(&ReferenceParams::default()).expect("listed");

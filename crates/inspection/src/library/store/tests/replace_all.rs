@@ -108,7 +108,7 @@ fn a_former_part_that_cannot_be_read_is_moved_to_the_trash_and_stops_no_writer()
 #[cfg(unix)]
 #[test]
 fn whichever_call_fails_all_parts_are_replaced_or_none() {
-    use files::disk::faults::{Writer, told};
+    use files::disk::faults::{Writer, with_advice};
 
     let open = |folder: &Path| LibraryFolder::open(folder).expect("there");
     let before = [part("same", 0.4), part("changed", 0.5), part("gone", 0.6)];
@@ -123,7 +123,7 @@ fn whichever_call_fails_all_parts_are_replaced_or_none() {
         },
         write: &|folder| {
             let replaced = replace_all(&open(folder), &after);
-            replaced.map(|_| ()).map_err(|error| told(&error))
+            replaced.map(|_| ()).map_err(|error| with_advice(&error))
         },
         state: &|folder| {
             let library = open(folder);

@@ -174,7 +174,7 @@ fn many_at_once_leave_whole_rows() {
 #[cfg(unix)]
 #[test]
 fn whichever_call_fails_a_table_has_whole_rows_alone() {
-    use files::disk::faults::{Writer, told};
+    use files::disk::faults::{Writer, with_advice};
 
     let report = door().report(Some(&robot()), Convention::Kuka);
     let table = |folder: &Path| folder.join("poses.csv");
@@ -199,7 +199,7 @@ fn whichever_call_fails_a_table_has_whole_rows_alone() {
                     return Ok(());
                 }
                 let appended = append_csv(&table(folder), &report);
-                appended.map(|_| ()).map_err(|error| told(&error))
+                appended.map(|_| ()).map_err(|error| with_advice(&error))
             },
             state: &|folder| {
                 let text = fs::read_to_string(table(folder)).unwrap_or_default();
