@@ -116,9 +116,16 @@ fn rows_there(server: &Postgres, cell: &str, table: &str, columns: &[Column]) ->
         values.join(", "),
         cell.replace('\'', "''")
     ));
-    let rows = rows
-        .iter()
-        .map(|row| serde_json::from_str(row).expect("JSON"));
+    let rows = rows.iter().map(|row| {
+        let mut row: Vec<Value> = serde_json::from_str(row).expect("JSON");
+        for (value, (_, kind)) in row.iter_mut().zip(columns) {
+            // PostgreSQL writes the number 23.0 as 23.
+            if let (ColumnKind::Real, Some(number)) = (kind, value.as_f64()) {
+                *value = json!(number);
+            }
+        }
+        json!(row)
+    });
     sorted(rows.collect())
 }
 
@@ -164,6 +171,7 @@ fn everything_arrives_value_by_value_and_so_does_every_later_change() {
     let whose = cell_of(&mut history, cell);
     let mut hostile = history_entry(9000, StoredVerdict::Rejected, "fender");
     let summary = &mut hostile.record.summary;
+    summary.total_ms = 23.0;
     summary.scene = SceneTitle::Named(HOSTILE.into());
     for text in [&mut summary.source, &mut summary.title, &mut summary.remark] {
         HOSTILE.clone_into(text);
