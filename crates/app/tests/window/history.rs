@@ -667,7 +667,7 @@ fn what_has_no_frame_any_more_cannot_be_opened_and_the_newest_row_comes_into_sig
     assert!(!harness.get_by_label("Open").accesskit_node().is_disabled());
     press(&mut harness, "Inspection 200: fender, Accepted");
     assert!(harness.get_by_label("Open").accesskit_node().is_disabled());
-    harness.get_by_label_contains("The frame of frame 199 is not kept");
+    harness.get_by_label_contains("The frame of frame 199, simulated is not kept");
 
     // Scroll far down, then inspect again.
     harness.get_by_label_contains("Inspection 198").hover();
@@ -816,7 +816,7 @@ fn statistics_count_the_listed_parts_by_shift_by_part_and_by_reason() {
     harness.get_by_label_contains(": 9 OK, 3 NOK");
     harness.get_by_label("Fender, left");
     harness.get_by_label("75.0 %");
-    harness.get_by_label("3 × Too low");
+    harness.get_by_label("3 × Score below the threshold");
     harness.get_by_label("Drift: Fender, left");
     harness.get_by_label("Score: first fifth 0.97, last fifth 0.97 (medians)");
     harness.get_by_label_contains("rms: first fifth 1.1 mm, last fifth 2.0 mm (medians)");
@@ -826,7 +826,11 @@ fn statistics_count_the_listed_parts_by_shift_by_part_and_by_reason() {
     press(&mut harness, "Verdict · All ▼");
     press(&mut harness, "Verdict: Accepted");
     harness.get_by_label_contains(": 9 OK, 0 NOK");
-    assert!(harness.query_by_label("3 × Too low").is_none());
+    assert!(
+        harness
+            .query_by_label("3 × Score below the threshold")
+            .is_none()
+    );
     press(&mut harness, "Statistics");
     harness.get_by_label_contains("Inspection 13: ");
 }

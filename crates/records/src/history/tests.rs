@@ -184,7 +184,7 @@ fn a_word_of_what_is_shown_finds_what_is_stored() {
     for (text, expected) in [
         ("BILD", &[1][..]),
         ("simuliertes bild 7", &[1]),
-        ("simulated frame", &[1]),
+        ("simulated frame 7", &[1]),
         ("bild 8", &[]),
         ("simuliertes bilder", &[]),
         ("frame 2", &[2]),

@@ -339,8 +339,8 @@ mod tests {
         };
         for (origin, source) in [
             (frame(false), "Kinect frame 12"),
-            (frame(true), "Kinect frame 12, simulated"),
-            (file, "door.pcd, simulated"),
+            (frame(true), "Kinect frame 12"),
+            (file, "door.pcd"),
         ] {
             let request = InspectRequest {
                 source: SceneSource::AtHand(Arc::clone(&scene), origin),
