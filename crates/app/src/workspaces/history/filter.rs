@@ -211,10 +211,10 @@ mod tests {
         let shown = filter("bild").shown;
         Language::English.make_current();
         for expected in [
-            ["simuliertes bild ", "simulated frame "],
-            [", simuliert", ", simulated"],
-            [" aufnahmen", " shots"],
-            ["simulierte zelle", "simulated cell"],
+            ["simuliertes bild ", "=simulated_frame "],
+            [", simuliert", "=simulated"],
+            [" aufnahmen", "=shots "],
+            ["simulierte zelle", "\nsimulated cell"],
         ] {
             assert!(shown.iter().any(|both| *both == expected), "{shown:?}");
         }
