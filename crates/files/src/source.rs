@@ -118,8 +118,8 @@ const FILE_CLOCK: Duration = Duration::from_millis(30);
 fn settled(file: &File) -> io::Result<Option<Metadata>> {
     let found = file.metadata()?;
     let age = found.modified().ok().and_then(|time| time.elapsed().ok());
-    if age.is_some_and(|age| age < FILE_CLOCK) {
-        thread::sleep(FILE_CLOCK);
+    if let Some(left) = age.and_then(|age| FILE_CLOCK.checked_sub(age)) {
+        thread::sleep(left);
         let again = file.metadata()?;
         return Ok((stamp(&again) == stamp(&found)).then_some(again));
     }

@@ -4,8 +4,10 @@
 use std::{
     cell::Cell,
     env, io,
+    panic::resume_unwind,
     path::Path,
     process::{self, Command},
+    thread,
 };
 
 use geometry::error::Advice;
@@ -96,16 +98,21 @@ const KILLED: &str = "PARTSIGHT_TEST_KILLED_AT";
 /// More calls than any writer makes.
 const MOST_CALLS: u32 = 1000;
 
+/// The first call, counted from 0, that a writer does not make; `makes` returns whether it makes one.
+fn first_without(makes: impl Fn(u32) -> bool) -> u32 {
+    (0..MOST_CALLS).find(|&at| !makes(at)).expect("it ends")
+}
+
 /// A writer under test.
 pub struct Writer<'a> {
     /// The full name of the test. It runs again in a child process, which is killed.
     pub test: &'a str,
     /// Creates the old state in an empty folder.
-    pub prepare: &'a dyn Fn(&Path),
+    pub prepare: &'a (dyn Fn(&Path) + Sync),
     /// Changes the old state into the new one; on failure returns the error with its advice.
-    pub write: &'a dyn Fn(&Path) -> Result<(), String>,
+    pub write: &'a (dyn Fn(&Path) -> Result<(), String> + Sync),
     /// Describes the state that a reader of this program finds.
-    pub state: &'a dyn Fn(&Path) -> String,
+    pub state: &'a (dyn Fn(&Path) -> String + Sync),
     /// States between old and new that count as whole.
     pub between: &'a [&'a str],
 }
@@ -130,23 +137,28 @@ impl Writer<'_> {
         }
         let (old, new) = self.both();
         assert_ne!(old, new, "the writer changes nothing");
-        let mut num_calls = [0; 7];
         let faults = [Fault::Full, Fault::Broken, Fault::Denied];
         let plans = faults.map(|fault| [(fault, false), (fault, true)]);
-        for (num, (fault, stays)) in num_calls.iter_mut().zip(plans.as_flattened()) {
-            let plan = |left| Plan {
-                fault: *fault,
-                left,
-                stays: *stays,
-                has_struck: false,
-            };
-            *num = (0..MOST_CALLS)
-                .find(|&at| !self.survives(plan(at), &old, &new))
-                .expect("it ends");
-        }
-        num_calls[6] = (0..MOST_CALLS)
-            .find(|&at| !self.survives_being_killed(at, &old, &new))
-            .expect("it ends");
+        // At once, because most of the time goes by waiting for the disk. A plan is of its thread alone.
+        let num_calls: Vec<u32> = thread::scope(|scope| {
+            let fails = plans.as_flattened().iter().map(|&(fault, stays)| {
+                let plan = move |left| Plan {
+                    fault,
+                    left,
+                    stays,
+                    has_struck: false,
+                };
+                let (old, new) = (&old, &new);
+                scope.spawn(move || first_without(|at| self.survives(plan(at), old, new)))
+            });
+            let fails: Vec<_> = fails.collect();
+            let killed = first_without(|at| self.survives_being_killed(at, &old, &new));
+            let fails = fails.into_iter().map(|thread| {
+                let failed = thread.join();
+                failed.unwrap_or_else(|panic| resume_unwind(panic))
+            });
+            fails.chain([killed]).collect()
+        });
         assert!(num_calls.iter().all(|&num| num > 0), "{num_calls:?}");
         eprintln!("{}: calls that failed: {num_calls:?}", self.test);
     }

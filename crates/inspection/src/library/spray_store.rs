@@ -203,7 +203,7 @@ mod tests {
     #[cfg(unix)]
     fn fails_at_every_call(
         test: &str,
-        change: &dyn Fn(&LibraryFolder) -> Result<(), LibraryError>,
+        change: &(dyn Fn(&LibraryFolder) -> Result<(), LibraryError> + Sync),
     ) {
         use files::disk::faults::{Writer, with_advice};
 

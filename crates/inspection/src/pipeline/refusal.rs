@@ -151,8 +151,8 @@ mod tests {
                 has("otherwise");
                 has("compared");
             }
-            assert_eq!(why.to_string(), message.text(Language::English));
-            assert_eq!(why.advice(), message.command_advice());
+            assert_eq!(why.to_string(), why.message().text(Language::English));
+            assert_eq!(why.advice(), why.message().command_advice());
         }
     }
 

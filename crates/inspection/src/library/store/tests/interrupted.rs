@@ -69,7 +69,7 @@ fn a_writer_killed_while_it_renames_leaves_one_of_the_two_names() {
 #[cfg(unix)]
 fn fails_at_every_call(
     test: &str,
-    change: &dyn Fn(&LibraryFolder) -> Result<(), LibraryError>,
+    change: &(dyn Fn(&LibraryFolder) -> Result<(), LibraryError> + Sync),
     between: &[&str],
 ) {
     use files::disk::faults::{Writer, with_advice};
