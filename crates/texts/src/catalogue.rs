@@ -151,12 +151,11 @@ mod tests {
             let Some((key, text)) = line.split_once(" = ") else {
                 continue;
             };
-            let key = match key.trim_start().strip_prefix('.') {
-                Some(attribute) => format!("{id}.{attribute}"),
-                None => {
-                    id = key;
-                    key.to_owned()
-                }
+            let key = if let Some(attribute) = key.trim_start().strip_prefix('.') {
+                format!("{id}.{attribute}")
+            } else {
+                id = key;
+                key.to_owned()
             };
             if text
                 .split(['{', '}'])

@@ -157,7 +157,7 @@ impl Message {
             };
             (name.as_str(), value)
         });
-        let variables = FluentArgs::from_iter(values.chain(why));
+        let variables: FluentArgs<'_> = values.chain(why).collect();
         let text = |language| LIBRARY.text(language, &self.id, attribute, Some(&variables));
         text(language).or_else(|| text(Language::English))
     }

@@ -164,7 +164,10 @@ impl Summary {
         }
         if *verdict != StoredVerdict::Accepted {
             let reason = reason.as_ref().map_or("", RefusalKind::name);
-            text.push_str(&format!("\n={}\n={reason}", verdict.name()));
+            for stored in [verdict.name(), reason] {
+                text.push_str("\n=");
+                text.push_str(stored);
+            }
         }
         for (_, known) in trace.known() {
             text.push('\n');
