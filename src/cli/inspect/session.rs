@@ -332,6 +332,11 @@ impl InspectSession {
         hung: HungId,
         is_still: bool,
     ) -> KeptInspection {
+        let is_unchecked = !is_still && inspection.verdict.is_accepted();
+        let subject = &Subject {
+            is_motion_unchecked: subject.is_motion_unchecked || is_unchecked,
+            ..subject.clone()
+        };
         let inspected = self.record(subject, scene, inspection);
         KeptInspection {
             entry: (self.recording.as_ref()).map(|recording| recording.entry(&inspected, hung)),

@@ -141,7 +141,7 @@ pub(super) fn fuse(
         .collect();
     let slabs = slabs_of_readings(shots, per_metre);
     let num_slabs = slabs.len();
-    // No more points than readings. Memory is only taken up where points are written, and growing would copy them.
+    // No more points than readings. Memory is only taken up where points are written; growing or shrinking would copy them.
     let most = slabs.iter().map(|(_, readings)| readings.len()).sum();
     let mut normals = Vec::with_capacity(most);
     let mut fused = FusedCloud {
@@ -182,12 +182,7 @@ pub(super) fn fuse(
         }
         waiting.retain(|piece| !piece.is_empty());
     }
-    normals.shrink_to_fit();
     fused.cloud.normals = Some(normals);
-    fused.cloud.points.shrink_to_fit();
-    fused.seen_by.shrink_to_fit();
-    fused.is_part.shrink_to_fit();
-    fused.part_votes.shrink_to_fit();
     fused
 }
 
@@ -199,6 +194,14 @@ fn voxel_of(point: &Point3<f64>, per_metre: f64) -> u64 {
         ((x * per_metre).floor() + half).clamp(0.0, 2.0 * half - 1.0) as u64
     };
     (along(point.z) << (2 * BITS)) | (along(point.y) << BITS) | along(point.x)
+}
+
+/// Bits of a voxel's index within its strip: a quarter of a metre of a layer, since the floor of a cell may lie in one layer.
+const STRIP_BITS: u32 = BITS + 6;
+
+/// Returns the strip of a voxel, along y of its layer. Strips are in the order of their voxels.
+fn strip_of(voxel: u64) -> u64 {
+    voxel >> STRIP_BITS
 }
 
 /// Returns the layer of a voxel, along z.
@@ -228,29 +231,32 @@ fn each_reading(shots: &[(usize, &ScannedShot)], per_metre: f64, mut visit: impl
     }
 }
 
-/// Divides the readings into slabs of whole layers from the bottom, so that few are fused at once. Returns the layer above
-/// each slab with the slab's readings.
+/// Divides the readings into slabs of whole strips of layers from the bottom, so that few are fused at once. Returns each
+/// slab's readings with the first layer that is not complete yet.
 fn slabs_of_readings(shots: &[(usize, &ScannedShot)], per_metre: f64) -> Vec<(u64, Vec<u32>)> {
-    let mut layers: BTreeMap<u64, usize> = BTreeMap::new();
+    let mut strips: BTreeMap<u64, usize> = BTreeMap::new();
     each_reading(shots, per_metre, |_, voxel| {
-        *layers.entry(layer_of(voxel)).or_default() += 1;
+        *strips.entry(strip_of(voxel)).or_default() += 1;
     });
     let mut slabs: Vec<(u64, usize)> = Vec::new();
-    for (layer, num) in layers {
+    for (strip, num) in strips {
         match slabs.last_mut() {
-            Some((top, sum)) if *sum + num <= SLAB => (*top, *sum) = (layer + 1, *sum + num),
-            _ => slabs.push((layer + 1, num)),
+            Some((end, sum)) if *sum + num <= SLAB => (*end, *sum) = (strip + 1, *sum + num),
+            _ => slabs.push((strip + 1, num)),
         }
     }
     let mut filled: Vec<(u64, Vec<u32>)> = slabs
         .into_iter()
-        .map(|(top, num)| (top, Vec::with_capacity(num)))
+        .map(|(end, num)| (end, Vec::with_capacity(num)))
         .collect();
     each_reading(shots, per_metre, |reading, voxel| {
-        let slab = filled.partition_point(|(top, _)| *top <= layer_of(voxel));
+        let slab = filled.partition_point(|(end, _)| *end <= strip_of(voxel));
         filled[slab].1.push(reading);
     });
-    filled
+    let layers = filled
+        .into_iter()
+        .map(|(end, readings)| (layer_of(end << STRIP_BITS), readings));
+    layers.collect()
 }
 
 /// Returns the readings with their voxels, ordered by voxel.
