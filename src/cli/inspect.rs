@@ -6,6 +6,7 @@ mod session;
 mod spray;
 
 use std::{
+    collections::VecDeque,
     ops::ControlFlow,
     path::{Path, PathBuf},
 };
@@ -58,7 +59,8 @@ Exit codes: 0 every input accepted, 1 something was not accepted, 2 something co
 If the library is empty or cannot be loaded, nothing is inspected: one error, no line of JSON, exit code 2.
 With --source: follows a camera, a recording or a folder until it ends, until --frames were inspected, or until Ctrl-C.
 A live camera gives its newest frame, and those in between are dropped; every frame of a recording or folder is inspected.
-A frame of a part that moves is not accepted.
+A frame of a part that moves is not accepted. At the start of a source, a frame is shown up to 0.9 s later, once another
+one shows whether its part hangs still.
 Exit codes as with files; 1 also if no frame came. Possible sources: partsight capture --help
 With --scan: one verdict on all frames together; partsight help scan explains how to give their poses. camera_from_part
 is then the pose in the camera's frame of the first used shot, and base_from_part the pose in the robot's base frame.
@@ -209,6 +211,8 @@ fn inspect(
             .map(|_| PartFollower::default()),
         publisher,
         mirrored: MirrorTally::default(),
+        waiting: VecDeque::new(),
+        num_unchecked: 0,
     };
     let outcome = match &args.source {
         Some(source) => inspect_source(source, args.frames, &mut one, console),
@@ -260,9 +264,11 @@ fn inspect_source(
     let mut outcome = Outcome::Accepted;
     let mut num_inspected = 0;
     let status = follow(source, console, |item, status, console| {
+        let is_enough = frames.is_some_and(|frames| num_inspected >= frames);
         if let Some(publisher) = &mut inspector.publisher {
             publisher.look(&status.state, console);
             match &item {
+                _ if is_enough => {}
                 Some(FeedItem::Captured(captured)) => publisher.begin(captured),
                 Some(FeedItem::Skipped(skipped)) => publisher.skipped(skipped),
                 None => {}
@@ -270,6 +276,20 @@ fn inspect_source(
         }
         let one = match item {
             None => return Ok(ControlFlow::Continue(())),
+            Some(FeedItem::Captured(captured)) if is_enough => {
+                let subject = Subject::of_capture(&captured, &text, status.num_dropped);
+                let path = Path::new(&captured.name).to_owned();
+                let scene = scene_of(captured, &mut inspector.scenes, console);
+                inspector.check_waiting(
+                    Opened {
+                        path: &path,
+                        scene,
+                        subject,
+                    },
+                    console,
+                )?
+            }
+            Some(FeedItem::Skipped(_)) if is_enough => Outcome::Accepted,
             Some(FeedItem::Skipped(skipped)) => {
                 let name = Path::new(&skipped.name);
                 inspector.unreadable(name, &*skipped.error, &skipped.error, console)?
@@ -296,14 +316,23 @@ fn inspect_source(
         };
         outcome = outcome.max(one);
         Ok(match frames {
-            Some(frames) if num_inspected >= frames => ControlFlow::Break(()),
+            Some(frames) if num_inspected >= frames && inspector.waiting.is_empty() => {
+                ControlFlow::Break(())
+            }
             _ => ControlFlow::Continue(()),
         })
     })?;
+    outcome = outcome.max(inspector.show_waiting(source.is_replayed(), console)?);
     let (dropped, skipped) = (status.num_dropped, status.num_skipped);
     console.note(&format_args!(
         "{num_inspected} inspected, {dropped} dropped, {skipped} could not be read"
     ));
+    if inspector.num_unchecked > 0 {
+        console.note(&format_args!(
+            "{} accepted without a check whether the part hangs still: no later frame of the source shows it",
+            inspector.num_unchecked
+        ));
+    }
     // Nothing was inspected, so nothing was accepted.
     Ok(if num_inspected == 0 {
         outcome.max(Outcome::NotAccepted)

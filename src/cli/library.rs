@@ -193,7 +193,7 @@ fn show(choice: &LibraryChoice, name: &PartName, console: &mut Console) -> anyho
         row("painted from", format!("the {}", side.name()));
     }
     if let Some(view) = reference.views.first() {
-        let outline = view.signature.perimeter;
+        let outline = view.signature().perimeter;
         row(
             "outline",
             format!(

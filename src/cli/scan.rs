@@ -16,7 +16,7 @@ use super::{
     calibrate::scan_calibration,
     console::{Advised as _, Console, advised_error},
 };
-use files::{file_name, write_atomically, write_ply_with};
+use files::{PointProperty, file_name, write_atomically, write_ply_with};
 use robot::scan_frames::{FrameNews, read_frames, with_poses};
 use stages::{
     scan::{FusedCloud, Scan, ScanParams, Unwatched, assemble_all},
@@ -177,22 +177,12 @@ fn refuse_one_name_twice(paths: &[PathBuf]) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Splits each mask into its low and its high half.
-fn halves(masks: &[u64]) -> [Vec<u32>; 2] {
-    [0, 32].map(|shift| masks.iter().map(|mask| (mask >> shift) as u32).collect())
-}
-
 fn write(path: &Path, cloud: &FusedCloud) -> Result<(), files::FileError> {
-    let [low, high] = halves(&cloud.seen_by);
-    let count = cloud.seen_by.iter().map(|mask| mask.count_ones());
-    let properties = [
-        ("num_shots", count.collect()),
-        ("seen_by", low),
-        ("seen_by_high", high),
-        (
-            "part",
-            cloud.is_part.iter().map(|&is| u32::from(is)).collect(),
-        ),
+    let properties: [PointProperty<'_>; 4] = [
+        ("num_shots", &|i| cloud.seen_by[i].count_ones()),
+        ("seen_by", &|i| cloud.seen_by[i] as u32),
+        ("seen_by_high", &|i| (cloud.seen_by[i] >> 32) as u32),
+        ("part", &|i| cloud.is_part[i].into()),
     ];
     write_atomically(path, |writer| {
         write_ply_with(writer, &cloud.cloud, &properties)

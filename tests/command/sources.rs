@@ -39,6 +39,8 @@ fn verdict(line: &str) -> Value {
     for field in ["timings_ms", "taken_at", "source", "number", "dropped"] {
         assert!(fields.remove(field).is_some(), "{field} is missing");
     }
+    // Only a later frame shows it.
+    fields.remove("motion_checked");
     line
 }
 
@@ -105,6 +107,39 @@ fn a_recording_gives_the_same_verdicts_as_the_cell_itself_bit_for_bit() {
     let file = file.json();
     assert_eq!(file["pose"], first[0]["pose"]);
     assert_eq!(file["simulated"], true);
+}
+
+#[test]
+fn a_part_that_swings_is_refused_from_the_first_frame_of_a_source_on() {
+    let place = Workplace::new();
+    let capture = [
+        "capture",
+        "--source",
+        "simulated",
+        "--frames",
+        "40",
+        "--out",
+        "line",
+    ];
+    place.accepted(&capture);
+    let inspect = ["inspect", "--source", "recording:line", "--json"];
+    let lines = place.run(&inspect).lines();
+    let swings = |line: &Value| line["reason_kind"] == "not_steady";
+    let first = lines.iter().position(swings).expect("a part comes in");
+    // The same recording, from that frame on.
+    let table = place.read("line/recording.jsonl");
+    let (head, rows) = table.split_once('\n').expect("a head");
+    let rows: Vec<&str> = rows.lines().skip(first).collect();
+    place.write(
+        "line/recording.jsonl",
+        &format!("{head}\n{}\n", rows.join("\n")),
+    );
+    for num in ["1", "3"] {
+        let ran = place.coded(1, &[&inspect[..], &["--frames", num]].concat());
+        let lines = ran.lines();
+        assert_eq!(lines.len().to_string(), num, "{}", ran.err);
+        assert!(lines.iter().all(swings), "{}", ran.out);
+    }
 }
 
 /// The arguments bound a run that does not end by itself.

@@ -67,7 +67,7 @@ pub use self::names::{nearest_name, stays_inside};
 pub use self::open::ONLY_MILLIMETRES;
 pub use self::open::{FileContent, FileWarning, file_of, open, open_bytes};
 pub use self::pcd::write_pcd;
-pub use self::ply::{write_ply, write_ply_with};
+pub use self::ply::{PointProperty, write_ply, write_ply_with};
 pub use self::source::{
     lock_exclusively, open_lock, open_regular, read_bytes, read_limited, refuse_special, shortened,
 };

@@ -10,12 +10,13 @@ mod view;
 mod view_cut;
 mod viewpoints;
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use nalgebra::{Point3, Vector3};
 
 use self::{
     border::{BorderPoint, ReferenceBorder},
+    view::ViewSource,
     viewpoints::{VIEW_DISTANCE, viewpoints},
 };
 pub use self::{view::ReferenceView, view_cut::ViewCut, viewpoints::seen_around};
@@ -24,6 +25,7 @@ use crate::{
     correlation::{LiteralReference, RaySpectra},
     pose::{PoseError, PreparedTarget, edge_points::EdgePoints, refine::AlignmentTarget},
     project::{PlaneImage, ProjectParams},
+    rank::EXHAUSTIVE_UP_TO,
     shape_summary::ShapeSummary,
     signature::{FanSignature, LiteralSignature, SignatureParams},
 };
@@ -87,7 +89,7 @@ pub struct Reference {
     /// The name under which this reference is enrolled: a part may have several, each with its own coordinates.
     pub enrolled_as: String,
     /// The reference cloud in part space, with unit normals.
-    pub cloud: PointCloud,
+    pub cloud: Arc<PointCloud>,
     /// Search tree over `cloud`, built on first use: only the last steps of a pose search exactly.
     tree: OnceLock<KdTree>,
     /// Nearest-point field around `cloud`, built on first use.
@@ -137,10 +139,11 @@ impl Reference {
     /// Prepares a reference cloud (part space, with normals).
     pub fn prepare(
         name: &str,
-        cloud: PointCloud,
+        cloud: impl Into<Arc<PointCloud>>,
         coverage: Coverage,
         params: &ReferenceParams,
     ) -> Result<Self, ReferenceError> {
+        let cloud = cloud.into();
         let num_points = cloud.points.len();
         let no_outline = ReferenceError::NoOutline { num_points };
         let (low, high) = cloud.bounds().ok_or(no_outline)?;
@@ -151,12 +154,14 @@ impl Reference {
                 limit: Metres(MAX_EXTENT),
             });
         }
-        let views: Vec<ReferenceView> = viewpoints(&cloud, coverage)
-            .ok_or(no_outline)?
+        let viewpoints = viewpoints(&cloud, coverage).ok_or(no_outline)?;
+        let source = ViewSource {
+            cloud: Arc::clone(&cloud),
+            params: Arc::new(params.clone()),
+        };
+        let views: Vec<ReferenceView> = viewpoints
             .iter()
-            .filter_map(|viewpoint| {
-                ReferenceView::from_viewpoint(&cloud, (low, high), viewpoint, params)
-            })
+            .filter_map(|at| ReferenceView::from_viewpoint(&source, (low, high), at))
             .collect();
         if views.is_empty() {
             return Err(no_outline);
@@ -164,7 +169,7 @@ impl Reference {
         Ok(Self::of_views(name, cloud, views))
     }
 
-    fn of_views(name: &str, cloud: PointCloud, views: Vec<ReferenceView>) -> Self {
+    fn of_views(name: &str, cloud: Arc<PointCloud>, views: Vec<ReferenceView>) -> Self {
         Self {
             name: name.to_owned(),
             enrolled_as: name.to_owned(),
@@ -185,9 +190,10 @@ impl Reference {
 
     /// Replaces the views and what ranking needs of them.
     #[must_use]
-    pub fn with_views(self, views: Vec<ReferenceView>) -> Self {
+    pub fn with_views(self, mut views: Vec<ReferenceView>) -> Self {
+        views.shrink_to_fit();
         Self {
-            spectra: RaySpectra::of(views.iter().map(|view| &view.signature.rays[..])),
+            spectra: RaySpectra::of(views.iter().map(|view| &view.signature().rays[..])),
             summaries: OnceLock::new(),
             views,
             ..self
@@ -303,13 +309,25 @@ impl Reference {
 
     /// Drops the cloud and all that is built from it, for references that are only ranked.
     #[must_use]
-    pub fn without_cloud(self) -> Self {
+    pub fn without_cloud(mut self) -> Self {
+        self.views.iter_mut().for_each(ReferenceView::drop_source);
         Self {
-            cloud: PointCloud::default(),
+            cloud: Arc::default(),
             tree: OnceLock::new(),
             field: OnceLock::new(),
             ..self
         }
+    }
+
+    /// Prepares it for a library of this many references. In a large one, it gets the summaries, for which the first
+    /// inspection would otherwise wait, and drops what ranking does not use, which is made again when first needed.
+    #[must_use]
+    pub fn for_library_of(mut self, num_references: usize) -> Self {
+        if num_references > EXHAUSTIVE_UP_TO {
+            self.summaries();
+            self.views.iter_mut().for_each(ReferenceView::drop_details);
+        }
+        self
     }
 
     /// Returns the views' summaries.
@@ -317,7 +335,7 @@ impl Reference {
         self.summaries.get_or_init(|| {
             let views = self.views.iter();
             views
-                .map(|view| ShapeSummary::of(&view.plane(), &view.signature))
+                .map(|view| ShapeSummary::of(&view.plane(), view.signature()))
                 .collect()
         })
     }
@@ -353,15 +371,9 @@ impl Reference {
         contour: &Contour,
         signature: FanSignature,
     ) -> Self {
-        let cloud = PointCloud::default();
         let from_the_front = Point3::new(0.0, 0.0, VIEW_DISTANCE);
-        let views = vec![ReferenceView::new(
-            from_the_front,
-            plane,
-            contour,
-            signature,
-        )];
-        Self::of_views(name, cloud, views)
+        let view = ReferenceView::flat(from_the_front, plane, contour, signature);
+        Self::of_views(name, Arc::default(), vec![view])
     }
 }
 

@@ -294,7 +294,7 @@ mod tests {
     #[test]
     fn a_flat_shape_has_no_stand_off() {
         let mut flat = plate();
-        flat.cloud.normals = None;
+        std::sync::Arc::make_mut(&mut flat.cloud).normals = None;
         let pose = RigidTransform::identity();
         let found = stand_off(&flat, &pose, &StandOffParams::default());
         assert_eq!(found, Err(StandOffError::NoSurface));

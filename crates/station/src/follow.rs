@@ -7,7 +7,10 @@ use nalgebra::Point3;
 
 use inspection::pipeline::{
     AcceptParams, Inspection, Verdict,
-    live::{FrameRole, HungFrame, LiveParams, LiveTracker, MotionState, refuse_moving},
+    live::{
+        FrameRole, HungFrame, LiveParams, LiveTracker, MotionState, SteadyParams, refuse_moving,
+        refuse_unless_again,
+    },
 };
 use records::history::{HungId, HungRows, NewEntry};
 use stages::scene::SceneCloud;
@@ -50,6 +53,30 @@ impl<E> PartFollower<E> {
         if self.tracker.stillness() == MotionState::Moving {
             refuse_moving(inspection);
         }
+    }
+
+    /// Time of the last frame, by the camera.
+    pub fn at(&self) -> Duration {
+        self.at
+    }
+
+    /// Decides about an accepted part of a frame taken `at`, this one or an earlier one, and refuses it unless it hung
+    /// still. Returns false if that is not known yet: while the source has just begun, it takes a frame as long after that one
+    /// as [`SteadyParams::settle`]. `last` is the last frame's own inspection, `middle` the middle of the part, part space, metres.
+    pub fn settle(
+        &self,
+        inspection: &mut Inspection,
+        at: Duration,
+        last: &Inspection,
+        middle: Option<Point3<f64>>,
+    ) -> bool {
+        match self.tracker.stillness() {
+            MotionState::Steady { since, .. } if since <= at => {}
+            MotionState::Steady { .. } | MotionState::Moving => refuse_moving(inspection),
+            MotionState::Watching if self.at < at + SteadyParams::default().settle => return false,
+            MotionState::Watching => refuse_unless_again(inspection, last, middle),
+        }
+        true
     }
 
     /// Returns what to record now, after [`Self::refuse_if_moving`] for the same frame. The verdict that counts is formed

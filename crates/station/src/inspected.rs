@@ -34,6 +34,8 @@ pub struct Subject {
     pub capture: Option<CaptureFacts>,
     /// The scan, if several frames were inspected together.
     pub scan: Option<ScanFacts>,
+    /// True if the part was accepted in a frame of a source and no other frame shows whether it hangs still.
+    pub is_motion_unchecked: bool,
 }
 
 /// A capture from a source.
@@ -84,6 +86,7 @@ impl Subject {
             is_simulated,
             capture: None,
             scan: None,
+            is_motion_unchecked: false,
         }
     }
 
@@ -175,6 +178,9 @@ impl Inspected<'_> {
             }
             None if subject.is_simulated => line = line.of_simulation(),
             None => {}
+        }
+        if subject.is_motion_unchecked {
+            line = line.motion_unchecked();
         }
         if let Some(scan) = &subject.scan {
             let base_from_part = scan.base_from_part.as_ref();

@@ -1,6 +1,12 @@
 //! Inspects one scene after the other: shows, records, exports and reports each.
 
-use std::{fmt::Display, path::Path, sync::Arc};
+use std::{
+    collections::VecDeque,
+    fmt::Display,
+    path::{Path, PathBuf},
+    sync::Arc,
+    time::Duration,
+};
 
 use super::{program, spray};
 use crate::cli::{
@@ -16,7 +22,7 @@ use crate::cli::{
 use geometry::error::{Advice, guarded};
 use inspection::{
     library::Library,
-    pipeline::{self, Inspection, MirrorTally, NamedRecipe, Unwatched},
+    pipeline::{self, Inspection, MirrorTally, NamedRecipe, Unwatched, live::refuse_moving},
 };
 use records::{
     history::{HungId, NewEntry, Traceability},
@@ -48,6 +54,20 @@ pub(super) struct InspectSession {
     pub(super) followed: Option<PartFollower<KeptInspection>>,
     pub(super) publisher: Option<Publisher>,
     pub(super) mirrored: MirrorTally,
+    /// Frames of a followed source that are not shown yet, in order.
+    pub(super) waiting: VecDeque<InspectedFrame>,
+    /// Accepted frames of a source without another one that shows whether the part hangs still.
+    pub(super) num_unchecked: usize,
+}
+
+/// An inspected scene to show. Whether an accepted part hangs still may only be known a few frames later.
+pub(super) struct InspectedFrame {
+    path: PathBuf,
+    scene: Arc<SceneCloud>,
+    subject: Subject,
+    inspection: Inspection,
+    /// Time of the frame, by the camera.
+    at: Duration,
 }
 
 /// An inspection to store and publish once its verdict counts.
@@ -129,105 +149,230 @@ impl InspectSession {
         Ok(Outcome::CouldNotRun)
     }
 
-    /// Inspects a scene, and shows, records, exports and reports the result.
+    /// Inspects a scene, and shows, records, exports and reports the result. Of a followed source, it may show earlier frames
+    /// and this one later.
     pub(super) fn inspect_scene(
         &mut self,
         opened: Opened<'_>,
         console: &mut Console,
     ) -> anyhow::Result<Outcome> {
-        let Opened {
+        let mut frame = self.inspected(opened)?;
+        self.mirrored.add(&frame.inspection.verdict);
+        if self.followed.is_some() {
+            let (scene, inspection) = (Arc::clone(&frame.scene), frame.inspection.clone());
+            let subject = frame.subject.clone();
+            self.waiting.push_back(frame);
+            let outcome = self.show_settled(&inspection, console)?;
+            self.follow(&subject, &scene, inspection, console);
+            // Paths and programs are only written for files.
+            return Ok(outcome);
+        }
+        frame.subject.is_motion_unchecked =
+            frame.subject.capture.is_some() && frame.inspection.verdict.is_accepted();
+        let line = self.show(&frame, console);
+        let outcome = Outcome::accepted_if(frame.inspection.verdict.is_accepted());
+        let InspectedFrame {
             path,
             scene,
             subject,
-        } = opened;
-        let Self {
-            library,
-            recipe,
-            trace,
-            robot,
-            format,
-            report,
-            recording,
-            followed,
-            publisher,
-            mirrored,
+            inspection,
             ..
-        } = self;
-        let mut scene = Arc::new(scene);
-        if let (Some(followed), Some(capture)) = (&mut *followed, &subject.capture) {
-            scene = followed.look(scene, capture.taken_at);
-        }
-        let mut inspection = pipeline::run(&scene, library, recipe, &Unwatched)?;
-        if let Some(followed) = followed {
-            followed.refuse_if_moving(&mut inspection);
-        }
-        mirrored.add(&inspection.verdict);
-        let name = &subject.scene;
-        let file_says_simulated = subject.capture.is_none() && subject.is_simulated;
-        let robot = robot.as_ref();
-        let inspected = Inspected {
-            subject: &subject,
-            scene: &scene,
-            inspection: &inspection,
-            recipe,
-            robot,
-        };
-        let line = inspected.line(trace);
-        // The table has no room for the mark; reports and history have it.
-        let shown = match format {
-            OutputFormat::Card => marked_simulated(name, file_says_simulated),
-            _ => name.clone(),
-        };
-        format.inspected(&shown, &line, &inspection, library, console);
-        if let OutputFormat::Card = format {
-            show_recipe(recipe, console);
-        }
-        if let (OutputFormat::Card, Some(robot)) = (format, robot) {
-            show_in_robot(robot, &inspection, library, console);
-        }
-        let outcome = Outcome::accepted_if(inspection.verdict.is_accepted());
-        let pictures = report.as_ref().map(|_| stage_pictures(&scene, &inspection));
+        } = &frame;
+        let pictures = self.pictures(scene, inspection);
         // After the verdict is shown, which must not wait for it, and before the exports, any of which may fail.
-        let is_kept = recording.is_some() || publisher.is_some();
-        let kept = |inspection: &Inspection, hung: HungId, is_still: bool| {
-            let inspected = Inspected {
-                subject: &subject,
-                scene: &scene,
-                inspection,
-                recipe,
-                robot,
-            };
-            KeptInspection {
-                entry: recording
-                    .as_ref()
-                    .map(|recording| recording.entry(&inspected, hung)),
-                found: publisher
-                    .as_ref()
-                    .and_then(|publisher| publisher.found(inspection, recipe, is_still)),
-            }
-        };
-        if let (true, Some(followed)) = (is_kept, followed) {
-            let middle = inspection.best_reference(library);
-            let middle = middle.and_then(Reference::middle);
-            let kept = followed.take(&scene, inspection, middle, &recipe.accept, kept);
-            for kept in kept.into_iter().flatten() {
-                self.keep(kept, console);
-            }
-            // Paths and programs are only written for files.
-            self.write_report(path, &line, pictures)?;
-            return Ok(outcome);
-        }
-        if is_kept {
-            let kept = kept(&inspection, HungId::new(), true);
+        if self.recording.is_some() || self.publisher.is_some() {
+            let kept = self.kept(subject, scene, inspection, HungId::new(), true);
             self.keep(kept, console);
         }
-        let written =
-            self.write_robot_file(&subject.scene, file_says_simulated, &inspection, console)?;
+        let is_simulated = subject.capture.is_none() && subject.is_simulated;
+        let written = self.write_robot_file(&subject.scene, is_simulated, inspection, console)?;
         if written.is_none() {
             self.write_report(path, &line, pictures)?;
         }
         // A refused part keeps its outcome even if its program was forced.
         Ok(written.map_or(outcome, |written| outcome.max(written)))
+    }
+
+    /// Inspects a frame beyond those asked for, which only shows whether the parts of earlier ones hang still.
+    pub(super) fn check_waiting(
+        &mut self,
+        opened: Opened<'_>,
+        console: &mut Console,
+    ) -> anyhow::Result<Outcome> {
+        let frame = self.inspected(opened)?;
+        self.show_settled(&frame.inspection, console)
+    }
+
+    fn inspected(&mut self, opened: Opened<'_>) -> anyhow::Result<InspectedFrame> {
+        let Opened {
+            path,
+            scene,
+            subject,
+        } = opened;
+        let mut scene = Arc::new(scene);
+        if let (Some(followed), Some(capture)) = (&mut self.followed, &subject.capture) {
+            scene = followed.look(scene, capture.taken_at);
+        }
+        let mut inspection = pipeline::run(&scene, &self.library, &self.recipe, &Unwatched)?;
+        if let Some(followed) = &mut self.followed {
+            followed.refuse_if_moving(&mut inspection);
+        }
+        Ok(InspectedFrame {
+            path: path.to_owned(),
+            scene,
+            subject,
+            inspection,
+            at: (self.followed.as_ref()).map_or(Duration::ZERO, PartFollower::at),
+        })
+    }
+
+    /// Shows the frames whose verdict counts now that the last frame had this inspection.
+    fn show_settled(
+        &mut self,
+        last: &Inspection,
+        console: &mut Console,
+    ) -> anyhow::Result<Outcome> {
+        let mut outcome = Outcome::Accepted;
+        while let Some(frame) = self.waiting.front_mut() {
+            let middle = frame.inspection.best_reference(&self.library);
+            let middle = middle.and_then(Reference::middle);
+            let is_settled = !frame.inspection.verdict.is_accepted()
+                || (self.followed.as_ref()).is_none_or(|followed| {
+                    followed.settle(&mut frame.inspection, frame.at, last, middle)
+                });
+            if !is_settled {
+                break;
+            }
+            outcome = outcome.max(self.show_first(console)?);
+        }
+        Ok(outcome)
+    }
+
+    /// Shows the frames that no later one follows. Before a camera, a part that is not known to hang still is refused; of a
+    /// recording, it stays unknown.
+    pub(super) fn show_waiting(
+        &mut self,
+        is_replayed: bool,
+        console: &mut Console,
+    ) -> anyhow::Result<Outcome> {
+        let mut outcome = Outcome::Accepted;
+        while let Some(frame) = self.waiting.front_mut() {
+            if is_replayed {
+                frame.subject.is_motion_unchecked = frame.inspection.verdict.is_accepted();
+            } else {
+                refuse_moving(&mut frame.inspection);
+            }
+            outcome = outcome.max(self.show_first(console)?);
+        }
+        Ok(outcome)
+    }
+
+    fn show_first(&mut self, console: &mut Console) -> anyhow::Result<Outcome> {
+        let Some(frame) = self.waiting.pop_front() else {
+            return Ok(Outcome::Accepted);
+        };
+        let line = self.show(&frame, console);
+        let pictures = self.pictures(&frame.scene, &frame.inspection);
+        self.write_report(&frame.path, &line, pictures)?;
+        Ok(Outcome::accepted_if(frame.inspection.verdict.is_accepted()))
+    }
+
+    /// Shows an inspection, and returns its line of JSON.
+    fn show(&mut self, frame: &InspectedFrame, console: &mut Console) -> String {
+        self.num_unchecked += usize::from(frame.subject.is_motion_unchecked);
+        let InspectedFrame {
+            scene,
+            subject,
+            inspection,
+            ..
+        } = frame;
+        let file_says_simulated = subject.capture.is_none() && subject.is_simulated;
+        let line = self.record(subject, scene, inspection).line(&self.trace);
+        // The table has no room for the mark; reports and history have it.
+        let shown = match self.format {
+            OutputFormat::Card => marked_simulated(&subject.scene, file_says_simulated),
+            _ => subject.scene.clone(),
+        };
+        let library = &self.library;
+        (self.format).inspected(&shown, &line, inspection, library, console);
+        if let OutputFormat::Card = self.format {
+            show_recipe(&self.recipe, console);
+        }
+        if let (OutputFormat::Card, Some(robot)) = (&self.format, &self.robot) {
+            show_in_robot(robot, inspection, library, console);
+        }
+        line
+    }
+
+    fn record<'a>(
+        &'a self,
+        subject: &'a Subject,
+        scene: &'a Arc<SceneCloud>,
+        inspection: &'a Inspection,
+    ) -> Inspected<'a> {
+        Inspected {
+            subject,
+            scene,
+            inspection,
+            recipe: &self.recipe,
+            robot: self.robot.as_ref(),
+        }
+    }
+
+    fn pictures(&self, scene: &SceneCloud, inspection: &Inspection) -> Option<Vec<Picture>> {
+        (self.report.as_ref()).map(|_| stage_pictures(scene, inspection))
+    }
+
+    /// Returns what to store and publish of an inspection. `is_still`: the part is known to have hung still.
+    fn kept(
+        &self,
+        subject: &Subject,
+        scene: &Arc<SceneCloud>,
+        inspection: &Inspection,
+        hung: HungId,
+        is_still: bool,
+    ) -> KeptInspection {
+        let is_unchecked = !is_still && inspection.verdict.is_accepted();
+        let subject = &Subject {
+            is_motion_unchecked: subject.is_motion_unchecked || is_unchecked,
+            ..subject.clone()
+        };
+        let inspected = self.record(subject, scene, inspection);
+        KeptInspection {
+            entry: (self.recording.as_ref()).map(|recording| recording.entry(&inspected, hung)),
+            found: (self.publisher.as_ref())
+                .and_then(|publisher| publisher.found(inspection, &self.recipe, is_still)),
+        }
+    }
+
+    /// Stores and publishes a frame of a followed source, if it represents a part that hung there.
+    fn follow(
+        &mut self,
+        subject: &Subject,
+        scene: &Arc<SceneCloud>,
+        inspection: Inspection,
+        console: &Console,
+    ) {
+        if self.recording.is_none() && self.publisher.is_none() {
+            return;
+        }
+        let Some(followed) = &mut self.followed else {
+            return;
+        };
+        let mut followed = std::mem::take(followed);
+        let middle = inspection.best_reference(&self.library);
+        let middle = middle.and_then(Reference::middle);
+        let kept = followed.take(
+            scene,
+            inspection,
+            middle,
+            &self.recipe.accept,
+            |inspection, hung, is_still| self.kept(subject, scene, inspection, hung, is_still),
+        );
+        self.followed = Some(followed);
+        for kept in kept.into_iter().flatten() {
+            self.keep(kept, console);
+        }
     }
 
     /// Writes the path of a part for a robot; `None` if no such file is wanted.

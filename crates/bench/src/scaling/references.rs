@@ -102,11 +102,10 @@ impl ScaleCurve {
 }
 
 fn perturb(view: &ReferenceView, swing: &ScaleCurve) -> ReferenceView {
-    let mut view = view.clone();
-    let num = view.signature.rays.len();
-    let rays = &mut view.signature.rays;
-    for (k, ray) in rays.iter_mut().enumerate() {
+    let mut signature = view.signature().clone();
+    let num = signature.rays.len();
+    for (k, ray) in signature.rays.iter_mut().enumerate() {
         *ray *= swing.at(k, num);
     }
-    view
+    view.with_signature(signature)
 }

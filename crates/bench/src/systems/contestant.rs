@@ -1,5 +1,7 @@
 //! One system with its references prepared: describes a segmented part and names the nearest reference, timed.
 
+use std::sync::Arc;
+
 use nalgebra::Point3;
 
 use super::{Preparation, Size, System, SystemOutcome, SystemsError};
@@ -118,7 +120,7 @@ fn described_locally(
 fn prepare_again(references: &[Reference]) -> Result<(), ReferenceError> {
     let params = ReferenceParams::default();
     for r in references {
-        Reference::prepare(&r.name, r.cloud.clone(), Coverage::OneSide, &params)?.prefetch();
+        Reference::prepare(&r.name, Arc::clone(&r.cloud), Coverage::OneSide, &params)?.prefetch();
     }
     Ok(())
 }

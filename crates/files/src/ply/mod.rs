@@ -14,7 +14,7 @@ mod body;
 mod header;
 mod write;
 
-pub use self::write::{write_ply, write_ply_with};
+pub use self::write::{PointProperty, write_ply, write_ply_with};
 
 use super::error::FileError;
 use super::open::FileContent;

@@ -11,14 +11,14 @@ pub fn write_ply(writer: &mut dyn Write, cloud: &PointCloud) -> io::Result<()> {
     write_ply_with(writer, cloud, &[])
 }
 
+/// A whole number for each point of a cloud, by its index, under a name.
+pub type PointProperty<'a> = (&'a str, &'a dyn Fn(usize) -> u32);
+
 /// Like [`write_ply`], with further named whole numbers per point, which other programs may show.
-///
-/// # Panics
-/// If a property does not have one number per point.
 pub fn write_ply_with(
     writer: &mut dyn Write,
     cloud: &PointCloud,
-    properties: &[(&str, Vec<u32>)],
+    properties: &[PointProperty<'_>],
 ) -> io::Result<()> {
     write!(
         writer,
@@ -40,8 +40,7 @@ pub fn write_ply_with(
     if cloud.labels.is_some() {
         writer.write_all(b"property uint label\n")?;
     }
-    for (name, values) in properties {
-        assert_eq!(values.len(), cloud.points.len(), "one {name} per point");
+    for (name, _) in properties {
         writeln!(writer, "property uint {name}")?;
     }
     writer.write_all(b"end_header\n")?;
@@ -60,8 +59,8 @@ pub fn write_ply_with(
         if let Some(labels) = &cloud.labels {
             writer.write_all(&labels[i].to_le_bytes())?;
         }
-        for (_, values) in properties {
-            writer.write_all(&values[i].to_le_bytes())?;
+        for (_, value_at) in properties {
+            writer.write_all(&value_at(i).to_le_bytes())?;
         }
     }
     Ok(())

@@ -24,6 +24,7 @@ impl LibraryLoad {
 #[cfg(test)]
 mod tests {
     use crate::library::{FileCheck, load::load_shipped};
+    use geometry::cloud::PointCloud;
     use stages::reference::ReferenceParams;
 
     #[test]
@@ -42,7 +43,7 @@ mod tests {
         renamed.parts[0].part = Some("other".parse().expect("a name"));
         assert_ne!(renamed.identity(), identity);
         let mut moved = load();
-        let mut cloud = moved.library.references[0].cloud.clone();
+        let mut cloud = PointCloud::clone(&moved.library.references[0].cloud);
         // The checksum in the file is that of the cloud.
         assert_eq!(FileCheck::of_cloud(&cloud), moved.parts[0].cloud);
         cloud.points[7].z += 1e-6;

@@ -29,10 +29,7 @@ use geometry::{
     parallel::{map_each, num_cores},
     units::Metres,
 };
-use stages::{
-    rank::EXHAUSTIVE_UP_TO,
-    reference::{Reference, ReferenceParams},
-};
+use stages::reference::{Reference, ReferenceParams};
 
 /// Result of loading a library.
 #[derive(Debug, Default)]
@@ -189,14 +186,10 @@ pub(super) fn read_shipped(
 }
 
 fn load_entries(entries: &[Entry], look: CloudCheckLevel, params: &ReferenceParams) -> LibraryLoad {
-    let is_large = entries.len() > EXHAUSTIVE_UP_TO;
     let read_one = |i: usize| {
-        let read = read_entry(&entries[i], look, params);
-        if is_large && let Ok(part) = &read {
-            // Otherwise the first inspection would wait for those of all parts.
-            part.reference.summaries();
-        }
-        read
+        let mut read = read_entry(&entries[i], look, params)?;
+        read.reference = read.reference.for_library_of(entries.len());
+        Ok(read)
     };
     let mut load = LibraryLoad::default();
     for read in map_each(entries.len(), num_cores(), read_one) {

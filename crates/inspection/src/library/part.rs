@@ -249,7 +249,7 @@ impl StoredSignature {
         let contour = view.contour();
         let xy = |p: &Point2<f64>| [rounded(p.x), rounded(p.y)];
         let all = |values: &[f64]| values.iter().copied().map(rounded).collect();
-        let signature = &view.signature;
+        let signature = view.signature();
         let literal = LiteralSignature::of(&contour.outline_pixels);
         Some(Self {
             schema_version: PLAIN_VERSION,

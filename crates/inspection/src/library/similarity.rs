@@ -243,7 +243,7 @@ fn scores(reference: &Reference, coverage: Coverage, others: &[Reference]) -> Ve
     let query = Query {
         plane: &plane,
         contour: &contour,
-        signature: &view.signature,
+        signature: view.signature(),
     };
     let ranking = rank(&query, others, &RankParams::default());
     let is_cut = !reference.cut.is_nothing();

@@ -4,7 +4,7 @@
 //! edges of the part from all frames, and checked against all frames: a point of the reference is present if any
 //! frame sees it, missing if a frame looks through it and none sees it, hidden or outside only if it is so for all.
 //! Score and verdict follow from this evidence as for a single frame. The pose's bounds include how far the robot's poses of
-//! the frames disagree.
+//! the frames disagree, and how far from there the frames put the part that accept it by themselves.
 
 use nalgebra::{Point3, Vector3};
 use rand::{SeedableRng as _, seq::SliceRandom as _};
@@ -15,7 +15,11 @@ use super::{
     unsound::refuse_unsound, verdict::verdict,
 };
 use crate::library::Library;
-use geometry::{nearest::KdTree, rigid::RigidTransform, units::Metres};
+use geometry::{
+    nearest::KdTree,
+    rigid::{PoseDelta, RigidTransform, pose_error},
+    units::{Metres, Radians},
+};
 use stages::{
     confirm::{
         ConfirmedMatch, ConfirmedRanking, Evidence, Scene,
@@ -51,6 +55,7 @@ struct FrameFinding {
     /// Number of its shot.
     number: usize,
     ranking: ConfirmedRanking,
+    is_accepted: bool,
     /// Points of its outline on the part, base frame.
     edges: Vec<Point3<f32>>,
 }
@@ -79,6 +84,7 @@ pub fn run_scan(
         frames.push(FrameFinding {
             number,
             ranking: inspection.ranking.clone(),
+            is_accepted: inspection.verdict.is_accepted(),
             edges: edges_on_part(shot, &inspection, &tree),
         });
         of_first.get_or_insert((number, inspection));
@@ -103,13 +109,24 @@ pub fn run_scan(
         }
         entries.extend(entry_of(scan, &frames, (index, reference), &part, recipe));
     }
-    let apart = scan.cloud.middle_of_part();
-    let apart = apart.map(|middle| scan.disagreement(&middle));
+    let middle = scan.cloud.middle_of_part();
     // A stable sort: equal scores keep the library's order.
     entries.sort_by(|a, b| b.score.total_cmp(&a.score));
     for entry in &mut entries {
         if let Some(pose) = &mut entry.pose {
             // The part is no better placed in the base frame than the robot's poses agree.
+            let apart = middle.map(|middle| {
+                let of_frames = frames.iter().filter_map(|frame| {
+                    own_placement(
+                        scan,
+                        frame,
+                        entry.reference,
+                        &pose.target_from_source,
+                        &middle,
+                    )
+                });
+                of_frames.fold(scan.disagreement(&middle), larger)
+            });
             let bounds = pose.uncertainty.zip(apart.as_ref());
             pose.uncertainty = bounds.map(|(bounds, apart)| bounds.widened(apart));
             pose.target_from_source *= base_from_first;
@@ -138,6 +155,40 @@ pub fn run_scan(
         inspection,
         first,
         base_from_part,
+    })
+}
+
+fn larger(a: PoseDelta, b: PoseDelta) -> PoseDelta {
+    PoseDelta {
+        rotation: Radians(a.rotation.0.max(b.rotation.0)),
+        shift: Metres(a.shift.0.max(b.shift.0)),
+    }
+}
+
+/// Returns how much further from this pose a frame by itself and the robot's pose of it put a reference than the frame's own
+/// bounds explain; `None` if it does not accept the reference by itself. `middle` is the middle of the part, base frame.
+///
+/// The frames' surfaces can be aligned to each other with poses that disagree along them: the part in each frame shows it.
+fn own_placement(
+    scan: &Scan,
+    frame: &FrameFinding,
+    reference: usize,
+    part_from_base: &RigidTransform,
+    middle: &Point3<f64>,
+) -> Option<PoseDelta> {
+    let own = frame.ranking.entries.first();
+    let own = own.filter(|own| frame.is_accepted && own.reference == reference)?;
+    let pose = own.pose.as_ref()?;
+    let bounds = pose.bounds()?;
+    let given = scan.shots[frame.number].given;
+    let apart = pose_error(
+        &(given * pose.camera_from_part()),
+        &part_from_base.inverse(),
+        &(part_from_base * middle),
+    );
+    Some(PoseDelta {
+        rotation: Radians((apart.rotation.0 - bounds.turn.0).max(0.0)),
+        shift: Metres((apart.shift.0 - bounds.shift.0).max(0.0)),
     })
 }
 
@@ -402,7 +453,6 @@ mod tests {
         fixtures::shipped_library,
         pipeline::{Rejection, Unwatched},
     };
-    use geometry::{rigid::pose_error, units::Radians};
     use simulate::{PartKind, ScanSetup, Side, SimulatedObject, SimulatedScan};
     use stages::{
         scan::{ScanParams, Shot, Unwatched as UnwatchedScan, assemble},

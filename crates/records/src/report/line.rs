@@ -48,6 +48,9 @@ pub struct InspectionLine<'a> {
     /// What really hung there, if a person reported the acceptance as wrong.
     #[serde(skip_serializing_if = "Option::is_none")]
     reported_as: Option<&'a str>,
+    /// False if the part was accepted in a frame of a source and no other frame shows whether it hangs still.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    motion_checked: Option<bool>,
 }
 
 /// Additional fields for several frames that were inspected together.
@@ -178,6 +181,15 @@ impl<'a> InspectionLine<'a> {
     pub fn reported_as(self, actual: Option<&'a str>) -> Self {
         Self {
             reported_as: actual,
+            ..self
+        }
+    }
+
+    /// Adds that nothing shows whether the part hangs still.
+    #[must_use]
+    pub fn motion_unchecked(self) -> Self {
+        Self {
+            motion_checked: Some(false),
             ..self
         }
     }

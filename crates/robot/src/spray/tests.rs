@@ -206,7 +206,7 @@ fn a_part_without_a_path_is_begun_before_its_middle() {
     assert!((start.nozzle - Point3::new(0.0, 0.0, 1.05)).norm() < 0.01);
     assert!((start.direction.into_inner() - Vector3::z()).norm() < 1e-6);
     let mut flat = plate();
-    flat.cloud.normals = None;
+    std::sync::Arc::make_mut(&mut flat.cloud).normals = None;
     assert_eq!(default_path(&flat, &StandOffParams::default()), None);
 }
 

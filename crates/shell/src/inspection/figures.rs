@@ -265,7 +265,8 @@ impl SignatureCurves {
         placement: &ImagePlacement,
         scene: &FanSignature,
     ) -> Option<Self> {
-        let (lengths, angles) = (view.signature.lengths(), view.signature.angles());
+        let signature = view.signature();
+        let (lengths, angles) = (signature.lengths(), signature.angles());
         let num = lengths.len();
         if num == 0 || num != scene.rays.len() {
             return None;

@@ -56,15 +56,19 @@ impl LoadedLibrary {
         {
             return Some(PreparedLibrary::Anew(Arc::clone(library)));
         }
+        let num = self.library.references.len();
         let references = self.library.references.iter().zip(&self.shown.parts);
         let references = references.map(|(loaded, meta)| {
             if watch.is_cancelled() {
                 return None;
             }
             // Without an outline at these parameters it keeps the one it was loaded with, and its index.
-            let cloud = loaded.cloud.clone();
+            let cloud = Arc::clone(&loaded.cloud);
             let prepared = Reference::prepare(&loaded.name, cloud, meta.coverage, &params);
-            Some(prepared.map_or_else(|_| loaded.clone(), |prepared| prepared.with_cut(loaded.cut)))
+            Some(prepared.map_or_else(
+                |_| loaded.clone(),
+                |prepared| prepared.with_cut(loaded.cut).for_library_of(num),
+            ))
         });
         let library = Arc::new(Library {
             references: references.collect::<Option<_>>()?,
@@ -101,7 +105,7 @@ mod tests {
         };
         assert_eq!(names(&fitted), names(&as_loaded));
         for view in fitted.references.iter().flat_map(|r| &r.views) {
-            assert_eq!(view.signature.rays.len(), 128);
+            assert_eq!(view.signature().rays.len(), 128);
         }
         let again = loaded.fitting(&recipe, &Unwatched).expect("known");
         let (PreparedLibrary::Anew(first), PreparedLibrary::Anew(again)) = (fitted, again) else {

@@ -92,7 +92,7 @@ pub struct Inspected {
     /// The part's stored spray path, carried to the found pose; `None` if none is stored or the verdict is not accepted.
     pub spray: Option<CarriedPath>,
     /// Cloud that the part of the spray path was enrolled with, part frame, metres; empty without a path.
-    pub part_cloud: PointCloud,
+    pub part_cloud: Arc<PointCloud>,
     /// Whether the spray path does not aim at that part.
     pub off_the_part: Option<OffThePart>,
     /// Data of the 3-D view.
@@ -438,7 +438,7 @@ impl FinishedInspection {
             middle,
             stand_off,
             spray,
-            part_cloud: carried_onto.map_or_else(PointCloud::default, |best| best.cloud.clone()),
+            part_cloud: carried_onto.map_or_else(Arc::default, |best| Arc::clone(&best.cloud)),
             off_the_part: path.and_then(|path| path.off),
             view,
             followed,

@@ -84,7 +84,7 @@ pub(super) fn refine_first(
     reference: &Reference,
 ) {
     if let Some(first) = placements.first_mut() {
-        let seen = &reference.views[first.view].signature;
+        let seen = reference.views[first.view].signature();
         *first = ImagePlacement {
             overlap: first.overlap,
             ..ImagePlacement::exactly_at(first.view, first.lag, [&query.signature.rays, &seen.rays])

@@ -1,6 +1,6 @@
 //! A reference as a virtual camera sees it from one side.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use nalgebra::{Isometry2, Point2, Point3};
 
@@ -29,27 +29,44 @@ pub struct ReferenceView {
     pub(super) viewpoint: Point3<f64>,
     /// Transform from part space to this view's plane space.
     pub plane_from_part: RigidTransform,
-    /// Image and contour.
-    shape: PackedShape,
+    /// Side of a pixel of the whole image.
+    pixel: Metres,
+    /// Plane coordinates of the centre of pixel (0, 0).
+    origin: Point2<f64>,
+    /// Standard deviations along the three axes, metres, descending.
+    deviations: [f64; 3],
     /// The image as packed bits, with pixels of about a centimetre.
     pub pixels: PackedImage,
     /// Area of the set pixels, square metres.
     pub image_area: f64,
-    /// The outline's signature.
-    pub signature: FanSignature,
+    /// Mean of the outline's samples, plane space, metres.
+    pub centroid: Point2<f64>,
+    /// What ranking does not use. Most references of a large library are never compared more closely.
+    details: OnceLock<ViewDetails>,
+    /// What the details are made of again; `None` for a flat shape.
+    source: Option<ViewSource>,
     /// Outline and openings on the surface, part space; built when a pose is first tried from this view.
     pub(super) edges: OnceLock<EdgePoints>,
 }
 
-/// Image and contour of a view in a thirtieth of their memory. Ranking uses neither, and most references of a large library are
-/// never looked at more closely.
+/// Image, contour and signature of a view.
 #[derive(Clone, Debug)]
+struct ViewDetails {
+    shape: PackedShape,
+    signature: FanSignature,
+}
+
+/// What a view is made of.
+#[derive(Clone, Debug)]
+pub(super) struct ViewSource {
+    pub(super) cloud: Arc<PointCloud>,
+    pub(super) params: Arc<ReferenceParams>,
+}
+
+/// Image and contour of a view in a thirtieth of their memory.
+#[derive(Clone, Debug, Default)]
 struct PackedShape {
     image: RunLengthImage,
-    pixel: Metres,
-    /// Plane coordinates of the centre of pixel (0, 0).
-    origin: Point2<f64>,
-    deviations: [f64; 3],
     /// The outline, then the openings.
     borders: Box<[PackedBorder]>,
     /// True if the outline's pixels were followed in the other direction.
@@ -86,9 +103,6 @@ impl PackedShape {
         };
         Self {
             image: RunLengthImage::new(&plane.image),
-            pixel: plane.pixel,
-            origin: plane.origin,
-            deviations: plane.deviations,
             is_outline_reversed: !borders.first().is_some_and(is_in_order),
             borders,
             area: contour.area,
@@ -101,28 +115,107 @@ fn wide(pixel: [u16; 2]) -> [u32; 2] {
 }
 
 impl ReferenceView {
-    pub(super) fn new(
+    /// Creates the view of a flat shape.
+    pub(super) fn flat(
         viewpoint: Point3<f64>,
         plane: &PlaneImage,
         contour: &Contour,
         signature: FanSignature,
     ) -> Self {
         Self {
-            shape: PackedShape::new(plane, contour),
             viewpoint,
-            edges: OnceLock::new(),
+            plane_from_part: plane.plane_from_camera,
+            pixel: plane.pixel,
+            origin: plane.origin,
+            deviations: plane.deviations,
             pixels: plane
                 .image
                 .packed((PACKED_PIXEL / plane.pixel.0).round() as usize),
             image_area: plane.image.num_set() as f64 * plane.pixel.0.powi(2),
-            plane_from_part: plane.plane_from_camera,
-            signature,
+            centroid: signature.centroid,
+            details: OnceLock::from(ViewDetails {
+                shape: PackedShape::new(plane, contour),
+                signature,
+            }),
+            source: None,
+            edges: OnceLock::new(),
         }
+    }
+
+    /// Creates the view from a viewpoint; `None` if the cloud has no outline from there. `bounds` are the cloud's.
+    pub(super) fn from_viewpoint(
+        source: &ViewSource,
+        bounds: (Point3<f32>, Point3<f32>),
+        viewpoint: &Point3<f64>,
+    ) -> Option<Self> {
+        let ViewSource { cloud, params } = source;
+        let visible = visible_from(cloud, bounds, viewpoint);
+        let points: Vec<Point3<f32>> = visible.iter().map(|v| cloud.points[v.0]).collect();
+        // The cloud is evenly spaced on the surface, but a camera sees a tilted surface with fewer pixels.
+        let weight = |i: usize, _: &Point3<f32>| visible[i].1;
+        let plane = project_weighted(&points, weight, viewpoint, &params.project).ok()?;
+        let contour = find_contour(&plane, &params.contour).ok()?;
+        let signature = describe(&contour, &params.signature).ok()?;
+        Some(Self {
+            source: Some(source.clone()),
+            ..Self::flat(*viewpoint, &plane, &contour, signature)
+        })
+    }
+
+    fn details(&self) -> &ViewDetails {
+        self.details.get_or_init(|| {
+            let made = self.source.as_ref().and_then(|source| {
+                let bounds = source.cloud.bounds()?;
+                let view = Self::from_viewpoint(source, bounds, &self.viewpoint)?;
+                view.details.into_inner()
+            });
+            made.expect("a view can be made again of its cloud")
+        })
+    }
+
+    /// Drops what ranking does not use; it is made again, in about a millisecond, when first needed.
+    pub(super) fn drop_details(&mut self) {
+        if self.source.is_some() {
+            self.details = OnceLock::new();
+        }
+    }
+
+    /// Returns the outline's signature.
+    pub fn signature(&self) -> &FanSignature {
+        &self.details().signature
+    }
+
+    /// Replaces the signature, for references that are simulated as signatures only.
+    #[must_use]
+    pub fn with_signature(&self, signature: FanSignature) -> Self {
+        Self {
+            centroid: signature.centroid,
+            details: OnceLock::from(ViewDetails {
+                shape: self.details().shape.clone(),
+                signature,
+            }),
+            source: None,
+            ..self.clone()
+        }
+    }
+
+    /// Drops image and contour, for references that are only ranked.
+    pub fn drop_shape(&mut self) {
+        self.drop_source();
+        if let Some(details) = self.details.get_mut() {
+            details.shape = PackedShape::default();
+        }
+    }
+
+    /// Keeps the details, which can no longer be made again.
+    pub(super) fn drop_source(&mut self) {
+        self.details();
+        self.source = None;
     }
 
     /// Returns the projection of the visible points, without the heights: those at the borders are in the contour.
     pub fn plane(&self) -> PlaneImage {
-        self.plane_of(self.shape.image.unpacked())
+        self.plane_of(self.details().shape.image.unpacked())
     }
 
     /// Returns the projection's geometry, with an image without pixels.
@@ -134,16 +227,17 @@ impl ReferenceView {
         PlaneImage {
             heights: vec![f32::NAN; image.pixels.len()],
             image,
-            pixel: self.shape.pixel,
-            origin: self.shape.origin,
+            pixel: self.pixel,
+            origin: self.origin,
             plane_from_camera: self.plane_from_part,
-            deviations: self.shape.deviations,
+            deviations: self.deviations,
         }
     }
 
     /// Returns outline and openings.
     pub fn contour(&self) -> Contour {
         let plane = self.empty_plane();
+        let shape = &self.details().shape;
         let points = |border: &PackedBorder| {
             let pixels = border.pixels.iter();
             let point =
@@ -154,43 +248,21 @@ impl ReferenceView {
             let heights = border.heights.iter();
             heights.map(|z| z.is_finite().then_some(*z)).collect()
         };
-        let mut borders = self.shape.borders.iter();
+        let mut borders = shape.borders.iter();
         let outline = borders.next();
         let mut outline_pixels: Vec<[u32; 2]> = outline
             .map(|border| border.pixels.iter().copied().map(wide).collect())
             .unwrap_or_default();
-        if self.shape.is_outline_reversed {
+        if shape.is_outline_reversed {
             outline_pixels.reverse();
         }
         Contour {
             outline: outline.map(points).unwrap_or_default(),
             openings: borders.map(points).collect(),
             outline_pixels,
-            heights: self.shape.borders.iter().map(heights).collect(),
-            area: self.shape.area,
+            heights: shape.borders.iter().map(heights).collect(),
+            area: shape.area,
         }
-    }
-
-    /// Drops image and contour, for references that are only ranked.
-    pub fn drop_shape(&mut self) {
-        self.shape.image = RunLengthImage::default();
-        self.shape.borders = Box::default();
-    }
-
-    pub(super) fn from_viewpoint(
-        cloud: &PointCloud,
-        bounds: (Point3<f32>, Point3<f32>),
-        viewpoint: &Point3<f64>,
-        params: &ReferenceParams,
-    ) -> Option<Self> {
-        let visible = visible_from(cloud, bounds, viewpoint);
-        let points: Vec<Point3<f32>> = visible.iter().map(|v| cloud.points[v.0]).collect();
-        // The cloud is evenly spaced on the surface, but a camera sees a tilted surface with fewer pixels.
-        let weight = |i: usize, _: &Point3<f32>| visible[i].1;
-        let plane = project_weighted(&points, weight, viewpoint, &params.project).ok()?;
-        let contour = find_contour(&plane, &params.contour).ok()?;
-        let signature = describe(&contour, &params.signature).ok()?;
-        Some(Self::new(*viewpoint, &plane, &contour, signature))
     }
 
     /// Returns the transform, in the plane, from view-plane space to a scene's plane space that rotates by `turn` and
@@ -201,7 +273,7 @@ impl ReferenceView {
         scene_centroid: &Point2<f64>,
     ) -> Isometry2<f64> {
         let rotation = nalgebra::UnitComplex::new(turn.0);
-        let shift = scene_centroid - rotation * self.signature.centroid;
+        let shift = scene_centroid - rotation * self.centroid;
         Isometry2::from_parts(shift.into(), rotation)
     }
 }
@@ -263,12 +335,35 @@ mod tests {
     }
 
     #[test]
+    fn in_a_large_library_the_details_of_a_view_are_made_again_the_same_when_needed() {
+        for reference in shipped_references() {
+            let kept = reference.clone().for_library_of(8);
+            assert!(kept.views.iter().all(|view| view.details.get().is_some()));
+            let compact = reference.clone().for_library_of(2000);
+            assert!(
+                compact
+                    .views
+                    .iter()
+                    .all(|view| view.details.get().is_none())
+            );
+            assert_eq!(compact.summaries(), reference.summaries());
+            for (view, expected) in compact.views.iter().zip(&reference.views) {
+                assert_eq!(view.centroid, expected.signature().centroid);
+                assert_eq!(view.contour(), expected.contour());
+                assert_eq!(view.plane().image, expected.plane().image);
+                assert_eq!(view.signature(), expected.signature());
+            }
+        }
+    }
+
+    #[test]
     fn the_views_of_a_reference_take_less_memory_than_its_points() {
         for reference in shipped_references() {
             let of_view = |view: &ReferenceView| {
-                let borders = view.shape.borders.iter();
+                let shape = &view.details().shape;
+                let borders = shape.borders.iter();
                 let points: usize = borders.map(|border| border.pixels.len()).sum();
-                8 * points + view.shape.image.num_bytes()
+                8 * points + shape.image.num_bytes()
             };
             let num_bytes: usize = reference.views.iter().map(of_view).sum();
             assert!(num_bytes < 120_000, "{}: {num_bytes}", reference.name);

@@ -64,6 +64,11 @@ pub fn assemble_all(
     cloud.cloud.is_simulated = is_simulated;
     count_new(&cloud, &mut scanned);
     let (before, after) = agreement(&mut scanned, &cloud, num_workers);
+    for shot in &mut scanned {
+        if let Some(surface) = Arc::get_mut(&mut shot.surface) {
+            surface.drop_normals();
+        }
+    }
     let mut scan = Scan {
         shots: scanned,
         cloud,
@@ -143,7 +148,7 @@ fn prepare(shot: &Shot, params: &ScanParams) -> Result<ScannedShot, ScanError> {
         name: name(),
         scene: Arc::clone(&shot.scene),
         surface: Arc::new(surface),
-        segmentation: Arc::new(segment(&shot.scene, &params.segment)),
+        segmentation: Arc::new(segment(&shot.scene, &params.segment).into()),
         finds_part: false,
         given: shot.base_from_camera,
         base_from_camera: shot.base_from_camera,

@@ -139,10 +139,21 @@ pub(super) fn fuse(
         .iter()
         .map(|(_, shot)| shot.base_from_camera.inverse())
         .collect();
-    let (mut fused, mut normals) = (FusedCloud::default(), Vec::new());
-    let mut moved: Vec<Voxel> = Vec::new();
     let slabs = slabs_of_readings(shots, per_metre);
     let num_slabs = slabs.len();
+    // No more points than readings. Memory is only taken up where points are written; growing or shrinking would copy them.
+    let most = slabs.iter().map(|(_, readings)| readings.len()).sum();
+    let mut normals = Vec::with_capacity(most);
+    let mut fused = FusedCloud {
+        cloud: PointCloud {
+            points: Vec::with_capacity(most),
+            ..PointCloud::default()
+        },
+        seen_by: Vec::with_capacity(most),
+        is_part: Vec::with_capacity(most),
+        part_votes: Vec::with_capacity(most),
+    };
+    let mut waiting: Vec<Vec<Voxel>> = Vec::new();
     for (number, (top, readings)) in slabs.into_iter().enumerate() {
         let readings = by_voxel(shots, &readings, per_metre);
         let starts: Vec<&[(u64, u32)]> = readings.chunk_by(|a, b| a.0 == b.0).collect();
@@ -151,24 +162,25 @@ pub(super) fn fuse(
             let means = pieces[piece]
                 .iter()
                 .map(|readings| mean_of(shots, readings));
-            means
-                .filter_map(|mean| drawn_to_surface(&mean, shots, &cameras))
-                .collect::<Vec<Voxel>>()
+            let mut drawn = Vec::with_capacity(pieces[piece].len());
+            drawn.extend(means.filter_map(|mean| drawn_to_surface(&mean, shots, &cameras)));
+            drawn
         });
-        moved.extend(drawn.into_iter().flatten());
+        waiting.extend(drawn);
         // Those near the top may be merged with some of the next slab.
-        let settled = |v: &Voxel| {
-            number + 1 == num_slabs || layer_of(voxel_of(&v.point, per_metre)) + MOST_MOVED < top
-        };
-        let (done, rest): (Vec<Voxel>, Vec<Voxel>) = moved.into_iter().partition(settled);
-        moved = rest;
-        for one in merged(&done, voxel) {
+        let is_settled = |voxel: u64| number + 1 == num_slabs || layer_of(voxel) + MOST_MOVED < top;
+        each_merged(&waiting, per_metre, is_settled, |one| {
             fused.cloud.points.push(one.point.cast());
             normals.push(one.normal.cast());
             fused.seen_by.push(one.seen_by);
             fused.is_part.push(one.votes > 0);
             fused.part_votes.push(one.part_votes);
+        });
+        for piece in &mut waiting {
+            piece.retain(|v| !is_settled(voxel_of(&v.point, per_metre)));
+            piece.shrink_to_fit();
         }
+        waiting.retain(|piece| !piece.is_empty());
     }
     fused.cloud.normals = Some(normals);
     fused
@@ -182,6 +194,14 @@ fn voxel_of(point: &Point3<f64>, per_metre: f64) -> u64 {
         ((x * per_metre).floor() + half).clamp(0.0, 2.0 * half - 1.0) as u64
     };
     (along(point.z) << (2 * BITS)) | (along(point.y) << BITS) | along(point.x)
+}
+
+/// Bits of a voxel's index within its strip: a quarter of a metre of a layer, since the floor of a cell may lie in one layer.
+const STRIP_BITS: u32 = BITS + 6;
+
+/// Returns the strip of a voxel, along y of its layer. Strips are in the order of their voxels.
+fn strip_of(voxel: u64) -> u64 {
+    voxel >> STRIP_BITS
 }
 
 /// Returns the layer of a voxel, along z.
@@ -211,29 +231,32 @@ fn each_reading(shots: &[(usize, &ScannedShot)], per_metre: f64, mut visit: impl
     }
 }
 
-/// Divides the readings into slabs of whole layers from the bottom, so that few are fused at once. Returns the layer above
-/// each slab with the slab's readings.
+/// Divides the readings into slabs of whole strips of layers from the bottom, so that few are fused at once. Returns each
+/// slab's readings with the first layer that is not complete yet.
 fn slabs_of_readings(shots: &[(usize, &ScannedShot)], per_metre: f64) -> Vec<(u64, Vec<u32>)> {
-    let mut layers: BTreeMap<u64, usize> = BTreeMap::new();
+    let mut strips: BTreeMap<u64, usize> = BTreeMap::new();
     each_reading(shots, per_metre, |_, voxel| {
-        *layers.entry(layer_of(voxel)).or_default() += 1;
+        *strips.entry(strip_of(voxel)).or_default() += 1;
     });
     let mut slabs: Vec<(u64, usize)> = Vec::new();
-    for (layer, num) in layers {
+    for (strip, num) in strips {
         match slabs.last_mut() {
-            Some((top, sum)) if *sum + num <= SLAB => (*top, *sum) = (layer + 1, *sum + num),
-            _ => slabs.push((layer + 1, num)),
+            Some((end, sum)) if *sum + num <= SLAB => (*end, *sum) = (strip + 1, *sum + num),
+            _ => slabs.push((strip + 1, num)),
         }
     }
     let mut filled: Vec<(u64, Vec<u32>)> = slabs
         .into_iter()
-        .map(|(top, num)| (top, Vec::with_capacity(num)))
+        .map(|(end, num)| (end, Vec::with_capacity(num)))
         .collect();
     each_reading(shots, per_metre, |reading, voxel| {
-        let slab = filled.partition_point(|(top, _)| *top <= layer_of(voxel));
+        let slab = filled.partition_point(|(end, _)| *end <= strip_of(voxel));
         filled[slab].1.push(reading);
     });
-    filled
+    let layers = filled
+        .into_iter()
+        .map(|(end, readings)| (layer_of(end << STRIP_BITS), readings));
+    layers.collect()
 }
 
 /// Returns the readings with their voxels, ordered by voxel.
@@ -325,37 +348,43 @@ fn drawn_to_surface(
     })
 }
 
-/// Merges the points that were moved into the same voxel; ordered by voxel.
-fn merged(voxels: &[Voxel], size: Metres) -> Vec<Voxel> {
-    let per_metre = 1.0 / size.0;
-    let numbered = voxels.iter().enumerate();
-    let mut order: Vec<(u64, u32)> = numbered
-        .map(|(i, v)| (voxel_of(&v.point, per_metre), i as u32))
-        .collect();
+/// Merges the points that were moved into the same settled voxel, and calls `visit` with each, ordered by voxel. A piece
+/// has at most [`PIECE`] points.
+fn each_merged(
+    pieces: &[Vec<Voxel>],
+    per_metre: f64,
+    is_settled: impl Fn(u64) -> bool,
+    mut visit: impl FnMut(Voxel),
+) {
+    let mut order: Vec<(u64, u32)> = Vec::new();
+    for (number, piece) in pieces.iter().enumerate() {
+        let first = number * PIECE;
+        let voxels = piece.iter().map(|v| voxel_of(&v.point, per_metre));
+        let numbered = voxels.zip(first as u32..);
+        order.extend(numbered.filter(|(voxel, _)| is_settled(*voxel)));
+    }
     order.sort_unstable();
-    order
-        .chunk_by(|a, b| a.0 == b.0)
-        .map(|members| {
-            let first = &voxels[members[0].1 as usize];
-            let (mut point, mut normal, mut weight) = (Vector3::zeros(), Vector3::zeros(), 0.0);
-            let (mut seen_by, mut votes, mut part_votes) = (0, 0, 0);
-            for &(_, i) in members {
-                let one = &voxels[i as usize];
-                point += one.point.coords * one.weight;
-                normal += one.normal * one.weight;
-                weight += one.weight;
-                seen_by |= one.seen_by;
-                votes += one.votes;
-                part_votes = one.part_votes.max(part_votes);
-            }
-            Voxel {
-                point: Point3::from(point / weight),
-                normal: normal.try_normalize(1e-12).unwrap_or(first.normal),
-                weight,
-                seen_by,
-                votes,
-                part_votes,
-            }
-        })
-        .collect()
+    let point_of = |i: u32| &pieces[i as usize / PIECE][i as usize % PIECE];
+    for members in order.chunk_by(|a, b| a.0 == b.0) {
+        let first = point_of(members[0].1);
+        let (mut point, mut normal, mut weight) = (Vector3::zeros(), Vector3::zeros(), 0.0);
+        let (mut seen_by, mut votes, mut part_votes) = (0, 0, 0);
+        for &(_, i) in members {
+            let one = point_of(i);
+            point += one.point.coords * one.weight;
+            normal += one.normal * one.weight;
+            weight += one.weight;
+            seen_by |= one.seen_by;
+            votes += one.votes;
+            part_votes = one.part_votes.max(part_votes);
+        }
+        visit(Voxel {
+            point: Point3::from(point / weight),
+            normal: normal.try_normalize(1e-12).unwrap_or(first.normal),
+            weight,
+            seen_by,
+            votes,
+            part_votes,
+        });
+    }
 }

@@ -37,7 +37,7 @@ use nalgebra::Point3;
 
 use crate::{
     scene::SceneCloud,
-    segment::{SegmentParams, Segmentation},
+    segment::{BackgroundSign, PointLabel, SegmentParams, Segmentation, SegmentedPart},
 };
 use geometry::{
     rigid::{PoseDelta, RigidTransform, pose_error},
@@ -140,7 +140,7 @@ pub struct ScannedShot {
     /// The frame's readings with normals and noise.
     pub surface: Arc<ShotSurface>,
     /// The frame's own segmentation.
-    pub segmentation: Arc<Segmentation>,
+    pub segmentation: Arc<ShotSegmentation>,
     /// True if its segmentation counts in the vote on which points are the part.
     pub finds_part: bool,
     /// The camera's pose according to the robot.
@@ -159,6 +159,37 @@ pub struct ScannedShot {
     pub num_new: usize,
     /// Why the shot was excluded; `None` if it was used.
     pub excluded: Option<Excluded>,
+}
+
+/// What a scan uses of a frame's segmentation.
+#[derive(Clone, Debug)]
+pub struct ShotSegmentation {
+    /// One label per reading.
+    pub labels: Vec<PointLabel>,
+    /// What the frame takes for the part; `None` if it shows none.
+    part: Option<ShotPart>,
+}
+
+/// What a frame takes for the part.
+#[derive(Clone, Debug)]
+struct ShotPart {
+    /// Indices of its readings, ascending.
+    indices: Vec<u32>,
+    /// The reason why it looks like background, if there is one.
+    background_sign: Option<BackgroundSign>,
+}
+
+impl From<Segmentation> for ShotSegmentation {
+    fn from(segmentation: Segmentation) -> Self {
+        let part = |part: SegmentedPart| ShotPart {
+            background_sign: part.background_sign(),
+            indices: part.indices,
+        };
+        Self {
+            labels: segmentation.labels,
+            part: segmentation.part.ok().map(part),
+        }
+    }
 }
 
 impl Scan {

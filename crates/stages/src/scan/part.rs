@@ -11,14 +11,13 @@ use super::{
     unseen::unseen_share,
     visibility::{Visibility, visibility_at},
 };
-use crate::segment::{BackgroundSign, PointLabel, SegmentedPart};
+use crate::segment::{BackgroundSign, PointLabel};
 use geometry::{units::Metres, voxel::connected_pieces};
 
 impl ScannedShot {
     /// Returns the reason why what it takes for the part looks like background, if there is one.
     fn background_sign(&self) -> Option<BackgroundSign> {
-        let part = self.segmentation.part.as_ref().ok();
-        part.and_then(SegmentedPart::background_sign)
+        self.segmentation.part.as_ref()?.background_sign
     }
 }
 
@@ -26,7 +25,7 @@ impl ScannedShot {
 pub(super) fn voters(shots: &[ScannedShot]) -> Vec<usize> {
     let finds_part = |i: &usize| {
         let shot = &shots[*i];
-        shot.excluded.is_none() && shot.segmentation.part.is_ok()
+        shot.excluded.is_none() && shot.segmentation.part.is_some()
     };
     let (mut voters, mut others): (Vec<usize>, Vec<usize>) = (0..shots.len())
         .filter(finds_part)
@@ -49,7 +48,7 @@ const TOLERANCE: f64 = 0.006;
 /// Returns whether the voters take most of what they see of a shot's part for the part.
 fn is_confirmed(which: usize, voters: &[usize], shots: &[ScannedShot]) -> bool {
     let shot = &shots[which];
-    let Ok(part) = &shot.segmentation.part else {
+    let Some(part) = &shot.segmentation.part else {
         return false;
     };
     let step = (part.indices.len() / NUM_LOOKED_UP).max(1);

@@ -34,8 +34,8 @@ pub struct ShotSurface {
     /// Size and optics of the picture.
     pub camera: Intrinsics,
     scene: Arc<SceneCloud>,
-    /// Unit normals towards the camera; zero where `uses` is none.
-    pub normals: Vec<Vector3<f32>>,
+    /// Unit normals towards the camera; zero where `uses` is none. Empty in an assembled scan.
+    pub(super) normals: Vec<Vector3<f32>>,
     /// What each reading is good enough for.
     pub uses: Vec<Use>,
     /// Standard deviation of a reading's depth at 1 m.
@@ -98,13 +98,18 @@ impl ShotSurface {
         })
     }
 
+    /// Drops the normals, which only assembling uses, and which take as much memory as the points.
+    pub(super) fn drop_normals(&mut self) {
+        self.normals = Vec::new();
+    }
+
     /// Returns the points, row by row; NaN where there is no reading.
     pub fn points(&self) -> &[Point3<f32>] {
         &self.scene.cloud.points
     }
 
     /// Returns the standard deviation of a reading along its surface's normal, in metres.
-    pub fn sigma(&self, i: usize) -> f64 {
+    pub(super) fn sigma(&self, i: usize) -> f64 {
         let p = &self.points()[i];
         let z = f64::from(p.z);
         let cosine = f64::from(-self.normals[i].dot(&p.coords) / p.coords.norm());

@@ -155,7 +155,7 @@ impl Overlay {
         let joins = (0..num_rays).step_by(step).filter_map(|ray| {
             let of_view = (ray + num_rays - placement.lag % num_rays) % num_rays;
             let from = scene.centroid + scene.rays.get(ray)?;
-            let to = moved * (view.signature.centroid + view.signature.rays.get(of_view)?);
+            let to = moved * (view.centroid + view.signature().rays.get(of_view)?);
             ((to - from).norm() > LEAST_JOIN).then(|| [plain(&from), plain(&to)])
         });
         let outline = closed(&query.contour.outline, &nalgebra::Isometry2::identity());
@@ -236,11 +236,11 @@ fn of_rays(
         Trace::new("Θ", AxisQuantity::Angle, &own.angles, &angles),
     ];
     let num = scene.rays.len();
-    let same_num = |(_, view): &(_, &ReferenceView)| view.signature.rays.len() == num && num > 0;
+    let same_num = |(_, view): &(_, &ReferenceView)| view.signature().rays.len() == num && num > 0;
     let Some((placement, view)) = placed.filter(same_num) else {
         return (traces, Vec::new());
     };
-    let part = RaySpectra::of([&view.signature.rays[..]]);
+    let part = RaySpectra::of([&view.signature().rays[..]]);
     // From half a circle before the given lag to half a circle after it, per ray.
     let half = num / 2;
     let around = |with: RaySpectra, lag: usize| -> Vec<f64> {

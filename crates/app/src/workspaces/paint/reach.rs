@@ -208,7 +208,7 @@ impl PaintState {
 /// A path in its part's standard position.
 struct StandardPath {
     carried: CarriedPath,
-    part_cloud: PointCloud,
+    part_cloud: Arc<PointCloud>,
     coverage: Coverage,
     side: Option<Side>,
     off: Option<OffThePart>,
@@ -230,7 +230,7 @@ fn in_standard_position(
     let part = &loaded.shown.parts[place];
     Ok(StandardPath {
         carried,
-        part_cloud: reference.cloud.clone(),
+        part_cloud: Arc::clone(&reference.cloud),
         coverage: part.coverage,
         side: part.side,
         off: off_the_part(&planned.path, reference),

@@ -29,7 +29,7 @@ pub(super) fn pose_warning(reference: &Reference, coverage: Coverage) -> Option<
     let query = Query {
         plane: &plane,
         contour: &contour,
-        signature: &view.signature,
+        signature: view.signature(),
     };
     let references = std::slice::from_ref(reference);
     let ranking = rank(&query, references, &RankParams::default());

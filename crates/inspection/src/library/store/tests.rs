@@ -215,14 +215,14 @@ fn what_was_removed_or_replaced_is_restored_and_nothing_is_lost_by_it() {
     let restored = library.restore(&replaced.expect("kept")).expect("restored");
     assert_eq!(restored.name.as_str(), "plate-2");
     let width = |library: &LibraryFolder| load(library).library.references[0].cloud.clone();
-    assert_eq!(width(&library), part("plate-2", 0.4).cloud);
+    assert_eq!(*width(&library), part("plate-2", 0.4).cloud);
     library
         .restore(&restored.replaced.expect("kept"))
         .expect("and back");
-    assert_eq!(width(&library), part("plate-2", 0.5).cloud);
+    assert_eq!(*width(&library), part("plate-2", 0.5).cloud);
     let removed = library.remove(&restored.name).expect("removed");
     assert_eq!(library.restore(&removed).expect("restored").replaced, None);
-    assert_eq!(width(&library), part("plate-2", 0.5).cloud);
+    assert_eq!(*width(&library), part("plate-2", 0.5).cloud);
 }
 
 #[test]
