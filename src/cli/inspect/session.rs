@@ -443,6 +443,8 @@ mod tests {
             followed: None,
             publisher: None,
             mirrored: MirrorTally::default(),
+            waiting: VecDeque::new(),
+            num_unchecked: 0,
         };
         let mut console = Console::new();
         let failed = session.frame(Path::new("a.pcd"), &mut console, |_, _| {

@@ -33,9 +33,10 @@ pub enum Use {
 pub struct ShotSurface {
     /// Size and optics of the picture.
     pub camera: Intrinsics,
-    scene: Arc<SceneCloud>,
+    /// The frame itself.
+    pub scene: Arc<SceneCloud>,
     /// Unit normals towards the camera; zero where `uses` is none. Empty in an assembled scan.
-    pub(super) normals: Vec<Vector3<f32>>,
+    pub normals: Vec<Vector3<f32>>,
     /// What each reading is good enough for.
     pub uses: Vec<Use>,
     /// Standard deviation of a reading's depth at 1 m.

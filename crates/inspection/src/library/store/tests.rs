@@ -76,7 +76,7 @@ fn a_saved_part_comes_back_as_it_was() {
     let saved = part("b", 0.5);
     assert_eq!(load.parts[1], saved.meta);
     assert_eq!(load.library.references[1].name, "b");
-    assert_eq!(load.library.references[1].cloud, saved.cloud);
+    assert_eq!(*load.library.references[1].cloud, saved.cloud);
 }
 
 #[test]
@@ -113,7 +113,7 @@ fn a_replaced_and_a_removed_part_lie_in_the_trash_whole() {
     for (trash, width) in [(replaced.expect("one was there"), 0.4), (removed, 0.5)] {
         fs::rename(&trash, library.path().join("plate")).expect("moved back by hand");
         assert_eq!(
-            load(&library).library.references[0].cloud,
+            *load(&library).library.references[0].cloud,
             part("plate", width).cloud
         );
         fs::rename(library.path().join("plate"), &trash).expect("and away");

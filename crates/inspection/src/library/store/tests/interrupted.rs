@@ -21,7 +21,10 @@ fn a_writer_killed_between_the_renames_loses_no_part() {
     let folder = library.save(&part("plate", 0.4)).expect("saved").folder;
     fs::rename(&folder, library.path().join(".old-plate")).expect("aside");
     let loaded = load(&library);
-    assert_eq!(loaded.library.references[0].cloud, part("plate", 0.4).cloud);
+    assert_eq!(
+        *loaded.library.references[0].cloud,
+        part("plate", 0.4).cloud
+    );
     assert_eq!(loaded.warnings[0].issue, EntryIssue::LeftAside);
     library.save(&part("other", 0.5)).expect("saved");
     assert!(folder.join(META).exists());

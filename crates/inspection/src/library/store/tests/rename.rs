@@ -47,7 +47,10 @@ fn a_part_with_another_name_keeps_every_file_and_the_former_one_lies_in_the_tras
     let former = renamed.expect("renamed").former.expect("kept");
     let loaded = load(&library);
     assert_eq!(loaded.parts[0].words(), words("sheet", "Sheet"));
-    assert_eq!(loaded.library.references[0].cloud, part("plate", 0.4).cloud);
+    assert_eq!(
+        *loaded.library.references[0].cloud,
+        part("plate", 0.4).cloud
+    );
     assert!(loaded.warnings.is_empty());
     let drawing = library.path().join("sheet").join("drawing.txt");
     assert_eq!(fs::read_to_string(drawing).expect("copied"), "no. 7");
