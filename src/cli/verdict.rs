@@ -2,13 +2,14 @@
 
 use super::console::Console;
 use files::visible;
-use geometry::units::Metres;
+use geometry::{error::Advice as _, units::Metres};
 use inspection::{
     library::Library,
     pipeline::{Inspection, Rejection, Verdict},
 };
 use robot::RobotFrame;
 use stages::pose::{Stopped, Uncertainty};
+use station::doubts_of_result;
 
 /// Returns the part's position, the middle of its reference's extent (x, y, z in mm), and its rotation (rx, ry, rz in
 /// degrees).
@@ -23,15 +24,22 @@ pub(super) fn place_of(inspection: &Inspection, library: &Library) -> Option<([f
     ))
 }
 
-/// Shows the middle of an accepted part in the robot's base frame.
+/// Shows the middle of an accepted part in the robot's base frame, or why a robot may not act on it.
 pub(super) fn show_in_robot(
     robot: &RobotFrame,
     inspection: &Inspection,
     library: &Library,
     console: &mut Console,
 ) {
-    let place = place_of(inspection, library).filter(|_| inspection.verdict.is_accepted());
-    let Some(([x, y, z], _)) = place else {
+    if !inspection.verdict.is_accepted() {
+        return;
+    }
+    if let Some(doubt) = doubts_of_result(inspection).first() {
+        console.entry("robot", &format_args!("no pose: {doubt}"));
+        console.entry("to do", &doubt.advice());
+        return;
+    }
+    let Some(([x, y, z], _)) = place_of(inspection, library) else {
         return;
     };
     let middle = robot.robot_from_camera * nalgebra::Point3::new(x, y, z).map(|mm| mm / 1000.0);

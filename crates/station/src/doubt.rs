@@ -175,17 +175,23 @@ pub fn doubts(
     currency: &Currency,
     robot: Option<&RobotFrame>,
 ) -> Vec<Doubt> {
+    let of_cell = robot.is_none().then_some(Doubt::NotCalibrated);
+    let of_result = doubts_of_result(inspection);
+    let all = currency.doubt().into_iter().chain(of_result);
+    all.chain(of_cell).collect()
+}
+
+/// Returns the doubts that a result has whenever and wherever it was captured.
+pub fn doubts_of_result(inspection: &Inspection) -> Vec<Doubt> {
     let pose = inspection.found_pose();
     let is_ambiguous = pose.is_some_and(PoseEstimate::is_ambiguous);
-    let of_result = [
+    let doubts = [
         (!inspection.verdict.is_accepted(), Doubt::NotAccepted),
         (pose.is_none(), Doubt::NoPose),
-        (robot.is_none(), Doubt::NotCalibrated),
         (is_ambiguous, Doubt::Ambiguous),
     ];
-    let of_result = of_result.into_iter().filter(|(is_doubt, _)| *is_doubt);
-    let of_result = of_result.map(|(_, doubt)| doubt);
-    currency.doubt().into_iter().chain(of_result).collect()
+    let doubts = doubts.into_iter().filter(|(is_doubt, _)| *is_doubt);
+    doubts.map(|(_, doubt)| doubt).collect()
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::{Doubt, doubts_of_result};
 use image::RgbImage;
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -161,11 +162,15 @@ impl Inspected<'_> {
             robot,
             ..
         } = *self;
+        let doubts = doubts_of_result(inspection);
         let mut line = InspectionLine::of(&subject.scene, inspection)
             .by(recipe)
             .traced(trace)
-            .in_robot(robot, inspection)
+            .in_robot(robot.filter(|_| doubts.is_empty()), inspection)
             .reported_as(reported_as);
+        if robot.is_some() && inspection.verdict.is_accepted() {
+            line = line.doubted(doubts.iter().map(Doubt::kind).collect());
+        }
         match &subject.capture {
             Some(capture) => {
                 line = line.captured(CaptureLine {
@@ -188,9 +193,7 @@ impl Inspected<'_> {
                 frames: scan.shots.len(),
                 used: scan.num_used,
                 reference_frame: &scan.reference_frame,
-                base_from_part: base_from_part
-                    .filter(|_| inspection.verdict.is_accepted())
-                    .map(row_major),
+                base_from_part: base_from_part.filter(|_| doubts.is_empty()).map(row_major),
             });
         }
         line.to_json()

@@ -32,7 +32,7 @@ pub struct InspectionLine<'a> {
     /// True if the surface taken for the part reaches the picture's edge: some of the part may be missing.
     touches_edge: bool,
     pose: Option<PoseLine<'a>>,
-    /// The same pose for the robot, if the cell is calibrated.
+    /// The same pose for the robot, if the cell is calibrated and a robot may act on it.
     #[serde(skip_serializing_if = "Option::is_none")]
     robot: Option<RobotLine<'a>>,
     ranking: Vec<RankLine<'a>>,
@@ -51,6 +51,9 @@ pub struct InspectionLine<'a> {
     /// False if the part was accepted in a frame of a source and no other frame shows whether it hangs still.
     #[serde(skip_serializing_if = "Option::is_none")]
     motion_checked: Option<bool>,
+    /// Why `robot` is missing although the cell is calibrated and the part was accepted.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    robot_doubts: Vec<&'static str>,
 }
 
 /// Additional fields for several frames that were inspected together.
@@ -62,7 +65,7 @@ pub struct ScanLine<'a> {
     pub used: usize,
     /// The frame whose camera the pose refers to.
     pub reference_frame: &'a str,
-    /// Pose of the part in the robot's base frame; null unless the part was accepted.
+    /// Pose of the part in the robot's base frame; null unless a robot may act on it.
     pub base_from_part: Option<[f64; 16]>,
 }
 
@@ -230,13 +233,10 @@ impl<'a> InspectionLine<'a> {
         }
     }
 
-    /// Adds the pose in the robot's base frame; without a frame, or unless the part was accepted, nothing is added that
-    /// a robot could move by.
+    /// Adds the pose in the robot's base frame. Without a frame, nothing is added that a robot could move by.
     #[must_use]
     pub fn in_robot(self, frame: Option<&'a RobotFrame>, inspection: &Inspection) -> Self {
-        let pose = inspection.found_pose();
-        let accepted = pose.filter(|_| inspection.verdict.is_accepted());
-        let robot = frame.zip(accepted).map(|(frame, pose)| {
+        let robot = frame.zip(inspection.found_pose()).map(|(frame, pose)| {
             let camera_from_part = pose.camera_from_part();
             RobotLine {
                 calibration: &frame.name,
@@ -246,6 +246,15 @@ impl<'a> InspectionLine<'a> {
             }
         });
         Self { robot, ..self }
+    }
+
+    /// States why there is no pose in the robot's base frame although the cell is calibrated and the part was accepted.
+    #[must_use]
+    pub fn doubted(self, doubts: Vec<&'static str>) -> Self {
+        Self {
+            robot_doubts: doubts,
+            ..self
+        }
     }
 
     /// Creates the line of an inspection of this scene.
