@@ -12,7 +12,7 @@ use robot::cell_check::{CellFinding, CellViewError};
 use simulate::ObjectKind;
 use stages::{
     contour::ContourError,
-    pose::{Axis, CloudRole, FreeMotion, PoseError, PoseWarning, Stopped},
+    pose::{Axis, CloudRole, FreeMotion, OffScale, PoseError, PoseWarning, Stopped},
     project::ProjectError,
     scan::{Doubt, Excluded},
     segment::NoPart,
@@ -385,6 +385,16 @@ pub fn pose_error_advice(error: &PoseError) -> String {
     }
 }
 
+/// States how much larger or smaller a part is than its reference.
+pub(super) fn off_scale(off: &OffScale) -> String {
+    let percent = fixed!((off.scale - 1.0).abs() * 100.0, 0);
+    if off.scale > 1.0 {
+        text!("results-larger", percent = percent)
+    } else {
+        text!("results-smaller", percent = percent)
+    }
+}
+
 /// Explains why a pose is not reliable.
 pub fn pose_warning(warning: &PoseWarning) -> String {
     match warning {
@@ -399,6 +409,7 @@ pub fn pose_warning(warning: &PoseWarning) -> String {
         PoseWarning::Loose { freedom } => {
             text!("results-loose", freedom = free_motion(*freedom))
         }
+        PoseWarning::OffScale(off) => off_scale(off),
         PoseWarning::Unsettled { num_iterations } => {
             text!("results-unsettled", num = *num_iterations)
         }
@@ -661,6 +672,8 @@ mod tests {
                 needed: 0.25,
             },
             PoseWarning::Ambiguous { ratio: 1.056 },
+            PoseWarning::OffScale(OffScale { scale: 1.0512 }),
+            PoseWarning::OffScale(OffScale { scale: 0.9512 }),
             PoseWarning::Unsettled { num_iterations: 30 },
         ];
         warnings.extend(FREEDOMS.map(|freedom| PoseWarning::Loose { freedom }));

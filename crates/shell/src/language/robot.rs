@@ -90,6 +90,10 @@ pub fn doubt(doubt: &Doubt) -> [String; 2] {
             text!("robot-doubt-ambiguous"),
             text!("robot-doubt-ambiguous-advice"),
         ],
+        Doubt::OffScale(off) => [
+            super::results::off_scale(off),
+            text!("results-off-scale-advice"),
+        ],
         Doubt::OffThePart(off) => [
             if off.num_too_near > 0 {
                 text!(
@@ -252,6 +256,7 @@ mod tests {
     use super::*;
     use geometry::error::Advice as _;
     use robot::parse_nozzle;
+    use stages::pose::OffScale;
     use station::ClockAhead;
     use ui::language::Language;
 
@@ -296,6 +301,7 @@ mod tests {
             Doubt::ClockAhead(ClockAhead { ahead }),
             Doubt::Old,
             Doubt::Ambiguous,
+            Doubt::OffScale(OffScale { scale: 1.05 }),
         ] {
             assert_eq!(doubt(&kind), [kind.to_string(), kind.advice()]);
         }

@@ -197,6 +197,7 @@ pub(super) fn doubted(doubt: &PoseWarning, track: &Track) -> UserError {
         PoseWarning::Loose { .. } => {
             text!("align-look-for-edge")
         }
+        PoseWarning::OffScale(_) => text!("results-off-scale-advice"),
         PoseWarning::Unsettled { .. } => text!("align-other-method"),
         // Source and target do show the same part.
         PoseWarning::LittleOverlap { .. } if track.true_error.is_some() => {
@@ -239,6 +240,7 @@ mod tests {
                 target_from_source: RigidTransform::identity(),
                 ratio: 1.03,
             }),
+            scale: None,
         };
         let loose = PoseWarning::Loose { freedom };
         let ambiguous = PoseWarning::Ambiguous { ratio: 1.03 };
