@@ -238,6 +238,9 @@ pub(crate) struct Pose {
     /// True if it may be another model of the part, so that the pose is only approximate.
     #[pyo3(get)]
     approximate: bool,
+    /// Size of the part divided by that of its reference, if it is certainly another: the camera's numbers are probably wrong.
+    #[pyo3(get)]
+    off_scale: Option<f64>,
 }
 
 impl Pose {
@@ -256,6 +259,7 @@ impl Pose {
             stopped: pose.stopped.name(),
             ambiguous: pose.is_ambiguous(),
             approximate: is_approximate,
+            off_scale: pose.off_scale().map(|off| off.scale()),
         }
     }
 }

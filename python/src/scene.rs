@@ -55,7 +55,8 @@ impl Scene {
     ///
     /// Depths are along the optical axis, in units of `metres_per_unit`; 0 is no reading, nor is a negative or
     /// non-finite float. `fx`, `fy`, `cx` and `cy` are in pixels, with pixel centres at whole numbers; the image must
-    /// have no lens distortion. Set `is_simulated` if the depths do not come from a camera.
+    /// have no lens distortion. Numbers that no depth camera has raise a `UserWarning`. Set `is_simulated` if the depths
+    /// do not come from a camera.
     #[staticmethod]
     #[pyo3(signature = (depth, fx, fy, cx, cy, metres_per_unit, *, name = "array", is_simulated = false))]
     #[expect(clippy::too_many_arguments, reason = "the numbers of a camera")]
@@ -90,6 +91,7 @@ impl Scene {
             cy,
             distortion: Distortion::NONE,
         };
+        warn_of_camera(py, name, &intrinsics)?;
         let scene = py.detach(|| match depths {
             Depths::Units(depth) => scene_from_image(Image::Depth(DepthFrame {
                 intrinsics,
@@ -108,8 +110,8 @@ impl Scene {
     /// and columns.
     ///
     /// Give rows and columns if they are known: without them the points are projected back into a picture, if a
-    /// camera at the origin can have seen them all. Points that are not finite are no readings. Set `is_simulated` if
-    /// the points do not come from a camera.
+    /// camera at the origin can have seen them all. Points that are not finite are no readings. Rows and columns of a
+    /// camera that cannot be raise a `UserWarning`. Set `is_simulated` if the points do not come from a camera.
     #[staticmethod]
     #[pyo3(signature = (points, *, name = "array", is_simulated = false))]
     fn from_points(
@@ -122,7 +124,11 @@ impl Scene {
             is_simulated,
             ..cloud_of(points)?
         };
+        let is_organised = cloud.grid.is_some();
         let scene = py.detach(|| scene_from_image(Image::Cloud(cloud)));
+        if let Some(camera) = scene.intrinsics.filter(|_| is_organised) {
+            warn_of_camera(py, name, &camera)?;
+        }
         Ok(Self::new(name.to_owned(), scene))
     }
 
@@ -156,6 +162,14 @@ impl Scene {
         let num_readings = self.scene.cloud.num_finite();
         format!("<Scene {:?}, {num_readings} readings>", self.name)
     }
+}
+
+/// Issues a `UserWarning` about a camera whose numbers are probably wrong.
+fn warn_of_camera(py: Python<'_>, name: &str, camera: &Intrinsics) -> PyResult<()> {
+    camera.doubt().map_or(Ok(()), |doubt| {
+        let advice = partsight::Advice::advice(&doubt);
+        warn_about(py, format_args!("{name}: {doubt}"), &advice)
+    })
 }
 
 fn four_numbers(camera: Intrinsics) -> (f64, f64, f64, f64) {

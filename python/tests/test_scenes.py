@@ -149,3 +149,30 @@ def test_an_unknown_simulated_part_is_refused_with_the_names() -> None:
     assert "trunk_lid" in str(refused.value)
     with pytest.raises(partsight.PartsightError, match="left, right"):
         partsight.simulate_frame(side="top")  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("camera", "message"),
+    [
+        ((525.0, 525.0, 379.5, 239.5), "lies 60 pixels from the middle"),
+        ((525.0, 580.0, 319.5, 239.5), "focal lengths differ"),
+        ((100.0, 100.0, 319.5, 239.5), "would see 145° of its surroundings"),
+    ],
+)
+def test_a_camera_that_cannot_be_is_warned_of(camera: Camera, message: str) -> None:
+    for depth in [np.full((480, 640), 1500, np.uint16), np.full((480, 640), 1500.0, np.float32)]:
+        with pytest.warns(UserWarning, match=message) as warned:
+            scene = partsight.Scene.from_depth(depth, *camera, 0.001, name="frame 7")
+        (warning,) = warned
+        assert str(warning.message).startswith("frame 7: ") and "Check" in str(warning.message)
+        # The numbers stay as they are.
+        assert scene.intrinsics == camera
+    with pytest.warns(UserWarning, match=message):
+        partsight.Scene.from_points(scene.points)
+
+
+def test_a_camera_that_exists_is_not_warned_of(recwarn: pytest.WarningsRecorder) -> None:
+    depth = np.full((480, 640), 1500, np.uint16)
+    scene = partsight.Scene.from_depth(depth, *KINECT, 0.001)
+    partsight.Scene.from_points(scene.points)
+    assert not recwarn.list

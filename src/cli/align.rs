@@ -144,7 +144,9 @@ fn doubt_advice(doubt: &PoseWarning) -> String {
         PoseWarning::Ambiguous { .. } | PoseWarning::Unsettled { .. } => {
             format!("{advice}, with --initial")
         }
-        PoseWarning::LittleOverlap { .. } | PoseWarning::Loose { .. } => advice,
+        PoseWarning::LittleOverlap { .. }
+        | PoseWarning::Loose { .. }
+        | PoseWarning::OffScale(_) => advice,
     }
 }
 

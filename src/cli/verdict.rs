@@ -132,6 +132,8 @@ pub(super) fn show_card(
         } else {
             ""
         };
+        let off_scale = pose.off_scale().filter(|_| is_known);
+        let off_scale = off_scale.map_or_else(String::new, |off| format!("; {off}"));
         let approximate = if is_known && inspection.verdict.is_approximate() {
             "; approximate, since this may be another model of the part"
         } else {
@@ -140,7 +142,7 @@ pub(super) fn show_card(
         line(
             "fit",
             format!(
-                "{:.1} mm rms, {:.0} % of what was seen lies on the reference, {} by the method {}{ambiguous}{approximate}",
+                "{:.1} mm rms, {:.0} % of what was seen lies on the reference, {} by the method {}{ambiguous}{off_scale}{approximate}",
                 pose.fit.rms_m * 1000.0,
                 pose.fit.overlap * 100.0,
                 stopped_words(pose.stopped),

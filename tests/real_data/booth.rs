@@ -13,9 +13,10 @@ use partsight::{
         EnrolError, EnrolParams, EnrolWarning, Library, PartDescription, PartName, enrol_captured,
         enrol_surface, likenesses, surfaces_to_enrol,
     },
-    pipeline::{Recipe, Unwatched, Verdict, run},
+    pipeline::{BUILT_IN_RECIPES, PoseChoice, Recipe, Unwatched, Verdict, built_in_recipe, run},
     robot::cell_check::{CellBaseline, CellFinding, CellLimits, CellView},
     stages::{
+        pose::{PoseEstimate, PoseMethod},
         scene::{SceneCloud, scene_from_cloud, scene_from_frame},
         segment::{PointLabel, SegmentParams, SegmentedPart, segment},
     },
@@ -279,6 +280,79 @@ fn parts_of_a_booth_are_named_and_placed_where_the_robot_says() {
     assert!(
         num_named >= 9 && num_accepted >= 7 && num_approximate <= 2,
         "{num_named} named, {num_accepted} accepted, {num_approximate} approximate"
+    );
+}
+
+/// In this frame of a fender, each of these doors fits as well at another place.
+#[test]
+fn a_part_whose_pose_is_ambiguous_is_accepted_by_no_pose_method() {
+    let Some(data) = data_folder() else { return };
+    let scene_of = |name: &str| scene(&data.join(format!("booth/{name}.png")));
+    let enrolled = |frame: &str, name: &str| {
+        let enrolled = enrol_captured(&scene_of(frame), &about(name), &EnrolParams::default());
+        enrolled.expect("a part").reference
+    };
+    let fender = scene_of("left2_07");
+    for door in ["right2_03", "right2_04"] {
+        let library = Library {
+            references: vec![enrolled("left2_01", "fender"), enrolled(door, "door")],
+        };
+        for name in BUILT_IN_RECIPES {
+            for method in PoseMethod::ALL {
+                let mut recipe = built_in_recipe(name).expect("a recipe");
+                recipe.pose = PoseChoice::By(method);
+                let found = run(&fender, &library, &recipe, &Unwatched).expect("not cancelled");
+                let is_fender = found.verdict.guess() == Some("fender");
+                assert!(
+                    is_fender || !found.verdict.is_accepted(),
+                    "{door} {name} {method:?}: {:?}",
+                    found.verdict
+                );
+            }
+        }
+    }
+}
+
+/// Reported: a depth that is 5 % too long is accepted, 65 mm off.
+#[test]
+fn most_parts_accepted_with_a_camera_5_percent_wrong_are_warned_of_and_none_with_a_right_one() {
+    let Some(data) = data_folder() else { return };
+    let booth = data.join("booth");
+    let truth = std::fs::read(booth.join("truth.json")).expect("the robot's poses");
+    let truth: Truth = serde_json::from_slice(&truth).expect("the robot's poses");
+    let library = library(&booth, &truth);
+    let inspected = |file: &str, depth: f64, focal: f64| {
+        let Ok(FileContent::Depth(mut frame)) = open(&booth.join(file)) else {
+            panic!("{file}");
+        };
+        frame.metres_per_unit *= depth;
+        frame.intrinsics.fx *= focal;
+        frame.intrinsics.fy *= focal;
+        let scene = scene_from_frame(&frame);
+        run(&scene, &library, &Recipe::default(), &Unwatched).expect("not cancelled")
+    };
+    let (mut num_accepted, mut num_warned) = (0, 0);
+    for file in truth.frames.keys() {
+        let right = inspected(file, 1.0, 1.0);
+        let off = right.found_pose().and_then(PoseEstimate::off_scale);
+        assert_eq!(off, None, "{file}");
+        for (depth, focal) in [(1.05, 1.0), (1.0, 0.95)] {
+            let wrong = inspected(file, depth, focal);
+            let pose = wrong.found_pose().filter(|_| wrong.verdict.is_accepted());
+            num_accepted += usize::from(pose.is_some());
+            let Some(off) = pose.and_then(PoseEstimate::off_scale) else {
+                continue;
+            };
+            num_warned += 1;
+            let what = format!("{file}, depth {depth}, focal length {focal}: {off}");
+            assert!((off.scale() - 1.05).abs() < 0.025, "{what}");
+            // The operator reads it, too.
+            assert!(pose.and_then(PoseEstimate::doubt).is_some(), "{what}");
+        }
+    }
+    assert!(
+        num_accepted >= 12 && num_warned + 2 >= num_accepted,
+        "{num_warned} of {num_accepted}"
     );
 }
 

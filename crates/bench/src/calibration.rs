@@ -234,7 +234,6 @@ mod tests {
                     beyond: 0.0,
                     seen_m2: random.random_range(0.01..0.1),
                     edge_m: random.random_range(0.05..0.5),
-                    rival: 0.0,
                     shape: 1.0,
                     outside: random.random_range(0.0..0.5),
                     relief_m: random.random_range(0.0..0.01),

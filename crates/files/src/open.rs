@@ -153,10 +153,10 @@ impl FileContent {
         }
         match self {
             Self::Cloud(cloud) => warnings.extend(warnings_of(cloud)),
-            Self::Depth(frame) if frame.depth.len() >= MIN_READINGS => {
+            Self::Depth(frame) => {
                 warnings.extend(frame.intrinsics.doubt().map(FileWarning::Camera));
             }
-            Self::Depth(_) | Self::Mesh(_) => {}
+            Self::Mesh(_) => {}
         }
         warnings
     }

@@ -187,6 +187,8 @@ impl Advice for CameraDoubt {
     }
 }
 
+/// Pictures of fewer pixels come from no camera, but are made up to try something.
+const MIN_PIXELS: usize = 1000;
 /// Largest distance of the optical axis from the middle, as a share of the picture's diagonal. Depth cameras come up to
 /// 0.053 (the narrow field of an Azure Kinect, which is cut out of a larger picture), most to 0.03.
 const MAX_OFF_CENTRE: f64 = 0.06;
@@ -208,6 +210,9 @@ impl Intrinsics {
             cy,
             ..
         } = *self;
+        if width.saturating_mul(height) < MIN_PIXELS {
+            return None;
+        }
         let sides = [width as f64, height as f64];
         let off = (cx - (sides[0] - 1.0) / 2.0).hypot(cy - (sides[1] - 1.0) / 2.0);
         if off > MAX_OFF_CENTRE * sides[0].hypot(sides[1]) {

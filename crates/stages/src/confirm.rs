@@ -17,7 +17,13 @@ mod outline_shift;
 mod piece_search;
 mod prepared_scene;
 
-use self::{candidate::ReferenceCandidate, evidence::most_score, prepared_scene::PreparedScene};
+use self::{
+    candidate::ReferenceCandidate,
+    evidence::{facing_view, most_score},
+    outline_ends::outline_of,
+    outline_shift::edges_of_part,
+    prepared_scene::{PreparedScene, thinned_source},
+};
 pub use self::{
     confirmed_match::{ConfirmedMatch, ConfirmedRanking},
     evidence::{Evidence, FEATURES, NUM_FEATURES, NUM_TYPE_FEATURES, TYPE_FEATURES},
@@ -26,15 +32,18 @@ pub use self::{
 };
 use crate::{
     pose::{
-        CloudRole, PoseError, PoseEstimate,
+        CloudRole, PoseError, PoseEstimate, ScaleEstimate, Uncertainty,
+        closest::Correspondence,
         refine::{Level, Search},
+        scale::scale,
+        uncertainty::uncertainty,
     },
     rank::{MatchEntry, MatchRanking, Query},
     reference::Reference,
     scene::SceneCloud,
     segment::SegmentedPart,
 };
-use geometry::units::Metres;
+use geometry::{rigid::RigidTransform, units::Metres};
 
 /// Parameters of [`confirm`].
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -223,6 +232,35 @@ pub fn confirm(
     )
 }
 
+/// The bounds and the scale at a pose that another method found for the scene's part; `None` if the reference has nothing to
+/// align with.
+pub fn bounds_and_scale(
+    scene: &Scene<'_>,
+    reference: &Reference,
+    target_from_source: &RigidTransform,
+    seed: u64,
+) -> Option<(Uncertainty, Option<ScaleEstimate>)> {
+    let source = thinned_source(scene, &outline_of(scene), seed);
+    let view = facing_view(reference, target_from_source);
+    let target = reference.target(view)?;
+    let (surface, pose) = (&source.surface, target_from_source);
+    let closest = Correspondence::of_each(surface, &target, pose, Search::Tree);
+    let noise = scene.part.noise_at_1m;
+    let plane_from_part = &reference.views[view].plane_from_part;
+    let edges = edges_of_part(
+        &source,
+        &target,
+        plane_from_part,
+        pose,
+        noise,
+        &reference.cut,
+    );
+    Some((
+        uncertainty(&source, &closest, &target, pose, &THIRD[2]),
+        scale(&source, &edges, &target, pose, noise),
+    ))
+}
+
 impl PreparedScene<'_> {
     /// Looks for some references in the scene; the best comes first.
     fn examine<'a>(
@@ -334,6 +372,7 @@ impl Tried<'_> {
         } = self;
         ConfirmedMatch {
             score,
+            rival: candidate.as_ref().map_or(0.0, |candidate| candidate.rival),
             is_examined: true,
             pose: candidate.as_ref().map(ReferenceCandidate::estimate),
             evidence: candidate.map(|candidate| Evidence {

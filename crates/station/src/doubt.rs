@@ -9,7 +9,7 @@ use files::file_of;
 use geometry::error::Advice;
 use inspection::pipeline::Inspection;
 use robot::{RobotFrame, arm::NotReached, paint::FilmOffPlan, spray::OffThePart};
-use stages::pose::PoseEstimate;
+use stages::pose::{OffScale, PoseEstimate};
 
 /// A part captured longer ago than this may hang elsewhere by now.
 const STALE: Duration = Duration::from_mins(10);
@@ -74,6 +74,9 @@ pub enum Doubt {
     /// Another pose fits nearly as well.
     #[error("another pose of the part fits nearly as well")]
     Ambiguous,
+    /// The part is larger or smaller than its reference, so the camera's numbers are probably wrong.
+    #[error(transparent)]
+    OffScale(OffScale),
     /// The path does not aim at the part.
     #[error(transparent)]
     OffThePart(OffThePart),
@@ -99,6 +102,7 @@ impl Doubt {
             Self::ClockAhead(_) => "clock_ahead",
             Self::Old => "old",
             Self::Ambiguous => "ambiguous_pose",
+            Self::OffScale(_) => "off_scale",
             Self::OffThePart(_) => "off_the_part",
             Self::NotReached(_) => "not_reached",
             Self::FilmOffPlan(_) => "film_off_plan",
@@ -129,6 +133,7 @@ impl Advice for Doubt {
             Self::Ambiguous => {
                 "Turn the part's face to the camera, all of it inside the picture".into()
             }
+            Self::OffScale(off) => off.advice(),
             Self::OffThePart(off) => off.advice(),
             Self::NotReached(missed) => missed.advice(),
             Self::FilmOffPlan(off_plan) => off_plan.advice(),
@@ -184,14 +189,22 @@ pub fn doubts(
 /// Returns the doubts that a result has whenever and wherever it was captured.
 pub fn doubts_of_result(inspection: &Inspection) -> Vec<Doubt> {
     let pose = inspection.found_pose();
-    let is_ambiguous = pose.is_some_and(PoseEstimate::is_ambiguous);
-    let doubts = [
+    let of_result = [
         (!inspection.verdict.is_accepted(), Doubt::NotAccepted),
         (pose.is_none(), Doubt::NoPose),
-        (is_ambiguous, Doubt::Ambiguous),
     ];
-    let doubts = doubts.into_iter().filter(|(is_doubt, _)| *is_doubt);
-    doubts.map(|(_, doubt)| doubt).collect()
+    let of_result = of_result.into_iter().filter(|(is_doubt, _)| *is_doubt);
+    let of_result = of_result.map(|(_, doubt)| doubt);
+    of_result
+        .chain(pose.into_iter().flat_map(doubts_about))
+        .collect()
+}
+
+/// The doubts about a pose by itself.
+pub(crate) fn doubts_about(pose: &PoseEstimate) -> impl Iterator<Item = Doubt> {
+    let ambiguous = pose.is_ambiguous().then_some(Doubt::Ambiguous);
+    let off_scale = pose.off_scale().map(Doubt::OffScale);
+    ambiguous.into_iter().chain(off_scale)
 }
 
 #[cfg(test)]
@@ -203,7 +216,11 @@ mod tests {
         pipeline::{Recipe, Unwatched, run},
     };
     use simulate::{PartKind, Side};
-    use stages::{fixtures::facing_part, pose::RunnerUp, scene::SceneCloud};
+    use stages::{
+        fixtures::facing_part,
+        pose::{RunnerUp, ScaleEstimate},
+        scene::SceneCloud,
+    };
 
     fn frame() -> RobotFrame {
         RobotFrame {
@@ -272,6 +289,19 @@ mod tests {
         let Some(Ok(pose)) = &mut inspection.pose else {
             panic!("a pose");
         };
+        assert_eq!(pose.off_scale(), None);
+        let own_scale = pose.scale.replace(ScaleEstimate {
+            scale: 1.05,
+            deviation: 0.005,
+        });
+        assert_eq!(
+            found(&inspection, Currency::Current, Some(&robot)),
+            ["off_scale"]
+        );
+        let Some(Ok(pose)) = &mut inspection.pose else {
+            panic!("a pose");
+        };
+        pose.scale = own_scale;
         pose.runner_up = Some(RunnerUp {
             target_from_source: pose.target_from_source,
             ratio: 1.01,

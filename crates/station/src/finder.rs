@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use super::Doubt;
+use super::doubt::doubts_about;
 use geometry::rigid::RigidTransform;
 use inspection::{
     library::SprayPath,
@@ -13,7 +13,6 @@ use robot::{
     spray::{BandStatus, carry},
 };
 use serve::{Answer, Found, PathStep, PoseKind, Trouble, VerdictCode};
-use stages::pose::PoseEstimate;
 
 /// Data about a reference of the library that a client gets besides its name.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -85,9 +84,9 @@ impl PartFinder {
             return found;
         }
         let pose = inspection.found_pose();
-        if pose.is_some_and(PoseEstimate::is_ambiguous) {
+        if let Some(doubt) = pose.and_then(|pose| doubts_about(pose).next()) {
             found.verdict = VerdictCode::Refused;
-            found.trouble = Trouble::of(Doubt::Ambiguous.kind(), &Doubt::Ambiguous);
+            found.trouble = Trouble::of(doubt.kind(), &doubt);
             return found;
         }
         found.verdict = VerdictCode::Accepted;
@@ -147,7 +146,11 @@ mod tests {
         pipeline::{Unwatched, live::refuse_moving, run},
     };
     use simulate::{PartKind, Side};
-    use stages::{fixtures::facing_part, scene::SceneCloud};
+    use stages::{
+        fixtures::facing_part,
+        pose::{PoseEstimate, RunnerUp, ScaleEstimate},
+        scene::SceneCloud,
+    };
 
     fn finder(library: &Library, kind: PoseKind) -> PartFinder {
         let point = |x| PathPoint {
@@ -304,22 +307,34 @@ mod tests {
     }
 
     #[test]
-    fn a_pose_that_is_ambiguous_does_not_count() {
+    fn a_pose_that_is_ambiguous_or_of_another_scale_does_not_count() {
         let library = shipped_library();
         let recipe = Recipe::default();
         let scene = facing_part(PartKind::Fender, Side::Left, 5);
         let mut inspection = run(&scene, &library, &recipe, &Unwatched).expect("run");
         assert!(inspection.verdict.is_accepted());
-        let Some(Ok(pose)) = &mut inspection.pose else {
-            panic!("a pose");
+        let finder = finder(&library, PoseKind::default());
+        let mut is_refused_as = |reason: &str, change: fn(&mut PoseEstimate)| {
+            let Some(Ok(pose)) = &mut inspection.pose else {
+                panic!("a pose");
+            };
+            change(pose);
+            let found = finder.found(&inspection, &recipe, origin());
+            assert_eq!(found.verdict, VerdictCode::Refused);
+            assert_eq!(found.trouble.reason, reason);
+            assert_eq!((found.pose, found.path.len()), (None, 0));
         };
-        pose.runner_up = Some(stages::pose::RunnerUp {
-            target_from_source: pose.target_from_source,
-            ratio: 1.01,
+        is_refused_as("off_scale", |pose| {
+            pose.scale = Some(ScaleEstimate {
+                scale: 1.05,
+                deviation: 0.005,
+            });
         });
-        let found = finder(&library, PoseKind::default()).found(&inspection, &recipe, origin());
-        assert_eq!(found.verdict, VerdictCode::Refused);
-        assert_eq!(found.trouble.reason, "ambiguous_pose");
-        assert_eq!((found.pose, found.path.len()), (None, 0));
+        is_refused_as("ambiguous_pose", |pose| {
+            pose.runner_up = Some(RunnerUp {
+                target_from_source: pose.target_from_source,
+                ratio: 1.01,
+            });
+        });
     }
 }

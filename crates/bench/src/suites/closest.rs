@@ -100,7 +100,6 @@ mod tests {
             beyond: 0.0,
             seen_m2: 0.3,
             edge_m: 2.0,
-            rival: 0.0,
             shape: 1.0,
             outside: 0.0,
             relief_m: 0.0,

@@ -194,6 +194,7 @@ fn put_first(inspection: &mut Inspection, named: &ConfirmedMatch, recipe: &Recip
     if place.is_none() {
         entries.push(ConfirmedMatch {
             score: 0.0,
+            rival: 0.0,
             is_examined: false,
             placements: Vec::new(),
             pose: None,

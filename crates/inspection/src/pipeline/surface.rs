@@ -10,7 +10,7 @@ use crate::library::Library;
 use stages::{
     confirm::{ConfirmedRanking, Scene, confirm},
     contour::{Contour, find_contour},
-    locate::locate,
+    locate::{Located, locate},
     pose::{AlignParams, PoseError, PoseEstimate, PoseMethod},
     project::{PlaneImage, project},
     rank::{Matcher, Query, place, rank},
@@ -124,10 +124,11 @@ fn recognise(
                 icp: recipe.icp.clone(),
                 icp_ga: recipe.icp_ga.clone(),
             };
-            let pose = clock.time(Stage::Pose, || {
-                locate(part, reference, scene, &params, &is_cancelled)
+            let scene = Scene { scene, part, query };
+            let located = clock.time(Stage::Pose, || {
+                locate(&scene, reference, &params, &is_cancelled)
             })?;
-            if pose == Err(PoseError::Cancelled) {
+            if located == Err(PoseError::Cancelled) {
                 return Err(Cancelled);
             }
             // The matcher decides the order; the score of the first is the fit at its pose.
@@ -136,10 +137,13 @@ fn recognise(
                 entry.score = 0.0;
             }
             confirmed.entries[0].is_examined = true;
-            confirmed.entries[0].score = pose.as_ref().map_or(0.0, |p| p.fit.score());
-            confirmed.entries[0].pose = pose.as_ref().ok().cloned();
+            if let Ok(Located { pose, rival }) = &located {
+                confirmed.entries[0].score = pose.fit.score();
+                confirmed.entries[0].rival = *rival;
+                confirmed.entries[0].pose = Some(pose.clone());
+            }
             inspection.ranking = confirmed;
-            inspection.pose = Some(pose);
+            inspection.pose = Some(located.map(|located| located.pose));
         }
         PoseChoice::By(PoseMethod::Global) => {
             let mut params = recipe.confirm.clone();

@@ -8,7 +8,7 @@ use super::{
 use geometry::{error::Advice as _, units::Metres};
 use stages::{
     confirm::{ConfirmedMatch, ConfirmedRanking, Evidence},
-    pose::{PoseError, PoseEstimate, PoseMethod},
+    pose::{PoseError, PoseEstimate},
     rank::Matcher,
 };
 
@@ -196,16 +196,14 @@ pub(super) fn verdict(
     let margin = lead(best.score, next.map_or(0.0, |n| n.score)).max(0.0);
     let unlike = best.evidence.map_or(0.0, |e| model_deviation(&e, accept));
     let other_model = best.evidence.filter(|_| unlike > 1.0);
-    // The bounds of the other methods ignore the outline and are wider than necessary.
-    let uncertainty = pose
-        .and_then(|pose| pose.as_ref().ok())
-        .filter(|pose| pose.method == PoseMethod::Global)
-        .and_then(|pose| pose.uncertainty);
+    let found = pose.and_then(|pose| pose.as_ref().ok());
+    let uncertainty = found.and_then(|pose| pose.uncertainty);
+    let lead_over_rival = lead(best.score, best.rival);
     let freedom = uncertainty.and_then(|uncertainty| uncertainty.freedom);
     let too_uncertain = uncertainty.filter(|found| found.shift > accept.max_uncertainty);
-    let rejected = match (pose, best.evidence) {
-        (Some(Err(error)), _) => Some(Rejection::NoPose(*error)),
-        (None, _) if recipe.rank.matcher == Matcher::Paper => Some(Rejection::Unconfirmed {
+    let rejected = match pose {
+        Some(Err(error)) => Some(Rejection::NoPose(*error)),
+        None if recipe.rank.matcher == Matcher::Paper => Some(Rejection::Unconfirmed {
             part: best.part.clone(),
         }),
         _ if best.score < accept.min_score => Some(too_low(best, accept)),
@@ -215,13 +213,11 @@ pub(super) fn verdict(
             margin,
             threshold: accept.min_margin,
         }),
-        (_, Some(evidence)) if lead(best.score, evidence.rival) < accept.min_margin => {
-            Some(Rejection::AmbiguousPose {
-                part: best.part.clone(),
-                margin: lead(best.score, evidence.rival),
-                threshold: accept.min_margin,
-            })
-        }
+        Some(_) if lead_over_rival < accept.min_margin => Some(Rejection::AmbiguousPose {
+            part: best.part.clone(),
+            margin: lead_over_rival,
+            threshold: accept.min_margin,
+        }),
         _ if freedom.is_some() => freedom.map(|freedom| Rejection::Unconstrained {
             part: best.part.clone(),
             freedom,
@@ -378,7 +374,6 @@ mod tests {
             beyond: 0.0,
             seen_m2: 0.5,
             edge_m: 3.0,
-            rival: 0.0,
             missing: missing * accept.max_missing,
             hidden: 0.0,
             outside: 0.0,

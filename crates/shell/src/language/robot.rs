@@ -4,7 +4,7 @@ use robot::{
     Convention, ConventionError, FARTHEST, NOZZLE_DISTANCE, WrittenPoseError, calibration::UNNAMED,
 };
 use station::{Doubt, robot_file::Unchecked};
-use ui::language::text;
+use ui::language::{advised, described, text};
 
 /// Returns the name of a convention.
 pub fn convention_title(convention: Convention) -> String {
@@ -90,6 +90,7 @@ pub fn doubt(doubt: &Doubt) -> [String; 2] {
             text!("robot-doubt-ambiguous"),
             text!("robot-doubt-ambiguous-advice"),
         ],
+        Doubt::OffScale(off) => [described(off), advised(off)],
         Doubt::OffThePart(off) => [
             if off.num_too_near > 0 {
                 text!(
@@ -252,6 +253,7 @@ mod tests {
     use super::*;
     use geometry::error::Advice as _;
     use robot::parse_nozzle;
+    use stages::pose::OffScale;
     use station::ClockAhead;
     use ui::language::Language;
 
@@ -296,6 +298,10 @@ mod tests {
             Doubt::ClockAhead(ClockAhead { ahead }),
             Doubt::Old,
             Doubt::Ambiguous,
+            Doubt::OffScale(OffScale {
+                is_larger: true,
+                by: 0.05,
+            }),
         ] {
             assert_eq!(doubt(&kind), [kind.to_string(), kind.advice()]);
         }

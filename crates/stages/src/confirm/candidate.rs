@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{
     pose::{
-        PoseEstimate, PoseMethod, RunnerUp, Uncertainty,
+        PoseEstimate, PoseMethod, RunnerUp, ScaleEstimate, Uncertainty,
         closest::Correspondence,
         quality::FitQuality,
         refine::{Level, Refined, Search, cost, refine},
@@ -38,6 +38,8 @@ pub(super) struct ReferenceCandidate {
     /// `None` as long as it is not refined to the end.
     pub(super) uncertainty: Option<Uncertainty>,
     pub(super) runner_up: Option<RunnerUp>,
+    /// `None` as long as it is not refined to the end.
+    pub(super) scale: Option<ScaleEstimate>,
     /// The score of the best other pose, 0 if none was weighed.
     pub(super) rival: f64,
 }
@@ -50,6 +52,7 @@ impl ReferenceCandidate {
             fit,
             uncertainty,
             runner_up,
+            scale,
             ..
         } = self;
         PoseEstimate {
@@ -60,6 +63,7 @@ impl ReferenceCandidate {
             fit: *fit,
             uncertainty: *uncertainty,
             runner_up: *runner_up,
+            scale: *scale,
         }
     }
 }
@@ -273,7 +277,6 @@ impl PreparedScene<'_> {
         best.rival = weighed
             .find(|other| is_other(&other.refined.target_from_source))
             .map_or(0.0, |other| other.evidence.score());
-        best.evidence.rival = best.rival;
         let other = finer
             .iter()
             .find(|trial| is_other(&trial.refined.target_from_source));
@@ -309,6 +312,7 @@ impl PreparedScene<'_> {
             fit,
             evidence,
             runner_up: None,
+            scale: None,
             rival: 0.0,
             is_settled: false,
             uncertainty: None,
@@ -343,7 +347,6 @@ impl PreparedScene<'_> {
             .append(refine(&self.source, &target, start, &THIRD[..1]));
         let pose = &settled.refined.target_from_source;
         (settled.fit, settled.evidence) = self.measured(reference, candidate.view, pose)?;
-        settled.evidence.rival = candidate.rival;
         settled.is_settled = true;
         Some(settled)
     }

@@ -18,6 +18,8 @@ pub struct ConfirmedMatch {
     /// The probability that it is there at its pose, 0..1; 0 if it ranked too low to be examined. Of a ranking that was not
     /// confirmed at all, the matcher's, see [`MatchEntry::score`].
     pub score: f64,
+    /// The score of the best other pose of the same reference; 0 if none was weighed.
+    pub rival: f64,
     /// True if it was looked for in the scene.
     pub is_examined: bool,
     /// The matcher's own distance, see [`MatchEntry::distance`].
@@ -47,6 +49,7 @@ impl ConfirmedMatch {
             part,
             enrolled_as,
             score,
+            rival: 0.0,
             is_examined: false,
             distance,
             placements,

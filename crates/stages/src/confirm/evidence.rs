@@ -41,8 +41,6 @@ pub struct Evidence {
     pub seen_m2: f64,
     /// Length of the part's outline that lies on the reference's, metres.
     pub edge_m: f64,
-    /// The score of the best other pose of the same reference; 0 if none was weighed.
-    pub rival: f64,
     /// Share of the reference that the camera looks through, of what it sees or looks through, 0..1.
     pub missing: f64,
     /// Share of the reference that something nearer hides, 0..1.
@@ -140,7 +138,6 @@ impl PreparedScene<'_> {
             beyond,
             seen_m2: scene.query.contour.area * (1.0 - beyond) * fit.overlap,
             edge_m: self.own_m() * edge_share,
-            rival: 0.0,
             outline_shift_m: None,
             outline_median_m: None,
             cut: self.cut_share(),
@@ -364,7 +361,6 @@ mod tests {
                 beyond: 1.0 - shared,
                 seen_m2: area * shared * on,
                 edge_m: own * at_edges,
-                rival: 0.0,
                 missing,
                 hidden: 0.0,
                 outside: 0.0,

@@ -149,6 +149,7 @@ fn finished(
             fit,
             uncertainty: Some(bounds),
             runner_up: None,
+            scale: None,
             ..estimate.clone()
         },
     })

@@ -46,17 +46,16 @@ pub(super) struct OutlineShift {
     pub(super) median: f64,
 }
 
-/// The shift in the plane of a view; `None` if too little of the outline can be compared.
-pub(super) fn outline_shift(
+/// The points of a source's outline that are edges of the part, source space: not where the view cut the reference off, nor
+/// where a surface curves out of sight, nor of another face.
+pub(super) fn edges_of_part(
     source: &AlignmentSource,
     target: &AlignmentTarget<'_>,
-    contour: &Contour,
     plane_from_part: &RigidTransform,
     target_from_source: &RigidTransform,
     noise_at_1m: Metres,
     cut: &ViewCut,
-) -> Option<OutlineShift> {
-    let reference = Borders::of(contour);
+) -> Vec<Point3<f32>> {
     let camera = target_from_source * Point3::origin();
     let towards = plane_from_part.inverse() * Vector3::z();
     let is_edge = |p: &Point3<f64>| {
@@ -74,13 +73,25 @@ pub(super) fn outline_shift(
         let is_square = square.min(normal.dot(&towards).abs()) >= LEAST_SQUARE;
         Some(is_square && above.abs() <= ON_SURFACE + noise)
     };
-    let mut offs: Vec<([i32; 3], f64)> = Vec::with_capacity(source.edges.len());
-    for p in &source.edges {
+    let edges = source.edges.iter().filter(|p| {
         let p = target_from_source * p.cast::<f64>();
         // Close to where the view cut the reference off, its border is no edge.
-        if cut.depth_inside(&p) < FAR || is_edge(&p) != Some(true) {
-            continue;
-        }
+        cut.depth_inside(&p) >= FAR && is_edge(&p) == Some(true)
+    });
+    edges.copied().collect()
+}
+
+/// The shift of the part's edges in the plane of a view; `None` if too little of the outline can be compared.
+pub(super) fn outline_shift(
+    edges: &[Point3<f32>],
+    contour: &Contour,
+    plane_from_part: &RigidTransform,
+    target_from_source: &RigidTransform,
+) -> Option<OutlineShift> {
+    let reference = Borders::of(contour);
+    let mut offs: Vec<([i32; 3], f64)> = Vec::with_capacity(edges.len());
+    for p in edges {
+        let p = target_from_source * p.cast::<f64>();
         let at = (plane_from_part * p).xy();
         if let Some((normal, off)) = reference.off(&at) {
             // The two sides of a narrow part are two stretches.
@@ -252,15 +263,9 @@ mod tests {
             edges: rim(width, height).into_iter().chain(slot).collect(),
         };
         let (same, noise) = (RigidTransform::identity(), Metres::from_mm(1.5));
-        outline_shift(
-            &source,
-            &target,
-            &contour,
-            &same,
-            &same,
-            noise,
-            &ViewCut::default(),
-        )
+        let cut = ViewCut::default();
+        let edges = edges_of_part(&source, &target, &same, &same, noise, &cut);
+        outline_shift(&edges, &contour, &same, &same)
     }
 
     #[test]

@@ -9,7 +9,7 @@ use super::{
     candidate::ReferenceCandidate,
     local_normal::LocalNormals,
     outline_ends::{Outline, outline_of},
-    outline_shift::outline_shift,
+    outline_shift::{edges_of_part, outline_shift},
     piece_search::{
         HIGH_SCORE, NUM_PAIRS, NUM_PAIRS_FOR_A_HIGH_SCORE, NUM_PAIRS_OF_A_WHOLE, PieceSample,
     },
@@ -20,6 +20,7 @@ use crate::{
         closest::Correspondence,
         quality::{NUM_LOOKED_FOR, Tolerance},
         refine::{AlignmentSource, Search, refine},
+        scale::scale,
         uncertainty::uncertainty,
     },
     rank::{MatchEntry, NUM_CERTAIN},
@@ -154,7 +155,6 @@ impl<'a> PreparedScene<'a> {
         candidate.uncertainty = Some(uncertainty(source, &closest, &target, pose, &THIRD[2]));
         (candidate.fit, candidate.evidence) =
             self.evaluate(reference, candidate.view, pose, &closest, NUM_LOOKED_FOR);
-        candidate.evidence.rival = candidate.rival;
         if let Some(turn) = reference.own_turn() {
             candidate.runner_up = Some(RunnerUp {
                 target_from_source: turn * pose,
@@ -163,15 +163,16 @@ impl<'a> PreparedScene<'a> {
         }
         let view = &reference.views[candidate.view];
         let noise = self.scene.part.noise_at_1m;
-        let shift = outline_shift(
+        let edges = edges_of_part(
             source,
             &target,
-            &view.contour(),
             &view.plane_from_part,
             pose,
             noise,
             &reference.cut,
         );
+        candidate.scale = scale(source, &edges, &target, pose, noise);
+        let shift = outline_shift(&edges, &view.contour(), &view.plane_from_part, pose);
         candidate.evidence.outline_shift_m = shift.map(|shift| shift.rms);
         candidate.evidence.outline_median_m = shift.map(|shift| shift.median);
         Some(candidate)

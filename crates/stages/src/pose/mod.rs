@@ -17,6 +17,7 @@ pub mod icp_ga;
 mod prepared;
 pub mod quality;
 pub mod refine;
+pub mod scale;
 mod starts;
 pub mod uncertainty;
 
@@ -28,6 +29,7 @@ pub use self::{
     align::{AlignParams, align, align_to, align_with},
     prepared::PreparedTarget,
     quality::{FitQuality, VisibilityShares},
+    scale::{OffScale, ScaleEstimate},
     uncertainty::{Axis, FreeMotion, Uncertainty},
 };
 
@@ -130,6 +132,9 @@ pub struct PoseEstimate {
     pub uncertainty: Option<Uncertainty>,
     /// The best pose that is a different one, if another was tried.
     pub runner_up: Option<RunnerUp>,
+    /// Size of the source relative to the target's; `None` where too little is seen, of two clouds that are aligned, of scans,
+    /// and of a pose that was not refined to the end.
+    pub scale: Option<ScaleEstimate>,
 }
 
 /// The second-best pose.
@@ -182,6 +187,8 @@ impl PoseEstimate {
             })
         } else if let Some(freedom) = self.uncertainty.and_then(|u| u.freedom) {
             Some(PoseWarning::Loose { freedom })
+        } else if let Some(off) = self.off_scale() {
+            Some(PoseWarning::OffScale(off))
         } else if self.stopped == Stopped::IterationLimit {
             Some(PoseWarning::Unsettled {
                 num_iterations: self.iterations.len(),
@@ -189,6 +196,11 @@ impl PoseEstimate {
         } else {
             None
         }
+    }
+
+    /// How much larger or smaller the source certainly is than the target.
+    pub fn off_scale(&self) -> Option<OffScale> {
+        self.scale?.off()
     }
 
     /// True when a different pose fits (nearly) as well.
@@ -221,6 +233,8 @@ pub enum PoseWarning {
         /// How it could move most easily.
         freedom: FreeMotion,
     },
+    /// The source is larger or smaller than the target.
+    OffScale(OffScale),
     /// The search was still moving when its iterations were used up.
     Unsettled {
         /// Iterations used.

@@ -198,6 +198,7 @@ impl PreparedTarget {
             fit,
             uncertainty: Some(uncertainty),
             runner_up,
+            scale: None,
         }
     }
 

@@ -24,6 +24,11 @@ pose-cancelled = die Schätzung wurde abgebrochen
 pose-little-overlap = nur { PERCENT($overlap, 0) } % der Quelle liegen auf dem Ziel, mindestens { PERCENT($needed, 0) } % sind erforderlich
     .advice = Prüfen, ob beide Punktwolken dasselbe zeigen und mindestens die Hälfte davon gemeinsam haben
 pose-ambiguous = eine andere Pose passt ebenso gut (ihre Kosten sind { FIXED($ratio, 2) }-mal so hoch)
+pose-off-scale = was die Kamera sieht, ist { PERCENT($by, 0) } % { $is_larger ->
+        [true] größer
+       *[false] kleiner
+    } als die Referenz
+    .advice = Einheit der Tiefenwerte und Brennweiten (fx, fy) der Kamera prüfen: Die Pose ist um ebenso viele Prozent des Abstands falsch
 pose-loose = die Pose ist nicht bestimmt: { free-motion }
 pose-unsettled = die Pose bewegte sich nach { $num_iterations } Iterationen noch
 

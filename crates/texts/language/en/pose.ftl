@@ -25,6 +25,11 @@ pose-little-overlap = only { PERCENT($overlap, 0) } % of the source lies on the 
     .advice = Check that both clouds show the same thing and share at least half of it
 pose-ambiguous = another pose fits as well (its cost is { FIXED($ratio, 2) } times as high)
     .command-advice = Give a start near the right pose
+pose-off-scale = what the camera sees is { PERCENT($by, 0) } % { $is_larger ->
+        [true] larger
+       *[false] smaller
+    } than the reference
+    .advice = Check the unit of the camera's depths and its focal lengths (fx, fy): the pose is off by as many percent of the distance
 pose-loose = the pose is unconstrained: { free-motion }
     .command-advice = Use clouds that show more of the part: an edge, a bend, a corner
 pose-unsettled = the pose was still moving after { $num_iterations } iterations

@@ -24,6 +24,11 @@ pose-cancelled = se canceló la estimación
 pose-little-overlap = solo el { PERCENT($overlap, 0) } % del origen está sobre el destino; se necesita al menos el { PERCENT($needed, 0) } %
     .advice = Comprobar que ambas nubes muestran lo mismo y comparten al menos la mitad
 pose-ambiguous = otra pose encaja igual de bien (su coste es { FIXED($ratio, 2) } veces mayor)
+pose-off-scale = lo que ve la cámara es un { PERCENT($by, 0) } % más { $is_larger ->
+        [true] grande
+       *[false] pequeño
+    } que la referencia
+    .advice = Comprobar la unidad de las profundidades de la cámara y sus distancias focales (fx, fy): la pose se desvía ese mismo porcentaje de la distancia
 pose-loose = la pose no está determinada: { free-motion }
 pose-unsettled = la pose seguía moviéndose tras { $num_iterations } iteraciones
 

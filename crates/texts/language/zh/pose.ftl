@@ -24,6 +24,11 @@ pose-cancelled = 估计已取消
 pose-little-overlap = 源点云仅有 { PERCENT($overlap, 0) } % 位于目标上，至少需要 { PERCENT($needed, 0) } %
     .advice = 确认两个点云为同一物体，且至少有一半重合
 pose-ambiguous = 另一位姿同样匹配（其代价为 { FIXED($ratio, 2) } 倍）
+pose-off-scale = 相机看到的部件比参考{ $is_larger ->
+        [true] 大
+       *[false] 小
+    } { PERCENT($by, 0) } %
+    .advice = 检查相机深度的单位及其焦距（fx、fy）：位姿的误差为距离的相同百分比
 pose-loose = 位姿未被约束：{ free-motion }
 pose-unsettled = 经过 { $num_iterations } 次迭代后位姿仍在变化
 

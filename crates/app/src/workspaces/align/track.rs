@@ -205,7 +205,7 @@ pub(super) fn doubted(doubt: &PoseWarning, track: &Track) -> UserError {
         PoseWarning::LittleOverlap { .. } if track.true_error.is_some() => {
             text!("align-nearer-start")
         }
-        PoseWarning::LittleOverlap { .. } => advised(doubt),
+        PoseWarning::LittleOverlap { .. } | PoseWarning::OffScale(_) => advised(doubt),
     };
     UserError {
         what: sentence(&described(doubt)),
@@ -242,6 +242,7 @@ mod tests {
                 target_from_source: RigidTransform::identity(),
                 ratio: 1.03,
             }),
+            scale: None,
         };
         let loose = PoseWarning::Loose { freedom };
         let ambiguous = PoseWarning::Ambiguous { ratio: 1.03 };

@@ -50,8 +50,7 @@ pub(super) fn pose_warning(reference: &Reference, coverage: Coverage) -> Option<
     if let Some(freedom) = pose.uncertainty.and_then(|found| found.freedom) {
         return Some(EnrolWarning::Unconstrained(freedom));
     }
-    let rival = found.evidence.map_or(0.0, |evidence| evidence.rival);
-    let is_tied = rival > 0.0 && found.score - rival < MIN_LEAD;
+    let is_tied = found.rival > 0.0 && found.score - found.rival < MIN_LEAD;
     let other = pose.runner_up.filter(|_| is_tied || pose.is_ambiguous())?;
     let between = pose.target_from_source * other.target_from_source.inverse();
     Some(fits_after(&between, &reference.cloud.points))
