@@ -36,6 +36,8 @@ pub enum Way {
     Planned,
     /// In a straight line with the gun off, at this lower speed, m/s.
     Slower(f64),
+    /// In a straight line with the gun on, at this lower speed, m/s; the film stays within its tolerance.
+    SlowerSpraying(f64),
     /// By a joint move with the gun off, for example to change the configuration.
     Joints,
 }
