@@ -15,7 +15,7 @@ use inspection::{
 };
 use robot::{
     Convention, RobotFrame,
-    arm::{ArmError, PathCheck, PlacedArm},
+    arm::{ArmError, FilmRoom, PathCheck, PlacedArm},
     paint::{Coat, WrittenFilm},
     program::{
         Program, ProgramError, ProgramPoint, ProgramSettings, RobotLanguage, check_reach,
@@ -253,7 +253,10 @@ impl RobotFile<'_> {
         let arm = arm
             .clone()
             .with_part(&self.part_cloud.points, &robot_from_part);
-        let check = check_reach(&arm, self.carried, self.frame, settings)?;
+        let path = self.path.filter(|_| arm.arm.limits_accelerations());
+        let film = path
+            .and_then(|path| FilmRoom::of_path(path, self.part_cloud, self.coverage, self.side));
+        let check = check_reach(&arm, self.carried, self.frame, settings, film.as_ref())?;
         Ok(Some((arm, check)))
     }
 

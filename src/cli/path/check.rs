@@ -16,13 +16,13 @@ use crate::cli::{
     read_part,
 };
 use geometry::{rigid::RigidTransform, units::counted};
-use inspection::library::PartName;
+use inspection::library::{PartName, StoredPart};
 use records::report::SCHEMA;
 use robot::{
     Convention, WrittenPose,
     arm::{
-        Arm, PathCheck, PlaceSuggestion, PlacedArm, PointCheck, PointProblem, Way, check_path,
-        suggest_base, suggest_rail,
+        Arm, CheckParams, FilmRoom, PathCheck, PlaceSuggestion, PlacedArm, PointCheck,
+        PointProblem, Way, check_path, suggest_base, suggest_rail,
     },
     program::arm_points,
     spray::carry,
@@ -73,7 +73,9 @@ pub(super) fn run(
             store_a_path(name.as_str()),
         ));
     };
-    let reference = read_part(&place, name)?.reference;
+    let StoredPart {
+        reference, meta, ..
+    } = read_part(&place, name)?;
     let standard = RigidTransform::identity();
     let carried = carry(
         &path,
@@ -87,7 +89,13 @@ pub(super) fn run(
         .cell
         .place(arm, args.nozzle.pose, params)?
         .with_part(&reference.cloud.points, &frame.robot_from_part(&standard));
-    let params = params.check_params();
+    let limits = placed.arm.limits_accelerations();
+    let film = limits.then(|| FilmRoom::of_path(&path, &reference.cloud, meta.coverage, meta.side));
+    let film = film.flatten();
+    let params = CheckParams {
+        film: film.as_ref(),
+        ..params.check_params()
+    };
     let found = check_path(&placed, &points, &params).advised()?;
     let (num, all) = (found.num_reached(), points.len());
     let (mut base, mut rail) = (None, None);
@@ -114,7 +122,7 @@ pub(super) fn run(
                 "turn_deg": point.turn.to_degrees(),
                 "tilt_deg": point.tilt.to_degrees(),
                 "slower_mm_s": match point.way {
-                    Way::Slower(speed) => Some(1000.0 * speed),
+                    Way::Slower(speed) | Way::SlowerSpraying(speed) => Some(1000.0 * speed),
                     Way::Planned | Way::Joints => None,
                 },
                 "joint_move": point.way == Way::Joints,
@@ -184,7 +192,7 @@ fn show(placed: &PlacedArm, found: &PathCheck, console: &mut Console) {
             most.to_degrees()
         ));
     }
-    if let Some(line) = changed_moves_line(found.changed_moves()) {
+    for line in changed_moves_lines(found.changed_moves()) {
         console.line(&format_args!("  {line}"));
     }
     for unchecked in Unchecked::of_arm(Some(placed)) {
@@ -206,14 +214,15 @@ fn show(placed: &PlacedArm, found: &PathCheck, console: &mut Console) {
     }
     if problems().any(PointProblem::is_acceleration) {
         console.line(
-            &"  to do: lower the speed where it accelerates too slowly, or round the corners in a larger radius",
+            &"  to do: plan the path with a lower gun.flow, which makes the gun slower, lower the speed where it accelerates too slowly, or round the corners in a larger radius",
         );
     }
 }
 
-/// Says how many of the moves with the gun off are slower, and how many are joint moves; `None` if all are as in the path.
-fn changed_moves_line([num_slower, num_by_joints]: [usize; 2]) -> Option<String> {
-    let slower = match num_slower {
+/// Says how many of the moves with the gun off are slower, how many are joint moves, and how many are slower with the gun
+/// on; empty if all are as in the path.
+fn changed_moves_lines([num_slower, num_by_joints, num_spraying]: [usize; 3]) -> Vec<String> {
+    let slower = |num| match num {
         0 => None,
         1 => Some("1 is slower than in the path".to_owned()),
         num => Some(format!("{num} are slower than in the path")),
@@ -223,9 +232,15 @@ fn changed_moves_line([num_slower, num_by_joints]: [usize; 2]) -> Option<String>
         1 => Some("1 is a joint move".to_owned()),
         num => Some(format!("{num} are joint moves")),
     };
-    let changed: Vec<String> = slower.into_iter().chain(by_joints).collect();
-    (!changed.is_empty())
-        .then(|| format!("of the moves with the gun off, {}", changed.join(" and ")))
+    let changed: Vec<String> = slower(num_slower).into_iter().chain(by_joints).collect();
+    let with_gun_off = (!changed.is_empty())
+        .then(|| format!("of the moves with the gun off, {}", changed.join(" and ")));
+    let with_gun_on = slower(num_spraying).map(|slower| {
+        format!(
+            "of the moves with the gun on, {slower}, as far as the film stays within its tolerance"
+        )
+    });
+    with_gun_off.into_iter().chain(with_gun_on).collect()
 }
 
 /// Lists the points that are not reached: the number for each reason, the most frequent first, unless one line says
@@ -350,19 +365,25 @@ mod tests {
 
     #[test]
     fn one_changed_move_is_singular_and_none_is_not_told() {
-        let told = |changed| changed_moves_line(changed).unwrap_or_default();
-        assert_eq!(told([0, 0]), "");
+        let lines = changed_moves_lines;
+        assert!(lines([0, 0, 0]).is_empty());
+        let off = "of the moves with the gun off,";
         assert_eq!(
-            told([1, 1]),
-            "of the moves with the gun off, 1 is slower than in the path and 1 is a joint move"
+            lines([1, 1, 0]),
+            [format!(
+                "{off} 1 is slower than in the path and 1 is a joint move"
+            )]
         );
         assert_eq!(
-            told([2, 0]),
-            "of the moves with the gun off, 2 are slower than in the path"
+            lines([2, 0, 0]),
+            [format!("{off} 2 are slower than in the path")]
         );
         assert_eq!(
-            told([0, 3]),
-            "of the moves with the gun off, 3 are joint moves"
+            lines([0, 3, 2]),
+            [
+                format!("{off} 3 are joint moves"),
+                "of the moves with the gun on, 2 are slower than in the path, as far as the film stays within its tolerance".into()
+            ]
         );
     }
 

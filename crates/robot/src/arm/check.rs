@@ -3,7 +3,7 @@
 use nalgebra::Translation3;
 
 use super::{
-    ArmError, NotReached, PlacedArm,
+    ArmError, FilmRoom, NotReached, PlacedArm,
     acceleration::keep_accelerations,
     chain::{
         Candidate, UPRIGHT, angle_of, candidates_of, free_chain, is_free, nozzle_at, test_all,
@@ -39,7 +39,7 @@ pub struct ArmPoint {
 
 /// Parameters of [`check_path`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CheckParams {
+pub struct CheckParams<'a> {
     /// Turns about the nozzle's z axis that are tried, 1..72. The time grows in proportion.
     pub num_turns: usize,
     /// Maximum tilt of the nozzle, radians, 0..π/6. It is only tilted where the arm cannot otherwise follow the path.
@@ -49,18 +49,22 @@ pub struct CheckParams {
     /// Distance of the approach point behind the first point, and of the end behind the last, metres; none to check the
     /// path alone.
     pub approach: Option<f64>,
+    /// How much longer the gun may spray on each way of the path for joints and rail that cannot accelerate as much as
+    /// needed; none if it must keep the path's speeds.
+    pub film: Option<&'a FilmRoom>,
 }
 
 /// Points on either side of a problem at which the nozzle may tilt as well, so that it tilts gradually.
 const NUM_TILTED_BESIDE: usize = 8;
 
-impl Default for CheckParams {
+impl Default for CheckParams<'_> {
     fn default() -> Self {
         Self {
             num_turns: 24,
             max_tilt: 0.0,
             rail: 0.0,
             approach: None,
+            film: None,
         }
     }
 }
@@ -108,12 +112,14 @@ impl PathCheck {
         (num > 0).then_some((num, most))
     }
 
-    /// Numbers of moves between strokes that are slower than in the path, and of those that became joint moves.
-    pub fn changed_moves(&self) -> [usize; 2] {
+    /// Numbers of moves with the gun off that are slower than in the path, of those that became joint moves, and of moves
+    /// with the gun on that are slower.
+    pub fn changed_moves(&self) -> [usize; 3] {
         let count = |is: fn(Way) -> bool| self.points.iter().filter(|point| is(point.way)).count();
         [
             count(|way| matches!(way, Way::Slower(_))),
             count(|way| way == Way::Joints),
+            count(|way| matches!(way, Way::SlowerSpraying(_))),
         ]
     }
 
@@ -153,7 +159,7 @@ impl PathCheck {
 pub fn check_path(
     placed: &PlacedArm,
     points: &[ArmPoint],
-    params: &CheckParams,
+    params: &CheckParams<'_>,
 ) -> Result<PathCheck, ArmError> {
     check_unless(&|| false, placed, points, params)
 }
@@ -163,7 +169,7 @@ pub(super) fn check_unless(
     is_cancelled: &(dyn Fn() -> bool + Sync),
     placed: &PlacedArm,
     points: &[ArmPoint],
-    params: &CheckParams,
+    params: &CheckParams<'_>,
 ) -> Result<PathCheck, ArmError> {
     // Before the ends are added, so that an error counts the path's own points.
     validate(placed, points, params)?;
@@ -216,7 +222,7 @@ fn check_points(
     is_cancelled: &(dyn Fn() -> bool + Sync),
     placed: &PlacedArm,
     points: &[ArmPoint],
-    params: &CheckParams,
+    params: &CheckParams<'_>,
 ) -> Result<Vec<PointCheck>, ArmError> {
     let rails = rail_positions(placed, points, params, is_cancelled)?;
     let checked = check_on(is_cancelled, placed, points, params, &rails)?;
@@ -236,7 +242,7 @@ fn check_on(
     is_cancelled: &(dyn Fn() -> bool + Sync),
     placed: &PlacedArm,
     points: &[ArmPoint],
-    params: &CheckParams,
+    params: &CheckParams<'_>,
     rails: &[f64],
 ) -> Result<Vec<PointCheck>, ArmError> {
     let go_on = || {
@@ -325,7 +331,7 @@ fn check_chosen(
     solvers: &[Solver<'_>],
     rails: &[f64],
     points: &[ArmPoint],
-    params: &CheckParams,
+    params: &CheckParams<'_>,
     chosen: Vec<Option<Candidate>>,
     go_on: impl Fn() -> Result<(), ArmError>,
 ) -> Result<Vec<PointCheck>, ArmError> {
@@ -377,7 +383,7 @@ fn check_chosen(
             problem: problem.or(singular.map(PointProblem::NearSingularity)),
         });
     }
-    keep_accelerations(placed, points, &mut checked);
+    keep_accelerations(placed, points, &mut checked, params);
     Ok(checked)
 }
 

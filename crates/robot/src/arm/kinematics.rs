@@ -301,7 +301,7 @@ impl Arm {
     }
 
     /// Signed distance of the wrist from the axis of joint 1, and the sines of the elbow and of joint 5.
-    fn shape(&self, joints: &Joints) -> [f64; 3] {
+    pub(super) fn shape(&self, joints: &Joints) -> [f64; 3] {
         let [a1, a2, _, _, c2, c3, _] = self.lengths;
         let [_, q2, q3, _, q5, _] = self.model(joints);
         let fold = q3 + a2.atan2(c3);

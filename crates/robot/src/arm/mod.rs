@@ -24,6 +24,7 @@ mod chain;
 mod check;
 mod error;
 mod file;
+mod film_room;
 mod kinematics;
 mod models;
 mod obstacles;
@@ -46,6 +47,7 @@ use geometry::rigid::RigidTransform;
 pub use self::{
     check::{ArmPoint, CheckParams, PathCheck, PointCheck, check_path},
     error::{ArmError, NotReached},
+    film_room::FilmRoom,
     kinematics::{Joints, Singularity},
     models::ARM_NAMES,
     obstacles::{Body, Obstacle, Obstacles},
@@ -134,6 +136,12 @@ impl Arm {
     pub fn moving_rail(&self) -> Option<(Rail, f64)> {
         let rail = self.rail?;
         Some((rail, rail.speed?))
+    }
+
+    /// Whether a limit of acceleration is known: of the joints, or of a rail that moves along the path.
+    pub fn limits_accelerations(&self) -> bool {
+        let moving = self.moving_rail();
+        self.accelerations.is_some() || moving.is_some_and(|(rail, _)| rail.acceleration.is_some())
     }
 
     /// Names what has no known limit of acceleration and is therefore not checked: "joints", "rail" (one that moves

@@ -38,7 +38,7 @@ const NUM_CHECKED: usize = 8;
 pub fn suggest_base(
     placed: &PlacedArm,
     points: &[ArmPoint],
-    params: &CheckParams,
+    params: &CheckParams<'_>,
     num_reached: usize,
     progress: &dyn Fn(usize, usize),
     is_cancelled: &(dyn Fn() -> bool + Sync),
@@ -74,7 +74,7 @@ pub fn suggest_base(
 pub fn suggest_rail(
     placed: &PlacedArm,
     points: &[ArmPoint],
-    params: &CheckParams,
+    params: &CheckParams<'_>,
     num_reached: usize,
     progress: &dyn Fn(usize, usize),
     is_cancelled: &(dyn Fn() -> bool + Sync),
@@ -96,7 +96,7 @@ pub fn suggest_rail(
 /// The common arguments of both searches.
 struct Search<'a> {
     points: &'a [ArmPoint],
-    params: &'a CheckParams,
+    params: &'a CheckParams<'a>,
     num_reached: usize,
     progress: &'a dyn Fn(usize, usize),
     is_cancelled: &'a (dyn Fn() -> bool + Sync),

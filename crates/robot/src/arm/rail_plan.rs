@@ -49,7 +49,7 @@ const MAX_EXAMINED: usize = 100;
 pub(super) fn rail_positions(
     placed: &PlacedArm,
     points: &[ArmPoint],
-    params: &CheckParams,
+    params: &CheckParams<'_>,
     is_cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Result<Vec<f64>, ArmError> {
     let Some((rail, speed)) = placed.arm.moving_rail() else {

@@ -15,7 +15,7 @@ const MAX_TURNS: usize = 72;
 pub(super) fn validate(
     placed: &PlacedArm,
     points: &[ArmPoint],
-    params: &CheckParams,
+    params: &CheckParams<'_>,
 ) -> Result<(), ArmError> {
     let not_finite = |what: String| Err(ArmError::NotFinite { what });
     if points.is_empty() {

@@ -10,9 +10,11 @@ use geometry::rigid::RigidTransform;
 
 /// Maximum step in which straight moves are checked, metres and radians.
 const MAX_STEP: [f64; 2] = [0.05, 0.175];
-/// Turn of a joint, radians, over which its speed counts as even: near a singularity a joint follows an arc tangent,
-/// which is nowhere half a percent steeper than on average over so little.
+/// Turn of a joint, radians, over which its speed counts as even, apart from the [`unevenness`]: past a singularity a joint
+/// follows an arc tangent, which is nowhere half a percent steeper than on average over so little around its middle.
 const EVEN_TURN_RAD: f64 = 0.2;
+/// Share of a joint's top speed that is not reached on average over a step which is not examined more closely.
+const EASY_SPEED_SHARE: f64 = 0.8;
 /// Most halvings of a step: 50 mm become 0.05 mm.
 const MAX_HALVINGS: u32 = 10;
 /// The greatest speed of a joint is found to this share.
@@ -36,6 +38,8 @@ pub enum Way {
     Planned,
     /// In a straight line with the gun off, at this lower speed, m/s.
     Slower(f64),
+    /// In a straight line with the gun on, at this lower speed, m/s; the film stays within its tolerance.
+    SlowerSpraying(f64),
     /// By a joint move with the gun off, for example to change the configuration.
     Joints,
 }
@@ -177,7 +181,9 @@ pub(super) fn way_problem(
                 joints: [at, near],
                 seconds,
             };
-            trouble = peak_problem(placed, [start, end], step);
+            if !step.is_easy(&placed.arm) {
+                trouble = peak_problem(placed, [start, end], step);
+            }
         }
         at = near;
     }
@@ -193,9 +199,40 @@ struct Step {
     seconds: f64,
 }
 
+impl Step {
+    /// True if no joint can be too fast anywhere within the step: they turn little, and on average well below their top
+    /// speeds.
+    fn is_easy(&self, arm: &Arm) -> bool {
+        let [from, to] = &self.joints;
+        let unevenness = unevenness(arm, &[from, to]);
+        (0..6).all(|i| {
+            let turn = (to[i] - from[i]).abs();
+            let most = EASY_SPEED_SHARE * arm.speeds[i] * self.seconds;
+            turn <= EVEN_TURN_RAD && turn * unevenness <= most
+        })
+    }
+}
+
+/// How much faster a joint may be at one of these solutions than at another for the same motion of the nozzle: speeds
+/// grow with the reciprocal of the distance from a singularity. Infinite if one is passed.
+fn unevenness(arm: &Arm, solutions: &[&Joints]) -> f64 {
+    let shapes = solutions.iter().map(|joints| arm.shape(joints));
+    let range = shapes.fold([[f64::INFINITY, f64::NEG_INFINITY]; 3], |range, shape| {
+        std::array::from_fn(|i| [range[i][0].min(shape[i]), range[i][1].max(shape[i])])
+    });
+    let each = range.into_iter().map(|[low, high]| {
+        if low * high <= 0.0 {
+            f64::INFINITY
+        } else {
+            (low / high).max(high / low)
+        }
+    });
+    each.fold(1.0, f64::max)
+}
+
 /// Returns the problem of the joint that is fastest in proportion to its top speed anywhere within a step. The step is
 /// halved until the joints turn evenly, or no joint can be faster than the fastest one found and its top speed: within a
-/// half, a speed may change by as much as it differs from that of the other half.
+/// half, a speed may change by as much as it differs from that of the other half, and by the [`unevenness`].
 fn peak_problem(
     placed: &PlacedArm,
     [start, end]: [&WayEnd; 2],
@@ -220,6 +257,7 @@ fn peak_problem(
             return Some(PointProblem::JointLimit { joint, angle });
         }
         let half = 0.5 * seconds;
+        let unevenness = unevenness(&placed.arm, &[&from, &middle, &to]);
         let mut is_settled = true;
         for i in 0..6 {
             let turns = [middle[i] - from[i], to[i] - middle[i]].map(f64::abs);
@@ -239,7 +277,7 @@ fn peak_problem(
             }
             // The two halves may turn a joint in opposite directions.
             let change = (to[i] - 2.0 * middle[i] + from[i]).abs().max(most - least);
-            let bound = (most + change) / half / top;
+            let bound = unevenness * (most + change) / half / top;
             let enough = worst.0
                 * if worst.1.is_some() {
                     1.0 + PEAK_SPEED_ERROR

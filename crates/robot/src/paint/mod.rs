@@ -3,6 +3,7 @@
 //! ```text
 //! Reference ─► PaintSurface ─┬─► plan (Coat) ─► SprayPath ─► simulate (Coat) ─► Film
 //!                            └───────────────────────────────────┘
+//! SprayPath ─► FilmRoom (`robot::arm`)
 //! SprayPath ─► Program (`robot::program`) ─► WrittenFilm
 //! ```
 //!
@@ -22,6 +23,7 @@ mod plan;
 mod propose;
 mod region;
 mod rings;
+mod room;
 mod rows;
 mod shadow;
 mod surface;

@@ -2,10 +2,10 @@
 //!
 //! Rows and rings keep their stand-off along the smoothed surface, but ribs may rise above it, and the straight moves
 //! between rows may come nearer, around a bend or from one raster to the next. Points and moves with the gun off are
-//! lifted along the side where the surface is too near, except that a way may begin or end at a stroke that is itself
-//! nearer. The distance to the nearest
-//! point grows by no more than the nozzle moves, so lifting repeatedly by the missing distance ends at the least lift
-//! that is clear. Lifted points that a straight move does not need are removed again.
+//! lifted along the side where the surface is too near. A way may begin or end at a stroke that is itself nearer: it must
+//! spray from there, so the way has its distance at that end, and at least half of each millimetre from it more. The
+//! distance to the nearest point grows by no more than the nozzle moves, so lifting repeatedly by the missing distance
+//! ends at the least lift that is clear. Lifted points that a straight move does not need are removed again.
 //!
 //! Known limits: moves are only kept clear of the part, not of what holds it, and only the mouth of the gun is
 //! considered.

@@ -271,10 +271,15 @@ impl Program<'_> {
                     most.to_degrees()
                 ));
             }
-            let [num_slower, num_by_joints] = check.changed_moves();
+            let [num_slower, num_by_joints, num_slower_spraying] = check.changed_moves();
             if num_slower + num_by_joints > 0 {
                 lines.push(format!(
                     "moves with the gun off: {num_slower} slower than in the path, {num_by_joints} by joints"
+                ));
+            }
+            if num_slower_spraying > 0 {
+                lines.push(format!(
+                    "moves with the gun on: {num_slower_spraying} slower than in the path, for accelerations"
                 ));
             }
             let is_named = steps.first().is_some_and(|s| s.configuration.is_some());

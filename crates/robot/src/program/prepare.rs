@@ -3,7 +3,7 @@
 use super::{ProgramPoint, ProgramSettings};
 use crate::{
     RobotFrame,
-    arm::{ArmError, ArmPoint, PathCheck, PlacedArm, check_path},
+    arm::{ArmError, ArmPoint, CheckParams, FilmRoom, PathCheck, PlacedArm, check_path},
     spray::CarriedPath,
 };
 
@@ -28,15 +28,21 @@ pub fn arm_points(carried: &CarriedPath, frame: &RobotFrame, speed: f64) -> Vec<
     points.collect()
 }
 
-/// Checks whether an arm reaches a carried path without a collision, and the ways to it and from it.
+/// Checks whether an arm reaches a carried path without a collision, and the ways to it and from it. With the room of its
+/// film, joints that cannot accelerate as needed may slow the gun while it sprays.
 pub fn check_reach(
     arm: &PlacedArm,
     carried: &CarriedPath,
     frame: &RobotFrame,
     settings: &ProgramSettings,
+    film: Option<&FilmRoom>,
 ) -> Result<PathCheck, ArmError> {
     let points = arm_points(carried, frame, settings.params.speed);
-    check_path(arm, &points, &settings.params.check_params())
+    let params = CheckParams {
+        film,
+        ..settings.params.check_params()
+    };
+    check_path(arm, &points, &params)
 }
 
 /// Returns the points of a program. With `reach`, the nozzle is turned and tilted as in the check.
@@ -118,7 +124,7 @@ mod tests {
         let stops = arm_points(&line(1.2), &frame, settings.params.speed);
         let stops: Vec<bool> = stops.iter().map(|point| point.is_stop).collect();
         assert_eq!(stops, [true, false, false, false, true]);
-        let near = check_reach(&arm, &line(1.2), &frame, &settings).expect("checked");
+        let near = check_reach(&arm, &line(1.2), &frame, &settings, None).expect("checked");
         assert_eq!(near.missed("arm"), None, "{near:?}");
         let [begin, end] = near.ends.as_ref().expect("ends");
         for (end, point) in [(begin, &near.points[0]), (end, &near.points[4])] {
@@ -129,17 +135,17 @@ mod tests {
         }
         // The arm does not reach 5 m behind the nozzle.
         settings.params.approach = Metres(5.0);
-        let far = check_reach(&arm, &line(1.2), &frame, &settings).expect("checked");
+        let far = check_reach(&arm, &line(1.2), &frame, &settings, None).expect("checked");
         let problems: Vec<bool> = far.points.iter().map(|p| p.problem.is_some()).collect();
         assert_eq!(problems, [true, false, false, false, true]);
         let doubt = far.missed("arm").expect("not reached").to_string();
         assert!(doubt.starts_with("arm reaches 3 of 5 points"), "{doubt}");
         let none = CarriedPath { points: Vec::new() };
-        assert!(check_reach(&arm, &none, &frame, &settings).is_err());
+        assert!(check_reach(&arm, &none, &frame, &settings, None).is_err());
         // Counted as in the path, without the approach point.
         let mut stopped = line(1.2);
         stopped.points[2].speed = Some(0.0);
-        let error = check_reach(&arm, &stopped, &frame, &settings).expect_err("no speed");
+        let error = check_reach(&arm, &stopped, &frame, &settings, None).expect_err("no speed");
         assert!(error.to_string().contains("point 3"), "{error}");
     }
 
@@ -152,7 +158,7 @@ mod tests {
             let mut settings = ProgramSettings::default();
             settings.params.approach = Metres(approach);
             settings.params.max_tilt = Radians(0.0);
-            check_reach(&arm, &line(1.2), &frame, &settings).expect("checked")
+            check_reach(&arm, &line(1.2), &frame, &settings, None).expect("checked")
         };
         // A 1 m plate with a point every 10 mm, perpendicular to the jet.
         let side = |i: u16| 0.01 * f32::from(i) - 0.5;

@@ -156,7 +156,7 @@ impl ProgramParams {
     }
 
     /// How the arm of a program with these numbers is checked: with its approach point and its end.
-    pub fn check_params(&self) -> CheckParams {
+    pub fn check_params(&self) -> CheckParams<'static> {
         CheckParams {
             max_tilt: self.max_tilt.0,
             approach: Some(self.approach.0),

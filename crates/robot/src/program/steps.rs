@@ -134,7 +134,9 @@ pub(super) fn steps_of(program: &Program<'_>, language: &RobotLanguage) -> Vec<S
             rail: rail(at(i)),
             motion: match way(at(i)) {
                 Way::Planned => Motion::Line(line),
-                Way::Slower(speed) => Motion::Line(Line { speed, ..line }),
+                Way::Slower(speed) | Way::SlowerSpraying(speed) => {
+                    Motion::Line(Line { speed, ..line })
+                }
                 Way::Joints => Motion::Joints(gun),
             },
         });

@@ -17,10 +17,10 @@ use inspection::library::Side;
 use robot::{
     RobotFrame,
     arm::{
-        ArmError, Body, Obstacle, Obstacles, PathCheck, PlaceSuggestion, PointProblem,
-        suggest_base, suggest_rail,
+        ArmError, Body, CheckParams, FilmRoom, Obstacle, Obstacles, PathCheck, PlaceSuggestion,
+        PointProblem, check_path, suggest_base, suggest_rail,
     },
-    program::{RobotLanguage, arm_points, check_reach},
+    program::{RobotLanguage, arm_points},
     spray::{CarriedPath, OffThePart, carry, off_the_part},
 };
 use shell::{
@@ -261,12 +261,19 @@ fn found(
     let robot_from_part = request.robot.robot_from_part(&RigidTransform::identity());
     let arm = arm.with_part(&path.part_cloud.points, &robot_from_part);
     let points = arm_points(&path.carried, &request.robot, settings.params.speed);
-    let params = settings.params.check_params();
+    let limits = arm.arm.limits_accelerations();
+    let film = limits
+        .then(|| FilmRoom::of_path(&planned.path, &path.part_cloud, path.coverage, path.side));
+    let film = film.flatten();
+    let params = CheckParams {
+        film: film.as_ref(),
+        ..settings.params.check_params()
+    };
     let failed = |error: ArmError| match error {
         ArmError::Cancelled => TaskError::Cancelled,
         error => TaskError::Failed(UserError::of(&error)),
     };
-    let check = check_reach(&arm, &path.carried, &request.robot, &settings).map_err(failed)?;
+    let check = check_path(&arm, &points, &params).map_err(failed)?;
     let num = check.num_reached();
     let mut lines = unreached(planned, &check);
     lines.extend(outlines(&arm.obstacles, &robot_from_part));

@@ -228,9 +228,13 @@ fn reasons(ui: &mut Ui, reach: &Reach, setup: &ProgramSetup, actions: &mut Vec<P
         let words = text!("paint-tilted", num = grouped(num), degrees = degrees);
         note(ui, &words, theme.weak_text);
     }
-    let [slower, by_joints] = reach.check.changed_moves();
+    let [slower, by_joints, spraying] = reach.check.changed_moves();
     if slower + by_joints > 0 {
         let words = text!("paint-changed-moves", slower = slower, joints = by_joints);
+        note(ui, &words, theme.weak_text);
+    }
+    if spraying > 0 {
+        let words = text!("paint-slower-spraying", num = grouped(spraying));
         note(ui, &words, theme.weak_text);
     }
     if reach.check.num_reached() == reach.check.points.len() {

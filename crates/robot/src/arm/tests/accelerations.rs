@@ -182,6 +182,101 @@ fn between_two_rows_the_arm_slows_down_for_the_corners_and_along_the_rows_it_doe
     }
 }
 
+/// A path around a corner with the gun on up to point `end`; joints have this share of the acceleration that the corner
+/// needs, and the film of each way lies at two points of its own and at one of both neighbours.
+fn sprayed_corner(share: f64, end: usize) -> (PlacedArm, Vec<ArmPoint>, Vec<Vec<(u32, f32)>>) {
+    let mut placed = facing("irb2600");
+    let worst = change_in_corner(&placed).into_iter().fold(0.0, f64::max) / WINDOW;
+    placed.arm.accelerations = Some([share * worst; 6]);
+    let mut points = polygon(&placed, &CORNER, 0.025, 0.3);
+    for (i, point) in points.iter_mut().enumerate() {
+        point.is_gun_on = i < end;
+    }
+    let ways = (0..points.len() as u32 - 1).map(|way| (2 * way..2 * way + 3).map(|i| (i, 1e-5)));
+    let ways = ways.map(Iterator::collect).collect();
+    (placed, points, ways)
+}
+
+#[test]
+fn a_spraying_gun_slows_down_for_a_corner_as_far_as_its_film_has_room() {
+    for share in [0.9, 0.7, 0.5] {
+        let (placed, points, ways) = sprayed_corner(share, 16);
+        let corner = points.len() / 2;
+        let num_points = 2 * points.len();
+        let checked = |room: f64| {
+            let film = FilmRoom::new(ways.clone(), vec![room; num_points]);
+            let params = CheckParams {
+                film: Some(&film),
+                ..CheckParams::default()
+            };
+            check_path(&placed, &points, &params).expect("checked")
+        };
+        let speeds = |found: &PathCheck| -> Vec<f64> {
+            let slower = found.points.iter().filter_map(|point| match point.way {
+                Way::SlowerSpraying(speed) => Some(speed),
+                _ => None,
+            });
+            slower.collect()
+        };
+        let found = checked(1.0);
+        assert!(accelerations(&found).is_empty(), "{share}: {found:?}");
+        let slower = speeds(&found);
+        assert!((1..=4).contains(&slower.len()), "{share}: {slower:?}");
+        for speed in &slower {
+            let wanted = 0.3 * share;
+            assert!((0.8 * wanted..0.3).contains(speed), "{share}: {speed}");
+        }
+        assert_eq!(found.changed_moves(), [0, 0, slower.len()]);
+        // Without room no move is slower, and a little room is not used in vain.
+        for room in [0.0, 1e-7] {
+            let found = checked(room);
+            assert_eq!(speeds(&found), Vec::<f64>::new(), "{share} {room}");
+            assert_eq!(found.points, check(&placed, &points).points);
+            let problem = found.points[corner].problem.as_ref();
+            assert!(problem.is_some_and(PointProblem::is_acceleration));
+        }
+    }
+}
+
+#[test]
+fn the_ways_to_the_path_and_from_it_are_none_of_its_film() {
+    let (placed, mut points, ways) = sprayed_corner(0.8, 16);
+    let corner = points.len() / 2;
+    // As in a program.
+    for end in [0, 16] {
+        points[end].is_stop = true;
+    }
+    // Only the ways before and behind the corner have room.
+    let has_room = 2 * corner - 2..=2 * corner + 2;
+    let room = (0..2 * points.len()).map(|i| f64::from(u8::from(has_room.contains(&i))));
+    let film = FilmRoom::new(ways, room.collect());
+    for approach in [None, Some(0.05)] {
+        let params = CheckParams {
+            film: Some(&film),
+            approach,
+            ..CheckParams::default()
+        };
+        let found = check_path(&placed, &points, &params).expect("checked");
+        assert!(accelerations(&found).is_empty(), "{approach:?}: {found:?}");
+        for (i, point) in found.points.iter().enumerate() {
+            let is_next = i == corner || i == corner + 1;
+            assert!(is_next || point.way == Way::Planned, "{approach:?} {i}");
+        }
+    }
+}
+
+#[test]
+fn where_the_gun_is_switched_in_a_corner_the_move_without_paint_slows_down_alone() {
+    // It closes in the corner.
+    let (placed, points, _) = sprayed_corner(0.8, 8);
+    assert!(points[7].is_gun_on && !points[8].is_gun_on && points.len() == 17);
+    let found = check(&placed, &points);
+    assert!(accelerations(&found).is_empty(), "{found:?}");
+    let [slower, _, spraying] = found.changed_moves();
+    assert!(slower >= 1 && spraying == 0);
+    assert!(matches!(found.points[9].way, Way::Slower(speed) if speed < 0.3));
+}
+
 #[test]
 fn points_that_are_close_together_or_at_one_place_are_no_jerk() {
     let mut placed = facing("gp25");

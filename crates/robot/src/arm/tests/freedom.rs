@@ -101,7 +101,7 @@ fn a_move_with_the_gun_off_takes_the_time_that_the_joints_need() {
         panic!("{:?}", found.points[10]);
     };
     assert!((MIN_TRAVEL_SPEED_M_S..25.1).contains(&speed), "{speed}");
-    assert_eq!(found.changed_moves(), [1, 0]);
+    assert_eq!(found.changed_moves(), [1, 0, 0]);
     for i in [9, 11] {
         let problem = &found.points[i].problem;
         assert!(
@@ -126,7 +126,7 @@ fn between_strokes_the_arm_changes_its_configuration_by_a_joint_move_if_a_progra
     let found = check(&placed, &points);
     assert_eq!(
         (found.num_reached(), found.changed_moves()),
-        (2, [0, 1]),
+        (2, [0, 1, 0]),
         "{found:?}"
     );
     // The approach of a program is straight.

@@ -11,7 +11,7 @@ use crate::arm::check::check_unless;
 pub(super) fn better_base(
     placed: &PlacedArm,
     points: &[ArmPoint],
-    params: &CheckParams,
+    params: &CheckParams<'_>,
     num_reached: usize,
 ) -> Option<PlaceSuggestion> {
     let found = suggest_base(placed, points, params, num_reached, &|_, _| {}, &|| false);
@@ -21,7 +21,7 @@ pub(super) fn better_base(
 pub(super) fn better_rail(
     placed: &PlacedArm,
     points: &[ArmPoint],
-    params: &CheckParams,
+    params: &CheckParams<'_>,
     num_reached: usize,
 ) -> Option<PlaceSuggestion> {
     let found = suggest_rail(placed, points, params, num_reached, &|_, _| {}, &|| false);

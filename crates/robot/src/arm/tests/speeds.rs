@@ -1,5 +1,8 @@
 //! Speeds of joints between two points.
 
+use rand::{RngExt as _, SeedableRng as _};
+use rand_pcg::Pcg64;
+
 use super::*;
 use crate::arm::way::{WayEnd, way_between, way_problem};
 
@@ -62,4 +65,70 @@ fn a_joint_that_hurries_between_two_points_is_found_with_its_greatest_speed() {
         assert_eq!(problem.is_some(), is_gun_on);
         assert_eq!(matches!(way, Way::Slower(_)), !is_gun_on, "{way:?}");
     }
+}
+
+/// The greatest speed of a joint during a move that takes a second, as a share of its top speed, from many short steps;
+/// `None` if the move is not reached in one configuration within the limits.
+fn peak_share(placed: &PlacedArm, start: &WayEnd, end: &mut WayEnd) -> Option<f64> {
+    const NUM: u32 = 100;
+    let solver = Solver::new(placed, 0.0);
+    let (mut at, mut peak) = (start.joints, 0.0_f64);
+    for k in 1..=NUM {
+        let share = f64::from(k) / f64::from(NUM);
+        let next = start.joints_towards(end, share, placed, &at)?;
+        let turned = next.iter().zip(at).zip(placed.arm.speeds);
+        let shares = turned.map(|((next, at), top)| (next - at).abs() * f64::from(NUM) / top);
+        peak = shares.fold(peak, f64::max);
+        at = next;
+        if solver.beyond_limit(&at).is_some() || solver.singularity(&at).is_some() {
+            return None;
+        }
+    }
+    end.joints = at;
+    let is_kept = placed.arm.configuration(&at) == placed.arm.configuration(&start.joints);
+    is_kept.then_some(peak)
+}
+
+#[test]
+fn no_joint_that_is_too_fast_anywhere_on_a_move_is_missed_however_short_the_move_is() {
+    let mut random = Pcg64::seed_from_u64(14);
+    let mut num_checked = 0;
+    for name in ["irb2600", "gp25"] {
+        let placed = with_gun(name);
+        let solver = Solver::new(&placed, 0.0);
+        for _ in 0..400 {
+            let joints = placed
+                .arm
+                .limits
+                .map(|[low, high]| random.random_range(low.max(-2.5)..high.min(2.5)));
+            let mut direction = || random.random_range(-1.0..1.0);
+            let (shift, turn) = (
+                Vector3::from_fn(|_, _| direction()),
+                Vector3::from_fn(|_, _| direction()),
+            );
+            let length = random.random_range(0.005..0.05);
+            let angle = random.random_range(0.0..0.1);
+            let nozzle = solver.forward(&joints).expect("finite");
+            let start = WayEnd {
+                nozzle,
+                joints,
+                rail: 0.0,
+            };
+            let mut end = WayEnd {
+                nozzle: Isometry3::from_parts(
+                    (nozzle.translation.vector + shift.normalize() * length).into(),
+                    UnitQuaternion::from_scaled_axis(turn.normalize() * angle) * nozzle.rotation,
+                ),
+                joints,
+                rail: 0.0,
+            };
+            let Some(peak) = peak_share(&placed, &start, &mut end) else {
+                continue;
+            };
+            let problem = way_problem(&placed, &start, &end, 1.06 * length / peak);
+            assert!(problem.is_some(), "{name} {joints:?} {peak}");
+            num_checked += 1;
+        }
+    }
+    assert!(num_checked > 500, "{num_checked}");
 }

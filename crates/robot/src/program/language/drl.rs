@@ -4,8 +4,14 @@
 //! of a blended move, at a moment that could not be established, so the robot stops at the point where the gun switches.
 //! There are no external axes. Doosan, *Programming Manual*, motion and I/O.
 //!
-//! Asynchronous moves (`amovel`) are not used: public sources show outputs that follow a time after their start, but no
-//! output that is tied to a place on the path.
+//! What was looked for, to switch without a stop, and not found:
+//!
+//! - An output tied to a place on the path. Public examples set outputs a time after an asynchronous move has begun.
+//! - Asynchronous moves that blend. Doosan's own Python (`DSR_ROBOT.py` of its ROS package) sets the radius of `amovel` to 0,
+//!   so each of them ends in a stop. `amovesx` follows many points, but at one speed, and these paths have one for each.
+//! - A thread (`thread_run`, called again every 10 ms) that reads `get_current_posx` and sets the output while the program
+//!   moves on. Threads beside moves are used for communication only. Whether pose and outputs can be used in one during a
+//!   `movel`, which waits for its end, is not documented, and over ROS such a move was reported to block the pose.
 
 use super::{RobotLanguage, ToolName};
 use crate::{
