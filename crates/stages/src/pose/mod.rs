@@ -198,8 +198,10 @@ impl PoseEstimate {
         }
     }
 
-    /// How much larger or smaller the source certainly is than the target.
+    /// How much larger or smaller the source certainly is than the target. A pose that may slide, or be another one, does not
+    /// show it.
     pub fn off_scale(&self) -> Option<OffScale> {
+        self.bounds().filter(|_| !self.is_ambiguous())?;
         self.scale?.off()
     }
 
