@@ -157,11 +157,11 @@ fn differences(record: &Record, other: &Record) -> Differences {
 
 /// Where an inspection was read.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::cli) struct ReadFrom<'a> {
+pub(crate) struct ReadFrom<'a> {
     /// Name of the cell, in the plant's database.
-    pub(in crate::cli) cell: Option<&'a str>,
+    pub(crate) cell: Option<&'a str>,
     /// Folder of the kept frames; `None` in the plant's database, as they stay at their cell.
-    pub(in crate::cli) frames: Option<&'a Path>,
+    pub(crate) frames: Option<&'a Path>,
 }
 
 impl ReadFrom<'_> {
@@ -199,7 +199,7 @@ pub(super) fn run(
 }
 
 /// Returns an inspection with the re-inspections below it as one line of JSON.
-pub(in crate::cli) fn record_line(
+pub(crate) fn record_line(
     from: ReadFrom<'_>,
     record: &Record,
     below: &[Record],
@@ -237,12 +237,7 @@ fn shot_paths(from: ReadFrom<'_>, record: &Record) -> Vec<String> {
 }
 
 /// Shows an inspection, and how the re-inspections below it differ.
-pub(in crate::cli) fn card(
-    from: ReadFrom<'_>,
-    record: &Record,
-    below: &[Record],
-    console: &mut Console,
-) {
+pub(crate) fn card(from: ReadFrom<'_>, record: &Record, below: &[Record], console: &mut Console) {
     console.table(&record_table(from, record));
     let number = |record: &Record| format!("NUMBER {}", record.summary.number);
     for other in below {

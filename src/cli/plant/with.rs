@@ -9,7 +9,7 @@ mod publish;
 mod serve;
 mod take;
 
-pub(in crate::cli) use self::{
+pub(crate) use self::{
     bundle::{LibraryCommand, run as library, taken_version, version_of},
     database::{ChosenDatabase, HistorySender, HistoryToChoice},
     history::{FromChoice, HistoryCommand, overview, run as history},
@@ -22,7 +22,7 @@ pub(in crate::cli) use self::{
 use crate::cli::report::Schema;
 
 /// Schemas of `report --schema`.
-pub(in crate::cli) const SCHEMAS: &[Schema] = &[Schema {
+pub(crate) const SCHEMAS: &[Schema] = &[Schema {
     name: "mqtt",
     help: "The messages of serve --mqtt",
     json: plant::mqtt::messages_schema,

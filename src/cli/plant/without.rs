@@ -24,14 +24,14 @@ use stages::reference::ReferenceParams;
 use station::NumberedPart;
 
 /// Schemas of `report --schema`.
-pub(in crate::cli) const SCHEMAS: &[Schema] = &[];
+pub(crate) const SCHEMAS: &[Schema] = &[];
 
 /// Subcommands that do not exist.
 #[derive(Debug)]
-pub(in crate::cli) enum NoCommand {}
+pub(crate) enum NoCommand {}
 
-pub(in crate::cli) use NoCommand as LibraryCommand;
-pub(in crate::cli) use NoCommand as HistoryCommand;
+pub(crate) use NoCommand as LibraryCommand;
+pub(crate) use NoCommand as HistoryCommand;
 
 impl FromArgMatches for NoCommand {
     fn from_arg_matches(_: &ArgMatches) -> Result<Self, clap::Error> {
@@ -57,7 +57,7 @@ impl Subcommand for NoCommand {
     }
 }
 
-pub(in crate::cli) fn library(
+pub(crate) fn library(
     command: &LibraryCommand,
     _: &LibraryChoice,
     _: &mut Console,
@@ -65,7 +65,7 @@ pub(in crate::cli) fn library(
     match *command {}
 }
 
-pub(in crate::cli) fn history(
+pub(crate) fn history(
     command: &HistoryCommand,
     _: &mut History,
     _: &Console,
@@ -74,63 +74,60 @@ pub(in crate::cli) fn history(
 }
 
 #[derive(Debug, Args)]
-pub(in crate::cli) struct FromChoice {}
+pub(crate) struct FromChoice {}
 
-pub(in crate::cli) fn overview(
-    _: &history::Command,
-    _: &mut Console,
-) -> anyhow::Result<Option<Outcome>> {
+pub(crate) fn overview(_: &history::Command, _: &mut Console) -> anyhow::Result<Option<Outcome>> {
     Ok(None)
 }
 
-pub(in crate::cli) fn taken_version(_: &LibraryPlace, _: &Console) -> Option<String> {
+pub(crate) fn taken_version(_: &LibraryPlace, _: &Console) -> Option<String> {
     None
 }
 
-pub(in crate::cli) fn version_of(_: &LibraryPlace) -> Result<Option<TakenVersion>, [String; 2]> {
+pub(crate) fn version_of(_: &LibraryPlace) -> Result<Option<TakenVersion>, [String; 2]> {
     Ok(None)
 }
 
 #[derive(Clone, Debug, Args)]
-pub(in crate::cli) struct HistoryToChoice {}
+pub(crate) struct HistoryToChoice {}
 
 impl HistoryToChoice {
-    pub(in crate::cli) fn chosen(&self, _: &Console) -> anyhow::Result<Option<ChosenDatabase>> {
+    pub(crate) fn chosen(&self, _: &Console) -> anyhow::Result<Option<ChosenDatabase>> {
         Ok(None)
     }
 }
 
-pub(in crate::cli) enum ChosenDatabase {}
+pub(crate) enum ChosenDatabase {}
 
-pub(in crate::cli) enum HistorySender {}
+pub(crate) enum HistorySender {}
 
 impl HistorySender {
-    pub(in crate::cli) fn start(_: PathBuf, database: ChosenDatabase) -> anyhow::Result<Self> {
+    pub(crate) fn start(_: PathBuf, database: ChosenDatabase) -> anyhow::Result<Self> {
         match database {}
     }
 
-    pub(in crate::cli) fn show_news(&self, _: &Console, _: impl Fn(HistoryEvent, &Console)) {
+    pub(crate) fn show_news(&self, _: &Console, _: impl Fn(HistoryEvent, &Console)) {
         match *self {}
     }
 
-    pub(in crate::cli) fn end(self, _: &Console, _: impl Fn(HistoryEvent, &Console)) {
+    pub(crate) fn end(self, _: &Console, _: impl Fn(HistoryEvent, &Console)) {
         match self {}
     }
 }
 
 #[derive(Debug, Args)]
-pub(in crate::cli) struct PublishArgs {}
+pub(crate) struct PublishArgs {}
 
 impl PublishArgs {
-    pub(in crate::cli) fn check(&self, _: Option<&SourceSpec>) -> anyhow::Result<()> {
+    pub(crate) fn check(&self, _: Option<&SourceSpec>) -> anyhow::Result<()> {
         Ok(())
     }
 }
 
-pub(in crate::cli) enum ChosenPublisher {}
+pub(crate) enum ChosenPublisher {}
 
 impl ChosenPublisher {
-    pub(in crate::cli) fn new(
+    pub(crate) fn new(
         _: &PublishArgs,
         _: &LibraryPlace,
         _: &LibraryLoad,
@@ -140,7 +137,7 @@ impl ChosenPublisher {
         Ok(None)
     }
 
-    pub(in crate::cli) fn start(
+    pub(crate) fn start(
         self,
         _: &SourceSpec,
         _: &LibraryLoad,
@@ -151,66 +148,66 @@ impl ChosenPublisher {
     }
 }
 
-pub(in crate::cli) enum Publisher {}
+pub(crate) enum Publisher {}
 
 impl Publisher {
-    pub(in crate::cli) fn look(&mut self, _: &FeedState, _: &Console) {
+    pub(crate) fn look(&mut self, _: &FeedState, _: &Console) {
         match *self {}
     }
 
-    pub(in crate::cli) fn begin(&mut self, _: &Captured) {
+    pub(crate) fn begin(&mut self, _: &Captured) {
         match *self {}
     }
 
-    pub(in crate::cli) fn found(&self, _: &Inspection, _: &Recipe, _: bool) -> Option<Found> {
+    pub(crate) fn found(&self, _: &Inspection, _: &Recipe, _: bool) -> Option<Found> {
         match *self {}
     }
 
-    pub(in crate::cli) fn publish(&mut self, _: Found) {
+    pub(crate) fn publish(&mut self, _: Found) {
         match *self {}
     }
 
-    pub(in crate::cli) fn skipped(&mut self, _: &SkippedCapture) {
+    pub(crate) fn skipped(&mut self, _: &SkippedCapture) {
         match *self {}
     }
 
-    pub(in crate::cli) fn failed(&mut self, _: &Fault) {
+    pub(crate) fn failed(&mut self, _: &Fault) {
         match *self {}
     }
 
-    pub(in crate::cli) fn end(self, _: &Console) {
+    pub(crate) fn end(self, _: &Console) {
         match self {}
     }
 }
 
 #[derive(Debug, Args)]
-pub(in crate::cli) struct HttpArgs {
+pub(crate) struct HttpArgs {
     /// Needs a build with the feature plant
     #[arg(long, value_name = "[IP:]PORT", hide = true)]
     http: Option<String>,
 }
 
 impl HttpArgs {
-    pub(in crate::cli) fn is_wanted(&self) -> bool {
+    pub(crate) fn is_wanted(&self) -> bool {
         self.http.is_some()
     }
 }
 
 #[derive(Clone, Debug, Args)]
-pub(in crate::cli) struct MqttChoice {}
+pub(crate) struct MqttChoice {}
 
 #[derive(Debug, Args)]
-pub(in crate::cli) struct TakeArgs {}
+pub(crate) struct TakeArgs {}
 
-pub(in crate::cli) struct TakenLibrary {
-    pub(in crate::cli) load: LibraryLoad,
-    pub(in crate::cli) parts: Vec<NumberedPart>,
+pub(crate) struct TakenLibrary {
+    pub(crate) load: LibraryLoad,
+    pub(crate) parts: Vec<NumberedPart>,
 }
 
-pub(in crate::cli) struct ChosenServices;
+pub(crate) struct ChosenServices;
 
 impl ChosenServices {
-    pub(in crate::cli) fn new(
+    pub(crate) fn new(
         _: &NumbersChoice,
         http: &HttpArgs,
         _: &MqttChoice,
@@ -225,7 +222,7 @@ impl ChosenServices {
         Ok(Self)
     }
 
-    pub(in crate::cli) fn start<'a>(
+    pub(crate) fn start<'a>(
         self,
         _: &Server,
         _: &'a LibraryPlace,
@@ -238,28 +235,28 @@ impl ChosenServices {
     }
 }
 
-pub(in crate::cli) struct Services<'a>(std::marker::PhantomData<&'a LibraryPlace>);
+pub(crate) struct Services<'a>(std::marker::PhantomData<&'a LibraryPlace>);
 
 impl Services<'_> {
-    pub(in crate::cli) fn inspected(&self, _: InspectionRecord) {}
+    pub(crate) fn inspected(&self, _: InspectionRecord) {}
 
-    pub(in crate::cli) fn turn(&self, _: CameraStatus, _: &Console) {}
+    pub(crate) fn turn(&self, _: CameraStatus, _: &Console) {}
 
-    pub(in crate::cli) fn taken_library(&mut self, _: &Console) -> Option<TakenLibrary> {
+    pub(crate) fn taken_library(&mut self, _: &Console) -> Option<TakenLibrary> {
         None
     }
 
-    pub(in crate::cli) fn end(self, _: &Console) {}
+    pub(crate) fn end(self, _: &Console) {}
 }
 
-pub(in crate::cli) enum BenchHttp {}
+pub(crate) enum BenchHttp {}
 
 impl BenchHttp {
-    pub(in crate::cli) fn start(_: ServerHandle) -> anyhow::Result<Option<Self>> {
+    pub(crate) fn start(_: ServerHandle) -> anyhow::Result<Option<Self>> {
         Ok(None)
     }
 
-    pub(in crate::cli) fn address(&self) -> SocketAddr {
+    pub(crate) fn address(&self) -> SocketAddr {
         match *self {}
     }
 }

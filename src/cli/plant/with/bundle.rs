@@ -26,7 +26,7 @@ Examples:
 
 Writes library.key, the private key, which stays with the publisher and which only its owner can read, and library.pub,
 the public key, which every cell gets. Existing keys are never replaced.")]
-pub(in crate::cli) struct KeysArgs {
+pub(crate) struct KeysArgs {
     /// The folder for both; created if missing
     #[arg(value_name = "DIR")]
     folder: PathBuf,
@@ -42,7 +42,7 @@ Examples:
 A store is an existing folder, or s3://BUCKET/PREFIX. S3 takes endpoint, region and credentials from AWS_ENDPOINT,
 AWS_REGION, AWS_ACCESS_KEY_ID and AWS_SECRET_ACCESS_KEY; over plain HTTP only with AWS_ALLOW_HTTP=true.
 Every part is loaded first, so that only a library that can be taken is published.")]
-pub(in crate::cli) struct PublishArgs {
+pub(crate) struct PublishArgs {
     /// The store
     #[arg(long, value_name = "STORE")]
     to: String,
@@ -66,7 +66,7 @@ Signature, digest and every part are checked before anything is changed. Parts t
 library's .trash. A spray path that was stored here stays with its part if the version has the same reference of the part
 and no path for it. Inspections do not need the store: they use the installed library. A running program keeps the library
 that it read at its start; only the window, and serve --take, notice the change by themselves.")]
-pub(in crate::cli) struct TakeArgs {
+pub(crate) struct TakeArgs {
     /// The store, as for publish (partsight library publish --help)
     #[arg(long, value_name = "STORE")]
     from: String,
@@ -90,7 +90,7 @@ Examples:
 
 KEY is the beginning of the public key's SHA-256, as library keys shows it: only library take checks it against the key
 that you trust. HERE marks the version that the library was taken from.")]
-pub(in crate::cli) struct VersionsArgs {
+pub(crate) struct VersionsArgs {
     /// The store, as for publish (partsight library publish --help)
     #[arg(value_name = "STORE")]
     store: String,
@@ -101,7 +101,7 @@ pub(in crate::cli) struct VersionsArgs {
 
 /// Subcommands of `library`.
 #[derive(Debug, Subcommand)]
-pub(in crate::cli) enum LibraryCommand {
+pub(crate) enum LibraryCommand {
     Keys(KeysArgs),
     Publish(PublishArgs),
     Take(TakeArgs),
@@ -111,7 +111,7 @@ pub(in crate::cli) enum LibraryCommand {
 }
 
 /// Runs the subcommand.
-pub(in crate::cli) fn run(
+pub(crate) fn run(
     command: &LibraryCommand,
     library: &LibraryChoice,
     console: &mut Console,
@@ -343,7 +343,7 @@ fn first_line(note: &str) -> &str {
 }
 
 /// Which published version a library was taken from, in words. Without one that can be read, it is not shown.
-pub(in crate::cli) fn taken_version(place: &LibraryPlace, console: &Console) -> Option<String> {
+pub(crate) fn taken_version(place: &LibraryPlace, console: &Console) -> Option<String> {
     let version = read_version(place).unwrap_or_else(|error| {
         console.warn(&error, &error);
         None
@@ -362,9 +362,7 @@ pub(in crate::cli) fn taken_version(place: &LibraryPlace, console: &Console) -> 
 }
 
 /// The published version that a library was taken from; the error and its advice.
-pub(in crate::cli) fn version_of(
-    place: &LibraryPlace,
-) -> Result<Option<TakenVersion>, [String; 2]> {
+pub(crate) fn version_of(place: &LibraryPlace) -> Result<Option<TakenVersion>, [String; 2]> {
     read_version(place).map_err(|error| [error.to_string(), error.advice()])
 }
 

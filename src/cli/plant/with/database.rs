@@ -57,7 +57,7 @@ pub(super) fn parse_cell(text: &str) -> Result<CellName, String> {
 
 /// Where the history is sent while it is written.
 #[derive(Clone, Debug, Args)]
-pub(in crate::cli) struct HistoryToChoice {
+pub(crate) struct HistoryToChoice {
     /// Also send the history to this PostgreSQL database, under the name given by --cell; inspections do not wait for
     /// it
     #[arg(
@@ -75,17 +75,14 @@ pub(in crate::cli) struct HistoryToChoice {
 }
 
 /// A database to which the history is sent.
-pub(in crate::cli) struct ChosenDatabase {
+pub(crate) struct ChosenDatabase {
     access: DatabaseAccess,
     cell: CellName,
 }
 
 impl HistoryToChoice {
     /// Returns the chosen database; reads password and certificates.
-    pub(in crate::cli) fn chosen(
-        &self,
-        console: &Console,
-    ) -> anyhow::Result<Option<ChosenDatabase>> {
+    pub(crate) fn chosen(&self, console: &Console) -> anyhow::Result<Option<ChosenDatabase>> {
         let Some((address, cell)) = self.history_to.as_ref().zip(self.cell.clone()) else {
             self.files.refuse_without("--history-to")?;
             return Ok(None);
@@ -96,11 +93,11 @@ impl HistoryToChoice {
 }
 
 /// Sends the history to a database, on a thread of its own.
-pub(in crate::cli) struct HistorySender(database::HistorySender);
+pub(crate) struct HistorySender(database::HistorySender);
 
 impl HistorySender {
     /// Starts to send the history in this folder.
-    pub(in crate::cli) fn start(
+    pub(crate) fn start(
         folder: PathBuf,
         ChosenDatabase { access, cell }: ChosenDatabase,
     ) -> anyhow::Result<Self> {
@@ -109,11 +106,7 @@ impl HistorySender {
     }
 
     /// Shows what happened since the last call; passes the events of the history itself to `tell`.
-    pub(in crate::cli) fn show_news(
-        &self,
-        console: &Console,
-        tell: impl Fn(HistoryEvent, &Console),
-    ) {
+    pub(crate) fn show_news(&self, console: &Console, tell: impl Fn(HistoryEvent, &Console)) {
         while let Some(news) = self.0.news() {
             match news {
                 SendNews::Connected { num_waiting } => console.note(&format_args!(
@@ -128,7 +121,7 @@ impl HistorySender {
     }
 
     /// Sends unsent rows for a few seconds at most, and shows the events until then.
-    pub(in crate::cli) fn end(mut self, console: &Console, tell: impl Fn(HistoryEvent, &Console)) {
+    pub(crate) fn end(mut self, console: &Console, tell: impl Fn(HistoryEvent, &Console)) {
         let ended = self.0.end();
         self.show_news(console, tell);
         if let Err(unsent) = ended {

@@ -17,7 +17,7 @@ use records::history::{History, HistoryError, Record, write_cells_table};
 
 /// Which database is read instead of the history here.
 #[derive(Debug, Args)]
-pub(in crate::cli) struct FromChoice {
+pub(crate) struct FromChoice {
     /// Inspections of all cells that send their histories to this PostgreSQL database, instead of the history here
     #[arg(long, value_name = "postgres://USER@HOST[:PORT]/DATABASE")]
     from: Option<String>,
@@ -42,13 +42,13 @@ impl FromChoice {
 
 /// Subcommands of `history`.
 #[derive(Debug, Subcommand)]
-pub(in crate::cli) enum HistoryCommand {
+pub(crate) enum HistoryCommand {
     /// Send the plant's PostgreSQL database the inspections that it does not have yet
     Send(SendArgs),
 }
 
 #[derive(Debug, Args)]
-pub(in crate::cli) struct SendArgs {
+pub(crate) struct SendArgs {
     /// The PostgreSQL database
     #[arg(long, value_name = "postgres://USER@HOST[:PORT]/DATABASE")]
     to: String,
@@ -66,7 +66,7 @@ pub(in crate::cli) struct SendArgs {
 }
 
 /// Runs the subcommand.
-pub(in crate::cli) fn run(
+pub(crate) fn run(
     HistoryCommand::Send(asked): &HistoryCommand,
     history: &mut History,
     console: &Console,
@@ -101,7 +101,7 @@ pub(in crate::cli) fn run(
 }
 
 /// Runs `list`, `show` or `export` on a database; returns `None` if they are to use the local history.
-pub(in crate::cli) fn overview(
+pub(crate) fn overview(
     command: &Command,
     console: &mut Console,
 ) -> anyhow::Result<Option<Outcome>> {

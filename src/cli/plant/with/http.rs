@@ -10,7 +10,7 @@ use robot::Convention;
 use serve::{ServerHandle, parse_address};
 
 #[derive(Debug, Args)]
-pub(in crate::cli) struct HttpArgs {
+pub(crate) struct HttpArgs {
     /// Answer HTTP requests, with JSON: a port, or IP address and port; poses in the convention of --as. Other protocols are
     /// answered only with --listen
     #[arg(long, value_name = "[IP:]PORT", value_parser = parse_http)]
@@ -33,7 +33,7 @@ fn parse_http(text: &str) -> Result<SocketAddr, String> {
 
 impl HttpArgs {
     /// True if HTTP is requested.
-    pub(in crate::cli) fn is_wanted(&self) -> bool {
+    pub(crate) fn is_wanted(&self) -> bool {
         self.http.is_some()
     }
 
@@ -84,11 +84,11 @@ pub(super) fn start(
 }
 
 /// HTTP beside the other protocols of `bench serve`.
-pub(in crate::cli) struct BenchHttp(HttpServer);
+pub(crate) struct BenchHttp(HttpServer);
 
 impl BenchHttp {
     /// Starts to answer at any port.
-    pub(in crate::cli) fn start(server: ServerHandle) -> anyhow::Result<Option<Self>> {
+    pub(crate) fn start(server: ServerHandle) -> anyhow::Result<Option<Self>> {
         let settings = HttpSettings {
             address: parse_address("0").advised()?,
             convention: Convention::Kuka,
@@ -101,7 +101,7 @@ impl BenchHttp {
     }
 
     /// Its address.
-    pub(in crate::cli) fn address(&self) -> SocketAddr {
+    pub(crate) fn address(&self) -> SocketAddr {
         self.0.address()
     }
 }

@@ -15,7 +15,7 @@ use serve::PoseKind;
 
 /// Where verdicts and states are published.
 #[derive(Clone, Debug, Args)]
-pub(in crate::cli) struct MqttChoice {
+pub(crate) struct MqttChoice {
     /// Publish every verdict and the state of the cell to this MQTT broker; poses in the convention of --as
     #[arg(long, value_name = "mqtt[s]://[USER@]HOST[:PORT]/PREFIX")]
     mqtt: Option<String>,

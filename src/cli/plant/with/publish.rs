@@ -22,7 +22,7 @@ use station::{FrameOrigin, NewFrame, NoFrame, PartFinder, camera_status};
 
 /// Where `inspect` publishes.
 #[derive(Debug, Args)]
-pub(in crate::cli) struct PublishArgs {
+pub(crate) struct PublishArgs {
     #[command(flatten)]
     mqtt: MqttChoice,
     #[command(flatten)]
@@ -31,7 +31,7 @@ pub(in crate::cli) struct PublishArgs {
 
 impl PublishArgs {
     /// Refuses options that would be ignored.
-    pub(in crate::cli) fn check(&self, source: Option<&SourceSpec>) -> anyhow::Result<()> {
+    pub(crate) fn check(&self, source: Option<&SourceSpec>) -> anyhow::Result<()> {
         let is_wanted = self.mqtt.is_wanted();
         if is_wanted && source.is_none() {
             return Err(advised_error(
@@ -50,14 +50,14 @@ impl PublishArgs {
 }
 
 /// A broker, and the form of the published results.
-pub(in crate::cli) struct ChosenPublisher {
+pub(crate) struct ChosenPublisher {
     broker: ChosenBroker,
     finder: PartFinder,
 }
 
 impl ChosenPublisher {
     /// Returns the chosen publisher, if any.
-    pub(in crate::cli) fn new(
+    pub(crate) fn new(
         args: &PublishArgs,
         place: &LibraryPlace,
         load: &LibraryLoad,
@@ -82,7 +82,7 @@ impl ChosenPublisher {
     }
 
     /// Connects without waiting for the broker.
-    pub(in crate::cli) fn start(
+    pub(crate) fn start(
         self,
         source: &SourceSpec,
         load: &LibraryLoad,
@@ -104,7 +104,7 @@ impl ChosenPublisher {
 }
 
 /// Publishes inspections as a server does.
-pub(in crate::cli) struct Publisher {
+pub(crate) struct Publisher {
     link: MqttLink,
     finder: PartFinder,
     recorder: InspectionRecorder,
@@ -116,20 +116,20 @@ pub(in crate::cli) struct Publisher {
 
 impl Publisher {
     /// Publishes changes of the camera's status, and shows events of the connection.
-    pub(in crate::cli) fn look(&mut self, state: &FeedState, console: &Console) {
+    pub(crate) fn look(&mut self, state: &FeedState, console: &Console) {
         self.camera = camera_status(state);
         self.link.set_camera(self.camera.clone());
         show_news(&self.link, console);
     }
 
     /// Sets the frame that is inspected next.
-    pub(in crate::cli) fn begin(&mut self, captured: &Captured) {
+    pub(crate) fn begin(&mut self, captured: &Captured) {
         self.origin = Some(self.new_frame.origin_of(captured));
     }
 
     /// Returns the result of inspecting that frame. `is_still`: frames of the source, if it shows motion at all, have shown
     /// that the part hung still.
-    pub(in crate::cli) fn found(
+    pub(crate) fn found(
         &self,
         inspection: &Inspection,
         recipe: &Recipe,
@@ -141,13 +141,13 @@ impl Publisher {
     }
 
     /// Publishes an inspection.
-    pub(in crate::cli) fn publish(&mut self, found: Found) {
+    pub(crate) fn publish(&mut self, found: Found) {
         let record = self.recorder.record(found, self.camera.clone());
         self.link.inspected(record);
     }
 
     /// Publishes that something could not be read.
-    pub(in crate::cli) fn skipped(&mut self, skipped: &SkippedCapture) {
+    pub(crate) fn skipped(&mut self, skipped: &SkippedCapture) {
         let why = NoFrame::Unreadable {
             name: skipped.name.clone(),
             error: skipped.error.clone(),
@@ -156,12 +156,12 @@ impl Publisher {
     }
 
     /// Publishes that the program failed at a frame.
-    pub(in crate::cli) fn failed(&mut self, fault: &Fault) {
+    pub(crate) fn failed(&mut self, fault: &Fault) {
         self.publish(Found::error(Trouble::of("fault", fault)));
     }
 
     /// Sends what is queued, for a few seconds at most, and disconnects.
-    pub(in crate::cli) fn end(self, console: &Console) {
+    pub(crate) fn end(self, console: &Console) {
         show_news(&self.link, console);
         end_link(self.link, console);
     }

@@ -16,7 +16,7 @@ use serve::{CameraStatus, InspectionRecord, Server};
 use stages::reference::ReferenceParams;
 
 /// What is to run beside a server.
-pub(in crate::cli) struct ChosenServices<'a> {
+pub(crate) struct ChosenServices<'a> {
     numbers: &'a NumbersChoice,
     http: Option<HttpSettings>,
     mqtt: Option<ChosenBroker>,
@@ -25,7 +25,7 @@ pub(in crate::cli) struct ChosenServices<'a> {
 
 impl<'a> ChosenServices<'a> {
     /// Checks the options, and reads the files that they name.
-    pub(in crate::cli) fn new(
+    pub(crate) fn new(
         numbers: &'a NumbersChoice,
         http: &HttpArgs,
         mqtt: &MqttChoice,
@@ -40,7 +40,7 @@ impl<'a> ChosenServices<'a> {
     }
 
     /// Starts all of it beside a server with this library.
-    pub(in crate::cli) fn start(
+    pub(crate) fn start(
         self,
         server: &Server,
         place: &'a LibraryPlace,
@@ -68,7 +68,7 @@ impl<'a> ChosenServices<'a> {
 }
 
 /// What runs beside a server.
-pub(in crate::cli) struct Services<'a> {
+pub(crate) struct Services<'a> {
     mqtt: Option<MqttLink>,
     taker: Option<LibraryTaker<'a>>,
     _http: Option<HttpServer>,
@@ -76,14 +76,14 @@ pub(in crate::cli) struct Services<'a> {
 
 impl Services<'_> {
     /// Publishes an inspection.
-    pub(in crate::cli) fn inspected(&self, record: InspectionRecord) {
+    pub(crate) fn inspected(&self, record: InspectionRecord) {
         if let Some(mqtt) = &self.mqtt {
             mqtt.inspected(record);
         }
     }
 
     /// Publishes the camera's status, and shows what happened since the last call.
-    pub(in crate::cli) fn turn(&self, camera: CameraStatus, console: &Console) {
+    pub(crate) fn turn(&self, camera: CameraStatus, console: &Console) {
         if let Some(mqtt) = &self.mqtt {
             mqtt.set_camera(camera);
             show_news(mqtt, console);
@@ -91,7 +91,7 @@ impl Services<'_> {
     }
 
     /// Returns a library to use from now on, if a new version was taken.
-    pub(in crate::cli) fn taken_library(&mut self, console: &Console) -> Option<TakenLibrary> {
+    pub(crate) fn taken_library(&mut self, console: &Console) -> Option<TakenLibrary> {
         let taken = self.taker.as_mut()?.taken(console)?;
         if let Some(mqtt) = &self.mqtt {
             mqtt.set_library(LibraryMessage::of(&taken.load));
@@ -100,7 +100,7 @@ impl Services<'_> {
     }
 
     /// Sends what is queued, for a few seconds at most.
-    pub(in crate::cli) fn end(self, console: &Console) {
+    pub(crate) fn end(self, console: &Console) {
         if let Some(mqtt) = self.mqtt {
             end_link(mqtt, console);
         }

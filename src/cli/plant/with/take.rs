@@ -28,7 +28,7 @@ use station::NumberedPart;
 const NOT_TAKEN: &str = "library_not_taken";
 
 #[derive(Debug, Args)]
-pub(in crate::cli) struct TakeArgs {
+pub(crate) struct TakeArgs {
     /// Take new versions of the library from this store while running (partsight library take --help)
     #[arg(long, value_name = "STORE", requires = "trust")]
     take: Option<String>,
@@ -124,9 +124,9 @@ pub(super) struct LibraryTaker<'a> {
 }
 
 /// A library and its parts for robots, to be used in place of the present ones.
-pub(in crate::cli) struct TakenLibrary {
-    pub(in crate::cli) load: LibraryLoad,
-    pub(in crate::cli) parts: Vec<NumberedPart>,
+pub(crate) struct TakenLibrary {
+    pub(crate) load: LibraryLoad,
+    pub(crate) parts: Vec<NumberedPart>,
 }
 
 impl<'a> LibraryTaker<'a> {
