@@ -322,7 +322,9 @@ fn inspect_source(
             _ => ControlFlow::Continue(()),
         })
     })?;
-    outcome = outcome.max(inspector.show_waiting(source.is_replayed(), console)?);
+    if console.is_writable() {
+        outcome = outcome.max(inspector.show_waiting(source.is_replayed(), console)?);
+    }
     let (dropped, skipped) = (status.num_dropped, status.num_skipped);
     console.note(&format_args!(
         "{num_inspected} inspected, {dropped} dropped, {skipped} could not be read"

@@ -152,6 +152,13 @@ const FOLLOW: [&str; 6] = [
     "--json",
 ];
 
+/// Fewer frames were inspected than asked for: no more than show that the part of the first one hangs still.
+fn ended_early(err: &str) -> bool {
+    let line = err.lines().find(|line| line.contains(" inspected, "));
+    let num = line.and_then(|line| line.split(' ').next()?.parse::<u32>().ok());
+    num.is_some_and(|num| (1..20).contains(&num))
+}
+
 #[test]
 fn following_ends_quietly_when_the_reader_goes_away() {
     let place = Workplace::new();
@@ -159,7 +166,7 @@ fn following_ends_quietly_when_the_reader_goes_away() {
     drop(following.stdout.take());
     let Ran { code, err, .. } = ended(following);
     assert_eq!(code, 0, "{err}");
-    assert!(err.contains("\n1 inspected"), "{err}");
+    assert!(ended_early(&err), "{err}");
     assert!(!err.contains("error"), "{err}");
 }
 
@@ -172,7 +179,7 @@ fn following_ends_with_an_error_when_the_disk_is_full() {
     let ran = follow.stdout(full.expect("there")).output();
     let Ran { code, err, .. } = ran.expect("starts").into();
     assert_eq!(code, 2, "{err}");
-    assert!(err.contains("\n1 inspected"), "{err}");
+    assert!(ended_early(&err), "{err}");
     let message = "error: the output could not be written: the disk is full\n  to do: Make room";
     assert_eq!(err.matches(message).count(), 1, "{err}");
 }

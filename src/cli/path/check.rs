@@ -214,7 +214,7 @@ fn show(placed: &PlacedArm, found: &PathCheck, console: &mut Console) {
     }
     if problems().any(PointProblem::is_acceleration) {
         console.line(
-            &"  to do: plan the path with a lower gun.flow, which makes the gun slower, lower the speed where it accelerates too slowly, or round the corners in a larger radius",
+            &"  to do: lower the speed where it accelerates too slowly, round the corners in a larger radius, or plan the path with a lower gun.flow, which makes the gun slower",
         );
     }
 }
