@@ -92,6 +92,9 @@ const MAX_DRIFT: f64 = 0.01;
 /// By so much the scale comes out too large at the right size: 1.1 % on average in real frames of a fender, 1.3 % of a door, 0.4 % in
 /// simulated ones. Stray points lie outside an outline rather than inside.
 const BIAS: f64 = 0.008;
+/// Greatest factor by which turn and shift, which are not known either, increase the variance of the scale. In accepted real frames
+/// it is below 8; where one side of an outline is seen, above 100, and a piece of a door whose scale came out 12 % off had 30.
+const MAX_INFLATION: f64 = 20.0;
 /// Source points used.
 const NUM_SURFACE: usize = 600;
 /// Fewer pairs of edges show no size.
@@ -136,7 +139,9 @@ pub fn scale(
     }
     let (pairs, sums) = last?;
     let num_edges = pairs.iter().filter(|pair| pair.is_edge).count();
-    if (similarity.log_scale - before).abs() > MAX_DRIFT || num_edges < MIN_EDGES {
+    let is_settled = (similarity.log_scale - before).abs() <= MAX_DRIFT;
+    let is_shown = num_edges >= MIN_EDGES && sums.inflation()? <= MAX_INFLATION;
+    if !(is_settled && is_shown) {
         return None;
     }
     let depth_sq: f64 = edges
@@ -311,6 +316,11 @@ impl Sums {
         groups
             .into_iter()
             .map(|((is_edge, ..), sums)| (is_edge, sums))
+    }
+
+    /// Variance of the scale, divided by what it would be if turn and shift were known.
+    fn inflation(&self) -> Option<f64> {
+        Some(self.hold[(6, 6)] * self.hold.cholesky()?.inverse()[(6, 6)])
     }
 
     /// Standard deviation of the scale by errors that whole regions and sides share.
