@@ -14,7 +14,7 @@
 //! The moves before and behind a point that needs too much are slowed until it needs no more than allowed: with the gun
 //! off on both, the faster one first. Where the gun is switched, the move with the gun off is slowed alone if that
 //! helps. With the gun on, the one or both that help most are slowed in small steps, and only as far as the film stays
-//! within its tolerance ([`FilmRoom`](super::FilmRoom)). If the point still needs too much, they keep their speeds.
+//! within its tolerance ([`FilmRoom`]). If the point still needs too much, they keep their speeds.
 //!
 //! No window extends past the ends of the path, past a point where the arm stops, past a turn on the spot, for which it
 //! takes its time, or past a point that cannot be reached from the one before.
