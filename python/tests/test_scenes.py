@@ -160,7 +160,8 @@ def test_an_unknown_simulated_part_is_refused_with_the_names() -> None:
     ],
 )
 def test_a_camera_that_cannot_be_is_warned_of(camera: Camera, message: str) -> None:
-    for depth in [np.full((480, 640), 1500, np.uint16), np.full((480, 640), 1500.0, np.float32)]:
+    for dtype in (np.uint16, np.float32):
+        depth = np.full((480, 640), 1500, dtype)
         with pytest.warns(UserWarning, match=message) as warned:
             scene = partsight.Scene.from_depth(depth, *camera, 0.001, name="frame 7")
         (warning,) = warned
