@@ -37,6 +37,7 @@ use stages::{
     scene::{EmptyCell, SceneCloud},
     stand_off::stand_off,
 };
+use station::doubts_of_result;
 
 /// Write a pose report for captured scenes: which part it is, and its pose in the robot's convention
 #[derive(Debug, Args)]
@@ -237,7 +238,9 @@ impl Reporter<'_> {
             .map(|(reference, pose)| {
                 stand_off(reference, &pose.camera_from_part(), &self.recipe.stand_off)
             });
-        PoseReport::of(&ReportSubject {
+        let doubts = doubts_of_result(inspection);
+        let doubt = doubts.first().map(ToString::to_string);
+        let report = PoseReport::of(&ReportSubject {
             inspected_at: geometry::clock::now(),
             scene: name,
             source: None,
@@ -255,7 +258,8 @@ impl Reporter<'_> {
             num_references: self.load.library.references.len(),
             robot: self.robot.as_ref(),
             convention: self.args.convention,
-        })
+        });
+        report.withheld(doubt.as_deref())
     }
 
     /// Writes all formats, and returns the files.

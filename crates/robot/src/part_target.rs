@@ -16,6 +16,7 @@ use inspection::{
 };
 use stages::{
     confirm::{ConfirmParams, Scene, by_hidden_sides},
+    pose::OffScale,
     rank::Query,
     scene::SceneCloud,
 };
@@ -45,11 +46,19 @@ pub enum NoTarget {
     /// Accepted, but without a pose, or with an ambiguous or approximate one.
     #[error("its pose is not certain")]
     NoPose,
+    /// It is larger or smaller than its reference, so the camera's numbers are wrong.
+    #[error(transparent)]
+    OffScale(OffScale),
 }
 
 impl Advice for NoTarget {
     fn advice(&self) -> String {
-        "Show the camera all of the part from nearly in front, and capture again".into()
+        match self {
+            Self::NotAccepted { .. } | Self::NoPose => {
+                "Show the camera all of the part from nearly in front, and capture again".into()
+            }
+            Self::OffScale(off) => off.advice(),
+        }
     }
 }
 
@@ -75,6 +84,9 @@ pub fn seen_part(
     let pose = pose.filter(|pose| !pose.is_ambiguous());
     let first = inspection.ranking.entries.first();
     let (pose, first) = pose.zip(first).ok_or(NoTarget::NoPose)?;
+    if let Some(off) = pose.off_scale() {
+        return Err(NoTarget::OffScale(off));
+    }
     let reference = library.references.get(first.reference);
     let reference = reference.ok_or(NoTarget::NoPose)?;
     let (low, high) = reference.cloud.bounds().ok_or(NoTarget::NoPose)?;

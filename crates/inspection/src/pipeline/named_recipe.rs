@@ -196,7 +196,7 @@ impl RecipeFile {
     pub fn built_in_named(name: &PartName) -> Option<Self> {
         let notes = match name.as_str() {
             AS_IN_THE_PAPER => {
-                "The paper's matcher, and ICP-GA for the pose: to compare, since it takes parts for others"
+                "The paper's matcher, and ICP-GA for the pose: for comparison, since it accepts far fewer parts"
             }
             _ => "",
         };

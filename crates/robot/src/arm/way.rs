@@ -149,7 +149,7 @@ pub(super) fn way_problem(
     let num = (distance.max(ride) / MAX_STEP[0]).max(angle / MAX_STEP[1]);
     let num = num.ceil().max(1.0);
     let allowed = move_time(from, to, speed);
-    let mut trouble = rail_problem(&placed.arm, ride, allowed);
+    let mut problem = rail_problem(&placed.arm, ride, allowed);
     let allowed = allowed.map(|time| time / num);
     let mut at = start.joints;
     for k in 1..=num as usize {
@@ -160,7 +160,7 @@ pub(super) fn way_problem(
         } else {
             let pose = start.nozzle_towards(end, share);
             let Some(nearest) = nearest(&solver, &pose, &at) else {
-                return trouble.or(Some(PointProblem::OutOfReach));
+                return problem.or(Some(PointProblem::OutOfReach));
             };
             // A collision precedes all other problems, but the arm stops at a limit before it collides. The ends of the
             // move are points, which are tested already.
@@ -171,23 +171,23 @@ pub(super) fn way_problem(
             }
             nearest
         };
-        trouble = trouble.or_else(|| step_problem(&solver, &at, &near, allowed));
+        problem = problem.or_else(|| step_problem(&solver, &at, &near, allowed));
         if k == num as usize {
-            trouble = trouble.or_else(|| arrival_problem(&solver, start, end, &at));
+            problem = problem.or_else(|| arrival_problem(&solver, start, end, &at));
         }
-        if let Some(seconds) = allowed.filter(|_| trouble.is_none()) {
+        if let Some(seconds) = allowed.filter(|_| problem.is_none()) {
             let step = Step {
                 shares: [(k - 1) as f64 / num, share],
                 joints: [at, near],
                 seconds,
             };
             if !step.is_easy(&placed.arm) {
-                trouble = peak_problem(placed, [start, end], step);
+                problem = peak_problem(placed, [start, end], step);
             }
         }
         at = near;
     }
-    trouble
+    problem
 }
 
 /// A step of a straight move.

@@ -35,7 +35,7 @@ pub(super) struct ReferenceCandidate {
     pub(super) cost: f64,
     /// Whether the first of the last levels was run.
     pub(super) is_settled: bool,
-    /// `None` as long as it is not refined to the end.
+    /// `None` until the pose is fully refined.
     pub(super) uncertainty: Option<Uncertainty>,
     pub(super) runner_up: Option<RunnerUp>,
     /// `None` as long as it is not refined to the end.
