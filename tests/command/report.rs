@@ -286,3 +286,36 @@ fn a_disk_that_is_full_leaves_whole_rows_and_the_next_report_is_written() {
     assert_eq!(place.run(&report).code, 0);
     assert_eq!(whole(&table), 3);
 }
+
+#[test]
+fn an_ambiguous_pose_is_in_no_output_a_pose_for_the_robot() {
+    let place = Workplace::new();
+    let cell = "kuka 470 0 1350 -90 0 -90";
+    place.coded(0, &["calibrate", "set", cell, "--mount", "eye-to-hand"]);
+    for (seed, out) in [("3", "enrolled.pcd"), ("8", "turned.pcd")] {
+        let simulate = ["simulate", "--part", "wheel", "--seed", seed];
+        place.accepted(&[&simulate[..], &["--out", out]].concat());
+    }
+    place.accepted(&["enrol", "enrolled.pcd", "--name", "wheel"]);
+    let line = place.accepted(&["inspect", "turned.pcd", "--json"]).json();
+    assert_eq!(line["pose"]["ambiguous"], true, "{line}");
+    assert_eq!(line["robot_doubts"][0], "ambiguous_pose", "{line}");
+    assert!(line.get("robot").is_none(), "{line}");
+    let why = "another pose of the part fits nearly as well";
+    let card = place.accepted(&["inspect", "turned.pcd"]).out;
+    assert!(card.contains(&format!("no pose: {why}")), "{card}");
+    place.accepted(&[
+        "report",
+        "turned.pcd",
+        "--out",
+        "reports",
+        "--format",
+        "json",
+    ]);
+    let report = fs::read_to_string(place.path("reports/turned.pose.json")).expect("written");
+    let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
+    let robot = &report["robot"];
+    assert_eq!(robot["unavailable"], why, "{robot}");
+    assert!(robot["robot_from_part"].is_null(), "{robot}");
+    assert!(robot["robot_offset"].is_null(), "{robot}");
+}
