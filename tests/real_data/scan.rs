@@ -46,12 +46,10 @@ fn near_surface(
     surface: &ShotSurface,
     pose: &RigidTransform,
 ) -> (Vec<Point3<f32>>, Vec<Vector3<f32>>) {
-    // A scan keeps no normals.
-    let surface = ShotSurface::of(&surface.scene).expect("rows and columns");
     let is_near = |i: &usize| surface.uses[*i] == Use::Surface && surface.points()[*i].z < NEAR;
     let near = (0..surface.points().len()).filter(is_near).step_by(5);
     let pose = pose.cast::<f32>();
-    let posed = near.map(|i| (pose * surface.points()[i], pose * surface.normals[i]));
+    let posed = near.map(|i| (pose * surface.points()[i], pose * surface.normal(i)));
     posed.unzip()
 }
 

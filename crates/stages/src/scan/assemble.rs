@@ -65,9 +65,7 @@ pub fn assemble_all(
     count_new(&cloud, &mut scanned);
     let (before, after) = agreement(&mut scanned, &cloud, num_workers);
     for shot in &mut scanned {
-        if let Some(surface) = Arc::get_mut(&mut shot.surface) {
-            surface.drop_normals();
-        }
+        Arc::make_mut(&mut shot.surface).drop_normals();
     }
     let mut scan = Scan {
         shots: scanned,
@@ -292,6 +290,9 @@ fn agreement(
 fn fused(scanned: &mut [ScannedShot], params: &ScanParams) -> FusedCloud {
     for number in voters(scanned) {
         scanned[number].finds_part = true;
+    }
+    for shot in &mut *scanned {
+        Arc::make_mut(&mut shot.surface).keep_cosines();
     }
     let all = scanned.iter().enumerate();
     let used = all.filter(|(_, shot)| shot.excluded.is_none());

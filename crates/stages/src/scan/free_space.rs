@@ -103,7 +103,7 @@ fn seen_at(
     to_from: &RigidTransform,
 ) -> Option<Place> {
     let at = to_from * from.points()[i].cast::<f64>();
-    let normal = to_from.rotation * from.normals[i].cast::<f64>();
+    let normal = to_from.rotation * from.normal(i).cast::<f64>();
     if -normal.dot(&at.coords) < LEAST_FACING * at.coords.norm() {
         return None;
     }
@@ -246,9 +246,10 @@ fn rate(
 
 /// Returns two directions along the part that a shot sees, in camera space; `None` if it sees none.
 fn along_part(shot: &ScannedShot) -> Option<[Vector3<f64>; 2]> {
-    let normals = shot.surface.normals.iter().zip(&shot.segmentation.labels);
-    let of_part = normals.filter(|(_, label)| **label == PointLabel::Part);
-    let sum: Vector3<f64> = of_part.map(|(normal, _)| normal.cast::<f64>()).sum();
+    let labels = shot.segmentation.labels.iter().enumerate();
+    let of_part = labels.filter(|(_, label)| **label == PointLabel::Part);
+    let normals = of_part.map(|(i, _)| shot.surface.normal(i).cast::<f64>());
+    let sum: Vector3<f64> = normals.sum();
     let normal = sum.try_normalize(1e-9)?;
     let right = normal.cross(&Vector3::y()).try_normalize(1e-9)?;
     Some([right, normal.cross(&right)])

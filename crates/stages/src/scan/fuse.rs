@@ -281,7 +281,7 @@ fn mean_of(shots: &[(usize, &ScannedShot)], readings: &[(u64, u32)]) -> Voxel {
         let shot = shots[k].1;
         let one = 1.0 / shot.surface.sigma(i).powi(2);
         let at = shot.base_from_camera * shot.surface.points()[i].cast::<f64>();
-        let facing = shot.base_from_camera.rotation * shot.surface.normals[i].cast::<f64>();
+        let facing = shot.base_from_camera.rotation * shot.surface.normal(i).cast::<f64>();
         point += at.coords * one;
         normal += facing * one;
         weight += one;

@@ -15,7 +15,7 @@ use geometry::{parallel::map_each, rigid::RigidTransform, units::Metres};
 
 /// Readings further apart than this are not on one surface, in metres.
 pub const REACH: f64 = 0.015;
-/// Readings of each shot that are projected into each other shot, approximately.
+/// Readings of each of up to 8 shots that are projected into each other shot, approximately; fewer of more shots.
 const NUM_SAMPLES: usize = 4000;
 /// Fewer pairs than this are not an overlap.
 pub const LEAST_PAIRS: usize = 50;
@@ -70,7 +70,7 @@ pub fn overlap(
 ) -> Agreement {
     let n = surfaces.len();
     let distances = map_each(n, num_workers, |i| {
-        let samples = samples_of(surfaces[i], NUM_SAMPLES);
+        let samples = samples_of(surfaces[i], NUM_SAMPLES * 8 / n.max(8));
         let others = (0..n).map(|j| {
             if i == j {
                 return Vec::new();

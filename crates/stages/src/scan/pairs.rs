@@ -80,8 +80,8 @@ pub(super) fn meet(
         return ProjectedReading::Nothing;
     }
     let seen = to.points()[j].cast::<f64>();
-    let normal = to.normals[j];
-    let own = to_from.rotation * from.normals[i].cast::<f64>();
+    let normal = to.normal(j);
+    let own = to_from.rotation * from.normal(i).cast::<f64>();
     let faces = own.cast::<f32>().dot(&normal) > SAME_FACING;
     let sigma = from.sigma(i).hypot(to.sigma(j));
     let reach = reach.least.max(reach.sigmas * sigma);

@@ -57,7 +57,7 @@ fn is_confirmed(which: usize, voters: &[usize], shots: &[ScannedShot]) -> bool {
         let to_voter = voter.base_from_camera.inverse() * shot.base_from_camera;
         for &i in part.indices.iter().step_by(step) {
             let at = to_voter * shot.surface.points()[i as usize].cast::<f64>();
-            let normal = to_voter.rotation * shot.surface.normals[i as usize].cast::<f64>();
+            let normal = to_voter.rotation * shot.surface.normal(i as usize).cast::<f64>();
             let tolerance = TOLERANCE + 3.0 * voter.surface.noise_at_1m.0 * at.z * at.z;
             let seen = visibility_at(&voter.surface, &at, &normal, tolerance);
             let Visibility::Here(seen) = seen else {

@@ -35,8 +35,8 @@ pub struct ShotSurface {
     pub camera: Intrinsics,
     /// The frame itself.
     pub scene: Arc<SceneCloud>,
-    /// Unit normals towards the camera; zero where `uses` is none. Empty in an assembled scan.
-    pub normals: Vec<Vector3<f32>>,
+    /// What of the normals is kept; the rest is computed again where it is used.
+    kept: KeptNormals,
     /// What each reading is good enough for.
     pub uses: Vec<Use>,
     /// Standard deviation of a reading's depth at 1 m.
@@ -45,6 +45,17 @@ pub struct ShotSurface {
     pub field_of_view: Option<FieldOfView>,
     /// Number of readings good enough for registration.
     pub num_surface: usize,
+}
+
+/// What a shot keeps of its normals. It does not change what they are.
+#[derive(Clone, Debug)]
+enum KeptNormals {
+    /// All of them, for registration, which looks them up many times; as much memory as the points.
+    Normals(Vec<Vector3<f32>>),
+    /// The cosines of the angles at which the camera sees the readings, for fusion.
+    Cosines(Vec<f32>),
+    /// Nothing, in an assembled scan.
+    Nothing,
 }
 
 /// Noise at 1 m to assume if it cannot be measured in the picture.
@@ -79,9 +90,6 @@ impl ShotSurface {
         for row in 0..camera.height {
             for column in 0..camera.width {
                 let i = row * camera.width + column;
-                if !is_finite(&points[i]) {
-                    continue;
-                }
                 if let Some((normal, used)) = plane_at(&camera, points, column, row) {
                     normals[i] = normal;
                     uses[i] = used;
@@ -91,7 +99,7 @@ impl ShotSurface {
         Some(Self {
             camera,
             scene: Arc::clone(scene),
-            normals,
+            kept: KeptNormals::Normals(normals),
             num_surface: uses.iter().filter(|u| **u == Use::Surface).count(),
             uses,
             field_of_view: scene.field_of_view().cloned(),
@@ -99,9 +107,34 @@ impl ShotSurface {
         })
     }
 
-    /// Drops the normals, which only assembling uses, and which take as much memory as the points.
+    /// Keeps of the normals what fusion looks up many times: a third of the memory.
+    pub(super) fn keep_cosines(&mut self) {
+        let cosines = (0..self.points().len()).map(|i| self.cosine(i));
+        self.kept = KeptNormals::Cosines(cosines.collect());
+    }
+
+    /// Keeps nothing of the normals.
     pub(super) fn drop_normals(&mut self) {
-        self.normals = Vec::new();
+        self.kept = KeptNormals::Nothing;
+    }
+
+    /// Returns the unit normal towards the camera; zero where there is no use of the reading.
+    pub fn normal(&self, i: usize) -> Vector3<f32> {
+        if let KeptNormals::Normals(normals) = &self.kept {
+            return normals[i];
+        }
+        let width = self.camera.width;
+        let plane = plane_at(&self.camera, self.points(), i % width, i / width);
+        plane.map_or_else(Vector3::zeros, |(normal, _)| normal)
+    }
+
+    /// Returns the cosine of the angle at which the camera sees a reading.
+    fn cosine(&self, i: usize) -> f32 {
+        if let KeptNormals::Cosines(cosines) = &self.kept {
+            return cosines[i];
+        }
+        let p = &self.points()[i].coords;
+        -self.normal(i).dot(p) / p.norm()
     }
 
     /// Returns the points, row by row; NaN where there is no reading.
@@ -111,9 +144,8 @@ impl ShotSurface {
 
     /// Returns the standard deviation of a reading along its surface's normal, in metres.
     pub(super) fn sigma(&self, i: usize) -> f64 {
-        let p = &self.points()[i];
-        let z = f64::from(p.z);
-        let cosine = f64::from(-self.normals[i].dot(&p.coords) / p.coords.norm());
+        let z = f64::from(self.points()[i].z);
+        let cosine = f64::from(self.cosine(i));
         self.noise_at_1m.0.max(CALIBRATED) * z * z / cosine.max(0.1)
     }
 
@@ -140,7 +172,7 @@ impl ShotSurface {
     }
 }
 
-/// Fits the normal at a reading and decides its use; `None` for a flying pixel.
+/// Fits the normal at a reading and decides its use; `None` for a flying pixel, and where there is no reading.
 fn plane_at(
     camera: &Intrinsics,
     points: &[Point3<f32>],
@@ -148,6 +180,9 @@ fn plane_at(
     row: usize,
 ) -> Option<(Vector3<f32>, Use)> {
     let middle = points[row * camera.width + column];
+    if !is_finite(&middle) {
+        return None;
+    }
     let per_z = 1.0 / f64::from(middle.z);
     // Sums of the least-squares fit of 1/z - 1/z₀ = a·du + b·dv + c, over the readings on the same surface.
     let (mut num, mut su, mut sv, mut suu, mut suv, mut svv) =
@@ -238,10 +273,10 @@ mod tests {
         let at = |column: usize, row: usize| row * 640 + column;
         let inside = at(320, 240);
         assert_eq!(surface.uses[inside], Use::Surface);
-        let off = surface.normals[inside].cast::<f64>().angle(&normal);
+        let off = surface.normal(inside).cast::<f64>().angle(&normal);
         assert!(off.to_degrees() < 0.5, "off by {}", off.to_degrees());
         assert_eq!(surface.uses[at(201, 240)], Use::Edge);
-        let rim = surface.normals[at(201, 240)].cast::<f64>().angle(&normal);
+        let rim = surface.normal(at(201, 240)).cast::<f64>().angle(&normal);
         assert!(rim.to_degrees() < 2.0, "off by {}", rim.to_degrees());
     }
 
@@ -268,6 +303,35 @@ mod tests {
             surface.sigma(20 * 640 + 320),
         );
         assert!(wall > 3.0 * board, "{wall} {board}");
+    }
+
+    #[test]
+    fn normals_are_the_same_to_the_bit_whatever_is_kept_of_them() {
+        let (scene, _) = board_before_wall();
+        let kept = ShotSurface::of(&Arc::new(scene)).expect("a picture");
+        let (mut cosines, mut dropped) = (kept.clone(), kept.clone());
+        cosines.keep_cosines();
+        dropped.drop_normals();
+        let num_bytes = |surface: &ShotSurface| match &surface.kept {
+            KeptNormals::Normals(all) => size_of_val(all.as_slice()),
+            KeptNormals::Cosines(all) => size_of_val(all.as_slice()),
+            KeptNormals::Nothing => 0,
+        };
+        let found = [&kept, &cosines, &dropped].map(num_bytes);
+        assert_eq!(found, [12, 4, 0].map(|each| each * 640 * 480));
+        let bits = |surface: &ShotSurface, i: usize| {
+            let normal = surface.normal(i);
+            let normal = [normal.x, normal.y, normal.z].map(f32::to_bits);
+            (normal, surface.sigma(i).to_bits())
+        };
+        let used = (0..640 * 480).filter(|i| kept.uses[*i] != Use::None);
+        let mut num = 0;
+        for i in used.step_by(7) {
+            assert_eq!(bits(&cosines, i), bits(&kept, i));
+            assert_eq!(bits(&dropped, i), bits(&kept, i));
+            num += 1;
+        }
+        assert!(num > 30_000, "{num} readings");
     }
 
     #[test]
