@@ -6,10 +6,13 @@
 //! Score and verdict follow from this evidence as for a single frame. The pose's bounds include how far the robot's poses of
 //! the frames disagree, and how far from there the frames put the part that accept it by themselves.
 
+mod placements;
+
 use nalgebra::{Point3, Vector3};
 use rand::{SeedableRng as _, seq::SliceRandom as _};
 use rand_pcg::Pcg64;
 
+use self::placements::{Placement, disagreement};
 use super::{
     Cancelled, Inspection, ProgressObserver, Recipe, Unrecognisable, Verdict, run,
     unsound::refuse_unsound, verdict::verdict,
@@ -17,7 +20,7 @@ use super::{
 use crate::library::Library;
 use geometry::{
     nearest::KdTree,
-    rigid::{PoseDelta, RigidTransform, pose_error},
+    rigid::{PoseDelta, RigidTransform},
     units::{Metres, Radians},
 };
 use stages::{
@@ -116,19 +119,16 @@ pub fn run_scan(
         if let Some(pose) = &mut entry.pose {
             // The part is no better placed in the base frame than the robot's poses agree.
             let apart = middle.map(|middle| {
-                let of_frames = frames.iter().filter_map(|frame| {
-                    own_placement(
-                        scan,
-                        frame,
-                        entry.reference,
-                        &pose.target_from_source,
-                        &middle,
-                    )
-                });
-                of_frames.fold(scan.disagreement(&middle), larger)
+                apart(
+                    scan,
+                    &frames,
+                    entry.reference,
+                    &pose.target_from_source,
+                    &middle,
+                )
             });
-            let bounds = pose.uncertainty.zip(apart.as_ref());
-            pose.uncertainty = bounds.map(|(bounds, apart)| bounds.widened(apart));
+            let bounds = pose.uncertainty.zip(apart);
+            pose.uncertainty = bounds.map(|(bounds, apart)| bounds.widened(&apart));
             pose.target_from_source *= base_from_first;
             for step in &mut pose.iterations {
                 step.target_from_source *= base_from_first;
@@ -158,38 +158,30 @@ pub fn run_scan(
     })
 }
 
-fn larger(a: PoseDelta, b: PoseDelta) -> PoseDelta {
-    PoseDelta {
-        rotation: Radians(a.rotation.0.max(b.rotation.0)),
-        shift: Metres(a.shift.0.max(b.shift.0)),
-    }
-}
-
-/// Returns how much further from this pose a frame by itself and the robot's pose of it put a reference than the frame's own
-/// bounds explain; `None` if it does not accept the reference by itself. `middle` is the middle of the part, base frame.
-///
-/// The frames' surfaces can be aligned to each other with poses that disagree along them: the part in each frame shows it.
-fn own_placement(
+/// Returns how far the robot's poses of the frames disagree about where a reference is. `middle` is the middle of the part,
+/// base frame.
+fn apart(
     scan: &Scan,
-    frame: &FrameFinding,
+    frames: &[FrameFinding],
     reference: usize,
     part_from_base: &RigidTransform,
     middle: &Point3<f64>,
-) -> Option<PoseDelta> {
-    let own = frame.ranking.entries.first();
-    let own = own.filter(|own| frame.is_accepted && own.reference == reference)?;
-    let pose = own.pose.as_ref()?;
-    let bounds = pose.bounds()?;
-    let given = scan.shots[frame.number].given;
-    let apart = pose_error(
-        &(given * pose.camera_from_part()),
-        &part_from_base.inverse(),
-        &(part_from_base * middle),
-    );
-    Some(PoseDelta {
-        rotation: Radians((apart.rotation.0 - bounds.turn.0).max(0.0)),
-        shift: Metres((apart.shift.0 - bounds.shift.0).max(0.0)),
-    })
+) -> PoseDelta {
+    let accepted = frames.iter().filter_map(|frame| {
+        let own = frame.ranking.entries.first();
+        let own = own.filter(|own| frame.is_accepted && own.reference == reference)?;
+        let given = &scan.shots[frame.number].given;
+        let pose = own.pose.as_ref()?;
+        Placement::of(frame.number, given, pose, part_from_base, middle)
+    });
+    let placements: Vec<Placement> = accepted.collect();
+    let numbers = [frames.first(), frames.last()].map(|frame| frame.map_or(0, |f| f.number));
+    let by_poses = scan.disagreement(middle);
+    let by_themselves = disagreement(&placements, numbers);
+    PoseDelta {
+        rotation: Radians(by_poses.rotation.0.max(by_themselves.rotation.0)),
+        shift: Metres(by_poses.shift.0.max(by_themselves.shift.0)),
+    }
 }
 
 fn nothing_in_common(recipe: &Recipe) -> NoPart {
@@ -453,56 +445,82 @@ mod tests {
         fixtures::shipped_library,
         pipeline::{Rejection, Unwatched},
     };
+    use geometry::rigid::pose_error;
     use simulate::{PartKind, ScanSetup, Side, SimulatedObject, SimulatedScan};
     use stages::{
         scan::{ScanParams, Shot, Unwatched as UnwatchedScan, assemble},
         scene::scene_from_frame,
     };
 
-    #[test]
-    fn a_drift_of_the_poses_is_in_the_bounds() {
+    /// Inspects a scan of a front door at the right poses, and at poses that drift by so many millimetres a frame.
+    fn inspected(num_shots: usize, seed: u64, drift_mm: [f64; 3]) -> [ScanInspection; 2] {
         let simulated = SimulatedScan::new(ScanSetup {
             subject: SimulatedObject::Part {
                 kind: PartKind::FrontDoor,
                 side: Side::Left,
                 model_seed: 0,
             },
-            num_shots: 3,
+            num_shots,
             place_error: Metres(0.0),
             turn_error: Radians(0.0),
             noise: 1.0,
-            seed: 4,
+            seed,
         });
         let frames = simulated.shots();
         let library = shipped_library();
-        let inspected = |drift_mm: f64| {
+        [0.0, 1e-3].map(|metres| {
             let shots = frames.iter().enumerate().map(|(k, shot)| Shot {
                 name: format!("shot {k}"),
                 scene: Arc::new(scene_from_frame(&shot.frame)),
-                base_from_camera: Translation3::new(0.0, 0.0, 1e-3 * drift_mm * k as f64)
+                base_from_camera: Translation3::from(Vector3::from(drift_mm) * (metres * k as f64))
                     * shot.base_from_camera,
             });
             let shots: Vec<Shot> = shots.collect();
             let scan = assemble(&shots, &ScanParams::default(), &UnwatchedScan).expect("a scan");
             run_scan(&scan, &library, &Recipe::default(), &Unwatched).expect("not cancelled")
-        };
-        let (right, drifted) = (inspected(0.0), inspected(12.0));
+        })
+    }
+
+    fn bound_mm(found: &ScanInspection) -> f64 {
+        let pose = found.inspection.found_pose().expect("a pose");
+        pose.bounds().expect("bounds").shift.mm()
+    }
+
+    fn apart_mm(found: &[ScanInspection; 2]) -> f64 {
+        let [a, b] = found
+            .each_ref()
+            .map(|found| found.base_from_part.expect("a pose"));
+        pose_error(&a, &b, &Point3::new(0.0, 0.0, 1.3)).shift.mm()
+    }
+
+    fn assert_uncertain(found: &ScanInspection) {
+        let why = found.inspection.verdict.rejected();
+        assert!(matches!(why, Some(Rejection::Uncertain { .. })), "{why:?}");
+    }
+
+    #[test]
+    fn a_drift_of_the_poses_is_in_the_bounds() {
+        let found = inspected(3, 4, [0.0, 0.0, 12.0]);
+        let ([right, drifted], off) = (&found, apart_mm(&found));
         assert!(right.inspection.verdict.is_accepted());
-        let bound = |found: &ScanInspection| {
-            let pose = found.inspection.found_pose().expect("a pose");
-            pose.bounds().expect("bounds").shift.mm()
-        };
-        assert!(bound(&right) < 5.0, "{}", bound(&right));
-        let pose = |found: &ScanInspection| found.base_from_part.expect("a pose");
-        let middle = Point3::new(0.0, 0.0, 1.3);
-        let off = pose_error(&pose(&right), &pose(&drifted), &middle)
-            .shift
-            .mm();
+        assert!(bound_mm(right) < 5.0, "{}", bound_mm(right));
         // The refined poses are the mean of 0, 12 and 24 mm.
         assert!((10.0..14.0).contains(&off), "{off}");
         // Beside the poses, noise moves the result by half a millimetre.
-        assert!(bound(&drifted) + 0.5 >= off, "{} {off}", bound(&drifted));
-        let why = drifted.inspection.verdict.rejected();
-        assert!(matches!(why, Some(Rejection::Uncertain { .. })), "{why:?}");
+        let bound = bound_mm(drifted);
+        assert!(bound + 0.5 >= off, "{bound} {off}");
+        assert_uncertain(drifted);
+    }
+
+    #[test]
+    fn a_drift_along_the_part_is_in_the_bounds_though_the_refinement_absorbs_it() {
+        let found = inspected(4, 2, [0.0, 6.0, 0.0]);
+        let ([right, drifted], off) = (&found, apart_mm(&found));
+        assert!(right.inspection.verdict.is_accepted());
+        // The mean of 0, 6, 12 and 18 mm. The farthest frame by itself explains 8.3 mm.
+        assert!((8.4..10.5).contains(&off), "{off}");
+        let bound = bound_mm(drifted);
+        assert!(bound >= off, "{bound} {off}");
+        assert_uncertain(drifted);
     }
 }
