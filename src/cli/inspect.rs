@@ -11,7 +11,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use clap::{ArgGroup, Args};
+use clap::Args;
 
 use self::session::{InspectSession, Opened};
 use super::{
@@ -30,11 +30,10 @@ use super::{
 use capture::{FeedItem, SourceSpec};
 use inspection::pipeline::MirrorTally;
 use records::report::ReportFolder;
-use station::{CameraScenes, PartFollower, Subject};
+use station::{CameraScenes, NewFrame, PartFollower, Subject};
 
 /// Recognise the part in captured scenes and say where it is
 #[derive(Debug, Args)]
-#[command(group(ArgGroup::new("robot_file").multiple(true)))]
 #[command(after_help = "\
 Examples:
   partsight inspect door.pcd
@@ -149,6 +148,10 @@ fn check_outputs(args: &InspectArgs) -> anyhow::Result<()> {
             "--program and --spray cannot be used together",
             "Run inspect once for each",
         )),
+        _ if args.program.is_forced() && args.source.is_some() => Err(advised_error(
+            "--force takes a capture's file or a scan, not a source",
+            "Leave it out: what a source delivers is not old, and other doubts need another capture",
+        )),
         _ => Ok(()),
     }
 }
@@ -164,6 +167,12 @@ fn inspect(
     let database = args.history_to.chosen(console)?;
     let (place, load) = (args.library).load_placed(&recipe.reference_params(), console)?;
     let robot = args.calibration.frame(console)?;
+    if args.program.is_forced() && robot.is_none() {
+        return Err(advised_error(
+            "--force needs to know where the camera sits in the robot's cell",
+            "Name a calibration with --calibration, or make one: partsight calibrate",
+        ));
+    }
     let publisher = ChosenPublisher::new(&args.publish, &place, &load, robot.as_ref(), console)?;
     let (files, frame) = (&args.files, robot.as_ref());
     let (spray, program) = if args.program.is_wanted() {
@@ -183,8 +192,7 @@ fn inspect(
     let report = report.transpose().advised()?;
     let empty_cell = args.empty_cell.open(console)?;
     let publisher = publisher
-        .zip(args.source.as_ref())
-        .map(|(publisher, source)| publisher.start(source, &load, &trace, console))
+        .map(|publisher| publisher.start(&load, &trace, console))
         .transpose()?;
     let recording = (!args.no_history)
         .then(|| HistoryRecorder::start(&args.history, &load, &trace, database, console))
@@ -201,6 +209,7 @@ fn inspect(
         },
         empty_cell,
         robot,
+        is_forced: args.program.is_forced(),
         spray,
         program,
         format,
@@ -260,24 +269,23 @@ fn inspect_source(
     inspector: &mut InspectSession,
     console: &mut Console,
 ) -> anyhow::Result<Outcome> {
-    let text = source.to_string();
+    let rule = NewFrame::of_source(source);
     let mut outcome = Outcome::Accepted;
     let mut num_inspected = 0;
     let status = follow(source, console, |item, status, console| {
         let is_enough = frames.is_some_and(|frames| num_inspected >= frames);
         if let Some(publisher) = &mut inspector.publisher {
             publisher.look(&status.state, console);
-            match &item {
-                _ if is_enough => {}
-                Some(FeedItem::Captured(captured)) => publisher.begin(captured),
-                Some(FeedItem::Skipped(skipped)) => publisher.skipped(skipped),
-                None => {}
+            if let Some(FeedItem::Skipped(skipped)) = &item
+                && !is_enough
+            {
+                publisher.skipped(skipped);
             }
         }
         let one = match item {
             None => return Ok(ControlFlow::Continue(())),
             Some(FeedItem::Captured(captured)) if is_enough => {
-                let subject = Subject::of_capture(&captured, &text, status.num_dropped);
+                let subject = Subject::of_capture(&captured, source, status.num_dropped);
                 let path = Path::new(&captured.name).to_owned();
                 let scene = scene_of(captured, &mut inspector.scenes, console);
                 inspector.check_waiting(
@@ -285,6 +293,7 @@ fn inspect_source(
                         path: &path,
                         scene,
                         subject,
+                        captured: None,
                     },
                     console,
                 )?
@@ -299,8 +308,9 @@ fn inspect_source(
                     console.note(&"Simulated: no camera is read.");
                 }
                 num_inspected += 1;
-                let subject = Subject::of_capture(&captured, &text, status.num_dropped);
+                let subject = Subject::of_capture(&captured, source, status.num_dropped);
                 let path = Path::new(&captured.name).to_owned();
+                let captured_at = rule.captured_at(&captured);
                 inspector.frame(&path, console, |one, console| {
                     let scene = scene_of(captured, &mut one.scenes, console);
                     one.inspect_scene(
@@ -308,6 +318,7 @@ fn inspect_source(
                             path: &path,
                             scene,
                             subject,
+                            captured: Some(captured_at),
                         },
                         console,
                     )
@@ -322,9 +333,7 @@ fn inspect_source(
             _ => ControlFlow::Continue(()),
         })
     })?;
-    if console.is_writable() {
-        outcome = outcome.max(inspector.show_waiting(source.is_replayed(), console)?);
-    }
+    outcome = outcome.max(inspector.show_waiting(source.is_replayed(), console)?);
     let (dropped, skipped) = (status.num_dropped, status.num_skipped);
     console.note(&format_args!(
         "{num_inspected} inspected, {dropped} dropped, {skipped} could not be read"

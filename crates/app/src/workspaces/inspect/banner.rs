@@ -15,7 +15,7 @@ use shell::{
     session::{Session, Source, UserRole},
     source::live::SourceState,
 };
-use station::Currency;
+use station::Doubt;
 use texts::Described as _;
 use ui::{
     language::{library_text, text},
@@ -148,7 +148,7 @@ impl Banner {
         // What is shown may be of another source, or from before this one was followed. After Live, the line may have gone on;
         // a frame without a verdict already says that Live was stopped.
         let shown = session.shown.as_ref().filter(|shown| {
-            let is_current = session.currency(&shown.inspected) != Currency::Superseded;
+            let is_current = session.currency(&shown.inspected) != Some(Doubt::Superseded);
             let says_itself = shown.is_past || shown.inspected.is_open();
             is_current || says_itself && !shown.is_outdated
         });
