@@ -44,6 +44,7 @@ Examples:
   partsight inspect door.pcd --empty-cell cell.pcd
   partsight inspect door.pcd --matcher paper --pose icp-ga
   partsight inspect door.pcd --json --calibration cell.toml
+  partsight inspect last-week/*.png --json --calibration cell.toml --force
   partsight inspect door.pcd --calibration cell.toml --spray path.csv --spray-as kuka
   partsight inspect door.pcd --calibration cell.toml --program paint.src --tool 3
   partsight inspect --scan frames/ --poses poses.json --json
@@ -55,6 +56,8 @@ Clouds are in metres, unless --units says otherwise. The JSON has width, height,
 may have k1 k2 p1 p2 k3 k4 k5 k6 (OpenCV's lens distortion), \"mirrored\": true (left and right are swapped in the image)
 and \"rotated\": 90, 180 or 270 (degrees clockwise to turn the image by). All of these refer to the image as it is stored.
 Exit codes: 0 every input accepted, 1 something was not accepted, 2 something could not be read.
+A robot must not act on an old capture, an ambiguous pose or a scan that contradicts itself: there is no pose for it then, and
+robot_doubts in the JSON says why. --force gives it nevertheless, of files and scans, with its doubts.
 If the library is empty or cannot be loaded, nothing is inspected: one error, no line of JSON, exit code 2.
 With --source: follows a camera, a recording or a folder until it ends, until --frames were inspected, or until Ctrl-C.
 A live camera gives its newest frame, and those in between are dropped; every frame of a recording or folder is inspected.
@@ -333,7 +336,11 @@ fn inspect_source(
             _ => ControlFlow::Continue(()),
         })
     })?;
-    outcome = outcome.max(inspector.show_waiting(source.is_replayed(), console)?);
+    let is_shown = console.is_writable();
+    let waiting = inspector.show_waiting(source.is_replayed(), console)?;
+    if is_shown {
+        outcome = outcome.max(waiting);
+    }
     let (dropped, skipped) = (status.num_dropped, status.num_skipped);
     console.note(&format_args!(
         "{num_inspected} inspected, {dropped} dropped, {skipped} could not be read"

@@ -382,6 +382,7 @@ mod tests {
 
     use super::*;
     use crate::Subject;
+    use capture::fixtures::captured;
     use inspection::{
         fixtures::shipped_library,
         library::Library,
@@ -568,6 +569,22 @@ mod tests {
                 let words = unchecked.to_string();
                 assert!(contains(&path, &words), "{name}: {words}");
             }
+        }
+    }
+
+    #[test]
+    fn a_file_of_a_replayed_frame_says_that_it_was_recorded_earlier() {
+        let bench = Bench::new();
+        let folder = tempfile::tempdir().expect("a folder");
+        let frame = captured(1, geometry::clock::now());
+        let recording = "recording:monday".parse().expect("a source");
+        let replayed = Subject::of_capture(&frame, &recording, 0);
+        for name in NAMES {
+            let path = folder.path().join(name);
+            bench.file(&path, &fresh()).write().expect("written");
+            assert!(!contains(&path, "recorded earlier"), "{name}");
+            bench.file(&path, &replayed).write().expect("written");
+            assert!(contains(&path, "recorded earlier"), "{name}");
         }
     }
 }

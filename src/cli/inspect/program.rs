@@ -30,7 +30,7 @@ pub(super) struct ProgramChoice {
 fn program_help() -> String {
     let endings = RobotLanguage::ENDINGS.map(|ending| format!(".{ending}"));
     format!(
-        "Write the part's stored spray path as a program for the robot's controller, named like the file: {}. Needs a calibration and one file. Nothing is written if the part is not accepted, if another pose fits nearly as well, if the capture is older than 10 minutes or dated later than now, if the path does not aim at the part, if --arm does not reach every point, or if the program would leave a worse film than planned",
+        "Write the part's stored spray path as a program for the robot's controller, named like the file: {}. Needs a calibration and one file. Nothing is written if a robot must not act on the result, for instance because the capture is older than 10 minutes, if the path does not aim at the part, if --arm does not reach every point, or if the program would leave a worse film than planned",
         any_of(&endings)
     )
 }

@@ -24,8 +24,8 @@ use station::{
 #[derive(Debug, Args)]
 pub(super) struct SprayChoice {
     /// Write the part's stored spray path, moved to where the part hangs now, in the robot's base frame: .csv or .json.
-    /// Needs a calibration and one file. Nothing is written if the part is not accepted, if another pose fits nearly as
-    /// well, if the capture is older than 10 minutes or dated later than now, or if the path does not aim at the part
+    /// Needs a calibration and one file. Nothing is written if a robot must not act on the result, for instance because the
+    /// capture is older than 10 minutes, or if the path does not aim at the part
     #[arg(long, value_name = "FILE")]
     spray: Option<PathBuf>,
     /// Convention of the poses in that file

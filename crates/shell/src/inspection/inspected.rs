@@ -130,6 +130,13 @@ impl Inspected {
         entry
     }
 
+    /// Sets where the scene came from.
+    #[cfg(any(test, feature = "fixtures"))]
+    pub fn set_origin(&mut self, origin: Origin) {
+        self.subject = origin.subject(self.subject.source.clone());
+        self.origin = origin;
+    }
+
     /// Sets when the scene was captured, if it was not just taken.
     pub fn set_captured_at(&mut self, at: SystemTime) {
         self.captured_at = at;
