@@ -17,9 +17,10 @@ mod outline_shift;
 mod piece_search;
 mod prepared_scene;
 
+pub(crate) use self::evidence::facing_view;
 use self::{
     candidate::ReferenceCandidate,
-    evidence::{facing_view, most_score},
+    evidence::most_score,
     outline_ends::outline_of,
     outline_shift::edges_of_part,
     prepared_scene::{PreparedScene, thinned_source},

@@ -5,6 +5,7 @@
 
 mod cloud;
 mod kept;
+mod mesh;
 mod own_pose;
 mod problem;
 mod scan;
@@ -18,10 +19,11 @@ use self::{
         without_isolated,
     },
     kept::{share_apart, share_on_background},
+    mesh::MeshSurface,
     own_pose::pose_warning,
 };
 pub use self::{
-    problem::{EnrolError, EnrolWarning},
+    problem::{EnrolError, EnrolFinding, EnrolWarning},
     scan::enrol_scan,
 };
 use super::{
@@ -91,6 +93,8 @@ pub struct Enrolled {
     pub reference: Reference,
     /// The part in the captured scene that it was cut out of; `None` if it was not cut out of one.
     pub seen: Option<SegmentedPart>,
+    /// What a mesh was found to be.
+    pub findings: Vec<EnrolFinding>,
     /// Warnings about the part.
     pub warnings: Vec<EnrolWarning>,
 }
@@ -198,6 +202,7 @@ fn enrol_one_side(
         num_shots: None,
         voxel: Some(voxel),
         cut: ViewCut::of(found, scene),
+        one_layer: None,
     };
     let mut enrolled = assemble(cloud, &source, about, params)?;
     enrolled.seen = Some(found.clone());
@@ -251,30 +256,32 @@ pub fn enrol_whole(
         num_shots: None,
         voxel: Some(voxel),
         cut: ViewCut::default(),
+        one_layer: None,
     };
     assemble(thin, &source, about, params)
 }
 
-/// Enrols an evenly sampled mesh.
+/// Enrols a mesh: what cameras can see of it from all around, whichever way its triangles are wound.
 pub fn enrol_mesh(
     mesh: &TriangleMesh,
     about: &PartDescription,
     params: &EnrolParams,
 ) -> Result<Enrolled, EnrolError> {
-    let cloud = mesh
-        .sample_evenly(params.max_points, 1)
-        .ok_or(EnrolError::NoArea {
-            num_triangles: mesh.triangles.len(),
-        })?;
+    let surface = MeshSurface::of(mesh, params.max_points).ok_or(EnrolError::NoArea {
+        num_triangles: mesh.triangles.len(),
+    })?;
     let source = ReferenceOrigin {
         coverage: Coverage::AllAround,
         how: EnrolMethod::Mesh,
-        num_points: cloud.points.len(),
+        num_points: surface.cloud.points.len(),
         num_shots: None,
         voxel: None,
         cut: ViewCut::default(),
+        one_layer: Some(surface.one_layer),
     };
-    assemble(cloud, &source, about, params)
+    let mut enrolled = assemble(surface.cloud, &source, about, params)?;
+    enrolled.findings = surface.findings;
+    Ok(enrolled)
 }
 
 /// Facts about the origin of a reference's cloud.
@@ -285,6 +292,8 @@ struct ReferenceOrigin {
     num_shots: Option<usize>,
     voxel: Option<Metres>,
     cut: ViewCut,
+    /// The surface once, where the cloud has both sides of it.
+    one_layer: Option<PointCloud>,
 }
 
 fn assemble(
@@ -311,8 +320,11 @@ fn assemble(
         .collect();
     let mut side = None;
     if source.coverage == Coverage::AllAround {
-        let points: Vec<Point3<f64>> = cloud.points.iter().map(|p| p.cast()).collect();
-        let normals: Vec<Vector3<f64>> = cloud.normals.iter().flatten().map(|n| n.cast()).collect();
+        let PointCloud {
+            points, normals, ..
+        } = source.one_layer.as_ref().unwrap_or(&cloud);
+        let points: Vec<Point3<f64>> = points.iter().map(|p| p.cast()).collect();
+        let normals: Vec<Vector3<f64>> = normals.iter().flatten().map(|n| n.cast()).collect();
         match outer_side(&points, &normals) {
             Ok(outer) => side = Some(outer),
             Err(sides) => warnings.push(EnrolWarning::SideUnclear { sides }),
@@ -350,6 +362,7 @@ fn assemble(
     };
     Ok(Enrolled {
         part,
+        findings: Vec::new(),
         warnings,
         reference,
         seen: None,
