@@ -1,14 +1,14 @@
 //! OBJ: vertices and polygons as text.
 //!
 //! Source: Wavefront's *Advanced Visualizer Manual*, appendix B1. `v` and `f` of all objects and groups are read together;
-//! polygons are split into fans about their first corner. An OBJ without faces is a cloud. Texture coordinates, normals,
+//! polygons are split into triangles. An OBJ without faces is a cloud. Texture coordinates, normals,
 //! materials, lines and curves are ignored.
 
 use super::error::FileError;
 use super::open::FileContent;
 use super::readings::tidy;
 use super::source::Source;
-use super::surface::{checked_mesh, point_of, push_fan};
+use super::surface::{Triangulation, checked_mesh, point_of};
 use geometry::cloud::PointCloud;
 
 /// Returns true if the first line that is neither empty nor a comment begins with a keyword of the format.
@@ -29,6 +29,7 @@ pub(super) fn is_obj(source: Source<'_>) -> bool {
 pub(super) fn read(source: Source<'_>) -> Result<FileContent, FileError> {
     let mut points = Vec::new();
     let mut triangles = Vec::new();
+    let mut triangulation = Triangulation::default();
     let mut statement = String::new();
     for (number, line) in source.lines() {
         // A backslash at the end continues a line on the next one.
@@ -60,7 +61,7 @@ pub(super) fn read(source: Source<'_>) -> Result<FileContent, FileError> {
                         "f and three vertices or more that come before it",
                     )
                 })?;
-                push_fan(&polygon, &mut triangles);
+                triangulation.push(source, &polygon, &points, &mut triangles)?;
                 source.limited("triangles", triangles.len())?;
             }
             _ => {}

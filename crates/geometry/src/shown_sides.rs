@@ -10,14 +10,15 @@ use crate::{
     mesh::TriangleMesh,
     parallel::{map_each, num_cores},
     statistics::even_directions,
+    units::Metres,
 };
 
 /// Each is looked along both ways.
 const NUM_AXES: usize = 48;
 /// Pixels along the diagonal of the mesh.
 const NUM_PIXELS: f64 = 1000.0;
-/// Depth by which a surface must be nearer to hide a point, metres: less than the thickness of sheet metal.
-const MIN_HIDING_M: f64 = 2e-4;
+/// Depth by which a surface must be nearer to hide a point: less than the thickness of sheet metal.
+pub const MIN_HIDING: Metres = Metres(2e-4);
 /// The same as a share of the mesh's diagonal, where rounding of large coordinates is more.
 const MIN_HIDING_SHARE: f64 = 2e-6;
 /// Slack of the test whether a pixel is in a triangle, so that no gap opens between neighbours.
@@ -28,15 +29,17 @@ const MIN_FACING: f64 = 0.4;
 const MIN_SHOWN_SHARE: f64 = 0.15;
 
 /// Returns for each point on the surface, given with the unit normal of its triangle, whether a camera can see it from the side
-/// that the normal points to, and from the other side.
+/// that the normal points to, and from the other side. What is nearer by less than `min_hiding` hides nothing: [`MIN_HIDING`] for
+/// an exact mesh.
 pub fn shown_sides(
     mesh: &TriangleMesh,
     points: &[Point3<f32>],
     normals: &[Vector3<f32>],
+    min_hiding: Metres,
 ) -> Vec<[bool; 2]> {
     let axes: Vec<Vector3<f64>> = even_directions(2 * NUM_AXES).take(NUM_AXES).collect();
     let seen = map_each(axes.len(), num_cores(), |i| {
-        let range = DepthRange::along(axes[i], mesh);
+        let range = DepthRange::along(axes[i], mesh, min_hiding);
         let of_point = |(p, n): (&Point3<f32>, &Vector3<f32>)| range.shows(&p.cast(), &n.cast());
         points.iter().zip(normals).map(of_point).collect::<Vec<_>>()
     });
@@ -70,7 +73,7 @@ struct DepthRange {
 }
 
 impl DepthRange {
-    fn along(axis: Vector3<f64>, mesh: &TriangleMesh) -> Self {
+    fn along(axis: Vector3<f64>, mesh: &TriangleMesh, min_hiding: Metres) -> Self {
         let right = axis.cross(&Vector3::ith(axis.iamin(), 1.0)).normalize();
         let down = axis.cross(&right);
         let in_image = |p: &Point3<f32>| {
@@ -96,7 +99,7 @@ impl DepthRange {
             width,
             height,
             depths: vec![[f32::INFINITY, f32::NEG_INFINITY]; width * height],
-            min_hiding: MIN_HIDING_M.max(MIN_HIDING_SHARE * f64::from(diagonal)),
+            min_hiding: min_hiding.0.max(MIN_HIDING_SHARE * f64::from(diagonal)),
         };
         for triangle in &mesh.triangles {
             range.draw(triangle.map(|corner| corners[corner as usize]));
@@ -191,7 +194,8 @@ mod tests {
     /// Shares of the surface shown on the side of its normals, on the other, on both, and on none.
     fn shares(mesh: &TriangleMesh) -> [f64; 4] {
         let cloud = mesh.sample_evenly(4000, 1).expect("an area");
-        let shown = shown_sides(mesh, &cloud.points, &cloud.normals.expect("normals"));
+        let normals = cloud.normals.expect("normals");
+        let shown = shown_sides(mesh, &cloud.points, &normals, MIN_HIDING);
         let share = |of: [bool; 2]| {
             let num = shown.iter().filter(|shown| **shown == of).count();
             num as f64 / shown.len() as f64

@@ -219,6 +219,9 @@ pub fn confirm(
         }
         sort_by_score(&mut tried);
     }
+    if let Some((first, candidate)) = tried.first_mut().and_then(Tried::finished) {
+        candidate.scale = seen.scale(&references[first], candidate);
+    }
     // Those that were not looked at stay behind those that were.
     let others = others.iter().map(|entry| ConfirmedMatch {
         score: 0.0,
@@ -364,6 +367,13 @@ struct Tried<'a> {
 }
 
 impl Tried<'_> {
+    /// Its reference, and its candidate if that is refined to the end.
+    fn finished(&mut self) -> Option<(usize, &mut ReferenceCandidate)> {
+        let candidate = self.candidate.as_mut()?;
+        let is_finished = candidate.uncertainty.is_some();
+        is_finished.then_some((self.entry.reference, candidate))
+    }
+
     fn confirmed(self) -> ConfirmedMatch {
         let Self {
             entry,

@@ -15,11 +15,11 @@ use nalgebra::{Point3, Vector3};
 
 use self::{
     cloud::{
-        face_one_way, finite_only, is_one_capture, middle, normals_towards, thinned,
+        face_one_way, finite_only, is_one_capture, normals_towards, spacing, thinned,
         without_isolated,
     },
     kept::{share_apart, share_on_background},
-    mesh::MeshSurface,
+    mesh::{MeshSurface, with_shown_sides},
     own_pose::pose_warning,
 };
 pub use self::{
@@ -215,8 +215,8 @@ fn enrol_one_side(
 /// Enrols all points of a cloud.
 ///
 /// A few isolated points are dropped. A cloud that lies in front of the camera, with normals (if any) that face it, counts
-/// as one capture. Of any other, missing normals are estimated and turned away from the cloud's middle, which is right for
-/// a convex part and a guess otherwise. If the normals face one way, it counts as seen from several sides, else from all
+/// as one capture. Of any other, missing normals are estimated, and turned to where a camera could see the point from; where it could
+/// from both sides, it gets both. If the normals face one way, it counts as seen from several sides, else from all
 /// around.
 pub fn enrol_whole(
     cloud: &PointCloud,
@@ -234,21 +234,24 @@ pub fn enrol_whole(
     let is_one_capture = is_one_capture(&finite);
     let (thin, voxel) = thinned(&finite, params);
     let mut thin = without_isolated(thin, voxel);
-    let normals = thin.normals.take().unwrap_or_else(|| {
-        if is_one_capture {
-            return normals_towards(&thin, voxel, &Point3::origin());
-        }
-        let inward = normals_towards(&thin, voxel, &middle(&thin)).into_iter();
-        inward.map(|inward| -inward).collect()
-    });
+    if thin.normals.is_none() {
+        let normals = normals_towards(&thin, voxel, &Point3::origin());
+        thin = if is_one_capture {
+            PointCloud {
+                normals: Some(normals),
+                ..thin
+            }
+        } else {
+            with_shown_sides(&thin, normals, Metres(voxel.0.max(spacing(&thin.points))))
+        };
+    }
     let coverage = if is_one_capture {
         Coverage::OneSide
-    } else if face_one_way(&normals) {
+    } else if thin.normals.as_deref().is_some_and(face_one_way) {
         Coverage::SeveralSides
     } else {
         Coverage::AllAround
     };
-    thin.normals = Some(normals);
     let source = ReferenceOrigin {
         coverage,
         how: EnrolMethod::WholeCloud,

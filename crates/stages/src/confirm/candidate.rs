@@ -38,7 +38,7 @@ pub(super) struct ReferenceCandidate {
     /// `None` until the pose is fully refined.
     pub(super) uncertainty: Option<Uncertainty>,
     pub(super) runner_up: Option<RunnerUp>,
-    /// `None` as long as it is not refined to the end.
+    /// `None` unless it is the best one and refined to the end.
     pub(super) scale: Option<ScaleEstimate>,
     /// The score of the best other pose, 0 if none was weighed.
     pub(super) rival: f64,

@@ -1,9 +1,14 @@
-//! The surface of a mesh as cameras see it from all around.
+//! The surface of a mesh, or of a cloud without normals, as cameras see it from all around.
 
 use nalgebra::{Point3, Vector3};
 
 use super::EnrolFinding;
-use geometry::{cloud::PointCloud, mesh::TriangleMesh, shown_sides::shown_sides, units::Metres};
+use geometry::{
+    cloud::PointCloud,
+    mesh::TriangleMesh,
+    shown_sides::{MIN_HIDING, shown_sides},
+    units::Metres,
+};
 
 /// Seed of the samples.
 const SEED: u64 = 1;
@@ -12,6 +17,20 @@ const MIN_SHARE: f64 = 0.02;
 /// Largest thickness that is called that of a sheet, metres, and as a share of the side of a square of the sheet's area.
 const MAX_SHEET_M: f64 = 0.03;
 const MAX_SHEET_SHARE: f64 = 0.06;
+
+/// Half the diagonal of the square that a point of a cloud stands for, and the depth by which one must be nearer to hide another,
+/// in spacings of the points.
+const HALF_SQUARE: f64 = 1.2;
+const CLOUD_MIN_HIDING: f64 = 0.6;
+
+/// Returns a cloud with the normals of every side that can be seen, from normals that may point to either side.
+pub(super) fn with_shown_sides(
+    cloud: &PointCloud,
+    normals: Vec<Vector3<f32>>,
+    spacing: Metres,
+) -> PointCloud {
+    Sampled::of_cloud(cloud, normals, spacing).both_sides()
+}
 
 /// A mesh's surface.
 pub(super) struct MeshSurface {
@@ -30,7 +49,9 @@ impl MeshSurface {
         if num_shown <= max_points {
             return Some(sampled.surface(mesh));
         }
-        let fewer = (max_points as f64 / num_shown as f64 * max_points as f64) as usize;
+        // Another sample has a few more or less.
+        let share = 0.99 * max_points as f64 / num_shown as f64;
+        let fewer = (share * max_points as f64) as usize;
         Some(Sampled::of(mesh, fewer)?.surface(mesh))
     }
 }
@@ -48,7 +69,7 @@ impl Sampled {
             points, normals, ..
         } = mesh.sample_evenly(num_points, SEED)?;
         let normals = normals?;
-        let shown = shown_sides(mesh, &points, &normals);
+        let shown = shown_sides(mesh, &points, &normals, MIN_HIDING);
         Some(Self {
             points,
             normals,
@@ -56,23 +77,52 @@ impl Sampled {
         })
     }
 
+    /// Takes a cloud's points for small squares, in the planes of normals that may point to either side.
+    fn of_cloud(cloud: &PointCloud, normals: Vec<Vector3<f32>>, spacing: Metres) -> Self {
+        let mut squares = TriangleMesh::default();
+        for (p, normal) in cloud.points.iter().zip(&normals) {
+            let right = normal.cross(&Vector3::ith(normal.iamin(), 1.0));
+            let right = right.normalize() * (HALF_SQUARE * spacing.0) as f32;
+            let up = normal.cross(&right);
+            let first = squares.vertices.len() as u32;
+            squares
+                .vertices
+                .extend([right, up, -right, -up].map(|out| p + out));
+            squares
+                .triangles
+                .extend([[0, 1, 2], [0, 2, 3]].map(|corners| corners.map(|i| first + i)));
+        }
+        let min_hiding = Metres(CLOUD_MIN_HIDING * spacing.0);
+        Self {
+            shown: shown_sides(&squares, &cloud.points, &normals, min_hiding),
+            points: cloud.points.clone(),
+            normals,
+        }
+    }
+
     fn num_shown(&self) -> usize {
         self.shown.iter().flatten().filter(|is| **is).count()
     }
 
-    fn surface(&self, mesh: &TriangleMesh) -> MeshSurface {
-        let all = || (self.points.iter().zip(&self.normals)).zip(&self.shown);
-        let sides = all().flat_map(|((p, n), [front, back])| {
+    fn all(&self) -> impl Iterator<Item = ((&Point3<f32>, &Vector3<f32>), &[bool; 2])> {
+        (self.points.iter().zip(&self.normals)).zip(&self.shown)
+    }
+
+    fn both_sides(&self) -> PointCloud {
+        cloud_of(self.all().flat_map(|((p, n), [front, back])| {
             let front = front.then_some((*p, *n));
             front.into_iter().chain(back.then_some((*p, -n)))
-        });
-        let one_side = all().filter_map(|((p, n), shown)| match shown {
+        }))
+    }
+
+    fn surface(&self, mesh: &TriangleMesh) -> MeshSurface {
+        let one_side = self.all().filter_map(|((p, n), shown)| match shown {
             [false, false] => None,
             [false, true] => Some((*p, -n)),
             [true, _] => Some((*p, *n)),
         });
         MeshSurface {
-            cloud: cloud_of(sides),
+            cloud: self.both_sides(),
             one_layer: cloud_of(one_side),
             findings: self.findings(mesh),
         }

@@ -73,7 +73,13 @@ fn a_mesh_is_enrolled_from_all_around() {
     let enrolled =
         enrol_mesh(model.mesh(), &about("grille"), &EnrolParams::default()).expect("a part");
     assert_eq!(enrolled.part.meta.coverage, Coverage::AllAround);
-    assert_eq!(enrolled.part.cloud.points.len(), 16_000);
+    let num_points = enrolled.part.cloud.points.len();
+    assert!((15_500..=16_000).contains(&num_points), "{num_points}");
+    // Sheet without thickness, and a few folds that hide what is between them.
+    let [EnrolFinding::OpenSurface { percent }, ..] = enrolled.findings[..] else {
+        panic!("{:?}", enrolled.findings);
+    };
+    assert!(percent > 80, "{percent}");
     let nothing = enrol_mesh(
         &TriangleMesh::default(),
         &about("x"),
