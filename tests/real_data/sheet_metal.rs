@@ -4,7 +4,7 @@ use std::path::Path;
 
 use nalgebra::{Isometry3, Point3, Vector3};
 use partsight::{
-    files::{FileContent, open},
+    files::{FileContent, FileWarning, open},
     geometry::{mesh::TriangleMesh, rigid::pose_error},
     library::{EnrolFinding, Enrolled, Library},
     pipeline::{Recipe, Unwatched, Verdict, run},
@@ -137,4 +137,20 @@ fn polygons_and_numbers_in_other_forms_make_the_same_mesh() {
             );
         }
     }
+}
+
+#[test]
+fn a_capture_saved_with_faces_is_a_capture_and_pixels_are_no_metres() {
+    let Some(data) = data_folder() else { return };
+    let reported = data.join("reported");
+    let cloud = |file: &str| match open(&reported.join(file)) {
+        Ok(FileContent::Cloud(cloud)) => cloud.points,
+        other => panic!("{file}: {other:?}"),
+    };
+    let points = cloud("camera_mesh_ply/points_only.ply#up=y");
+    assert_eq!(cloud("camera_mesh_ply/with_faces.ply#up=y"), points);
+    let unturned = open(&reported.join("camera_mesh_ply/with_faces.ply")).expect("a mesh");
+    assert_eq!(unturned.warnings(), [FileWarning::CaptureWithFaces]);
+    let metres = cloud("pixel_and_metre_columns/cloud_metres_only.csv");
+    assert_eq!(cloud("pixel_and_metre_columns/cloud.csv"), metres);
 }

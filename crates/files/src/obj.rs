@@ -113,14 +113,17 @@ mod tests {
     }
 
     #[test]
-    fn polygons_become_fans_and_indices_count_from_either_end() {
+    fn polygons_become_triangles_and_indices_count_from_either_end() {
         let text = "# a comment\nmtllib none.mtl\no square\nv 0 0 0\nv 1 0 0 1\nv 1 1 0 0.5 0.5 0.5\nvn 0 0 1\n\
                     v 0 1 0\ns off\nusemtl paint\nf 1//1 2//1 \\\n 3//1 4//1\nf -4 -3 -2\n";
         let FileContent::Mesh(mesh) = read_text(text).unwrap() else {
             panic!("expected a mesh");
         };
         assert_eq!(mesh.vertices.len(), 4);
-        assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3], [0, 1, 2]]);
+        assert_eq!((mesh.triangles.len(), mesh.triangles[2]), (3, [0, 1, 2]));
+        let all = mesh.sample_evenly(300, 1).expect("an area");
+        assert!((mesh.area() - 1.5).abs() < 1e-9);
+        assert!(all.normals.expect("normals").iter().all(|n| n.z > 0.99));
     }
 
     #[test]

@@ -99,3 +99,54 @@ pub(super) fn point_of<'a>(mut words: impl Iterator<Item = &'a str>) -> Option<P
     let mut coordinate = || words.next().and_then(parse_real).map(|real| real as f32);
     Some(Point3::new(coordinate()?, coordinate()?, coordinate()?))
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+
+    #[test]
+    fn a_concave_polygon_in_space_is_covered_once_whichever_corner_comes_first() {
+        // An L of 3 square metres, seen from both sides, turned.
+        let flat = [
+            (0.0, 0.0),
+            (2.0, 0.0),
+            (2.0, 1.0),
+            (1.0, 1.0),
+            (1.0, 2.0),
+            (0.0, 2.0),
+        ];
+        let turn = nalgebra::Rotation3::from_euler_angles(0.5, -0.4, 1.1);
+        let vertices = flat.map(|(x, y)| turn * Point3::new(x, y, 3.0));
+        let vertices = vertices.map(|p| p.cast::<f32>());
+        let source = Source {
+            path: Path::new("test.obj"),
+            bytes: &[],
+        };
+        for (first, is_reversed) in (0..6).flat_map(|first| [(first, false), (first, true)]) {
+            let mut polygon: Vec<u32> = (0..6).map(|i| (first + i) % 6).collect();
+            if is_reversed {
+                polygon.reverse();
+            }
+            let mut triangles = Vec::new();
+            let mut triangulation = Triangulation::default();
+            let done = triangulation.push(source, &polygon, &vertices, &mut triangles);
+            done.expect("few corners");
+            let mesh = TriangleMesh::new(vertices.to_vec(), triangles).expect("a mesh");
+            assert!((mesh.area() - 3.0).abs() < 1e-5, "{first}: {}", mesh.area());
+            let up = (turn * Vector3::z()).cast::<f32>() * if is_reversed { -1.0 } else { 1.0 };
+            let sampled = mesh.sample_evenly(500, 1).expect("an area");
+            assert!(
+                sampled
+                    .normals
+                    .expect("normals")
+                    .iter()
+                    .all(|n| n.dot(&up) > 0.99)
+            );
+        }
+        let many: Vec<u32> = (0..5000).map(|i| i % 6).collect();
+        let refused = Triangulation::default().push(source, &many, &vertices, &mut Vec::new());
+        assert!(refused.is_err());
+    }
+}

@@ -1,6 +1,6 @@
 //! `partsight bench bounds` and `bench sheets`: measure whether pose errors stay within their bounds.
 
-use std::path::Path;
+use std::{borrow::Borrow, path::Path};
 
 use serde::Serialize;
 
@@ -63,13 +63,25 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     for (library, cases) in &done {
         show(library, cases, console);
     }
-    if let Some(path) = &args.json {
-        let lines = done
-            .iter()
-            .flat_map(|(library, cases)| cases.iter().map(|case| line(library, case)));
-        write_results(path, "cases", &lines.collect::<Vec<_>>())?;
-    }
+    write_lines(args, &done)?;
     Ok(Outcome::Accepted)
+}
+
+fn write_lines<L: Borrow<BoundsLibrary>>(
+    args: &BenchArgs,
+    done: &[(L, Vec<BoundsCase>)],
+) -> anyhow::Result<()> {
+    let Some(path) = &args.json else {
+        return Ok(());
+    };
+    let of_library = |(library, cases): &(L, Vec<BoundsCase>)| -> Vec<CaseLine> {
+        cases
+            .iter()
+            .map(|case| line(library.borrow(), case))
+            .collect()
+    };
+    let lines: Vec<CaseLine> = done.iter().flat_map(of_library).collect();
+    write_results(path, "cases", &lines)
 }
 
 /// Opens a mesh, named by the text after `#` or by its file.
@@ -97,17 +109,17 @@ const NUM_SHEET_POSES: u64 = 3;
 pub(super) fn run_sheets(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     let first_seed = args.seed.unwrap_or(MEASURING_SEED);
     let num_poses = args.poses.unwrap_or(NUM_SHEET_POSES);
-    let pairs = THICKNESSES
-        .iter()
-        .flat_map(|thickness| SheetForm::ALL.map(|form| (*thickness, form)));
+    let pairs = THICKNESSES.iter().flat_map(|thickness| {
+        let forms = SheetForm::ALL.into_iter();
+        let forms = forms.filter(|form| form.is_possible(*thickness));
+        forms.map(|form| (*thickness, form))
+    });
     console.start_progress(pairs.clone().count());
     let mut done = Vec::new();
     for (thickness, form) in pairs {
         let library = BoundsLibrary::sheets(thickness, form).advised()?;
-        done.push((
-            library.title.clone(),
-            bounds_cases(&library, num_poses, first_seed, || {}),
-        ));
+        let cases = bounds_cases(&library, num_poses, first_seed, || {});
+        done.push((library, cases));
         console.done();
     }
     console.end_progress();
@@ -116,12 +128,13 @@ pub(super) fn run_sheets(args: &BenchArgs, console: &mut Console) -> anyhow::Res
     ));
     let mut table = table();
     for view in View::ALL {
-        for (title, cases) in &done {
+        for (library, cases) in &done {
             let cases: Vec<&BoundsCase> = cases.iter().filter(|case| case.view == view).collect();
-            table.row(row(title, view, &cases));
+            table.row(row(&library.title, view, &cases));
         }
     }
     console.table(&table);
+    write_lines(args, &done)?;
     Ok(Outcome::Accepted)
 }
 

@@ -84,6 +84,7 @@ pub(crate) fn taken_version(_: &LibraryPlace, _: &Console) -> Option<String> {
     None
 }
 
+#[cfg(feature = "window")]
 pub(crate) fn version_of(_: &LibraryPlace) -> Result<Option<TakenVersion>, [String; 2]> {
     Ok(None)
 }

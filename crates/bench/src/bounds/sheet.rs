@@ -42,6 +42,11 @@ impl SheetForm {
         Self::PlainCloud,
     ];
 
+    /// False for a thick panel as one surface: nothing says where its back is.
+    pub fn is_possible(self, thickness: Metres) -> bool {
+        !matches!(self, Self::Open | Self::OpenFromBehind) || thickness <= Metres(0.0012)
+    }
+
     /// Returns the name used in reports.
     pub fn name(self) -> &'static str {
         match self {

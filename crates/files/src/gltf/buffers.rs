@@ -19,14 +19,17 @@ pub(super) struct Buffers<'a> {
     source: Source<'a>,
     /// The binary chunk of a GLB.
     blob: Option<&'a [u8]>,
+    /// Whether positions may be whole numbers.
+    is_quantised: bool,
     loaded: HashMap<usize, Vec<u8>>,
 }
 
 impl<'a> Buffers<'a> {
-    pub(super) fn new(source: Source<'a>, blob: Option<&'a [u8]>) -> Self {
+    pub(super) fn new(source: Source<'a>, blob: Option<&'a [u8]>, is_quantised: bool) -> Self {
         Self {
             source,
             blob,
+            is_quantised,
             loaded: HashMap::new(),
         }
     }
@@ -38,6 +41,9 @@ impl<'a> Buffers<'a> {
     ) -> Result<Vec<[f32; 3]>, FileError> {
         let number: fn(&[u8]) -> Option<f32> = match (accessor.data_type(), accessor.normalized()) {
             (DataType::F32, _) => |bytes| bytes.first_chunk().map(|b| f32::from_le_bytes(*b)),
+            _ if !self.is_quantised => {
+                return Err(self.source.damaged("positions that are no reals"));
+            }
             (DataType::I8, false) => |bytes| bytes.first().map(|&b| f32::from(b as i8)),
             (DataType::U8, false) => |bytes| bytes.first().map(|&b| f32::from(b)),
             (DataType::I16, false) => |bytes| {

@@ -50,7 +50,9 @@ pub(super) fn read(source: Source<'_>, wanted: Option<&str>) -> Result<TriangleM
     let document = parse(source, json)?;
     let placed = placed_meshes(source, &document)?;
     let chosen = choose(source, placed, wanted)?;
-    let mut buffers = Buffers::new(source, blob);
+    let mut extensions = document.extensions_used();
+    let is_quantised = extensions.any(|name| name == "KHR_mesh_quantization");
+    let mut buffers = Buffers::new(source, blob, is_quantised);
     let mut whole = TriangleMesh::default();
     for PlacedMesh {
         mesh,

