@@ -220,7 +220,10 @@ pub fn confirm(
         sort_by_score(&mut tried);
     }
     if let Some((first, candidate)) = tried.first_mut().and_then(Tried::finished) {
-        candidate.scale = seen.scale(&references[first], candidate);
+        let reference = &references[first];
+        candidate.scale = seen.scale(reference, candidate);
+        let turned = seen.score_turned(reference, &candidate.refined.target_from_source);
+        candidate.rival = candidate.rival.max(turned);
     }
     // Those that were not looked at stay behind those that were.
     let others = others.iter().map(|entry| ConfirmedMatch {

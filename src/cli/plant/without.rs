@@ -14,7 +14,7 @@ use crate::cli::{
 use capture::{Captured, FeedState, SkippedCapture, SourceSpec};
 use geometry::error::Fault;
 use inspection::{
-    library::{LibraryLoad, LibraryPlace, TakenVersion},
+    library::{LibraryLoad, LibraryPlace},
     pipeline::{Inspection, Recipe},
 };
 use records::history::{History, HistoryEvent, Traceability};
@@ -85,7 +85,9 @@ pub(crate) fn taken_version(_: &LibraryPlace, _: &Console) -> Option<String> {
 }
 
 #[cfg(feature = "window")]
-pub(crate) fn version_of(_: &LibraryPlace) -> Result<Option<TakenVersion>, [String; 2]> {
+pub(crate) fn version_of(
+    _: &LibraryPlace,
+) -> Result<Option<inspection::library::TakenVersion>, [String; 2]> {
     Ok(None)
 }
 
