@@ -97,6 +97,9 @@ pub(super) fn run(mut args: EnrolArgs, console: &mut Console) -> anyhow::Result<
         enrolled.part.meta.side = args.side;
         enrolled.warnings.retain(is_open);
     }
+    for finding in &enrolled.findings {
+        console.note(finding);
+    }
     for warning in &enrolled.warnings {
         console.warn(warning, warning);
     }

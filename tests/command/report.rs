@@ -300,12 +300,15 @@ const CALIBRATE: [&str; 5] = [
     "eye-to-hand",
 ];
 
+fn force<'a>(args: &[&'a str]) -> Vec<&'a str> {
+    [args, &["--force"]].concat()
+}
+
 #[test]
 fn an_old_capture_is_in_no_output_a_pose_for_the_robot_unless_it_is_forced() {
     let place = Workplace::new();
     capture(&place, "grille", "left", "grille.pcd");
     let inspect = ["inspect", "grille.pcd", "--json"];
-    let force = |args: &[&str]| [args, &["--force"]].concat();
     let ran = place.coded(2, &force(&inspect));
     assert!(ran.err.contains("partsight calibrate"), "{}", ran.err);
     place.accepted(&CALIBRATE);

@@ -295,7 +295,7 @@ fn a_file_for_a_trigger_shows_no_motion_and_answer_line_and_history_say_so() {
     let answer = thread::scope(|scope| {
         // Only a file that is written after the trigger counts.
         scope.spawn(|| {
-            for number in 0.. {
+            for number in 0..1000 {
                 if is_answered.load(Ordering::Relaxed) {
                     break;
                 }

@@ -213,6 +213,7 @@ fn ctrl_c_ends_a_recording_that_is_whole() {
 }
 
 /// The only inspection in the history must be as it was shown in these lines.
+#[cfg(unix)]
 fn is_recorded_as_shown(place: &Workplace, lines: &[Value]) -> Value {
     let rows = place.accepted(&["history", "list", "--json"]).lines();
     assert_eq!(rows.len(), 1, "{rows:?}");

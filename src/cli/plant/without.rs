@@ -13,7 +13,7 @@ use crate::cli::{
 };
 use capture::{FeedState, SkippedCapture, SourceSpec};
 use geometry::error::Fault;
-use inspection::library::{LibraryLoad, LibraryPlace, TakenVersion};
+use inspection::library::{LibraryLoad, LibraryPlace};
 use records::history::{History, HistoryEvent, Traceability};
 use robot::RobotFrame;
 use serve::{CameraStatus, Found, InspectionRecord, Server, ServerHandle};
@@ -81,7 +81,10 @@ pub(crate) fn taken_version(_: &LibraryPlace, _: &Console) -> Option<String> {
     None
 }
 
-pub(crate) fn version_of(_: &LibraryPlace) -> Result<Option<TakenVersion>, [String; 2]> {
+#[cfg(feature = "window")]
+pub(crate) fn version_of(
+    _: &LibraryPlace,
+) -> Result<Option<inspection::library::TakenVersion>, [String; 2]> {
     Ok(None)
 }
 
