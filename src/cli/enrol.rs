@@ -204,7 +204,7 @@ fn enrolled_from(
         ..EnrolParams::default()
     };
     if let [first, ..] = args.scan.as_slice() {
-        let scan = open_scan(&args.scan, &args.poses, &params.segment, console)?;
+        let (scan, _) = open_scan(&args.scan, &args.poses, &params.segment, console)?;
         if let Some(sign) = background_sign(&scan) {
             return Err(advised_error(
                 format!("the surface found may be background: {sign}"),

@@ -1,6 +1,9 @@
 //! Opening of any file: finds it, recognises its format and calls its reader.
 
-use std::path::{Path, PathBuf};
+use std::{
+    path::{Path, PathBuf},
+    time::SystemTime,
+};
 
 use nalgebra::Point3;
 use thiserror::Error;
@@ -287,6 +290,14 @@ fn read_known(source: Source<'_>, mesh_name: Option<&str>) -> Result<FileContent
 /// Returns the file that [`open`] reads at `path`, without the words behind it.
 pub fn file_of(path: &Path) -> PathBuf {
     split_words(path).0
+}
+
+/// Returns when the file that [`open`] reads at `path` was last written, if the system knows it.
+pub fn written_at(path: &Path) -> Option<SystemTime> {
+    file_of(path)
+        .metadata()
+        .and_then(|file| file.modified())
+        .ok()
 }
 
 /// Splits a path into the file and the words behind it: the longest part before a `#` that is a file.
