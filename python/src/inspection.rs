@@ -4,10 +4,11 @@ use std::{collections::BTreeMap, sync::Arc};
 
 use numpy::{PyArray1, PyArray2, PyArrayDyn, PyArrayMethods as _, ndarray::IxDyn};
 use partsight::{
-    PointLabel, PoseEstimate, RigidTransform, SceneCloud, pipeline::NamedRecipe,
-    report::InspectionLine, run,
+    PointLabel, PoseEstimate, RigidTransform, SceneCloud, history::Traceability,
+    pipeline::NamedRecipe, report::InspectionLine, run,
 };
 use pyo3::{exceptions::PyKeyboardInterrupt, prelude::*};
+use station::{Inspected, Subject};
 
 use crate::{
     arrays::{matrix_of, points_of, shape_of},
@@ -20,7 +21,7 @@ use crate::{
 /// The result of an inspection. Rely on it only if the part is accepted.
 #[pyclass(frozen, module = "partsight")]
 pub(crate) struct Inspection {
-    name: String,
+    subject: Subject,
     scene: Arc<SceneCloud>,
     recipe: NamedRecipe,
     found: partsight::Inspection,
@@ -57,7 +58,7 @@ pub(crate) fn inspect(
     let best = found.ranking.entries.first();
     let part = best.and_then(|best| loaded.parts.get(best.reference));
     Ok(Inspection {
-        name: scene.name.clone(),
+        subject: scene.subject(),
         scene: scene.scene.clone(),
         recipe: recipe.clone(),
         is_part_simulated: named.and(part).is_some_and(|part| part.simulated),
@@ -76,7 +77,7 @@ impl Inspection {
     /// `ok`, a part of the library; `unknown`, something else; or `no_part`.
     #[getter]
     fn status(&self) -> &'static str {
-        self.line().status()
+        InspectionLine::of(&self.subject.scene, &self.found).status()
     }
 
     /// The best guess, accepted or not; `None` unless the status is `ok`.
@@ -115,6 +116,14 @@ impl Inspection {
     #[getter]
     fn advice(&self) -> Option<String> {
         self.found.verdict.complaint().map(|[_, what]| what)
+    }
+
+    /// Why a robot must not act on the pose, as words for programs, such as `old`; docs/guide/files.md lists them. Empty if it
+    /// may, as far as is known without the cell's calibration.
+    #[getter]
+    fn robot_doubts(&self) -> Vec<&'static str> {
+        let doubts = self.recorded().doubt_blocks();
+        doubts.iter().map(|doubt| doubt.kind).collect()
     }
 
     /// True if the segmented part reaches the edge of the picture, so that some of it may be missing.
@@ -179,7 +188,7 @@ impl Inspection {
 
     /// The JSON line that `partsight inspect --json` writes for the same file, including the ranking.
     fn to_json(&self) -> String {
-        self.line().to_json()
+        self.recorded().line(&Traceability::default())
     }
 
     fn __repr__(&self) -> String {
@@ -188,17 +197,19 @@ impl Inspection {
             (_, Some(part)) => format!("{part}, not accepted"),
             (_, None) => self.status().replace('_', " "),
         };
-        format!("<Inspection {:?}: {verdict}>", self.name)
+        format!("<Inspection {:?}: {verdict}>", self.subject.scene)
     }
 }
 
 impl Inspection {
-    fn line(&self) -> InspectionLine<'_> {
-        let line = InspectionLine::of(&self.name, &self.found).by(&self.recipe);
-        if self.scene.cloud.is_simulated {
-            line.of_simulation()
-        } else {
-            line
+    fn recorded(&self) -> Inspected<'_> {
+        Inspected {
+            subject: &self.subject,
+            scene: &self.scene,
+            inspection: &self.found,
+            recipe: &self.recipe,
+            robot: None,
+            is_forced: false,
         }
     }
 }

@@ -1,13 +1,14 @@
 //! Scenes: from a file, from arrays or simulated.
 
-use std::{path::PathBuf, sync::Arc};
+use std::{path::PathBuf, sync::Arc, time::SystemTime};
 
 use numpy::{PyArray1, PyArray2, PyArrayDyn, PyArrayMethods as _};
 use partsight::{
     CellSetup, DepthFrame, Distortion, Image, Intrinsics, PartKind, PointCloud, SceneCloud, Side,
-    read_image, scene_from_image, simulated_frame,
+    files::written_at, read_image, scene_from_image, simulated_frame,
 };
 use pyo3::{prelude::*, types::PyAny};
+use station::Subject;
 
 use crate::{
     arrays::{Depths, NO_POINT, cloud_of, depths_of, matrix_of, points_of},
@@ -19,6 +20,8 @@ use crate::{
 pub(crate) struct Scene {
     pub(crate) name: String,
     pub(crate) scene: Arc<SceneCloud>,
+    /// When it was captured: a file when it was written, anything else when it became a scene.
+    captured_at: SystemTime,
 }
 
 impl Scene {
@@ -26,7 +29,15 @@ impl Scene {
         Self {
             name,
             scene: Arc::new(scene),
+            captured_at: SystemTime::now(),
         }
+    }
+
+    /// What is inspected, as of now.
+    pub(crate) fn subject(&self) -> Subject {
+        let is_simulated = self.scene.cloud.is_simulated;
+        Subject::of_scene(self.name.clone(), "file".into(), is_simulated)
+            .captured_at(self.captured_at)
     }
 }
 
@@ -48,7 +59,10 @@ impl Scene {
             let advice = partsight::Advice::advice(warning);
             warn_about(py, format_args!("{name}: {warning}"), &advice)?;
         }
-        Ok(Self::new(name, scene))
+        Ok(Self {
+            captured_at: written_at(&path).unwrap_or(SystemTime::UNIX_EPOCH),
+            ..Self::new(name, scene)
+        })
     }
 
     /// Makes a scene from a depth image of the shape (H, W).

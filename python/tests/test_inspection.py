@@ -1,6 +1,9 @@
 """Verdicts, poses and what lies behind them."""
 
 import json
+import os
+import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -60,6 +63,22 @@ def test_the_json_line_says_the_same(found: partsight.Inspection) -> None:
     assert list(line["timings_ms"]) == ["segment", "project", "contour", "signature", "rank", "pose", "total"]
     assert set(line["timings_ms"]) == set(found.timings_ms)
     assert line["recipe"]["name"] == "built-in"
+
+
+def test_a_robot_must_not_act_on_what_is_old_or_not_accepted(
+    found: partsight.Inspection, library: partsight.Library, frame: partsight.SimulatedFrame, tmp_path: Path
+) -> None:
+    assert found.accepted and found.robot_doubts == []
+    path = tmp_path / "frame.xyz"
+    points = frame.scene().points
+    np.savetxt(path, points[np.isfinite(points[..., 2])])
+    of_file = partsight.inspect(partsight.Scene.open(path), library)
+    assert of_file.accepted and of_file.robot_doubts == []
+    os.utime(path, (time.time() - 3600,) * 2)
+    of_file = partsight.inspect(partsight.Scene.open(path), library)
+    assert of_file.accepted and of_file.pose and of_file.robot_doubts == ["old"]
+    nothing = partsight.inspect(partsight.Scene.from_points(np.zeros((0, 3))), library)
+    assert nothing.robot_doubts == ["not_accepted", "no_pose"]
 
 
 def test_float_depths_give_the_same_verdict(

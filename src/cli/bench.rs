@@ -145,6 +145,8 @@ enum Bench {
     Registration,
     /// Whether poses are as exact as their bounds say: whole and cut views of parts of other car models, enrolled themselves, or of meshes
     Bounds,
+    /// Panels from 0.5 to 30 mm, enrolled as closed solids, inside out, as open surfaces and as clouds: found and placed alike?
+    Sheets,
     /// Ranking by 1, 2, 4 and 8 workers over a growing number of references: from how many on do several pay off?
     Scaling,
     #[cfg(feature = "window")]
@@ -175,6 +177,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
         Bench::Table1 => table1::run(args, console),
         Bench::Registration => registration::run(args, console),
         Bench::Bounds => bounds::run(args, console),
+        Bench::Sheets => bounds::run_sheets(args, console),
         Bench::Scaling => scaling::run(args, console),
         #[cfg(feature = "window")]
         Bench::Window => window::run(args, console),

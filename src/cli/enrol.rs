@@ -97,6 +97,9 @@ pub(super) fn run(mut args: EnrolArgs, console: &mut Console) -> anyhow::Result<
         enrolled.part.meta.side = args.side;
         enrolled.warnings.retain(is_open);
     }
+    for finding in &enrolled.findings {
+        console.note(finding);
+    }
     for warning in &enrolled.warnings {
         console.warn(warning, warning);
     }
@@ -201,7 +204,7 @@ fn enrolled_from(
         ..EnrolParams::default()
     };
     if let [first, ..] = args.scan.as_slice() {
-        let scan = open_scan(&args.scan, &args.poses, &params.segment, console)?;
+        let (scan, _) = open_scan(&args.scan, &args.poses, &params.segment, console)?;
         if let Some(sign) = background_sign(&scan) {
             return Err(advised_error(
                 format!("the surface found may be background: {sign}"),

@@ -1,13 +1,16 @@
 //! `partsight` alone without a display: inspects a frame of the simulated cell, so that a first call shows something.
 
+use std::sync::Arc;
+
 use super::{
     LibraryChoice, Outcome,
     console::{Console, Table},
     verdict::show_card,
 };
-use inspection::pipeline::{self, Recipe, Unwatched};
+use inspection::pipeline::{self, NamedRecipe, Unwatched};
 use simulate::{CellSetup, PartKind, PartPose, PoseRange, Side, frame};
 use stages::{reference::ReferenceParams, scene::scene_from_frame};
+use station::{Inspected, Subject};
 
 /// Seed of the frame.
 const SEED: u64 = 1;
@@ -16,11 +19,21 @@ pub(super) fn run(library: &LibraryChoice, console: &mut Console) -> anyhow::Res
     let load = library.load_some(&ReferenceParams::default(), console)?;
     let mut setup = CellSetup::with_part(PartKind::FrontDoor, Side::Left, 0, SEED);
     setup.pose = PartPose::Drawn(PoseRange::facing());
-    let scene = scene_from_frame(&frame(&setup).frame);
-    let inspection = pipeline::run(&scene, &load.library, &Recipe::default(), &Unwatched)?;
+    let scene = Arc::new(scene_from_frame(&frame(&setup).frame));
+    let recipe = NamedRecipe::default();
+    let inspection = pipeline::run(&scene, &load.library, &recipe, &Unwatched)?;
+    let name = "simulated cell";
+    let inspected = Inspected {
+        subject: &Subject::of_scene(name.into(), name.into(), true),
+        scene: &scene,
+        inspection: &inspection,
+        recipe: &recipe,
+        robot: None,
+        is_forced: false,
+    };
     console.line(&"Simulated: no camera was read. A front door hangs in the simulated cell; this is what was found.");
     console.line(&"");
-    show_card("simulated cell", &inspection, &load.library, console);
+    show_card(name, &inspected, &load.library, console);
     console.line(&"");
     console.line(&"Next:");
     let mut table = Table::default();

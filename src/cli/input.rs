@@ -29,6 +29,8 @@ pub(super) enum InputError {
     File(#[from] FileError),
     #[error("{path}: a mesh, expected a depth camera's capture")]
     MeshIsNoScene { path: String },
+    #[error("{path}: {}", FileWarning::CaptureWithFaces)]
+    CaptureWithFaces { path: String },
     #[error("{path}: the mesh has no area")]
     EmptyMesh { path: String },
 }
@@ -40,6 +42,7 @@ impl Advice for InputError {
             Self::MeshIsNoScene { path } => {
                 format!("Enrol it as a reference: partsight enrol {path} --name NAME")
             }
+            Self::CaptureWithFaces { .. } => FileAdvice(&FileWarning::CaptureWithFaces).advice(),
             Self::EmptyMesh { .. } => "Export the mesh again with its faces".into(),
         }
     }
@@ -91,6 +94,9 @@ impl Advice for FileAdvice<'_> {
             }
             FileWarning::TooSmall { .. } => {
                 "Give the unit that the file is in, probably metres: --units m, or #units=m after its path".into()
+            }
+            FileWarning::CaptureWithFaces => {
+                "Read it with --up y, or #up=y after its path, or save it again without faces".into()
             }
             other => other.advice(),
         }
@@ -146,8 +152,11 @@ pub(super) fn open_scene(path: &Path) -> OpenedScene {
         FileContent::Cloud(cloud) => scene_from_image(Image::Cloud(cloud)),
         FileContent::Depth(frame) => scene_from_image(Image::Depth(frame)),
         FileContent::Mesh(_) => {
-            return Err(InputError::MeshIsNoScene {
-                path: path.display().to_string(),
+            let path = path.display().to_string();
+            return Err(if warnings.contains(&FileWarning::CaptureWithFaces) {
+                InputError::CaptureWithFaces { path }
+            } else {
+                InputError::MeshIsNoScene { path }
             });
         }
     };

@@ -11,7 +11,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use clap::{ArgGroup, Args};
+use clap::Args;
 
 use self::session::{InspectSession, Opened};
 use super::{
@@ -30,11 +30,10 @@ use super::{
 use capture::{FeedItem, SourceSpec};
 use inspection::pipeline::MirrorTally;
 use records::report::ReportFolder;
-use station::{CameraScenes, PartFollower, Subject};
+use station::{CameraScenes, NewFrame, PartFollower, Subject};
 
 /// Recognise the part in captured scenes and say where it is
 #[derive(Debug, Args)]
-#[command(group(ArgGroup::new("robot_file").multiple(true)))]
 #[command(after_help = "\
 Examples:
   partsight inspect door.pcd
@@ -45,6 +44,7 @@ Examples:
   partsight inspect door.pcd --empty-cell cell.pcd
   partsight inspect door.pcd --matcher paper --pose icp-ga
   partsight inspect door.pcd --json --calibration cell.toml
+  partsight inspect last-week/*.png --json --calibration cell.toml --force
   partsight inspect door.pcd --calibration cell.toml --spray path.csv --spray-as kuka
   partsight inspect door.pcd --calibration cell.toml --program paint.src --tool 3
   partsight inspect --scan frames/ --poses poses.json --json
@@ -56,6 +56,8 @@ Clouds are in metres, unless --units says otherwise. The JSON has width, height,
 may have k1 k2 p1 p2 k3 k4 k5 k6 (OpenCV's lens distortion), \"mirrored\": true (left and right are swapped in the image)
 and \"rotated\": 90, 180 or 270 (degrees clockwise to turn the image by). All of these refer to the image as it is stored.
 Exit codes: 0 every input accepted, 1 something was not accepted, 2 something could not be read.
+A robot must not act on an old capture, an ambiguous pose or a scan that contradicts itself: there is no pose for it then, and
+robot_doubts in the JSON says why. --force gives it nevertheless, of files and scans, with its doubts.
 If the library is empty or cannot be loaded, nothing is inspected: one error, no line of JSON, exit code 2.
 With --source: follows a camera, a recording or a folder until it ends, until --frames were inspected, or until Ctrl-C.
 A live camera gives its newest frame, and those in between are dropped; every frame of a recording or folder is inspected.
@@ -149,6 +151,10 @@ fn check_outputs(args: &InspectArgs) -> anyhow::Result<()> {
             "--program and --spray cannot be used together",
             "Run inspect once for each",
         )),
+        _ if args.program.is_forced() && args.source.is_some() => Err(advised_error(
+            "--force takes a capture's file or a scan, not a source",
+            "Leave it out: what a source delivers is not old, and other doubts need another capture",
+        )),
         _ => Ok(()),
     }
 }
@@ -164,6 +170,12 @@ fn inspect(
     let database = args.history_to.chosen(console)?;
     let (place, load) = (args.library).load_placed(&recipe.reference_params(), console)?;
     let robot = args.calibration.frame(console)?;
+    if args.program.is_forced() && robot.is_none() {
+        return Err(advised_error(
+            "--force needs to know where the camera sits in the robot's cell",
+            "Name a calibration with --calibration, or make one: partsight calibrate",
+        ));
+    }
     let publisher = ChosenPublisher::new(&args.publish, &place, &load, robot.as_ref(), console)?;
     let (files, frame) = (&args.files, robot.as_ref());
     let (spray, program) = if args.program.is_wanted() {
@@ -183,8 +195,7 @@ fn inspect(
     let report = report.transpose().advised()?;
     let empty_cell = args.empty_cell.open(console)?;
     let publisher = publisher
-        .zip(args.source.as_ref())
-        .map(|(publisher, source)| publisher.start(source, &load, &trace, console))
+        .map(|publisher| publisher.start(&load, &trace, console))
         .transpose()?;
     let recording = (!args.no_history)
         .then(|| HistoryRecorder::start(&args.history, &load, &trace, database, console))
@@ -201,6 +212,7 @@ fn inspect(
         },
         empty_cell,
         robot,
+        is_forced: args.program.is_forced(),
         spray,
         program,
         format,
@@ -260,24 +272,23 @@ fn inspect_source(
     inspector: &mut InspectSession,
     console: &mut Console,
 ) -> anyhow::Result<Outcome> {
-    let text = source.to_string();
+    let rule = NewFrame::of_source(source);
     let mut outcome = Outcome::Accepted;
     let mut num_inspected = 0;
     let status = follow(source, console, |item, status, console| {
         let is_enough = frames.is_some_and(|frames| num_inspected >= frames);
         if let Some(publisher) = &mut inspector.publisher {
             publisher.look(&status.state, console);
-            match &item {
-                _ if is_enough => {}
-                Some(FeedItem::Captured(captured)) => publisher.begin(captured),
-                Some(FeedItem::Skipped(skipped)) => publisher.skipped(skipped),
-                None => {}
+            if let Some(FeedItem::Skipped(skipped)) = &item
+                && !is_enough
+            {
+                publisher.skipped(skipped);
             }
         }
         let one = match item {
             None => return Ok(ControlFlow::Continue(())),
             Some(FeedItem::Captured(captured)) if is_enough => {
-                let subject = Subject::of_capture(&captured, &text, status.num_dropped);
+                let subject = Subject::of_capture(&captured, source, status.num_dropped);
                 let path = Path::new(&captured.name).to_owned();
                 let scene = scene_of(captured, &mut inspector.scenes, console);
                 inspector.check_waiting(
@@ -285,6 +296,7 @@ fn inspect_source(
                         path: &path,
                         scene,
                         subject,
+                        captured: None,
                     },
                     console,
                 )?
@@ -299,8 +311,9 @@ fn inspect_source(
                     console.note(&"Simulated: no camera is read.");
                 }
                 num_inspected += 1;
-                let subject = Subject::of_capture(&captured, &text, status.num_dropped);
+                let subject = Subject::of_capture(&captured, source, status.num_dropped);
                 let path = Path::new(&captured.name).to_owned();
+                let captured_at = rule.captured_at(&captured);
                 inspector.frame(&path, console, |one, console| {
                     let scene = scene_of(captured, &mut one.scenes, console);
                     one.inspect_scene(
@@ -308,6 +321,7 @@ fn inspect_source(
                             path: &path,
                             scene,
                             subject,
+                            captured: Some(captured_at),
                         },
                         console,
                     )
@@ -322,8 +336,10 @@ fn inspect_source(
             _ => ControlFlow::Continue(()),
         })
     })?;
-    if console.is_writable() {
-        outcome = outcome.max(inspector.show_waiting(source.is_replayed(), console)?);
+    let is_shown = console.is_writable();
+    let waiting = inspector.show_waiting(source.is_replayed(), console)?;
+    if is_shown {
+        outcome = outcome.max(waiting);
     }
     let (dropped, skipped) = (status.num_dropped, status.num_skipped);
     console.note(&format_args!(

@@ -4,13 +4,11 @@ use std::path::PathBuf;
 
 use super::{
     console::Console,
-    verdict::{place_of, show_card},
+    verdict::{in_robot_words, place_of, show_card},
 };
 use files::visible;
-use inspection::{
-    library::Library,
-    pipeline::{Inspection, Verdict},
-};
+use inspection::{library::Library, pipeline::Verdict};
+use station::Inspected;
 
 /// Form of the results.
 pub(super) enum OutputFormat {
@@ -38,14 +36,14 @@ impl OutputFormat {
         &self,
         scene: &str,
         line: &str,
-        inspection: &Inspection,
+        inspected: &Inspected<'_>,
         library: &Library,
         console: &mut Console,
     ) {
         match self {
             Self::Json => console.line(&line),
-            Self::Card => show_card(scene, inspection, library, console),
-            Self::Rows(columns) => columns.inspected(scene, inspection, library, console),
+            Self::Card => show_card(scene, inspected, library, console),
+            Self::Rows(columns) => columns.inspected(scene, inspected, library, console),
         }
     }
 }
@@ -97,10 +95,11 @@ impl Columns {
     pub(super) fn inspected(
         &self,
         scene: &str,
-        inspection: &Inspection,
+        inspected: &Inspected<'_>,
         library: &Library,
         console: &mut Console,
     ) {
+        let inspection = inspected.inspection;
         let time_ms = inspection.timings.total.as_secs_f64() * 1000.0;
         let (part, verdict, figures) = match &inspection.verdict {
             Verdict::Part {
@@ -138,6 +137,12 @@ impl Columns {
         if let Some([why, what_to_do]) = inspection.verdict.complaint() {
             console.line(&format_args!("    why not  {why}"));
             console.line(&format_args!("    to do    {what_to_do}"));
+        }
+        // A row has the camera's numbers, and room to say why a robot gets none.
+        if !inspected.doubts().is_empty() {
+            for (what, text) in in_robot_words(inspected, library) {
+                console.line(&format_args!("    {what:<8} {text}"));
+            }
         }
     }
 }

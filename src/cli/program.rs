@@ -22,7 +22,10 @@ use robot::{
     spray::{CarriedPath, off_the_part},
 };
 use stages::reference::{Coverage, Reference};
-use station::robot_file::{CapturedPart, RobotFile, RobotFileContent};
+use station::{
+    Inspected,
+    robot_file::{RobotFile, RobotFileContent},
+};
 
 /// Tool, gun and arm of a program; the command names its file `program`.
 #[derive(Debug, Args)]
@@ -40,8 +43,8 @@ pub(super) struct ProgramOptions {
     cell: CellChoice,
     #[command(flatten)]
     params: ParamOptions<true>,
-    /// Write the file despite doubts about part, path, capture or reach; it names them
-    #[arg(long, requires = "robot_file")]
+    /// Write the file, or give the pose for the robot, despite doubts about part, path, capture or reach; both name them
+    #[arg(long)]
     pub(super) force: bool,
 }
 
@@ -195,7 +198,7 @@ pub(super) struct ProgramSubject<'a> {
     /// The stored path, in part space.
     pub(super) path: &'a SprayPath,
     /// The capture; `None` for the standard position.
-    pub(super) capture: Option<CapturedPart<'a>>,
+    pub(super) capture: Option<Inspected<'a>>,
     pub(super) camera_from_part: RigidTransform,
     pub(super) is_simulated: bool,
 }

@@ -37,7 +37,7 @@ use stages::{
     scene::{EmptyCell, SceneCloud},
     stand_off::stand_off,
 };
-use station::doubts_of_result;
+use station::{Inspected, Subject};
 
 /// Write a pose report for captured scenes: which part it is, and its pose in the robot's convention
 #[derive(Debug, Args)]
@@ -47,11 +47,12 @@ Examples:
   partsight report door.pcd --out reports --format json,pdf --convention kuka
   partsight report captures/*.png --out reports --format csv
   partsight report door.pcd --out reports --convention fanuc --calibration cell.toml
+  partsight report last-week.pcd --out reports --calibration cell.toml --force
   partsight report --conventions
   partsight report --schema > pose-report.schema.json
 
 Writes FILE.pose.json and FILE.pose.pdf for each file; csv appends a row to poses.CONVENTION.csv. A part that is not
-accepted is reported too, without numbers that a robot could move by.
+accepted, or about which there are doubts, is reported too, without numbers that a robot could move by.
 Files: PCD, PLY, XYZ or CSV text, or a 16-bit depth PNG with its intrinsics in a JSON beside it; metres.
 Exit codes: 0 every input accepted, 1 something was not accepted, 2 something could not be read or written.")]
 pub(super) struct ReportArgs {
@@ -77,6 +78,10 @@ pub(super) struct ReportArgs {
     calibration: CalibrationChoice,
     #[command(flatten)]
     trace: TraceChoice,
+    /// Give the pose of an accepted part in the robot's base frame despite doubts, such as that the capture is more than
+    /// 10 minutes old; the report names them
+    #[arg(long)]
+    force: bool,
     /// Mark the scenes as simulated in the reports; files of partsight simulate are marked already
     #[arg(long)]
     simulated: bool,
@@ -201,7 +206,16 @@ impl Reporter<'_> {
         warn_of(path, &warnings, console);
         before(&mut scene, self.empty_cell.as_ref(), &name, console);
         let inspection = pipeline::run(&scene, &self.load.library, &self.recipe, &Unwatched)?;
-        let report = self.report_of(&name, &scene, &inspection);
+        let scene = Arc::new(scene);
+        let is_simulated = self.args.simulated || scene.cloud.is_simulated;
+        let report = self.report_of(&Inspected {
+            subject: &Subject::of_file(path, is_simulated),
+            scene: &scene,
+            inspection: &inspection,
+            recipe: &self.recipe,
+            robot: self.robot.as_ref(),
+            is_forced: self.args.force,
+        });
         match self.write(path, &scene, &inspection, &report, console) {
             Ok(written) => {
                 let verdict = &report.verdict;
@@ -229,7 +243,8 @@ impl Reporter<'_> {
         }
     }
 
-    fn report_of(&self, name: &str, scene: &SceneCloud, inspection: &Inspection) -> PoseReport {
+    fn report_of(&self, inspected: &Inspected<'_>) -> PoseReport {
+        let (subject, inspection) = (inspected.subject, inspected.inspection);
         let reference = inspection.best_reference(&self.load.library);
         let pose = inspection.found_pose();
         let stand_off = reference
@@ -238,13 +253,11 @@ impl Reporter<'_> {
             .map(|(reference, pose)| {
                 stand_off(reference, &pose.camera_from_part(), &self.recipe.stand_off)
             });
-        let doubts = doubts_of_result(inspection);
-        let doubt = doubts.first().map(ToString::to_string);
-        let report = PoseReport::of(&ReportSubject {
+        PoseReport::of(&ReportSubject {
             inspected_at: geometry::clock::now(),
-            scene: name,
+            scene: &subject.scene,
             source: None,
-            seen_by: if self.args.simulated || scene.cloud.is_simulated {
+            seen_by: if subject.is_simulated {
                 SeenBy::Simulation
             } else {
                 SeenBy::NotKnown
@@ -256,10 +269,11 @@ impl Reporter<'_> {
             recipe: &self.recipe,
             library_identity: &self.library_identity,
             num_references: self.load.library.references.len(),
-            robot: self.robot.as_ref(),
+            robot: inspected.robot,
+            for_robot: inspected.frame_for_robot(),
+            doubts: &inspected.doubt_blocks(),
             convention: self.args.convention,
-        });
-        report.withheld(doubt.as_deref())
+        })
     }
 
     /// Writes all formats, and returns the files.

@@ -6,6 +6,7 @@ use std::{
     collections::BTreeMap,
     ops::ControlFlow,
     path::{Path, PathBuf},
+    time::SystemTime,
 };
 
 use clap::Args;
@@ -17,7 +18,7 @@ use super::{
     console::{Advised as _, Console, advised_error},
 };
 use files::{PointProperty, file_name, write_atomically, write_ply_with};
-use robot::scan_frames::{FrameNews, read_frames, with_poses};
+use robot::scan_frames::{FrameNews, first_captured_at, read_frames, with_poses};
 use stages::{
     scan::{FusedCloud, Scan, ScanParams, Unwatched, assemble_all},
     segment::SegmentParams,
@@ -85,7 +86,7 @@ fn ply_path(text: &str) -> Result<PathBuf, String> {
 
 pub(super) fn run(args: &ScanArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     let segment = SegmentParams::default();
-    let scan = open_scan(&args.frames, &args.poses, &segment, console)?;
+    let (scan, _) = open_scan(&args.frames, &args.poses, &segment, console)?;
     let part = scan.cloud.part();
     let has_part = !part.cloud.points.is_empty();
     let written = if args.part_only { &part } else { &scan.cloud };
@@ -108,13 +109,13 @@ pub(super) fn run(args: &ScanArgs, console: &mut Console) -> anyhow::Result<Outc
 }
 
 /// Reads frames with their poses and fuses them, each segmented with these parameters; warns of frames left out and of frames
-/// that fit poorly.
+/// that fit poorly. Also returns when the first of the frames was captured.
 pub(super) fn open_scan(
     paths: &[PathBuf],
     given: &PosesChoice,
     segment: &SegmentParams,
     console: &mut Console,
-) -> anyhow::Result<Scan> {
+) -> anyhow::Result<(Scan, SystemTime)> {
     refuse_one_name_twice(paths)?;
     let frames = read_frames(paths, &mut |news| {
         match news {
@@ -134,6 +135,7 @@ pub(super) fn open_scan(
         ControlFlow::Continue(())
     })
     .advised()?;
+    let captured_at = first_captured_at(&frames);
     let calibration = scan_calibration(given.calibration.as_deref())?;
     let shots = with_poses(paths, given.poses.as_deref(), frames, calibration);
     let params = ScanParams {
@@ -150,7 +152,7 @@ pub(super) fn open_scan(
     if let Some(doubt) = &scan.doubt {
         console.warn(doubt, doubt);
     }
-    Ok(scan)
+    Ok((scan, captured_at))
 }
 
 /// Refuses frames of one name, since poses are given by name.

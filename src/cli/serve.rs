@@ -205,7 +205,7 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
         },
         trace,
         scenes: CameraScenes::new(empty_cell),
-        source: args.source.to_string(),
+        source: args.source.clone(),
         frame_timeout: Duration::from_secs_f64(args.frame_timeout),
         format,
         recording,

@@ -1,15 +1,14 @@
 //! Verdicts for people: as a card or a row.
 
-use super::console::Console;
+use super::{console::Console, recipe::show_recipe};
 use files::visible;
 use geometry::{error::Advice as _, units::Metres};
 use inspection::{
     library::Library,
     pipeline::{Inspection, Rejection, Verdict},
 };
-use robot::RobotFrame;
 use stages::pose::{Stopped, Uncertainty};
-use station::doubts_of_result;
+use station::Inspected;
 
 /// Returns the part's position, the middle of its reference's extent (x, y, z in mm), and its rotation (rx, ry, rz in
 /// degrees).
@@ -24,31 +23,41 @@ pub(super) fn place_of(inspection: &Inspection, library: &Library) -> Option<([f
     ))
 }
 
-/// Shows the middle of an accepted part in the robot's base frame, or why a robot may not act on it.
-pub(super) fn show_in_robot(
-    robot: &RobotFrame,
-    inspection: &Inspection,
+/// Returns in words where the middle of an accepted part is in the robot's base frame, and why a robot must not act on it.
+/// Nothing without a calibration.
+pub(super) fn in_robot_words(
+    inspected: &Inspected<'_>,
     library: &Library,
-    console: &mut Console,
-) {
-    if !inspection.verdict.is_accepted() {
-        return;
+) -> Vec<(&'static str, String)> {
+    let inspection = inspected.inspection;
+    if inspected.robot.is_none() || !inspection.verdict.is_accepted() {
+        return Vec::new();
     }
-    if let Some(doubt) = doubts_of_result(inspection).first() {
-        console.entry("robot", &format_args!("no pose: {doubt}"));
-        console.entry("to do", &doubt.advice());
-        return;
+    let doubts = inspected.doubts();
+    let mut words = Vec::new();
+    let place = place_of(inspection, library);
+    if let Some((robot, ([x, y, z], _))) = inspected.frame_for_robot().zip(place) {
+        let middle = nalgebra::Point3::new(x, y, z).map(|mm| mm / 1000.0);
+        let middle = robot.robot_from_camera * middle;
+        let [x, y, z] = [middle.x, middle.y, middle.z].map(|m| Metres(m).mm());
+        let name = &robot.name;
+        words.push((
+            "robot",
+            format!(
+                "middle at x {x:.1}  y {y:.1}  z {z:.1} mm in the robot's base frame, by {name}"
+            ),
+        ));
+        words.extend(
+            doubts
+                .iter()
+                .map(|doubt| ("doubt", format!("given by --force: {doubt}"))),
+        );
+    } else if let Some((first, rest)) = doubts.split_first() {
+        words.push(("robot", format!("no pose: {first}")));
+        words.extend(rest.iter().map(|doubt| ("also", doubt.to_string())));
+        words.push(("to do", first.advice()));
     }
-    let Some(([x, y, z], _)) = place_of(inspection, library) else {
-        return;
-    };
-    let middle = robot.robot_from_camera * nalgebra::Point3::new(x, y, z).map(|mm| mm / 1000.0);
-    let [x, y, z] = [middle.x, middle.y, middle.z].map(|m| Metres(m).mm());
-    let text = format!(
-        "middle at x {x:.1}  y {y:.1}  z {z:.1} mm in the robot's base frame, by {}",
-        robot.name
-    );
-    console.entry("robot", &text);
+    words
 }
 
 fn bounds_in_words(bounds: &Uncertainty) -> String {
@@ -65,10 +74,11 @@ fn bounds_in_words(bounds: &Uncertainty) -> String {
 /// Shows everything about one inspection, one line per item.
 pub(super) fn show_card(
     scene: &str,
-    inspection: &Inspection,
+    inspected: &Inspected<'_>,
     library: &Library,
     console: &mut Console,
 ) {
+    let inspection = inspected.inspection;
     let mut line = |what: &str, text: String| console.entry(what, &text);
     line("scene", visible(scene).into_owned());
     match &inspection.verdict {
@@ -164,6 +174,10 @@ pub(super) fn show_card(
     if let Some([why, what_to_do]) = inspection.verdict.complaint() {
         line("why not", why);
         line("to do", what_to_do);
+    }
+    show_recipe(inspected.recipe, console);
+    for (what, text) in in_robot_words(inspected, library) {
+        console.entry(what, &text);
     }
 }
 

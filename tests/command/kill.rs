@@ -79,6 +79,8 @@ fn report_of(number: i64, inspection: &Inspection) -> PoseReport {
         library_identity: "0badcafe",
         num_references: 0,
         robot: None,
+        for_robot: None,
+        doubts: &[],
         convention: Convention::Kuka,
     })
 }

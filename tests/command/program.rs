@@ -2,7 +2,6 @@
 
 use std::{
     fmt::Write as _,
-    fs::File,
     time::{Duration, SystemTime},
 };
 
@@ -172,10 +171,8 @@ fn of_a_refused_part_an_old_capture_or_an_unreached_path_no_program_is_left_unle
             .contains("FORCED: KUKA KR 6 R900-2 reaches")
     );
     // The capture is too old.
-    let long_ago = SystemTime::now() - Duration::from_hours(1);
-    let file = File::options().write(true).open(shop.path("door.pcd"));
-    file.and_then(|file| file.set_modified(long_ago))
-        .expect("an old file");
+    let hour = Duration::from_hours(1);
+    shop.date("door.pcd", SystemTime::now() - hour);
     let ran = shop.coded(1, &inspect);
     assert!(ran.err.contains("10 minutes old"), "{}", ran.err);
     assert!(!shop.path("paint.src").exists());
@@ -195,13 +192,8 @@ fn of_a_refused_part_an_old_capture_or_an_unreached_path_no_program_is_left_unle
     let ran = shop.coded(1, &["inspect", "door.pcd#units=m", "--spray", "out.csv"]);
     assert!(ran.err.contains(wanted), "{}", ran.err);
     assert!(!shop.path("out.csv").exists());
-    let ran = shop.coded(2, &["inspect", "door.pcd", "--force"]);
-    assert!(ran.err.contains("--spray"), "{}", ran.err);
     // A capture dated later than now may be just as old.
-    let later = SystemTime::now() + Duration::from_hours(1);
-    let file = File::options().write(true).open(shop.path("door.pcd"));
-    file.and_then(|file| file.set_modified(later))
-        .expect("a file of another clock");
+    shop.date("door.pcd", SystemTime::now() + hour);
     let ran = shop.coded(1, &inspect);
     assert!(ran.err.contains("later than now"), "{}", ran.err);
     assert!(ran.err.contains("Set the clocks"), "{}", ran.err);

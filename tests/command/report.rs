@@ -1,6 +1,11 @@
 //! `partsight report`.
 
-use std::{fs, path::Path, process::Command};
+use std::{
+    fs,
+    path::Path,
+    process::Command,
+    time::{Duration, SystemTime},
+};
 
 use crate::workplace::{Ran, Workplace};
 
@@ -287,11 +292,104 @@ fn a_disk_that_is_full_leaves_whole_rows_and_the_next_report_is_written() {
     assert_eq!(whole(&table), 3);
 }
 
+const CALIBRATE: [&str; 5] = [
+    "calibrate",
+    "set",
+    "kuka 470 0 1350 -90 0 -90",
+    "--mount",
+    "eye-to-hand",
+];
+
+fn force<'a>(args: &[&'a str]) -> Vec<&'a str> {
+    [args, &["--force"]].concat()
+}
+
+#[test]
+fn an_old_capture_is_in_no_output_a_pose_for_the_robot_unless_it_is_forced() {
+    let place = Workplace::new();
+    capture(&place, "grille", "left", "grille.pcd");
+    let inspect = ["inspect", "grille.pcd", "--json"];
+    let ran = place.coded(2, &force(&inspect));
+    assert!(ran.err.contains("partsight calibrate"), "{}", ran.err);
+    place.accepted(&CALIBRATE);
+    let ran = place.coded(2, &["inspect", "--source", "simulated", "--force"]);
+    assert!(ran.err.contains("not a source"), "{}", ran.err);
+    let fresh = place.accepted(&inspect).json();
+    assert!(fresh["robot"]["robot_from_part"].is_array(), "{fresh}");
+    assert!(fresh.get("robot_doubts").is_none(), "{fresh}");
+
+    let hour = Duration::from_hours(1);
+    place.date("grille.pcd", SystemTime::now() - hour);
+    let line = place.accepted(&inspect).json();
+    assert_eq!(line["robot_doubts"], serde_json::json!(["old"]));
+    assert!(line.get("robot").is_none(), "{line}");
+    assert_eq!(line["pose"], fresh["pose"]);
+    let forced = place.accepted(&force(&inspect)).json();
+    assert_eq!(forced["robot"], fresh["robot"]);
+    assert_eq!(forced["robot_doubts"], line["robot_doubts"]);
+    let rows = place.accepted(&["history", "list", "--json"]).lines();
+    let number = rows[1]["number"].to_string();
+    let record = place.accepted(&["history", "show", &number, "--json"]);
+    assert_eq!(record.json()["line"], line);
+    let shown = place.accepted(&["history", "show", &number]).out;
+    assert!(shown.contains("may not act on this pose: old"), "{shown}");
+    place.accepted(&["history", "export", "--csv", "all.csv"]);
+    let table = place.read("all.csv");
+    let last: Vec<&str> = table
+        .lines()
+        .filter_map(|row| row.rsplit(',').nth(1))
+        .collect();
+    assert_eq!(last, ["robot_doubts", "", "old", "old"], "{table}");
+
+    let why = "the capture is more than 10 minutes old";
+    let card = place.accepted(&["inspect", "grille.pcd"]).out;
+    assert!(card.contains(&format!("no pose: {why}")), "{card}");
+    let card = place.accepted(&force(&["inspect", "grille.pcd"])).out;
+    assert!(card.contains("in the robot's base frame"), "{card}");
+    assert!(card.contains(&format!("given by --force: {why}")), "{card}");
+    let rows = place.accepted(&["inspect", "grille.pcd", "grille.pcd"]).out;
+    assert_eq!(
+        rows.matches(&format!("no pose: {why}")).count(),
+        2,
+        "{rows}"
+    );
+
+    let report = [
+        "report",
+        "grille.pcd",
+        "--out",
+        "reports",
+        "--format",
+        "json,csv",
+    ];
+    let report_of = |args: &[&str]| {
+        place.accepted(args);
+        place.json("reports/grille.pose.json")
+    };
+    let withheld = report_of(&report);
+    let unavailable = withheld["robot"]["unavailable"].as_str();
+    assert!(
+        unavailable.is_some_and(|text| text.contains(why)),
+        "{withheld}"
+    );
+    assert!(withheld["robot"]["robot_from_part"].is_null(), "{withheld}");
+    let given = report_of(&force(&report));
+    assert!(given["robot"]["robot_from_part"].is_object(), "{given}");
+    for report in [&withheld, &given] {
+        assert_eq!(report["robot"]["doubts"][0]["kind"], "old");
+        assert_eq!(report["pose"]["usable"], false);
+    }
+    let table = place.read("reports/poses.matrix.csv");
+    assert!(
+        table.lines().skip(1).all(|row| row.ends_with(",old")),
+        "{table}"
+    );
+}
+
 #[test]
 fn an_ambiguous_pose_is_in_no_output_a_pose_for_the_robot() {
     let place = Workplace::new();
-    let cell = "kuka 470 0 1350 -90 0 -90";
-    place.coded(0, &["calibrate", "set", cell, "--mount", "eye-to-hand"]);
+    place.accepted(&CALIBRATE);
     for (seed, out) in [("3", "enrolled.pcd"), ("8", "turned.pcd")] {
         let simulate = ["simulate", "--part", "wheel", "--seed", seed];
         place.accepted(&[&simulate[..], &["--out", out]].concat());

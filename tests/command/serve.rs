@@ -8,7 +8,10 @@ use std::{
     io::{BufRead as _, BufReader, Read as _, Write as _},
     net::TcpStream,
     process::{Child, Command, Stdio},
-    sync::{Arc, Mutex},
+    sync::{
+        Arc, Mutex,
+        atomic::{AtomicBool, Ordering},
+    },
     thread::{self, JoinHandle},
     time::{Duration, Instant},
 };
@@ -278,6 +281,47 @@ fn a_trigger_without_a_frame_is_a_line_of_json_as_well() {
     );
 }
 
+#[test]
+fn a_file_for_a_trigger_shows_no_motion_and_answer_line_and_history_say_so() {
+    let place = Workplace::new();
+    let placed = ["--placement", "facing", "--out", "fender.pcd"];
+    place.accepted(&[&["simulate", "--part", "fender"][..], &placed].concat());
+    fs::create_dir(place.path("scans")).expect("made");
+    let source = ["--source", "watch:scans", "--frame-timeout", "60"];
+    let args = [&source[..], &["--listen", "ascii=0", "--as", "kuka"]].concat();
+    let mut service = Service::start(&place, &args);
+    let mut robot = service.connect("ascii");
+    let is_answered = AtomicBool::new(false);
+    let answer = thread::scope(|scope| {
+        // Only a file that is written after the trigger counts.
+        scope.spawn(|| {
+            for number in 0..1000 {
+                if is_answered.load(Ordering::Relaxed) {
+                    break;
+                }
+                fs::copy(place.path("fender.pcd"), place.path("new")).expect("copied");
+                let scan = place.path(format!("scans/{number}.pcd"));
+                fs::rename(place.path("new"), scan).expect("renamed");
+                thread::sleep(Duration::from_millis(200));
+            }
+        });
+        let answer = asked(&mut robot, "TRIGGER\n");
+        is_answered.store(true, Ordering::Relaxed);
+        answer
+    });
+    let fields: Vec<&str> = answer.split(';').collect();
+    assert_eq!(fields[1], "accepted", "{answer}");
+    let flags: u32 = fields[8].parse().expect("a number");
+    assert_eq!(flags & 33, 33, "{answer}");
+    let (code, out, messages) = service.interrupt();
+    assert_eq!(code, Some(0), "{messages}");
+    let line: Value = serde_json::from_str(&out).expect("one line of JSON");
+    assert_eq!(line["motion_checked"], false, "{line}");
+    assert!(line["robot"]["robot_from_part"].is_array(), "{line}");
+    let record = place.accepted(&["history", "show", "1", "--json"]).json();
+    assert_eq!(record["line"], line);
+}
+
 /// Serves without a history.
 const WITHOUT_HISTORY: [&str; 7] = [
     "--source",
@@ -357,6 +401,7 @@ fn a_replayed_source_is_warned_of_and_its_answers_are_marked() {
     let line = out.lines().last().expect("a line");
     let line: Value = serde_json::from_str(line).expect("a line of JSON");
     assert_eq!(line["simulated"], false, "a camera saw it: {line}");
+    assert_eq!(line["replayed"], true, "{line}");
 }
 
 #[test]

@@ -41,6 +41,7 @@ fn verdict(line: &str) -> Value {
     }
     // Only a later frame shows it.
     fields.remove("motion_checked");
+    fields.remove("replayed");
     line
 }
 
@@ -209,6 +210,64 @@ fn ctrl_c_ends_a_recording_that_is_whole() {
     );
     let err = place.coded(2, &copy).err;
     assert!(err.contains("not empty") && err.contains("to do"), "{err}");
+}
+
+/// The only inspection in the history must be as it was shown in these lines.
+#[cfg(unix)]
+fn is_recorded_as_shown(place: &Workplace, lines: &[Value]) -> Value {
+    let rows = place.accepted(&["history", "list", "--json"]).lines();
+    assert_eq!(rows.len(), 1, "{rows:?}");
+    let number = rows[0]["number"].to_string();
+    let record = place.accepted(&["history", "show", &number, "--json"]);
+    let recorded = record.json()["line"].clone();
+    let shown = lines
+        .iter()
+        .find(|line| line["number"] == recorded["number"]);
+    let shown = shown.expect("the frame was shown");
+    for field in ["accepted", "reason_kind", "motion_checked", "replayed"] {
+        assert_eq!(recorded.get(field), shown.get(field), "{field}");
+    }
+    recorded
+}
+
+#[cfg(unix)]
+#[test]
+fn a_part_is_recorded_as_it_was_shown_when_the_source_ends_before_it_is_known_to_hang_still() {
+    let place = Workplace::new();
+    // Ctrl-C while the first frame is inspected.
+    let messages = place.path("messages.txt");
+    let mut follow = place.command(&["inspect", "--source", "simulated,fps=1:fender", "--json"]);
+    let following = follow
+        .stdout(Stdio::piped())
+        .stderr(fs::File::create(&messages).expect("a file"))
+        .spawn()
+        .expect("starts");
+    wait_until(|| fs::read_to_string(&messages).is_ok_and(|text| text.contains("Simulated")));
+    interrupt(&following);
+    let ran = ended(following);
+    let lines = ran.lines();
+    let recorded = is_recorded_as_shown(&place, &lines);
+    assert!(recorded.get("motion_checked").is_none());
+    if lines.len() == 1 {
+        assert_eq!(recorded["reason_kind"], "not_steady");
+        assert_eq!(ran.code, 1);
+    }
+    // A recording shows no more than it has.
+    let replay = Workplace::new();
+    let source = "simulated:fender";
+    replay.accepted(&[
+        "capture", "--source", source, "--frames", "1", "--out", "one",
+    ]);
+    let lines = replay.accepted(&["inspect", "--source", "recording:one", "--json"]);
+    let recorded = is_recorded_as_shown(&replay, &lines.lines());
+    assert_eq!(recorded["accepted"], true);
+    assert_eq!(recorded["motion_checked"], false);
+    assert_eq!(recorded["replayed"], true);
+    let shown = replay.accepted(&["history", "show", "1"]).out;
+    assert!(
+        shown.contains("no other frame shows whether the part hung still"),
+        "{shown}"
+    );
 }
 
 #[cfg(unix)]

@@ -4,6 +4,7 @@ use std::{
     fs,
     path::{Path, PathBuf},
     process::{Command, Output},
+    time::SystemTime,
 };
 
 use serde_json::Value;
@@ -88,6 +89,12 @@ impl Workplace {
 
     pub(crate) fn write(&self, name: &str, text: &str) {
         fs::write(self.path(name), text).expect("written");
+    }
+
+    /// Sets when the file was last written.
+    pub(crate) fn date(&self, name: &str, at: SystemTime) {
+        let file = fs::File::options().write(true).open(self.path(name));
+        file.and_then(|file| file.set_modified(at)).expect("dated");
     }
 
     pub(crate) fn read(&self, name: impl AsRef<Path>) -> String {

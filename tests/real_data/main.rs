@@ -16,6 +16,7 @@ mod mesh_side;
 mod registration;
 mod scan;
 mod scenes;
+mod sheet_metal;
 mod silhouettes;
 
 use std::path::{Path, PathBuf};

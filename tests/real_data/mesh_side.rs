@@ -12,7 +12,7 @@ use partsight::{
 
 use crate::data_folder;
 
-fn enrolled(file: &Path, options: &str) -> Enrolled {
+pub(crate) fn enrolled(file: &Path, options: &str) -> Enrolled {
     let mut path = file.to_owned();
     path.as_mut_os_string().push(options);
     let Ok(FileContent::Mesh(mesh)) = open(&path) else {

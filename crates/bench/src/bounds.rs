@@ -4,13 +4,17 @@
 //! at the centroid of the visible points. Good bounds contain 95 of 100 errors without being many times larger than
 //! them.
 
+mod sheet;
 mod subject;
 
 use nalgebra::Point3;
 use serde::Serialize;
 
 pub(super) use self::subject::hung;
-pub use self::subject::{BoundsLibrary, BoundsPart};
+pub use self::{
+    sheet::{SheetForm, THICKNESSES},
+    subject::{BoundsLibrary, BoundsPart},
+};
 use super::suites::{middle_of_seen, pushed_out_of_the_picture};
 use geometry::{
     rigid::{PoseDelta, RigidTransform, pose_error},

@@ -1,15 +1,13 @@
 //! Reads single files as captures.
 
-use std::{fs, path::Path};
-
-use jiff::Timestamp;
+use std::path::Path;
 
 use super::{
     error::{CaptureError, CaptureWarning},
     source::Image,
 };
 use files::{self, FileContent, FileError, file_name};
-use geometry::{clock, cloud::PointCloud};
+use geometry::cloud::PointCloud;
 
 /// A file ending of scenes that is also common for logs and settings beside them.
 const LOG_ENDING: &str = "txt";
@@ -55,10 +53,4 @@ pub(super) fn image_of(
         }
     };
     Ok((image, warnings))
-}
-
-/// The time of a file's last modification, if the system knows it.
-pub(super) fn written_at(path: &Path) -> Option<Timestamp> {
-    let modified = fs::metadata(path).and_then(|file| file.modified()).ok()?;
-    Some(clock::timestamp(modified))
 }

@@ -65,7 +65,7 @@ pub use self::folders::user_settings;
 pub use self::folders::{file_name, folder_of, new_folder, sync_folder, user_data, write_file};
 pub use self::names::{nearest_name, stays_inside};
 pub use self::open::ONLY_MILLIMETRES;
-pub use self::open::{FileContent, FileWarning, file_of, open, open_bytes};
+pub use self::open::{FileContent, FileWarning, file_of, open, open_bytes, written_at};
 pub use self::pcd::write_pcd;
 pub use self::ply::{PointProperty, write_ply, write_ply_with};
 pub use self::source::{

@@ -1,14 +1,14 @@
 //! OBJ: vertices and polygons as text.
 //!
 //! Source: Wavefront's *Advanced Visualizer Manual*, appendix B1. `v` and `f` of all objects and groups are read together;
-//! polygons are split into fans about their first corner. An OBJ without faces is a cloud. Texture coordinates, normals,
+//! polygons are split into triangles. An OBJ without faces is a cloud. Texture coordinates, normals,
 //! materials, lines and curves are ignored.
 
 use super::error::FileError;
 use super::open::FileContent;
 use super::readings::tidy;
 use super::source::Source;
-use super::surface::{checked_mesh, point_of, push_fan};
+use super::surface::{Triangulation, checked_mesh, point_of};
 use geometry::cloud::PointCloud;
 
 /// Returns true if the first line that is neither empty nor a comment begins with a keyword of the format.
@@ -29,6 +29,7 @@ pub(super) fn is_obj(source: Source<'_>) -> bool {
 pub(super) fn read(source: Source<'_>) -> Result<FileContent, FileError> {
     let mut points = Vec::new();
     let mut triangles = Vec::new();
+    let mut triangulation = Triangulation::default();
     let mut statement = String::new();
     for (number, line) in source.lines() {
         // A backslash at the end continues a line on the next one.
@@ -60,7 +61,7 @@ pub(super) fn read(source: Source<'_>) -> Result<FileContent, FileError> {
                         "f and three vertices or more that come before it",
                     )
                 })?;
-                push_fan(&polygon, &mut triangles);
+                triangulation.push(source, &polygon, &points, &mut triangles)?;
                 source.limited("triangles", triangles.len())?;
             }
             _ => {}
@@ -112,14 +113,17 @@ mod tests {
     }
 
     #[test]
-    fn polygons_become_fans_and_indices_count_from_either_end() {
+    fn polygons_become_triangles_and_indices_count_from_either_end() {
         let text = "# a comment\nmtllib none.mtl\no square\nv 0 0 0\nv 1 0 0 1\nv 1 1 0 0.5 0.5 0.5\nvn 0 0 1\n\
                     v 0 1 0\ns off\nusemtl paint\nf 1//1 2//1 \\\n 3//1 4//1\nf -4 -3 -2\n";
         let FileContent::Mesh(mesh) = read_text(text).unwrap() else {
             panic!("expected a mesh");
         };
         assert_eq!(mesh.vertices.len(), 4);
-        assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3], [0, 1, 2]]);
+        assert_eq!((mesh.triangles.len(), mesh.triangles[2]), (3, [0, 1, 2]));
+        let all = mesh.sample_evenly(300, 1).expect("an area");
+        assert!((mesh.area() - 1.5).abs() < 1e-9);
+        assert!(all.normals.expect("normals").iter().all(|n| n.z > 0.99));
     }
 
     #[test]

@@ -1,7 +1,11 @@
 //! Opening of any file: finds it, recognises its format and calls its reader.
 
-use std::path::{Path, PathBuf};
+use std::{
+    path::{Path, PathBuf},
+    time::SystemTime,
+};
 
+use nalgebra::Point3;
 use thiserror::Error;
 
 use super::error::{FileError, NoFile};
@@ -13,6 +17,7 @@ use geometry::depth_frame::{CameraDoubt, DepthFrame};
 use geometry::error::{Advice, guarded};
 use geometry::mesh::TriangleMesh;
 use geometry::pinhole_fit::fit_pinhole;
+use geometry::statistics::quantile;
 use geometry::units::Metres;
 
 /// The content of a file.
@@ -56,6 +61,9 @@ pub enum FileWarning {
     /// Rows and columns are not the picture of a pinhole camera at the origin.
     #[error("its rows and columns are not those of an undistorted camera at the origin")]
     NoPinholeCamera,
+    /// A mesh of faces between the pixels of a camera that does not look along z.
+    #[error("the mesh is the capture of one camera, saved with faces, and not a part")]
+    CaptureWithFaces,
     /// The camera is implausible.
     #[error(transparent)]
     Camera(#[from] CameraDoubt),
@@ -75,6 +83,9 @@ impl Advice for FileWarning {
             Self::BehindCamera { .. } | Self::NoPinholeCamera => {
                 "For an inspection export the capture in the camera's own frame, x right, y down, z forward, with its distortion removed"
                     .into()
+            }
+            Self::CaptureWithFaces => {
+                "Read it with y up, so that the camera looks along z, or save it again without faces".into()
             }
             Self::Camera(doubt) => doubt.advice(),
         }
@@ -156,7 +167,9 @@ impl FileContent {
             Self::Depth(frame) => {
                 warnings.extend(frame.intrinsics.doubt().map(FileWarning::Camera));
             }
-            Self::Mesh(_) => {}
+            Self::Mesh(mesh) => {
+                warnings.extend(is_capture(mesh).then_some(FileWarning::CaptureWithFaces));
+            }
         }
         warnings
     }
@@ -203,7 +216,41 @@ pub fn open(path: &Path) -> Result<FileContent, FileError> {
         error => error,
     })?;
     let content = read(&file, &bytes, mesh_name.as_deref())?;
-    Ok(options.applied(content))
+    Ok(match options.applied(content) {
+        FileContent::Mesh(mesh) if is_capture(&mesh) && is_before_camera(&mesh) => {
+            FileContent::Cloud(PointCloud::from_points(mesh.vertices))
+        }
+        content => content,
+    })
+}
+
+/// Share of the triangles of a capture that face the camera, or all away from it.
+const CAPTURE_MIN_FACING: f64 = 0.98;
+/// Largest ratio between the solid angles of a capture's triangles, without the tenth that is smaller and the tenth that is larger:
+/// each is half a pixel.
+const CAPTURE_MAX_RATIO: f64 = 4.0;
+
+/// Returns whether a mesh is the capture of a camera at the origin, saved with faces between neighbouring pixels.
+fn is_capture(mesh: &TriangleMesh) -> bool {
+    if mesh.triangles.len() < MIN_READINGS {
+        return false;
+    }
+    let solid_angles = || {
+        mesh.triangles.iter().map(|corners| {
+            let [a, b, c] = corners.map(|i| mesh.vertices[i as usize].cast::<f64>());
+            let middle = (a.coords + b.coords + c.coords) / 3.0;
+            (b - a).cross(&(c - a)).dot(&middle) / middle.norm().powi(3)
+        })
+    };
+    let facing = solid_angles().filter(|angle| *angle > 0.0).count() as f64;
+    let facing = facing / mesh.triangles.len() as f64;
+    let of = |share| quantile(solid_angles().map(f64::abs), share).unwrap_or(0.0);
+    facing.max(1.0 - facing) >= CAPTURE_MIN_FACING && of(0.9) <= CAPTURE_MAX_RATIO * of(0.1)
+}
+
+fn is_before_camera(mesh: &TriangleMesh) -> bool {
+    let is_behind = |p: &&Point3<f32>| p.z <= 0.0;
+    mesh.vertices.iter().find(is_behind).is_none()
 }
 
 /// Like [`open`], for bytes in memory. `path` is for errors, and names the place where a depth image's camera is looked for.
@@ -243,6 +290,14 @@ fn read_known(source: Source<'_>, mesh_name: Option<&str>) -> Result<FileContent
 /// Returns the file that [`open`] reads at `path`, without the words behind it.
 pub fn file_of(path: &Path) -> PathBuf {
     split_words(path).0
+}
+
+/// Returns when the file that [`open`] reads at `path` was last written, if the system knows it.
+pub fn written_at(path: &Path) -> Option<SystemTime> {
+    file_of(path)
+        .metadata()
+        .and_then(|file| file.modified())
+        .ok()
 }
 
 /// Splits a path into the file and the words behind it: the longest part before a `#` that is a file.

@@ -22,7 +22,7 @@ type Columns = [usize; 3];
 pub(super) fn is_xyz(source: Source<'_>) -> bool {
     content(source).take(2).any(|(_, line)| {
         let row = Row::of(&line);
-        point_of(row, [0, 1, 2]).is_some() || columns_named_in(row).is_some()
+        point_of(row, [0, 1, 2]).is_some() || Heading::of(row).is_some()
     })
 }
 
@@ -33,9 +33,13 @@ pub(super) fn read(source: Source<'_>) -> Result<PointCloud, FileError> {
         let row = Row::of(&line).limited(source, number)?;
         match point_of(row, columns) {
             Some(point) => points.push(point),
-            None if i == 0 && is_heading(row) => {
-                columns = columns_named_in(row).unwrap_or(columns);
-            }
+            None if i == 0 && is_heading(row) => match Heading::of(row) {
+                Some(Heading::Columns(named)) => columns = named,
+                Some(Heading::Ambiguous) => {
+                    return Err(source.malformed(number, &line, "one column each for x, y and z"));
+                }
+                None => {}
+            },
             None => return Err(source.malformed(number, &line, "three numbers")),
         }
         source.limited("points", points.len())?;
@@ -98,17 +102,45 @@ fn is_heading(row: Row<'_>) -> bool {
     row.cells().all(is_name) || row.cells().count() == 1
 }
 
-fn columns_named_in(row: Row<'_>) -> Option<Columns> {
-    let names: Vec<String> = row.cells().take(MAX_COLUMNS).map(column_name).collect();
-    let place = |wanted: &str| names.iter().position(|name| name == wanted);
-    Some([place("x")?, place("y")?, place("z")?])
+/// What a line says about the columns.
+enum Heading {
+    Columns(Columns),
+    /// Several columns are called x, y or z, and their case does not tell them apart.
+    Ambiguous,
 }
 
-/// Returns the name in a heading's cell: `"X [m]"` is x.
-fn column_name(cell: &str) -> String {
+impl Heading {
+    /// `None` if the line does not name x, y and z.
+    fn of(row: Row<'_>) -> Option<Self> {
+        let names: Vec<&str> = row.cells().take(MAX_COLUMNS).map(column_name).collect();
+        let column = |is: &dyn Fn(&str) -> bool| {
+            let mut columns = (0..names.len()).filter(|i| is(names[*i]));
+            (columns.next(), columns.next().is_none())
+        };
+        let columns = |wanted: [&str; 3], is_same: fn(&str, &str) -> bool| {
+            let found = wanted.map(|wanted| column(&|name| is_same(name, wanted)));
+            let [(x, is_x_once), (y, is_y_once), (z, is_z_once)] = found;
+            Some(([x?, y?, z?], is_x_once && is_y_once && is_z_once))
+        };
+        let (any, is_once) = columns(["x", "y", "z"], str::eq_ignore_ascii_case)?;
+        if is_once {
+            return Some(Self::Columns(any));
+        }
+        // Pixels are often called x and y beside metres X, Y and Z.
+        let by_case =
+            [["x", "y", "z"], ["X", "Y", "Z"]].map(|wanted| columns(wanted, |a, b| a == b));
+        Some(match by_case {
+            [Some((columns, true)), None] | [None, Some((columns, true))] => Self::Columns(columns),
+            _ => Self::Ambiguous,
+        })
+    }
+}
+
+/// Returns the name in a heading's cell: `"X [m]"` is X.
+fn column_name(cell: &str) -> &str {
     let unquoted = cell.trim_matches(['"', '\'']).trim_start();
     let word = unquoted.split(|c: char| !c.is_alphanumeric()).next();
-    word.unwrap_or_default().to_lowercase()
+    word.unwrap_or_default()
 }
 
 #[cfg(test)]
@@ -124,6 +156,20 @@ mod tests {
         };
         assert!(is_xyz(source), "{text:?} is not recognised");
         read(source)
+    }
+
+    #[test]
+    fn pixels_beside_metres_are_told_apart_by_their_case_or_refused() {
+        let expected = PointCloud::from_points([Point3::new(-1.0, 0.5, 1.8)]);
+        for heading in ["x,y,depth,X,Y,Z", "X,Y,depth,x,y,z", "u,v,depth,x,Y,z"] {
+            let read = read_text(&format!("{heading}\n3,4,1.8,-1.0,0.5,1.8\n"));
+            assert_eq!(read.expect("a cloud"), expected, "{heading}");
+        }
+        for heading in ["x,y,z,X,Y,Z", "x,y,depth,x,y,z", "x,y,z,x,a,b"] {
+            let read = read_text(&format!("{heading}\n3,4,1.8,-1.0,0.5,1.8\n"));
+            let error = read.expect_err("ambiguous").to_string();
+            assert!(error.contains("one column each"), "{heading}: {error}");
+        }
     }
 
     #[test]

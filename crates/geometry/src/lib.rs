@@ -21,6 +21,7 @@ pub mod raster;
 pub mod rays;
 pub mod rigid;
 pub mod segment;
+pub mod shown_sides;
 pub mod sixteen_numbers;
 pub mod statistics;
 pub mod surface_grid;

@@ -95,6 +95,18 @@ impl TriangleMesh {
         self.faces().map(|face| face.area).sum()
     }
 
+    /// Returns the volume inside a closed mesh, cubic metres; below 0 if its triangles face inwards.
+    pub fn signed_volume(&self) -> f64 {
+        let middle = self.bounds().map_or_else(Point3::origin, |(low, high)| {
+            nalgebra::center(&low.cast(), &high.cast())
+        });
+        let tetrahedron = |face: Face| {
+            let height = (face.corner - middle).dot(&face.normal);
+            face.area * height / 3.0
+        };
+        self.faces().map(tetrahedron).sum()
+    }
+
     /// Appends another mesh; vertices are not merged.
     ///
     /// # Panics

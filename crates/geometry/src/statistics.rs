@@ -1,4 +1,6 @@
-//! Quantiles that are values of the list themselves, and samples of a list.
+//! Quantiles that are values of the list themselves, and even samples of lists and directions.
+
+use nalgebra::Vector3;
 
 /// Returns the value below which a share (0..1) of the values lies; `None` without values.
 pub fn quantile(values: impl Iterator<Item = f64>, share: f64) -> Option<f64> {
@@ -20,6 +22,16 @@ pub fn lower_median(values: impl Iterator<Item = f64>) -> Option<f64> {
     let mut values: Vec<f64> = values.collect();
     let position = values.len().checked_sub(1)? / 2;
     Some(*values.select_nth_unstable_by(position, f64::total_cmp).1)
+}
+
+/// Returns directions that are even over the sphere, from z to -z: a Fibonacci spiral.
+pub fn even_directions(num: usize) -> impl Iterator<Item = Vector3<f64>> {
+    (0..num).map(move |i| {
+        let z = 1.0 - (2.0 * i as f64 + 1.0) / num as f64;
+        let turn = i as f64 * std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
+        let r = (1.0 - z * z).sqrt();
+        Vector3::new(r * turn.cos(), r * turn.sin(), z)
+    })
 }
 
 /// Returns at most `most` of the items, evenly spread over their order.

@@ -6,7 +6,7 @@ use std::{
     ops::ControlFlow,
     path::{Path, PathBuf},
     sync::Arc,
-    time::Duration,
+    time::{Duration, SystemTime},
 };
 
 use super::{
@@ -17,7 +17,7 @@ use capture::{
     CaptureError, CaptureWarning, DepthSource as _, NextCapture, Pace, RecordingSpec, Replay,
     SkippedCapture, read_image,
 };
-use files::file_name;
+use files::{file_name, written_at};
 use geometry::{error::Advice, rigid::RigidTransform};
 use stages::{
     scan::Shot,
@@ -31,6 +31,8 @@ pub struct ScanFrame {
     pub name: String,
     /// The frame's cloud, in camera space.
     pub scene: Arc<SceneCloud>,
+    /// When it was captured: as recorded, else when its file was last written.
+    pub captured_at: SystemTime,
     /// Transform from the flange frame to the robot's base frame.
     robot_from_flange: Option<RigidTransform>,
 }
@@ -104,6 +106,7 @@ pub fn read_frames(
                 NextCapture::Captured(captured) => {
                     tell(FrameNews::Read(&captured.name, &captured.warnings))?;
                     frames.push(ScanFrame {
+                        captured_at: captured.taken_at.into(),
                         scene: Arc::new(scene_from_image(captured.image)),
                         name: captured.name,
                         robot_from_flange: captured.robot_from_flange.map(|pose| *pose),
@@ -122,11 +125,18 @@ pub fn read_frames(
         tell(FrameNews::Read(&name, &warnings))?;
         frames.push(ScanFrame {
             name,
+            captured_at: written_at(file).unwrap_or(SystemTime::UNIX_EPOCH),
             scene: Arc::new(scene_from_image(image)),
             robot_from_flange: None,
         });
     }
     Ok(frames)
+}
+
+/// When the first of these frames was captured; the beginning of time if that is not known.
+pub fn first_captured_at(frames: &[ScanFrame]) -> SystemTime {
+    let times = frames.iter().map(|frame| frame.captured_at);
+    times.min().unwrap_or(SystemTime::UNIX_EPOCH)
 }
 
 /// Returns the file of poses beside the frames, if there is one.
@@ -189,6 +199,7 @@ mod tests {
         let frame = |robot_from_flange| ScanFrame {
             name: "a.png".into(),
             scene: small_scene(1),
+            captured_at: SystemTime::UNIX_EPOCH,
             robot_from_flange,
         };
         let poses = folder.path().join(FRAME_POSES);

@@ -22,7 +22,7 @@ use inspection::pipeline::NamedRecipe;
 use records::history::StoredVerdict;
 use robot::{Convention, RobotFrame};
 use stages::scene::EmptyCell;
-use station::Currency;
+use station::Doubt;
 pub use ui::theme::ThemeChoice;
 use ui::{
     language::{Language, text},
@@ -149,8 +149,9 @@ impl Session {
     pub(crate) fn current_result(&self) -> Option<&Inspected> {
         let inspected = &**self.latest(|_| true)?;
         let counts = match self.currency(inspected) {
-            Currency::Current | Currency::CapturedAt(_) => !inspected.is_open(),
-            Currency::Moving | Currency::SourceLost | Currency::Superseded => false,
+            Some(Doubt::Moving | Doubt::SourceLost | Doubt::Superseded) => false,
+            // However old it is, it is the newest one.
+            _ => !inspected.is_open(),
         };
         // An empty cell that is followed is not recorded.
         let is_recorded = inspected.followed.is_none()

@@ -308,7 +308,9 @@ mod tests {
             let name = inspected.entry.record.summary.part.as_deref();
             let is_reported = |state: &State| {
                 let parts = lock(&state.session.live.parts);
-                parts.is_reported(inspected.hung(), name.expect("a part"))
+                parts
+                    .reported_as(inspected.hung(), name.expect("a part"))
+                    .is_some()
             };
             assert!(is_reported(&state));
             history.set_label(-1, None);

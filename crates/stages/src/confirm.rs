@@ -17,9 +17,10 @@ mod outline_shift;
 mod piece_search;
 mod prepared_scene;
 
+pub(crate) use self::evidence::facing_view;
 use self::{
     candidate::ReferenceCandidate,
-    evidence::{facing_view, most_score},
+    evidence::most_score,
     outline_ends::outline_of,
     outline_shift::edges_of_part,
     prepared_scene::{PreparedScene, thinned_source},
@@ -218,6 +219,12 @@ pub fn confirm(
         }
         sort_by_score(&mut tried);
     }
+    if let Some((first, candidate)) = tried.first_mut().and_then(Tried::finished) {
+        let reference = &references[first];
+        candidate.scale = seen.scale(reference, candidate);
+        let turned = seen.score_turned(reference, &candidate.refined.target_from_source);
+        candidate.rival = candidate.rival.max(turned);
+    }
     // Those that were not looked at stay behind those that were.
     let others = others.iter().map(|entry| ConfirmedMatch {
         score: 0.0,
@@ -363,6 +370,13 @@ struct Tried<'a> {
 }
 
 impl Tried<'_> {
+    /// Its reference, and its candidate if that is refined to the end.
+    fn finished(&mut self) -> Option<(usize, &mut ReferenceCandidate)> {
+        let candidate = self.candidate.as_mut()?;
+        let is_finished = candidate.uncertainty.is_some();
+        is_finished.then_some((self.entry.reference, candidate))
+    }
+
     fn confirmed(self) -> ConfirmedMatch {
         let Self {
             entry,

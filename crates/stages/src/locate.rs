@@ -4,7 +4,7 @@
 use nalgebra::Point3;
 
 use super::{
-    confirm::{Scene, bounds_and_scale},
+    confirm::{Scene, bounds_and_scale, facing_view},
     pose::{
         AlignParams, PoseError, PoseEstimate, align_to,
         closest::Correspondence,
@@ -38,7 +38,6 @@ pub fn locate(
     is_cancelled: &dyn Fn() -> bool,
 ) -> Result<Located, PoseError> {
     let part = scene.part;
-    let target = reference.target(0).ok_or(PoseError::NoReferenceCloud)?;
     let mut pose = align_to(&part.cloud, reference.whole()?, params, None, is_cancelled)?;
     let measured = sample_evenly(&part.cloud.points, NUM_MEASURED);
     let measured: Vec<Point3<f32>> = measured.copied().collect();
@@ -47,14 +46,16 @@ pub fn locate(
         noise_at_1m: part.noise_at_1m,
     };
     let fit_at = |pose: &RigidTransform| {
+        let target = reference.target(facing_view(reference, pose));
+        let target = target.ok_or(PoseError::NoReferenceCloud)?;
         let closest = Correspondence::of_each(&measured, &target, pose, Search::Tree);
         let seen_from = pose.inverse();
-        FitQuality {
+        Ok(FitQuality {
             sight: look_for(&target, &seen_from, scene.scene, tolerance, NUM_LOOKED_FOR),
             ..measure_fit(&measured, &closest, &target, tolerance)
-        }
+        })
     };
-    pose.fit = fit_at(&pose.target_from_source);
+    pose.fit = fit_at(&pose.target_from_source)?;
     if let Some((bounds, scale)) =
         bounds_and_scale(scene, reference, &pose.target_from_source, SEED)
     {
@@ -62,7 +63,8 @@ pub fn locate(
     }
     let rival = pose
         .runner_up
-        .map(|other| fit_at(&other.target_from_source));
+        .map(|other| fit_at(&other.target_from_source))
+        .transpose()?;
     Ok(Located {
         rival: rival.map_or(0.0, |fit| fit.score()),
         pose,

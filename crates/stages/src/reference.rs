@@ -5,6 +5,7 @@
 //! directions about 20 to 25 degrees around it. A view goes through the same projection, contour and signature as a scene.
 
 pub mod border;
+mod sides;
 mod symmetry;
 mod view;
 mod view_cut;
@@ -16,6 +17,7 @@ use nalgebra::{Point3, Vector3};
 
 use self::{
     border::{BorderPoint, ReferenceBorder},
+    sides::ReferenceSide,
     view::ViewSource,
     viewpoints::{VIEW_DISTANCE, viewpoints},
 };
@@ -94,6 +96,8 @@ pub struct Reference {
     tree: OnceLock<KdTree>,
     /// Nearest-point field around `cloud`, built on first use.
     field: OnceLock<NearestField>,
+    /// Front and back, if there are views of both; built when a pose is first tried.
+    sides: OnceLock<Option<[ReferenceSide; 2]>>,
     /// Views from several sides; the first is the standard view.
     pub views: Vec<ReferenceView>,
     /// The views' signatures, transformed for the circular correlation.
@@ -175,6 +179,7 @@ impl Reference {
             enrolled_as: name.to_owned(),
             tree: OnceLock::new(),
             field: OnceLock::new(),
+            sides: OnceLock::new(),
             cloud,
             spectra: RaySpectra::default(),
             summaries: OnceLock::new(),
@@ -195,13 +200,44 @@ impl Reference {
         Self {
             spectra: RaySpectra::of(views.iter().map(|view| &view.signature().rays[..])),
             summaries: OnceLock::new(),
+            sides: OnceLock::new(),
             views,
             ..self
         }
     }
 
-    /// Returns the reference as a target for a pose, with the edges of one of its views; `None` for a flat shape.
+    /// Returns what a view shows of the reference as a target for a pose, with the edges of the view; `None` for a flat shape.
     pub fn target(&self, view: usize) -> Option<AlignmentTarget<'_>> {
+        let whole = self.whole_target(view)?;
+        let Some(side) = self.side_of(&self.views[view]) else {
+            return Some(whole);
+        };
+        Some(AlignmentTarget {
+            cloud: &side.cloud,
+            tree: &side.tree,
+            field: side.field(),
+            ..whole
+        })
+    }
+
+    /// Returns what some views show together, with other edges; `None` for a flat shape.
+    pub fn joint_target<'a>(
+        &'a self,
+        views: &[usize],
+        edges: &'a EdgePoints,
+    ) -> Option<AlignmentTarget<'a>> {
+        let first = *views.first()?;
+        let is_one_side = views.iter().all(|view| self.are_of_one_side(first, *view));
+        let target = if is_one_side {
+            self.target(first)
+        } else {
+            self.whole_target(first)
+        };
+        Some(AlignmentTarget { edges, ..target? })
+    }
+
+    /// Returns the whole reference as a target for a pose, with the edges of one of its views; `None` for a flat shape.
+    pub fn whole_target(&self, view: usize) -> Option<AlignmentTarget<'_>> {
         let Self { cloud, tree, .. } = self;
         let view = self.views.get(view)?;
         (!cloud.points.is_empty()).then_some(AlignmentTarget {
@@ -271,13 +307,17 @@ impl Reference {
     /// Returns outline and openings from one side, part space, without points at the cut-off by the field of view.
     fn outline_of(&self, view: &ReferenceView) -> Vec<BorderPoint> {
         let part_from_plane = view.plane_from_part.inverse();
+        let (cloud, field) = match self.side_of(view) {
+            Some(side) => (&side.cloud, side.field()),
+            None => (&*self.cloud, self.field()),
+        };
         let point = |(at, along): (Point3<f64>, Vector3<f64>)| {
             let at = part_from_plane * at;
             if self.cut.depth_inside(&at) < AT_CUT {
                 return None;
             }
-            let nearest = self.field().nearest(&at.cast());
-            let normal = nearest.zip(self.cloud.normals.as_ref()).map_or_else(
+            let nearest = field.nearest(&at.cast());
+            let normal = nearest.zip(cloud.normals.as_ref()).map_or_else(
                 || (view.viewpoint - at).normalize().cast(),
                 |(nearest, normals)| normals[nearest.index],
             );
@@ -315,6 +355,7 @@ impl Reference {
             cloud: Arc::default(),
             tree: OnceLock::new(),
             field: OnceLock::new(),
+            sides: OnceLock::new(),
             ..self
         }
     }

@@ -2,7 +2,7 @@
 
 use std::{sync::Arc, time::Duration};
 
-use super::{Camera, Inspected, NoFrame, PartFinder, Subject};
+use super::{Camera, Inspected, NoFrame, PartFinder, Subject, motion::time_of};
 use capture::Captured;
 use inspection::{
     library::Library,
@@ -31,6 +31,8 @@ pub struct Answering<'a> {
 /// An inspection and its answer.
 #[derive(Clone, Debug)]
 pub struct Answered {
+    /// What was inspected, and whether it was checked that the part hung still.
+    pub subject: Subject,
     /// The result for the client; its report is the line of JSON.
     pub found: Found,
     /// The scene that was inspected.
@@ -45,36 +47,39 @@ impl Answering<'_> {
     pub fn answer(
         &self,
         captured: Captured,
-        subject: &Subject,
+        mut subject: Subject,
         trace: &Traceability,
         mut scene_of: impl FnMut(Captured) -> Arc<SceneCloud>,
     ) -> Result<Answered, NoFrame> {
         let inspected = |scene: &SceneCloud| {
             pipeline::run(scene, self.library, self.recipe, &Unwatched).expect("not cancelled")
         };
-        let mut origin = self.camera.origin_of(&captured);
+        let (captured_at, at) = (self.camera.captured_at(&captured), time_of(&captured));
         let scene = scene_of(captured);
         let mut inspection = inspected(&scene);
         let middle = inspection.best_reference(self.library);
         let middle = middle.and_then(Reference::middle);
-        self.camera.refuse_if_moving(
-            &mut origin,
+        let is_checked = self.camera.refuse_if_moving(
+            at,
             &mut inspection,
             middle,
             self.at_most,
             self.is_ending,
             |later| inspected(&scene_of(later)),
         )?;
-        let mut found = self.finder.found(&inspection, self.recipe, origin);
+        subject.is_motion_unchecked |= !is_checked;
         let inspected = Inspected {
-            subject,
+            subject: &subject,
             scene: &scene,
             inspection: &inspection,
             recipe: self.recipe,
             robot: Some(&self.finder.robot),
+            is_forced: false,
         };
+        let mut found = self.finder.found(&inspected, captured_at);
         found.report = inspected.line(trace);
         Ok(Answered {
+            subject,
             found,
             scene,
             inspection,
@@ -88,6 +93,7 @@ mod tests {
 
     use super::*;
     use crate::NumberedPart;
+    use capture::SourceSpec;
     use geometry::rigid::RigidTransform;
     use inspection::fixtures::shipped_library;
     use robot::RobotFrame;
@@ -114,11 +120,11 @@ mod tests {
             },
             kind: PoseKind::RobotFromPart,
         };
-        let source = "simulated:fender";
-        let camera = Camera::start(&source.parse().expect("a source")).expect("started");
+        let source: SourceSpec = "simulated:fender".parse().expect("a source");
+        let camera = Camera::start(&source).expect("started");
         let frame = camera.frame_after(&Asked::now(), PATIENCE, || false);
         let frame = frame.expect("a frame");
-        let subject = Subject::of_capture(&frame, source, 0);
+        let subject = Subject::of_capture(&frame, &source, 0);
         let answering = Answering {
             camera: &camera,
             finder: &finder,
@@ -128,12 +134,16 @@ mod tests {
             is_ending: &|| false,
         };
         let mut num_scenes = 0;
-        let answered = answering.answer(frame, &subject, &Traceability::default(), |captured| {
+        let trace = Traceability::default();
+        let answered = answering.answer(frame, subject, &trace, |captured| {
             num_scenes += 1;
             Arc::new(scene_from_image(captured.image))
         });
         let Answered {
-            found, inspection, ..
+            found,
+            inspection,
+            subject,
+            ..
         } = answered.expect("a second frame");
         assert_eq!(found.verdict, VerdictCode::Accepted, "{:?}", found.trouble);
         assert_eq!(num_scenes, 2, "looked for again in a later frame");
@@ -143,7 +153,7 @@ mod tests {
         assert_eq!(found.pose, Some(pose));
         let line: Value = serde_json::from_str(&found.report).expect("JSON");
         assert_eq!(line["scene"], Value::from(subject.scene));
-        assert_eq!(line["source"], source);
+        assert_eq!(line["source"], source.to_string());
         assert_eq!(line["robot"]["calibration"], "cell 1");
         let cancelled = answering_at_the_end(&answering);
         assert_eq!(cancelled.reason(), "stopping");
@@ -155,12 +165,13 @@ mod tests {
             .camera
             .frame_after(&Asked::now(), PATIENCE, || false)
             .expect("a frame");
-        let subject = Subject::of_capture(&frame, "simulated:fender", 0);
+        let source = "simulated:fender".parse().expect("a source");
+        let subject = Subject::of_capture(&frame, &source, 0);
         let ending = Answering {
             is_ending: &|| true,
             ..*answering
         };
-        let answered = ending.answer(frame, &subject, &Traceability::default(), |captured| {
+        let answered = ending.answer(frame, subject, &Traceability::default(), |captured| {
             Arc::new(scene_from_image(captured.image))
         });
         answered.expect_err("nothing to compare with")

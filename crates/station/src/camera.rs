@@ -17,10 +17,7 @@ use jiff::SignedDuration;
 use nalgebra::Point3;
 use thiserror::Error;
 
-use super::{
-    finder::FrameOrigin,
-    motion::{MotionWatch, time_of},
-};
+use super::motion::{MotionWatch, time_of};
 use capture::{
     BackpressurePolicy, CaptureError, Captured, Feed, FeedItem, FeedState, FeedStatus, SourceSpec,
 };
@@ -85,23 +82,12 @@ impl NewFrame {
     }
 
     /// True if successive frames show whether the part moves. One file written for each trigger does not.
-    fn shows_motion(self) -> bool {
+    pub(super) fn shows_motion(self) -> bool {
         matches!(self, Self::SecondArrived | Self::SecondReplayed)
     }
 
-    /// The frame's time of capture, and whether its answer is marked.
-    pub fn origin_of(self, captured: &Captured) -> FrameOrigin {
-        FrameOrigin {
-            captured: self.captured_at(captured),
-            at: time_of(captured),
-            is_simulated: captured.is_simulated
-                || matches!(self, Self::SecondReplayed | Self::SecondOfMany),
-            is_motion_checked: self.shows_motion(),
-        }
-    }
-
     /// The time of capture, from which the frame's age is computed; of a replayed frame, when it was replayed.
-    fn captured_at(self, captured: &Captured) -> Instant {
+    pub fn captured_at(self, captured: &Captured) -> Instant {
         match self {
             Self::SecondArrived | Self::SecondReplayed | Self::SecondOfMany => captured.arrived,
             // Never later than it was first seen, even if the file's clock is fast.
@@ -313,44 +299,41 @@ impl Camera {
         })
     }
 
-    /// Refuses an accepted part that moves. `origin` is that of the inspected frame. If the scene was still until then, a
-    /// frame at least 150 ms later must show the part in the same place; if that is not known, because the source has just
-    /// begun or is slow, one at least 900 ms later. `again` inspects that frame, `middle` is the middle of the part, part
-    /// space, metres. If the source does not show it, or ends before, `origin` says so. An error leaves the part unchecked
-    /// and must be answered instead of it.
+    /// Refuses an accepted part that moves. `at` is the camera's time of the inspected frame. If the scene was still until
+    /// then, a frame at least 150 ms later must show the part in the same place; if that is not known, because the source
+    /// has just begun or is slow, one at least 900 ms later. `again` inspects that frame, `middle` is the middle of the
+    /// part, part space, metres. Returns false if the source does not show it, or ends before. An error leaves the part
+    /// unchecked and must be answered instead of it.
     pub fn refuse_if_moving(
         &self,
-        origin: &mut FrameOrigin,
+        at: Duration,
         inspection: &mut Inspection,
         middle: Option<Point3<f64>>,
         at_most: Duration,
         is_ending: impl Fn() -> bool,
         again: impl FnOnce(Captured) -> Inspection,
-    ) -> Result<(), NoFrame> {
+    ) -> Result<bool, NoFrame> {
         let opened = self.opened();
-        let Some(motion) = opened.motion.as_ref().filter(|_| origin.is_motion_checked) else {
-            return Ok(());
+        let Some(motion) = &opened.motion else {
+            return Ok(false);
         };
         if !inspection.verdict.is_accepted() {
-            return Ok(());
+            return Ok(true);
         }
-        let apart = match motion.state_at(origin.at) {
+        let apart = match motion.state_at(at) {
             MotionState::Moving => {
                 refuse_moving(inspection);
-                return Ok(());
+                return Ok(true);
             }
             MotionState::Steady { .. } => APART,
             MotionState::Watching => SteadyParams::default().settle,
         };
         let later = opened.wait(at_most, is_ending, |captured| {
-            Ok(time_of(captured) >= origin.at + apart)
+            Ok(time_of(captured) >= at + apart)
         });
         let later = match later {
             // The file ends here.
-            Err(NoFrame::Ended) if opened.rule == NewFrame::SecondReplayed => {
-                origin.is_motion_checked = false;
-                return Ok(());
-            }
+            Err(NoFrame::Ended) if opened.rule == NewFrame::SecondReplayed => return Ok(false),
             later => later?,
         };
         let at = time_of(&later);
@@ -360,12 +343,12 @@ impl Camera {
         } else {
             refuse_unless_again(inspection, &again, middle);
         }
-        Ok(())
+        Ok(true)
     }
 
-    /// The frame's time of capture, and whether its answer is marked.
-    pub fn origin_of(&self, captured: &Captured) -> FrameOrigin {
-        self.opened().rule.origin_of(captured)
+    /// The time of capture, from which the frame's age is computed.
+    pub fn captured_at(&self, captured: &Captured) -> Instant {
+        self.opened().rule.captured_at(captured)
     }
 
     fn restart_if_over(&self) -> Result<(), NoFrame> {
@@ -609,7 +592,7 @@ mod tests {
             .frame_after(&asked, PATIENCE, || false)
             .expect("written after");
         assert_eq!(frame.number, 3);
-        assert!(camera.origin_of(&frame).captured <= frame.arrived);
+        assert!(camera.captured_at(&frame) <= frame.arrived);
     }
 
     #[test]
@@ -655,27 +638,6 @@ mod tests {
         let why = frame_after(290);
         assert_eq!(why.reason(), "clock_ahead");
         assert!(why.to_string().contains("at least 0.3 s ahead"), "{why}");
-    }
-
-    #[test]
-    fn the_answer_to_a_replayed_frame_is_marked_and_that_of_a_camera_is_not() {
-        for (source, marked) in [
-            ("recording:monday", true),
-            ("openni,pace=as-taken:monday.oni", true),
-            ("realsense,pace=10:monday.db3", true),
-            ("realsense,pace=10:monday.bag", true),
-            ("openni", false),
-            ("realsense:843112072752", false),
-            ("kinect", false),
-            ("genicam", false),
-            ("watch:scans", false),
-        ] {
-            let rule = NewFrame::of_source(&source.parse().expect("a source"));
-            let mut frame = captured(1, clock::now());
-            assert_eq!(rule.origin_of(&frame).is_simulated, marked, "{source}");
-            frame.is_simulated = true;
-            assert!(rule.origin_of(&frame).is_simulated, "{source}");
-        }
     }
 
     #[test]
@@ -786,22 +748,21 @@ mod tests {
             passing.expect("a frame");
             let frame = camera.frame_after(&Asked::now(), LINE_PATIENCE, || false);
             let frame = frame.expect("a frame");
-            let mut origin = camera.origin_of(&frame);
+            let taken_at = time_of(&frame);
             let truth = Arc::clone(frame.truth.as_ref().expect("known"));
             let mut inspection = inspect(frame);
             let was_accepted = inspection.verdict.is_accepted();
             let middle = inspection.best_reference(&library);
             let middle = middle.and_then(Reference::middle);
             let checked = camera.refuse_if_moving(
-                &mut origin,
+                taken_at,
                 &mut inspection,
                 middle,
                 LINE_PATIENCE,
                 || false,
                 inspect,
             );
-            checked.expect("a second frame");
-            assert!(origin.is_motion_checked);
+            assert!(checked.expect("a second frame"));
             num_moving += usize::from(was_accepted && !inspection.verdict.is_accepted());
             if !inspection.verdict.is_accepted() {
                 continue;
@@ -812,8 +773,7 @@ mod tests {
             let bound = pose.bounds().expect("bounds").shift;
             assert!(
                 off <= bound.0,
-                "{off} m off at {:?}, beyond {bound}",
-                origin.at
+                "{off} m off at {taken_at:?}, beyond {bound}"
             );
             num_accepted += 1;
         }
@@ -821,21 +781,5 @@ mod tests {
             num_moving >= 2 && num_accepted >= 2,
             "{num_moving}, {num_accepted}"
         );
-    }
-
-    #[test]
-    fn a_file_for_each_trigger_and_independent_captures_are_not_checked() {
-        for (source, is_checked) in [
-            ("simulated", true),
-            ("kinect", true),
-            ("openni,pace=as-taken:monday.oni", true),
-            ("watch:scans", false),
-            // No recording is there: a folder of captures.
-            ("recording:monday", false),
-        ] {
-            let rule = NewFrame::of_source(&source.parse().expect("a source"));
-            let origin = rule.origin_of(&captured(1, clock::now()));
-            assert_eq!(origin.is_motion_checked, is_checked, "{source}");
-        }
     }
 }

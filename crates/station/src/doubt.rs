@@ -1,15 +1,15 @@
 //! The reasons against letting a robot act on a result.
 
-use std::{
-    path::Path,
-    time::{Duration, SystemTime},
-};
+use std::time::{Duration, SystemTime};
 
-use files::file_of;
+use super::Inspected;
 use geometry::error::Advice;
-use inspection::pipeline::Inspection;
-use robot::{RobotFrame, arm::NotReached, paint::FilmOffPlan, spray::OffThePart};
-use stages::pose::{OffScale, PoseEstimate};
+use records::report::pose_report::DoubtBlock;
+use robot::{arm::NotReached, paint::FilmOffPlan, spray::OffThePart};
+use stages::{
+    pose::{OffScale, PoseEstimate},
+    scan,
+};
 
 /// A part captured longer ago than this may hang elsewhere by now.
 const STALE: Duration = Duration::from_mins(10);
@@ -23,22 +23,6 @@ const CLOCK_TOLERANCE: Duration = Duration::from_secs(5);
 pub struct ClockAhead {
     /// The difference between the clocks.
     pub ahead: Duration,
-}
-
-/// How a result relates to what hangs there now.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Currency {
-    /// The source is followed, and what it shows hangs still: the result is that of now.
-    Current,
-    /// What hangs there moves, or two frames do not agree yet.
-    Moving,
-    /// The source gives no more frames.
-    SourceLost,
-    /// Another part may hang there: the result is of the history, out of date, or of a source that is no longer
-    /// followed.
-    Superseded,
-    /// Captured once, at this time; for files, see [`written_at`].
-    CapturedAt(SystemTime),
 }
 
 /// Why a robot must not act on a result. `Display` states what is wrong, `Advice` what to do.
@@ -77,6 +61,9 @@ pub enum Doubt {
     /// The part is larger or smaller than its reference, so the camera's numbers are probably wrong.
     #[error(transparent)]
     OffScale(OffScale),
+    /// The frames of a scan, or the poses of their cameras, contradict one another.
+    #[error(transparent)]
+    Scan(scan::Doubt),
     /// The path does not aim at the part.
     #[error(transparent)]
     OffThePart(OffThePart),
@@ -103,6 +90,8 @@ impl Doubt {
             Self::Old => "old",
             Self::Ambiguous => "ambiguous_pose",
             Self::OffScale(_) => "off_scale",
+            Self::Scan(scan::Doubt::PoorAgreement { .. }) => "frames_disagree",
+            Self::Scan(scan::Doubt::PosesApart { .. }) => "poses_apart",
             Self::OffThePart(_) => "off_the_part",
             Self::NotReached(_) => "not_reached",
             Self::FilmOffPlan(_) => "film_off_plan",
@@ -134,6 +123,7 @@ impl Advice for Doubt {
                 "Turn the part's face to the camera, all of it inside the picture".into()
             }
             Self::OffScale(off) => off.advice(),
+            Self::Scan(doubt) => doubt.advice(),
             Self::OffThePart(off) => off.advice(),
             Self::NotReached(missed) => missed.advice(),
             Self::FilmOffPlan(off_plan) => off_plan.advice(),
@@ -141,29 +131,8 @@ impl Advice for Doubt {
     }
 }
 
-impl Currency {
-    /// The reason against a result of this currency.
-    fn doubt(&self) -> Option<Doubt> {
-        match self {
-            Self::Current => None,
-            Self::Moving => Some(Doubt::Moving),
-            Self::SourceLost => Some(Doubt::SourceLost),
-            Self::Superseded => Some(Doubt::Superseded),
-            Self::CapturedAt(captured) => age_doubt(*captured),
-        }
-    }
-}
-
-/// When the capture in these files was made: when they were last written, the earliest if there are several, and the
-/// beginning of time if that is not known.
-pub fn written_at<'a>(files: impl IntoIterator<Item = &'a Path>) -> SystemTime {
-    // The path may name unit, axes or a mesh behind the file.
-    let written = |file| file_of(file).metadata().and_then(|meta| meta.modified());
-    let times = files.into_iter().map(|file| written(file).ok());
-    times.min().flatten().unwrap_or(SystemTime::UNIX_EPOCH)
-}
-
-fn age_doubt(captured: SystemTime) -> Option<Doubt> {
+/// Returns the doubt about a capture of this time whose source is not followed: another part may hang there by now.
+pub fn age_doubt(captured: SystemTime) -> Option<Doubt> {
     match SystemTime::now().duration_since(captured) {
         Ok(age) => (age > STALE).then_some(Doubt::Old),
         Err(error) => {
@@ -173,48 +142,57 @@ fn age_doubt(captured: SystemTime) -> Option<Doubt> {
     }
 }
 
-/// Returns the doubts about a result, the one to show first; a robot may act on the result only if there are none.
-/// `robot` is `None` if the cell is not calibrated.
-pub fn doubts(
-    inspection: &Inspection,
-    currency: &Currency,
-    robot: Option<&RobotFrame>,
-) -> Vec<Doubt> {
-    let of_cell = robot.is_none().then_some(Doubt::NotCalibrated);
-    let of_result = doubts_of_result(inspection);
-    let all = currency.doubt().into_iter().chain(of_result);
-    all.chain(of_cell).collect()
-}
+impl Inspected<'_> {
+    /// Returns the doubts about the result, the one to show first; a robot may act on it only if there are none.
+    pub fn doubts(&self) -> Vec<Doubt> {
+        let Self {
+            subject,
+            inspection,
+            robot,
+            ..
+        } = *self;
+        let is_accepted = inspection.verdict.is_accepted();
+        let pose = inspection.found_pose();
+        let is_ambiguous = pose.is_some_and(PoseEstimate::is_ambiguous);
+        let of_scan = subject.scan.as_ref().and_then(|scan| scan.doubt.clone());
+        let doubts = [
+            (subject.reported_as.is_some()).then_some(Doubt::ReportedWrong),
+            (!is_accepted).then_some(Doubt::NotAccepted),
+            pose.is_none().then_some(Doubt::NoPose),
+            subject.currency.clone(),
+            is_ambiguous.then_some(Doubt::Ambiguous),
+            pose.and_then(PoseEstimate::off_scale).map(Doubt::OffScale),
+            of_scan.map(Doubt::Scan),
+            robot.is_none().then_some(Doubt::NotCalibrated),
+        ];
+        doubts.into_iter().flatten().collect()
+    }
 
-/// Returns the doubts that a result has whenever and wherever it was captured.
-pub fn doubts_of_result(inspection: &Inspection) -> Vec<Doubt> {
-    let pose = inspection.found_pose();
-    let of_result = [
-        (!inspection.verdict.is_accepted(), Doubt::NotAccepted),
-        (pose.is_none(), Doubt::NoPose),
-    ];
-    let of_result = of_result.into_iter().filter(|(is_doubt, _)| *is_doubt);
-    let of_result = of_result.map(|(_, doubt)| doubt);
-    of_result
-        .chain(pose.into_iter().flat_map(doubts_about))
-        .collect()
-}
-
-/// The doubts about a pose by itself.
-pub(crate) fn doubts_about(pose: &PoseEstimate) -> impl Iterator<Item = Doubt> {
-    let ambiguous = pose.is_ambiguous().then_some(Doubt::Ambiguous);
-    let off_scale = pose.off_scale().map(Doubt::OffScale);
-    ambiguous.into_iter().chain(off_scale)
+    /// The doubts about the result as a report states them, which says by itself that a calibration is missing.
+    pub fn doubt_blocks(&self) -> Vec<DoubtBlock> {
+        let doubts = self.doubts().into_iter();
+        let about_result = doubts.filter(|doubt| *doubt != Doubt::NotCalibrated);
+        let blocks = about_result.map(|doubt| DoubtBlock {
+            kind: doubt.kind(),
+            what: doubt.to_string(),
+            advice: doubt.advice(),
+        });
+        blocks.collect()
+    }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::{path::Path, sync::Arc};
+
     use super::*;
-    use geometry::rigid::RigidTransform;
+    use crate::{ScanFacts, Subject};
+    use geometry::{rigid::RigidTransform, units::Metres};
     use inspection::{
         fixtures::shipped_library,
-        pipeline::{Recipe, Unwatched, run},
+        pipeline::{Inspection, NamedRecipe, Unwatched, run},
     };
+    use robot::RobotFrame;
     use simulate::{PartKind, Side};
     use stages::{
         fixtures::facing_part,
@@ -222,45 +200,60 @@ mod tests {
         scene::SceneCloud,
     };
 
-    fn frame() -> RobotFrame {
-        RobotFrame {
-            robot_from_camera: RigidTransform::identity(),
-            name: "cell 1".into(),
-        }
+    fn subject() -> Subject {
+        Subject::of_scene("fender".into(), "file".into(), false)
     }
 
-    fn kinds(doubts: &[Doubt]) -> Vec<&'static str> {
+    /// The doubts about an inspection of this subject, in a calibrated cell or not.
+    fn doubts(inspection: &Inspection, subject: &Subject, is_calibrated: bool) -> Vec<Doubt> {
+        let robot = RobotFrame {
+            robot_from_camera: RigidTransform::identity(),
+            name: "cell 1".into(),
+        };
+        let inspected = Inspected {
+            subject,
+            scene: &Arc::default(),
+            inspection,
+            recipe: &NamedRecipe::default(),
+            robot: is_calibrated.then_some(&robot),
+            is_forced: false,
+        };
+        inspected.doubts()
+    }
+
+    fn kinds(inspection: &Inspection, subject: &Subject) -> Vec<&'static str> {
+        let doubts = doubts(inspection, subject, true);
         doubts.iter().map(Doubt::kind).collect()
     }
 
     #[test]
     fn a_capture_counts_for_ten_minutes_and_not_if_its_clock_is_ahead() {
         let now = SystemTime::now();
-        let kind = |currency: &Currency| currency.doubt().map(|doubt| doubt.kind());
+        let kind = |captured| age_doubt(captured).map(|doubt| doubt.kind());
         for (captured, expected) in [
             (now - Duration::from_mins(11), Some("old")),
             (now - Duration::from_mins(1), None),
             (now + Duration::from_secs(2), None),
             (now + Duration::from_hours(1), Some("clock_ahead")),
         ] {
-            assert_eq!(kind(&Currency::CapturedAt(captured)), expected);
+            assert_eq!(kind(captured), expected);
         }
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("door.pcd");
-        let of_files = |files: &[&Path]| Currency::CapturedAt(written_at(files.iter().copied()));
-        assert_eq!(kind(&of_files(&[&path])), Some("old"), "no file, so no age");
+        let of_file = |path: &Path| Subject::of_file(path, false).currency;
+        assert_eq!(of_file(&path), Some(Doubt::Old), "no file, so no age");
         let file = std::fs::File::create(&path).expect("created");
-        assert_eq!(kind(&of_files(&[&path])), None);
         let in_millimetres = folder.path().join("door.pcd#units=mm");
-        assert_eq!(kind(&of_files(&[&in_millimetres])), None);
-        let older = folder.path().join("older.pcd");
-        assert_eq!(kind(&of_files(&[&path, &older])), Some("old"), "one of two");
-        let written = std::fs::File::create(&older).expect("created");
+        for path in [&path, &in_millimetres] {
+            assert_eq!(of_file(path), None);
+        }
         let hour = Duration::from_hours(1);
-        written.set_modified(now - hour).expect("dated");
-        assert_eq!(kind(&of_files(&[&path, &older])), Some("old"));
+        file.set_modified(now - hour).expect("dated");
+        for path in [&path, &in_millimetres] {
+            assert_eq!(of_file(path), Some(Doubt::Old));
+        }
         file.set_modified(now + hour).expect("dated");
-        let doubt = of_files(&[&path]).doubt().expect("ahead");
+        let doubt = of_file(&path).expect("ahead");
         assert!(doubt.to_string().contains("later than now"), "{doubt}");
         assert!(doubt.advice().contains("clocks"), "{}", doubt.advice());
     }
@@ -268,24 +261,24 @@ mod tests {
     #[test]
     fn a_robot_may_act_only_on_an_accepted_part_with_one_pose_in_a_calibrated_cell() {
         let library = shipped_library();
-        let recipe = Recipe::default();
+        let recipe = NamedRecipe::default();
         let scene = facing_part(PartKind::Fender, Side::Left, 5);
         let mut inspection = run(&scene, &library, &recipe, &Unwatched).expect("run");
-        let robot = frame();
-        let found =
-            |inspection: &Inspection, currency, robot| kinds(&doubts(inspection, &currency, robot));
-        assert!(found(&inspection, Currency::Current, Some(&robot)).is_empty());
-        for (currency, kind) in [
-            (Currency::Moving, "moving"),
-            (Currency::SourceLost, "source_lost"),
-            (Currency::Superseded, "superseded"),
-        ] {
-            assert_eq!(found(&inspection, currency, Some(&robot)), [kind]);
+        let current = subject();
+        assert_eq!(doubts(&inspection, &current, true), []);
+        assert_eq!(doubts(&inspection, &current, false), [Doubt::NotCalibrated]);
+        for currency in [Doubt::Moving, Doubt::SourceLost, Doubt::Superseded] {
+            let subject = Subject {
+                currency: Some(currency.clone()),
+                ..subject()
+            };
+            assert_eq!(doubts(&inspection, &subject, true), [currency]);
         }
-        assert_eq!(
-            found(&inspection, Currency::Current, None),
-            ["not_calibrated"]
-        );
+        let reported = Subject {
+            reported_as: Some("nothing".into()),
+            ..subject()
+        };
+        assert_eq!(kinds(&inspection, &reported), ["reported_wrong"]);
         let Some(Ok(pose)) = &mut inspection.pose else {
             panic!("a pose");
         };
@@ -294,10 +287,7 @@ mod tests {
             scale: 1.05,
             deviation: 0.005,
         });
-        assert_eq!(
-            found(&inspection, Currency::Current, Some(&robot)),
-            ["off_scale"]
-        );
+        assert_eq!(kinds(&inspection, &current), ["off_scale"]);
         let Some(Ok(pose)) = &mut inspection.pose else {
             panic!("a pose");
         };
@@ -306,19 +296,51 @@ mod tests {
             target_from_source: pose.target_from_source,
             ratio: 1.01,
         });
-        assert_eq!(
-            found(&inspection, Currency::Moving, Some(&robot)),
-            ["moving", "ambiguous_pose"]
-        );
+        let moving = Subject {
+            currency: Some(Doubt::Moving),
+            ..subject()
+        };
+        assert_eq!(kinds(&inspection, &moving), ["moving", "ambiguous_pose"]);
         inspection.pose = None;
-        assert_eq!(
-            found(&inspection, Currency::Current, Some(&robot)),
-            ["no_pose"]
-        );
+        assert_eq!(kinds(&inspection, &current), ["no_pose"]);
         let nothing = run(&SceneCloud::default(), &library, &recipe, &Unwatched).expect("run");
-        assert_eq!(
-            found(&nothing, Currency::Current, Some(&robot)),
-            ["not_accepted", "no_pose"]
-        );
+        // However old it is: another capture of it would not be accepted either.
+        let expected = ["not_accepted", "no_pose", "moving"];
+        assert_eq!(kinds(&nothing, &moving), expected);
+    }
+
+    #[test]
+    fn a_robot_may_not_act_on_a_scan_whose_frames_or_poses_contradict_one_another() {
+        let library = shipped_library();
+        let recipe = NamedRecipe::default();
+        let scene = facing_part(PartKind::Fender, Side::Left, 5);
+        let inspection = run(&scene, &library, &recipe, &Unwatched).expect("run");
+        let of_scan = |doubt| Subject {
+            scan: Some(ScanFacts {
+                reference_frame: "a.png".into(),
+                shots: Vec::new(),
+                num_used: 2,
+                doubt,
+            }),
+            ..subject()
+        };
+        assert_eq!(doubts(&inspection, &of_scan(None), true), []);
+        let disagree = scan::Doubt::PoorAgreement {
+            name: "a.png".into(),
+            share: 0.9,
+        };
+        let apart = scan::Doubt::PosesApart {
+            names: ["a.png".into(), "b.png".into()],
+            apart: Metres::from_mm(30.0),
+        };
+        for (doubt, kind) in [(disagree, "frames_disagree"), (apart, "poses_apart")] {
+            let subject = of_scan(Some(doubt.clone()));
+            assert_eq!(kinds(&inspection, &subject), [kind]);
+            let [found] = &doubts(&inspection, &subject, true)[..] else {
+                panic!("one doubt");
+            };
+            assert_eq!(found.to_string(), doubt.to_string());
+            assert_eq!(found.advice(), doubt.advice());
+        }
     }
 }

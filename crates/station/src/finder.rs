@@ -1,8 +1,8 @@
 //! Converts an inspection into a robot's result: a pose in its base frame, or why there is none.
 
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-use super::doubt::doubts_about;
+use super::Inspected;
 use geometry::rigid::RigidTransform;
 use inspection::{
     library::SprayPath,
@@ -25,19 +25,6 @@ pub struct NumberedPart {
     pub is_simulated: bool,
 }
 
-/// When a frame was captured, and whether its answer is marked.
-#[derive(Clone, Copy, Debug)]
-pub struct FrameOrigin {
-    /// When it was captured or, if it is replayed, when it was replayed.
-    pub captured: Instant,
-    /// The camera's time of it, from any origin: that by which motion is judged.
-    pub at: Duration,
-    /// True if the frame is simulated or replayed: [`Answer::SIMULATED`].
-    pub is_simulated: bool,
-    /// False if the source does not show whether the part hung still: [`Answer::MOTION_UNCHECKED`].
-    pub is_motion_checked: bool,
-}
-
 /// The reason word of a part that moves: shorter than its kind of refusal, for programs that compare it.
 const MOVING: &str = "moving";
 
@@ -53,21 +40,22 @@ pub struct PartFinder {
 }
 
 impl PartFinder {
-    /// Converts an inspection by `recipe` into its result. An accepted part with an ambiguous pose is refused: a robot
-    /// cannot look which of the poses is right.
-    pub fn found(&self, inspection: &Inspection, recipe: &Recipe, origin: FrameOrigin) -> Found {
+    /// Converts an inspection of a frame of this time into its result. An accepted part about which there are doubts is
+    /// refused: a robot cannot look into them.
+    pub fn found(&self, inspected: &Inspected<'_>, captured: Instant) -> Found {
+        let (subject, inspection) = (inspected.subject, inspected.inspection);
         let verdict = &inspection.verdict;
         let best = inspection.ranking.entries.first();
         let numbered = best.and_then(|best| self.parts.get(best.reference));
         let named = verdict.guess().filter(|_| !verdict.is_unknown());
         // An unknown part has no reference, so none that could be simulated.
         let of_named = named.and(numbered);
-        let is_simulated = origin.is_simulated || of_named.is_some_and(|part| part.is_simulated);
+        let is_staged = subject.is_staged() || of_named.is_some_and(|part| part.is_simulated);
         let mut found = Found {
-            captured: Some(origin.captured),
+            captured: Some(captured),
             part: named.unwrap_or_default().to_owned(),
             number: of_named.map_or(0, |part| part.number),
-            marks: if is_simulated { Answer::SIMULATED } else { 0 },
+            marks: if is_staged { Answer::SIMULATED } else { 0 },
             ..Found::default()
         };
         if let (Some(why), Some([what, advice])) = (verdict.refusal(), verdict.complaint()) {
@@ -83,20 +71,19 @@ impl PartFinder {
             found.trouble = Trouble::new(reason, &what, &advice);
             return found;
         }
-        let pose = inspection.found_pose();
-        if let Some(doubt) = pose.and_then(|pose| doubts_about(pose).next()) {
+        if let Some(doubt) = inspected.doubts().first() {
             found.verdict = VerdictCode::Refused;
-            found.trouble = Trouble::of(doubt.kind(), &doubt);
+            found.trouble = Trouble::of(doubt.kind(), doubt);
             return found;
         }
         found.verdict = VerdictCode::Accepted;
         if verdict.is_approximate() {
             found.marks |= Answer::APPROXIMATE;
         }
-        if !origin.is_motion_checked {
+        if subject.is_motion_unchecked {
             found.marks |= Answer::MOTION_UNCHECKED;
         }
-        if let Some(pose) = pose {
+        if let Some(pose) = inspection.found_pose() {
             let camera_from_part = pose.camera_from_part();
             found.pose = Some(match self.kind {
                 PoseKind::RobotFromPart => self.robot.robot_from_part(&camera_from_part),
@@ -104,7 +91,7 @@ impl PartFinder {
             });
             let path = numbered.and_then(|numbered| numbered.path.as_ref());
             found.path = path.map_or_else(Vec::new, |path| {
-                self.carried(path, &camera_from_part, inspection, recipe)
+                self.carried(path, &camera_from_part, inspection, inspected.recipe)
             });
         }
         found
@@ -136,14 +123,17 @@ impl PartFinder {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use nalgebra::{Point3, Unit, Vector3};
 
     use super::*;
+    use crate::{Doubt, Subject};
     use geometry::{rigid::from_euler_zyx, units::Metres};
     use inspection::{
         fixtures::shipped_library,
         library::{Library, PathPoint},
-        pipeline::{Unwatched, live::refuse_moving, run},
+        pipeline::{NamedRecipe, Unwatched, live::refuse_moving, run},
     };
     use simulate::{PartKind, Side};
     use stages::{
@@ -178,13 +168,21 @@ mod tests {
         }
     }
 
-    fn origin() -> FrameOrigin {
-        FrameOrigin {
-            captured: Instant::now(),
-            at: Duration::ZERO,
-            is_simulated: true,
-            is_motion_checked: true,
-        }
+    fn simulated() -> Subject {
+        Subject::of_scene("frame".into(), "simulated".into(), true)
+    }
+
+    /// The result of an inspection of this subject, just captured.
+    fn found(finder: &PartFinder, inspection: &Inspection, subject: &Subject) -> Found {
+        let inspected = Inspected {
+            subject,
+            scene: &Arc::default(),
+            inspection,
+            recipe: &NamedRecipe::default(),
+            robot: Some(&finder.robot),
+            is_forced: false,
+        };
+        finder.found(&inspected, Instant::now())
     }
 
     #[test]
@@ -207,7 +205,7 @@ mod tests {
                 PoseKind::RobotFromPart => finder.robot.robot_from_part(&pose),
                 PoseKind::RobotOffset => finder.robot.robot_offset(&pose),
             };
-            let found = finder.found(&inspection, &recipe, origin());
+            let found = found(&finder, &inspection, &simulated());
             assert_eq!(
                 found.verdict,
                 VerdictCode::Accepted,
@@ -235,7 +233,7 @@ mod tests {
         let library = shipped_library();
         let finder = finder(&library, PoseKind::default());
         let of = |inspection: &Inspection| {
-            let found = finder.found(inspection, &recipe, origin());
+            let found = found(&finder, inspection, &simulated());
             assert_eq!((found.pose, found.path.len()), (None, 0));
             assert!(found.trouble.message.contains("to do"));
             (found.verdict, found.trouble.reason)
@@ -263,15 +261,15 @@ mod tests {
         let scene = facing_part(PartKind::Fender, Side::Left, 5);
         let mut inspection = run(&scene, &library, &recipe, &Unwatched).expect("run");
         let finder = finder(&library, PoseKind::default());
-        let unknown = FrameOrigin {
-            is_motion_checked: false,
-            ..origin()
+        let unknown = Subject {
+            is_motion_unchecked: true,
+            ..simulated()
         };
-        let found = finder.found(&inspection, &recipe, unknown);
-        assert_eq!(found.verdict, VerdictCode::Accepted);
-        assert_eq!(found.marks, Answer::SIMULATED | Answer::MOTION_UNCHECKED);
+        let may_move = found(&finder, &inspection, &unknown);
+        assert_eq!(may_move.verdict, VerdictCode::Accepted);
+        assert_eq!(may_move.marks, Answer::SIMULATED | Answer::MOTION_UNCHECKED);
         refuse_moving(&mut inspection);
-        let found = finder.found(&inspection, &recipe, origin());
+        let found = found(&finder, &inspection, &unknown);
         assert_eq!(found.verdict, VerdictCode::Refused);
         assert_eq!((found.pose, found.path.len()), (None, 0));
         assert_eq!(found.trouble.reason, "moving");
@@ -285,9 +283,9 @@ mod tests {
         for part in &mut finder.parts {
             part.is_simulated = true;
         }
-        let seen = FrameOrigin {
+        let seen = Subject {
             is_simulated: false,
-            ..origin()
+            ..simulated()
         };
         let scene = facing_part(PartKind::Fender, Side::Left, 5);
         for (unknown_below, marks) in [(0.0, Answer::SIMULATED), (1.1, 0)] {
@@ -302,39 +300,49 @@ mod tests {
             };
             let inspection = run(&scene, &library, &recipe, &Unwatched).expect("run");
             assert_eq!(inspection.verdict.is_unknown(), marks == 0);
-            assert_eq!(finder.found(&inspection, &recipe, seen).marks, marks);
+            assert_eq!(found(&finder, &inspection, &seen).marks, marks);
         }
     }
 
     #[test]
-    fn a_pose_that_is_ambiguous_or_of_another_scale_does_not_count() {
+    fn an_accepted_part_about_which_there_are_doubts_is_refused_by_the_first() {
         let library = shipped_library();
         let recipe = Recipe::default();
         let scene = facing_part(PartKind::Fender, Side::Left, 5);
         let mut inspection = run(&scene, &library, &recipe, &Unwatched).expect("run");
         assert!(inspection.verdict.is_accepted());
         let finder = finder(&library, PoseKind::default());
-        let mut is_refused_as = |reason: &str, change: fn(&mut PoseEstimate)| {
-            let Some(Ok(pose)) = &mut inspection.pose else {
-                panic!("a pose");
-            };
-            change(pose);
-            let found = finder.found(&inspection, &recipe, origin());
+        let is_refused_as = |reason: &str, inspection: &Inspection, subject: &Subject| {
+            let found = found(&finder, inspection, subject);
             assert_eq!(found.verdict, VerdictCode::Refused);
             assert_eq!(found.trouble.reason, reason);
             assert_eq!((found.pose, found.path.len()), (None, 0));
         };
-        is_refused_as("off_scale", |pose| {
+        let old = Subject {
+            currency: Some(Doubt::Old),
+            ..simulated()
+        };
+        is_refused_as("old", &inspection, &old);
+        let mut is_changed_to = |reason: &str, change: fn(&mut PoseEstimate)| {
+            let Some(Ok(pose)) = &mut inspection.pose else {
+                panic!("a pose");
+            };
+            change(pose);
+            is_refused_as(reason, &inspection, &simulated());
+        };
+        is_changed_to("off_scale", |pose| {
             pose.scale = Some(ScaleEstimate {
                 scale: 1.05,
                 deviation: 0.005,
             });
         });
-        is_refused_as("ambiguous_pose", |pose| {
+        is_changed_to("ambiguous_pose", |pose| {
             pose.runner_up = Some(RunnerUp {
                 target_from_source: pose.target_from_source,
                 ratio: 1.01,
             });
         });
+        inspection.pose = None;
+        is_refused_as("no_pose", &inspection, &simulated());
     }
 }

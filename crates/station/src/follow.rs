@@ -22,6 +22,8 @@ pub struct PartFollower<E = NewEntry> {
     at: Duration,
     /// The verdict of the last frame by itself.
     own: Option<Verdict>,
+    /// Time of the frame whose entry is held for a part that may leave before its verdict counts.
+    held_at: Option<Duration>,
 }
 
 impl<E> Default for PartFollower<E> {
@@ -31,6 +33,7 @@ impl<E> Default for PartFollower<E> {
             rows: HungRows::default(),
             at: Duration::ZERO,
             own: None,
+            held_at: None,
         }
     }
 }
@@ -79,10 +82,10 @@ impl<E> PartFollower<E> {
         true
     }
 
-    /// Returns what to record now, after [`Self::refuse_if_moving`] for the same frame. The verdict that counts is formed
-    /// from several frames; for a part that leaves before, the frame that shows it best is recorded with its own verdict.
-    /// `middle` is the middle of the named part, part space, metres. `entry` also gets whether the part is known to have
-    /// hung still.
+    /// Returns what to record now, after [`Self::refuse_if_moving`] for the same frame and [`Self::settle`] for those before
+    /// it. The verdict that counts is formed from several frames; for a part that leaves before, the frame that shows it best
+    /// is recorded with its own verdict, see [`Self::settled`]. `middle` is the middle of the named part, part space, metres.
+    /// `entry` also gets whether the part is known to have hung still.
     pub fn take(
         &mut self,
         scene: &SceneCloud,
@@ -113,11 +116,20 @@ impl<E> PartFollower<E> {
                 inspection.verdict = own;
                 self.refuse(&mut inspection);
                 self.rows.hold(entry(&inspection, id, false));
+                self.held_at = Some(self.at);
                 None
             }
             FrameRole::First | FrameRole::Again => Some(entry(&inspection, id, true)),
         };
         [left, now]
+    }
+
+    /// The verdict of the frame of this time is settled: if that frame is recorded, should its part leave before a verdict
+    /// counts, it is recorded with that verdict.
+    pub fn settled(&mut self, at: Duration, entry: impl FnOnce(HungId) -> E) {
+        if self.held_at == Some(at) && self.rows.is_holding() {
+            self.rows.hold(entry(self.rows.id().clone()));
+        }
     }
 
     /// Ends the source. Returns what is still to be recorded.
@@ -177,5 +189,38 @@ mod tests {
             panic!("{kept:?}");
         };
         assert!(seconds > 2.0 && entry == (true, true), "{kept:?}");
+    }
+
+    #[test]
+    fn a_part_that_leaves_before_its_verdict_counts_is_recorded_with_the_verdict_of_its_frame() {
+        let mut cell = SimulatedCell::new(SimulatedSpec {
+            scene: CellScene::Part(simulate::PartKind::Fender),
+            frames_per_second: 10.0,
+            ..SimulatedSpec::default()
+        });
+        let recipe = Recipe::default();
+        let library = shipped_library();
+        let mut followed = PartFollower::default();
+        let entry =
+            |inspection: &Inspection, _, is_still| (inspection.verdict.is_accepted(), is_still);
+        let mut frames = Vec::new();
+        for number in 1..=3_u64 {
+            let scene = Arc::new(scene_from_image(cell.frame(number).0));
+            let seconds = number as f64 / 10.0;
+            let taken_at = Timestamp::UNIX_EPOCH + SignedDuration::from_secs_f64(seconds);
+            let scene = followed.look(scene, taken_at);
+            let mut inspection = run(&scene, &library, &recipe, &Unwatched).expect("run");
+            followed.refuse_if_moving(&mut inspection);
+            assert!(inspection.verdict.is_accepted());
+            let taken = followed.take(&scene, inspection.clone(), None, &recipe.accept, entry);
+            assert_eq!(taken, [None, None], "too early to tell");
+            frames.push((followed.at(), inspection));
+        }
+        // The source ends here: whoever shows the frames refuses them, and one of them is recorded.
+        for (at, mut inspection) in frames {
+            refuse_moving(&mut inspection);
+            followed.settled(at, |hung| entry(&inspection, hung, false));
+        }
+        assert_eq!(followed.end(), Some((false, false)));
     }
 }

@@ -1,14 +1,15 @@
 //! What is recorded of an inspection: its line of JSON and its entry in the history, the same whichever front end inspected.
 
-use std::sync::Arc;
+use std::{path::Path, sync::Arc, time::SystemTime};
 
-use super::{Doubt, doubts_of_result};
+use super::{Doubt, NewFrame, age_doubt};
 use image::RgbImage;
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use capture::Captured;
-use geometry::rigid::{RigidTransform, row_major};
+use capture::{Captured, SourceSpec};
+use files::written_at;
+use geometry::rigid::row_major;
 use inspection::pipeline::{Inspection, NamedRecipe};
 use records::{
     history::{HungId, InspectionContext, NewEntry, SceneTitle, Traceability},
@@ -16,7 +17,8 @@ use records::{
 };
 use robot::RobotFrame;
 use stages::{
-    scan::{Scan, Shot},
+    pose::PoseEstimate,
+    scan::{self, Scan, Shot},
     scene::SceneCloud,
 };
 
@@ -35,8 +37,12 @@ pub struct Subject {
     pub capture: Option<CaptureFacts>,
     /// The scan, if several frames were inspected together.
     pub scan: Option<ScanFacts>,
-    /// True if the part was accepted in a frame of a source and no other frame shows whether it hangs still.
+    /// Why another part may hang there by now, or this one elsewhere; `None` if it hangs there as captured.
+    pub currency: Option<Doubt>,
+    /// True if no other frame of the source shows whether the part hangs still.
     pub is_motion_unchecked: bool,
+    /// What really hung there, if a person reported the acceptance as wrong: a part, `not_enrolled` or `nothing`.
+    pub reported_as: Option<String>,
 }
 
 /// A capture from a source.
@@ -50,6 +56,12 @@ pub struct CaptureFacts {
     pub taken_at: Timestamp,
     /// Captures dropped since the source was opened, because others were being inspected.
     pub num_dropped: u64,
+    /// True if it was recorded earlier and is replayed now.
+    #[serde(default)]
+    pub is_replayed: bool,
+    /// True if it stands for itself: the captures before and after it do not show whether its part hangs still.
+    #[serde(default)]
+    pub is_alone: bool,
 }
 
 /// Frames that were inspected together.
@@ -57,28 +69,37 @@ pub struct CaptureFacts {
 pub struct ScanFacts {
     /// The frame whose camera the pose refers to.
     pub reference_frame: String,
-    /// Pose of the part in the robot's base frame.
-    pub base_from_part: Option<RigidTransform>,
     /// All frames, with their camera poses from the robot.
     pub shots: Vec<Shot>,
     /// Number of frames that were used.
     pub num_used: usize,
+    /// Set if those do not agree as well as they should.
+    pub doubt: Option<scan::Doubt>,
 }
 
 impl CaptureFacts {
     /// A capture of this source.
-    pub fn new(captured: &Captured, source: &str, num_dropped: u64) -> Self {
+    pub fn new(captured: &Captured, source: &SourceSpec, num_dropped: u64) -> Self {
         Self {
-            source: source.to_owned(),
+            source: source.to_string(),
             number: captured.number,
             taken_at: captured.taken_at,
             num_dropped,
+            is_replayed: source.is_replayed(),
+            is_alone: !NewFrame::of_source(source).shows_motion(),
         }
+    }
+
+    /// When it was captured, if it is a file that says so. What a camera has just delivered, or a recording replays, is of
+    /// now.
+    pub fn written_at(&self) -> Option<SystemTime> {
+        let is_file = self.is_alone && !self.is_replayed;
+        is_file.then(|| self.taken_at.into())
     }
 }
 
 impl Subject {
-    /// A scene of a file, of memory or of the simulation.
+    /// A scene of memory or of the simulation.
     pub fn of_scene(scene: String, source: String, is_simulated: bool) -> Self {
         Self {
             title: SceneTitle::of_frame(&scene, is_simulated),
@@ -87,38 +108,81 @@ impl Subject {
             is_simulated,
             capture: None,
             scan: None,
+            currency: None,
             is_motion_unchecked: false,
+            reported_as: None,
         }
     }
 
+    /// The scene in this file.
+    pub fn of_file(path: &Path, is_simulated: bool) -> Self {
+        let name = path.display().to_string();
+        let written = written_at(path).unwrap_or(SystemTime::UNIX_EPOCH);
+        Self::of_scene(name, "file".into(), is_simulated).captured_at(written)
+    }
+
     /// A capture of this source.
-    pub fn of_capture(captured: &Captured, source: &str, num_dropped: u64) -> Self {
-        let name = captured.name.clone();
+    pub fn of_capture(captured: &Captured, source: &SourceSpec, num_dropped: u64) -> Self {
+        let facts = CaptureFacts::new(captured, source, num_dropped);
+        let source = facts.source.clone();
+        Self::of_scene(captured.name.clone(), source, captured.is_simulated).with_capture(facts)
+    }
+
+    /// Adds the capture that delivered the scene.
+    #[must_use]
+    pub fn with_capture(self, facts: CaptureFacts) -> Self {
         Self {
-            capture: Some(CaptureFacts::new(captured, source, num_dropped)),
-            ..Self::of_scene(name, source.to_owned(), captured.is_simulated)
+            currency: facts.written_at().and_then(age_doubt),
+            is_motion_unchecked: facts.is_alone,
+            capture: Some(facts),
+            ..self
+        }
+    }
+
+    /// Adds when the scene was captured, of a source that is not followed.
+    #[must_use]
+    pub fn captured_at(self, at: SystemTime) -> Self {
+        Self {
+            currency: age_doubt(at),
+            ..self
         }
     }
 
     /// Adds the scan that was inspected; `first` is the index of the frame whose camera the pose refers to.
     #[must_use]
-    pub fn with_scan(
-        self,
-        scan: &Scan,
-        first: usize,
-        base_from_part: Option<RigidTransform>,
-    ) -> Self {
+    pub fn with_scan(self, scan: &Scan, first: usize) -> Self {
         let reference = scan.shots.get(first);
         let scan = ScanFacts {
             reference_frame: reference.map_or_else(String::new, |shot| shot.name.clone()),
-            base_from_part,
             shots: scan.given(),
             num_used: scan.used().count(),
+            doubt: scan.doubt.clone(),
         };
         Self {
             scan: Some(scan),
             ..self
         }
+    }
+
+    /// Name of the scene, and that it was recorded earlier.
+    pub(crate) fn scene_in_words(&self) -> String {
+        let is_replayed = self.is_replayed();
+        let replayed = if is_replayed {
+            ", recorded earlier"
+        } else {
+            ""
+        };
+        format!("{}{replayed}", self.scene)
+    }
+
+    /// True if the frame was recorded earlier, and is replayed now.
+    pub fn is_replayed(&self) -> bool {
+        self.capture.as_ref().is_some_and(|facts| facts.is_replayed)
+    }
+
+    /// True if no camera sees the scene now: it is simulated, or was recorded earlier.
+    pub fn is_staged(&self) -> bool {
+        self.is_simulated || self.is_replayed()
     }
 }
 
@@ -144,32 +208,34 @@ pub struct Inspected<'a> {
     pub recipe: &'a NamedRecipe,
     /// Position of the camera in the robot's base frame, if the cell is calibrated.
     pub robot: Option<&'a RobotFrame>,
+    /// True to give the pose of an accepted part in that frame despite doubts.
+    pub is_forced: bool,
 }
 
-impl Inspected<'_> {
-    /// Returns the line of JSON, without a line end.
-    pub fn line(&self, trace: &Traceability) -> String {
-        self.reported_line(trace, None)
+impl<'a> Inspected<'a> {
+    /// The robot's frame, if the pose may be given in it: the part was accepted, and there are no doubts, or it is forced.
+    pub fn frame_for_robot(&self) -> Option<&'a RobotFrame> {
+        let may_be_given = self.is_forced || self.doubts().is_empty();
+        (self.robot).filter(|_| may_be_given && self.inspection.verdict.is_accepted())
     }
 
-    /// Returns the line of JSON with what really hung there, if a person reported the acceptance as wrong: a part,
-    /// `not_enrolled` or `nothing`.
-    pub fn reported_line(&self, trace: &Traceability, reported_as: Option<&str>) -> String {
+    /// Returns the line of JSON, without a line end.
+    pub fn line(&self, trace: &Traceability) -> String {
         let Self {
             subject,
             inspection,
             recipe,
-            robot,
             ..
         } = *self;
-        let doubts = doubts_of_result(inspection);
+        let is_accepted = inspection.verdict.is_accepted();
+        let robot = self.frame_for_robot();
         let mut line = InspectionLine::of(&subject.scene, inspection)
             .by(recipe)
             .traced(trace)
-            .in_robot(robot.filter(|_| doubts.is_empty()), inspection)
-            .reported_as(reported_as);
-        if robot.is_some() && inspection.verdict.is_accepted() {
-            line = line.doubted(doubts.iter().map(Doubt::kind).collect());
+            .in_robot(robot, inspection)
+            .reported_as(subject.reported_as.as_deref());
+        if self.robot.is_some() && is_accepted {
+            line = line.doubted(self.doubts().iter().map(Doubt::kind).collect());
         }
         match &subject.capture {
             Some(capture) => {
@@ -184,16 +250,22 @@ impl Inspected<'_> {
             None if subject.is_simulated => line = line.of_simulation(),
             None => {}
         }
-        if subject.is_motion_unchecked {
+        if subject.is_motion_unchecked && is_accepted {
             line = line.motion_unchecked();
         }
+        if subject.is_replayed() {
+            line = line.replayed();
+        }
         if let Some(scan) = &subject.scan {
-            let base_from_part = scan.base_from_part.as_ref();
+            let pose = inspection.found_pose().map(PoseEstimate::camera_from_part);
+            let base_from_part = robot
+                .zip(pose)
+                .map(|(robot, pose)| row_major(&robot.robot_from_part(&pose)));
             line = line.of_scan(ScanLine {
                 frames: scan.shots.len(),
                 used: scan.num_used,
                 reference_frame: &scan.reference_frame,
-                base_from_part: base_from_part.filter(|_| doubts.is_empty()).map(row_major),
+                base_from_part,
             });
         }
         line.to_json()
@@ -235,11 +307,11 @@ mod tests {
 
     use super::*;
     use capture::fixtures::captured;
+    use geometry::{rigid::RigidTransform, units::Metres};
     use inspection::{
         fixtures::shipped_library,
         pipeline::{Unwatched, live::refuse_moving, run},
     };
-    use jiff::Timestamp;
     use records::history::StoredVerdict;
     use simulate::{PartKind, Side};
     use stages::{fixtures::facing_part, scan::Shot};
@@ -279,6 +351,7 @@ mod tests {
                 inspection: &self.inspection,
                 recipe: &self.recipe,
                 robot: Some(&self.robot),
+                is_forced: false,
             }
         }
 
@@ -293,7 +366,8 @@ mod tests {
             name: "kinect frame 12".into(),
             ..captured(12, Timestamp::UNIX_EPOCH)
         };
-        Subject::of_capture(&captured, "kinect", 3)
+        let kinect = "kinect".parse().expect("a source");
+        Subject::of_capture(&captured, &kinect, 3)
     }
 
     #[test]
@@ -322,13 +396,86 @@ mod tests {
         }
         assert_eq!(line["robot"]["calibration"], "cell 1");
         assert!(line.get("scan").is_none() && line.get("reported_as").is_none());
-        let subject = capture();
-        let reported = found.inspected(&subject);
-        let reported = reported.reported_line(&found.trace, Some("nothing"));
-        assert!(
-            reported.contains(r#""reported_as":"nothing""#),
-            "{reported}"
+        for absent in ["robot_doubts", "motion_checked", "replayed"] {
+            assert!(line.get(absent).is_none(), "{absent}");
+        }
+        let reported = found.line(&Subject {
+            reported_as: Some("nothing".into()),
+            ..capture()
+        });
+        assert_eq!(reported["reported_as"], "nothing");
+        assert_eq!(reported["robot_doubts"][0], "reported_wrong");
+        assert!(reported.get("robot").is_none());
+    }
+
+    #[test]
+    fn a_doubt_keeps_the_robots_pose_out_of_the_line_unless_it_is_forced_and_the_cameras_in_it() {
+        let mut found = Found::new();
+        let old = Subject {
+            currency: Some(Doubt::Old),
+            ..Subject::of_scene("fender.pcd".into(), "file".into(), false)
+        };
+        let line = found.line(&old);
+        assert_eq!(line["robot_doubts"], serde_json::json!(["old"]));
+        assert!(line.get("robot").is_none());
+        assert!(line["pose"]["camera_from_part"].is_array());
+        let forced = |found: &Found, robot| {
+            let inspected = Inspected {
+                is_forced: true,
+                robot,
+                ..found.inspected(&old)
+            };
+            let line = inspected.line(&found.trace);
+            serde_json::from_str::<Value>(&line).expect("JSON")
+        };
+        let line = forced(&found, Some(&found.robot));
+        assert_eq!(line["robot_doubts"], serde_json::json!(["old"]));
+        assert!(line["robot"]["robot_from_part"].is_array());
+        // Without a calibration there is nothing to force.
+        let line = forced(&found, None);
+        assert!(line.get("robot").is_none() && line.get("robot_doubts").is_none());
+        refuse_moving(&mut found.inspection);
+        let line = forced(&found, Some(&found.robot));
+        assert!(line.get("robot").is_none(), "never if it is not accepted");
+    }
+
+    #[test]
+    fn a_capture_is_marked_if_it_is_replayed_and_if_no_other_frame_shows_motion() {
+        for (source, is_replayed, is_unchecked) in [
+            ("recording:monday", true, true),
+            ("openni,pace=as-taken:monday.oni", true, false),
+            ("realsense,pace=10:monday.db3", true, false),
+            ("realsense,pace=10:monday.bag", true, false),
+            ("openni", false, false),
+            ("realsense:843112072752", false, false),
+            ("kinect", false, false),
+            ("genicam", false, false),
+            ("simulated", false, false),
+            ("watch:scans", false, true),
+        ] {
+            let spec: SourceSpec = source.parse().expect("a source");
+            let mut frame = captured(1, geometry::clock::now());
+            let subject = Subject::of_capture(&frame, &spec, 0);
+            let marks = (subject.is_staged(), subject.is_motion_unchecked);
+            assert_eq!(marks, (is_replayed, is_unchecked), "{source}");
+            assert_eq!(subject.currency, None, "{source}");
+            frame.is_simulated = true;
+            assert!(Subject::of_capture(&frame, &spec, 0).is_staged());
+            // Only a file is as old as it is dated: cameras have clocks of their own, and recordings are replayed.
+            let dated = captured(1, Timestamp::UNIX_EPOCH);
+            let expected = (source == "watch:scans").then_some(Doubt::Old);
+            assert_eq!(Subject::of_capture(&dated, &spec, 0).currency, expected);
+        }
+        let mut found = Found::new();
+        let frame = captured(1, geometry::clock::now());
+        let replayed = Subject::of_capture(&frame, &"recording:monday".parse().expect("one"), 0);
+        let line = found.line(&replayed);
+        assert_eq!(
+            (&line["replayed"], &line["motion_checked"]),
+            (&true.into(), &false.into())
         );
+        refuse_moving(&mut found.inspection);
+        assert!(found.line(&replayed).get("motion_checked").is_none());
     }
 
     #[test]
@@ -377,20 +524,32 @@ mod tests {
             scene: Arc::clone(&found.scene),
             base_from_camera: RigidTransform::identity(),
         };
-        let subject = Subject {
+        let of_scan = |doubt| Subject {
             scan: Some(ScanFacts {
                 reference_frame: "left".into(),
-                base_from_part: Some(RigidTransform::identity()),
-                shots: vec![shot.clone(), shot],
+                shots: vec![shot.clone(), shot.clone()],
                 num_used: 1,
+                doubt,
             }),
             ..Subject::of_scene("frames".into(), "scan".into(), false)
         };
+        let subject = of_scan(None);
         let line = found.line(&subject);
         assert_eq!(line["scan"]["frames"], 2);
         assert_eq!(line["scan"]["used"], 1);
         assert_eq!(line["scan"]["reference_frame"], "left");
-        assert!(line["scan"]["base_from_part"].is_array());
+        assert_eq!(
+            line["scan"]["base_from_part"],
+            line["robot"]["robot_from_part"]
+        );
+        let apart = scan::Doubt::PosesApart {
+            names: ["left".into(), "right".into()],
+            apart: Metres::from_mm(30.0),
+        };
+        let doubted = found.line(&of_scan(Some(apart)));
+        assert_eq!(doubted["robot_doubts"][0], "poses_apart");
+        assert!(doubted["scan"]["base_from_part"].is_null());
+        assert!(doubted.get("robot").is_none());
         let names = LibraryNames {
             identity: "",
             title_of: &str::to_owned,

@@ -8,8 +8,8 @@
 //! ```
 //!
 //! Whether a robot may act on a result is decided here alone, so that operator, engineer, robot and files never disagree:
-//! [`doubts`] lists the reasons against it, and there must be none. A line of JSON has no pose for a robot if there are
-//! [`doubts_of_result`].
+//! [`Inspected::doubts`] lists the reasons against it, and there must be none. Line of JSON, card, report, answer and
+//! file for a robot all ask it.
 
 #![cfg_attr(test, allow(clippy::disallowed_methods, reason = "tests change files"))]
 
@@ -27,8 +27,8 @@ mod scenes;
 pub use self::{
     answer::{Answered, Answering},
     camera::{Camera, NewFrame, NoFrame, camera_status},
-    doubt::{ClockAhead, Currency, Doubt, doubts, doubts_of_result, written_at},
-    finder::{FrameOrigin, NumberedPart, PartFinder},
+    doubt::{ClockAhead, Doubt, age_doubt},
+    finder::{NumberedPart, PartFinder},
     follow::PartFollower,
     inspected::{CaptureFacts, Inspected, LibraryNames, ScanFacts, Subject},
     recorder::{Losses, Recorder},

@@ -6,13 +6,10 @@
 
 use std::path::Path;
 
-use super::{Currency, Doubt, doubts};
+use super::{Doubt, Inspected};
 use files::FileError;
 use geometry::{cloud::PointCloud, error::Advice, rigid::RigidTransform, units::counted};
-use inspection::{
-    library::{Side, SprayPath},
-    pipeline::Inspection,
-};
+use inspection::library::{Side, SprayPath};
 use robot::{
     Convention, RobotFrame,
     arm::{ArmError, FilmRoom, PathCheck, PlacedArm},
@@ -48,8 +45,8 @@ pub struct RobotFile<'a> {
     pub path: Option<&'a SprayPath>,
     /// Whether the path does not aim at the part.
     pub off: Option<OffThePart>,
-    /// The capture that shows the part; none for its standard position.
-    pub capture: Option<CapturedPart<'a>>,
+    /// The inspection that found the part; none for its standard position.
+    pub capture: Option<Inspected<'a>>,
     /// The part's pose.
     pub camera_from_part: RigidTransform,
     /// True for the part's stored path, false for the default point of a part without one.
@@ -79,17 +76,6 @@ pub enum RobotFileContent<'a> {
         /// The arm whose reach is checked, without the part among its obstacles; none to check no reach.
         arm: Option<&'a PlacedArm>,
     },
-}
-
-/// The capture that a part was found in.
-#[derive(Clone, Copy, Debug)]
-pub struct CapturedPart<'a> {
-    /// Name of the scene.
-    pub scene: &'a str,
-    /// The result.
-    pub inspection: &'a Inspection,
-    /// How it relates to what hangs there now.
-    pub currency: &'a Currency,
 }
 
 /// What was written.
@@ -282,7 +268,7 @@ impl RobotFile<'_> {
         )
     }
 
-    /// The program, without its doubts and figures.
+    /// The program, without its scene, doubts and figures.
     fn program<'p>(
         &'p self,
         settings: &'p ProgramSettings,
@@ -296,7 +282,7 @@ impl RobotFile<'_> {
             film: None,
             reach,
             part: self.part,
-            scene: self.capture.map(|capture| capture.scene),
+            scene: None,
             robot_from_part: self.frame.robot_from_part(&self.camera_from_part),
             calibration: &self.frame.name,
             is_simulated: self.is_simulated,
@@ -313,10 +299,7 @@ impl RobotFile<'_> {
         reach: Option<&(PlacedArm, PathCheck)>,
         film: Option<&WrittenFilm>,
     ) -> Vec<Doubt> {
-        let of_capture = self
-            .capture
-            .iter()
-            .flat_map(|capture| doubts(capture.inspection, capture.currency, Some(self.frame)));
+        let of_capture = self.capture.iter().flat_map(Inspected::doubts);
         let missed = reach.and_then(|(arm, check)| check.missed(&arm.arm.name));
         let off = self.off.map(Doubt::OffThePart);
         off.into_iter()
@@ -353,7 +336,8 @@ impl RobotFile<'_> {
     ) -> Result<usize, RobotFileError> {
         let doubts: Vec<String> = doubts.iter().map(ToString::to_string).collect();
         let unchecked: Vec<String> = unchecked.iter().map(ToString::to_string).collect();
-        let scene = self.capture.map(|capture| capture.scene);
+        let scene = self.capture.map(|capture| capture.subject.scene_in_words());
+        let scene = scene.as_deref();
         match self.content {
             RobotFileContent::Poses { convention, params } => {
                 let is_accepted = self
@@ -380,6 +364,7 @@ impl RobotFile<'_> {
                 language, settings, ..
             } => {
                 let program = Program {
+                    scene,
                     film,
                     doubts: &doubts,
                     unchecked: &unchecked,
@@ -393,25 +378,26 @@ impl RobotFile<'_> {
 
 #[cfg(test)]
 mod tests {
-    use std::{
-        fs,
-        time::{Duration, SystemTime},
-    };
+    use std::{fs, sync::Arc};
 
     use super::*;
+    use crate::Subject;
+    use capture::fixtures::captured;
     use inspection::{
         fixtures::shipped_library,
         library::Library,
-        pipeline::{Recipe, Unwatched, run},
+        pipeline::{Inspection, NamedRecipe, Unwatched, run},
     };
     use robot::spray::{carry, default_path};
     use simulate::{PartKind, Side};
-    use stages::{fixtures::facing_part, pose::RunnerUp};
+    use stages::{fixtures::facing_part, pose::RunnerUp, scene::SceneCloud};
 
     /// A fender that was found, and the default point of its path.
     struct Bench {
         path: SprayPath,
         library: Library,
+        scene: Arc<SceneCloud>,
+        recipe: NamedRecipe,
         inspection: Inspection,
         carried: CarriedPath,
         frame: RobotFrame,
@@ -422,8 +408,9 @@ mod tests {
     impl Bench {
         fn new() -> Self {
             let library = shipped_library();
-            let scene = facing_part(PartKind::Fender, Side::Left, 5);
-            let inspection = run(&scene, &library, &Recipe::default(), &Unwatched).expect("run");
+            let scene = Arc::new(facing_part(PartKind::Fender, Side::Left, 5));
+            let recipe = NamedRecipe::default();
+            let inspection = run(&scene, &library, &recipe, &Unwatched).expect("run");
             let params = StandOffParams::default();
             let path = default_path(inspection.best_reference(&library).expect("one"), &params);
             let path = path.expect("a path");
@@ -434,6 +421,8 @@ mod tests {
                 carried: carry(&path, &hangs, &seen.cloud, &params),
                 path,
                 library,
+                scene,
+                recipe,
                 inspection,
                 frame: RobotFrame {
                     robot_from_camera: RigidTransform::identity(),
@@ -458,7 +447,7 @@ mod tests {
             }
         }
 
-        fn file<'a>(&'a self, file: &'a Path, currency: &'a Currency) -> RobotFile<'a> {
+        fn file<'a>(&'a self, file: &'a Path, subject: &'a Subject) -> RobotFile<'a> {
             let best = self.inspection.best_reference(&self.library);
             RobotFile {
                 file,
@@ -471,10 +460,13 @@ mod tests {
                 side: None,
                 path: Some(&self.path),
                 off: None,
-                capture: Some(CapturedPart {
-                    scene: "fender.pcd",
+                capture: Some(Inspected {
+                    subject,
+                    scene: &self.scene,
                     inspection: &self.inspection,
-                    currency,
+                    recipe: &self.recipe,
+                    robot: Some(&self.frame),
+                    is_forced: false,
                 }),
                 camera_from_part: self
                     .inspection
@@ -486,6 +478,11 @@ mod tests {
                 is_forced: false,
             }
         }
+    }
+
+    /// A capture of just now.
+    fn fresh() -> Subject {
+        Subject::of_scene("fender.pcd".into(), "file".into(), true)
     }
 
     const NAMES: [&str; 3] = ["out.csv", "out.json", "paint.src"];
@@ -504,8 +501,11 @@ mod tests {
     fn with_a_doubt_no_file_of_any_kind_remains_and_a_forced_one_names_every_doubt() {
         let mut bench = Bench::new();
         let folder = tempfile::tempdir().expect("a folder");
-        let now = Currency::CapturedAt(SystemTime::now());
-        let old = Currency::CapturedAt(SystemTime::now() - Duration::from_hours(1));
+        let now = fresh();
+        let old = Subject {
+            currency: Some(Doubt::Old),
+            ..fresh()
+        };
         for name in NAMES {
             let path = folder.path().join(name);
             let written = bench.file(&path, &now).write().expect("no doubts");
@@ -552,7 +552,7 @@ mod tests {
         bench.carried = unseen;
         bench.carried.points[1].band = BandStatus::NotSeen;
         let folder = tempfile::tempdir().expect("a folder");
-        let now = Currency::CapturedAt(SystemTime::now());
+        let now = fresh();
         for name in NAMES {
             let path = folder.path().join(name);
             let written = bench.file(&path, &now).write().expect("written");
@@ -569,6 +569,22 @@ mod tests {
                 let words = unchecked.to_string();
                 assert!(contains(&path, &words), "{name}: {words}");
             }
+        }
+    }
+
+    #[test]
+    fn a_file_of_a_replayed_frame_says_that_it_was_recorded_earlier() {
+        let bench = Bench::new();
+        let folder = tempfile::tempdir().expect("a folder");
+        let frame = captured(1, geometry::clock::now());
+        let recording = "recording:monday".parse().expect("a source");
+        let replayed = Subject::of_capture(&frame, &recording, 0);
+        for name in NAMES {
+            let path = folder.path().join(name);
+            bench.file(&path, &fresh()).write().expect("written");
+            assert!(!contains(&path, "recorded earlier"), "{name}");
+            bench.file(&path, &replayed).write().expect("written");
+            assert!(contains(&path, "recorded earlier"), "{name}");
         }
     }
 }

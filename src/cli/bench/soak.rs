@@ -19,6 +19,7 @@ use crate::cli::{
 use bench::ProcessUsage;
 use capture::{
     BackpressurePolicy, CaptureError, Captured, DepthSource, Feed, FeedItem, Image, NextCapture,
+    SimulatedSpec, SourceSpec,
 };
 use geometry::{
     depth_frame::{DepthFrame, Intrinsics},
@@ -178,6 +179,7 @@ struct Follower<'a> {
     scenes: CameraScenes,
     followed: PartFollower,
     recording: HistoryRecorder,
+    source: SourceSpec,
     num_accepted: u64,
     num_in_history: u64,
 }
@@ -186,7 +188,7 @@ impl Follower<'_> {
     /// Takes in a frame as `inspect --source` does, without printing. Returns the latency.
     fn take(&mut self, captured: Captured, console: &Console) -> anyhow::Result<Duration> {
         let arrived = captured.arrived;
-        let subject = Subject::of_capture(&captured, "simulated", 0);
+        let subject = Subject::of_capture(&captured, &self.source, 0);
         let taken_at = captured.taken_at;
         let scene = Arc::new(self.scenes.next(captured.image));
         let scene = self.followed.look(scene, taken_at);
@@ -201,6 +203,7 @@ impl Follower<'_> {
             inspection: &inspection,
             recipe,
             robot: None,
+            is_forced: false,
         };
         drop(inspected.line(&Traceability::default()));
         let middle = inspection.best_reference(library);
@@ -217,6 +220,7 @@ impl Follower<'_> {
                     inspection,
                     recipe,
                     robot: None,
+                    is_forced: false,
                 };
                 self.recording.entry(&inspected, hung)
             },
@@ -252,6 +256,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
         scenes: CameraScenes::default(),
         followed: PartFollower::default(),
         recording,
+        source: SourceSpec::Simulated(SimulatedSpec::default()),
         num_accepted: 0,
         num_in_history: 0,
     };

@@ -294,6 +294,17 @@ fn record_table(from: ReadFrom<'_>, record: &Record) -> Table {
             row(name, in_columns(line));
         }
     }
+    let marks = detail.robot_marks();
+    if !marks.robot_doubts.is_empty() {
+        let doubts = marks.robot_doubts.join(", ");
+        row("robot", format!("may not act on this pose: {doubts}"));
+    }
+    if marks.motion_checked == Some(false) {
+        row(
+            "motion",
+            "no other frame shows whether the part hung still".into(),
+        );
+    }
     let times = record.timings().into_iter();
     let times: Vec<String> = times
         .map(|(stage, ms)| format!("{stage} {ms:.1}"))

@@ -1,28 +1,24 @@
 //! `partsight inspect --program`: writes the part's spray path as a program for the robot's controller.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 
-use super::spray::{SprayResult, check_placed_part};
+use super::spray::check_placed_part;
 use crate::cli::{
     Outcome,
     console::{Advised as _, Console, advised_error, store_a_path},
     program::{ProgramFile, ProgramOptions, ProgramSubject, language_help, parse_language},
 };
 use geometry::units::any_of;
-use inspection::library::{LibraryLoad, LibraryPlace, PartMeta};
+use inspection::library::{Library, LibraryLoad, LibraryPlace, PartMeta};
 use robot::{RobotFrame, program::RobotLanguage, spray::carry};
-use station::{
-    Currency,
-    robot_file::{CapturedPart, remove_previous},
-    written_at,
-};
+use station::{Inspected, robot_file::remove_previous};
 
 /// Whether and how a program is written.
 #[derive(Debug, Args)]
 pub(super) struct ProgramChoice {
-    #[arg(long, value_name = "FILE", group = "robot_file", help = program_help())]
+    #[arg(long, value_name = "FILE", help = program_help())]
     program: Option<PathBuf>,
     #[arg(long, value_name = "FORMAT", value_parser = parse_language, requires = "program", help = language_help())]
     robot_program_format: Option<&'static RobotLanguage>,
@@ -34,7 +30,7 @@ pub(super) struct ProgramChoice {
 fn program_help() -> String {
     let endings = RobotLanguage::ENDINGS.map(|ending| format!(".{ending}"));
     format!(
-        "Write the part's stored spray path as a program for the robot's controller, named like the file: {}. Needs a calibration and one file. Nothing is written if the part is not accepted, if another pose fits nearly as well, if the capture is older than 10 minutes or dated later than now, if the path does not aim at the part, if --arm does not reach every point, or if the program would leave a worse film than planned",
+        "Write the part's stored spray path as a program for the robot's controller, named like the file: {}. Needs a calibration and one file. Nothing is written if a robot must not act on the result, for instance because the capture is older than 10 minutes, if the path does not aim at the part, if --arm does not reach every point, or if the program would leave a worse film than planned",
         any_of(&endings)
     )
 }
@@ -53,7 +49,7 @@ impl ProgramChoice {
         self.program.is_some()
     }
 
-    /// Returns whether a file is to be written despite doubts.
+    /// Returns whether a file is to be written, or a robot's pose given, despite doubts.
     pub(super) fn is_forced(&self) -> bool {
         self.options.force
     }
@@ -90,7 +86,8 @@ impl CapturedProgram {
     /// Carries the path and writes the program, unless there is a reason against it.
     pub(super) fn write(
         &self,
-        seen: &SprayResult<'_>,
+        seen: &Inspected<'_>,
+        library: &Library,
         frame: &RobotFrame,
         console: &Console,
     ) -> anyhow::Result<Outcome> {
@@ -116,21 +113,21 @@ impl CapturedProgram {
             ));
         };
         let camera_from_part = pose.camera_from_part();
-        let carried = carry(&path, &camera_from_part, &part.cloud, seen.params);
-        let currency = Currency::CapturedAt(written_at([Path::new(seen.scene)]));
+        let carried = carry(
+            &path,
+            &camera_from_part,
+            &part.cloud,
+            &seen.recipe.stand_off,
+        );
         let subject = ProgramSubject {
             part: name,
-            reference: &seen.library.references[first.reference],
+            reference: &library.references[first.reference],
             coverage: meta.coverage,
             side: meta.side,
             path: &path,
-            capture: Some(CapturedPart {
-                scene: seen.scene,
-                inspection,
-                currency: &currency,
-            }),
+            capture: Some(*seen),
             camera_from_part,
-            is_simulated: meta.simulated || seen.is_simulated,
+            is_simulated: meta.simulated || seen.subject.is_simulated,
         };
         self.file.write(&carried, &subject, frame, console)
     }

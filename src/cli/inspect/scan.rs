@@ -4,10 +4,9 @@ use super::InspectArgs;
 use crate::cli::{
     Outcome,
     console::{Advised as _, Console},
-    recipe::show_recipe,
     record::HistoryRecorder,
     scan::open_scan,
-    verdict::{show_card, show_in_robot},
+    verdict::show_card,
 };
 use inspection::pipeline::{
     Unwatched,
@@ -23,7 +22,7 @@ pub(super) fn inspect(args: &InspectArgs, console: &mut Console) -> anyhow::Resu
     let trace = args.trace.of_parts(Some(1))?;
     let database = args.history_to.chosen(console)?;
     let load = (args.library).load_some(&recipe.reference_params(), console)?;
-    let scan = open_scan(&args.scan, &args.poses, &recipe.segment, console)?;
+    let (scan, captured_at) = open_scan(&args.scan, &args.poses, &recipe.segment, console)?;
     require_two_to_show_part(&scan).advised()?;
     let recording = (!args.no_history)
         .then(|| HistoryRecorder::start(&args.history, &load, &trace, database, console))
@@ -32,7 +31,6 @@ pub(super) fn inspect(args: &InspectArgs, console: &mut Console) -> anyhow::Resu
     let ScanInspection {
         inspection,
         first: place,
-        base_from_part,
         ..
     } = run_scan(&scan, &load.library, &recipe, &Unwatched)?;
     let first = &scan.shots[place];
@@ -47,17 +45,16 @@ pub(super) fn inspect(args: &InspectArgs, console: &mut Console) -> anyhow::Resu
         _ => format!("{frames} frames from {}", first.name),
     };
     let is_simulated = scan.cloud.cloud.is_simulated;
-    let subject = Subject::of_scene(scene, "scan".into(), is_simulated).with_scan(
-        &scan,
-        place,
-        base_from_part,
-    );
+    let subject = Subject::of_scene(scene, "scan".into(), is_simulated)
+        .captured_at(captured_at)
+        .with_scan(&scan, place);
     let inspected = Inspected {
         subject: &subject,
         scene: &first.scene,
         inspection: &inspection,
         recipe: &recipe,
         robot: Some(&robot),
+        is_forced: args.program.is_forced(),
     };
     if args.json {
         console.line(&inspected.line(&trace));
@@ -66,9 +63,7 @@ pub(super) fn inspect(args: &InspectArgs, console: &mut Console) -> anyhow::Resu
             "{}, {used} of {frames} frames, as seen from {}",
             subject.scene, first.name
         );
-        show_card(&title, &inspection, &load.library, console);
-        show_recipe(&recipe, console);
-        show_in_robot(&robot, &inspection, &load.library, console);
+        show_card(&title, &inspected, &load.library, console);
     }
     // Last, so that the verdict does not wait for it.
     if let Some(mut recording) = recording {

@@ -5,7 +5,7 @@ use std::{
     fmt::Display,
     path::{Path, PathBuf},
     sync::Arc,
-    time::Duration,
+    time::{Duration, Instant},
 };
 
 use super::{program, spray};
@@ -15,9 +15,7 @@ use crate::cli::{
     input::{OpenedScene, before, warn_of},
     output::OutputFormat,
     plant::Publisher,
-    recipe::show_recipe,
     record::HistoryRecorder,
-    verdict::show_in_robot,
 };
 use geometry::error::{Advice, guarded};
 use inspection::{
@@ -45,6 +43,8 @@ pub(super) struct InspectSession {
     /// The scenes of the source.
     pub(super) scenes: CameraScenes,
     pub(super) robot: Option<RobotFrame>,
+    /// True to give a robot's pose and file despite doubts.
+    pub(super) is_forced: bool,
     pub(super) spray: Option<spray::SprayFile>,
     pub(super) program: Option<program::CapturedProgram>,
     pub(super) format: OutputFormat,
@@ -68,6 +68,8 @@ pub(super) struct InspectedFrame {
     inspection: Inspection,
     /// Time of the frame, by the camera.
     at: Duration,
+    /// When it was captured, of a source.
+    captured: Option<Instant>,
 }
 
 /// An inspection to store and publish once its verdict counts.
@@ -83,6 +85,8 @@ pub(super) struct Opened<'a> {
     pub(super) path: &'a Path,
     pub(super) scene: SceneCloud,
     pub(super) subject: Subject,
+    /// When it was captured, of a source.
+    pub(super) captured: Option<Instant>,
 }
 
 impl InspectSession {
@@ -97,13 +101,14 @@ impl InspectSession {
                 warn_of(path, &warnings, console);
                 let name = path.display().to_string();
                 before(&mut scene, self.empty_cell.as_ref(), &name, console);
-                let subject = Subject::of_scene(name, "file".into(), scene.cloud.is_simulated);
+                let subject = Subject::of_file(path, scene.cloud.is_simulated);
                 self.frame(path, console, |one, console| {
                     one.inspect_scene(
                         Opened {
                             path,
                             scene,
                             subject,
+                            captured: None,
                         },
                         console,
                     )
@@ -156,38 +161,26 @@ impl InspectSession {
         opened: Opened<'_>,
         console: &mut Console,
     ) -> anyhow::Result<Outcome> {
-        let mut frame = self.inspected(opened)?;
+        let frame = self.inspected(opened)?;
         self.mirrored.add(&frame.inspection.verdict);
         if self.followed.is_some() {
-            let (scene, inspection) = (Arc::clone(&frame.scene), frame.inspection.clone());
-            let subject = frame.subject.clone();
+            // Earlier frames first: the part that they show may be recorded now.
+            let before = self.show_settled(&frame.inspection, console)?;
+            self.follow(&frame, console);
+            let last = frame.inspection.clone();
             self.waiting.push_back(frame);
-            let outcome = self.show_settled(&inspection, console)?;
-            self.follow(&subject, &scene, inspection, console);
             // Paths and programs are only written for files.
-            return Ok(outcome);
+            return Ok(before.max(self.show_settled(&last, console)?));
         }
-        frame.subject.is_motion_unchecked =
-            frame.subject.capture.is_some() && frame.inspection.verdict.is_accepted();
         let line = self.show(&frame, console);
         let outcome = Outcome::accepted_if(frame.inspection.verdict.is_accepted());
-        let InspectedFrame {
-            path,
-            scene,
-            subject,
-            inspection,
-            ..
-        } = &frame;
-        let pictures = self.pictures(scene, inspection);
+        let pictures = self.pictures(&frame);
         // After the verdict is shown, which must not wait for it, and before the exports, any of which may fail.
-        if self.recording.is_some() || self.publisher.is_some() {
-            let kept = self.kept(subject, scene, inspection, HungId::new(), true);
-            self.keep(kept, console);
-        }
-        let is_simulated = subject.capture.is_none() && subject.is_simulated;
-        let written = self.write_robot_file(&subject.scene, is_simulated, inspection, console)?;
+        let kept = self.kept(&frame, &frame.subject, &frame.inspection, HungId::new());
+        self.keep(kept, console);
+        let written = self.write_robot_file(&frame, console)?;
         if written.is_none() {
-            self.write_report(path, &line, pictures)?;
+            self.write_report(&frame.path, &line, pictures)?;
         }
         // A refused part keeps its outcome even if its program was forced.
         Ok(written.map_or(outcome, |written| outcome.max(written)))
@@ -208,6 +201,7 @@ impl InspectSession {
             path,
             scene,
             subject,
+            captured,
         } = opened;
         let mut scene = Arc::new(scene);
         if let (Some(followed), Some(capture)) = (&mut self.followed, &subject.capture) {
@@ -223,6 +217,7 @@ impl InspectSession {
             subject,
             inspection,
             at: (self.followed.as_ref()).map_or(Duration::ZERO, PartFollower::at),
+            captured,
         })
     }
 
@@ -248,8 +243,8 @@ impl InspectSession {
         Ok(outcome)
     }
 
-    /// Shows the frames that no later one follows. Before a camera, a part that is not known to hang still is refused; of a
-    /// recording, it stays unknown.
+    /// Shows the frames that no later one follows, unless the output cannot be written. Before a camera, a part that is not
+    /// known to hang still is refused; of a recording, it stays unknown.
     pub(super) fn show_waiting(
         &mut self,
         is_replayed: bool,
@@ -258,7 +253,7 @@ impl InspectSession {
         let mut outcome = Outcome::Accepted;
         while let Some(frame) = self.waiting.front_mut() {
             if is_replayed {
-                frame.subject.is_motion_unchecked = frame.inspection.verdict.is_accepted();
+                frame.subject.is_motion_unchecked = true;
             } else {
                 refuse_moving(&mut frame.inspection);
             }
@@ -267,107 +262,107 @@ impl InspectSession {
         Ok(outcome)
     }
 
+    /// Shows the first frame that waits, whose verdict is settled, and stores and publishes it with that verdict if it
+    /// represents a part.
     fn show_first(&mut self, console: &mut Console) -> anyhow::Result<Outcome> {
         let Some(frame) = self.waiting.pop_front() else {
             return Ok(Outcome::Accepted);
         };
-        let line = self.show(&frame, console);
-        let pictures = self.pictures(&frame.scene, &frame.inspection);
-        self.write_report(&frame.path, &line, pictures)?;
+        if let Some(mut followed) = self.followed.take() {
+            followed.settled(frame.at, |hung| {
+                self.kept(&frame, &frame.subject, &frame.inspection, hung)
+            });
+            self.followed = Some(followed);
+        }
+        if console.is_writable() {
+            let line = self.show(&frame, console);
+            let pictures = self.pictures(&frame);
+            self.write_report(&frame.path, &line, pictures)?;
+        }
         Ok(Outcome::accepted_if(frame.inspection.verdict.is_accepted()))
     }
 
     /// Shows an inspection, and returns its line of JSON.
     fn show(&mut self, frame: &InspectedFrame, console: &mut Console) -> String {
-        self.num_unchecked += usize::from(frame.subject.is_motion_unchecked);
         let InspectedFrame {
-            scene,
             subject,
             inspection,
             ..
         } = frame;
+        let is_accepted = inspection.verdict.is_accepted();
+        self.num_unchecked += usize::from(is_accepted && subject.is_motion_unchecked);
         let file_says_simulated = subject.capture.is_none() && subject.is_simulated;
-        let line = self.record(subject, scene, inspection).line(&self.trace);
+        let inspected = self.record(frame, subject, inspection);
+        let line = inspected.line(&self.trace);
         // The table has no room for the mark; reports and history have it.
         let shown = match self.format {
             OutputFormat::Card => marked_simulated(&subject.scene, file_says_simulated),
             _ => subject.scene.clone(),
         };
-        let library = &self.library;
-        (self.format).inspected(&shown, &line, inspection, library, console);
-        if let OutputFormat::Card = self.format {
-            show_recipe(&self.recipe, console);
-        }
-        if let (OutputFormat::Card, Some(robot)) = (&self.format, &self.robot) {
-            show_in_robot(robot, inspection, library, console);
-        }
+        (self.format).inspected(&shown, &line, &inspected, &self.library, console);
         line
     }
 
+    /// The inspection of a frame, or what several frames show, as it is recorded.
     fn record<'a>(
         &'a self,
+        frame: &'a InspectedFrame,
         subject: &'a Subject,
-        scene: &'a Arc<SceneCloud>,
         inspection: &'a Inspection,
     ) -> Inspected<'a> {
         Inspected {
             subject,
-            scene,
+            scene: &frame.scene,
             inspection,
             recipe: &self.recipe,
             robot: self.robot.as_ref(),
+            is_forced: self.is_forced,
         }
     }
 
-    fn pictures(&self, scene: &SceneCloud, inspection: &Inspection) -> Option<Vec<Picture>> {
-        (self.report.as_ref()).map(|_| stage_pictures(scene, inspection))
+    fn pictures(&self, frame: &InspectedFrame) -> Option<Vec<Picture>> {
+        (self.report.as_ref()).map(|_| stage_pictures(&frame.scene, &frame.inspection))
     }
 
-    /// Returns what to store and publish of an inspection. `is_still`: the part is known to have hung still.
+    /// Returns what to store and publish of an inspection.
     fn kept(
         &self,
+        frame: &InspectedFrame,
         subject: &Subject,
-        scene: &Arc<SceneCloud>,
         inspection: &Inspection,
         hung: HungId,
-        is_still: bool,
     ) -> KeptInspection {
-        let is_unchecked = !is_still && inspection.verdict.is_accepted();
-        let subject = &Subject {
-            is_motion_unchecked: subject.is_motion_unchecked || is_unchecked,
-            ..subject.clone()
-        };
-        let inspected = self.record(subject, scene, inspection);
+        let inspected = self.record(frame, subject, inspection);
         KeptInspection {
             entry: (self.recording.as_ref()).map(|recording| recording.entry(&inspected, hung)),
             found: (self.publisher.as_ref())
-                .and_then(|publisher| publisher.found(inspection, &self.recipe, is_still)),
+                .zip(frame.captured)
+                .map(|(publisher, captured)| publisher.found(&inspected, captured)),
         }
     }
 
-    /// Stores and publishes a frame of a followed source, if it represents a part that hung there.
-    fn follow(
-        &mut self,
-        subject: &Subject,
-        scene: &Arc<SceneCloud>,
-        inspection: Inspection,
-        console: &Console,
-    ) {
+    /// Stores and publishes what the frames of a followed source show, up to this one, of a part that hung there.
+    fn follow(&mut self, frame: &InspectedFrame, console: &Console) {
         if self.recording.is_none() && self.publisher.is_none() {
             return;
         }
-        let Some(followed) = &mut self.followed else {
+        let Some(mut followed) = self.followed.take() else {
             return;
         };
-        let mut followed = std::mem::take(followed);
-        let middle = inspection.best_reference(&self.library);
+        let middle = frame.inspection.best_reference(&self.library);
         let middle = middle.and_then(Reference::middle);
         let kept = followed.take(
-            scene,
-            inspection,
+            &frame.scene,
+            frame.inspection.clone(),
             middle,
             &self.recipe.accept,
-            |inspection, hung, is_still| self.kept(subject, scene, inspection, hung, is_still),
+            |inspection, hung, is_still| {
+                let subject = Subject {
+                    is_motion_unchecked: !is_still,
+                    ..frame.subject.clone()
+                };
+                self.kept(frame, &subject, inspection, hung)
+            },
         );
         self.followed = Some(followed);
         for kept in kept.into_iter().flatten() {
@@ -378,21 +373,17 @@ impl InspectSession {
     /// Writes the path of a part for a robot; `None` if no such file is wanted.
     fn write_robot_file(
         &self,
-        scene: &str,
-        is_simulated: bool,
-        inspection: &Inspection,
+        frame: &InspectedFrame,
         console: &Console,
     ) -> anyhow::Result<Option<Outcome>> {
-        let seen = spray::SprayResult {
-            scene,
-            is_simulated,
-            inspection,
-            library: &self.library,
-            params: &self.recipe.stand_off,
-        };
+        let seen = self.record(frame, &frame.subject, &frame.inspection);
         Ok(match (&self.spray, &self.program, &self.robot) {
-            (Some(spray), _, Some(robot)) => Some(spray.write(&seen, robot, console)?),
-            (_, Some(program), Some(robot)) => Some(program.write(&seen, robot, console)?),
+            (Some(spray), _, Some(robot)) => {
+                Some(spray.write(&seen, &self.library, robot, console)?)
+            }
+            (_, Some(program), Some(robot)) => {
+                Some(program.write(&seen, &self.library, robot, console)?)
+            }
             _ => None,
         })
     }
@@ -435,6 +426,7 @@ mod tests {
             empty_cell: None,
             scenes: CameraScenes::default(),
             robot: None,
+            is_forced: false,
             spray: None,
             program: None,
             format: OutputFormat::Card,
@@ -461,6 +453,7 @@ mod tests {
                 path: Path::new("b.pcd"),
                 scene: SceneCloud::default(),
                 subject: Subject::of_scene("b.pcd".into(), "file".into(), false),
+                captured: None,
             };
             one.inspect_scene(opened, console)
         });

@@ -1,6 +1,6 @@
 //! `partsight inspect --spray`: writes the part's spray path for the robot.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 
@@ -10,28 +10,23 @@ use crate::cli::{
     input::parse_convention,
     robot_file,
 };
-use inspection::{
-    library::{Library, LibraryLoad, LibraryPlace, PartMeta},
-    pipeline::Inspection,
-};
+use inspection::library::{Library, LibraryLoad, LibraryPlace, PartMeta};
 use robot::{
     Convention, RobotFrame,
     spray::{carry, default_path, off_the_part},
 };
-use stages::stand_off::StandOffParams;
 use station::{
-    Currency,
-    robot_file::{CapturedPart, RobotFile, RobotFileContent, remove_previous},
-    written_at,
+    Inspected,
+    robot_file::{RobotFile, RobotFileContent, remove_previous},
 };
 
 /// Whether and how the spray path is written.
 #[derive(Debug, Args)]
 pub(super) struct SprayChoice {
     /// Write the part's stored spray path, moved to where the part hangs now, in the robot's base frame: .csv or .json.
-    /// Needs a calibration and one file. Nothing is written if the part is not accepted, if another pose fits nearly as
-    /// well, if the capture is older than 10 minutes or dated later than now, or if the path does not aim at the part
-    #[arg(long, value_name = "FILE", group = "robot_file")]
+    /// Needs a calibration and one file. Nothing is written if a robot must not act on the result, for instance because the
+    /// capture is older than 10 minutes, or if the path does not aim at the part
+    #[arg(long, value_name = "FILE")]
     spray: Option<PathBuf>,
     /// Convention of the poses in that file
     #[arg(long, value_name = "CONVENTION", default_value = "matrix", value_parser = parse_convention, requires = "spray")]
@@ -46,16 +41,6 @@ pub(super) struct SprayFile {
     /// Every reference of the library.
     parts: Vec<PartMeta>,
     is_forced: bool,
-}
-
-/// The inspection whose part the path is carried to.
-pub(super) struct SprayResult<'a> {
-    pub(super) scene: &'a str,
-    /// True if the file says that it is simulated.
-    pub(super) is_simulated: bool,
-    pub(super) inspection: &'a Inspection,
-    pub(super) library: &'a Library,
-    pub(super) params: &'a StandOffParams,
 }
 
 impl SprayChoice {
@@ -126,17 +111,12 @@ impl SprayFile {
     /// Carries the path and writes it, unless there is a reason against it.
     pub(super) fn write(
         &self,
-        seen: &SprayResult<'_>,
+        seen: &Inspected<'_>,
+        library: &Library,
         frame: &RobotFrame,
         console: &Console,
     ) -> anyhow::Result<Outcome> {
-        let SprayResult {
-            scene,
-            is_simulated,
-            inspection,
-            library,
-            params,
-        } = *seen;
+        let (inspection, params) = (seen.inspection, &seen.recipe.stand_off);
         let pose = inspection.found_pose();
         let first = inspection.ranking.entries.first();
         let part = inspection.segmentation.part.as_ref().ok();
@@ -166,7 +146,6 @@ impl SprayFile {
         };
         let camera_from_part = pose.camera_from_part();
         let carried = carry(&path, &camera_from_part, &part.cloud, params);
-        let currency = Currency::CapturedAt(written_at([Path::new(scene)]));
         let file = RobotFile {
             file: &self.file,
             content: RobotFileContent::Poses {
@@ -181,14 +160,10 @@ impl SprayFile {
             side: meta.side,
             path: Some(&path),
             off: off_the_part(&path, reference),
-            capture: Some(CapturedPart {
-                scene,
-                inspection,
-                currency: &currency,
-            }),
+            capture: Some(*seen),
             camera_from_part,
             is_stored,
-            is_simulated: meta.simulated || is_simulated,
+            is_simulated: meta.simulated || seen.subject.is_simulated,
             is_forced: self.is_forced,
         };
         if robot_file::write(&file, console)?.is_none() {

@@ -28,13 +28,7 @@ pub(super) struct ExportArgs {
     #[arg(long = "as", value_name = "FORMAT", value_parser = parse_language, help = language_help())]
     language: Option<&'static RobotLanguage>,
     /// File of the program, which is named like it. An earlier program of that name is removed first
-    #[arg(
-        id = "program",
-        long = "output",
-        short = 'o',
-        value_name = "FILE",
-        group = "robot_file"
-    )]
+    #[arg(id = "program", long = "output", short = 'o', value_name = "FILE")]
     output: PathBuf,
     #[command(flatten)]
     options: ProgramOptions,

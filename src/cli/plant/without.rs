@@ -1,6 +1,6 @@
 //! No interfaces of a plant: no options, no subcommands, and nothing that could run.
 
-use std::{net::SocketAddr, path::PathBuf};
+use std::{net::SocketAddr, path::PathBuf, time::Instant};
 
 use clap::{ArgMatches, Args, Command, FromArgMatches, Subcommand, error::ErrorKind};
 
@@ -11,17 +11,14 @@ use crate::cli::{
     numbers::NumbersChoice,
     report::Schema,
 };
-use capture::{Captured, FeedState, SkippedCapture, SourceSpec};
+use capture::{FeedState, SkippedCapture, SourceSpec};
 use geometry::error::Fault;
-use inspection::{
-    library::{LibraryLoad, LibraryPlace, TakenVersion},
-    pipeline::{Inspection, Recipe},
-};
+use inspection::library::{LibraryLoad, LibraryPlace};
 use records::history::{History, HistoryEvent, Traceability};
 use robot::RobotFrame;
 use serve::{CameraStatus, Found, InspectionRecord, Server, ServerHandle};
 use stages::reference::ReferenceParams;
-use station::NumberedPart;
+use station::{Inspected, NumberedPart};
 
 /// Schemas of `report --schema`.
 pub(crate) const SCHEMAS: &[Schema] = &[];
@@ -84,7 +81,10 @@ pub(crate) fn taken_version(_: &LibraryPlace, _: &Console) -> Option<String> {
     None
 }
 
-pub(crate) fn version_of(_: &LibraryPlace) -> Result<Option<TakenVersion>, [String; 2]> {
+#[cfg(feature = "window")]
+pub(crate) fn version_of(
+    _: &LibraryPlace,
+) -> Result<Option<inspection::library::TakenVersion>, [String; 2]> {
     Ok(None)
 }
 
@@ -139,7 +139,6 @@ impl ChosenPublisher {
 
     pub(crate) fn start(
         self,
-        _: &SourceSpec,
         _: &LibraryLoad,
         _: &Traceability,
         _: &Console,
@@ -155,11 +154,7 @@ impl Publisher {
         match *self {}
     }
 
-    pub(crate) fn begin(&mut self, _: &Captured) {
-        match *self {}
-    }
-
-    pub(crate) fn found(&self, _: &Inspection, _: &Recipe, _: bool) -> Option<Found> {
+    pub(crate) fn found(&self, _: &Inspected<'_>, _: Instant) -> Found {
         match *self {}
     }
 

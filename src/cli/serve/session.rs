@@ -16,7 +16,7 @@ use crate::cli::{
     plant::{Services, TakenLibrary},
     record::HistoryRecorder,
 };
-use capture::FeedState;
+use capture::{FeedState, SourceSpec};
 use geometry::error::{Advice as _, guarded};
 use inspection::{
     library::Library,
@@ -41,14 +41,14 @@ pub(super) struct ServeSession<'a> {
     pub(super) finder: PartFinder,
     pub(super) trace: Traceability,
     pub(super) scenes: CameraScenes,
-    pub(super) source: String,
+    pub(super) source: SourceSpec,
     pub(super) frame_timeout: Duration,
     pub(super) format: OutputFormat,
     pub(super) recording: Option<HistoryRecorder>,
     pub(super) mirrored: MirrorTally,
     pub(super) console: &'a mut Console,
     /// The inspection that is being answered.
-    pub(super) last: Option<(Subject, Answered)>,
+    pub(super) last: Option<Answered>,
     /// The error of the camera that was shown last.
     pub(super) trouble: Option<String>,
     /// True once the camera has run.
@@ -82,12 +82,8 @@ impl Inspector for ServeSession<'_> {
         };
         let (scenes, console) = (&mut self.scenes, &*self.console);
         let scene_of = |captured| Arc::new(scene_of(captured, scenes, console));
-        match answering.answer(captured, &subject, &self.trace, scene_of) {
-            Ok(answered) => {
-                let found = answered.found.clone();
-                self.last = Some((subject, answered));
-                found
-            }
+        match answering.answer(captured, subject, &self.trace, scene_of) {
+            Ok(answered) => self.last.insert(answered).found.clone(),
             Err(why) => self.without_frame(&why),
         }
     }
@@ -96,19 +92,20 @@ impl Inspector for ServeSession<'_> {
         let answer = record.answer();
         if answer.verdict == VerdictCode::Error && matches!(self.format, OutputFormat::Json) {
             let Trouble { reason, message } = &answer.trouble;
-            let line = InspectionLine::failed(&self.source, reason, message).traced(&self.trace);
+            let source = self.source.to_string();
+            let line = InspectionLine::failed(&source, reason, message).traced(&self.trace);
             self.console.line(&line.to_json());
         }
         self.services.inspected(record);
     }
 
     fn answered(&mut self) {
-        let Some((subject, answered)) = self.last.take() else {
+        let Some(answered) = self.last.take() else {
             return;
         };
-        if let Err(fault) = guarded(|| self.show(&subject, &answered)) {
-            self.console
-                .warn(&format_args!("{}: {fault}", subject.scene), &fault);
+        if let Err(fault) = guarded(|| self.show(&answered)) {
+            let scene = &answered.subject.scene;
+            self.console.warn(&format_args!("{scene}: {fault}"), &fault);
         }
     }
 
@@ -140,8 +137,9 @@ impl ServeSession<'_> {
     }
 
     /// Shows an inspection and adds it to the history.
-    fn show(&mut self, subject: &Subject, answered: &Answered) {
+    fn show(&mut self, answered: &Answered) {
         let Answered {
+            subject,
             found,
             scene,
             inspection,
@@ -152,17 +150,18 @@ impl ServeSession<'_> {
         }
         self.num_inspected += 1;
         self.mirrored.add(&inspection.verdict);
+        let inspected = Inspected {
+            subject,
+            scene,
+            inspection,
+            recipe: &self.recipe,
+            robot: Some(&self.finder.robot),
+            is_forced: false,
+        };
         let (name, line) = (&subject.scene, &found.report);
         self.format
-            .inspected(name, line, inspection, &self.library, self.console);
+            .inspected(name, line, &inspected, &self.library, self.console);
         if let Some(recording) = &mut self.recording {
-            let inspected = Inspected {
-                subject,
-                scene,
-                inspection,
-                recipe: &self.recipe,
-                robot: Some(&self.finder.robot),
-            };
             // Only the client knows whether it is the same part again.
             let entry = recording.entry(&inspected, HungId::new());
             recording.add(entry, self.console);

@@ -86,7 +86,7 @@ impl BoundsLibrary {
         Ok(all)
     }
 
-    fn empty(title: &str) -> Self {
+    pub(super) fn empty(title: &str) -> Self {
         Self {
             title: title.to_owned(),
             library: Library::default(),

@@ -16,13 +16,13 @@ use super::{
 };
 use crate::{
     error::{CaptureError, CaptureWarning},
-    read::{image_of, may_be_capture, read_image, written_at},
+    read::{image_of, may_be_capture, read_image},
     source::{Captured, DepthSource, Image, NextCapture, SkippedCapture},
     spec::{Pace, RecordingSpec},
 };
 use files::{
     DepthCamera, crc32, depth_png::read_depths, file_name, in_counting_order, open_bytes,
-    read_bytes,
+    read_bytes, written_at,
 };
 use geometry::rigid::RigidTransform;
 use simulate::FrameTruth;
@@ -289,7 +289,7 @@ impl DepthSource for Replay {
                 name: frame.name.clone(),
                 taken_at: frame
                     .taken_at
-                    .or_else(|| written_at(&frame.path))
+                    .or_else(|| written_at(&frame.path).map(geometry::clock::timestamp))
                     .unwrap_or_else(geometry::clock::now),
                 arrived: Instant::now(),
                 is_simulated: frame.is_simulated || image.is_simulated(),

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 use std::path::{Path, PathBuf};
 
-use ::gltf::accessor::{Accessor, DataType, Dimensions};
+use ::gltf::accessor::{Accessor, DataType, Dimensions, sparse::IndexType};
 use ::gltf::buffer::{self, Buffer};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
@@ -19,34 +19,67 @@ pub(super) struct Buffers<'a> {
     source: Source<'a>,
     /// The binary chunk of a GLB.
     blob: Option<&'a [u8]>,
+    /// Whether positions may be whole numbers.
+    is_quantised: bool,
     loaded: HashMap<usize, Vec<u8>>,
 }
 
 impl<'a> Buffers<'a> {
-    pub(super) fn new(source: Source<'a>, blob: Option<&'a [u8]>) -> Self {
+    pub(super) fn new(source: Source<'a>, blob: Option<&'a [u8]>, is_quantised: bool) -> Self {
         Self {
             source,
             blob,
+            is_quantised,
             loaded: HashMap::new(),
         }
     }
 
-    /// Reads three numbers per element.
+    /// Reads three reals, or whole numbers that stand for them (extension `KHR_mesh_quantization`), per element.
     pub(super) fn positions(
         &mut self,
         accessor: &Accessor<'_>,
     ) -> Result<Vec<[f32; 3]>, FileError> {
-        if (accessor.data_type(), accessor.dimensions()) != (DataType::F32, Dimensions::Vec3) {
-            return Err(self.source.damaged("positions that are not three reals"));
-        }
-        let number = |cell: &[u8], at: usize| {
-            let bytes = cell.get(at..).and_then(<[u8]>::first_chunk);
-            bytes.map_or(f32::NAN, |bytes| f32::from_le_bytes(*bytes))
+        let number: fn(&[u8]) -> Option<f32> = match (accessor.data_type(), accessor.normalized()) {
+            (DataType::F32, _) => |bytes| bytes.first_chunk().map(|b| f32::from_le_bytes(*b)),
+            _ if !self.is_quantised => {
+                return Err(self.source.damaged("positions that are no reals"));
+            }
+            (DataType::I8, false) => |bytes| bytes.first().map(|&b| f32::from(b as i8)),
+            (DataType::U8, false) => |bytes| bytes.first().map(|&b| f32::from(b)),
+            (DataType::I16, false) => |bytes| {
+                bytes
+                    .first_chunk()
+                    .map(|b| f32::from(i16::from_le_bytes(*b)))
+            },
+            (DataType::U16, false) => |bytes| {
+                bytes
+                    .first_chunk()
+                    .map(|b| f32::from(u16::from_le_bytes(*b)))
+            },
+            (DataType::I8, true) => |bytes| {
+                bytes
+                    .first()
+                    .map(|&b| (f32::from(b as i8) / 127.0).max(-1.0))
+            },
+            (DataType::U8, true) => |bytes| bytes.first().map(|&b| f32::from(b) / 255.0),
+            (DataType::I16, true) => |bytes| {
+                let number = bytes.first_chunk().map(|b| i16::from_le_bytes(*b));
+                number.map(|number| (f32::from(number) / 32767.0).max(-1.0))
+            },
+            (DataType::U16, true) => |bytes| {
+                let number = bytes.first_chunk().map(|b| u16::from_le_bytes(*b));
+                number.map(|number| f32::from(number) / 65535.0)
+            },
+            (DataType::U32, _) => return Err(self.source.damaged("positions that are no reals")),
         };
-        let cells = self.cells(accessor)?;
-        Ok(cells
-            .map(|cell| [number(cell, 0), number(cell, 4), number(cell, 8)])
-            .collect())
+        if accessor.dimensions() != Dimensions::Vec3 {
+            return Err(self.source.damaged("positions that are not three numbers"));
+        }
+        let size = accessor.data_type().size();
+        let position = |cell: &[u8]| {
+            [0, 1, 2].map(|axis| cell.get(axis * size..).and_then(number).unwrap_or(f32::NAN))
+        };
+        self.elements(accessor, position, [0.0; 3])
     }
 
     /// Reads one whole number per element.
@@ -54,42 +87,73 @@ impl<'a> Buffers<'a> {
         if accessor.dimensions() != Dimensions::Scalar {
             return Err(self.source.damaged("indices that are not single numbers"));
         }
-        let index: fn(&[u8]) -> Option<u32> = match accessor.data_type() {
-            DataType::U8 => |cell| cell.first().map(|&byte| u32::from(byte)),
-            DataType::U16 => |cell| {
-                cell.first_chunk()
-                    .map(|bytes| u32::from(u16::from_le_bytes(*bytes)))
-            },
-            DataType::U32 => |cell| cell.first_chunk().map(|bytes| u32::from_le_bytes(*bytes)),
-            _ => return Err(self.source.damaged("indices that are not whole numbers")),
+        let Some(index) = whole_number(accessor.data_type()) else {
+            return Err(self.source.damaged("indices that are not whole numbers"));
         };
-        Ok(self.cells(accessor)?.filter_map(index).collect())
+        self.elements(accessor, index, 0)
     }
 
-    /// Returns the bytes of each element, after a check that all lie within their view and buffer.
-    fn cells(&mut self, accessor: &Accessor<'_>) -> Result<impl Iterator<Item = &[u8]>, FileError> {
+    /// Reads the elements of an accessor; those that a sparse one leaves out are `zero`.
+    fn elements<T: Clone>(
+        &mut self,
+        accessor: &Accessor<'_>,
+        element: impl Fn(&[u8]) -> T,
+        zero: T,
+    ) -> Result<Vec<T>, FileError> {
         let source = self.source;
-        let (Some(view), None) = (accessor.view(), accessor.sparse()) else {
-            let found = "positions or indices without a buffer view, or with a sparse one";
-            return Err(source.unsupported(found, "glTF without sparse accessors"));
+        let (count, size) = (accessor.count(), accessor.size());
+        source.limited("points", count)?;
+        let mut elements = if let Some(view) = accessor.view() {
+            self.cells(&view, accessor.offset(), size, count, &element)?
+        } else {
+            source.affordable(count, size_of::<T>())?;
+            vec![zero; count]
         };
-        let size = accessor.size();
+        if let Some(sparse) = accessor.sparse() {
+            let (of_index, of_value) = (sparse.indices(), sparse.values());
+            let data_type = match of_index.index_type() {
+                IndexType::U8 => DataType::U8,
+                IndexType::U16 => DataType::U16,
+                IndexType::U32 => DataType::U32,
+            };
+            let index = whole_number(data_type).expect("a whole number without a sign");
+            let num = sparse.count();
+            let (view, offset) = (of_index.view(), of_index.offset());
+            let indices = self.cells(&view, offset, data_type.size(), num, index)?;
+            let values = self.cells(&of_value.view(), of_value.offset(), size, num, &element)?;
+            for (index, value) in indices.into_iter().zip(values) {
+                let place = elements.get_mut(index as usize);
+                *place.ok_or_else(|| source.damaged(format!("no element {index} of {count}")))? =
+                    value;
+            }
+        }
+        Ok(elements)
+    }
+
+    /// Reads elements of this size from a view.
+    fn cells<T>(
+        &mut self,
+        view: &buffer::View<'_>,
+        offset: usize,
+        size: usize,
+        count: usize,
+        element: impl Fn(&[u8]) -> T,
+    ) -> Result<Vec<T>, FileError> {
+        let source = self.source;
         let stride = view.stride().unwrap_or(size);
-        let (count, offset) = (accessor.count(), accessor.offset());
         if stride < size {
             return Err(source.damaged(format!("elements of {size} bytes every {stride}")));
         }
-        source.limited("points", count)?;
         let end = count
             .checked_mul(stride)
             .and_then(|bytes| bytes.checked_add(offset));
         // The last element needs no gap behind it.
         let end = end.map(|end| end - if count > 0 { stride - size } else { 0 });
-        let bytes = self.view(&view)?;
+        let bytes = self.view(view)?;
         let Some(bytes) = end.and_then(|end| bytes.get(offset..end)) else {
             return Err(source.truncated("buffer view", bytes.len(), end.unwrap_or(usize::MAX)));
         };
-        Ok(bytes.chunks(stride).take(count))
+        Ok(bytes.chunks(stride).take(count).map(element).collect())
     }
 
     fn view(&mut self, view: &buffer::View<'_>) -> Result<&[u8], FileError> {
@@ -158,6 +222,22 @@ fn percent_decoded(uri: &str) -> Option<String> {
         bytes.extend_from_slice(rest.as_bytes());
     }
     String::from_utf8(bytes).ok()
+}
+
+/// Returns how a whole number without a sign is read; `None` for another type.
+fn whole_number(data_type: DataType) -> Option<fn(&[u8]) -> u32> {
+    match data_type {
+        DataType::U8 => Some(|cell| cell.first().map_or(0, |&byte| u32::from(byte))),
+        DataType::U16 => Some(|cell| {
+            let bytes = cell.first_chunk();
+            bytes.map_or(0, |bytes| u32::from(u16::from_le_bytes(*bytes)))
+        }),
+        DataType::U32 => Some(|cell| {
+            let bytes = cell.first_chunk();
+            bytes.map_or(0, |bytes| u32::from_le_bytes(*bytes))
+        }),
+        _ => None,
+    }
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@
 //! node and of its ancestors applied. A mirroring transform reverses the order of the triangles' vertices, so that they
 //! still face outwards.
 //!
-//! Limits: sparse accessors and compressed or quantised geometry are refused; skins and morph targets are ignored.
+//! Limits: compressed geometry is refused; skins and morph targets are ignored.
 
 mod buffers;
 
@@ -50,7 +50,9 @@ pub(super) fn read(source: Source<'_>, wanted: Option<&str>) -> Result<TriangleM
     let document = parse(source, json)?;
     let placed = placed_meshes(source, &document)?;
     let chosen = choose(source, placed, wanted)?;
-    let mut buffers = Buffers::new(source, blob);
+    let mut extensions = document.extensions_used();
+    let is_quantised = extensions.any(|name| name == "KHR_mesh_quantization");
+    let mut buffers = Buffers::new(source, blob, is_quantised);
     let mut whole = TriangleMesh::default();
     for PlacedMesh {
         mesh,
@@ -119,11 +121,10 @@ const OBJECT_BYTES: usize = 1000;
 
 fn parse(source: Source<'_>, json: &[u8]) -> Result<Document, FileError> {
     /// Extensions that change how positions or indices are stored.
-    const GEOMETRY_EXTENSIONS: [&str; 4] = [
+    const GEOMETRY_EXTENSIONS: [&str; 3] = [
         "KHR_draco_mesh_compression",
         "EXT_meshopt_compression",
         "KHR_meshopt_compression",
-        "KHR_mesh_quantization",
     ];
     let text = json.strip_prefix(b"\xef\xbb\xbf").unwrap_or(json);
     let num_objects = text.split(|byte| *byte == b'{').count();

@@ -3,7 +3,7 @@
 //!
 //! Source: G. Turk, *The PLY Polygon File Format* (1994). Of the element `vertex` x y z, nx ny nz, red green blue (bytes,
 //! or reals of 0..1) and `label` are kept; of `face` the list `vertex_indices` or `vertex_index`, whose polygons are split
-//! into fans. Everything else is ignored.
+//! into triangles. Everything else is ignored.
 //!
 //! The Stanford scans have a `range_grid`: the scanner cell of each vertex. It is ignored, because these cells lie on a
 //! turntable's cylinder, whereas a grid here means the image of a pinhole camera.
@@ -16,12 +16,14 @@ mod write;
 
 pub use self::write::{PointProperty, write_ply, write_ply_with};
 
+use nalgebra::Point3;
+
 use super::error::FileError;
 use super::open::FileContent;
 use super::readings::{normals_from, points_from, tidy};
 use super::scalar::Column;
 use super::source::Source;
-use super::surface::{checked_mesh, push_fan};
+use super::surface::{Triangulation, checked_mesh};
 use geometry::cloud::PointCloud;
 
 use self::body::{Body, Rows};
@@ -73,7 +75,7 @@ pub(super) fn read(source: Source<'_>) -> Result<FileContent, FileError> {
     };
     let mut cloud = cloud_of(source, column)?;
     if let Some(faces) = faces {
-        let triangles = fans(source, &faces)?;
+        let triangles = triangulated(source, &faces, &cloud.points)?;
         return checked_mesh(source, cloud.points, triangles).map(FileContent::Mesh);
     }
     if is_read_to_end {
@@ -107,8 +109,12 @@ fn cloud_of<'a>(
     })
 }
 
-/// Splits polygons into fans of triangles about their first corner; polygons with fewer than three corners yield none.
-fn fans(source: Source<'_>, faces: &Rows<'_>) -> Result<Vec<[u32; 3]>, FileError> {
+/// Splits polygons into triangles; polygons with fewer than three corners yield none.
+fn triangulated(
+    source: Source<'_>,
+    faces: &Rows<'_>,
+    vertices: &[Point3<f32>],
+) -> Result<Vec<[u32; 3]>, FileError> {
     let num_corners = faces.list_lengths.iter().map(|&length| length as usize);
     let num_triangles = num_corners
         .clone()
@@ -117,12 +123,13 @@ fn fans(source: Source<'_>, faces: &Rows<'_>) -> Result<Vec<[u32; 3]>, FileError
     source.affordable(num_triangles, size_of::<[u32; 3]>())?;
     let mut triangles = Vec::with_capacity(source.limited("triangles", num_triangles)?);
     let mut rest = faces.list_values.as_slice();
+    let mut triangulation = Triangulation::default();
     for corners in num_corners {
         let Some((polygon, after)) = rest.split_at_checked(corners) else {
             break;
         };
         rest = after;
-        push_fan(polygon, &mut triangles);
+        triangulation.push(source, polygon, vertices, &mut triangles)?;
     }
     Ok(triangles)
 }

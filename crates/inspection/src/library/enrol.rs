@@ -5,6 +5,7 @@
 
 mod cloud;
 mod kept;
+mod mesh;
 mod own_pose;
 mod problem;
 mod scan;
@@ -14,14 +15,15 @@ use nalgebra::{Point3, Vector3};
 
 use self::{
     cloud::{
-        face_one_way, finite_only, is_one_capture, middle, normals_towards, thinned,
+        face_one_way, finite_only, is_one_capture, normals_towards, spacing, thinned,
         without_isolated,
     },
     kept::{share_apart, share_on_background},
+    mesh::{MeshSurface, with_shown_sides},
     own_pose::pose_warning,
 };
 pub use self::{
-    problem::{EnrolError, EnrolWarning},
+    problem::{EnrolError, EnrolFinding, EnrolWarning},
     scan::enrol_scan,
 };
 use super::{
@@ -91,6 +93,8 @@ pub struct Enrolled {
     pub reference: Reference,
     /// The part in the captured scene that it was cut out of; `None` if it was not cut out of one.
     pub seen: Option<SegmentedPart>,
+    /// What a mesh was found to be.
+    pub findings: Vec<EnrolFinding>,
     /// Warnings about the part.
     pub warnings: Vec<EnrolWarning>,
 }
@@ -198,6 +202,7 @@ fn enrol_one_side(
         num_shots: None,
         voxel: Some(voxel),
         cut: ViewCut::of(found, scene),
+        one_layer: None,
     };
     let mut enrolled = assemble(cloud, &source, about, params)?;
     enrolled.seen = Some(found.clone());
@@ -210,8 +215,8 @@ fn enrol_one_side(
 /// Enrols all points of a cloud.
 ///
 /// A few isolated points are dropped. A cloud that lies in front of the camera, with normals (if any) that face it, counts
-/// as one capture. Of any other, missing normals are estimated and turned away from the cloud's middle, which is right for
-/// a convex part and a guess otherwise. If the normals face one way, it counts as seen from several sides, else from all
+/// as one capture. Of any other, missing normals are estimated, and turned to where a camera could see the point from; where it could
+/// from both sides, it gets both. If the normals face one way, it counts as seen from several sides, else from all
 /// around.
 pub fn enrol_whole(
     cloud: &PointCloud,
@@ -229,21 +234,24 @@ pub fn enrol_whole(
     let is_one_capture = is_one_capture(&finite);
     let (thin, voxel) = thinned(&finite, params);
     let mut thin = without_isolated(thin, voxel);
-    let normals = thin.normals.take().unwrap_or_else(|| {
-        if is_one_capture {
-            return normals_towards(&thin, voxel, &Point3::origin());
-        }
-        let inward = normals_towards(&thin, voxel, &middle(&thin)).into_iter();
-        inward.map(|inward| -inward).collect()
-    });
+    if thin.normals.is_none() {
+        let normals = normals_towards(&thin, voxel, &Point3::origin());
+        thin = if is_one_capture {
+            PointCloud {
+                normals: Some(normals),
+                ..thin
+            }
+        } else {
+            with_shown_sides(&thin, normals, Metres(voxel.0.max(spacing(&thin.points))))
+        };
+    }
     let coverage = if is_one_capture {
         Coverage::OneSide
-    } else if face_one_way(&normals) {
+    } else if thin.normals.as_deref().is_some_and(face_one_way) {
         Coverage::SeveralSides
     } else {
         Coverage::AllAround
     };
-    thin.normals = Some(normals);
     let source = ReferenceOrigin {
         coverage,
         how: EnrolMethod::WholeCloud,
@@ -251,30 +259,32 @@ pub fn enrol_whole(
         num_shots: None,
         voxel: Some(voxel),
         cut: ViewCut::default(),
+        one_layer: None,
     };
     assemble(thin, &source, about, params)
 }
 
-/// Enrols an evenly sampled mesh.
+/// Enrols a mesh: what cameras can see of it from all around, whichever way its triangles are wound.
 pub fn enrol_mesh(
     mesh: &TriangleMesh,
     about: &PartDescription,
     params: &EnrolParams,
 ) -> Result<Enrolled, EnrolError> {
-    let cloud = mesh
-        .sample_evenly(params.max_points, 1)
-        .ok_or(EnrolError::NoArea {
-            num_triangles: mesh.triangles.len(),
-        })?;
+    let surface = MeshSurface::of(mesh, params.max_points).ok_or(EnrolError::NoArea {
+        num_triangles: mesh.triangles.len(),
+    })?;
     let source = ReferenceOrigin {
         coverage: Coverage::AllAround,
         how: EnrolMethod::Mesh,
-        num_points: cloud.points.len(),
+        num_points: surface.cloud.points.len(),
         num_shots: None,
         voxel: None,
         cut: ViewCut::default(),
+        one_layer: Some(surface.one_layer),
     };
-    assemble(cloud, &source, about, params)
+    let mut enrolled = assemble(surface.cloud, &source, about, params)?;
+    enrolled.findings = surface.findings;
+    Ok(enrolled)
 }
 
 /// Facts about the origin of a reference's cloud.
@@ -285,6 +295,8 @@ struct ReferenceOrigin {
     num_shots: Option<usize>,
     voxel: Option<Metres>,
     cut: ViewCut,
+    /// The surface once, where the cloud has both sides of it.
+    one_layer: Option<PointCloud>,
 }
 
 fn assemble(
@@ -311,8 +323,11 @@ fn assemble(
         .collect();
     let mut side = None;
     if source.coverage == Coverage::AllAround {
-        let points: Vec<Point3<f64>> = cloud.points.iter().map(|p| p.cast()).collect();
-        let normals: Vec<Vector3<f64>> = cloud.normals.iter().flatten().map(|n| n.cast()).collect();
+        let PointCloud {
+            points, normals, ..
+        } = source.one_layer.as_ref().unwrap_or(&cloud);
+        let points: Vec<Point3<f64>> = points.iter().map(|p| p.cast()).collect();
+        let normals: Vec<Vector3<f64>> = normals.iter().flatten().map(|n| n.cast()).collect();
         match outer_side(&points, &normals) {
             Ok(outer) => side = Some(outer),
             Err(sides) => warnings.push(EnrolWarning::SideUnclear { sides }),
@@ -350,6 +365,7 @@ fn assemble(
     };
     Ok(Enrolled {
         part,
+        findings: Vec::new(),
         warnings,
         reference,
         seen: None,

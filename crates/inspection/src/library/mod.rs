@@ -45,8 +45,9 @@ use stages::reference::Reference;
 
 pub use self::{
     enrol::{
-        EnrolError, EnrolParams, EnrolWarning, Enrolled, PartDescription, enrol_captured,
-        enrol_mesh, enrol_scan, enrol_selected, enrol_surface, enrol_whole, surfaces_to_enrol,
+        EnrolError, EnrolFinding, EnrolParams, EnrolWarning, Enrolled, PartDescription,
+        enrol_captured, enrol_mesh, enrol_scan, enrol_selected, enrol_surface, enrol_whole,
+        surfaces_to_enrol,
     },
     entry::is_part_file,
     error::LibraryError,

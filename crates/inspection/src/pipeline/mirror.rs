@@ -152,7 +152,7 @@ const ALIGNMENT_LEVELS: [Level; 2] = [
 /// True if the reference looks the same in a mirror. The plane of symmetry is perpendicular to a principal axis, so the
 /// cloud is mirrored in each of the three planes and laid onto itself.
 fn is_own_mirror_image(reference: &Reference) -> bool {
-    let Some(target) = reference.target(0) else {
+    let Some(target) = reference.whole_target(0) else {
         return false;
     };
     let points = sample_evenly(&reference.cloud.points, NUM_COMPARED);

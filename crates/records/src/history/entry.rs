@@ -206,6 +206,16 @@ pub struct InspectionDetail {
     pub frame: Option<FrameRecord>,
 }
 
+/// What a line says about letting a robot act on the pose.
+#[derive(Clone, Debug, Default, PartialEq, Eq, serde::Deserialize)]
+#[serde(default)]
+pub struct RobotMarks {
+    /// Why it must not, in words for programs.
+    pub robot_doubts: Vec<String>,
+    /// False if the part was accepted and no other frame shows whether it hung still.
+    pub motion_checked: Option<bool>,
+}
+
 /// An inspection in full.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Record {
@@ -386,6 +396,11 @@ impl InspectionDetail {
             rotation: Radians(pose.turn_bound_rad?),
             shift: Metres(pose.shift_bound_m?),
         })
+    }
+
+    /// Returns what the line says about letting a robot act on the pose.
+    pub fn robot_marks(&self) -> RobotMarks {
+        serde_json::from_str(&self.line).unwrap_or_default()
     }
 
     /// Returns the recipe's name and its identity.

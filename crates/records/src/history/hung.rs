@@ -110,6 +110,11 @@ impl<E> HungRows<E> {
         self.best = Some(best);
     }
 
+    /// True while the inspection of a part is held whose verdict does not count yet.
+    pub fn is_holding(&self) -> bool {
+        self.best.is_some()
+    }
+
     /// Takes the held inspection of a part whose verdict does not count yet, because nobody may see the part leave. Seen
     /// again, it is the same part.
     pub fn take_best(&mut self) -> Option<E> {

@@ -44,7 +44,9 @@ pub use self::{
     buffer::HistoryBuffer,
     differences::{Differences, InspectionSummary, ParameterChange},
     drift::{MAX_POSES, PoseRecord},
-    entry::{InspectionContext, InspectionDetail, NewEntry, Record, StoredVerdict, Summary},
+    entry::{
+        InspectionContext, InspectionDetail, NewEntry, Record, RobotMarks, StoredVerdict, Summary,
+    },
     error::HistoryError,
     event::HistoryEvent,
     filter::Filter,

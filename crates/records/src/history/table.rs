@@ -14,7 +14,7 @@ use texts::Language;
 const HEAD: &str = "number,time,scene,source,simulated,verdict,part,nearest,score,margin,reason,total_ms,\
     label,remark,recipe,library,program,parent,reinspections,\
     m00,m01,m02,m03,m10,m11,m12,m13,m20,m21,m22,m23,m30,m31,m32,m33,recipe_name,recipe_changed,\
-    serial,order,operator,reason_kind";
+    serial,order,operator,reason_kind,robot_doubts,motion_checked";
 
 /// Writes the inspections that `each` passes on into this file, and returns their number. If one cannot be read, the
 /// file stays as it was.
@@ -89,9 +89,14 @@ fn write_row(writer: &mut dyn Write, record: &Record, columns: &str) -> io::Resu
     let trace = &summary.trace;
     let [serial, order, operator] =
         [&trace.serial, &trace.order, &trace.operator].map(|text| quoted(text));
+    let marks = detail.robot_marks();
+    let doubts = marks.robot_doubts.join(" ");
+    let motion_checked = marks
+        .motion_checked
+        .map_or("", |is| if is { "true" } else { "false" });
     writeln!(
         writer,
-        "{},{},{},{},{},{},{},{},{score},{margin},{},{:.3},{},{},{},{},{},{},{}{pose},{recipe},{serial},{order},{operator},{kind}{columns}",
+        "{},{},{},{},{},{},{},{},{score},{margin},{},{:.3},{},{},{},{},{},{},{}{pose},{recipe},{serial},{order},{operator},{kind},{doubts},{motion_checked}{columns}",
         summary.number,
         summary.at,
         quoted(&summary.scene.to_string()),

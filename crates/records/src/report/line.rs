@@ -51,9 +51,12 @@ pub struct InspectionLine<'a> {
     /// False if the part was accepted in a frame of a source and no other frame shows whether it hangs still.
     #[serde(skip_serializing_if = "Option::is_none")]
     motion_checked: Option<bool>,
-    /// Why `robot` is missing although the cell is calibrated and the part was accepted.
+    /// Why a robot may not act on the pose although the cell is calibrated and the part was accepted.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     robot_doubts: Vec<&'static str>,
+    /// True if the frame was recorded earlier, and is replayed now.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    replayed: Option<bool>,
 }
 
 /// Additional fields for several frames that were inspected together.
@@ -109,6 +112,8 @@ struct PoseLine<'a> {
     stopped: &'static str,
     ambiguous: bool,
     approximate: bool,
+    /// Size of the part divided by that of its reference, if it is certainly another.
+    off_scale: Option<f64>,
 }
 
 #[derive(Debug, Serialize)]
@@ -248,7 +253,16 @@ impl<'a> InspectionLine<'a> {
         Self { robot, ..self }
     }
 
-    /// States why there is no pose in the robot's base frame although the cell is calibrated and the part was accepted.
+    /// Adds that the frame was recorded earlier, and is replayed now.
+    #[must_use]
+    pub fn replayed(self) -> Self {
+        Self {
+            replayed: Some(true),
+            ..self
+        }
+    }
+
+    /// States why a robot may not act on the pose although the cell is calibrated and the part was accepted.
     #[must_use]
     pub fn doubted(self, doubts: Vec<&'static str>) -> Self {
         Self {
@@ -280,6 +294,7 @@ impl<'a> InspectionLine<'a> {
             stopped: pose.stopped.name(),
             ambiguous: pose.is_ambiguous(),
             approximate: inspection.verdict.is_approximate(),
+            off_scale: pose.off_scale().map(|off| off.scale()),
         });
         let verdict = &inspection.verdict;
         Self {

@@ -11,7 +11,7 @@ use std::{
         atomic::{AtomicBool, AtomicUsize, Ordering},
     },
     thread,
-    time::Duration,
+    time::{Duration, SystemTime},
 };
 
 use super::{
@@ -26,7 +26,9 @@ use records::history::{FrameError, read_shots};
 use robot::{
     calibration::CellCalibration,
     frame_poses::FramePosesError,
-    scan_frames::{FrameNews, ScanFramesError, poses_beside, read_frames, with_poses},
+    scan_frames::{
+        FrameNews, ScanFramesError, first_captured_at, poses_beside, read_frames, with_poses,
+    },
 };
 use stages::scan::{Scan, ScanError, ScanObserver, ScanParams, ScanStep, Shot, assemble};
 use ui::{language::text, user_error::UserError};
@@ -264,7 +266,9 @@ fn read(
                 ControlFlow::Continue(())
             }
         })?;
-        with_poses(paths, poses, frames, calibration)
+        let captured_at = first_captured_at(&frames);
+        let shots = with_poses(paths, poses, frames, calibration);
+        shots.map(|shots| (shots, captured_at))
     };
     match &request.order {
         ScanOrder::Known(choice) => Ok(choice.clone()),
@@ -274,12 +278,15 @@ fn read(
             set: Arc::new(ShotSet {
                 files: ScanFiles::of_past(&kept.origin),
                 shots: read_shots(&kept.folder, &kept.frame)?,
+                captured_at: SystemTime::UNIX_EPOCH,
             }),
         }),
         ScanOrder::Open(files) => {
-            let mut shots = frames_of(&files.frames, files.poses.as_deref())?;
+            let (mut shots, mut captured_at) = frames_of(&files.frames, files.poses.as_deref())?;
             for (frame, poses) in &files.added {
-                shots.extend(frames_of(std::slice::from_ref(frame), Some(poses))?);
+                let (added, at) = frames_of(std::slice::from_ref(frame), Some(poses))?;
+                shots.extend(added);
+                captured_at = captured_at.min(at);
             }
             let is_dropped = |shot: &Shot| files.dropped.contains(&shot.name);
             let dropped = (0..shots.len()).filter(|place| is_dropped(&shots[*place]));
@@ -288,48 +295,59 @@ fn read(
                 set: Arc::new(ShotSet {
                     files: files.clone(),
                     shots,
+                    captured_at,
                 }),
             })
         }
         ScanOrder::Add(choice, frame, given) => {
-            let name = file_name(frame);
-            let mut shots = choice.set.shots.clone();
-            if shots.iter().any(|shot| shot.name == name) {
-                return Err(FuseError::NameTaken { name });
-            }
-            let mut files = choice.set.files.clone();
-            // The file may have got a pose for this frame since the scan was read.
-            let of_scan = files.poses.clone().or_else(|| poses_beside(&files.frames));
-            let paths = std::slice::from_ref(frame);
-            let beside = poses_beside(paths);
-            let candidates: Vec<&Path> = match given {
-                Some(given) => vec![given],
-                None => of_scan
-                    .iter()
-                    .chain(&beside)
-                    .map(PathBuf::as_path)
-                    .collect(),
-            };
-            let mut found = Err(FuseError::Frames(ScanFramesError::NoPoses));
-            for file in candidates {
-                let read = frames_of(paths, Some(file));
-                match read {
-                    Ok(read) => {
-                        found = Ok((read, file.to_owned()));
-                        break;
-                    }
-                    Err(error) => found = Err(error.into()),
-                }
-            }
-            let (read, file) = found?;
-            shots.extend(read);
-            files.added.push((frame.clone(), file));
-            Ok(ShotChoice {
-                dropped: choice.dropped.clone(),
-                set: Arc::new(ShotSet { files, shots }),
+            add_frame(choice, frame, given.as_deref(), |paths, poses| {
+                frames_of(paths, Some(poses))
             })
         }
     }
+}
+
+/// Adds a frame to the shots. `read` reads it with its pose from a file: the one given, else that of the scan or one beside
+/// the frame.
+fn add_frame(
+    choice: &ShotChoice,
+    frame: &Path,
+    given: Option<&Path>,
+    mut read: impl FnMut(&[PathBuf], &Path) -> Result<(Vec<Shot>, SystemTime), ScanFramesError>,
+) -> Result<ShotChoice, FuseError> {
+    let name = file_name(frame);
+    let mut shots = choice.set.shots.clone();
+    if shots.iter().any(|shot| shot.name == name) {
+        return Err(FuseError::NameTaken { name });
+    }
+    let mut files = choice.set.files.clone();
+    let paths = [frame.to_owned()];
+    let candidates = if let Some(given) = given {
+        vec![given.to_owned()]
+    } else {
+        // The file may have got a pose for this frame since the scan was read.
+        let of_scan = files.poses.clone().or_else(|| poses_beside(&files.frames));
+        of_scan.into_iter().chain(poses_beside(&paths)).collect()
+    };
+    let mut found = Err(ScanFramesError::NoPoses);
+    for file in candidates {
+        found = read(&paths, &file).map(|read| (read, file));
+        if found.is_ok() {
+            break;
+        }
+    }
+    let ((added, at), file) = found?;
+    shots.extend(added);
+    let [frame] = paths;
+    files.added.push((frame, file));
+    Ok(ShotChoice {
+        dropped: choice.dropped.clone(),
+        set: Arc::new(ShotSet {
+            files,
+            shots,
+            captured_at: choice.set.captured_at.min(at),
+        }),
+    })
 }
 
 /// Carries progress and cancellation between the threads of a fusion.

@@ -40,7 +40,7 @@ use stages::{
     scene::SceneCloud,
     stand_off::{StandOff, StandOffError, stand_off},
 };
-use station::{self, LibraryNames, Subject};
+use station::{self, LibraryNames, Subject, age_doubt};
 use ui::{
     task::TaskError,
     viewport::{PointSet, Role},
@@ -117,7 +117,7 @@ impl Inspected {
 
     /// Sets the hung part that it belongs to, and the traceability of that part.
     pub fn set_part(&mut self, hung: HungId, trace: Traceability) {
-        self.entry.record.detail.line = self.line(&trace, None);
+        self.entry.record.detail.line = self.line(&trace);
         let summary = &mut self.entry.record.summary;
         (summary.hung, summary.trace) = (hung, trace);
     }
@@ -125,21 +125,45 @@ impl Inspected {
     /// The entry for the history with this traceability.
     pub fn entry_of(&self, trace: Traceability) -> NewEntry {
         let mut entry = self.entry.clone();
-        entry.record.detail.line = self.line(&trace, None);
+        entry.record.detail.line = self.line(&trace);
         entry.record.summary.trace = trace;
         entry
     }
 
-    /// The line of JSON, as the commands write it; with what really hung there, if a person has reported that.
-    pub fn line(&self, trace: &Traceability, reported_as: Option<&str>) -> String {
-        let inspected = station::Inspected {
-            subject: &self.subject,
+    /// Sets where the scene came from.
+    #[cfg(any(test, feature = "fixtures"))]
+    pub fn set_origin(&mut self, origin: Origin) {
+        self.subject = origin.subject(self.subject.source.clone());
+        self.origin = origin;
+    }
+
+    /// Sets when the scene was captured, if it was not just taken.
+    pub fn set_captured_at(&mut self, at: SystemTime) {
+        self.captured_at = at;
+        self.subject.currency = age_doubt(at);
+        self.entry.record.detail.line = self.line(self.trace());
+    }
+
+    /// The inspection of this subject as it is recorded, with this robot frame.
+    pub fn as_recorded<'a>(
+        &'a self,
+        subject: &'a Subject,
+        robot: Option<&'a RobotFrame>,
+    ) -> station::Inspected<'a> {
+        station::Inspected {
+            subject,
             scene: &self.scene,
             inspection: &self.inspection,
             recipe: &self.recipe,
-            robot: self.robot.as_deref(),
-        };
-        inspected.reported_line(trace, reported_as)
+            robot,
+            is_forced: false,
+        }
+    }
+
+    /// The line of JSON, as the commands write it, when it was inspected.
+    fn line(&self, trace: &Traceability) -> String {
+        let robot = self.robot.as_deref();
+        self.as_recorded(&self.subject, robot).line(trace)
     }
 
     /// Title of the part that the verdict names, whichever of its references was found; `None` without a part.
@@ -347,6 +371,24 @@ pub fn entry_of(
     entry
 }
 
+/// What was inspected, as records name it, and when it was captured.
+fn subject_of(
+    origin: &Origin,
+    source: String,
+    scan: Option<&FoundScan>,
+    is_followed: bool,
+) -> (Subject, SystemTime) {
+    let of_scan = scan.map(|found| found.fused.choice.set.captured_at);
+    let captured_at = of_scan.unwrap_or_else(|| origin.captured_at());
+    let mut subject = origin.subject(source).captured_at(captured_at);
+    // A source that is followed shows in several frames whether the part moves.
+    subject.is_motion_unchecked |= subject.capture.is_some() && !is_followed;
+    if let Some(found) = scan {
+        subject = subject.with_scan(&found.fused.scan, found.first);
+    }
+    (subject, captured_at)
+}
+
 impl FinishedInspection {
     /// Prepares the data of the panels; goes through every point.
     pub fn prepared(self, library: &Library, shown: &Arc<LibraryView>) -> Inspected {
@@ -405,16 +447,14 @@ impl FinishedInspection {
             figures.num_points = found.fused.figure.positions.len();
             figures.num_part = part.points.len();
         }
-        let mut subject = origin.subject(source);
-        if let Some(found) = &scan {
-            subject = subject.with_scan(&found.fused.scan, found.first, found.base_from_part);
-        }
+        let (subject, captured_at) = subject_of(&origin, source, scan.as_ref(), followed.is_some());
         let recorded = station::Inspected {
             subject: &subject,
             scene: &scene,
             inspection: &inspection,
             recipe: &recipe,
             robot: robot.as_deref(),
+            is_forced: false,
         };
         let picture = figures.segmentation.as_ref();
         let entry = entry_of(&recorded, &origin, shown, Traceability::default(), picture);
@@ -426,7 +466,7 @@ impl FinishedInspection {
                 robot: Arc::clone(robot),
             });
         Inspected {
-            captured_at: origin.captured_at(),
+            captured_at,
             at: entry.record.summary.at,
             origin,
             scene,

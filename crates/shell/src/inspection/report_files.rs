@@ -24,8 +24,8 @@ use robot::{
     program::{ProgramSettings, RobotLanguage},
 };
 use station::{
-    Currency, Doubt,
-    robot_file::{CapturedPart, RobotFile, RobotFileContent, RobotFileError, remove_previous},
+    Doubt, Subject,
+    robot_file::{RobotFile, RobotFileContent, RobotFileError, remove_previous},
 };
 use ui::{
     language::text,
@@ -78,11 +78,12 @@ impl ProgramTarget {
 }
 
 /// Writes the spray path of an inspection for the robot, as CSV or JSON like `partsight inspect --spray`, or as a program for
-/// its controller like `--program`. First removes an earlier file of that name; writes nothing if there are doubts.
+/// its controller like `--program`. `subject` is what was inspected as it stands now. First removes an earlier file of that
+/// name; writes nothing if there are doubts.
 pub fn spray_path(
     path: &Path,
     inspected: &Inspected,
-    currency: &Currency,
+    subject: &Subject,
     robot: &RobotFrame,
     convention: Convention,
     target: Result<ProgramTarget, UserError>,
@@ -121,11 +122,7 @@ pub fn spray_path(
         side: part.side,
         path: stored.map(|stored| &stored.path),
         off: inspected.off_the_part,
-        capture: Some(CapturedPart {
-            scene: &scene_name(&inspected.origin).display().to_string(),
-            inspection: &inspected.inspection,
-            currency,
-        }),
+        capture: Some(inspected.as_recorded(subject, Some(robot))),
         camera_from_part: pose.camera_from_part(),
         is_stored: true,
         is_simulated: inspected.origin.is_simulated() || part.simulated,
@@ -191,9 +188,10 @@ pub fn not_reached(arm: &str, check: &PathCheck) -> Option<UserError> {
     Some(UserError { what, advice })
 }
 
-/// Makes the pose report of the shown inspection.
+/// Makes the pose report of the shown inspection of this subject, as it stands now.
 pub fn report_of(
     inspected: &Inspected,
+    subject: &Subject,
     trace: &Traceability,
     robot: Option<&RobotFrame>,
     convention: Convention,
@@ -203,7 +201,8 @@ pub fn report_of(
         Origin::File { .. } => SeenBy::NotKnown,
         Origin::Simulated { .. } | Origin::Scan { .. } | Origin::Frame { .. } => SeenBy::Camera,
     };
-    PoseReport::of(&ReportSubject {
+    let recorded = inspected.as_recorded(subject, robot);
+    let report = PoseReport::of(&ReportSubject {
         inspected_at: inspected.at,
         scene: &scene_name(&inspected.origin).display().to_string(),
         source: Some(&inspected.entry.record.summary.source),
@@ -216,8 +215,11 @@ pub fn report_of(
         library_identity: &inspected.library.identity,
         num_references: inspected.library.parts.len(),
         robot,
+        for_robot: recorded.frame_for_robot(),
+        doubts: &recorded.doubt_blocks(),
         convention,
-    })
+    });
+    report.reported_as(subject.reported_as.as_deref())
 }
 
 /// Returns the name of the scene, which names the files of a report.
@@ -233,23 +235,22 @@ fn scene_name(origin: &Origin) -> PathBuf {
     }
 }
 
-/// Writes an inspection like `partsight inspect --report` and `partsight report`: a line of JSON, the pictures of its stages,
-/// and the pose report as JSON, PDF and a row of CSV; returns a message about it. Because the user did not choose the file
-/// names, an earlier report in the folder is kept.
+/// Writes an inspection like `partsight inspect --report` and `partsight report`: its line of JSON as of now, the pictures of
+/// its stages, and the pose report as JSON, PDF and a row of CSV; returns a message about it. Because the user did not choose
+/// the file names, an earlier report in the folder is kept.
 pub fn report(
     folder: &Path,
     inspected: &Inspected,
+    line: &str,
     report: &PoseReport,
     shot: Option<&ViewShot>,
 ) -> Result<String, UserError> {
     let trouble = |error: ReportError| UserError::of(&error);
     let name = scene_name(&inspected.origin);
     let name = unused_name(folder, &name);
-    let reported_as = report.verdict.reported_as.as_deref();
-    let line = inspected.line(&report.traceability, reported_as);
     let stages = stage_pictures(&inspected.scene, &inspected.inspection);
     let mut out = ReportFolder::make(folder).map_err(trouble)?;
-    let path = out.write(&name, &line, &stages).map_err(trouble)?;
+    let path = out.write(&name, line, &stages).map_err(trouble)?;
     let view = shot.and_then(|shot| on_paper(shot).take().ok());
     let view = view.map(|view| DynamicImage::from(view).into_rgb8());
     let pictures = PdfPictures {
@@ -349,7 +350,14 @@ mod tests {
             let library = LibraryCache::default();
             let inspected = inspect(&request, &library, &Unwatched).expect("inspected");
             assert_eq!(inspected.entry.record.summary.source, source);
-            let report = report_of(&inspected, inspected.trace(), None, Convention::Kuka);
+            let subject = &inspected.subject;
+            let report = report_of(
+                &inspected,
+                subject,
+                inspected.trace(),
+                None,
+                Convention::Kuka,
+            );
             assert_eq!(report.source.as_deref(), Some(source));
         }
     }
@@ -358,9 +366,16 @@ mod tests {
     fn a_report_names_the_part_not_the_reference_that_was_found() {
         let mut inspected = inspected_cell(CellChoice::InTurn, 1);
         "front_door_b".clone_into(&mut inspected.figures.candidates[0].title);
-        let pose = report_of(&inspected, inspected.trace(), None, Convention::Kuka);
+        let subject = &inspected.subject;
+        let pose = report_of(
+            &inspected,
+            subject,
+            inspected.trace(),
+            None,
+            Convention::Kuka,
+        );
         let folder = tempfile::tempdir().expect("a folder");
-        report(folder.path(), &inspected, &pose, None).expect("written");
+        report(folder.path(), &inspected, "{}", &pose, None).expect("written");
         let mut files = std::fs::read_dir(folder.path()).expect("listed");
         let pdf = files.find_map(|file| {
             let path = file.expect("a file").path();

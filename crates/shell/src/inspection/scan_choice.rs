@@ -4,6 +4,7 @@ use std::{
     collections::BTreeSet,
     path::{Path, PathBuf},
     sync::Arc,
+    time::SystemTime,
 };
 
 use serde::{Deserialize, Serialize};
@@ -71,6 +72,8 @@ pub struct ShotSet {
     pub files: ScanFiles,
     /// In the order of the files, with added ones last.
     pub shots: Vec<Shot>,
+    /// When the first of them was captured.
+    pub captured_at: SystemTime,
 }
 
 /// Shots, and which of them are dropped.

@@ -8,14 +8,14 @@ use super::{
 };
 use crate::language::results::{object, scene_title};
 use capture::{self, CaptureWarning, CellScene, Image, SimulatedSpec, SourceSpec};
-use files::{self, FileContent, FileError};
+use files::{self, FileContent, FileError, written_at};
 use geometry::error::Advice;
 use records::history::{FrameError, FrameRecord, SceneTitle, read_frame};
 use simulate::{
     CellSetup, ObjectKind, PartKind, PartPose, PoseRange, Side, SimulatedObject, frame,
 };
 use stages::scene::{EmptyCell, SceneCloud, scene_from_frame, scene_from_image};
-use station::{CaptureFacts, Subject, written_at};
+use station::{CaptureFacts, Subject};
 use ui::{language::text, task::TaskError, user_error::UserError, widgets::sentence};
 
 pub use files::file_name;
@@ -154,7 +154,7 @@ pub enum Origin {
 
 impl Origin {
     /// The origin of a capture of this source.
-    pub fn of_capture(captured: &capture::Captured, source: &str, num_dropped: u64) -> Self {
+    pub fn of_capture(captured: &capture::Captured, source: &SourceSpec, num_dropped: u64) -> Self {
         Self::Frame {
             name: captured.name.clone(),
             is_simulated: captured.is_simulated,
@@ -171,10 +171,13 @@ impl Origin {
             Self::Scan { .. } => (self.scene_title().to_string(), None),
             Self::Frame { name, capture, .. } => (name.clone(), capture.clone()),
         };
-        Subject {
+        let subject = Subject {
             title: self.scene_title(),
-            capture,
             ..Subject::of_scene(scene, source, self.is_simulated())
+        };
+        match capture {
+            Some(facts) => subject.with_capture(facts),
+            None => subject,
         }
     }
 
@@ -223,16 +226,14 @@ impl Origin {
         }
     }
 
-    /// When a scene of this origin that was just taken was captured: see [`written_at`] for files; else now.
+    /// When a scene of this origin that was just taken was captured: a file when it was written, else now.
     pub fn captured_at(&self) -> SystemTime {
-        match self {
-            Self::Simulated { .. } | Self::Frame { .. } => SystemTime::now(),
-            Self::File { path, .. } => written_at([path.as_path()]),
-            Self::Scan { files, .. } => {
-                let added = files.added.iter().map(|(frame, _)| frame);
-                written_at(files.frames.iter().chain(added).map(PathBuf::as_path))
-            }
-        }
+        let written = match self {
+            Self::File { path, .. } => written_at(path).unwrap_or(SystemTime::UNIX_EPOCH).into(),
+            Self::Frame { capture, .. } => capture.as_ref().and_then(CaptureFacts::written_at),
+            Self::Simulated { .. } | Self::Scan { .. } => None,
+        };
+        written.unwrap_or_else(SystemTime::now)
     }
 
     /// Returns a source that gives the same scene again, by simulating the same frame or reading the files again. `None` for a
@@ -395,7 +396,7 @@ impl SceneSource {
             }
             Self::Camera(spec) => {
                 let captured = camera.next(spec, is_cancelled)?;
-                let origin = Origin::of_capture(&captured, &spec.to_string(), 0);
+                let origin = Origin::of_capture(&captured, spec, 0);
                 let mut captured = Captured {
                     origin,
                     ..captured.into()

@@ -3,6 +3,7 @@
 use robot::{
     Convention, ConventionError, FARTHEST, NOZZLE_DISTANCE, WrittenPoseError, calibration::UNNAMED,
 };
+use stages::scan;
 use station::{Doubt, robot_file::Unchecked};
 use ui::language::{advised, described, text};
 
@@ -91,6 +92,7 @@ pub fn doubt(doubt: &Doubt) -> [String; 2] {
             text!("robot-doubt-ambiguous-advice"),
         ],
         Doubt::OffScale(off) => [described(off), advised(off)],
+        Doubt::Scan(doubt) => of_scan(doubt),
         Doubt::OffThePart(off) => [
             if off.num_too_near > 0 {
                 text!(
@@ -132,6 +134,28 @@ pub fn doubt(doubt: &Doubt) -> [String; 2] {
                 text!("robot-doubt-film-off-plan-advice"),
             ]
         }
+    }
+}
+
+fn of_scan(doubt: &scan::Doubt) -> [String; 2] {
+    match doubt {
+        scan::Doubt::PoorAgreement { name, share } => [
+            text!(
+                "robot-doubt-frames-disagree",
+                frame = name.as_str(),
+                disagree = format!("{:.1}", 100.0 * (1.0 - share))
+            ),
+            text!("robot-doubt-frames-disagree-advice"),
+        ],
+        scan::Doubt::PosesApart { names, apart } => [
+            text!(
+                "robot-doubt-poses-apart",
+                one = names[0].as_str(),
+                other = names[1].as_str(),
+                apart = apart.to_string()
+            ),
+            text!("robot-doubt-poses-apart-advice"),
+        ],
     }
 }
 
@@ -251,7 +275,7 @@ mod tests {
     use std::time::Duration;
 
     use super::*;
-    use geometry::error::Advice as _;
+    use geometry::{error::Advice as _, units::Metres};
     use robot::parse_nozzle;
     use stages::pose::OffScale;
     use station::ClockAhead;
@@ -301,6 +325,14 @@ mod tests {
             Doubt::OffScale(OffScale {
                 is_larger: true,
                 by: 0.05,
+            }),
+            Doubt::Scan(scan::Doubt::PoorAgreement {
+                name: "a.png".into(),
+                share: 0.93,
+            }),
+            Doubt::Scan(scan::Doubt::PosesApart {
+                names: ["a.png".into(), "b.png".into()],
+                apart: Metres::from_mm(31.4),
             }),
         ] {
             assert_eq!(doubt(&kind), [kind.to_string(), kind.advice()]);

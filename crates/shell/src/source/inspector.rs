@@ -525,7 +525,7 @@ fn show(state: &mut State, mut inspected: Arc<Inspected>) -> Event {
         && Arc::ptr_eq(&former.inspected.scene, &inspected.scene)
         && let Some(again) = Arc::get_mut(&mut inspected)
     {
-        again.captured_at = former.inspected.captured_at;
+        again.set_captured_at(former.inspected.captured_at);
     }
     if let ReinspectionPurpose::New | ReinspectionPurpose::Past = state.inspector.purpose {
         remove_notices(state, NoticeTopic::Scene);

@@ -2,11 +2,11 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use nalgebra::{Isometry2, Isometry3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry2, Isometry3, Translation3, Unit, UnitQuaternion, Vector3};
 
 use super::{
-    COST_LIMIT, FIRST, FIRST_OF_A_PIECE, HOPELESS, PreparedScene, THIRD,
-    evidence::{Evidence, facing_view},
+    COST_LIMIT, FIRST, FIRST_OF_A_PIECE, HOPELESS, PreparedScene, SECOND, THIRD,
+    evidence::{Evidence, facing, facing_view},
     piece_search::{PieceSample, Start},
 };
 use crate::{
@@ -21,7 +21,9 @@ use crate::{
 };
 use geometry::{
     parallel::map_in_order,
+    principal::principal_axes,
     rigid::{RigidTransform, pose_error},
+    statistics::sample_evenly,
 };
 
 /// The best pose of one reference.
@@ -38,7 +40,7 @@ pub(super) struct ReferenceCandidate {
     /// `None` until the pose is fully refined.
     pub(super) uncertainty: Option<Uncertainty>,
     pub(super) runner_up: Option<RunnerUp>,
-    /// `None` as long as it is not refined to the end.
+    /// `None` unless it is the best one and refined to the end.
     pub(super) scale: Option<ScaleEstimate>,
     /// The score of the best other pose, 0 if none was weighed.
     pub(super) rival: f64,
@@ -287,6 +289,35 @@ impl PreparedScene<'_> {
         Some(best)
     }
 
+    /// The score of the best pose that a half turn about a principal axis of the reference leads to; 0 if none is another pose. A
+    /// piece of a nearly symmetric part may lie on it either way round.
+    pub(super) fn score_turned(&self, reference: &Reference, pose: &RigidTransform) -> f64 {
+        let Some(piece) = self.piece_for(reference) else {
+            return 0.0;
+        };
+        let points = sample_evenly(&reference.cloud.points, NUM_FOR_AXES);
+        let Some(principal) = principal_axes(points.map(|p| (p.cast::<f64>(), 1.0))) else {
+            return 0.0;
+        };
+        let mean = Translation3::from(principal.mean);
+        let scores = self.in_parallel(3, |axis| {
+            let axis = Unit::new_normalize(principal.axes.column(axis).into_owned());
+            let turn = UnitQuaternion::from_axis_angle(&axis, std::f64::consts::PI);
+            let start = mean * turn * mean.inverse() * pose;
+            let view = facing_view(reference, &start);
+            if facing(reference, view, &start) < LEAST_FACING_TURNED {
+                return None;
+            }
+            let levels = &FIRST_OF_A_PIECE;
+            let trial = self.attempt(reference, view, &start, levels, Some(piece))?;
+            let trial = self.finer(reference, &trial, &SECOND, Some(piece))?;
+            let is_other = self.is_apart(pose, &trial.refined.target_from_source, POSE_APART);
+            let weighed = self.weighed(reference, &trial).filter(|_| is_other)?;
+            Some(weighed.evidence.score())
+        });
+        scores.into_iter().flatten().fold(0.0, f64::max)
+    }
+
     fn finer(
         &self,
         reference: &Reference,
@@ -443,6 +474,10 @@ fn least_piece_cost(trials: &[Vec<PoseTrial>]) -> f64 {
         .fold(f64::INFINITY, f64::min)
 }
 
+/// Points of a reference from which its principal axes are taken.
+const NUM_FOR_AXES: usize = 1000;
+/// A half turn is not tried if its views face the camera less than this (cosine).
+const LEAST_FACING_TURNED: f64 = 0.3;
 /// Turn (degrees) and shift (millimetres) below which two starts lead to the same pose.
 const START_APART: (f64, f64) = (8.0, 20.0);
 /// Turn and shift beyond which a refinement would not close, so that two poses are different ones.

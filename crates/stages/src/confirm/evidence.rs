@@ -218,7 +218,7 @@ pub(super) fn outline_distance(
 }
 
 /// The view of a reference that its pose shows most squarely.
-pub(super) fn facing_view(reference: &Reference, target_from_source: &RigidTransform) -> usize {
+pub(crate) fn facing_view(reference: &Reference, target_from_source: &RigidTransform) -> usize {
     let views = 0..reference.views.len();
     let facings = views.map(|view| (view, facing(reference, view, target_from_source)));
     facings

@@ -17,7 +17,7 @@ use crate::{
         closest::Correspondence,
         edge_points::EdgePoints,
         quality::{FitQuality, Tolerance, measure_fit},
-        refine::{AlignmentSource, AlignmentTarget, Level, Search, cost, refine},
+        refine::{AlignmentSource, Level, Search, cost, refine},
         uncertainty::uncertainty,
     },
     reference::Reference,
@@ -87,8 +87,8 @@ pub fn fit_jointly(
     let middle = centre_of(&part.source.surface);
     let mut coarse: Vec<(f64, RigidTransform, &PoseEstimate)> = Vec::new();
     for (start, estimate) in starts {
-        let edges = edges_of(reference, part, start);
-        let Some(target) = with_edges(reference, &edges) else {
+        let (views, edges) = views_and_edges(reference, part, start);
+        let Some(target) = reference.joint_target(&views, &edges) else {
             return Vec::new();
         };
         let refined = refine(&part.source, &target, start, &SECOND);
@@ -120,8 +120,8 @@ fn finished(
     start: &RigidTransform,
     estimate: &PoseEstimate,
 ) -> Option<JointFit> {
-    let edges = edges_of(reference, part, start);
-    let target = with_edges(reference, &edges)?;
+    let (views, edges) = views_and_edges(reference, part, start);
+    let target = reference.joint_target(&views, &edges)?;
     let refined = refine(&part.source, &target, start, &THIRD);
     let pose = refined.target_from_source;
     let closest = Correspondence::of_each(&part.source.surface, &target, &pose, Search::Tree);
@@ -160,12 +160,12 @@ fn seen_from(part_from_base: &RigidTransform, camera: &Point3<f64>) -> RigidTran
     part_from_base * Isometry3::translation(camera.x, camera.y, camera.z)
 }
 
-/// Outline and openings of all the views of a reference that the cameras look at.
-fn edges_of(
+/// The views of a reference that the cameras look at, and their outlines and openings.
+fn views_and_edges(
     reference: &Reference,
     part: &JointPart,
     part_from_base: &RigidTransform,
-) -> EdgePoints {
+) -> (Vec<usize>, EdgePoints) {
     let mut views: Vec<usize> = part
         .cameras
         .iter()
@@ -173,16 +173,8 @@ fn edges_of(
         .collect();
     views.sort_unstable();
     views.dedup();
-    let of_view = |view: usize| reference.target(view);
-    let edges: Vec<Point3<f32>> = views
-        .into_iter()
-        .filter_map(of_view)
-        .flat_map(|target| target.edges.iter())
-        .collect();
-    EdgePoints::new(&edges, edges.len())
-}
-
-fn with_edges<'a>(reference: &'a Reference, edges: &'a EdgePoints) -> Option<AlignmentTarget<'a>> {
-    let target = reference.target(0)?;
-    Some(AlignmentTarget { edges, ..target })
+    let targets = views.iter().filter_map(|view| reference.target(*view));
+    let edges: Vec<Point3<f32>> = targets.flat_map(|target| target.edges.iter()).collect();
+    let num_edges = edges.len();
+    (views, EdgePoints::new(&edges, num_edges))
 }

@@ -16,7 +16,7 @@ use super::{
 };
 use crate::{
     pose::{
-        RunnerUp,
+        RunnerUp, ScaleEstimate,
         closest::Correspondence,
         quality::{NUM_LOOKED_FOR, Tolerance},
         refine::{AlignmentSource, Search, refine},
@@ -162,20 +162,45 @@ impl<'a> PreparedScene<'a> {
             });
         }
         let view = &reference.views[candidate.view];
-        let noise = self.scene.part.noise_at_1m;
-        let edges = edges_of_part(
-            source,
-            &target,
-            &view.plane_from_part,
-            pose,
-            noise,
-            &reference.cut,
-        );
-        candidate.scale = scale(source, &edges, &target, pose, noise);
+        let edges = self.edges_of_part(reference, &candidate)?;
         let shift = outline_shift(&edges, &view.contour(), &view.plane_from_part, pose);
         candidate.evidence.outline_shift_m = shift.map(|shift| shift.rms);
         candidate.evidence.outline_median_m = shift.map(|shift| shift.median);
         Some(candidate)
+    }
+
+    /// Returns how much larger or smaller the part is than its reference at a candidate's pose.
+    pub(super) fn scale(
+        &self,
+        reference: &Reference,
+        candidate: &ReferenceCandidate,
+    ) -> Option<ScaleEstimate> {
+        let edges = self.edges_of_part(reference, candidate)?;
+        let target = reference.target(candidate.view)?;
+        let pose = &candidate.refined.target_from_source;
+        scale(
+            &self.source,
+            &edges,
+            &target,
+            pose,
+            self.scene.part.noise_at_1m,
+        )
+    }
+
+    /// Returns those points of the outline that are edges of the part.
+    fn edges_of_part(
+        &self,
+        reference: &Reference,
+        candidate: &ReferenceCandidate,
+    ) -> Option<Vec<Point3<f32>>> {
+        Some(edges_of_part(
+            &self.source,
+            &reference.target(candidate.view)?,
+            &reference.views[candidate.view].plane_from_part,
+            &candidate.refined.target_from_source,
+            self.scene.part.noise_at_1m,
+            &reference.cut,
+        ))
     }
 }
 

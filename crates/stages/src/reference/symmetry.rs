@@ -70,23 +70,28 @@ impl Reference {
 
     /// Share of its points that lie on it after a motion and face the same way there, 0..1.
     fn share_on_itself(&self, motion: &RigidTransform, search: Search) -> Option<f64> {
-        let target = self.target(0)?;
+        let back = (0..self.views.len()).find(|view| !self.are_of_one_side(0, *view));
+        let sides = [self.target(0), back.and_then(|back| self.target(back))];
         let motion = motion.cast::<f32>();
         let normals = self.cloud.normals.as_deref()?;
         let all = self.cloud.points.len().min(normals.len());
         let numbers: Vec<usize> = (0..all).collect();
         let numbers = sample_evenly(&numbers, NUM_COMPARED);
         let is_on = |i: &&usize| {
-            let at = motion * self.cloud.points[**i];
-            let near = target.nearest(search, &at, ON_ITSELF * ON_ITSELF);
-            near.is_some_and(|near| normals[near.index].dot(&(motion * normals[**i])) > 0.0)
+            let (at, normal) = (motion * self.cloud.points[**i], motion * normals[**i]);
+            sides.iter().flatten().any(|side| {
+                let near = side.nearest(search, &at, ON_ITSELF * ON_ITSELF);
+                let normals = side.cloud.normals.as_deref();
+                near.zip(normals)
+                    .is_some_and(|(near, normals)| normals[near.index].dot(&normal) > 0.0)
+            })
         };
         let num_on = numbers.clone().filter(is_on).count();
         Some(num_on as f64 / numbers.count().max(1) as f64)
     }
 
     fn corrected(&self, turn: &RigidTransform) -> Option<RigidTransform> {
-        let target = self.target(0)?;
+        let target = self.whole_target(0)?;
         let points = sample_evenly(&self.cloud.points, NUM_COMPARED);
         let source = AlignmentSource {
             surface: points.copied().collect(),

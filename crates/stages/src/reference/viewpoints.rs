@@ -3,7 +3,7 @@
 use nalgebra::{Point3, Unit, UnitQuaternion, Vector3};
 
 use super::Coverage;
-use geometry::{cloud::PointCloud, principal::principal_axes};
+use geometry::{cloud::PointCloud, principal::principal_axes, statistics::even_directions};
 
 /// Rotations of the viewpoint about the part's short and long axis, degrees. The first is the standard view; together
 /// they cover ±30° by ±20°, so that no scene is more than about 15° from a view.
@@ -75,16 +75,8 @@ fn seen_directions(cloud: &PointCloud) -> Vec<Vector3<f64>> {
     let normals = cloud.normals.as_deref().unwrap_or_default();
     let step = (normals.len() / NUM_NORMALS).max(1);
     let normals: Vec<Vector3<f32>> = normals.iter().step_by(step).copied().collect();
-    // A Fibonacci spiral samples the sphere evenly.
-    let direction = |i: usize| {
-        let z = 1.0 - (2.0 * i as f64 + 1.0) / NUM_DIRECTIONS as f64;
-        let turn = i as f64 * std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
-        let r = (1.0 - z * z).sqrt();
-        Vector3::new(r * turn.cos(), r * turn.sin(), z)
-    };
-    let mut shown: Vec<(f32, Vector3<f64>)> = (0..NUM_DIRECTIONS)
-        .map(|i| {
-            let direction = direction(i);
+    let mut shown: Vec<(f32, Vector3<f64>)> = even_directions(NUM_DIRECTIONS)
+        .map(|direction| {
             let towards = direction.cast::<f32>();
             let area = normals.iter().map(|n| n.dot(&towards).max(0.0)).sum();
             (area, direction)

@@ -58,3 +58,10 @@ not-enrolled-no-part-in-scan = in keiner der { $num_frames } Aufnahmen wurde ein
     .advice = Das Teil mit „Ergänzen“ und Box oder Lasso behalten oder mindestens 10 cm vor dem Hintergrund aufnehmen
 not-enrolled-no-area = das Netz mit { $num_triangles } Dreiecken hat keine Fläche
     .advice = Das Netz mit seinen Flächen erneut exportieren
+
+## Als was ein Netz erkannt wurde
+
+enrolled-closed-sheet = geschlossenes Blech, etwa { MM($thickness_m, 1) } mm dick
+enrolled-open-surface = offene Fläche ohne Dicke ({ $percent } %): sie wird von beiden Seiten erkannt
+enrolled-turned = gewendet: { $percent } % der Dreiecke zeigten nach innen
+enrolled-hidden = { $percent } % der Fläche liegen innen, wo keine Kamera sie sieht, und werden weggelassen

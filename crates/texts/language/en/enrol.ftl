@@ -61,3 +61,10 @@ not-enrolled-no-part-in-scan = no part was found in any of the { $num_frames } f
     .command-advice = Look at the fused cloud (partsight scan DIR --out scan.ply), and capture the part at least 10 cm in front of the background
 not-enrolled-no-area = the mesh of { $num_triangles } triangles has no area
     .advice = Export the mesh again with its faces
+
+## What a mesh was found to be
+
+enrolled-closed-sheet = closed sheet, about { MM($thickness_m, 1) } mm thick
+enrolled-open-surface = open surface without thickness ({ $percent } %): it is recognised from both sides
+enrolled-turned = turned: { $percent } % of its triangles faced inwards
+enrolled-hidden = { $percent } % of its surface is inside, where no camera sees it, and is left out

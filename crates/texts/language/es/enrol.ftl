@@ -58,3 +58,10 @@ not-enrolled-no-part-in-scan = no se encontró ninguna pieza en ninguna de las {
     .advice = Conservar la pieza con Añadir y un recuadro o un lazo, o capturarla a 10 cm o más del fondo
 not-enrolled-no-area = la malla de { $num_triangles } triángulos no tiene área
     .advice = Exportar la malla de nuevo con sus caras
+
+## Lo que resultó ser una malla
+
+enrolled-closed-sheet = chapa cerrada, de unos { MM($thickness_m, 1) } mm de espesor
+enrolled-open-surface = superficie abierta sin espesor ({ $percent } %): se reconoce por ambas caras
+enrolled-turned = invertida: el { $percent } % de sus triángulos miraba hacia dentro
+enrolled-hidden = el { $percent } % de su superficie está dentro, donde ninguna cámara la ve, y se omite

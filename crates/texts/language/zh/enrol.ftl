@@ -58,3 +58,10 @@ not-enrolled-no-part-in-scan = 在 { $num_frames } 次拍摄中均未找到零�
     .advice = 请用“添加”和矩形框或套索保留零件，或在距背景至少 10 cm 处采集零件
 not-enrolled-no-area = 含 { $num_triangles } 个三角形的网格没有面积
     .advice = 请重新导出带有面的网格
+
+## 网格的判定结果
+
+enrolled-closed-sheet = 封闭薄板，厚约 { MM($thickness_m, 1) } mm
+enrolled-open-surface = 无厚度的开放曲面（{ $percent } %）：从两面均可识别
+enrolled-turned = 已翻转：{ $percent } % 的三角形原本朝内
+enrolled-hidden = { $percent } % 的表面在内部，相机看不到，已略去

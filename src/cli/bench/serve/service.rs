@@ -29,7 +29,7 @@ use serve::{
 };
 use simulate::{CellSetup, PartKind, Side, frame};
 use stages::scene::scene_from_frame;
-use station::{FrameOrigin, Inspected, NumberedPart, PartFinder, Subject};
+use station::{Inspected, NumberedPart, PartFinder, Subject};
 
 /// Longer than any connection waits for its turn.
 const PATIENCE: Duration = Duration::from_mins(10);
@@ -75,24 +75,20 @@ impl Inspections {
 
     pub(super) fn inspect(&self) -> Found {
         let frame = Arc::clone(&lock(&self.frame));
-        let origin = FrameOrigin {
-            captured: Instant::now(),
-            at: Duration::ZERO,
-            is_simulated: true,
-            is_motion_checked: true,
-        };
+        let captured = Instant::now();
         let scene = Arc::new(scene_from_frame(&frame));
         let recipe = &self.recipe;
         let inspection =
             pipeline::run(&scene, &self.library, recipe, &Unwatched).expect("not cancelled");
-        let mut found = self.finder.found(&inspection, recipe, origin);
         let inspected = Inspected {
             subject: &Subject::of_scene("simulated frame".into(), "simulated".into(), true),
             scene: &scene,
             inspection: &inspection,
             recipe,
             robot: Some(&self.finder.robot),
+            is_forced: false,
         };
+        let mut found = self.finder.found(&inspected, captured);
         found.report = inspected.line(&Traceability::default());
         found
     }

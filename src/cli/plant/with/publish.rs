@@ -1,6 +1,8 @@
 //! What `inspect --source --mqtt` publishes: the inspection of each part that the history keeps, and the camera's
 //! status.
 
+use std::time::Instant;
+
 use clap::Args;
 
 use super::mqtt::{ChosenBroker, MqttChoice, end_link, show_news};
@@ -8,17 +10,14 @@ use crate::cli::{
     console::{Console, advised_error},
     numbers::NumbersChoice,
 };
-use capture::{Captured, FeedState, SkippedCapture, SourceSpec};
+use capture::{FeedState, SkippedCapture, SourceSpec};
 use geometry::error::Fault;
-use inspection::{
-    library::{LibraryLoad, LibraryPlace},
-    pipeline::{Inspection, Recipe},
-};
+use inspection::library::{LibraryLoad, LibraryPlace};
 use plant::mqtt::MqttLink;
 use records::history::Traceability;
 use robot::RobotFrame;
 use serve::{CameraStatus, Found, InspectionRecorder, ServerSettings, Trouble};
-use station::{FrameOrigin, NewFrame, NoFrame, PartFinder, camera_status};
+use station::{Inspected, NoFrame, PartFinder, camera_status};
 
 /// Where `inspect` publishes.
 #[derive(Debug, Args)]
@@ -84,7 +83,6 @@ impl ChosenPublisher {
     /// Connects without waiting for the broker.
     pub(crate) fn start(
         self,
-        source: &SourceSpec,
         load: &LibraryLoad,
         trace: &Traceability,
         console: &Console,
@@ -96,9 +94,7 @@ impl ChosenPublisher {
             link,
             finder,
             recorder,
-            new_frame: NewFrame::of_source(source),
             camera: CameraStatus::default(),
-            origin: None,
         })
     }
 }
@@ -108,10 +104,7 @@ pub(crate) struct Publisher {
     link: MqttLink,
     finder: PartFinder,
     recorder: InspectionRecorder,
-    new_frame: NewFrame,
     camera: CameraStatus,
-    /// Origin of the frame that is being inspected.
-    origin: Option<FrameOrigin>,
 }
 
 impl Publisher {
@@ -122,22 +115,9 @@ impl Publisher {
         show_news(&self.link, console);
     }
 
-    /// Sets the frame that is inspected next.
-    pub(crate) fn begin(&mut self, captured: &Captured) {
-        self.origin = Some(self.new_frame.origin_of(captured));
-    }
-
-    /// Returns the result of inspecting that frame. `is_still`: frames of the source, if it shows motion at all, have shown
-    /// that the part hung still.
-    pub(crate) fn found(
-        &self,
-        inspection: &Inspection,
-        recipe: &Recipe,
-        is_still: bool,
-    ) -> Option<Found> {
-        let mut origin = self.origin?;
-        origin.is_motion_checked &= is_still;
-        Some(self.finder.found(inspection, recipe, origin))
+    /// Returns the result of inspecting a frame of this time.
+    pub(crate) fn found(&self, inspected: &Inspected<'_>, captured: Instant) -> Found {
+        self.finder.found(inspected, captured)
     }
 
     /// Publishes an inspection.

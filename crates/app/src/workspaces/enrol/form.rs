@@ -16,7 +16,7 @@ use inspection::library::PartName;
 use shell::{language::results::painted_from, session::Session};
 use stages::reference::Coverage;
 use ui::{
-    language::{keys, text, what_and_advice},
+    language::{described, keys, text, what_and_advice},
     theme::{ROUNDING, Theme, font, space},
     widgets::{Mark, grouped, menu_list, shortened, text_button},
 };
@@ -155,6 +155,9 @@ fn stored(
             let openings = part.signature.openings_m.len();
             small(ui, text!("enrol-openings", count = openings));
             small(ui, seen_from(part.meta.coverage));
+            for finding in &checked.enrolled.findings {
+                small(ui, described(finding));
+            }
             if let Some(side) = part.meta.side {
                 small(ui, painted_from(side));
             }

@@ -15,7 +15,7 @@ use shell::{
     session::{Session, Source, UserRole},
     source::live::SourceState,
 };
-use station::Currency;
+use station::Doubt;
 use texts::Described as _;
 use ui::{
     language::{library_text, text},
@@ -148,7 +148,7 @@ impl Banner {
         // What is shown may be of another source, or from before this one was followed. After Live, the line may have gone on;
         // a frame without a verdict already says that Live was stopped.
         let shown = session.shown.as_ref().filter(|shown| {
-            let is_current = session.currency(&shown.inspected) != Currency::Superseded;
+            let is_current = session.currency(&shown.inspected) != Some(Doubt::Superseded);
             let says_itself = shown.is_past || shown.inspected.is_open();
             is_current || says_itself && !shown.is_outdated
         });
@@ -368,7 +368,7 @@ mod tests {
             if let Ok(part) = &mut inspected.inspection.segmentation.part {
                 part.touches_edge = true;
             }
-            inspected.origin = camera();
+            inspected.set_origin(camera());
         };
         let cut: fn(&mut Inspected) = |inspected| {
             if let Some(Ok(pose)) = &mut inspected.inspection.pose
@@ -376,13 +376,13 @@ mod tests {
             {
                 sight.outside = 0.1;
             }
-            inspected.origin = camera();
+            inspected.set_origin(camera());
         };
         let approximate: fn(&mut Inspected) = |inspected| {
             if let Verdict::Part { is_approximate, .. } = &mut inspected.inspection.verdict {
                 *is_approximate = true;
             }
-            inspected.origin = camera();
+            inspected.set_origin(camera());
         };
         let refused: fn(&mut Inspected) = |inspected| {
             if let Ok(part) = &mut inspected.inspection.segmentation.part {
@@ -395,7 +395,7 @@ mod tests {
         assert_eq!(banner(|_| (), false).caution, "");
         let inside = banner(beside_shadow, false);
         assert_eq!((inside.tone, &*inside.caution), (Tone::Ok, ""));
-        let plain = banner(|inspected| inspected.origin = camera(), false);
+        let plain = banner(|inspected| inspected.set_origin(camera()), false);
         assert_eq!((&*plain.next, &*plain.caution), ("Start the robot", ""));
         for (change, caution) in [(cut, "Not all of it"), (approximate, "another model")] {
             let good = banner(change, false);
@@ -408,10 +408,10 @@ mod tests {
         assert!(bad.caution.contains("all of it"), "{}", bad.caution);
         assert_eq!(banner(cut, true).caution, "");
         let file: fn(&mut Inspected) = |inspected| {
-            inspected.origin = Origin::File {
+            inspected.set_origin(Origin::File {
                 path: "/data/door.png".into(),
                 is_simulated: false,
-            };
+            });
         };
         // It may show what hung there days ago.
         let next = banner(file, false).next;
@@ -422,7 +422,7 @@ mod tests {
     fn an_acceptance_by_live_does_not_stand_once_live_is_off() {
         let banner = |is_live: bool, is_past: bool| {
             let mut inspected = inspected_cell(CellChoice::InTurn, 1);
-            inspected.origin = camera();
+            inspected.set_origin(camera());
             let mut session = showing(inspected, is_past);
             session.live.is_on = is_live;
             session.live.status = is_live.then(|| status(SourceState::Running));

@@ -10,7 +10,7 @@ use shell::{
     session::Session,
     truth_menu::truth_title,
 };
-use station::Currency;
+use station::Doubt;
 use texts::Described as _;
 use ui::{
     language::{advised, described, text},
@@ -71,7 +71,7 @@ impl Headline {
 
     fn of_verdict(inspected: &Inspected, session: &Session) -> Self {
         if let Some(followed) = &inspected.followed {
-            let is_moving = session.currency(inspected) == Currency::Moving;
+            let is_moving = session.currency(inspected) == Some(Doubt::Moving);
             if is_moving || inspected.is_open() {
                 // What moves now may have hung still in the frame that is shown.
                 let status = session.live.status.as_ref().filter(|_| is_moving);

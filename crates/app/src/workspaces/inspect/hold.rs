@@ -41,8 +41,8 @@ impl Hold {
             )
         };
         // Neither a calibration nor another capture helps a part that hangs nowhere.
-        if !first.is_some_and(is_of_now) && session.is_staged(inspected) {
-            return Some(Self::staged(session, inspected, role));
+        if !first.is_some_and(is_of_now) && inspected.subject.is_staged() {
+            return Some(Self::staged(inspected, role));
         }
         first.map(|doubt| Self::of_doubt(doubt, session, inspected, role))
     }
@@ -56,9 +56,7 @@ impl Hold {
         let doubts = session.robot_doubts(inspected);
         let robot = session.robot_of(inspected);
         robot.filter(|_| doubts.is_empty()).ok_or_else(|| {
-            // What was not accepted never has a pose for a robot, however old it is.
-            let refused = doubts.iter().find(|doubt| **doubt == Doubt::NotAccepted);
-            let first = refused.or(doubts.first()).unwrap_or(&Doubt::NotCalibrated);
+            let first = doubts.first().unwrap_or(&Doubt::NotCalibrated);
             Self::of_doubt(first, session, inspected, session.role)
         })
     }
@@ -68,9 +66,9 @@ impl Hold {
         format!("{}\n{}", self.reason, self.advice)
     }
 
-    fn staged(session: &Session, inspected: &Inspected, role: UserRole) -> Self {
+    fn staged(inspected: &Inspected, role: UserRole) -> Self {
         Self {
-            reason: if session.is_replayed(inspected) {
+            reason: if inspected.subject.is_replayed() {
                 text!("inspect-hold-replayed")
             } else {
                 text!("inspect-hold-simulated")

@@ -345,16 +345,15 @@ impl InspectState {
         let robot = cx.session.robot_of(&inspected).cloned();
         let convention = cx.session.convention;
         let trace = cx.session.trace.of_part(&inspected);
-        let actual = cx.session.shift.reported_as(&inspected).cloned();
-        let doubts = cx.session.robot_doubts(&inspected);
-        let doubt = doubts.first().map(ToString::to_string);
+        let subject = cx.session.subject_now(&inspected);
         self.writing
             .start(text!("inspect-writing-report"), move |_| {
                 let robot = robot.as_deref();
-                let report = report_files::report_of(&inspected, &trace, robot, convention)
-                    .reported_as(actual.as_ref())
-                    .withheld(doubt.as_deref());
-                let written = report_files::report(&folder, &inspected, &report, shot.as_ref())?;
+                let line = inspected.as_recorded(&subject, robot).line(&trace);
+                let report =
+                    report_files::report_of(&inspected, &subject, &trace, robot, convention);
+                let shot = shot.as_ref();
+                let written = report_files::report(&folder, &inspected, &line, &report, shot)?;
                 Ok(Notice::done(written))
             });
     }
@@ -368,7 +367,7 @@ impl InspectState {
         if inspected.spray.is_none() {
             return;
         }
-        let currency = cx.session.currency(&inspected);
+        let subject = cx.session.subject_now(&inspected);
         // The part may have left while the file was being chosen.
         let robot = Hold::robot_of_files(cx.session, &inspected).map(Arc::clone);
         let (convention, setup) = (cx.session.convention, cx.session.program.clone());
@@ -383,7 +382,7 @@ impl InspectState {
             };
             let target = setup.target();
             let written =
-                report_files::spray_path(&path, &inspected, &currency, &robot, convention, target)?;
+                report_files::spray_path(&path, &inspected, &subject, &robot, convention, target)?;
             Ok(Notice::of_robot_file(written))
         });
     }

@@ -5,6 +5,7 @@ use std::{
     time::{Duration, SystemTime},
 };
 
+use jiff::Timestamp;
 use nalgebra::{Point3, Vector3};
 
 use super::{
@@ -14,11 +15,12 @@ use super::{
     hold::Hold,
     robot_numbers::numbered,
 };
-use geometry::rigid::RigidTransform;
+use geometry::{rigid::RigidTransform, units::Metres};
 use inspection::{
     library::{PathPoint, SprayPath, Truth},
     pipeline::live::{ConsensusVerdict, LiveVerdict, MotionState},
 };
+use records::history::Traceability;
 use robot::{RobotFrame, spray::carry};
 use shell::{
     context::TestShell,
@@ -30,7 +32,8 @@ use shell::{
     session::{Inspecting, ReinspectionPurpose, Session, Shown, Source, UserRole},
     source::live::{LiveStatus, SourceState},
 };
-use stages::pose::RunnerUp;
+use stages::{pose::RunnerUp, scan};
+use station::{CaptureFacts, ScanFacts};
 use ui::{task::TaskRunner, user_error::UserError};
 
 /// What a robot may do in a state of the session, if the cell is calibrated and the pose is the only one that fits.
@@ -47,7 +50,7 @@ enum May {
 /// A state of the session, and the change that leads to it from a part that was captured just now by a camera.
 type State = (&'static str, May, fn(&mut Session, &mut Inspected));
 
-const STATES: [State; 21] = [
+const STATES: [State; 22] = [
     ("captured", May::Act, |_, _| ()),
     ("captured 11 minutes ago", May::Wait, |_, inspected| {
         age(inspected, 11);
@@ -134,20 +137,45 @@ const STATES: [State; 21] = [
         session.shift.labelled = Some((inspected.hung().clone(), Truth::NotEnrolled));
     }),
     ("simulated", May::Rehearse, |_, inspected| {
-        inspected.origin = Origin::Simulated {
+        inspected.set_origin(Origin::Simulated {
             choice: CellChoice::InTurn,
             number: 1,
-        };
+        });
     }),
-    ("replayed", May::Rehearse, |session, _| {
-        let recording = "recording:folder".parse().expect("a source");
-        session.source = Source::Camera(Box::new(recording));
+    ("replayed", May::Rehearse, |_, inspected| {
+        inspected.set_origin(Origin::Frame {
+            name: "kinect frame 1".into(),
+            is_simulated: false,
+            capture: Some(CaptureFacts {
+                source: "openni:monday.oni".into(),
+                number: 1,
+                taken_at: Timestamp::UNIX_EPOCH,
+                num_dropped: 0,
+                is_replayed: true,
+                is_alone: false,
+            }),
+        });
     }),
+    (
+        "the poses of a scan are apart",
+        May::Wait,
+        |_, inspected| {
+            inspected.subject.scan = Some(ScanFacts {
+                reference_frame: "a.png".into(),
+                shots: Vec::new(),
+                num_used: 2,
+                doubt: Some(scan::Doubt::PosesApart {
+                    names: ["a.png".into(), "b.png".into()],
+                    apart: Metres::from_mm(30.0),
+                }),
+            });
+        },
+    ),
     ("from a fresh file", May::Act, |_, inspected| {
-        inspected.origin = Origin::File {
+        inspected.set_origin(Origin::File {
             path: "/data/door.png".into(),
             is_simulated: false,
-        };
+        });
     }),
 ];
 
@@ -203,11 +231,11 @@ fn mark(session: &mut Session, change: impl FnOnce(&mut Shown)) {
 /// A part with a spray path that was captured just now by a camera.
 fn captured() -> Inspected {
     let mut inspected = inspected_cell(CellChoice::InTurn, 1);
-    inspected.origin = Origin::Frame {
+    inspected.set_origin(Origin::Frame {
         name: "kinect frame 1".into(),
         is_simulated: false,
         capture: None,
-    };
+    });
     let path = SprayPath::new(vec![PathPoint {
         nozzle: Point3::new(0.0, 0.1, 1.05),
         direction: Vector3::z_axis(),
@@ -307,6 +335,16 @@ fn agree(shell: &mut TestShell, may: May, state: &str) {
     if banner.tone == Tone::Recognised {
         assert_eq!(Some(banner.reason), operator, "{state}");
     }
+    // The line of JSON of a report.
+    let subject = session.subject_now(&inspected);
+    let robot = session.robot_of(&inspected).map(|robot| &**robot);
+    let recorded = inspected.as_recorded(&subject, robot);
+    let line = recorded.line(&Traceability::default());
+    assert_eq!(
+        line.contains("robot_from_part"),
+        has_numbers,
+        "{state}: {line}"
+    );
     // What is copied, and what is written in place of the file of an earlier part.
     let mut inspect = InspectState::new(&TaskRunner::without_threads());
     shell.messages.clear();

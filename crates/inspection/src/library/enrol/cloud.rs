@@ -33,7 +33,7 @@ pub(super) fn normals_towards(
 }
 
 /// Returns the median distance of a point to its nearest neighbour, metres, from about a hundred points.
-fn spacing(points: &[Point3<f32>]) -> f64 {
+pub(super) fn spacing(points: &[Point3<f32>]) -> f64 {
     let step = (points.len() / 100).max(1);
     let mut distances: Vec<f32> = points
         .iter()
@@ -128,12 +128,4 @@ const ONE_WAY_MIN_MEAN_NORMAL: f32 = 0.3;
 /// Returns whether a surface with these normals faces one way.
 pub(super) fn face_one_way(normals: &[Vector3<f32>]) -> bool {
     normals.iter().sum::<Vector3<f32>>().norm() > ONE_WAY_MIN_MEAN_NORMAL * normals.len() as f32
-}
-
-pub(super) fn middle(cloud: &PointCloud) -> Point3<f64> {
-    let sum = cloud
-        .points
-        .iter()
-        .fold(Vector3::zeros(), |sum, p| sum + p.coords.cast::<f64>());
-    Point3::from(sum / cloud.points.len().max(1) as f64)
 }

@@ -1,6 +1,7 @@
-//! Warnings about an enrolled part, and errors of enrolling.
+//! What a mesh was found to be, warnings about an enrolled part, and errors of enrolling.
 
 use crate::library::Side;
+use geometry::units::Metres;
 use stages::{
     pose::FreeMotion,
     reference::ReferenceError,
@@ -64,6 +65,38 @@ impl Described for EnrolWarning {
     }
 }
 
+/// What a mesh was found to be.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error, serde::Serialize)]
+#[serde(tag = "finding", rename_all = "snake_case")]
+pub enum EnrolFinding {
+    /// The two skins of a sheet.
+    ClosedSheet {
+        /// Mean distance of the skins.
+        thickness_m: Metres,
+    },
+    /// A surface without thickness, which is known from both sides.
+    OpenSurface {
+        /// Share of the surface, rounded.
+        percent: u8,
+    },
+    /// Triangles that faced inwards, or the other way than their neighbours.
+    Turned {
+        /// Share of the surface, rounded.
+        percent: u8,
+    },
+    /// Surface that no camera can see, and that is left out.
+    Hidden {
+        /// Share of the surface, rounded.
+        percent: u8,
+    },
+}
+
+impl Described for EnrolFinding {
+    fn message(&self) -> Message {
+        Message::tagged("enrolled", "finding", self)
+    }
+}
+
 /// Why a part could not be enrolled.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error, serde::Serialize)]
 #[serde(tag = "error", rename_all = "snake_case")]
@@ -117,7 +150,7 @@ impl Described for EnrolError {
     }
 }
 
-texts::display!(EnrolWarning, EnrolError);
+texts::display!(EnrolFinding, EnrolWarning, EnrolError);
 
 #[cfg(test)]
 mod tests {

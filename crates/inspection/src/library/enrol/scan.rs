@@ -45,6 +45,7 @@ pub fn enrol_scan(
         coverage: Coverage::SeveralSides,
         // What one frame's view cuts off is visible in another.
         cut: ViewCut::default(),
+        one_layer: None,
         how: EnrolMethod::Scan,
         num_points,
         num_shots: Some(num_shots),

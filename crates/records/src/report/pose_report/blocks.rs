@@ -132,6 +132,9 @@ pub struct FitBlock {
     pub ambiguous: bool,
     /// Cost of the next best pose over this one's, at least 1; null if no other was tried.
     pub runner_up_ratio: Option<f64>,
+    /// Size of the part divided by that of its reference, if it is certainly another: the camera's numbers are probably
+    /// wrong.
+    pub off_scale: Option<f64>,
 }
 
 /// How far off the pose may be.
@@ -164,6 +167,20 @@ pub struct RobotBlock {
     pub robot_from_part: Option<TransformBlock>,
     /// What moves a path that was taught in the robot's base frame with the part at its standard position.
     pub robot_offset: Option<TransformBlock>,
+    /// Why a robot must not act on the result, but for a missing calibration; with `--force`, the poses are given
+    /// nevertheless.
+    pub doubts: Vec<DoubtBlock>,
+}
+
+/// A reason against letting a robot act on a result.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct DoubtBlock {
+    /// A word that stays the same in later versions, as in `robot_doubts` of the JSON line.
+    pub kind: &'static str,
+    /// What is wrong.
+    pub what: String,
+    /// What to do about it.
+    pub advice: String,
 }
 
 /// The nozzle's stand-off.
@@ -198,9 +215,8 @@ impl PoseBlock {
         subject: &ReportSubject<'_>,
     ) -> Self {
         let camera_from_part = pose.camera_from_part();
-        let usable = inspection.verdict.is_accepted();
         Self {
-            usable,
+            usable: inspection.verdict.is_accepted() && subject.doubts.is_empty(),
             cautions: cautions(pose, inspection, subject),
             reference: inspection.reference().map(ToOwned::to_owned),
             camera_from_part: TransformBlock::of(
@@ -244,6 +260,7 @@ impl PoseBlock {
                 ambiguous: pose.is_ambiguous(),
                 // JSON has no infinity: if the best pose costs nothing, the ratio is meaningless.
                 runner_up_ratio: pose.runner_up.map(|next| next.ratio).filter(|ratio| ratio.is_finite()),
+                off_scale: pose.off_scale().map(|off| off.scale()),
             },
             bounds: pose.bounds().map(|bounds| BoundsBlock {
                 meaning: "the pose is off by less than each of these in 95 of 100 cases, as far as the scatter of the \
@@ -301,12 +318,13 @@ impl RobotBlock {
     ) -> Self {
         let convention = subject.convention;
         let robot = subject.robot;
-        let usable = camera_from_part.zip(robot);
+        let usable = camera_from_part.zip(subject.for_robot);
         let unavailable = match (accepted, camera_from_part, robot) {
             (false, ..) => Some("the part was not accepted: there is nothing to move by"),
             (_, None, _) => Some("no pose was estimated"),
             (_, _, None) => Some("the cell is not calibrated, so the camera's pose is not known"),
-            _ => None,
+            _ if usable.is_some() => None,
+            _ => subject.doubts.first().map(|doubt| doubt.what.as_str()),
         };
         Self {
             convention,
@@ -345,6 +363,7 @@ impl RobotBlock {
                     convention,
                 )
             }),
+            doubts: subject.doubts.to_vec(),
         }
     }
 }

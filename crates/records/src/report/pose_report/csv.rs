@@ -237,6 +237,12 @@ fn columns(report: &PoseReport) -> Vec<(String, String)> {
     add("order", trace.order.clone());
     add("operator", trace.operator.clone());
     add("reported_as", word(verdict.reported_as.as_deref()));
+    add(
+        "off_scale",
+        number(pose.and_then(|pose| pose.fit.off_scale)),
+    );
+    let doubts: Vec<&str> = robot.doubts.iter().map(|doubt| doubt.kind).collect();
+    add("robot_doubts", doubts.join(" "));
     columns
 }
 

@@ -17,10 +17,7 @@ use serde::Serialize;
 
 use super::line::{TimingsLine, status_of};
 use crate::history::Traceability;
-use inspection::{
-    library::Truth,
-    pipeline::{Inspection, NamedRecipe, Recipe, RecipeBlock},
-};
+use inspection::pipeline::{Inspection, NamedRecipe, Recipe, RecipeBlock};
 use robot::{Convention, RobotFrame};
 use stages::{
     pose::PoseEstimate,
@@ -29,8 +26,8 @@ use stages::{
 
 pub use self::{
     blocks::{
-        BoundsBlock, FitBlock, MiddleBlock, NumberBlock, PoseBlock, RobotBlock, StandOffBlock,
-        TransformBlock,
+        BoundsBlock, DoubtBlock, FitBlock, MiddleBlock, NumberBlock, PoseBlock, RobotBlock,
+        StandOffBlock, TransformBlock,
     },
     csv::{CsvError, append_csv},
     pdf::{PdfPictures, pose_pdf},
@@ -91,7 +88,8 @@ pub struct PoseReport {
     pub pose: Option<PoseBlock>,
     /// Where the part would be if it were what was not accepted. NOT A POSE TO MOVE BY: it is here to find out why.
     pub refused_pose: Option<PoseBlock>,
-    /// The pose in the robot's base frame; null inside unless the part was accepted and the cell is calibrated.
+    /// The pose in the robot's base frame; null inside unless the part was accepted, the cell is calibrated, and a robot may
+    /// act on it.
     pub robot: RobotBlock,
     /// The nozzle's stand-off if its path ran as it was taught; null unless the part was accepted and has a surface.
     pub stand_off: Option<StandOffBlock>,
@@ -178,6 +176,10 @@ pub struct ReportSubject<'a> {
     pub num_references: usize,
     /// The robot's frame, if the cell is calibrated.
     pub robot: Option<&'a RobotFrame>,
+    /// The same frame, if the pose may be given in it.
+    pub for_robot: Option<&'a RobotFrame>,
+    /// Why a robot must not act on the result, but for a missing calibration.
+    pub doubts: &'a [DoubtBlock],
     /// Convention of the poses, in addition to matrix and quaternion.
     pub convention: Convention,
 }
@@ -233,22 +235,10 @@ impl PoseReport {
         }
     }
 
-    /// Adds what really hung there, if a person reported the acceptance as wrong.
+    /// Adds what really hung there, if a person reported the acceptance as wrong: a part, `not_enrolled` or `nothing`.
     #[must_use]
-    pub fn reported_as(mut self, actual: Option<&Truth>) -> Self {
-        self.verdict.reported_as = actual.map(|truth| truth.name().to_owned());
-        self
-    }
-
-    /// Leaves out the poses in the robot's base frame, if there is a reason against moving by them.
-    #[must_use]
-    pub fn withheld(mut self, why: Option<&str>) -> Self {
-        let robot = &mut self.robot;
-        if let (Some(why), None) = (why, &robot.unavailable) {
-            robot.unavailable = Some(why.to_owned());
-            robot.robot_from_part = None;
-            robot.robot_offset = None;
-        }
+    pub fn reported_as(mut self, actual: Option<&str>) -> Self {
+        self.verdict.reported_as = actual.map(str::to_owned);
         self
     }
 

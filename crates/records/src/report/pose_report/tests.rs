@@ -57,6 +57,17 @@ impl Inspected {
         robot: Option<&RobotFrame>,
         convention: Convention,
     ) -> PoseReport {
+        self.doubted(inspection, [robot, robot], &[], convention)
+    }
+
+    /// The report about which there are doubts; the second frame is that in which the pose may be given.
+    pub(super) fn doubted(
+        &self,
+        inspection: &Inspection,
+        [robot, for_robot]: [Option<&RobotFrame>; 2],
+        doubts: &[DoubtBlock],
+        convention: Convention,
+    ) -> PoseReport {
         let best = self.inspection.best_reference(&self.library);
         PoseReport::of(&ReportSubject {
             inspected_at: "2026-03-04T05:06:07.25Z".parse().expect("a time"),
@@ -71,8 +82,19 @@ impl Inspected {
             library_identity: "01234567",
             num_references: self.library.references.len(),
             robot,
+            for_robot,
+            doubts,
             convention,
         })
+    }
+}
+
+/// The doubt about an old capture.
+pub(super) fn old() -> DoubtBlock {
+    DoubtBlock {
+        kind: "old",
+        what: "the capture is more than 10 minutes old".into(),
+        advice: "Capture all of the part again".into(),
     }
 }
 
@@ -104,7 +126,7 @@ pub(super) fn robot() -> RobotFrame {
 /// The report of an accepted part that was reported as wrong.
 pub(super) fn reported() -> PoseReport {
     let report = door().report(Some(&robot()), Convention::Kuka);
-    report.reported_as(Some(&Truth::Part("back_door".into())))
+    report.reported_as(Some("back_door"))
 }
 
 #[test]
@@ -226,21 +248,40 @@ fn what_is_refused_leaves_no_number_for_a_robot() {
 }
 
 #[test]
-fn with_a_reason_against_it_the_report_has_no_pose_for_a_robot() {
-    let robot = robot();
-    let report = || door().report(Some(&robot), Convention::Abb);
-    assert!(json(&report().withheld(None))["robot"]["robot_from_part"].is_object());
-    let why = "another part may hang there by now";
-    let withheld = json(&report().withheld(Some(why)));
-    assert_eq!(withheld["robot"]["unavailable"], why);
+fn with_a_doubt_the_report_has_no_pose_for_a_robot_unless_it_is_forced() {
+    let frame = robot();
+    let inspection = &door().inspection;
+    let report = |frames| {
+        let report = door().doubted(inspection, frames, &[old()], Convention::Abb);
+        json(&report)
+    };
+    let sound = json(&door().report(Some(&frame), Convention::Abb));
+    assert!(sound["robot"]["robot_from_part"].is_object());
+    assert_eq!(sound["pose"]["usable"], true);
+    assert_eq!(sound["robot"]["doubts"], serde_json::json!([]));
+    let withheld = report([Some(&frame), None]);
+    assert_eq!(withheld["robot"]["unavailable"], old().what);
     for null in ["robot_from_part", "robot_offset"] {
         assert!(withheld["robot"][null].is_null(), "{null}");
     }
-    assert!(withheld["pose"].is_object());
-    // A reason that the report has anyway stays.
-    let uncalibrated = door().report(None, Convention::Abb);
-    let why = uncalibrated.robot.unavailable.clone();
-    assert_eq!(uncalibrated.withheld(Some("old")).robot.unavailable, why);
+    assert!(withheld["pose"]["camera_from_part"].is_object());
+    let forced = report([Some(&frame), Some(&frame)]);
+    assert!(forced["robot"]["unavailable"].is_null());
+    assert_eq!(
+        forced["robot"]["robot_from_part"],
+        sound["robot"]["robot_from_part"]
+    );
+    for doubted in [&withheld, &forced] {
+        assert_eq!(doubted["robot"]["doubts"][0]["kind"], "old");
+        assert_eq!(doubted["robot"]["doubts"][0]["advice"], old().advice);
+        assert_eq!(doubted["pose"]["usable"], false);
+    }
+    // Without a calibration, that is the reason.
+    let why = report([None, None])["robot"]["unavailable"].clone();
+    assert!(
+        why.as_str()
+            .is_some_and(|why| why.contains("not calibrated"))
+    );
 }
 
 #[test]

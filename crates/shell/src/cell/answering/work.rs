@@ -27,7 +27,7 @@ use crate::{
 use capture::{self, CaptureError, Feed, SourceSpec};
 use geometry::error::{Advice as _, guarded, lock};
 use inspection::{
-    library::{GivenNumbers, LibraryPlace, PartNumbers},
+    library::{GivenNumbers, LibraryPlace, PartNumbers, Truth},
     pipeline::{NamedRecipe, ProgressObserver as _, Unwatched},
 };
 use records::{
@@ -41,7 +41,7 @@ use serve::{
 };
 use stages::scene::{EmptyCell, SceneCloud};
 use station::{
-    Answered, Answering, Camera, Inspected, NewFrame, NumberedPart, PartFinder, Subject,
+    Answered, Answering, Camera, Inspected, NewFrame, NoFrame, NumberedPart, PartFinder,
 };
 use ui::{
     language::text,
@@ -249,7 +249,6 @@ struct AnsweringSession<'a> {
 /// An inspection to be kept in the history.
 struct AnsweredFrame {
     origin: Origin,
-    subject: Subject,
     answered: Answered,
     recipe: Arc<NamedRecipe>,
     library: Arc<LibraryView>,
@@ -268,12 +267,12 @@ struct AnsweredPart {
 }
 
 impl AnsweredPart {
-    /// True if a person has reported it as wrong.
-    fn is_reported(&mut self, parts: &Mutex<FollowedParts>) -> bool {
+    /// What it really is, if a person has reported it as wrong.
+    fn reported_as(&mut self, parts: &Mutex<FollowedParts>) -> Option<Truth> {
         self.hung.extend(self.told.try_recv().ok());
         let parts = lock(parts);
         let mut hung = self.hung.iter();
-        hung.any(|hung| parts.is_reported(hung, &self.name))
+        hung.find_map(|hung| parts.reported_as(hung, &self.name))
     }
 }
 
@@ -289,15 +288,17 @@ impl Inspector for AnsweringSession<'_> {
             Ok(captured) => captured,
             Err(why) => return Found::error((&why).into()),
         };
-        let source = inputs.followed.as_ref();
-        let source = source.map_or_else(String::new, ToString::to_string);
+        let Some(spec) = &inputs.followed else {
+            return Found::error((&NoFrame::Ended).into());
+        };
+        let source = spec.to_string();
         // At once: by the end of the inspection another part may hang there.
         let mut parts = lock(self.parts);
         let hung = vec![parts.part_now(&source, true)];
         let [part, told] = [(); 2].map(|()| parts.part_of_frame(source.clone(), captured.arrived));
         drop(parts);
         let num_dropped = self.camera.feed_status().num_dropped;
-        let origin = Origin::of_capture(&captured, &source, num_dropped);
+        let origin = Origin::of_capture(&captured, spec, num_dropped);
         let subject = origin.subject(source);
         let loaded = self.library_cache.get();
         self.know(&loaded, &inputs);
@@ -313,7 +314,7 @@ impl Inspector for AnsweringSession<'_> {
         };
         let trace = inputs.trace.remembered();
         let scene_of = |captured| self.scene_of(captured, &inputs);
-        let answered = match answering.answer(captured, &subject, &trace, scene_of) {
+        let mut answered = match answering.answer(captured, subject, &trace, scene_of) {
             Ok(answered) => answered,
             Err(why) => return Found::error((&why).into()),
         };
@@ -323,13 +324,15 @@ impl Inspector for AnsweringSession<'_> {
             hung,
             told,
         };
-        if found.verdict == VerdictCode::Accepted && answered_part.is_reported(self.parts) {
+        if found.verdict == VerdictCode::Accepted
+            && let Some(actual) = answered_part.reported_as(self.parts)
+        {
             found.refuse(Trouble::reported_wrong());
+            answered.subject.reported_as = Some(actual.name().to_owned());
         }
         self.part = Some(answered_part);
         self.last = Some(AnsweredFrame {
             origin,
-            subject,
             answered,
             recipe: Arc::clone(recipe),
             library: Arc::clone(&loaded.shown),
@@ -360,7 +363,8 @@ impl Inspector for AnsweringSession<'_> {
         let inputs = self.follow();
         self.rows.update(inputs.followed.is_some());
         let parts = self.parts;
-        if self.part.take_if(|part| part.is_reported(parts)).is_some() {
+        let is_reported = |part: &mut AnsweredPart| part.reported_as(parts).is_some();
+        if self.part.take_if(is_reported).is_some() {
             // Or LAST and PATH would still give its pose.
             self.handle.refuse_last(&Trouble::reported_wrong());
         }
@@ -455,7 +459,6 @@ impl AnsweringSession<'_> {
     fn keep(&mut self, last: AnsweredFrame) {
         let AnsweredFrame {
             origin,
-            subject,
             answered,
             recipe,
             library,
@@ -463,14 +466,18 @@ impl AnsweringSession<'_> {
             part,
         } = last;
         let Answered {
-            scene, inspection, ..
+            subject,
+            scene,
+            inspection,
+            ..
         } = &answered;
         let inspected = Inspected {
-            subject: &subject,
+            subject,
             scene,
             inspection,
             recipe: &recipe,
             robot: Some(&self.finder.robot),
+            is_forced: false,
         };
         let picture = segmentation_picture(scene, &inspection.segmentation);
         let entry = entry_of(&inspected, &origin, &library, trace, picture.as_ref());

@@ -111,10 +111,11 @@ impl FollowedParts {
         }
     }
 
-    /// True if a person has reported that this is no part of this name.
-    pub(crate) fn is_reported(&self, part: &HungId, name: &str) -> bool {
-        let labelled = self.labelled.as_ref();
-        labelled.is_some_and(|(known, label)| known == part && label.part() != Some(name))
+    /// What this part really is, if a person has reported that it is none of this name.
+    pub(crate) fn reported_as(&self, part: &HungId, name: &str) -> Option<Truth> {
+        let (known, label) = self.labelled.as_ref()?;
+        let is_wrong = known == part && label.part() != Some(name);
+        is_wrong.then(|| label.clone())
     }
 
     /// The part that a capture of this source shows, which is taken in place of Live, and the traceability of that
@@ -251,12 +252,13 @@ mod tests {
             (Some(Truth::Nothing), true),
         ] {
             parts.label(&part, label.as_ref());
-            assert_eq!(parts.is_reported(&part, "fender"), is_reported, "{label:?}");
-            assert!(!parts.is_reported(&next, "fender"));
+            let expected = label.filter(|_| is_reported);
+            assert_eq!(parts.reported_as(&part, "fender"), expected);
+            assert_eq!(parts.reported_as(&next, "fender"), None);
         }
         // The next part has no label.
         parts.label(&next, None);
-        assert!(parts.is_reported(&part, "fender"));
+        assert!(parts.reported_as(&part, "fender").is_some());
     }
 
     #[test]

@@ -347,7 +347,7 @@ impl<'a> LiveSession<'a> {
         };
         let watching = SilentContext(self.context);
         let mut inspected = inspect(&request, self.library_cache, &watching)?;
-        inspected.captured_at = before.captured_at;
+        inspected.set_captured_at(before.captured_at);
         inspected.entry.record.summary.source = self.request.spec.to_string();
         inspected.set_part(before.hung().clone(), before.trace().clone());
         self.num_inspected += 1;
@@ -363,7 +363,7 @@ impl<'a> LiveSession<'a> {
         let fitted = loaded.fitting(recipe, &watching);
         let fitted = fitted.ok_or(TaskError::Cancelled)?;
         let (arrived, at) = (captured.arrived, seconds(&captured));
-        let origin = Origin::of_capture(&captured, &self.request.spec.to_string(), num_dropped);
+        let origin = Origin::of_capture(&captured, &self.request.spec, num_dropped);
         let SceneOrigin {
             mut scene,
             warnings,

@@ -1,9 +1,10 @@
 use std::fs;
 
 use super::{
-    super::tests::{door, empty, refused, reported, robot},
+    super::tests::{door, empty, old, refused, reported, robot},
     *,
 };
+use stages::pose::ScaleEstimate;
 
 fn rows(path: &Path) -> Vec<Vec<String>> {
     let text = fs::read_to_string(path).expect("a file");
@@ -38,15 +39,41 @@ fn folder() -> (tempfile::TempDir, PathBuf) {
 }
 
 #[test]
-fn the_last_cell_says_what_a_part_is_that_was_reported_as_wrong() {
+fn the_last_cells_say_what_is_wrong_with_a_part_that_was_accepted() {
     let (_folder, path) = folder();
-    append_csv(&path, &door().report(Some(&robot()), Convention::Kuka)).expect("appended");
-    append_csv(&path, &reported()).expect("appended");
-    let last: Vec<String> = rows(&path)
+    let mut inspection = door().inspection.clone();
+    let Some(Ok(pose)) = &mut inspection.pose else {
+        panic!("a pose");
+    };
+    pose.scale = Some(ScaleEstimate {
+        scale: 1.05,
+        deviation: 0.005,
+    });
+    let robot = robot();
+    let doubted = door().doubted(
+        &inspection,
+        [Some(&robot), None],
+        &[old(), old()],
+        Convention::Kuka,
+    );
+    for report in [
+        door().report(Some(&robot), Convention::Kuka),
+        reported(),
+        doubted,
+    ] {
+        append_csv(&path, &report).expect("appended");
+    }
+    let last: Vec<[String; 3]> = rows(&path)
         .into_iter()
-        .filter_map(|mut row| row.pop())
+        .map(|row| row[row.len() - 3..].to_vec().try_into().expect("three"))
         .collect();
-    assert_eq!(last, ["reported_as", "", "back_door"]);
+    let expected = [
+        ["reported_as", "off_scale", "robot_doubts"],
+        ["", "", ""],
+        ["back_door", "", ""],
+        ["", "1.05", "old old"],
+    ];
+    assert_eq!(last, expected);
 }
 
 #[test]

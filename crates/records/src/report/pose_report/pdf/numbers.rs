@@ -52,9 +52,17 @@ fn robot(sheet: &mut Sheet<'_>, report: &PoseReport, pose: &PoseBlock, area: Are
         sheet.text(&text, [area.left + area.width, y], style, Anchor::Right);
     }
     y += 6.0;
-    if let Some(why) = &robot.unavailable {
+    let doubts: Vec<&str> = robot.doubts.iter().map(|doubt| &*doubt.what).collect();
+    let caution = match &robot.unavailable {
+        Some(why) => Some(format!("In the camera's frame, not in the robot's: {why}.")),
+        None if doubts.is_empty() => None,
+        None => Some(format!(
+            "Given despite doubts, not to be moved by: {}.",
+            doubts.join("; ")
+        )),
+    };
+    if let Some(text) = caution {
         // Before the numbers, where it cannot be overlooked.
-        let text = format!("In the camera's frame, not in the robot's: {why}.");
         let at = [area.left, y + 7.0];
         y = sheet.paragraph(&text, at, area.width, style(8.5, Weight::Bold, AMBER), 3) - 4.0;
     }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::report::pose_report::tests::{Inspected, door, empty, refused, reported, robot};
+use crate::report::pose_report::tests::{Inspected, door, empty, old, refused, reported, robot};
 use robot::{Convention, RobotFrame};
 
 /// Returns every text of the page with its area.
@@ -44,6 +44,26 @@ fn a_part_that_was_reported_as_wrong_is_not_called_accepted() {
     assert!(said.contains("really hung there: back door"), "{said}");
     assert!(!said.lines().any(|line| line == "Accepted"), "{said}");
     is_tidy(&report, &PdfPictures::default(), "reported as wrong");
+}
+
+#[test]
+fn the_page_says_why_a_robot_must_not_move_by_the_pose() {
+    let frame = robot();
+    let inspection = &door().inspection;
+    let why = old().what;
+    for (for_robot, says) in [
+        (None, "In the camera's frame, not in the robot's: "),
+        (Some(&frame), "Given despite doubts, not to be moved by: "),
+    ] {
+        let doubts = [old()];
+        let frames = [Some(&frame), for_robot];
+        let report = door().doubted(inspection, frames, &doubts, Convention::Kuka);
+        let said = said(&report, &PdfPictures::default()).replace('\n', " ");
+        assert!(said.contains(&format!("{says}{why}")), "{said}");
+        let gives = said.contains("robot_from_part: the pose");
+        assert_eq!(gives, for_robot.is_some(), "{said}");
+        is_tidy(&report, &PdfPictures::default(), says);
+    }
 }
 
 #[test]
