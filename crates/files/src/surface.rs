@@ -118,8 +118,7 @@ mod tests {
             (0.0, 2.0),
         ];
         let turn = nalgebra::Rotation3::from_euler_angles(0.5, -0.4, 1.1);
-        let vertices = flat.map(|(x, y)| turn * Point3::new(x, y, 3.0));
-        let vertices = vertices.map(|p| p.cast::<f32>());
+        let vertices = flat.map(|(x, y)| (turn * Point3::new(x, y, 3.0)).cast::<f32>());
         let source = Source {
             path: Path::new("test.obj"),
             bytes: &[],

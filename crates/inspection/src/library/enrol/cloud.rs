@@ -4,14 +4,19 @@ use nalgebra::{Point3, Vector3};
 
 use super::EnrolParams;
 use geometry::{
-    cloud::PointCloud, nearest::KdTree, normals::estimate_normals, units::Metres, voxel::downsample,
+    cloud::PointCloud, nearest::KdTree, normals::estimate_normals, principal::principal_axes,
+    units::Metres, voxel::downsample,
 };
 
 /// Thins the cloud to at most the allowed number of points. Also returns the voxel used.
 pub(super) fn thinned(cloud: &PointCloud, params: &EnrolParams) -> (PointCloud, Metres) {
+    let skins = skins(cloud);
     let mut voxel = params.voxel;
     loop {
-        let thin = downsample(cloud, voxel);
+        let thin = match &skins {
+            Some(skins) => joined(skins.each_ref().map(|skin| downsample(skin, voxel))),
+            None => downsample(cloud, voxel),
+        };
         let excess = thin.points.len() as f64 / params.max_points.max(1) as f64;
         if excess <= 1.0 {
             return (thin, voxel);
@@ -19,6 +24,37 @@ pub(super) fn thinned(cloud: &PointCloud, params: &EnrolParams) -> (PointCloud, 
         // The number of voxels on a surface falls with the square of their edge.
         voxel = Metres(voxel.0 * excess.sqrt().max(1.02));
     }
+}
+
+/// Share of the normals that must face the other way for a cloud to have two skins.
+const MIN_OTHER_SKIN_SHARE: f64 = 0.2;
+
+/// Splits a cloud by the side of its thinnest extent that its normals face, so that thinning does not mix the two skins of a sheet;
+/// `None` without normals, or if hardly any face the other way.
+fn skins(cloud: &PointCloud) -> Option<[PointCloud; 2]> {
+    let normals = cloud.normals.as_deref()?;
+    let axes = principal_axes(cloud.points.iter().map(|p| (p.cast(), 1.0)))?;
+    let thinnest = axes.axes.column(2).into_owned().cast::<f32>();
+    let skins = [true, false].map(|is_first| {
+        let all = cloud.points.iter().zip(normals);
+        let of_skin = all.filter(|(_, n)| (n.dot(&thinnest) > 0.0) == is_first);
+        let (points, normals) = of_skin.map(|(p, n)| (*p, *n)).unzip();
+        PointCloud {
+            normals: Some(normals),
+            points,
+            ..PointCloud::default()
+        }
+    });
+    let fewer = skins[0].points.len().min(skins[1].points.len());
+    (fewer as f64 >= MIN_OTHER_SKIN_SHARE * cloud.points.len() as f64).then_some(skins)
+}
+
+fn joined([mut one, other]: [PointCloud; 2]) -> PointCloud {
+    one.points.extend(other.points);
+    if let Some((normals, others)) = one.normals.as_mut().zip(other.normals) {
+        normals.extend(others);
+    }
+    one
 }
 
 /// Estimates normals over three voxels, or over three times the point spacing where the cloud is sparser.

@@ -134,7 +134,7 @@ impl Sampled {
             num as f64 / self.shown.len().max(1) as f64
         };
         let [open, turned, hidden] = [[true, true], [false, true], [false, false]].map(share);
-        let is_wound_one_way = turned < MIN_SHARE || turned > 1.0 - MIN_SHARE;
+        let is_wound_one_way = turned.min(1.0 - turned) < MIN_SHARE;
         let is_closed = open < MIN_SHARE && hidden < MIN_SHARE && is_wound_one_way;
         let area = mesh.area() / 2.0;
         let thickness = mesh.signed_volume().abs() / area;

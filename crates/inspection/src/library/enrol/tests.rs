@@ -93,6 +93,28 @@ fn a_mesh_is_enrolled_from_all_around() {
 }
 
 #[test]
+fn the_skins_of_a_sheet_stay_apart_in_a_thinned_cloud() {
+    let step = |i: u16| f32::from(i) * 0.002;
+    let flat = (0..200).flat_map(|i| (0..150).map(move |j| [step(i), step(j)]));
+    let both = flat.flat_map(|[x, y]| {
+        let skin = |z: f32| Point3::new(x, y, z);
+        [(skin(0.0), -Vector3::z()), (skin(0.001), Vector3::z())]
+    });
+    let (points, normals): (Vec<_>, Vec<_>) = both.unzip();
+    let cloud = PointCloud {
+        normals: Some(normals),
+        ..PointCloud::from_points(points)
+    };
+    let (thin, _) = thinned(&cloud, &EnrolParams::default());
+    let normals = thin.normals.expect("normals");
+    assert!(thin.points.len() > 3500, "{}", thin.points.len());
+    for (p, n) in thin.points.iter().zip(&normals) {
+        let expected = if p.z < 0.0005 { -1.0 } else { 1.0 };
+        assert!((n.z - expected).abs() < 1e-6, "{p} {n}");
+    }
+}
+
+#[test]
 fn a_whole_cloud_around_the_origin_gets_normals_that_look_outwards() {
     let ball = unit_ball(6000);
     let cloud = PointCloud::from_points(ball.iter().map(|d| Point3::from(d * 0.3)));
