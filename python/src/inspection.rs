@@ -43,7 +43,7 @@ pub(crate) fn inspect(
 ) -> PyResult<Inspection> {
     let recipe = library.recipe_or(recipe)?;
     let loaded = library.loaded();
-    let cloud = &scene.scene;
+    let cloud = &scene.capture;
     let found = py.detach(|| {
         let watch = SignalWatch::new();
         run(cloud, &loaded.library, recipe, &watch).map_err(|cancelled| {
@@ -59,7 +59,7 @@ pub(crate) fn inspect(
     let part = best.and_then(|best| loaded.parts.get(best.reference));
     Ok(Inspection {
         subject: scene.subject(),
-        scene: scene.scene.clone(),
+        scene: scene.capture.clone(),
         recipe: recipe.clone(),
         is_part_simulated: named.and(part).is_some_and(|part| part.simulated),
         found,

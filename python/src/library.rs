@@ -187,13 +187,13 @@ impl Library {
             notes: notes.to_owned(),
             from: scene.name.clone(),
             at: partsight::clock::now(),
-            simulated: scene.scene.cloud.is_simulated,
+            simulated: scene.capture.cloud.is_simulated,
         };
         let params = EnrolParams {
             segment: self.recipe.segment.clone(),
             ..EnrolParams::default()
         };
-        let cloud = &scene.scene;
+        let cloud = &scene.capture;
         let enrolled = py
             .detach(|| enrol_captured(cloud, &about, &params))
             .map_err(advised)?;

@@ -19,7 +19,7 @@ use crate::{
 #[pyclass(frozen, module = "partsight")]
 pub(crate) struct Scene {
     pub(crate) name: String,
-    pub(crate) scene: Arc<SceneCloud>,
+    pub(crate) capture: Arc<SceneCloud>,
     /// When it was captured: a file when it was written, anything else when it became a scene.
     captured_at: SystemTime,
 }
@@ -28,14 +28,14 @@ impl Scene {
     fn new(name: String, scene: SceneCloud) -> Self {
         Self {
             name,
-            scene: Arc::new(scene),
+            capture: Arc::new(scene),
             captured_at: SystemTime::now(),
         }
     }
 
     /// What is inspected, as of now.
     pub(crate) fn subject(&self) -> Subject {
-        let is_simulated = self.scene.cloud.is_simulated;
+        let is_simulated = self.capture.cloud.is_simulated;
         Subject::of_scene(self.name.clone(), "file".into(), is_simulated)
             .captured_at(self.captured_at)
     }
@@ -157,23 +157,23 @@ impl Scene {
     /// They are fewer than the pixels of an image that is finer than the method needs.
     #[getter]
     fn points<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f32>>> {
-        points_of(py, &self.scene.cloud)
+        points_of(py, &self.capture.cloud)
     }
 
     /// `(fx, fy, cx, cy)` of the camera, in pixels of `points`; `None` if no camera is known.
     #[getter]
     fn intrinsics(&self) -> Option<(f64, f64, f64, f64)> {
-        self.scene.intrinsics.map(four_numbers)
+        self.capture.intrinsics.map(four_numbers)
     }
 
     /// True if it does not come from a camera.
     #[getter]
     fn is_simulated(&self) -> bool {
-        self.scene.cloud.is_simulated
+        self.capture.cloud.is_simulated
     }
 
     fn __repr__(&self) -> String {
-        let num_readings = self.scene.cloud.num_finite();
+        let num_readings = self.capture.cloud.num_finite();
         format!("<Scene {:?}, {num_readings} readings>", self.name)
     }
 }

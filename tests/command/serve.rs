@@ -312,7 +312,7 @@ fn a_file_for_a_trigger_shows_no_motion_and_answer_line_and_history_say_so() {
     let fields: Vec<&str> = answer.split(';').collect();
     assert_eq!(fields[1], "accepted", "{answer}");
     let flags: u32 = fields[8].parse().expect("a number");
-    assert_eq!(flags & 33, 33, "{answer}");
+    assert_eq!(flags & 0b10_0001, 0b10_0001, "{answer}");
     let (code, out, messages) = service.interrupt();
     assert_eq!(code, Some(0), "{messages}");
     let line: Value = serde_json::from_str(&out).expect("one line of JSON");
