@@ -38,7 +38,7 @@ pub(super) struct Triangulation {
 }
 
 impl Triangulation {
-    /// Adds the triangles of a polygon, wound as it is. Fewer than three corners yield none.
+    /// Adds the triangles of a polygon, with its winding; none for fewer than three corners.
     pub(super) fn push(
         &mut self,
         source: Source<'_>,

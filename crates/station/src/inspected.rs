@@ -90,8 +90,8 @@ impl CaptureFacts {
         }
     }
 
-    /// When it was captured, if it is a file that says so. What a camera has just delivered, or a recording replays, is of
-    /// now.
+    /// Returns when the file was written; `None` for a frame that a camera has just delivered or a recording replays: it counts as
+    /// captured now.
     pub fn written_at(&self) -> Option<SystemTime> {
         let is_file = self.is_alone && !self.is_replayed;
         is_file.then(|| self.taken_at.into())

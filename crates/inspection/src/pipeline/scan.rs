@@ -452,7 +452,7 @@ mod tests {
         scene::scene_from_frame,
     };
 
-    /// Inspects a scan of a front door at the right poses, and at poses that drift by so many millimetres a frame.
+    /// Inspects a scan of a front door at the true poses, and at poses that drift by this many millimetres per frame.
     fn inspected(num_shots: usize, seed: u64, drift_mm: [f64; 3]) -> [ScanInspection; 2] {
         let simulated = SimulatedScan::new(ScanSetup {
             subject: SimulatedObject::Part {

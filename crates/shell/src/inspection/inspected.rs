@@ -144,7 +144,7 @@ impl Inspected {
         self.entry.record.detail.line = self.line(self.trace());
     }
 
-    /// The inspection of this subject as it is recorded, with this robot frame.
+    /// Returns what is recorded of this inspection, with poses in this robot frame.
     pub fn as_recorded<'a>(
         &'a self,
         subject: &'a Subject,

@@ -289,8 +289,8 @@ impl PreparedScene<'_> {
         Some(best)
     }
 
-    /// The score of the best pose that a half turn about a principal axis of the reference leads to; 0 if none is another pose. A
-    /// piece of a nearly symmetric part may lie on it either way round.
+    /// The best score after half a turn about a principal axis of the reference; 0 if every turn leads back to the same pose. A piece
+    /// of a nearly symmetric part may fit both ways.
     pub(super) fn score_turned(&self, reference: &Reference, pose: &RigidTransform) -> f64 {
         let Some(piece) = self.piece_for(reference) else {
             return 0.0;

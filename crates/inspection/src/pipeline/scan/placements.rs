@@ -71,7 +71,7 @@ pub(super) fn disagreement(placements: &[Placement], numbers: [usize; 2]) -> Pos
     }
 }
 
-/// A line counts as a drift if its square at the end is so many times what scatter alone yields on average.
+/// Least squared length of a drift at its end, as a multiple of the mean that scatter alone gives.
 const MIN_SIGNIFICANCE: f64 = 2.0;
 /// Square of the length that a vector of three normal variables of variance 1 keeps below in 95 of 100 cases.
 const WITHIN_95_SQ: f64 = 7.81;
