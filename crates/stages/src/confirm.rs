@@ -222,8 +222,11 @@ pub fn confirm(
     if let Some((first, candidate)) = tried.first_mut().and_then(Tried::finished) {
         let reference = &references[first];
         candidate.scale = seen.scale(reference, candidate);
-        let turned = seen.score_turned(reference, &candidate.refined.target_from_source);
-        candidate.rival = candidate.rival.max(turned);
+        // What cannot be accepted need not be told from its other poses.
+        if candidate.evidence.score() > SURE {
+            let turned = seen.score_turned(reference, &candidate.refined.target_from_source);
+            candidate.rival = candidate.rival.max(turned);
+        }
     }
     // Those that were not looked at stay behind those that were.
     let others = others.iter().map(|entry| ConfirmedMatch {
