@@ -8,7 +8,7 @@ use super::{
 };
 use crate::language::results::{object, scene_title};
 use capture::{self, CaptureWarning, CellScene, Image, SimulatedSpec, SourceSpec};
-use files::{self, FileContent, FileError, written_at};
+use files::{self, FileContent, FileError, FileWarning, written_at};
 use geometry::error::Advice;
 use records::history::{FrameError, FrameRecord, SceneTitle, read_frame};
 use simulate::{
@@ -315,6 +315,12 @@ pub enum SceneError {
         /// Path of the file.
         path: PathBuf,
     },
+    /// The file is the capture of a camera that does not look along z, saved with faces.
+    #[error("{}: {}", path.display(), FileWarning::CaptureWithFaces)]
+    CaptureWithFaces {
+        /// Path of the file.
+        path: PathBuf,
+    },
 }
 
 impl Advice for SceneError {
@@ -326,6 +332,7 @@ impl Advice for SceneError {
             Self::MeshIsNoScene { .. } => {
                 "Open it in the Enrol workspace (2) to enrol it as a reference".into()
             }
+            Self::CaptureWithFaces { .. } => FileWarning::CaptureWithFaces.advice(),
         }
     }
 }
@@ -373,16 +380,17 @@ impl SceneSource {
             }
             Self::File(path) => {
                 let opened = files::open(path)?;
-                let warnings = opened
-                    .warnings_as_capture()
-                    .into_iter()
-                    .map(Into::into)
-                    .collect();
+                let warnings = opened.warnings_as_capture();
                 let scene = match opened {
                     FileContent::Cloud(cloud) => scene_from_image(Image::Cloud(cloud)),
                     FileContent::Depth(frame) => scene_from_image(Image::Depth(frame)),
                     FileContent::Mesh(_) => {
-                        return Err(SceneError::MeshIsNoScene { path: path.clone() });
+                        let path = path.clone();
+                        return Err(if warnings.contains(&FileWarning::CaptureWithFaces) {
+                            SceneError::CaptureWithFaces { path }
+                        } else {
+                            SceneError::MeshIsNoScene { path }
+                        });
                     }
                 };
                 Ok(Captured {
@@ -391,7 +399,7 @@ impl SceneSource {
                         is_simulated: scene.cloud.is_simulated,
                     },
                     scene: Arc::new(scene),
-                    warnings,
+                    warnings: warnings.into_iter().map(Into::into).collect(),
                 })
             }
             Self::Camera(spec) => {
