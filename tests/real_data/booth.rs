@@ -283,6 +283,35 @@ fn parts_of_a_booth_are_named_and_placed_where_the_robot_says() {
     );
 }
 
+/// A strip of 16 or 32 mm without readings runs across the part.
+#[test]
+fn a_part_that_a_strip_without_readings_cuts_in_two_is_found_in_its_place() {
+    let Some(data) = data_folder() else { return };
+    let folder = data.join("reported/stripe_without_depth");
+    let enrolled = enrol_captured(
+        &scene(&folder.join("enrol.png")),
+        &about("plate"),
+        &EnrolParams::default(),
+    );
+    let library = Library {
+        references: vec![enrolled.expect("a part").reference],
+    };
+    let inspected = [4, 12].map(|pixels| {
+        let scene = scene(&folder.join(format!("stripe_{pixels}_pixels.png")));
+        run(&scene, &library, &Recipe::default(), &Unwatched).expect("not cancelled")
+    });
+    let [whole, cut] = inspected.each_ref().map(|inspection| {
+        assert!(inspection.verdict.is_accepted(), "{:?}", inspection.verdict);
+        inspection.found_pose().expect("a pose").camera_from_part()
+    });
+    // Both frames show the part in one place.
+    let off = pose_error(&cut, &whole, &Point3::new(0.0, 0.0, 1.2));
+    assert!(
+        off.rotation.degrees() < 0.7 && off.shift.mm() < 5.5,
+        "{off:?}"
+    );
+}
+
 /// In this frame of a fender, each of these doors fits as well at another place.
 #[test]
 fn a_part_whose_pose_is_ambiguous_is_accepted_by_no_pose_method() {

@@ -25,13 +25,13 @@ use inspection::{
 };
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 use simulate::{
-    CellSetup, Clutter, FIRST_OTHER_MAKE, ObjectKind, PartKind, PartPose, SensorNoise, Side,
-    SimulatedObject,
+    CellSetup, Clutter, FIRST_OTHER_MAKE, ObjectKind, PartKind, PartPose, PoseRange, SensorNoise,
+    Side, SimulatedObject, frame,
 };
 use stages::{
     pose::PoseMethod,
     rank::Matcher,
-    scene::{SceneCloud, scene_from_cloud},
+    scene::{SceneCloud, scene_from_cloud, scene_from_frame},
 };
 
 fn standard() -> Library {
@@ -493,6 +493,51 @@ fn a_part_half_out_of_the_picture_is_accepted_from_what_is_in_sight() {
             "{kind}: {off:?}"
         );
     }
+}
+
+#[test]
+fn a_strip_without_readings_leaves_the_part_in_its_place() {
+    let library = standard();
+    let mut num_accepted = 0;
+    for (kind, seed) in [
+        (PartKind::FrontDoor, 3),
+        (PartKind::TrunkLid, 4),
+        (PartKind::Fender, 6),
+    ] {
+        let mut setup = CellSetup::with_part(kind, Side::Left, 0, seed);
+        setup.pose = PartPose::Drawn(PoseRange::facing());
+        let shot = frame(&setup);
+        let camera_from_part = shot.truth.camera_from_part * enrolment_pose().inverse();
+        // Towards the part's middle in the picture, from the side and from above.
+        let middle = shot.truth.camera_from_part * Point3::origin();
+        let pixel = setup.intrinsics.pixel_of(&middle);
+        let pixel = <[f64; 2]>::from(pixel.expect("in the picture"));
+        for across in 0..2 {
+            let mut cut = shot.frame.clone();
+            let width = cut.intrinsics.width;
+            for (i, depth) in cut.depth.iter_mut().enumerate() {
+                let at = [i % width, i / width][across] as f64;
+                if (at - pixel[across] + 25.0).abs() < 6.5 {
+                    *depth = 0;
+                }
+            }
+            let inspection = inspected(&scene_from_frame(&cut), &library, &Recipe::default());
+            let verdict = &inspection.verdict;
+            let pose = inspection.found_pose().expect("a pose").camera_from_part();
+            let off = pose_error(
+                &pose,
+                &camera_from_part,
+                &(enrolment_pose() * Point3::origin()),
+            );
+            assert_eq!(verdict.guess(), Some(kind.name()), "{verdict:?}");
+            assert!(
+                off.rotation.degrees() < 0.6 && off.shift.mm() < 5.0,
+                "{kind}: {off:?}"
+            );
+            num_accepted += usize::from(verdict.is_accepted());
+        }
+    }
+    assert!(num_accepted >= 5, "{num_accepted} of 6");
 }
 
 #[test]

@@ -3,12 +3,14 @@
 //! A part behind a plank, or half out of the picture, has an outline that is partly the plank's or the picture's. Such
 //! points say nothing about the part. Each outline point is followed outwards in the picture: to the picture's edge,
 //! to something nearer (it hides the part), or to something farther (the part ends there). Pixels without a reading
-//! are passed over, because a structured-light sensor has none in the shadow of what is nearer.
+//! are passed over, because a structured-light sensor has none in the shadow of what is nearer. Where more of them are
+//! missing than a surface may span, and what comes then is as far away, nobody saw the part end: a strip of gloss or tape
+//! has cut it in two.
 
 use nalgebra::{Point2, Point3, Vector2, Vector3};
 
 use super::Scene;
-use crate::contour::lift_oriented;
+use crate::{contour::lift_oriented, segment::BRIDGED_PIXELS};
 use geometry::cloud::is_finite;
 
 /// How far outwards a reading is looked for, pixels: a shadow beside something half a metre nearer is 15 wide.
@@ -138,6 +140,7 @@ impl<'a> PartMask<'a> {
             _ => AT_EDGE,
         };
         let points = &self.scene.scene.cloud.points;
+        let mut num_without_reading = 0;
         for walked in 1..=WALK {
             let p = from + step * walked as f64;
             let (u, v) = (p.x.round() as i64, p.y.round() as i64);
@@ -146,11 +149,14 @@ impl<'a> PartMask<'a> {
                 return walked <= at_edge && view.is_some();
             }
             let i = (v * width + u) as usize;
-            if !self.is_part[i] && is_finite(&points[i]) {
+            if !is_finite(&points[i]) {
+                num_without_reading += 1;
+            } else if !self.is_part[i] {
                 let beyond = f64::from(points[i].z) - at.z;
                 let reach = STEP_NEARER + noise;
-                // Where a stand was taken off the part, nobody saw the part end.
-                return beyond < -reach || (self.is_stand[i] && beyond < reach);
+                // Nor did anybody see the part end where a stand was taken off it.
+                let may_go_on = self.is_stand[i] || num_without_reading > BRIDGED_PIXELS;
+                return beyond < -reach || (may_go_on && beyond < reach);
             }
         }
         false

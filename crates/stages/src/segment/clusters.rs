@@ -37,7 +37,7 @@ pub(super) struct Members {
 }
 
 /// Maximum number of pixels without a reading that a surface may span: dropouts are rarely wider.
-pub(super) const BRIDGED_PIXELS: usize = 4;
+pub(crate) const BRIDGED_PIXELS: usize = 4;
 /// Smaller clusters are specks and are not listed, points.
 const MIN_CLUSTER_POINTS: usize = 50;
 

@@ -24,6 +24,7 @@ mod subset;
 
 use nalgebra::Point3;
 
+pub(crate) use self::clusters::BRIDGED_PIXELS;
 pub use self::{
     clusters::Cluster,
     noise::noise_of_picture,
