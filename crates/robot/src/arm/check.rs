@@ -4,7 +4,6 @@ use nalgebra::Translation3;
 
 use super::{
     ArmError, FilmRoom, NotReached, PlacedArm,
-    acceleration::keep_accelerations,
     chain::{
         Candidate, UPRIGHT, angle_of, candidates_of, free_chain, is_free, nozzle_at, test_all,
         tilts_up_to, turns_of,
@@ -12,6 +11,7 @@ use super::{
     kinematics::{Joints, Solver},
     problem::PointProblem,
     rail_plan::rail_positions,
+    slowing::keep_accelerations,
     validate::validate,
     way::{Way, WayEnd, way_between},
 };

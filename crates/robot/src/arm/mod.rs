@@ -32,6 +32,7 @@ mod place;
 mod problem;
 mod rail;
 mod rail_plan;
+mod slowing;
 #[cfg(test)]
 mod tests;
 mod validate;
