@@ -1,15 +1,18 @@
-//! Slows the moves of a path where joints or rail cannot accelerate as much as needed.
+//! Slows the moves of a path where joints or rail cannot accelerate as much as needed, or are too fast with the gun on.
 //!
-//! The moves before and behind a point that needs too much are slowed until it needs no more than allowed: with the gun
-//! off on both, the faster one first. Where the gun is switched, the move with the gun off is slowed alone if that
-//! helps. With the gun on, the one or both that help most are slowed in small steps, and only as far as the film stays
-//! within its tolerance ([`FilmRoom`]). If the point still needs too much, they keep their speeds.
+//! The moves before and behind a point that needs too much acceleration are slowed until it needs no more than allowed:
+//! with the gun off on both, the faster one first. Where the gun is switched, the move with the gun off is slowed alone
+//! if that helps. With the gun on, the one or both that help most are slowed in small steps. A move with the gun on that
+//! is too fast for a joint or the rail is slowed by its excess. (With the gun off, [`way_between`](super::way::way_between)
+//! has slowed it already.) With the gun on, moves are slowed only as far as the film stays within its tolerance
+//! ([`FilmRoom`]); if that is not enough, they keep their speeds.
 
 use super::{
     ArmPoint, CheckParams, FilmRoom, PlacedArm, PointCheck,
     acceleration::{as_passed, check_accelerations, problem_around, problems_of},
+    kinematics::Solver,
     problem::PointProblem,
-    way::{MIN_TRAVEL_SPEED_M_S, Way},
+    way::{MIN_TRAVEL_SPEED_M_S, Way, WayEnd, way_problem},
 };
 
 /// Relative changes of speed up to this are ignored.
@@ -26,23 +29,30 @@ const MIN_SPRAYING_SHARE: f64 = 1.0 / 3.0;
 /// Slowing moves helps if a point then needs at most this share of the acceleration.
 const HELPED_SHARE: f64 = 0.995;
 
-/// Slows moves where a joint or the rail cannot accelerate as much as needed, then marks the points around which it still
-/// cannot.
-pub(super) fn keep_accelerations(
+/// Slows moves where a joint or the rail cannot follow, then marks the points at which it still cannot.
+pub(super) fn slow_moves(
     placed: &PlacedArm,
     points: &[ArmPoint],
     checked: &mut [PointCheck],
     params: &CheckParams<'_>,
 ) {
+    let may_spray_longer = |i: usize| points[i].is_gun_on && params.film.is_some();
+    let is_singular = |point: &PointCheck| {
+        let solver = Solver::new(placed, point.rail);
+        let joints = point.joints.as_ref();
+        joints.is_some_and(|joints| solver.singularity(joints).is_some())
+    };
+    let may_slow = |to: &usize| {
+        let point = &checked[*to];
+        may_spray_longer(to - 1) && is_too_fast(point) && !is_singular(point)
+    };
     let mut slowing = Slowing {
         placed,
         points,
         film: params.film,
         first: usize::from(params.approach.is_some()),
-        may_spray_longer: points
-            .iter()
-            .map(|point| point.is_gun_on && params.film.is_some())
-            .collect(),
+        may_spray_longer: (0..points.len()).map(may_spray_longer).collect(),
+        too_fast: (1..points.len()).filter(may_slow).collect(),
     };
     let before = checked.to_vec();
     loop {
@@ -54,6 +64,7 @@ pub(super) fn keep_accelerations(
         }
         for from in in_vain {
             slowing.may_spray_longer[from] = false;
+            slowing.too_fast.retain(|to| *to != from + 1);
         }
         checked.clone_from_slice(&before);
     }
@@ -68,30 +79,55 @@ struct Slowing<'a> {
     first: usize,
     /// For each point, whether the move from it may be slowed with the gun on.
     may_spray_longer: Vec<bool>,
+    /// Points to which a move with the gun on is too fast, and which would be reached by a slower one.
+    too_fast: Vec<usize>,
 }
 
 impl Slowing<'_> {
     fn run(&self, checked: &mut [PointCheck]) {
         for _ in 0..MAX_ROUNDS {
             let passed = as_passed(self.points, checked);
-            let found = problems_of(self.placed, &passed, checked);
+            let mut found = problems_of(self.placed, &passed, checked);
+            for to in &self.too_fast {
+                let problem = self.speed_problem(&passed, checked, *to);
+                found[*to] = problem.or(found[*to].take());
+            }
             if !self.slow_down(&passed, checked, &found) {
                 break;
             }
         }
+        let passed = as_passed(self.points, checked);
+        for to in &self.too_fast {
+            checked[*to].problem = self.speed_problem(&passed, checked, *to);
+        }
     }
 
-    /// Moves slowed with the gun on, next to points that still need too much.
+    /// The problem of the move to a point at its speed in `passed`.
+    fn speed_problem(
+        &self,
+        passed: &[ArmPoint],
+        checked: &[PointCheck],
+        to: usize,
+    ) -> Option<PointProblem> {
+        let [start, end] = [to - 1, to].map(|i| WayEnd::of(&checked[i]));
+        way_problem(self.placed, &start?, &end?, passed[to - 1].speed)
+    }
+
+    /// Moves slowed with the gun on to points that are still missed, or next to points that still need too much.
     fn sprayed_in_vain(&self, checked: &[PointCheck]) -> Vec<usize> {
-        let is_bad = |point: &PointCheck| {
+        let needs_too_much = |point: &PointCheck| {
             let problem = point.problem.as_ref();
             problem.is_some_and(PointProblem::is_acceleration)
         };
         let moves = checked.windows(2).enumerate();
         let in_vain = moves.filter(|(from, ends)| {
-            matches!(ends[1].way, Way::SlowerSpraying(_))
-                && self.may_spray_longer[*from]
-                && ends.iter().any(is_bad)
+            let is_missed = if self.too_fast.contains(&(from + 1)) {
+                ends[1].problem.is_some()
+            } else {
+                ends.iter().any(needs_too_much)
+            };
+            let is_slower = matches!(ends[1].way, Way::SlowerSpraying(_));
+            is_slower && self.may_spray_longer[*from] && is_missed
         });
         in_vain.map(|(from, _)| from).collect()
     }
@@ -106,10 +142,16 @@ impl Slowing<'_> {
         let mut speeds: Vec<f64> = passed.iter().map(|point| point.speed).collect();
         let mut trial = passed.to_vec();
         for (here, problem) in found.iter().enumerate() {
-            let Some(excess) = problem.as_ref().and_then(excess_of) else {
+            let Some(problem) = problem else { continue };
+            let Some(excess) = self.excess_of(problem) else {
                 continue;
             };
-            for (from, speed) in self.slower(&mut trial, checked, here, excess) {
+            let slower = if problem.is_acceleration() {
+                self.slower(&mut trial, checked, here, excess)
+            } else {
+                vec![self.sprayed_slower(passed, here - 1, excess)]
+            };
+            for (from, speed) in slower {
                 speeds[from] = speeds[from].min(speed);
             }
         }
@@ -152,14 +194,10 @@ impl Slowing<'_> {
         if on.is_empty() {
             return with_gun_off;
         }
-        let step = excess.clamp(MIN_SLOWING, MAX_SPRAYING_STEP);
+        let step = excess.min(MAX_SPRAYING_STEP);
         let spraying = on.into_iter().filter(|from| self.may_spray_longer[*from]);
-        let spraying: Vec<(usize, f64)> = spraying
-            .map(|from| {
-                let least = self.points[from].speed * MIN_SPRAYING_SHARE;
-                (from, (passed[from].speed / step).max(least))
-            })
-            .collect();
+        let spraying = spraying.map(|from| self.sprayed_slower(passed, from, step));
+        let spraying: Vec<(usize, f64)> = spraying.collect();
         let mut needed = |slower: &[(usize, f64)]| {
             let own = slower.iter().map(|(from, _)| passed[*from].speed);
             let own: Vec<f64> = own.collect();
@@ -170,7 +208,8 @@ impl Slowing<'_> {
             for ((from, _), speed) in slower.iter().zip(own) {
                 passed[*from].speed = speed;
             }
-            problem.as_ref().and_then(excess_of).unwrap_or_default()
+            let excess = problem.and_then(|problem| self.excess_of(&problem));
+            excess.unwrap_or_default()
         };
         let helps = |needed: f64| needed <= HELPED_SHARE * excess;
         if helps(needed(&with_gun_off)) {
@@ -182,6 +221,13 @@ impl Slowing<'_> {
         let best = choices.min_by(|a, b| a.0.total_cmp(&b.0));
         let best = best.filter(|(needed, _)| helps(*needed));
         best.map_or_else(Vec::new, |(_, slower)| slower)
+    }
+
+    /// A move slowed with the gun on by a factor, and its speed.
+    fn sprayed_slower(&self, passed: &[ArmPoint], from: usize, factor: f64) -> (usize, f64) {
+        let least = self.points[from].speed * MIN_SPRAYING_SHARE;
+        let speed = passed[from].speed / factor.max(MIN_SLOWING);
+        (from, speed.max(least))
     }
 
     /// Raises the speeds with the gun on until the film has room for the longer times.
@@ -206,20 +252,34 @@ impl Slowing<'_> {
             }
         }
     }
+
+    /// How many times the speed or acceleration allowed is needed; `None` for other problems.
+    fn excess_of(&self, problem: &PointProblem) -> Option<f64> {
+        match problem {
+            PointProblem::JointAcceleration {
+                acceleration,
+                limit,
+                ..
+            }
+            | PointProblem::RailAcceleration {
+                acceleration,
+                limit,
+            } => Some(acceleration / limit),
+            PointProblem::TooFast { joint, speed } => {
+                Some(speed / self.placed.arm.speeds[joint - 1])
+            }
+            PointProblem::RailTooFast { speed } => {
+                let (_, top) = self.placed.arm.moving_rail()?;
+                Some(speed / top)
+            }
+            _ => None,
+        }
+    }
 }
 
-/// How many times the acceleration allowed is needed; `None` for other problems.
-fn excess_of(problem: &PointProblem) -> Option<f64> {
-    match problem {
-        PointProblem::JointAcceleration {
-            acceleration,
-            limit,
-            ..
-        }
-        | PointProblem::RailAcceleration {
-            acceleration,
-            limit,
-        } => Some(acceleration / limit),
-        _ => None,
-    }
+fn is_too_fast(point: &PointCheck) -> bool {
+    matches!(
+        point.problem,
+        Some(PointProblem::TooFast { .. } | PointProblem::RailTooFast { .. })
+    )
 }
