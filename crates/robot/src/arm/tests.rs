@@ -6,6 +6,7 @@ mod kinematics;
 mod moving_rail;
 mod own_arm;
 mod places;
+mod smooth_tilts;
 mod speeds;
 
 use std::f64::consts::{FRAC_PI_2, PI};
