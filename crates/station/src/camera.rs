@@ -31,8 +31,8 @@ use inspection::pipeline::{
 };
 use serve::{Asked, CameraState, CameraStatus, Trouble, Unanswered};
 
-/// Least time between the two frames that must agree, if the scene was still until the first one. A part that begins to
-/// move at 0.1 m/s² or more has then come further than its pose may be off, unless it was hardly off in the first one.
+/// Least time between the two frames that must agree, if the scene was still until the first one. More would show slower
+/// motion and let robots wait longer.
 const APART: Duration = Duration::from_millis(150);
 
 /// How often a waiting trigger checks whether the service is ending.

@@ -1,7 +1,7 @@
 //! Whether two frames of one part agree, so that a single inspection may be relied upon.
 //!
 //! A part that swings is recognised, and its pose is right, in every frame; but it will not be there any more when a
-//! robot comes. Two frames show this: their poses lie further apart than each may be off.
+//! robot comes. Two frames show this: their poses lie further apart than both may be off together.
 
 use nalgebra::Point3;
 
@@ -63,8 +63,9 @@ fn disagreement(part: String) -> Rejection {
     }
 }
 
-/// Whether both poses lie as near to each other as each may be off; `None` if they cannot be compared, because they are in
-/// the coordinates of different references. Without poses there is nothing that could be off.
+/// Whether the poses lie no further apart than both may be off together: the noise of both frames parts them. `None` if
+/// they cannot be compared, because they are in the coordinates of different references. Without poses there is nothing
+/// that could be off.
 fn is_near(a: &Inspection, b: &Inspection, middle: Point3<f64>) -> Option<bool> {
     if a.reference() != b.reference() {
         return None;
@@ -74,10 +75,7 @@ fn is_near(a: &Inspection, b: &Inspection, middle: Point3<f64>) -> Option<bool> 
     };
     let apart = pose_error(&of_a.camera_from_part(), &of_b.camera_from_part(), &middle);
     let (shift, turn) = if let [Some(a), Some(b)] = [of_a, of_b].map(PoseEstimate::bounds) {
-        (
-            Metres(a.shift.0.max(b.shift.0)),
-            Radians(a.turn.0.max(b.turn.0)),
-        )
+        (Metres(a.shift.0 + b.shift.0), Radians(a.turn.0 + b.turn.0))
     } else {
         // A method that gives no bounds.
         let PoseTolerance { shift, turn } = ConsensusParams::default().tolerance;
@@ -130,10 +128,15 @@ mod tests {
             let mut part = HangingPart::new(kind, seed);
             part.setup.noise.multiplier = noise;
             let (first, middle) = seen(&library, &part, 0.0, 100);
-            for seed in 101..104 {
-                let mut inspection = first.clone();
-                refuse_unless_again(&mut inspection, &seen(&library, &part, 0.0, seed).0, middle);
-                assert_eq!(rejection(&inspection), None, "{kind} at {noise}");
+            let still: Vec<_> = (101..124)
+                .map(|seed| seen(&library, &part, 0.0, seed).0)
+                .collect();
+            for (k, earlier) in still.iter().enumerate() {
+                for later in &still[k + 1..] {
+                    let mut inspection = earlier.clone();
+                    refuse_unless_again(&mut inspection, later, middle);
+                    assert_eq!(rejection(&inspection), None, "{kind} at {noise}");
+                }
             }
             for x in [0.012, -0.03, 0.2] {
                 let mut inspection = first.clone();
