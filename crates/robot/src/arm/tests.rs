@@ -16,6 +16,9 @@ use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use super::{kinematics::Solver, *};
 use geometry::{error::Advice as _, rigid::from_euler_zyx};
 
+/// Film that each way of a path deposits: indices of points, and metres.
+type Films = Vec<Vec<(u32, f32)>>;
+
 fn placed(name: &str) -> PlacedArm {
     PlacedArm {
         arm: Arm::named(name).expect("known"),

@@ -137,7 +137,7 @@ fn no_joint_that_is_too_fast_anywhere_on_a_move_is_missed_however_short_the_move
 }
 
 /// A row in whose middle the nozzle leans by 5°, so that joints are too fast on one way; with the film of each way.
-fn too_fast(share: f64) -> (PlacedArm, Vec<ArmPoint>, Vec<Vec<(u32, f32)>>) {
+fn too_fast(share: f64) -> (PlacedArm, Vec<ArmPoint>, Films) {
     let mut placed = with_gun("irb2600");
     placed.arm.limits[0] = [-1.0, 1.0];
     let mut points = row(&placed, 40, 0.4);
