@@ -244,6 +244,24 @@ robot-doubt-not-reached = { $arm } erreicht { $missed } von { $all } Punkten nic
 robot-doubt-not-reached-advice = Das Teil oder den Fuß des Arms versetzen oder die Bahn ändern
 robot-doubt-film-off-plan = Das Programm brächte { $written } % der Fläche in { $tolerance } % um den Sollwert, im Mittel { $written_um } µm; geplant sind { $planned } % und { $planned_um } µm. Mit offener Pistole hielte es { $stops }-mal an
 robot-doubt-film-off-plan-advice = Die Bahn ohne Züge entlang von Flanken planen (Neigung zu Flanken 0) oder das Programm für eine Steuerung schreiben, die die Pistole während der Bewegung schaltet
+# Why a past result has no pose for a robot; $kind is a word of the JSON line's robot_doubts
+robot-doubt-kind =
+    { $kind ->
+        [reported_wrong] { operator-reported-wrong }
+        [source_lost] { robot-doubt-source-lost }
+        [moving] { robot-doubt-moving }
+        [superseded] { robot-doubt-superseded }
+        [not_calibrated] { robot-doubt-not-calibrated }
+        [clock_ahead] die Aufnahme ist später als jetzt datiert
+        [old] { robot-doubt-old }
+        [ambiguous_pose] { robot-doubt-ambiguous }
+        [off_scale] das Teil ist größer oder kleiner als seine Referenz
+        [frames_disagree] die Aufnahmen des Scans widersprechen sich
+        [poses_apart] die Posen des Scans widersprechen sich
+       *[other] { $kind }
+    }
+robot-got-no-pose = Der Roboter bekam keine Pose: { $why }
+robot-motion-unknown = Nicht bekannt, ob das Teil still hing
 
 ## Was nicht geprüft wurde
 robot-not-checked = Nicht geprüft: { $what }

@@ -244,6 +244,24 @@ robot-doubt-not-reached = { $arm } misses { $missed } of { $all } points
 robot-doubt-not-reached-advice = Move the part or the arm's base, or change the path
 robot-doubt-film-off-plan = The program would bring { $written } % of the surface within { $tolerance } % of the target with { $written_um } µm on average, where { $planned } % and { $planned_um } µm were planned; with the gun open it would stop { $stops } times
 robot-doubt-film-off-plan-advice = Plan the path without added strokes along flanks (Lean to flanks 0), or write it for a controller that switches the gun while the robot moves
+# Why a past result has no pose for a robot; $kind is a word of the JSON line's robot_doubts
+robot-doubt-kind =
+    { $kind ->
+        [reported_wrong] { operator-reported-wrong }
+        [source_lost] { robot-doubt-source-lost }
+        [moving] { robot-doubt-moving }
+        [superseded] { robot-doubt-superseded }
+        [not_calibrated] { robot-doubt-not-calibrated }
+        [clock_ahead] the capture is dated later than now
+        [old] { robot-doubt-old }
+        [ambiguous_pose] { robot-doubt-ambiguous }
+        [off_scale] the part is larger or smaller than its reference
+        [frames_disagree] the frames of the scan disagree
+        [poses_apart] the poses of the scan contradict one another
+       *[other] { $kind }
+    }
+robot-got-no-pose = The robot got no pose: { $why }
+robot-motion-unknown = Not known whether the part hung still
 
 ## What was not checked
 robot-not-checked = Not checked: { $what }

@@ -244,6 +244,24 @@ robot-doubt-not-reached = { $arm } no alcanza { $missed } de { $all } puntos
 robot-doubt-not-reached-advice = Mueva la pieza o la base del brazo, o cambie la trayectoria
 robot-doubt-film-off-plan = El programa dejaría el { $written } % de la superficie a menos del { $tolerance } % del objetivo, con { $written_um } µm de media; estaban previstos { $planned } % y { $planned_um } µm. Con la pistola abierta se detendría { $stops } veces
 robot-doubt-film-off-plan-advice = Planifique la trayectoria sin pasadas por los flancos (Inclinación a flancos 0), o escríbala para un controlador que conmute la pistola en movimiento
+# Why a past result has no pose for a robot; $kind is a word of the JSON line's robot_doubts
+robot-doubt-kind =
+    { $kind ->
+        [reported_wrong] { operator-reported-wrong }
+        [source_lost] { robot-doubt-source-lost }
+        [moving] { robot-doubt-moving }
+        [superseded] { robot-doubt-superseded }
+        [not_calibrated] { robot-doubt-not-calibrated }
+        [clock_ahead] la captura tiene una fecha posterior a la actual
+        [old] { robot-doubt-old }
+        [ambiguous_pose] { robot-doubt-ambiguous }
+        [off_scale] la pieza es mayor o menor que su referencia
+        [frames_disagree] las tomas del escaneo se contradicen
+        [poses_apart] las poses del escaneo se contradicen
+       *[other] { $kind }
+    }
+robot-got-no-pose = El robot no recibió ninguna pose: { $why }
+robot-motion-unknown = No se sabe si la pieza colgaba quieta
 
 ## Lo que no se comprobó
 robot-not-checked = Sin comprobar: { $what }

@@ -21,11 +21,64 @@ use geometry::{
     units::{Metres, Radians},
 };
 use inspection::pipeline::{Recipe, Unwatched, run};
-use simulate::{self, CellSetup, PartPose, PoseRange, frame_of_mesh};
+use simulate::{
+    self, CellSetup, Clutter, PartPose, PoseRange, SimulatedFrame, frame_of_mesh, stereo_frame,
+    time_of_flight_frame,
+};
 use stages::{
     pose::{PoseEstimate, PoseWarning, Uncertainty},
     scene::scene_from_frame,
 };
+
+/// The camera and its noise.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Condition {
+    /// A Kinect's noise.
+    Kinect,
+    /// Twice that noise.
+    KinectTwice,
+    /// Three times that noise.
+    KinectThreefold,
+    /// A stereo camera.
+    Stereo,
+    /// A time-of-flight camera.
+    TimeOfFlight,
+    /// A Kinect in a paint booth, its depth registered to the colour picture, and the part on a stand; most parts are cut.
+    Booth,
+}
+
+impl Condition {
+    /// All conditions.
+    pub const ALL: [Self; 6] = [
+        Self::Kinect,
+        Self::KinectTwice,
+        Self::KinectThreefold,
+        Self::Stereo,
+        Self::TimeOfFlight,
+        Self::Booth,
+    ];
+
+    /// Returns the name used in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Kinect => "Kinect",
+            Self::KinectTwice => "Kinect, noise × 2",
+            Self::KinectThreefold => "Kinect, noise × 3",
+            Self::Stereo => "stereo",
+            Self::TimeOfFlight => "time of flight",
+            Self::Booth => "booth",
+        }
+    }
+
+    /// The views that a part is shown in.
+    pub fn views(self) -> &'static [View] {
+        match self {
+            Self::Booth => &[View::Whole],
+            _ => &View::ALL,
+        }
+    }
+}
 
 /// Visible portion of a part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -35,17 +88,20 @@ pub enum View {
     Whole,
     /// The same, with 20 to 50 % of the part beyond an edge of the picture.
     Cut,
+    /// The same as whole, behind a plank.
+    Hidden,
 }
 
 impl View {
-    /// Both views.
-    pub const ALL: [Self; 2] = [Self::Whole, Self::Cut];
+    /// All views.
+    pub const ALL: [Self; 3] = [Self::Whole, Self::Cut, Self::Hidden];
 
     /// Returns the name used in reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Whole => "whole",
             Self::Cut => "cut",
+            Self::Hidden => "hidden",
         }
     }
 }
@@ -55,6 +111,8 @@ impl View {
 pub struct BoundsCase {
     /// Name of the part in the frame.
     pub part: String,
+    /// The camera.
+    pub condition: Condition,
     /// Visible portion of the part.
     pub view: View,
     /// Seed of the frame.
@@ -63,6 +121,8 @@ pub struct BoundsCase {
     pub is_named: bool,
     /// True if the verdict was accepted.
     pub is_accepted: bool,
+    /// Why it was not accepted.
+    pub refused: Option<String>,
     /// The pose found, if the part was named correctly, with the error's shift at the centroid of the visible points.
     pub found: Option<PoseAgainstTruth>,
 }
@@ -97,6 +157,11 @@ impl PoseAgainstTruth {
         self.error.rotation.degrees() <= 5.0 && self.error.shift.mm() <= 40.0
     }
 
+    /// Returns whether the error is at most 2° and 10 mm.
+    pub fn is_right(&self) -> bool {
+        self.error.rotation.degrees() <= 2.0 && self.error.shift.mm() <= 10.0
+    }
+
     /// Returns the bounds, unless the pose is unconstrained.
     pub fn held(&self) -> Option<Uncertainty> {
         self.bounds.filter(Uncertainty::is_held)
@@ -116,9 +181,12 @@ fn placement() -> PoseRange {
 /// Share of the part outside the picture in a cut view.
 const CUT: std::ops::Range<f64> = 0.2..0.5;
 
-/// Inspects every part of a library in `num_poses` frames of each view, and calls `after_each` after every case.
+/// Inspects every part of a library under a condition in `num_poses` frames of each of these views, and calls `after_each`
+/// after every case.
 pub fn bounds_cases(
     library: &BoundsLibrary,
+    condition: Condition,
+    views: &[View],
     num_poses: u64,
     first_seed: u64,
     after_each: impl Fn(),
@@ -126,9 +194,9 @@ pub fn bounds_cases(
     let mut cases = Vec::new();
     let mut seeds = first_seed..;
     for subject in &library.subjects {
-        for view in View::ALL {
+        for view in views {
             for seed in seeds.by_ref().take(num_poses as usize) {
-                cases.push(inspected(subject, library, view, seed));
+                cases.push(inspected(subject, library, condition, *view, seed));
                 after_each();
             }
         }
@@ -136,16 +204,46 @@ pub fn bounds_cases(
     cases
 }
 
-fn inspected(subject: &BoundsPart, library: &BoundsLibrary, view: View, seed: u64) -> BoundsCase {
-    let mut setup = CellSetup::new(simulate::SimulatedObject::Nothing, seed);
-    setup.pose = PartPose::Drawn(placement());
-    if view == View::Cut {
-        let placed = placement().draw(&subject.mesh, &setup.intrinsics, seed);
-        let pushed =
-            pushed_out_of_the_picture(&subject.mesh, &placed, &setup.intrinsics, CUT, seed);
-        setup.pose = PartPose::Fixed(pushed);
+fn shot(subject: &BoundsPart, condition: Condition, view: View, seed: u64) -> SimulatedFrame {
+    let nothing = simulate::SimulatedObject::Nothing;
+    if condition == Condition::Booth {
+        return frame_of_mesh(&CellSetup::booth(nothing, seed), &subject.mesh);
     }
-    let shot = frame_of_mesh(&setup, &subject.mesh);
+    let mut setup = CellSetup::new(nothing, seed);
+    setup.pose = PartPose::Drawn(placement());
+    match view {
+        View::Whole => {}
+        View::Cut => {
+            let placed = placement().draw(&subject.mesh, &setup.intrinsics, seed);
+            let pushed =
+                pushed_out_of_the_picture(&subject.mesh, &placed, &setup.intrinsics, CUT, seed);
+            setup.pose = PartPose::Fixed(pushed);
+        }
+        View::Hidden => setup.clutter = Clutter::InFront,
+    }
+    setup.noise.multiplier = match condition {
+        Condition::Kinect | Condition::Booth => 1.0,
+        Condition::KinectTwice => 2.0,
+        Condition::KinectThreefold => 3.0,
+        Condition::Stereo | Condition::TimeOfFlight => 0.0,
+    };
+    let mut shot = frame_of_mesh(&setup, &subject.mesh);
+    match condition {
+        Condition::Stereo => shot.frame = stereo_frame(&shot.frame, seed),
+        Condition::TimeOfFlight => shot.frame = time_of_flight_frame(&shot.frame, seed),
+        _ => {}
+    }
+    shot
+}
+
+fn inspected(
+    subject: &BoundsPart,
+    library: &BoundsLibrary,
+    condition: Condition,
+    view: View,
+    seed: u64,
+) -> BoundsCase {
+    let shot = shot(subject, condition, view, seed);
     let scene = scene_from_frame(&shot.frame);
     let recipe = Recipe::default();
     let inspection = run(&scene, &library.library, &recipe, &Unwatched).expect("not cancelled");
@@ -158,10 +256,12 @@ fn inspected(subject: &BoundsPart, library: &BoundsLibrary, view: View, seed: u6
         .map(|(pose, middle)| PoseAgainstTruth::of(pose, &part_from_camera, &middle));
     BoundsCase {
         part: subject.name.clone(),
+        condition,
         view,
         seed,
         is_named,
         is_accepted: inspection.verdict.is_accepted(),
+        refused: inspection.verdict.complaint().map(|[why, _]| why),
         found,
     }
 }
@@ -178,7 +278,14 @@ mod tests {
         library
             .subjects
             .retain(|subject| kinds.iter().any(|kind| kind.name() == subject.name));
-        let cases = bounds_cases(&library, 4, 3_000_000, || ());
+        let cases = bounds_cases(
+            &library,
+            Condition::Kinect,
+            &[View::Whole, View::Cut],
+            4,
+            3_000_000,
+            || (),
+        );
         assert_eq!(cases.len(), 16);
         let found = cases.iter().filter(|case| case.is_accepted);
         let found: Vec<PoseAgainstTruth> = found.filter_map(|case| case.found).collect();

@@ -30,6 +30,8 @@ mod sheet;
 mod shot;
 mod stand;
 mod standing_cell;
+mod stereo;
+mod time_of_flight;
 mod variation;
 
 pub use cell::{CellSetup, PartPose, SimulatedObject, Surroundings};
@@ -43,4 +45,6 @@ pub use sensor::SensorNoise;
 pub use shot::{FrameTruth, SimulatedFrame, frame, frame_of_mesh};
 pub use stand::Stand;
 pub use standing_cell::StandingCell;
+pub use stereo::stereo_frame;
+pub use time_of_flight::time_of_flight_frame;
 pub use variation::FIRST_OTHER_MAKE;

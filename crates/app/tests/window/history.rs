@@ -485,6 +485,11 @@ fn what_a_command_inspects_shows_in_an_open_history() {
     let mut history = History::open(folder.path()).expect("opened").history;
     let mut record = history.known(1).expect("written");
     record.summary.hung = HungId::new();
+    let line = &mut record.detail.line;
+    let mut marked: serde_json::Value = serde_json::from_str(line).expect("JSON");
+    marked["robot_doubts"] = serde_json::json!(["ambiguous_pose", "poses_apart"]);
+    marked["motion_checked"] = false.into();
+    *line = marked.to_string();
     let entry = NewEntry {
         record,
         picture: None,
@@ -502,6 +507,13 @@ fn what_a_command_inspects_shows_in_an_open_history() {
     }
     settle(&mut harness);
     harness.get_by_label("2 of 2 entries");
+    press(&mut harness, "Inspection 2: Front door, left, Accepted");
+    harness.get_by_label(
+        "The robot got no pose: another pose of the part fits nearly as well; the poses of the scan contradict one another",
+    );
+    harness.get_by_label("Not known whether the part hung still");
+    press(&mut harness, "Inspection 1: Front door, left, Accepted");
+    assert!(harness.query_by_label_contains("got no pose").is_none());
 }
 
 #[test]

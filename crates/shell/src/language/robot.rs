@@ -1,5 +1,6 @@
 //! Texts about the poses of a robot in the language of the window. In English they equal those of the library itself.
 
+use records::history::RobotMarks;
 use robot::{
     Convention, ConventionError, FARTHEST, NOZZLE_DISTANCE, WrittenPoseError, calibration::UNNAMED,
 };
@@ -135,6 +136,15 @@ pub fn doubt(doubt: &Doubt) -> [String; 2] {
             ]
         }
     }
+}
+
+/// Explains why a robot got no pose from a past inspection; `None` if nothing was against it.
+pub fn past_doubts(marks: &RobotMarks) -> Option<String> {
+    let kinds = marks.robot_doubts.iter();
+    let doubts: Vec<_> = kinds
+        .map(|kind| text!("robot-doubt-kind", kind = kind))
+        .collect();
+    (!doubts.is_empty()).then(|| text!("robot-got-no-pose", why = doubts.join("; ")))
 }
 
 fn of_scan(doubt: &scan::Doubt) -> [String; 2] {

@@ -91,12 +91,14 @@ const REGION: f64 = 1.2;
 /// Side of a patch of the surface, in the same unit: its error is independent of other patches, like those of points.
 const PATCH: f64 = 0.4;
 const OUTLINE_REGION: f64 = 1.5;
-/// Error of a stretch of an outline that the residuals do not show, metres: a pixel at 1.5 m.
-const OUTLINE_ERROR: f64 = 0.003;
-/// Scatter of turns and shifts divided by that of the model, on parts of other cars in frames of the tuning seeds
-/// (`partsight bench bounds --seed 3000000`).
+/// Error of a stretch of an outline that the residuals do not show, metres: most of a pixel at 1.5 m.
+const OUTLINE_ERROR: f64 = 0.0021;
+/// Share of a region's own error that its patches do not show already.
+const REGION_SHARE: f64 = 0.5;
+/// Scatter of turns and shifts divided by that of the model, on parts of other cars in frames of the tuning seeds, with
+/// every kind of camera (`partsight bench bounds --seed 3000000`).
 const TURN_FACTOR: f64 = 1.1;
-const SHIFT_FACTOR: f64 = 1.2;
+const SHIFT_FACTOR: f64 = 1.5;
 
 /// The bounds of a pose that a refinement at this level ended at, from the closest points of the source's surface.
 pub fn uncertainty(
@@ -167,7 +169,8 @@ pub(super) fn uncertainty_with(
             spurious_stiffness += change * change.transpose() * (weight * EDGE_TILT * EDGE_TILT);
         }
     }
-    let spread = patches.scatter() + surface.spread(0.0) + outline.spread(outline_error);
+    let of_regions = surface.spread(0.0) * REGION_SHARE;
+    let spread = patches.scatter() + of_regions + outline.spread(outline_error);
     let loose = if outline.is_empty() {
         LOOSE_WITHOUT_OUTLINE
     } else {

@@ -11,9 +11,12 @@ use super::{
 use records::history::{Differences, InspectionDetail, Record, StoredVerdict, Summary};
 use shell::{
     inspection::unit_system::UnitSystem,
-    language::results::{
-        accepted_or_not, inspection_title, recipe_label, refusal_kind, scene_title, source_title,
-        stored_verdict,
+    language::{
+        results::{
+            accepted_or_not, inspection_title, recipe_label, refusal_kind, scene_title,
+            source_title, stored_verdict,
+        },
+        robot::past_doubts,
     },
     session::Session,
 };
@@ -168,6 +171,13 @@ fn verdict(ui: &mut Ui, record: &Record, of_part: &Record, session: &Session) {
         ui.label(advice.color(Theme::of(ui).warning));
     } else if let Some(kind) = &summary.reason {
         ui.label(refusal_kind(kind));
+    }
+    let marks = record.detail.robot_marks();
+    if let Some(doubts) = past_doubts(&marks) {
+        ui.colored_label(theme.warning, doubts);
+    }
+    if marks.motion_checked == Some(false) {
+        ui.weak(text!("robot-motion-unknown"));
     }
 }
 
