@@ -239,8 +239,8 @@ impl RobotFile<'_> {
         let arm = arm
             .clone()
             .with_part(&self.part_cloud.points, &robot_from_part);
-        let path = self.path.filter(|_| arm.arm.limits_accelerations());
-        let film = path
+        let film = self
+            .path
             .and_then(|path| FilmRoom::of_path(path, self.part_cloud, self.coverage, self.side));
         let check = check_reach(&arm, self.carried, self.frame, settings, film.as_ref())?;
         Ok(Some((arm, check)))

@@ -89,9 +89,7 @@ pub(super) fn run(
         .cell
         .place(arm, args.nozzle.pose, params)?
         .with_part(&reference.cloud.points, &frame.robot_from_part(&standard));
-    let limits = placed.arm.limits_accelerations();
-    let film = limits.then(|| FilmRoom::of_path(&path, &reference.cloud, meta.coverage, meta.side));
-    let film = film.flatten();
+    let film = FilmRoom::of_path(&path, &reference.cloud, meta.coverage, meta.side);
     let params = CheckParams {
         film: film.as_ref(),
         ..params.check_params()

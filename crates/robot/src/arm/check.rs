@@ -4,21 +4,14 @@ use nalgebra::Translation3;
 
 use super::{
     ArmError, FilmRoom, NotReached, PlacedArm,
-    acceleration::keep_accelerations,
-    chain::{
-        Candidate, UPRIGHT, angle_of, candidates_of, free_chain, is_free, nozzle_at, test_all,
-        tilts_up_to, turns_of,
-    },
+    chain::{UPRIGHT, angle_of, nozzle_at, turns_of},
+    check_points::{check_points, num_bad},
     kinematics::{Joints, Solver},
     problem::PointProblem,
-    rail_plan::rail_positions,
     validate::validate,
-    way::{Way, WayEnd, way_between},
+    way::Way,
 };
-use geometry::{
-    parallel::{map_each, num_cores},
-    rigid::RigidTransform,
-};
+use geometry::rigid::RigidTransform;
 
 /// A pose of the nozzle that the arm must reach.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,13 +42,10 @@ pub struct CheckParams<'a> {
     /// Distance of the approach point behind the first point, and of the end behind the last, metres; none to check the
     /// path alone.
     pub approach: Option<f64>,
-    /// How much longer the gun may spray on each way of the path for joints and rail that cannot accelerate as much as
-    /// needed; none if it must keep the path's speeds.
+    /// How much longer the gun may spray on each way of the path for joints and rail that cannot follow at its speed; none
+    /// if it must keep the path's speeds.
     pub film: Option<&'a FilmRoom>,
 }
-
-/// Points on either side of a problem at which the nozzle may tilt as well, so that it tilts gradually.
-const NUM_TILTED_BESIDE: usize = 8;
 
 impl Default for CheckParams<'_> {
     fn default() -> Self {
@@ -216,195 +206,6 @@ fn graver(own: Option<PointProblem>, other: Option<PointProblem>) -> Option<Poin
     } else {
         own.or(other)
     }
-}
-
-fn check_points(
-    is_cancelled: &(dyn Fn() -> bool + Sync),
-    placed: &PlacedArm,
-    points: &[ArmPoint],
-    params: &CheckParams<'_>,
-) -> Result<Vec<PointCheck>, ArmError> {
-    let rails = rail_positions(placed, points, params, is_cancelled)?;
-    let checked = check_on(is_cancelled, placed, points, params, &rails)?;
-    let moving = placed.arm.moving_rail();
-    let Some((rail, _)) = moving.filter(|_| num_bad(&checked) > 0) else {
-        return Ok(checked);
-    };
-    // The positions of the rail are chosen without regard to speeds.
-    let at = params.rail.clamp(rail.range[0], rail.range[1]);
-    let rails = vec![at; points.len()];
-    let still = check_on(is_cancelled, placed, points, params, &rails)?;
-    Ok(fewer_bad(still, checked))
-}
-
-/// Checks the points with the rail at these positions.
-fn check_on(
-    is_cancelled: &(dyn Fn() -> bool + Sync),
-    placed: &PlacedArm,
-    points: &[ArmPoint],
-    params: &CheckParams<'_>,
-    rails: &[f64],
-) -> Result<Vec<PointCheck>, ArmError> {
-    let go_on = || {
-        if is_cancelled() {
-            Err(ArmError::Cancelled)
-        } else {
-            Ok(())
-        }
-    };
-    let solvers: Vec<Solver<'_>> = rails
-        .iter()
-        .map(|rail| Solver::new(placed, *rail))
-        .collect();
-    let mut candidates: Vec<Vec<Candidate>> = Vec::with_capacity(points.len());
-    for (solver, point) in solvers.iter().zip(points) {
-        go_on()?;
-        candidates.push(candidates_of(solver, point, params.num_turns, &[UPRIGHT]));
-    }
-    let check = |candidates: &mut [Vec<Candidate>]| {
-        let chosen = free_chain(&solvers, points, candidates, params.num_turns, is_cancelled);
-        let chosen = chosen.ok_or(ArmError::Cancelled)?;
-        let chosen = chosen.into_iter().zip(candidates.iter());
-        let chosen = chosen.map(|(index, here)| index.map(|index| here[index]));
-        check_chosen(
-            placed,
-            &solvers,
-            rails,
-            points,
-            params,
-            chosen.collect(),
-            go_on,
-        )
-    };
-    let checked = check(&mut candidates)?;
-    if params.max_tilt <= 0.0 || num_bad(&checked) == 0 {
-        return Ok(checked);
-    }
-    let tilts = tilts_up_to(params.max_tilt);
-    // A tilt is of no use where gun or arm collide with every one.
-    let collides = |i: usize| matches!(checked[i].problem, Some(PointProblem::Collision { .. }));
-    let may_help = map_each(points.len(), num_cores(), |i| {
-        let is_hopeless = || {
-            collides(i)
-                && (is_cancelled() || !is_free(&solvers[i], &points[i], params.num_turns, &tilts))
-        };
-        checked[i].problem.is_some() && !is_hopeless()
-    });
-    go_on()?;
-    if !may_help.contains(&true) {
-        return Ok(checked);
-    }
-    for (i, (solver, point)) in solvers.iter().zip(points).enumerate() {
-        let near = i.saturating_sub(NUM_TILTED_BESIDE)..points.len().min(i + NUM_TILTED_BESIDE + 1);
-        if may_help[near].contains(&true) {
-            go_on()?;
-            candidates[i].extend(candidates_of(solver, point, params.num_turns, &tilts));
-            // Most of them collide as well: chains that were to find that out one by one would take longer.
-            if collides(i) {
-                test_all(&mut candidates[i], solver, point, params.num_turns);
-            }
-        }
-    }
-    let tilted = check(&mut candidates)?;
-    Ok(fewer_bad(tilted, checked))
-}
-
-fn num_bad(checked: &[PointCheck]) -> usize {
-    checked
-        .iter()
-        .filter(|point| point.problem.is_some())
-        .count()
-}
-
-/// Returns the check that misses fewer points; the second if both miss as many.
-fn fewer_bad(one: Vec<PointCheck>, other: Vec<PointCheck>) -> Vec<PointCheck> {
-    if num_bad(&one) < num_bad(&other) {
-        one
-    } else {
-        other
-    }
-}
-
-/// The result for these joints at every point; `None` where there are none.
-fn check_chosen(
-    placed: &PlacedArm,
-    solvers: &[Solver<'_>],
-    rails: &[f64],
-    points: &[ArmPoint],
-    params: &CheckParams<'_>,
-    chosen: Vec<Option<Candidate>>,
-    go_on: impl Fn() -> Result<(), ArmError>,
-) -> Result<Vec<PointCheck>, ArmError> {
-    let mut checked: Vec<PointCheck> = Vec::with_capacity(points.len());
-    for (i, (point, candidate)) in points.iter().zip(chosen).enumerate() {
-        go_on()?;
-        let (solver, rail) = (&solvers[i], rails[i]);
-        let Some(candidate) = candidate else {
-            checked.push(PointCheck {
-                robot_from_nozzle: point.robot_from_nozzle,
-                rail,
-                problem: Some(why_not(solver, point, params.num_turns)),
-                ..PointCheck::default()
-            });
-            continue;
-        };
-        let turn = angle_of(candidate.turn, params.num_turns);
-        let singular = solver.singularity(&candidate.joints);
-        let before = i.checked_sub(1).and_then(|before| {
-            let end = WayEnd::of(&checked[before])?;
-            Some((end, &points[before]))
-        });
-        let robot_from_nozzle = nozzle_at(point, candidate.tilt, turn);
-        let to = WayEnd {
-            nozzle: robot_from_nozzle,
-            joints: candidate.joints,
-            rail,
-        };
-        // A collision precedes all other problems.
-        let here = if candidate.is_collision == Some(true) {
-            solver.collision(&candidate.joints)
-        } else {
-            None
-        };
-        let (way, on_the_way) = match before {
-            Some((from, start)) if here.is_none() => {
-                way_between(placed, &from, &to, [start, point])
-            }
-            _ => (Way::Planned, None),
-        };
-        let problem = here.or(on_the_way);
-        checked.push(PointCheck {
-            joints: Some(candidate.joints),
-            robot_from_nozzle,
-            turn,
-            tilt: candidate.tilt[0].hypot(candidate.tilt[1]),
-            rail,
-            way,
-            problem: problem.or(singular.map(PointProblem::NearSingularity)),
-        });
-    }
-    keep_accelerations(placed, points, &mut checked, params);
-    Ok(checked)
-}
-
-/// Returns why a point has no candidate.
-fn why_not(solver: &Solver<'_>, point: &ArmPoint, num_turns: usize) -> PointProblem {
-    let mut nearest: Option<(f64, PointProblem)> = None;
-    for turn in turns_of(point, num_turns) {
-        for joints in solver.solutions(&nozzle_at(point, UPRIGHT, angle_of(turn, num_turns)), None)
-        {
-            let Some((joint, angle)) = solver.beyond_limit(&joints) else {
-                continue;
-            };
-            let [low, high] = solver.arm.limits[joint];
-            let excess = (low - angle).max(angle - high);
-            if nearest.as_ref().is_none_or(|(least, _)| excess < *least) {
-                let joint = joint + 1;
-                nearest = Some((excess, PointProblem::JointLimit { joint, angle }));
-            }
-        }
-    }
-    nearest.map_or(PointProblem::OutOfReach, |(_, problem)| problem)
 }
 
 /// Whether a point can be reached at some turn without a collision.

@@ -6,8 +6,9 @@
 //! Workshop 2014. Each point has up to eight solutions, with every whole turn that the joints' limits allow; dynamic
 //! programming picks those with the least time of joint motion. A round jet leaves the turn about the nozzle free: it
 //! is tried in steps of 15°; a fan is the same turned by 180°. Near points that are not reached, the nozzle may also tilt
-//! about the point that it aims at. Straight moves are also checked between the points, as finely as the speeds of the
-//! joints need. With the gun off, the arm may move more slowly than the path specifies, or in a joint move (`way`).
+//! about the point that it aims at; `smooth_tilts` makes these tilts change evenly. Straight moves are also checked
+//! between the points, as finely as the speeds of the joints need. With the gun off, the arm may move more slowly than
+//! the path specifies, or in a joint move (`way`); with the gun on, more slowly as far as the film allows (`slowing`).
 //!
 //! Gun and arm must stay clear of [`Obstacles`] at every point and on the way to it.
 //!
@@ -22,6 +23,7 @@
 mod acceleration;
 mod chain;
 mod check;
+mod check_points;
 mod error;
 mod file;
 mod film_room;
@@ -32,6 +34,8 @@ mod place;
 mod problem;
 mod rail;
 mod rail_plan;
+mod slowing;
+mod smooth_tilts;
 #[cfg(test)]
 mod tests;
 mod validate;
@@ -139,7 +143,7 @@ impl Arm {
     }
 
     /// Whether a limit of acceleration is known: of the joints, or of a rail that moves along the path.
-    pub fn limits_accelerations(&self) -> bool {
+    fn limits_accelerations(&self) -> bool {
         let moving = self.moving_rail();
         self.accelerations.is_some() || moving.is_some_and(|(rail, _)| rail.acceleration.is_some())
     }

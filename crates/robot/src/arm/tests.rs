@@ -6,6 +6,7 @@ mod kinematics;
 mod moving_rail;
 mod own_arm;
 mod places;
+mod smooth_tilts;
 mod speeds;
 
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -14,6 +15,9 @@ use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
 use super::{kinematics::Solver, *};
 use geometry::{error::Advice as _, rigid::from_euler_zyx};
+
+/// Film that each way of a path deposits: indices of points, and metres.
+type Films = Vec<Vec<(u32, f32)>>;
 
 fn placed(name: &str) -> PlacedArm {
     PlacedArm {

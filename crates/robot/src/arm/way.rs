@@ -309,7 +309,7 @@ pub(super) fn apart(a: &Joints, b: &Joints) -> f64 {
 }
 
 /// The joints nearest to `at` that reach a pose.
-fn nearest(solver: &Solver<'_>, pose: &RigidTransform, at: &Joints) -> Option<Joints> {
+pub(super) fn nearest(solver: &Solver<'_>, pose: &RigidTransform, at: &Joints) -> Option<Joints> {
     let solutions = solver.solutions(pose, Some(at)).into_iter();
     solutions.min_by(|a, b| apart(a, at).total_cmp(&apart(b, at)))
 }
@@ -382,7 +382,7 @@ fn step_problem(
 }
 
 /// The first joint outside its limits, and its angle.
-fn outside(solver: &Solver<'_>, joints: &Joints) -> Option<(usize, f64)> {
+pub(super) fn outside(solver: &Solver<'_>, joints: &Joints) -> Option<(usize, f64)> {
     let limits = solver.arm.limits.iter().zip(joints).enumerate();
     let mut beyond = limits.filter(|(_, ([low, high], angle))| {
         !(low - SAME_JOINT_RAD..=high + SAME_JOINT_RAD).contains(*angle)

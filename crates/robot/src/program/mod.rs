@@ -279,7 +279,7 @@ impl Program<'_> {
             }
             if num_slower_spraying > 0 {
                 lines.push(format!(
-                    "moves with the gun on: {num_slower_spraying} slower than in the path, for accelerations"
+                    "moves with the gun on: {num_slower_spraying} slower than in the path, for speeds and accelerations"
                 ));
             }
             let is_named = steps.first().is_some_and(|s| s.configuration.is_some());

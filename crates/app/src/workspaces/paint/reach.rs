@@ -261,10 +261,7 @@ fn found(
     let robot_from_part = request.robot.robot_from_part(&RigidTransform::identity());
     let arm = arm.with_part(&path.part_cloud.points, &robot_from_part);
     let points = arm_points(&path.carried, &request.robot, settings.params.speed);
-    let limits = arm.arm.limits_accelerations();
-    let film = limits
-        .then(|| FilmRoom::of_path(&planned.path, &path.part_cloud, path.coverage, path.side));
-    let film = film.flatten();
+    let film = FilmRoom::of_path(&planned.path, &path.part_cloud, path.coverage, path.side);
     let params = CheckParams {
         film: film.as_ref(),
         ..settings.params.check_params()

@@ -182,9 +182,6 @@ fn between_two_rows_the_arm_slows_down_for_the_corners_and_along_the_rows_it_doe
     }
 }
 
-/// Film that each way of a path deposits: indices of points, and metres.
-type Films = Vec<Vec<(u32, f32)>>;
-
 /// A path around a corner with the gun on up to point `end`; joints have this share of the acceleration that the corner
 /// needs, and the film of each way lies at two points of its own and at one of both neighbours.
 fn sprayed_corner(share: f64, end: usize) -> (PlacedArm, Vec<ArmPoint>, Films) {

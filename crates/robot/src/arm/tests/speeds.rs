@@ -4,7 +4,10 @@ use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64;
 
 use super::*;
-use crate::arm::way::{WayEnd, way_between, way_problem};
+use crate::arm::{
+    chain::nozzle_at,
+    way::{WayEnd, way_between, way_problem},
+};
 
 /// Two ends of a short move on which the wrist passes its singularity at 3.4°: joint 4 hurries in the middle.
 fn beside_singularity(placed: &PlacedArm) -> [WayEnd; 2] {
@@ -131,4 +134,70 @@ fn no_joint_that_is_too_fast_anywhere_on_a_move_is_missed_however_short_the_move
         }
     }
     assert!(num_checked > 500, "{num_checked}");
+}
+
+/// A row in whose middle the nozzle leans by 5°, so that joints are too fast on one way; with the film of each way.
+fn too_fast(share: f64) -> (PlacedArm, Vec<ArmPoint>, Films) {
+    let mut placed = with_gun("irb2600");
+    placed.arm.limits[0] = [-1.0, 1.0];
+    let mut points = row(&placed, 40, 0.4);
+    for point in &mut points[20..] {
+        point.robot_from_nozzle = nozzle_at(point, [0.09, 0.0], 0.0);
+    }
+    placed.arm.speeds = [50.0; 6];
+    let found = check(&placed, &points);
+    let [from, to] = [19, 20].map(|i| &found.points[i]);
+    let joints = [from, to].map(|point| point.joints.expect("reached"));
+    let shift = to.robot_from_nozzle.translation.vector - from.robot_from_nozzle.translation.vector;
+    let turns = (0..6).map(|i| (joints[1][i] - joints[0][i]).abs());
+    let fastest = turns.fold(0.0, f64::max) / (shift.norm() / points[19].speed);
+    placed.arm.speeds = [fastest / share; 6];
+    let ways = (0..points.len() as u32 - 1).map(|way| (2 * way..2 * way + 3).map(|i| (i, 1e-5)));
+    (placed, points, ways.map(Iterator::collect).collect())
+}
+
+#[test]
+fn a_spraying_gun_too_fast_for_a_joint_slows_down_as_far_as_its_film_has_room() {
+    // Twice or four times too fast; the gun slows down to a third at most.
+    for (share, is_reached) in [(1.2, true), (2.0, true), (4.0, false)] {
+        let (placed, points, ways) = too_fast(share);
+        let checked = |room: f64| {
+            let film = FilmRoom::new(ways.clone(), vec![room; 2 * points.len()]);
+            let params = CheckParams {
+                film: Some(&film),
+                ..CheckParams::default()
+            };
+            check_path(&placed, &points, &params).expect("checked")
+        };
+        let unslowed = check(&placed, &points);
+        let problem = &unslowed.points[20].problem;
+        assert!(
+            matches!(problem, Some(PointProblem::TooFast { .. })),
+            "{problem:?}"
+        );
+        // Without room it keeps its speed, and a little room is not used in vain.
+        for room in [0.0, 1e-7] {
+            assert_eq!(checked(room), unslowed, "{share} {room}");
+        }
+        let found = checked(1.0);
+        if !is_reached {
+            assert_eq!(found, unslowed, "{share}");
+            continue;
+        }
+        assert_eq!(found.points[20].problem, None, "{share}");
+        let Way::SlowerSpraying(speed) = found.points[20].way else {
+            panic!("{share}: {:?}", found.points[20]);
+        };
+        let wanted = points[19].speed / share;
+        assert!(
+            (0.9 * wanted..=wanted * (1.0 + 1e-6)).contains(&speed),
+            "{share}: {speed}"
+        );
+        let others = found.points.iter().enumerate().filter(|(i, _)| *i != 20);
+        assert!(
+            others
+                .map(|(_, point)| point.way)
+                .all(|way| way == Way::Planned)
+        );
+    }
 }
