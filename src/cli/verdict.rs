@@ -94,6 +94,9 @@ pub(super) fn show_card(
                 Some(Rejection::Mirrored { part, .. } | Rejection::MirroredImage { part, .. }) => {
                     format!("mirror image of {part}")
                 }
+                Some(Rejection::OtherHalf { part, .. }) => {
+                    format!("mirror image of the enrolled piece of {part}")
+                }
                 Some(Rejection::Unknown { .. }) if inspection.verdict.is_named() => {
                     format!("unknown, nearest {part}")
                 }

@@ -214,9 +214,8 @@ fn a_list_of_points_is_accepted_in_spite_of_stray_points_and_copies() {
     let Some(data) = data_folder() else { return };
     let frame = scene(&data.join("booth/left2_01.png"));
     let enrolled = enrol_captured(&frame, &about("fender"), &EnrolParams::default());
-    let library = Library {
-        references: vec![enrolled.expect("a part").reference],
-    };
+    let mut library = Library::default();
+    library.references.push(enrolled.expect("a part").reference);
     let points: Vec<Point3<f32>> = frame.cloud.finite().map(|(_, p)| *p).collect();
     let of_lists = [
         vec![],
@@ -293,9 +292,8 @@ fn a_part_that_a_strip_without_readings_cuts_in_two_is_found_in_its_place() {
         &about("plate"),
         &EnrolParams::default(),
     );
-    let library = Library {
-        references: vec![enrolled.expect("a part").reference],
-    };
+    let mut library = Library::default();
+    library.references.push(enrolled.expect("a part").reference);
     let inspected = [4, 12].map(|pixels| {
         let scene = scene(&folder.join(format!("stripe_{pixels}_pixels.png")));
         run(&scene, &library, &Recipe::default(), &Unwatched).expect("not cancelled")

@@ -118,6 +118,10 @@ pub fn rejections() -> Vec<Rejection> {
             part: part.clone(),
             score,
         },
+        Rejection::OtherHalf {
+            part: part.clone(),
+            score,
+        },
         Rejection::SmallMargin {
             part: part.clone(),
             other: "Grille".into(),

@@ -78,7 +78,7 @@ pub(super) fn check_mirror_image(
     let seen = if is_other_model {
         closer_mirror_match(inspection, &found, recipe)
     } else {
-        mirror_only_match(&found, least)
+        mirror_only_match(&found, inputs, least)
     };
     if let (Some(seen), Some(named)) = (seen, found.ranking.entries.first()) {
         put_first(inspection, named, recipe);
@@ -211,11 +211,18 @@ fn put_first(inspection: &mut Inspection, named: &ConfirmedMatch, recipe: &Recip
 }
 
 /// The rejection where the mirror image fits and the part itself is nothing like it.
-fn mirror_only_match(found: &SurfaceResult, least: f64) -> Option<Rejection> {
+fn mirror_only_match(
+    found: &SurfaceResult,
+    inputs: &InspectionInputs<'_>,
+    least: f64,
+) -> Option<Rejection> {
     let seen = found.ranking.entries.first()?;
     let (part, score) = (seen.part.clone(), seen.score);
+    let reference = inputs.library.references.get(seen.reference)?;
     (score > least).then(|| {
-        if is_central(&part) {
+        if is_central(&part) && !reference.cut.is_nothing() {
+            Rejection::OtherHalf { part, score }
+        } else if is_central(&part) {
             Rejection::MirroredImage { part, score }
         } else {
             Rejection::Mirrored { part, score }

@@ -123,6 +123,13 @@ pub enum Rejection {
         /// How well the mirror image fits.
         score: f64,
     },
+    /// Only one half of it is enrolled, and this may be the other one.
+    OtherHalf {
+        /// The part whose enrolled half looks like its mirror image.
+        part: String,
+        /// How well the mirror image fits.
+        score: f64,
+    },
     /// Another part fits nearly as well.
     SmallMargin {
         /// Best match.

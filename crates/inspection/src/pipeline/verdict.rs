@@ -84,7 +84,11 @@ impl Verdict {
         match self {
             Self::Part {
                 rejected:
-                    Some(Rejection::Mirrored { part, .. } | Rejection::MirroredImage { part, .. }),
+                    Some(
+                        Rejection::Mirrored { part, .. }
+                        | Rejection::MirroredImage { part, .. }
+                        | Rejection::OtherHalf { part, .. },
+                    ),
                 ..
             }
             | Self::Part { part, .. } => Some(part),
@@ -145,7 +149,11 @@ impl Verdict {
     pub fn is_mirrored(&self) -> bool {
         matches!(
             self.rejected(),
-            Some(Rejection::Mirrored { .. } | Rejection::MirroredImage { .. })
+            Some(
+                Rejection::Mirrored { .. }
+                    | Rejection::MirroredImage { .. }
+                    | Rejection::OtherHalf { .. }
+            )
         )
     }
 

@@ -15,8 +15,8 @@ use geometry::{
 };
 use inspection::{
     library::{
-        EnrolParams, Library, PartDescription, PartName, enrol_standard_parts, enrol_surface,
-        enrolment_pose,
+        EnrolParams, Library, PartDescription, PartName, enrol_captured, enrol_standard_parts,
+        enrol_surface, enrolment_pose,
     },
     pipeline::{
         Cancelled, Inspection, PoseChoice, ProgressObserver, Recipe, Rejection, Stage,
@@ -493,6 +493,37 @@ fn a_part_half_out_of_the_picture_is_accepted_from_what_is_in_sight() {
             "{kind}: {off:?}"
         );
     }
+}
+
+#[test]
+fn the_half_of_a_bumper_that_is_not_enrolled_is_called_that() {
+    let half = |aside: f64, seed: u64| {
+        let mut setup = CellSetup::with_part(PartKind::FrontBumper, Side::Left, 0, seed);
+        setup.pose = PartPose::Fixed(Isometry3::translation(aside, 0.0, 1.1));
+        scene_of(&setup)
+    };
+    let about = PartDescription {
+        name: PartName::new("front_bumper").expect("a name"),
+        title: String::new(),
+        notes: String::new(),
+        from: "a capture".into(),
+        at: jiff::Timestamp::UNIX_EPOCH,
+        simulated: true,
+    };
+    let enrolled = enrol_captured(&half(0.62, 1), &about, &EnrolParams::default());
+    let mut library = Library::default();
+    library.references.push(enrolled.expect("a half").reference);
+    let again = inspected(&half(0.6, 2), &library, &Recipe::default());
+    assert!(again.verdict.is_accepted(), "{:?}", again.verdict);
+    let other = |aside| inspected(&half(aside, 3), &library, &Recipe::default()).verdict;
+    let verdict = other(-0.7);
+    assert!(
+        matches!(verdict.rejected(), Some(Rejection::OtherHalf { part, .. }) if part == "front_bumper"),
+        "{verdict:?}"
+    );
+    // A strip in the middle is in both, and fits where it should not.
+    let verdict = other(-0.62);
+    assert!(!verdict.is_accepted(), "{verdict:?}");
 }
 
 #[test]

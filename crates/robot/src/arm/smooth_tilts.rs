@@ -15,8 +15,8 @@
 //!
 //! The tilts found are a proposal, which is checked like any other path.
 //!
-//! Known limits: only joints whose accelerations are limited are examined. Configurations and turns of the nozzle stay as they are. Obstacles, joint limits and the accelerations of a
-//! rail are not considered.
+//! Known limits: only joints whose accelerations are limited are examined. Configurations and turns of the nozzle stay as
+//! they are. Obstacles, joint limits and the accelerations of a rail are not considered.
 
 use super::{
     ArmPoint, CheckParams, PlacedArm, PointCheck,

@@ -245,6 +245,8 @@ const LEAST_FACING: f64 = 0.48;
 const LEAST_SEEN: f64 = 0.05;
 /// Nor is what shows hardly an edge of its own, metres.
 const LEAST_EDGE: f64 = 0.15;
+/// Nor is what lies mostly beyond where the reference's view ended, as a share: its pose rests on a strip.
+const MAX_BEYOND: f64 = 0.6;
 /// Share of the outline that may be cut in the shape of a whole part.
 const MOST_CUT: f64 = 0.1;
 /// What a perfect fit of a part that is hardly seen scores.
@@ -290,7 +292,9 @@ impl Evidence {
 
     /// True if enough of the part would be in sight to tell it from something else.
     pub fn is_seen(&self) -> bool {
-        self.facing >= LEAST_FACING && is_enough(self.seen_m2, self.edge_m)
+        self.facing >= LEAST_FACING
+            && self.beyond <= MAX_BEYOND
+            && is_enough(self.seen_m2, self.edge_m)
     }
 
     /// The probability that the part hangs there and stands where it was found, 0..1; at most 0.4 for what is hardly
