@@ -266,7 +266,7 @@ pub fn bounds_and_scale(
         &reference.cut,
     );
     Some((
-        uncertainty(&source, &closest, &target, pose, &THIRD[2]),
+        uncertainty(&source, &closest, &target, pose, &THIRD[2], 1),
         scale(&source, &edges, &target, pose, noise),
     ))
 }

@@ -131,7 +131,8 @@ fn finished(
     };
     let fit: FitQuality = measure_fit(&part.source.surface, &closest, &target, tolerance);
     let relief_sq = relief(&closest, &target).powi(2) - NOISE_OF_JOINT * NOISE_OF_JOINT;
-    let bounds = uncertainty(&part.source, &closest, &target, &pose, &THIRD[2]);
+    let num_views = part.cameras.len();
+    let bounds = uncertainty(&part.source, &closest, &target, &pose, &THIRD[2], num_views);
     let squarest = part.cameras.iter().map(|camera| {
         let part_from_camera = seen_from(&pose, camera);
         let view = facing_view(reference, &part_from_camera);

@@ -152,7 +152,7 @@ impl<'a> PreparedScene<'a> {
             .append(refine(&self.source, &target, &start, &THIRD));
         let (source, pose) = (&self.source, &candidate.refined.target_from_source);
         let closest = Correspondence::of_each(&source.surface, &target, pose, Search::Tree);
-        candidate.uncertainty = Some(uncertainty(source, &closest, &target, pose, &THIRD[2]));
+        candidate.uncertainty = Some(uncertainty(source, &closest, &target, pose, &THIRD[2], 1));
         (candidate.fit, candidate.evidence) =
             self.evaluate(reference, candidate.view, pose, &closest, NUM_LOOKED_FOR);
         if let Some(turn) = reference.own_turn() {

@@ -189,7 +189,8 @@ impl PreparedTarget {
         let (target, pose) = (self.target(), &refined.target_from_source);
         let closest = Correspondence::of_each(&source.surface, &target, pose, Search::Tree);
         let fit = measure_fit(&source.surface, &closest, &target, tolerance);
-        let uncertainty = uncertainty_with(&source, &closest, &target, pose, &level, outline_error);
+        let uncertainty =
+            uncertainty_with(&source, &closest, &target, pose, &level, (outline_error, 1));
         PoseEstimate {
             target_from_source: refined.target_from_source,
             method,

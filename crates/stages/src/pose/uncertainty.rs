@@ -100,25 +100,35 @@ const REGION_SHARE: f64 = 0.5;
 const TURN_FACTOR: f64 = 1.1;
 const SHIFT_FACTOR: f64 = 1.5;
 
-/// The bounds of a pose that a refinement at this level ended at, from the closest points of the source's surface.
+/// The bounds of a pose that a refinement at this level ended at, from the closest points of the source's surface. The
+/// source was seen in `num_views` frames, which err independently in what the residuals do not show.
 pub fn uncertainty(
     source: &AlignmentSource,
     closest: &[Correspondence],
     target: &AlignmentTarget<'_>,
     pose: &RigidTransform,
     level: &Level,
+    num_views: usize,
 ) -> Uncertainty {
-    uncertainty_with(source, closest, target, pose, level, OUTLINE_ERROR)
+    let outline_error = OUTLINE_ERROR / (num_views as f64).sqrt();
+    uncertainty_with(
+        source,
+        closest,
+        target,
+        pose,
+        level,
+        (outline_error, num_views),
+    )
 }
 
-/// As [`uncertainty`], with the error of a stretch of the outline, metres.
+/// As [`uncertainty`], with the error of a stretch of the outline, metres, and the number of views.
 pub(super) fn uncertainty_with(
     source: &AlignmentSource,
     closest: &[Correspondence],
     target: &AlignmentTarget<'_>,
     pose: &RigidTransform,
     level: &Level,
-    outline_error: f64,
+    (outline_error, num_views): (f64, usize),
 ) -> Uncertainty {
     let reach_sq = (3.0 * level.scale).powi(2);
     let per_scale_sq = 1.0 / (level.scale * level.scale);
@@ -177,7 +187,10 @@ pub(super) fn uncertainty_with(
         LOOSE
     };
     let limits = (loose, Metres(3.0 * level.scale));
-    sums.bounds(&spurious_stiffness, &spread, &frame, limits)
+    // What the model misses of a shift, such as readings lost on one side, differs from view to view: scans show none of it.
+    let shift_factor = if num_views == 1 { SHIFT_FACTOR } else { 1.0 };
+    let factors = [TURN_FACTOR, shift_factor];
+    sums.bounds(&spurious_stiffness, &spread, &frame, limits, factors)
 }
 
 /// A source point and the surface of the target.
@@ -320,6 +333,7 @@ impl Sums {
         spread: &Matrix6<f64>,
         frame: &LocalFrame,
         (most_turn, most_shift): (Radians, Metres),
+        [turn_factor, shift_factor]: [f64; 2],
     ) -> Uncertainty {
         if let Some(motion) = self.free_motion(spurious_stiffness, frame) {
             return Uncertainty::free(frame.freedom(&motion));
@@ -335,7 +349,7 @@ impl Sums {
         let bound = |first: usize, factor: f64| {
             factor * within_95(&block(first)) + to_go.fixed_rows::<3>(first).norm()
         };
-        let (turn, shift) = (bound(0, TURN_FACTOR), bound(3, SHIFT_FACTOR));
+        let (turn, shift) = (bound(0, turn_factor), bound(3, shift_factor));
         let is_held = turn <= most_turn.0 && shift <= most_shift.0;
         let freedom = (!is_held).then(|| frame.widest(&covariance));
         Uncertainty {

@@ -102,7 +102,7 @@ fn bounds(shape: Shape, is_seen: impl Fn(&Point3<f32>) -> bool) -> Uncertainty {
     };
     let pose = RigidTransform::identity();
     let closest = Correspondence::of_each(&source.surface, &target, &pose, Search::Tree);
-    uncertainty(&source, &closest, &target, &pose, &LEVEL)
+    uncertainty(&source, &closest, &target, &pose, &LEVEL, 1)
 }
 
 #[test]
