@@ -8,6 +8,7 @@ use geometry::units::Metres;
 use stages::{
     contour::ContourError,
     fixtures::{FREEDOMS, pose_errors},
+    pose::OffScale,
     project::ProjectError,
     reference::ReferenceParams,
     segment::NoPart,
@@ -117,6 +118,13 @@ pub fn rejections() -> Vec<Rejection> {
         Rejection::MirroredImage {
             part: part.clone(),
             score,
+        },
+        Rejection::OffScale {
+            part: part.clone(),
+            off: OffScale {
+                is_larger: true,
+                by: 0.05,
+            },
         },
         Rejection::OtherHalf {
             part: part.clone(),

@@ -7,7 +7,7 @@ use super::unsound::CAMERA_RANGE;
 use geometry::{error::Fault, units::Metres};
 use stages::{
     contour::ContourError,
-    pose::{FreeMotion, PoseError},
+    pose::{FreeMotion, OffScale, PoseError},
     project::ProjectError,
     segment::NoPart,
     signature::SignatureError,
@@ -90,6 +90,14 @@ pub enum Rejection {
         part: String,
         /// How the part can move and still fit.
         freedom: FreeMotion,
+    },
+    /// It fits badly and has another size than its reference: the camera's numbers are probably wrong.
+    OffScale {
+        /// Best match.
+        part: String,
+        /// How much larger or smaller.
+        #[serde(flatten)]
+        off: OffScale,
     },
     /// The pose is too uncertain.
     Uncertain {

@@ -242,6 +242,24 @@ pub(super) fn verdict(
             missing: evidence.missing,
         }),
     };
+    // With wrong numbers of the camera the part looks like another model, or its pose uncertain: they come first, lest
+    // somebody enrols what they show.
+    let off_scale = found.and_then(PoseEstimate::off_scale);
+    let rejected = match (rejected, off_scale) {
+        (
+            Some(
+                Rejection::AnotherModel { .. }
+                | Rejection::AnotherMake { .. }
+                | Rejection::Uncertain { .. }
+                | Rejection::LowScore { .. },
+            ),
+            Some(off),
+        ) => Some(Rejection::OffScale {
+            part: best.part.clone(),
+            off,
+        }),
+        (rejected, _) => rejected,
+    };
     Verdict::Part {
         part: best.part.clone(),
         score: best.score,

@@ -53,7 +53,7 @@ impl ScaleEstimate {
 }
 
 /// The source is larger or smaller than the target, so the camera's numbers are probably wrong.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize, thiserror::Error)]
 pub struct OffScale {
     /// True if it is larger than its target.
     pub is_larger: bool,

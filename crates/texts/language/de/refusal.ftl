@@ -87,6 +87,15 @@ refusal-mirrored-image = passt zu { $part } nur als Spiegelbild (Score { FIXED($
     .short = Das Kamerabild ist gespiegelt
     .next = Roboter nicht starten: Den Einrichter bitten, die Kamera richtig einzustellen
     .compared = passt zu { $part } nur als Spiegelbild: das Bild ist vermutlich gespiegelt
+refusal-off-scale = was die Kamera von { $part } sieht, ist { PERCENT($by, 0) } % { $is_larger ->
+        [true] größer
+       *[false] kleiner
+    } als die Referenz: Die Zahlen der Kamera sind vermutlich falsch
+    .advice = Zuerst Einheit der Tiefenwerte und Brennweiten (fx, fy) der Kamera prüfen; nur dann als weitere Referenz von { $part } einlernen, wenn es wirklich eine andere Größe hat
+    .kind = Andere Größe als die Referenz: Zahlen der Kamera vermutlich falsch
+    .short = Die Kamera zeigt { $nearest } in anderer Größe
+    .next = Roboter nicht starten: Den Einrichter bitten, die Kamera zu prüfen
+    .compared = andere Größe als die Referenz
 refusal-other-half = sieht aus wie das Spiegelbild dessen, was von { $part } eingelernt ist (Score { FIXED($score, 2) }): Von { $part } ist nur ein Stück eingelernt, und dies kann die andere Hälfte sein
     .advice = { $part } ganz einlernen, oder diese Hälfte als weitere Referenz davon
     .kind = Vielleicht die nicht eingelernte Hälfte eines Teils

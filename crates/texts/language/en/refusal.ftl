@@ -88,6 +88,15 @@ refusal-mirrored-image = it fits { $part } only as its mirror image (which score
     .short = The camera's picture is mirrored
     .next = Do not start the robot: ask the engineer to set the camera right
     .compared = it fits { $part } only as its mirror image: the image is probably mirrored
+refusal-off-scale = what the camera sees of { $part } is { PERCENT($by, 0) } % { $is_larger ->
+        [true] larger
+       *[false] smaller
+    } than the reference: the camera's numbers are probably wrong
+    .advice = Check the unit of the camera's depths and its focal lengths (fx, fy) first; enrol it as one more reference of { $part } only if it really has another size
+    .kind = Another size than the reference: the camera's numbers are probably wrong
+    .short = The camera shows { $nearest } in another size
+    .next = Do not start the robot: ask the engineer to check the camera
+    .compared = another size than the reference
 refusal-other-half = it looks like the mirror image of what was enrolled of { $part } (which scores { FIXED($score, 2) }): only a piece of { $part } was enrolled, and this may be its other half
     .advice = Enrol all of { $part }, or this half as one more reference of it
     .kind = Perhaps the half of a part that was not enrolled

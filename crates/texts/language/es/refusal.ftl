@@ -87,6 +87,15 @@ refusal-mirrored-image = solo encaja con { $part } como imagen reflejada (que ob
     .short = La imagen de la cámara está reflejada
     .next = No arrancar el robot: pedir al técnico que ajuste la cámara
     .compared = solo encaja con { $part } como imagen reflejada: es probable que la imagen esté reflejada
+refusal-off-scale = lo que la cámara ve de { $part } es un { PERCENT($by, 0) } % más { $is_larger ->
+        [true] grande
+       *[false] pequeño
+    } que la referencia: es probable que los números de la cámara sean erróneos
+    .advice = Comprobar primero la unidad de las profundidades de la cámara y sus distancias focales (fx, fy); registrarla como otra referencia de { $part } solo si de verdad tiene otro tamaño
+    .kind = Otro tamaño que la referencia: números de la cámara probablemente erróneos
+    .short = La cámara muestra { $nearest } con otro tamaño
+    .next = No arrancar el robot: pedir al técnico que compruebe la cámara
+    .compared = otro tamaño que la referencia
 refusal-other-half = parece la imagen reflejada de lo registrado de { $part } (que obtiene { FIXED($score, 2) }): de { $part } solo está registrado un trozo, y esta puede ser la otra mitad
     .advice = Registrar { $part } entera, o esta mitad como una referencia más de ella
     .kind = Quizá la mitad no registrada de una pieza

@@ -87,6 +87,15 @@ refusal-mirrored-image = 仅以镜像形式与“{ $part }”匹配（得分 { F
     .short = 相机图像是镜像的
     .next = 请勿启动机器人：请工程师纠正相机设置
     .compared = 仅其镜像与 { $part } 匹配：图像可能是镜像的
+refusal-off-scale = 相机看到的“{ $part }”比参考{ $is_larger ->
+        [true] 大
+       *[false] 小
+    } { PERCENT($by, 0) } %：相机参数可能有误
+    .advice = 请先检查相机深度的单位及其焦距（fx、fy）；只有尺寸确实不同时，才将其注册为“{ $part }”的另一参考
+    .kind = 尺寸与参考不同：相机参数可能有误
+    .short = 相机显示的“{ $nearest }”尺寸不同
+    .next = 请勿启动机器人：请工程师检查相机
+    .compared = 尺寸与参考不同
 refusal-other-half = 看起来是“{ $part }”已注册部分的镜像（得分 { FIXED($score, 2) }）：“{ $part }”只注册了一部分，这可能是它的另一半
     .advice = 请注册完整的“{ $part }”，或将这一半注册为它的另一参考
     .kind = 可能是零件未注册的另一半
