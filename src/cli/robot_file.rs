@@ -74,7 +74,12 @@ fn refuse(file: &RobotFile<'_>, doubts: &[Doubt], console: &Console) {
         ),
         doubt => doubt.advice(),
     };
-    console.note(&format_args!("  to do: {advice}; --force writes it anyway"));
+    let forced = if doubts.iter().all(Doubt::may_be_forced) {
+        "; --force writes it anyway"
+    } else {
+        ""
+    };
+    console.note(&format_args!("  to do: {advice}{forced}"));
 }
 
 /// Describes how many points of a carried path are within the band, of those that could be checked against the capture.

@@ -222,7 +222,7 @@ robot-doubt-source-lost-advice = Die Quelle wieder verbinden und das Teil neu au
 robot-doubt-moving = das Teil bewegt sich
 robot-doubt-moving-advice = Warten, bis das Teil still hängt
 robot-doubt-superseded = inzwischen kann dort ein anderes Teil hängen
-robot-doubt-capture-again = Das ganze Teil neu aufnehmen
+robot-doubt-capture-again = Das Teil neu aufnehmen
 robot-doubt-not-accepted = das Teil wurde nicht akzeptiert
 robot-doubt-no-pose = das Teil hat keine Pose
 robot-doubt-no-pose-advice = Ein Rezept wählen, das die Pose schätzt, und das Teil neu prüfen
@@ -250,6 +250,8 @@ robot-doubt-kind =
         [reported_wrong] { operator-reported-wrong }
         [source_lost] { robot-doubt-source-lost }
         [moving] { robot-doubt-moving }
+        [not_accepted] { robot-doubt-not-accepted }
+        [no_pose] { robot-doubt-no-pose }
         [superseded] { robot-doubt-superseded }
         [not_calibrated] { robot-doubt-not-calibrated }
         [clock_ahead] die Aufnahme ist später als jetzt datiert

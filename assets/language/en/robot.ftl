@@ -222,7 +222,7 @@ robot-doubt-source-lost-advice = Connect the source again, and capture the part 
 robot-doubt-moving = the part is moving
 robot-doubt-moving-advice = Wait until the part hangs still
 robot-doubt-superseded = another part may hang there by now
-robot-doubt-capture-again = Capture all of the part again
+robot-doubt-capture-again = Capture the part again
 robot-doubt-not-accepted = the part was not accepted
 robot-doubt-no-pose = the part has no pose
 robot-doubt-no-pose-advice = Choose a recipe that estimates the pose, and inspect the part again
@@ -250,6 +250,8 @@ robot-doubt-kind =
         [reported_wrong] { operator-reported-wrong }
         [source_lost] { robot-doubt-source-lost }
         [moving] { robot-doubt-moving }
+        [not_accepted] { robot-doubt-not-accepted }
+        [no_pose] { robot-doubt-no-pose }
         [superseded] { robot-doubt-superseded }
         [not_calibrated] { robot-doubt-not-calibrated }
         [clock_ahead] the capture is dated later than now

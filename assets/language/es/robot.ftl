@@ -222,7 +222,7 @@ robot-doubt-source-lost-advice = Conecte la fuente de nuevo y capture la pieza o
 robot-doubt-moving = la pieza se mueve
 robot-doubt-moving-advice = Espere a que la pieza cuelgue quieta
 robot-doubt-superseded = puede que ya cuelgue ahí otra pieza
-robot-doubt-capture-again = Capture de nuevo la pieza entera
+robot-doubt-capture-again = Capture de nuevo la pieza
 robot-doubt-not-accepted = la pieza no fue aceptada
 robot-doubt-no-pose = la pieza no tiene pose
 robot-doubt-no-pose-advice = Elija una receta que estime la pose e inspeccione la pieza de nuevo
@@ -250,6 +250,8 @@ robot-doubt-kind =
         [reported_wrong] { operator-reported-wrong }
         [source_lost] { robot-doubt-source-lost }
         [moving] { robot-doubt-moving }
+        [not_accepted] { robot-doubt-not-accepted }
+        [no_pose] { robot-doubt-no-pose }
         [superseded] { robot-doubt-superseded }
         [not_calibrated] { robot-doubt-not-calibrated }
         [clock_ahead] la captura tiene una fecha posterior a la actual

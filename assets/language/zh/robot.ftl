@@ -211,7 +211,7 @@ robot-doubt-source-lost-advice = 请重新连接来源，并重新采集零件
 robot-doubt-moving = 零件在移动
 robot-doubt-moving-advice = 请等零件静止
 robot-doubt-superseded = 那里现在可能挂着另一个零件
-robot-doubt-capture-again = 请重新采集完整零件
+robot-doubt-capture-again = 请重新采集零件
 robot-doubt-not-accepted = 零件未接受
 robot-doubt-no-pose = 零件没有位姿
 robot-doubt-no-pose-advice = 请选择估计位姿的配方，并重新检测零件
@@ -239,6 +239,8 @@ robot-doubt-kind =
         [reported_wrong] { operator-reported-wrong }
         [source_lost] { robot-doubt-source-lost }
         [moving] { robot-doubt-moving }
+        [not_accepted] { robot-doubt-not-accepted }
+        [no_pose] { robot-doubt-no-pose }
         [superseded] { robot-doubt-superseded }
         [not_calibrated] { robot-doubt-not-calibrated }
         [clock_ahead] 采集的时间比现在晚

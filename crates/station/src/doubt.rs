@@ -99,6 +99,13 @@ impl Doubt {
     }
 }
 
+impl Doubt {
+    /// False if not even a person who insists may have a file for a robot: without a part there is nothing to paint.
+    pub fn may_be_forced(&self) -> bool {
+        !matches!(self, Self::NotAccepted | Self::NoPose)
+    }
+}
+
 impl Advice for ClockAhead {
     fn advice(&self) -> String {
         "Set the clocks of this computer and of the one that wrote the capture from the same time server, and capture the part again".into()
@@ -112,7 +119,7 @@ impl Advice for Doubt {
             Self::SourceLost => "Connect the source again, and capture the part again".into(),
             Self::Moving => "Wait until the part hangs still".into(),
             Self::Superseded | Self::NotAccepted | Self::Old => {
-                "Capture all of the part again".into()
+                "Capture the part again".into()
             }
             Self::NoPose => "Choose a recipe that estimates the pose, and inspect the part again".into(),
             Self::NotCalibrated => {

@@ -205,7 +205,8 @@ impl RobotFile<'_> {
         );
         let film = self.film(&points, reach.as_ref());
         let doubts = self.doubts(reach.as_ref(), film.as_ref());
-        if !self.is_forced && !doubts.is_empty() {
+        let may_be_written = self.is_forced && doubts.iter().all(Doubt::may_be_forced);
+        if !doubts.is_empty() && !may_be_written {
             return Err(RobotFileError::Doubts(doubts));
         }
         let unchecked = self.unchecked(film.as_ref());
@@ -386,7 +387,7 @@ mod tests {
     use inspection::{
         fixtures::shipped_library,
         library::Library,
-        pipeline::{Inspection, NamedRecipe, Unwatched, run},
+        pipeline::{Inspection, NamedRecipe, Unwatched, live::refuse_moving, run},
     };
     use robot::spray::{carry, default_path};
     use simulate::{PartKind, Side};
@@ -540,6 +541,16 @@ mod tests {
             for doubt in &doubts {
                 assert!(contains(&path, &doubt.to_string()), "{name}: {doubt}");
             }
+            let mut refused = bench.inspection.clone();
+            refuse_moving(&mut refused);
+            let mut file = bench.file(&path, &old);
+            file.is_forced = true;
+            if let Some(capture) = &mut file.capture {
+                capture.inspection = &refused;
+            }
+            let error = file.write().expect_err("never of a part that was refused");
+            assert!(matches!(error, RobotFileError::Doubts(_)), "{error}");
+            assert!(!path.exists());
         }
     }
 

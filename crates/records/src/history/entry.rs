@@ -398,11 +398,6 @@ impl InspectionDetail {
         })
     }
 
-    /// Returns what the line says about letting a robot act on the pose.
-    pub fn robot_marks(&self) -> RobotMarks {
-        serde_json::from_str(&self.line).unwrap_or_default()
-    }
-
     /// Returns the recipe's name and its identity.
     pub fn recipe_text(&self) -> String {
         format!("{}, {}", self.recipe_label, self.recipe_identity)
@@ -410,6 +405,17 @@ impl InspectionDetail {
 }
 
 impl Record {
+    /// Returns what is known about letting a robot act on the pose: what the line says, and whether a person has said since
+    /// that the part is another one.
+    pub fn robot_marks(&self) -> RobotMarks {
+        let mut marks: RobotMarks = serde_json::from_str(&self.detail.line).unwrap_or_default();
+        let reported = "reported_wrong";
+        if self.summary.is_wrongly_accepted() && !marks.robot_doubts.iter().any(|d| d == reported) {
+            marks.robot_doubts.insert(0, reported.into());
+        }
+        marks
+    }
+
     /// Returns the pose as 16 numbers in row-major order, metres.
     pub fn matrix(&self) -> Option<[f64; 16]> {
         self.detail.camera_from_part.as_ref().map(row_major)

@@ -74,7 +74,7 @@ impl WrittenFilm {
                 film.path.time
             )
         });
-        format!("{written}; planned: {planned}")
+        format!("{written} (planned: {planned})")
     }
 
     /// The reason against a program whose film is below the limit, or worse than planned if the path is below it.

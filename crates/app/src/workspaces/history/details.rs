@@ -140,10 +140,13 @@ fn verdict(ui: &mut Ui, record: &Record, of_part: &Record, session: &Session) {
     let summary = &summary;
     let title = RichText::new(inspection_title(summary)).font(font::title());
     ui.label(title);
-    let (sign, colour) = if summary.is_ok() {
+    let marks = record.robot_marks();
+    let (sign, colour) = if !summary.is_ok() {
+        (Mark::Bad, theme.rejected)
+    } else if marks.robot_doubts.is_empty() {
         (Mark::Good, theme.accepted)
     } else {
-        (Mark::Bad, theme.rejected)
+        (Mark::Look, theme.warning)
     };
     // An empty cell is not a bad part: its title says all.
     if summary.verdict != StoredVerdict::NoPart {
@@ -172,7 +175,6 @@ fn verdict(ui: &mut Ui, record: &Record, of_part: &Record, session: &Session) {
     } else if let Some(kind) = &summary.reason {
         ui.label(refusal_kind(kind));
     }
-    let marks = record.detail.robot_marks();
     if let Some(doubts) = past_doubts(&marks) {
         ui.colored_label(theme.warning, doubts);
     }

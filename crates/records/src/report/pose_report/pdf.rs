@@ -182,8 +182,14 @@ fn verdict(
 ) -> f32 {
     const INDENT: f32 = 16.0;
     let verdict = &report.verdict;
-    let is_good = verdict.accepted && verdict.reported_as.is_none();
-    let ink = if is_good { GREEN } else { RED };
+    let is_right = verdict.accepted && verdict.reported_as.is_none();
+    let robot = &report.robot;
+    // As in the window: green only if a robot may move on it.
+    let ink = match is_right {
+        true if robot.doubts.is_empty() && robot.unavailable.is_none() => GREEN,
+        true => AMBER,
+        false => RED,
+    };
     let title = headline(report, pictures);
     let wide = WIDTH - INDENT - 120.0;
     // As large as fits; only the smallest size is truncated.
@@ -198,12 +204,14 @@ fn verdict(
     sheet.text(&title, [MARGIN + INDENT, y], title_style, Anchor::Left);
     y += 21.0;
     let words = match (verdict.accepted, &report.refused_pose) {
-        (true, _) if !is_good => "REPORTED AS WRONG: do not move on this pose",
+        (true, _) if !is_right => "REPORTED AS WRONG: do not move on this pose",
+        (true, _) if !robot.doubts.is_empty() => "RECOGNISED: do not move on this pose",
+        (true, _) if robot.unavailable.is_some() => "Recognised: there is no pose for a robot",
         (true, _) => "Accepted",
         (false, Some(_)) => "NOT ACCEPTED: do not move on this pose",
         (false, None) => "NOT ACCEPTED: there is no pose",
     };
-    mark(sheet, [MARGIN + INDENT + 5.0, y - 5.0], is_good, ink);
+    mark(sheet, [MARGIN + INDENT + 5.0, y - 5.0], ink);
     sheet.text(
         words,
         [MARGIN + INDENT + 18.0, y],
@@ -275,13 +283,18 @@ fn verdict(
 }
 
 /// Draws a tick or a cross, so that the verdict is readable without colour.
-fn mark(sheet: &mut Sheet<'_>, [x, y]: [f32; 2], is_good: bool, ink: Ink) {
+fn mark(sheet: &mut Sheet<'_>, [x, y]: [f32; 2], ink: Ink) {
     let at = |dx: f32, dy: f32| [x + dx, y + dy];
-    if is_good {
-        sheet.line(&[at(-5.0, 0.0), at(-1.5, 4.0), at(6.0, -5.0)], 2.2, ink);
-    } else {
-        sheet.line(&[at(-4.5, -4.5), at(4.5, 4.5)], 2.2, ink);
-        sheet.line(&[at(4.5, -4.5), at(-4.5, 4.5)], 2.2, ink);
+    match ink {
+        GREEN => sheet.line(&[at(-5.0, 0.0), at(-1.5, 4.0), at(6.0, -5.0)], 2.2, ink),
+        AMBER => {
+            sheet.line(&[at(0.0, -5.5), at(0.0, 1.5)], 2.2, ink);
+            sheet.line(&[at(0.0, 3.8), at(0.0, 5.5)], 2.2, ink);
+        }
+        _ => {
+            sheet.line(&[at(-4.5, -4.5), at(4.5, 4.5)], 2.2, ink);
+            sheet.line(&[at(4.5, -4.5), at(-4.5, 4.5)], 2.2, ink);
+        }
     }
 }
 

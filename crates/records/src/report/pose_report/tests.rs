@@ -94,7 +94,7 @@ pub(super) fn old() -> DoubtBlock {
     DoubtBlock {
         kind: "old",
         what: "the capture is more than 10 minutes old".into(),
-        advice: "Capture all of the part again".into(),
+        advice: "Capture the part again".into(),
     }
 }
 

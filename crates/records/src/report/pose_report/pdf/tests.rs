@@ -58,7 +58,10 @@ fn the_page_says_why_a_robot_must_not_move_by_the_pose() {
         let doubts = [old()];
         let frames = [Some(&frame), for_robot];
         let report = door().doubted(inspection, frames, &doubts, Convention::Kuka);
-        let said = said(&report, &PdfPictures::default()).replace('\n', " ");
+        let said = said(&report, &PdfPictures::default());
+        assert!(said.contains("RECOGNISED: do not move"), "{said}");
+        assert!(!said.lines().any(|line| line == "Accepted"), "{said}");
+        let said = said.replace('\n', " ");
         assert!(said.contains(&format!("{says}{why}")), "{said}");
         let gives = said.contains("robot_from_part: the pose");
         assert_eq!(gives, for_robot.is_some(), "{said}");
