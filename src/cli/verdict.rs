@@ -71,6 +71,20 @@ fn bounds_in_words(bounds: &Uncertainty) -> String {
     }
 }
 
+fn what_it_is(verdict: &Verdict, part: &str, rejected: Option<&Rejection>) -> String {
+    match rejected {
+        Some(Rejection::Mirrored { part, .. } | Rejection::MirroredImage { part, .. }) => {
+            format!("mirror image of {part}")
+        }
+        Some(Rejection::OtherHalf { part, .. }) => {
+            format!("mirror image of the enrolled piece of {part}")
+        }
+        Some(Rejection::Unknown { .. }) if verdict.is_named() => format!("unknown, nearest {part}"),
+        Some(Rejection::Unknown { .. }) => "unknown".to_owned(),
+        _ => part.to_owned(),
+    }
+}
+
 /// Shows everything about one inspection, one line per item.
 pub(super) fn show_card(
     scene: &str,
@@ -90,19 +104,7 @@ pub(super) fn show_card(
             ..
         } => {
             let verdict = rejected.as_ref().map_or("accepted", |_| "NOT ACCEPTED");
-            let part = match rejected {
-                Some(Rejection::Mirrored { part, .. } | Rejection::MirroredImage { part, .. }) => {
-                    format!("mirror image of {part}")
-                }
-                Some(Rejection::OtherHalf { part, .. }) => {
-                    format!("mirror image of the enrolled piece of {part}")
-                }
-                Some(Rejection::Unknown { .. }) if inspection.verdict.is_named() => {
-                    format!("unknown, nearest {part}")
-                }
-                Some(Rejection::Unknown { .. }) => "unknown".to_owned(),
-                _ => part.clone(),
-            };
+            let part = what_it_is(&inspection.verdict, part, rejected.as_ref());
             line("part", format!("{part}: {verdict}"));
             let next = inspection.ranking.runner_up().map(|next| &next.part);
             let next = next.filter(|_| !inspection.verdict.is_unknown());

@@ -118,7 +118,7 @@ fn one_bad_file_does_not_stop_the_reports_of_the_others() {
     if let Some(text) = page_text(&place.path("out/fender.pose.pdf")) {
         for words in [
             "Fender, left",
-            "Accepted",
+            "Recognised: there is no pose for a robot",
             "FANUC W P R",
             "camera_from_part",
             "SIMULATED",

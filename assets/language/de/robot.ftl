@@ -244,7 +244,7 @@ robot-doubt-not-reached = { $arm } erreicht { $missed } von { $all } Punkten nic
 robot-doubt-not-reached-advice = Das Teil oder den Fuß des Arms versetzen oder die Bahn ändern
 robot-doubt-film-off-plan = Das Programm brächte { $written } % der Fläche in { $tolerance } % um den Sollwert, im Mittel { $written_um } µm; geplant sind { $planned } % und { $planned_um } µm. Mit offener Pistole hielte es { $stops }-mal an
 robot-doubt-film-off-plan-advice = Die Bahn ohne Züge entlang von Flanken planen (Neigung zu Flanken 0) oder das Programm für eine Steuerung schreiben, die die Pistole während der Bewegung schaltet
-# Why a past result has no pose for a robot; $kind is a word of the JSON line's robot_doubts
+# Why a past result has no pose for a robot; the kind is a word of the JSON line's robot_doubts
 robot-doubt-kind =
     { $kind ->
         [reported_wrong] { operator-reported-wrong }

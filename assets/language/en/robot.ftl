@@ -244,7 +244,7 @@ robot-doubt-not-reached = { $arm } misses { $missed } of { $all } points
 robot-doubt-not-reached-advice = Move the part or the arm's base, or change the path
 robot-doubt-film-off-plan = The program would bring { $written } % of the surface within { $tolerance } % of the target with { $written_um } µm on average, where { $planned } % and { $planned_um } µm were planned; with the gun open it would stop { $stops } times
 robot-doubt-film-off-plan-advice = Plan the path without added strokes along flanks (Lean to flanks 0), or write it for a controller that switches the gun while the robot moves
-# Why a past result has no pose for a robot; $kind is a word of the JSON line's robot_doubts
+# Why a past result has no pose for a robot; the kind is a word of the JSON line's robot_doubts
 robot-doubt-kind =
     { $kind ->
         [reported_wrong] { operator-reported-wrong }

@@ -244,7 +244,7 @@ robot-doubt-not-reached = { $arm } no alcanza { $missed } de { $all } puntos
 robot-doubt-not-reached-advice = Mueva la pieza o la base del brazo, o cambie la trayectoria
 robot-doubt-film-off-plan = El programa dejaría el { $written } % de la superficie a menos del { $tolerance } % del objetivo, con { $written_um } µm de media; estaban previstos { $planned } % y { $planned_um } µm. Con la pistola abierta se detendría { $stops } veces
 robot-doubt-film-off-plan-advice = Planifique la trayectoria sin pasadas por los flancos (Inclinación a flancos 0), o escríbala para un controlador que conmute la pistola en movimiento
-# Why a past result has no pose for a robot; $kind is a word of the JSON line's robot_doubts
+# Why a past result has no pose for a robot; the kind is a word of the JSON line's robot_doubts
 robot-doubt-kind =
     { $kind ->
         [reported_wrong] { operator-reported-wrong }

@@ -233,7 +233,7 @@ robot-doubt-not-reached = { $arm } 有 { $missed } 个点不可达，共 { $all 
 robot-doubt-not-reached-advice = 请移动零件或机械臂底座，或修改轨迹
 robot-doubt-film-off-plan = 该程序只会使 { $written } % 的表面处于目标的 { $tolerance } % 以内，平均 { $written_um } µm，而计划为 { $planned } % 和 { $planned_um } µm；喷枪打开时会停顿 { $stops } 次
 robot-doubt-film-off-plan-advice = 请规划不含侧面行程的轨迹（侧面倾角设为 0），或为能在运动中开关喷枪的控制器写出程序
-# Why a past result has no pose for a robot; $kind is a word of the JSON line's robot_doubts
+# Why a past result has no pose for a robot; the kind is a word of the JSON line's robot_doubts
 robot-doubt-kind =
     { $kind ->
         [reported_wrong] { operator-reported-wrong }

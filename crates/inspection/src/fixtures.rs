@@ -66,7 +66,6 @@ pub fn add_reference(library: &Path, part: &str, name: &str) {
 pub fn rejections() -> Vec<Rejection> {
     let part = "Fender, left".to_owned();
     let (score, threshold, margin) = (0.456, 0.9, 0.125);
-    let [num_agreeing, num_frames, needed] = [2, 5, 4];
     let piece = |hidden, outside| Rejection::Piece {
         part: "Fender, left".into(),
         score,
@@ -149,31 +148,39 @@ pub fn rejections() -> Vec<Rejection> {
             part: part.clone(),
             num: 4096,
         },
-        Rejection::NotSteady { part: part.clone() },
-        Rejection::FewFrames {
-            part: part.clone(),
-            num_frames,
-            needed,
-        },
-        Rejection::Undecided {
-            part: part.clone(),
-            num_agreeing,
-            num_frames,
-            needed,
-        },
-        Rejection::PosesApart {
-            part: part.clone(),
-            num_agreeing,
-            num_frames,
-            needed,
-        },
     ];
     all.extend(FREEDOMS.map(|freedom| Rejection::Unconstrained {
         part: part.clone(),
         freedom,
     }));
+    all.extend(rejections_of_frames(&part));
     all.extend(pose_errors().into_iter().map(Rejection::NoPose));
     all
+}
+
+/// Those that several frames give.
+fn rejections_of_frames(part: &str) -> [Rejection; 4] {
+    let [num_agreeing, num_frames, needed] = [2, 5, 4];
+    [
+        Rejection::NotSteady { part: part.into() },
+        Rejection::FewFrames {
+            part: part.into(),
+            num_frames,
+            needed,
+        },
+        Rejection::Undecided {
+            part: part.into(),
+            num_agreeing,
+            num_frames,
+            needed,
+        },
+        Rejection::PosesApart {
+            part: part.into(),
+            num_agreeing,
+            num_frames,
+            needed,
+        },
+    ]
 }
 
 /// Every unrecognisable scene except a fault of the program; those with several texts more than once.

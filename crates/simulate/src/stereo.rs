@@ -108,7 +108,9 @@ fn smooth_field([width, height]: [usize; 2], radius: usize, seed: u64, number: u
         }
     }
     let mean_sq = field.iter().map(|x| x * x).sum::<f32>() / field.len() as f32;
-    field.iter_mut().for_each(|x| *x /= mean_sq.sqrt());
+    for value in &mut field {
+        *value /= mean_sq.sqrt();
+    }
     field
 }
 

@@ -63,7 +63,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
         let cases = Condition::ALL.map(|condition| {
             let views = condition.views();
             bounds_cases(library, condition, views, num_poses, first_seed, || {
-                console.done()
+                console.done();
             })
         });
         done.push((library, cases.concat()));

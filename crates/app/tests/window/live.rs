@@ -73,7 +73,7 @@ impl Cable {
 
     fn plug_in(&mut self) -> Result<(), CaptureError> {
         if self.is_unplugged {
-            self.next = Some(self.steps.try_recv().map_err(|_| Self::gone())?);
+            self.next = Some(self.steps.try_recv().or(Err(Self::gone()))?);
             self.is_unplugged = false;
         }
         Ok(())
