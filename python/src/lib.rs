@@ -4,6 +4,12 @@
 //! longer than a copy runs without the interpreter's lock; see [`interrupt`] for how Ctrl-C stops it. Types are in
 //! `package/partsight/_partsight.pyi`; the doc comments here are the texts of `help()`.
 
+#![warn(missing_docs)]
+#![expect(
+    clippy::needless_pass_by_value,
+    reason = "Python hands every argument over as a value of its own"
+)]
+
 mod alignment;
 mod arrays;
 mod error;
