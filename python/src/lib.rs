@@ -1,7 +1,7 @@
 //! The Python package `partsight`: numpy arrays and files in, typed results out.
 //!
 //! Every class is immutable or locks its mutable state, so that objects may be shared between threads. Whatever takes
-//! longer than a copy runs without the interpreter's lock; see [`interrupt`] for how Ctrl-C stops it. Types are in
+//! longer than a copy runs without the interpreter's lock; see `interrupt.rs` for how Ctrl-C stops it. Types are in
 //! `package/partsight/_partsight.pyi`; the doc comments here are the texts of `help()`.
 
 #![warn(missing_docs)]
