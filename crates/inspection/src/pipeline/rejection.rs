@@ -91,7 +91,7 @@ pub enum Rejection {
         /// How the part can move and still fit.
         freedom: FreeMotion,
     },
-    /// It fits badly and has another size than its reference: the camera's numbers are probably wrong.
+    /// It fits badly and has another size than its reference: the camera's numbers are wrong, or it is another make.
     OffScale {
         /// Best match.
         part: String,

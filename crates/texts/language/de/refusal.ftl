@@ -90,9 +90,9 @@ refusal-mirrored-image = passt zu { $part } nur als Spiegelbild (Score { FIXED($
 refusal-off-scale = was die Kamera von { $part } sieht, ist { PERCENT($by, 0) } % { $is_larger ->
         [true] größer
        *[false] kleiner
-    } als die Referenz: Die Zahlen der Kamera sind vermutlich falsch
+    } als die Referenz: Die Zahlen der Kamera sind falsch, oder es ist ein anderes Fabrikat
     .advice = Zuerst Einheit der Tiefenwerte und Brennweiten (fx, fy) der Kamera prüfen; nur dann als weitere Referenz von { $part } einlernen, wenn es wirklich eine andere Größe hat
-    .kind = Andere Größe als die Referenz: Zahlen der Kamera vermutlich falsch
+    .kind = Andere Größe als die Referenz: falsche Zahlen der Kamera oder anderes Fabrikat
     .short = Die Kamera zeigt { $nearest } in anderer Größe
     .next = Roboter nicht starten: Den Einrichter bitten, die Kamera zu prüfen
     .compared = andere Größe als die Referenz

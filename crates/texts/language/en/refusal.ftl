@@ -91,9 +91,9 @@ refusal-mirrored-image = it fits { $part } only as its mirror image (which score
 refusal-off-scale = what the camera sees of { $part } is { PERCENT($by, 0) } % { $is_larger ->
         [true] larger
        *[false] smaller
-    } than the reference: the camera's numbers are probably wrong
+    } than the reference: the camera's numbers are wrong, or it is another make
     .advice = Check the unit of the camera's depths and its focal lengths (fx, fy) first; enrol it as one more reference of { $part } only if it really has another size
-    .kind = Another size than the reference: the camera's numbers are probably wrong
+    .kind = Another size than the reference: wrong numbers of the camera, or another make
     .short = The camera shows { $nearest } in another size
     .next = Do not start the robot: ask the engineer to check the camera
     .compared = another size than the reference

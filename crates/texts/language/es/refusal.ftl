@@ -90,9 +90,9 @@ refusal-mirrored-image = solo encaja con { $part } como imagen reflejada (que ob
 refusal-off-scale = lo que la cámara ve de { $part } es un { PERCENT($by, 0) } % más { $is_larger ->
         [true] grande
        *[false] pequeño
-    } que la referencia: es probable que los números de la cámara sean erróneos
+    } que la referencia: los números de la cámara son erróneos, o es de otra marca
     .advice = Comprobar primero la unidad de las profundidades de la cámara y sus distancias focales (fx, fy); registrarla como otra referencia de { $part } solo si de verdad tiene otro tamaño
-    .kind = Otro tamaño que la referencia: números de la cámara probablemente erróneos
+    .kind = Otro tamaño que la referencia: números de la cámara erróneos u otra marca
     .short = La cámara muestra { $nearest } con otro tamaño
     .next = No arrancar el robot: pedir al técnico que compruebe la cámara
     .compared = otro tamaño que la referencia

@@ -90,9 +90,9 @@ refusal-mirrored-image = 仅以镜像形式与“{ $part }”匹配（得分 { F
 refusal-off-scale = 相机看到的“{ $part }”比参考{ $is_larger ->
         [true] 大
        *[false] 小
-    } { PERCENT($by, 0) } %：相机参数可能有误
+    } { PERCENT($by, 0) } %：相机参数有误，或是其他品牌
     .advice = 请先检查相机深度的单位及其焦距（fx、fy）；只有尺寸确实不同时，才将其注册为“{ $part }”的另一参考
-    .kind = 尺寸与参考不同：相机参数可能有误
+    .kind = 尺寸与参考不同：相机参数有误或其他品牌
     .short = 相机显示的“{ $nearest }”尺寸不同
     .next = 请勿启动机器人：请工程师检查相机
     .compared = 尺寸与参考不同
