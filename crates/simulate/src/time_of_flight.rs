@@ -22,7 +22,7 @@ pub fn time_of_flight_frame(perfect: &DepthFrame, seed: u64) -> DepthFrame {
     let mut random = Pcg64::seed_from_u64(seed);
     let measured = (0..width * height).map(|pixel| {
         let z = f64::from(perfect.depth[pixel]);
-        // Nearly normal, of variance 1.
+        // Approximately normal, with unit variance.
         let error = (0..4).map(|_| random.random_range(-1.0..1.0)).sum::<f64>() * 0.75_f64.sqrt();
         let share_of_other = random.random_range(0.0..0.5);
         let (u, v) = (pixel % width, pixel / width);

@@ -222,7 +222,7 @@ pub fn confirm(
     if let Some((first, candidate)) = tried.first_mut().and_then(Tried::finished) {
         let reference = &references[first];
         candidate.scale = seen.scale(reference, candidate);
-        // What cannot be accepted need not be told from its other poses.
+        // Rival poses matter only for a candidate that may be accepted.
         if candidate.evidence.score() > SURE {
             let turned = seen.score_turned(reference, &candidate.refined.target_from_source);
             candidate.rival = candidate.rival.max(turned);

@@ -4,7 +4,7 @@ use std::time::{Duration, SystemTime};
 
 use super::Inspected;
 use geometry::error::Advice;
-use records::report::pose_report::DoubtBlock;
+use records::{history::RobotMarks, report::pose_report::DoubtBlock};
 use robot::{arm::NotReached, paint::FilmOffPlan, spray::OffThePart};
 use stages::{
     pose::{OffScale, PoseEstimate},
@@ -79,7 +79,7 @@ impl Doubt {
     /// A word that stays the same in later versions.
     pub fn kind(&self) -> &'static str {
         match self {
-            Self::ReportedWrong => "reported_wrong",
+            Self::ReportedWrong => RobotMarks::REPORTED_WRONG,
             Self::SourceLost => "source_lost",
             Self::Moving => "moving",
             Self::Superseded => "superseded",

@@ -216,6 +216,11 @@ pub struct RobotMarks {
     pub motion_checked: Option<bool>,
 }
 
+impl RobotMarks {
+    /// The word for a part that a person has reported as wrong.
+    pub const REPORTED_WRONG: &str = "reported_wrong";
+}
+
 /// An inspection in full.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Record {
@@ -409,9 +414,10 @@ impl Record {
     /// that the part is another one.
     pub fn robot_marks(&self) -> RobotMarks {
         let mut marks: RobotMarks = serde_json::from_str(&self.detail.line).unwrap_or_default();
-        let reported = "reported_wrong";
-        if self.summary.is_wrongly_accepted() && !marks.robot_doubts.iter().any(|d| d == reported) {
-            marks.robot_doubts.insert(0, reported.into());
+        let doubts = &mut marks.robot_doubts;
+        let is_noted = doubts.iter().any(|kind| kind == RobotMarks::REPORTED_WRONG);
+        if self.summary.is_wrongly_accepted() && !is_noted {
+            doubts.insert(0, RobotMarks::REPORTED_WRONG.into());
         }
         marks
     }

@@ -395,20 +395,21 @@ fn a_clock_that_is_wrong_removes_no_frames_and_the_age_goes_on_when_it_is_right(
 
 #[test]
 fn only_an_accepted_part_with_the_label_of_another_is_wrongly_accepted() {
-    let mut row = history_entry(1, StoredVerdict::Accepted, "fender")
-        .record
-        .summary;
-    assert!(!row.is_wrongly_accepted());
+    let mut record = history_entry(1, StoredVerdict::Accepted, "fender").record;
+    assert!(!record.summary.is_wrongly_accepted());
     for (label, is_wrong) in [
         (Truth::Part("fender".into()), false),
         (Truth::Part("grille".into()), true),
         (Truth::NotEnrolled, true),
     ] {
-        row.label = Some(label);
-        assert_eq!(row.is_wrongly_accepted(), is_wrong);
+        record.summary.label = Some(label);
+        assert_eq!(record.summary.is_wrongly_accepted(), is_wrong);
+        // Whatever its line said when it was inspected.
+        let doubts = record.robot_marks().robot_doubts;
+        assert_eq!(doubts.contains(&"reported_wrong".to_owned()), is_wrong);
     }
-    row.verdict = StoredVerdict::Rejected;
-    assert!(!row.is_wrongly_accepted());
+    record.summary.verdict = StoredVerdict::Rejected;
+    assert!(!record.summary.is_wrongly_accepted());
 }
 
 #[test]

@@ -3,9 +3,9 @@
 //! A part behind a plank, or half out of the picture, has an outline that is partly the plank's or the picture's. Such
 //! points say nothing about the part. Each outline point is followed outwards in the picture: to the picture's edge,
 //! to something nearer (it hides the part), or to something farther (the part ends there). Pixels without a reading
-//! are passed over, because a structured-light sensor has none in the shadow of what is nearer. Where more of them are
-//! missing than a surface may span, and what comes then is as far away, nobody saw the part end: a strip of gloss or tape
-//! has cut it in two.
+//! are passed over, because a structured-light sensor has none in the shadow of what is nearer. If the gap is wider than a
+//! surface may span and the next reading is about as far away, the end of the part was not seen: a glossy strip or tape may
+//! cut it in two.
 
 use nalgebra::{Point2, Point3, Vector2, Vector3};
 
@@ -154,9 +154,9 @@ impl<'a> PartMask<'a> {
             } else if !self.is_part[i] {
                 let beyond = f64::from(points[i].z) - at.z;
                 let reach = STEP_NEARER + noise;
-                // Nor did anybody see the part end where a stand was taken off it.
+                // The end is not seen either where a stand was removed from the part.
                 let may_go_on = self.is_stand[i] || num_without_reading > BRIDGED_PIXELS;
-                return beyond < -reach || (may_go_on && beyond < reach);
+                return beyond < if may_go_on { reach } else { -reach };
             }
         }
         false
