@@ -39,6 +39,7 @@ pub mod fixtures;
 mod folders;
 mod gltf;
 pub mod import;
+mod lock;
 mod names;
 mod obj;
 mod open;
@@ -63,14 +64,13 @@ pub use self::depth_png::write_depth_png;
 pub use self::error::{Expected, FileError, NoFile};
 pub use self::folders::user_settings;
 pub use self::folders::{file_name, folder_of, new_folder, sync_folder, user_data, write_file};
+pub use self::lock::FileLock;
 pub use self::names::{nearest_name, stays_inside};
 pub use self::open::ONLY_MILLIMETRES;
 pub use self::open::{FileContent, FileWarning, file_of, open, open_bytes, written_at};
 pub use self::pcd::write_pcd;
 pub use self::ply::{PointProperty, write_ply, write_ply_with};
-pub use self::source::{
-    lock_exclusively, open_lock, open_regular, read_bytes, read_limited, refuse_special, shortened,
-};
+pub use self::source::{open_regular, read_bytes, read_limited, refuse_special, shortened};
 pub use self::text::{parse_versioned, read_text, toml_problem, visible};
 pub use self::write::{replace_file, write_text};
 pub use self::write::{save_cloud, write_atomically};

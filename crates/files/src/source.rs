@@ -7,7 +7,6 @@ use std::path::Path;
 use std::thread;
 use std::time::Duration;
 
-use super::disk;
 use super::error::{Expected, FileError, NoFile};
 use super::{MAX_FILE_BYTES, MAX_POINTS, MAX_UNPACKED_BYTES};
 
@@ -31,23 +30,6 @@ pub fn open_regular(path: &Path) -> io::Result<File> {
 /// Refuses anything but a regular file, before another reader or writer opens it. Nothing at all is fine.
 pub fn refuse_special(path: &Path) -> io::Result<()> {
     fs::metadata(path).map_or(Ok(()), |found| refuse_all_but_files(&found))
-}
-
-/// Opens the lock file of the writers, and creates it if it is missing; refuses anything but a regular file.
-pub fn open_lock(path: &Path) -> io::Result<File> {
-    refuse_special(path)?;
-    disk::open(File::options().create(true).append(true), path)
-}
-
-/// Opens the lock file and waits until no other writer holds it. Dropping the file releases the lock.
-pub fn lock_exclusively(path: &Path) -> io::Result<File> {
-    let lock = open_lock(path)?;
-    match lock.lock() {
-        // Some network file systems have no locks; a shop with one writer needs none.
-        Err(error) if error.kind() == io::ErrorKind::Unsupported => {}
-        taken => taken?,
-    }
-    Ok(lock)
 }
 
 fn refuse_all_but_files(found: &Metadata) -> io::Result<()> {
@@ -250,6 +232,7 @@ mod tests {
     use std::sync::atomic::{AtomicBool, Ordering};
 
     use super::*;
+    use crate::FileLock;
 
     #[test]
     fn a_file_that_is_written_while_it_is_read_is_never_a_mixture() {
@@ -326,7 +309,9 @@ mod tests {
             is_refused(super::super::read_picture(&path).unwrap_err());
             is_refused(super::super::open(&path).unwrap_err());
             is_refused(super::super::DepthCamera::read(&path).unwrap_err());
-            for opened in [open_regular(&path), open_lock(&path)] {
+            let opened = open_regular(&path).map(drop);
+            let locked = FileLock::exclusive(&path).map(drop);
+            for opened in [opened, locked] {
                 let error = opened.unwrap_err();
                 assert_eq!(error.to_string(), "not a regular file");
             }

@@ -22,7 +22,7 @@ use std::{
 };
 
 use super::{entry::NEW_PREFIX, error::LibraryError, name::PartName, store::LibraryFolder, trash};
-use files::{disk, lock_exclusively, sync_folder};
+use files::{FileLock, disk, sync_folder};
 
 const OLD_PREFIX: &str = ".old-";
 const LOCK: &str = ".lock";
@@ -81,7 +81,7 @@ impl LibraryFolder {
         change: impl FnOnce() -> io::Result<T>,
     ) -> Result<T, LibraryError> {
         let locked = || -> io::Result<T> {
-            let _lock = lock_exclusively(&self.path().join(LOCK))?;
+            let _lock = FileLock::exclusive(&self.path().join(LOCK))?;
             change()
         };
         locked().map_err(|source| LibraryError::Unwritable {

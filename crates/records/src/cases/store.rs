@@ -14,8 +14,8 @@ use super::{
 };
 use crate::history::{FrameRecord, read_frame_by, write_frame};
 use files::{
-    FileError, disk, in_counting_order, lock_exclusively, new_folder, open_regular,
-    parse_versioned, read_bytes, replace_file, sync_folder, user_data, words_of, write_file,
+    FileError, FileLock, disk, in_counting_order, new_folder, open_regular, parse_versioned,
+    read_bytes, replace_file, sync_folder, user_data, words_of, write_file,
 };
 use stages::scene::SceneCloud;
 
@@ -299,7 +299,7 @@ impl CaseFolder {
 
     /// Runs a change under the writers' lock.
     fn writing<T>(&self, change: impl FnOnce() -> io::Result<T>) -> io::Result<T> {
-        let _lock = lock_exclusively(&self.path.join(LOCK))?;
+        let _lock = FileLock::exclusive(&self.path.join(LOCK))?;
         change()
     }
 }

@@ -12,7 +12,7 @@
 
 use std::{
     collections::BTreeSet,
-    fs::{self, File, TryLockError},
+    fs,
     io::{self, Read as _},
     path::{Path, PathBuf},
     time::Duration,
@@ -20,7 +20,7 @@ use std::{
 
 use rusqlite::{Connection, OpenFlags, config::DbConfig};
 
-use files::{disk, open_lock, open_regular, refuse_special, user_data};
+use files::{FileLock, disk, open_regular, refuse_special, user_data};
 
 use super::{
     error::HistoryError,
@@ -83,12 +83,13 @@ impl History {
         refuse_pipes(&path)?;
         refuse_foreign(&path)?;
         let mut set_aside = set_aside_frames(&path)?;
-        if let Some(_alone) = Lock::alone(folder)? {
+        if let Some(_alone) = lock_alone(folder)? {
             set_aside = set_aside_damaged(&path)?.or(set_aside);
             let history = Self::new(connect(&path)?, folder);
             history.tidy()?;
         }
-        let lock = Lock::shared(folder)?;
+        let lock = FileLock::shared(&folder.join(LOCK));
+        let lock = lock.map_err(|error| HistoryError::io(folder, error))?;
         let mut history = Self::new(connect(&path)?, folder);
         history.hold(lock);
         Ok(OpenedHistory {
@@ -203,39 +204,12 @@ fn address(path: &Path, how: &str) -> String {
     format!("file:{escaped}?{how}")
 }
 
-/// A lock, held while a history is open.
-#[derive(Debug)]
-pub(super) struct Lock {
-    _file: Option<File>,
-}
-
-impl Lock {
-    /// Takes the exclusive lock, if nobody has the history open.
-    fn alone(folder: &Path) -> Result<Option<Self>, HistoryError> {
-        let file = Self::file(folder)?;
-        match file.try_lock() {
-            Ok(()) => Ok(Some(Self { _file: Some(file) })),
-            Err(TryLockError::WouldBlock) => Ok(None),
-            // Some network file systems have no locks, so others may have it open.
-            Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {
-                Ok(None)
-            }
-            Err(TryLockError::Error(error)) => Err(HistoryError::io(folder, error)),
-        }
-    }
-
-    fn shared(folder: &Path) -> Result<Self, HistoryError> {
-        let file = Self::file(folder)?;
-        match file.lock_shared() {
-            Ok(()) => Ok(Self { _file: Some(file) }),
-            Err(error) if error.kind() == io::ErrorKind::Unsupported => Ok(Self { _file: None }),
-            Err(error) => Err(HistoryError::io(folder, error)),
-        }
-    }
-
-    fn file(folder: &Path) -> Result<File, HistoryError> {
-        let made = open_lock(&folder.join(LOCK));
-        made.map_err(|error| HistoryError::io(folder, error))
+/// Takes the exclusive lock, if nobody has the history open.
+fn lock_alone(folder: &Path) -> Result<Option<FileLock>, HistoryError> {
+    match FileLock::try_exclusive(&folder.join(LOCK)) {
+        // Some network file systems have no locks, so others may have it open.
+        Err(error) if error.kind() == io::ErrorKind::Unsupported => Ok(None),
+        taken => taken.map_err(|error| HistoryError::io(folder, error)),
     }
 }
 

@@ -13,12 +13,13 @@ use super::{
     filter::Filter,
     frames::{self, FrameRecord},
     hung::HungId,
-    open::{FILE, FRAMES, Lock, file_identity, with_ending},
+    open::{FILE, FRAMES, file_identity, with_ending},
     retention::{KeepFrames, Retention},
     rows::{COLUMNS, DETAIL_COLUMNS, head_of, insert, json, record_of, summary_of, trace_part},
     shots,
     traceability::TraceChange,
 };
+use files::FileLock;
 use inspection::library::Truth;
 use stages::{scan::Shot, scene::SceneCloud};
 
@@ -28,7 +29,7 @@ pub struct History {
     pub(super) file: Connection,
     pub(super) path: PathBuf,
     pub(super) frames: PathBuf,
-    lock: Option<Lock>,
+    lock: Option<FileLock>,
     /// Identity of the file at opening; `None` if unknown.
     pub(super) identity: Option<[u64; 2]>,
     /// Identity of its log at opening.
@@ -59,7 +60,7 @@ impl History {
         }
     }
 
-    pub(super) fn hold(&mut self, lock: Lock) {
+    pub(super) fn hold(&mut self, lock: FileLock) {
         self.lock = Some(lock);
     }
 

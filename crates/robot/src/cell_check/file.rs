@@ -10,8 +10,8 @@ use serde::{Deserialize, Serialize};
 
 use super::{CellBaseline, CellCheck, CellLimits, CellView, view::PlanePatch};
 use files::{
-    FileContent, FileError, crc32, disk, lock_exclusively, open, parse_versioned, read_text,
-    toml_problem, user_data, write_atomically, write_pcd, write_text,
+    FileContent, FileError, FileLock, crc32, disk, open, parse_versioned, read_text, toml_problem,
+    user_data, write_atomically, write_pcd, write_text,
 };
 use geometry::{
     cloud::is_finite,
@@ -286,7 +286,7 @@ impl CellCheckFolder {
     ) -> Result<T, CellCheckError> {
         let failed = |source| FileError::writing(&self.path, source);
         disk::create_dir_all(&self.path).map_err(failed)?;
-        let _lock = lock_exclusively(&self.path.join(LOCK)).map_err(failed)?;
+        let _lock = FileLock::exclusive(&self.path.join(LOCK)).map_err(failed)?;
         change()
     }
 }

@@ -1,6 +1,9 @@
 //! Opening files that are damaged, foreign or of another version.
 
-use std::io::{Seek as _, SeekFrom, Write as _};
+use std::{
+    fs::File,
+    io::{Seek as _, SeekFrom, Write as _},
+};
 
 use super::*;
 use crate::{
