@@ -295,9 +295,8 @@ fn record_table(from: ReadFrom<'_>, record: &Record) -> Table {
         }
     }
     let marks = record.robot_marks();
-    if !marks.robot_doubts.is_empty() {
-        let doubts = marks.robot_doubts.join(", ");
-        row("robot", format!("may not act on this pose: {doubts}"));
+    if let Some(doubts) = marks.past_doubts(Language::English) {
+        row("robot", doubts);
     }
     if marks.motion_checked == Some(false) {
         row(

@@ -20,7 +20,7 @@ use inspection::{
     pipeline::{Inspection, NamedRecipe, Recipe, RecipeLabel, Refusal, RefusalKind, Verdict},
 };
 use stages::{pose::PoseEstimate, scan::Shot, scene::SceneCloud};
-use texts::{Described as _, Message};
+use texts::{Described as _, Language, Message};
 
 /// Verdict of an inspection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -219,6 +219,20 @@ pub struct RobotMarks {
 impl RobotMarks {
     /// The word for a part that a person has reported as wrong.
     pub const REPORTED_WRONG: &str = "reported_wrong";
+
+    /// Says why a robot must not act on the pose; `None` if nothing is against it.
+    pub fn past_doubts(&self, language: Language) -> Option<String> {
+        let kinds = self.robot_doubts.iter();
+        let whys = kinds.map(|kind| {
+            let message = Message::new(format!("doubt-{}", kind.replace('_', "-")));
+            // Files of later versions may have further words.
+            let past = message.attribute(language, "past");
+            past.unwrap_or_else(|| kind.clone())
+        });
+        let whys: Vec<String> = whys.collect();
+        let message = Message::new("doubt-past").with("why", &*whys.join("; "));
+        (!whys.is_empty()).then(|| message.text(language))
+    }
 }
 
 /// An inspection in full.

@@ -7,7 +7,7 @@ use crate::{
     paint::{Coat, PaintSurface, Pattern, plan},
     parse_written_pose,
 };
-use geometry::{fixtures::moved, rigid::from_euler_zyx};
+use geometry::{error::Advice as _, fixtures::moved, rigid::from_euler_zyx};
 use inspection::fixtures::shipped_library;
 use stages::{fixtures::plate, reference::Coverage};
 

@@ -11,17 +11,14 @@ use super::{
 use records::history::{Differences, InspectionDetail, Record, StoredVerdict, Summary};
 use shell::{
     inspection::unit_system::UnitSystem,
-    language::{
-        results::{
-            accepted_or_not, inspection_title, recipe_label, refusal_kind, scene_title,
-            source_title, stored_verdict,
-        },
-        robot::past_doubts,
+    language::results::{
+        accepted_or_not, inspection_title, recipe_label, refusal_kind, scene_title, source_title,
+        stored_verdict,
     },
     session::Session,
 };
 use ui::{
-    language::{advised, described, keys, text},
+    language::{Language, advised, described, keys, text},
     theme::{Theme, font, space},
     widgets::{
         Mark, fitted, heading, labelled, line_mark, path_row, row, sentence, shortened, texture,
@@ -175,7 +172,7 @@ fn verdict(ui: &mut Ui, record: &Record, of_part: &Record, session: &Session) {
     } else if let Some(kind) = &summary.reason {
         ui.label(refusal_kind(kind));
     }
-    if let Some(doubts) = past_doubts(&marks) {
+    if let Some(doubts) = marks.past_doubts(Language::current()) {
         ui.colored_label(theme.warning, doubts);
     }
     if marks.motion_checked == Some(false) {

@@ -7,12 +7,11 @@ use egui::Ui;
 use robot::RobotFrame;
 use shell::{
     inspection::{inspected::Inspected, source::Origin},
-    language::robot::doubt,
     session::{Session, Source, UserRole},
 };
 use station::Doubt;
 use ui::{
-    language::{library_text, text},
+    language::{library_text, text, what_and_advice},
     user_error::UserError,
     widgets::sentence,
 };
@@ -83,7 +82,7 @@ impl Hold {
     fn of_doubt(found: &Doubt, session: &Session, inspected: &Inspected, role: UserRole) -> Self {
         let is_past = session.shown.as_ref().is_some_and(|shown| shown.is_past);
         let is_file = matches!(inspected.origin, Origin::File { .. } | Origin::Scan { .. });
-        let [usual_reason, usual_advice] = doubt(found);
+        let [usual_reason, usual_advice] = what_and_advice(found);
         let reason = match found {
             Doubt::Superseded if is_past => text!("inspect-from-history"),
             Doubt::Superseded if session.inspecting.is_some() => text!("inspect-previous-result"),
