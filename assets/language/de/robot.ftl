@@ -248,21 +248,21 @@ robot-doubt-film-off-plan-advice = Die Bahn ohne Züge entlang von Flanken plane
 robot-doubt-kind =
     { $kind ->
         [reported_wrong] { operator-reported-wrong }
-        [source_lost] { robot-doubt-source-lost }
-        [moving] { robot-doubt-moving }
-        [not_accepted] { robot-doubt-not-accepted }
-        [no_pose] { robot-doubt-no-pose }
-        [superseded] { robot-doubt-superseded }
-        [not_calibrated] { robot-doubt-not-calibrated }
-        [clock_ahead] die Aufnahme ist später als jetzt datiert
-        [old] { robot-doubt-old }
-        [ambiguous_pose] { robot-doubt-ambiguous }
-        [off_scale] das Teil ist größer oder kleiner als seine Referenz
-        [frames_disagree] die Aufnahmen des Scans widersprechen sich
-        [poses_apart] die Posen des Scans widersprechen sich
+        [source_lost] die Quelle war ausgefallen, was dort hing, war also nicht bekannt
+        [moving] das Teil bewegte sich
+        [not_accepted] das Teil wurde nicht akzeptiert
+        [no_pose] das Teil hatte keine Pose
+        [superseded] dort konnte schon ein anderes Teil hängen
+        [not_calibrated] die Zelle war nicht kalibriert
+        [clock_ahead] die Aufnahme war später datiert als die Prüfung
+        [old] die Aufnahme war älter als 10 Minuten oder von unbekanntem Alter
+        [ambiguous_pose] eine andere Pose des Teils passte fast ebenso gut
+        [off_scale] das Teil war größer oder kleiner als seine Referenz
+        [frames_disagree] die Aufnahmen des Scans widersprachen sich
+        [poses_apart] die Posen des Scans widersprachen sich
        *[other] { $kind }
     }
-robot-got-no-pose = Der Roboter bekam keine Pose: { $why }
+robot-was-not-to-act = Der Roboter sollte nicht danach arbeiten: { $why }
 robot-motion-unknown = Nicht bekannt, ob das Teil still hing
 
 ## Was nicht geprüft wurde

@@ -248,21 +248,21 @@ robot-doubt-film-off-plan-advice = Plan the path without added strokes along fla
 robot-doubt-kind =
     { $kind ->
         [reported_wrong] { operator-reported-wrong }
-        [source_lost] { robot-doubt-source-lost }
-        [moving] { robot-doubt-moving }
-        [not_accepted] { robot-doubt-not-accepted }
-        [no_pose] { robot-doubt-no-pose }
-        [superseded] { robot-doubt-superseded }
-        [not_calibrated] { robot-doubt-not-calibrated }
-        [clock_ahead] the capture is dated later than now
-        [old] { robot-doubt-old }
-        [ambiguous_pose] { robot-doubt-ambiguous }
-        [off_scale] the part is larger or smaller than its reference
-        [frames_disagree] the frames of the scan disagree
-        [poses_apart] the poses of the scan contradict one another
+        [source_lost] the source was lost, so what hung there by then was not known
+        [moving] the part was moving
+        [not_accepted] the part was not accepted
+        [no_pose] the part had no pose
+        [superseded] another part might have hung there by then
+        [not_calibrated] the cell was not calibrated
+        [clock_ahead] the capture was dated later than the inspection
+        [old] the capture was more than 10 minutes old, or of unknown age
+        [ambiguous_pose] another pose of the part fitted nearly as well
+        [off_scale] the part was larger or smaller than its reference
+        [frames_disagree] the frames of the scan disagreed
+        [poses_apart] the poses of the scan contradicted one another
        *[other] { $kind }
     }
-robot-got-no-pose = The robot got no pose: { $why }
+robot-was-not-to-act = The robot was not to act on it: { $why }
 robot-motion-unknown = Not known whether the part hung still
 
 ## What was not checked

@@ -248,21 +248,21 @@ robot-doubt-film-off-plan-advice = Planifique la trayectoria sin pasadas por los
 robot-doubt-kind =
     { $kind ->
         [reported_wrong] { operator-reported-wrong }
-        [source_lost] { robot-doubt-source-lost }
-        [moving] { robot-doubt-moving }
-        [not_accepted] { robot-doubt-not-accepted }
-        [no_pose] { robot-doubt-no-pose }
-        [superseded] { robot-doubt-superseded }
-        [not_calibrated] { robot-doubt-not-calibrated }
-        [clock_ahead] la captura tiene una fecha posterior a la actual
-        [old] { robot-doubt-old }
-        [ambiguous_pose] { robot-doubt-ambiguous }
-        [off_scale] la pieza es mayor o menor que su referencia
-        [frames_disagree] las tomas del escaneo se contradicen
-        [poses_apart] las poses del escaneo se contradicen
+        [source_lost] la fuente se había perdido, así que no se sabía qué colgaba ahí
+        [moving] la pieza se movía
+        [not_accepted] la pieza no fue aceptada
+        [no_pose] la pieza no tenía pose
+        [superseded] ya podía colgar ahí otra pieza
+        [not_calibrated] la celda no estaba calibrada
+        [clock_ahead] la captura tenía una fecha posterior a la inspección
+        [old] la captura tenía más de 10 minutos, o no se conocía su antigüedad
+        [ambiguous_pose] otra pose de la pieza encajaba casi igual de bien
+        [off_scale] la pieza era mayor o menor que su referencia
+        [frames_disagree] las tomas del escaneo se contradecían
+        [poses_apart] las poses del escaneo se contradecían
        *[other] { $kind }
     }
-robot-got-no-pose = El robot no recibió ninguna pose: { $why }
+robot-was-not-to-act = El robot no debía actuar con ella: { $why }
 robot-motion-unknown = No se sabe si la pieza colgaba quieta
 
 ## Lo que no se comprobó

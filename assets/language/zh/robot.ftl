@@ -237,21 +237,21 @@ robot-doubt-film-off-plan-advice = 请规划不含侧面行程的轨迹（侧面
 robot-doubt-kind =
     { $kind ->
         [reported_wrong] { operator-reported-wrong }
-        [source_lost] { robot-doubt-source-lost }
-        [moving] { robot-doubt-moving }
-        [not_accepted] { robot-doubt-not-accepted }
-        [no_pose] { robot-doubt-no-pose }
-        [superseded] { robot-doubt-superseded }
-        [not_calibrated] { robot-doubt-not-calibrated }
-        [clock_ahead] 采集的时间比现在晚
-        [old] { robot-doubt-old }
-        [ambiguous_pose] { robot-doubt-ambiguous }
+        [source_lost] 来源当时已断开，无法得知那里挂着什么
+        [moving] 零件当时在移动
+        [not_accepted] 零件未被接受
+        [no_pose] 零件当时没有位姿
+        [superseded] 那里当时可能已挂着另一个零件
+        [not_calibrated] 工位当时未标定
+        [clock_ahead] 采集的时间比检测晚
+        [old] 采集当时已超过 10 分钟，或新旧未知
+        [ambiguous_pose] 零件的另一个位姿当时几乎同样吻合
         [off_scale] 零件比其参考大或小
         [frames_disagree] 扫描的各次拍摄不一致
         [poses_apart] 扫描的各个位姿相互矛盾
        *[other] { $kind }
     }
-robot-got-no-pose = 机器人未得到位姿：{ $why }
+robot-was-not-to-act = 机器人当时不得据此动作：{ $why }
 robot-motion-unknown = 无法得知零件是否静止
 
 ## 未检查的内容

@@ -294,7 +294,7 @@ fn record_table(from: ReadFrom<'_>, record: &Record) -> Table {
             row(name, in_columns(line));
         }
     }
-    let marks = record.robot_marks();
+    let marks = summary.robot_marks();
     if !marks.robot_doubts.is_empty() {
         let doubts = marks.robot_doubts.join(", ");
         row("robot", format!("may not act on this pose: {doubts}"));

@@ -1,6 +1,6 @@
 //! Texts about the poses of a robot in the language of the window. In English they equal those of the library itself.
 
-use records::history::RobotMarks;
+use records::history::Summary;
 use robot::{
     Convention, ConventionError, FARTHEST, NOZZLE_DISTANCE, WrittenPoseError, calibration::UNNAMED,
 };
@@ -138,13 +138,13 @@ pub fn doubt(doubt: &Doubt) -> [String; 2] {
     }
 }
 
-/// Explains why a robot got no pose from a past inspection; `None` if nothing was against it.
-pub fn past_doubts(marks: &RobotMarks) -> Option<String> {
-    let kinds = marks.robot_doubts.iter();
+/// Explains what kept a robot from acting on an inspection when it was made; `None` if nothing did.
+pub fn past_doubts(past: &Summary) -> Option<String> {
+    let kinds = past.noted.robot_doubts.iter();
     let doubts: Vec<_> = kinds
         .map(|kind| text!("robot-doubt-kind", kind = kind))
         .collect();
-    (!doubts.is_empty()).then(|| text!("robot-got-no-pose", why = doubts.join("; ")))
+    (!doubts.is_empty()).then(|| text!("robot-was-not-to-act", why = doubts.join("; ")))
 }
 
 fn of_scan(doubt: &scan::Doubt) -> [String; 2] {
