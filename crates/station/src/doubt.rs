@@ -127,7 +127,8 @@ impl Advice for Doubt {
             }
             Self::ClockAhead(ahead) => ahead.advice(),
             Self::Ambiguous => {
-                "Turn the part's face to the camera, all of it inside the picture".into()
+                "Turn the part's face to the camera, all of it inside the picture; if it looks the same either way round, enrol and \
+                 inspect it with something in view that tells the two apart, such as a bracket or a cut-out".into()
             }
             Self::OffScale(off) => off.advice(),
             Self::Scan(doubt) => doubt.advice(),
