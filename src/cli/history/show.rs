@@ -294,7 +294,7 @@ fn record_table(from: ReadFrom<'_>, record: &Record) -> Table {
             row(name, in_columns(line));
         }
     }
-    let marks = record.robot_marks();
+    let marks = summary.robot_marks();
     if let Some(doubts) = marks.past_doubts(Language::English) {
         row("robot", doubts);
     }
