@@ -225,9 +225,15 @@ fn require_majority(scanned: &[ScannedShot]) -> Result<(), ScanError> {
         return Ok(());
     }
     let names = |shots: &[&ScannedShot]| shots.iter().map(|shot| shot.name.clone()).collect();
-    Err(ScanError::NoMajority {
-        agree: names(&agree),
-        others: names(&others),
+    let mut reasons = others.iter().filter_map(|shot| shot.excluded);
+    let (agree, others) = (names(&agree), names(&others));
+    Err(if reasons.all(|why| why == Excluded::OverlapsNone) {
+        ScanError::Apart {
+            these: agree,
+            others,
+        }
+    } else {
+        ScanError::NoMajority { agree, others }
     })
 }
 

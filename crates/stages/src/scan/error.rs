@@ -59,6 +59,18 @@ pub enum ScanError {
         /// Names of the others.
         others: Vec<String>,
     },
+    /// The frames show two surfaces that share nothing, such as the two faces of a sheet.
+    #[error(
+        "{} and {} show no surface in common, so their poses cannot be checked against each other",
+        these.join(", "),
+        others.join(", ")
+    )]
+    Apart {
+        /// Names of the frames that show one surface.
+        these: Vec<String>,
+        /// Names of the others.
+        others: Vec<String>,
+    },
     /// Two frames contradict each other, and no other frame tells which of them is wrong.
     #[error(
         "{} and {} contradict each other: one looks past {:.1} % of what both should see{}",
@@ -123,6 +135,9 @@ impl Advice for ScanError {
             }
             Self::NoMajority { .. } => {
                 "Check that each pose belongs to its frame and that all frames show the same part, which stood still; leave the wrong frames out, or capture them again".into()
+            }
+            Self::Apart { .. } => {
+                "Add frames from between that show surface of both, or let the floor or the hanger be in view of all of them; or scan each side by itself".into()
             }
             Self::Contradiction { .. } => {
                 "Check that each pose belongs to its frame and that nothing moved between the frames; leave the wrong frame out, or add one that shows the same edges and so tells which it is".into()

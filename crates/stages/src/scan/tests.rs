@@ -1,6 +1,8 @@
 //! Simulated scans, compared with the truth.
 
-use nalgebra::{Isometry3, Point3, Translation3, Vector3};
+use std::f64::consts::{PI, TAU};
+
+use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 
 use super::{
     part::{background_sign, require_two_to_show_part},
@@ -9,11 +11,15 @@ use super::{
 use crate::scene::scene_from_frame;
 use geometry::{
     depth_frame::{DepthFrame, Intrinsics},
+    mesh::TriangleMesh,
     nearest::KdTree,
     rigid::pose_error,
     units::Radians,
 };
-use simulate::{PartKind, ScanSetup, Side, SimulatedObject, SimulatedScan};
+use simulate::{
+    CellSetup, PartKind, PartPose, ScanSetup, SensorNoise, Side, SimulatedObject, SimulatedScan,
+    SurfaceLabel, frame_of_mesh,
+};
 
 fn simulated(kind: PartKind, num_shots: usize, seed: u64) -> SimulatedScan {
     SimulatedScan::new(ScanSetup {
@@ -63,7 +69,7 @@ fn shared_error(scan: &Scan, truth: &[RigidTransform]) -> RigidTransform {
     let n = used().count() as f64;
     let middle = Point3::new(1.9, 0.0, 1.1);
     let turn = used().fold(Vector3::zeros(), |sum, e| sum + e.rotation.scaled_axis()) / n;
-    let turn = nalgebra::UnitQuaternion::from_scaled_axis(turn);
+    let turn = UnitQuaternion::from_scaled_axis(turn);
     let shift = used().fold(Vector3::zeros(), |sum, e| sum + (e * middle - middle)) / n;
     Isometry3::from_parts(
         Translation3::from(middle.coords + shift - turn * middle.coords),
@@ -403,4 +409,80 @@ fn what_is_no_scan_is_refused_in_words() {
 
     let cancelled = assemble(&shots, &ScanParams::default(), &Impatient);
     assert_eq!(cancelled.expect_err("cancelled"), ScanError::Cancelled);
+}
+
+/// Frames from all around of a box of 0.8 by 0.5 m and this thickness that hangs in free space, with the cameras' true poses.
+fn all_around(thickness: f64, num: usize, seed: u64) -> Vec<Shot> {
+    let half = [0.4, 0.25, 0.5 * thickness];
+    let corner = |i: usize| {
+        let at = |axis: usize| half[axis] * if i >> axis & 1 == 1 { 1.0 } else { -1.0 };
+        Point3::new(at(0), at(1), at(2)).cast::<f32>()
+    };
+    let quads = [
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+    ];
+    let mesh = TriangleMesh {
+        vertices: (0..8).map(corner).collect(),
+        triangles: quads
+            .iter()
+            .flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]])
+            .collect(),
+    };
+    let shots = (0..num).map(|k| {
+        let yaw = TAU * (k as f64 + 0.5) / num as f64;
+        let up = if k % 2 == 0 { -0.35 } else { 0.35 };
+        let eye = Point3::new(1.3 * yaw.sin(), up, -1.3 * yaw.cos());
+        let base_from_camera = Isometry3::look_at_rh(&eye, &Point3::origin(), &Vector3::y())
+            .inverse()
+            * UnitQuaternion::from_axis_angle(&Vector3::x_axis(), PI);
+        let setup = CellSetup {
+            pose: PartPose::Fixed(base_from_camera.inverse()),
+            noise: SensorNoise::kinect(seed * 100 + k as u64),
+            ..CellSetup::new(SimulatedObject::Nothing, seed)
+        };
+        let mut taken = frame_of_mesh(&setup, &mesh);
+        for (depth, label) in taken.frame.depth.iter_mut().zip(&taken.truth.labels) {
+            if *label != SurfaceLabel::Part {
+                *depth = 0;
+            }
+        }
+        Shot {
+            name: format!("shot {k}"),
+            scene: Arc::new(scene_from_frame(&taken.frame)),
+            base_from_camera,
+        }
+    });
+    shots.collect()
+}
+
+#[test]
+fn the_two_faces_of_a_sheet_keep_their_distance() {
+    for (thickness, seed) in [(0.03, 2), (0.1, 3)] {
+        let shots = all_around(thickness, 8, seed);
+        let scan = put_together(&shots);
+        let moved = |is_front: bool| {
+            let faces = scan
+                .used()
+                .filter(|(k, _)| [0, 1, 6, 7].contains(k) == is_front);
+            let depths = faces.map(|(k, shot)| {
+                let given_from_camera = shots[k].base_from_camera;
+                (shot.base_from_camera * given_from_camera.inverse() * Point3::origin()).z
+            });
+            depths.sum::<f64>() / 4.0
+        };
+        assert_eq!(scan.used().count(), 8);
+        let apart = Metres(moved(true) - moved(false));
+        assert!(apart.mm().abs() < 1.0, "{thickness}: {apart}");
+    }
+    // Of a thin one no frame shows the rim: nothing tells how far one face is from the other.
+    let thin = assemble(&all_around(0.005, 8, 1), &ScanParams::default(), &Unwatched);
+    let Err(ScanError::Apart { these, others }) = thin else {
+        panic!("{thin:?}");
+    };
+    assert_eq!((these.len(), others.len()), (4, 4));
 }
