@@ -106,7 +106,8 @@ impl NumbersChoice {
             }
             NumberedPart {
                 number: number.or_else(|| stored.of(&meta.name)).unwrap_or(0),
-                path: path.filter(|_| off.is_none()),
+                path,
+                off,
                 is_simulated: meta.simulated,
             }
         });

@@ -1,10 +1,13 @@
 //! Writing a file for a robot, and what the commands print about it.
 
-use super::console::{Advised as _, Console};
+use super::{
+    Outcome,
+    console::{Advised as _, Console},
+};
 use geometry::{error::Advice as _, units::counted};
 use robot::spray::{BandStatus, CarriedPath, MOST_TILT};
 use station::{
-    Doubt,
+    Doubt, Inspected,
     robot_file::{RobotFile, RobotFileContent, RobotFileError, WrittenRobotFile},
 };
 
@@ -48,6 +51,17 @@ pub(super) fn write(
         console.warn(&format_args!("not checked: {unchecked}"), unchecked);
     }
     Ok(Some(written))
+}
+
+/// Prints why nothing is written after this inspection, before its path is looked at.
+pub(super) fn refuse_inspection(what: &str, seen: &Inspected<'_>, console: &Console) -> Outcome {
+    if let Some(doubt) = seen.doubts().first() {
+        console.advise(
+            &format_args!("no {what} was written: {doubt}"),
+            &doubt.advice(),
+        );
+    }
+    Outcome::NotAccepted
 }
 
 /// Prints why nothing was written, and what to do about the first doubt.

@@ -222,7 +222,7 @@ fn the_stored_path_is_exported_to_each_controller_unless_the_arm_does_not_reach_
     ];
     let ran = shop.coded(1, &[&export[..], &arm].concat());
     assert!(
-        ran.err.contains("reaches") && ran.err.contains("--force"),
+        ran.err.contains("misses") && ran.err.contains("--force"),
         "{}",
         ran.err
     );
@@ -230,7 +230,7 @@ fn the_stored_path_is_exported_to_each_controller_unless_the_arm_does_not_reach_
     shop.coded(0, &[&export[..], &arm, &["--force"]].concat());
     assert!(
         shop.read("paint.src")
-            .contains("FORCED: KUKA KR 6 R900-2 reaches")
+            .contains("FORCED: KUKA KR 6 R900-2 misses")
     );
     let ran = shop.coded(2, &["path", "export", "grille", "-o", "paint.src"]);
     assert!(ran.err.contains("path plan grille"), "{}", ran.err);

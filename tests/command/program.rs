@@ -158,7 +158,7 @@ fn of_a_refused_part_an_old_capture_or_an_unreached_path_no_program_is_left_unle
     let nozzle = "kuka 0 0 250 0 0 0";
     let arm = ["--arm", "kr6-r900", "--nozzle", nozzle];
     let ran = shop.coded(1, &[&inspect[..], &arm].concat());
-    assert!(ran.err.contains("reaches"), "{}", ran.err);
+    assert!(ran.err.contains("misses"), "{}", ran.err);
     assert!(!shop.path("paint.src").exists());
     let ran = shop.coded(
         2,
@@ -168,7 +168,7 @@ fn of_a_refused_part_an_old_capture_or_an_unreached_path_no_program_is_left_unle
     shop.coded(0, &[&inspect[..], &arm, &["--force"]].concat());
     assert!(
         shop.read("paint.src")
-            .contains("FORCED: KUKA KR 6 R900-2 reaches")
+            .contains("FORCED: KUKA KR 6 R900-2 misses")
     );
     // The capture is too old.
     let hour = Duration::from_hours(1);
@@ -424,7 +424,7 @@ fn gun_and_arm_are_kept_clear_of_part_boxes_and_floor() {
     let program = ["inspect", "door.pcd", "--program", "paint.src"];
     shop.coded(2, &[&program[..], &boxes].concat());
     let ran = shop.coded(1, &[&program[..], &arm, &boxes].concat());
-    assert!(ran.err.contains("would collide at"), "{}", ran.err);
+    assert!(ran.err.contains("because it would collide"), "{}", ran.err);
     assert!(!shop.path("paint.src").exists());
     shop.coded(0, &[&program[..], &arm, &boxes, &["--force"]].concat());
     let text = shop.read("paint.src").replace("\r\n; ", " ");
@@ -555,7 +555,7 @@ fn no_program_is_written_of_a_path_that_does_not_aim_at_the_part_unless_forced()
     shop.write("on_door.csv", &on_door);
     for path in ["grille.csv", "far.csv", "on_door.csv"] {
         let ran = shop.coded(1, &["library", "path", "front_door", path]);
-        let doubt = "the spray path does not aim at the part: ";
+        let doubt = "the spray path does not aim at the part (";
         assert!(ran.err.contains(doubt), "{}", ran.err);
         for write in [
             ["path", "export", "front_door", "--output", "paint.src"].as_slice(),

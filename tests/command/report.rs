@@ -118,7 +118,7 @@ fn one_bad_file_does_not_stop_the_reports_of_the_others() {
     if let Some(text) = page_text(&place.path("out/fender.pose.pdf")) {
         for words in [
             "Fender, left",
-            "Recognised: there is no pose for a robot",
+            "RECOGNISED: do not move on this pose",
             "FANUC W P R",
             "camera_from_part",
             "SIMULATED",
@@ -332,7 +332,10 @@ fn an_old_capture_is_in_no_output_a_pose_for_the_robot_unless_it_is_forced() {
     let record = place.accepted(&["history", "show", &number, "--json"]);
     assert_eq!(record.json()["line"], line);
     let shown = place.accepted(&["history", "show", &number]).out;
-    assert!(shown.contains("may not act on this pose: old"), "{shown}");
+    assert!(
+        shown.contains("must not act on this pose: the capture was more than 10 minutes old"),
+        "{shown}"
+    );
     place.accepted(&["history", "export", "--csv", "all.csv"]);
     let table = place.read("all.csv");
     let last: Vec<&str> = table

@@ -29,6 +29,7 @@ inspect-hold-not-calibrated-operator = Roboter nicht starten: Den Einrichter ruf
 inspect-hold-clock-operator = Roboter nicht starten: Den Einrichter rufen, damit er die Uhren stellt
 inspect-hold-old = Vor mehr als 10 Minuten aufgenommen: Es kann jetzt anders hängen
 inspect-hold-old-file = Aus einer Datei, die älter als 10 Minuten ist: Es kann jetzt anders hängen
+inspect-hold-open-newer = Eine neuere Aufnahme öffnen oder eine Kamera als Quelle wählen
 
 ## The card
 
@@ -183,9 +184,9 @@ inspect-not-asked-for = nicht ausgerichtet: keine Pose verlangt
 inspect-flat-shape = nicht ausgerichtet: als flache Form eingelernt
 inspect-no-pose-found = nicht ausgerichtet: keine Pose gefunden
 inspect-score-too-low = nicht ausgerichtet: Score zu niedrig für einen Versuch
-inspect-nothing-yet =
-    Noch nichts geprüft
-    „Aufnehmen“ drücken für ein Bild der simulierten Zelle, oder eine aufgenommene Szene hierher ziehen
+inspect-nothing-yet = Noch nichts geprüft
+inspect-capture-cell = „Aufnehmen“ drücken für ein Bild der simulierten Zelle, oder eine aufgenommene Szene hierher ziehen
+inspect-capture-or-drop = „Aufnehmen“ drücken oder eine aufgenommene Szene hierher ziehen
 
 ## Shortcuts and files
 

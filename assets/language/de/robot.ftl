@@ -216,53 +216,6 @@ robot-long-rotation-advice = Den Rotationsvektor in Radiant angeben; diese Zahle
 robot-not-rigid = die 16 Zahlen sind keine starre Transformation: Sie strecken, spiegeln oder enden nicht mit 0 0 0 1
 robot-not-rigid-advice = Eine Drehung und eine Verschiebung angeben, Zeile für Zeile mit mindestens 4 Nachkommastellen; Zeilen und Spalten nicht vertauschen
 
-## Warum ein Roboter mit einem Ergebnis nicht arbeiten darf
-robot-doubt-source-lost = die Quelle ist ausgefallen, was jetzt dort hängt, ist also nicht bekannt
-robot-doubt-source-lost-advice = Die Quelle wieder verbinden und das Teil neu aufnehmen
-robot-doubt-moving = das Teil bewegt sich
-robot-doubt-moving-advice = Warten, bis das Teil still hängt
-robot-doubt-superseded = inzwischen kann dort ein anderes Teil hängen
-robot-doubt-capture-again = Das Teil neu aufnehmen
-robot-doubt-not-accepted = das Teil wurde nicht akzeptiert
-robot-doubt-no-pose = das Teil hat keine Pose
-robot-doubt-no-pose-advice = Ein Rezept wählen, das die Pose schätzt, und das Teil neu prüfen
-robot-doubt-not-calibrated = die Zelle ist nicht kalibriert
-robot-doubt-not-calibrated-advice = Die Lage der Kamera in der Roboterzelle kalibrieren, oben unter Roboter…
-robot-doubt-clock-ahead = die Aufnahme ist um { $seconds } s später als jetzt datiert, ihr Alter ist also nicht bekannt
-robot-doubt-clock-ahead-advice = Die Uhren dieses Rechners und des Rechners, der die Aufnahme geschrieben hat, nach demselben Zeitserver stellen und das Teil neu aufnehmen
-robot-doubt-old = die Aufnahme ist älter als 10 Minuten oder von unbekanntem Alter
-robot-doubt-ambiguous = eine andere Pose des Teils passt fast ebenso gut
-robot-doubt-ambiguous-advice = Die Vorderseite des Teils zur Kamera drehen, das ganze Teil im Bild
-robot-doubt-frames-disagree = die Aufnahmen passen vielleicht nicht zusammen: { $disagree } % dessen, was { $frame } und die anderen gemeinsam sehen, widerspricht sich; üblich sind höchstens 2 %
-robot-doubt-frames-disagree-advice = Prüfen, ob jede Pose zu ihrer Aufnahme gehört und ob sich zwischen den Aufnahmen nichts bewegt hat
-robot-doubt-poses-apart = die Posen widersprechen einander: { $one } und { $other } passen nur zusammen, wenn eine davon um { $apart } verschoben wird
-robot-doubt-poses-apart-advice = Prüfen, ob jede Pose zu ihrer Aufnahme gehört, ob der Arm stillstand und ob seine Kalibrierung noch gilt; der Ort des Teils im Basiskoordinatensystem des Roboters ist nur so sicher, wie die Posen übereinstimmen
-robot-doubt-off-part = die Lackierbahn zielt nicht auf das Teil (nur bei { $aiming } von { $all } Punkten mit eingeschalteter Pistole)
-robot-doubt-too-near = die Lackierbahn zielt nicht auf das Teil (bei { $near } von { $all } Punkten mit eingeschalteter Pistole ist die Düse weniger als 20 mm davor oder hinter seiner Oberfläche)
-robot-doubt-off-part-advice = Prüfen, ob die Bahn zu diesem Teil gehört, oder in Lackieren eine neue planen und speichern
-robot-doubt-not-reached = { $arm } erreicht { $missed } von { $all } Punkten nicht
-robot-doubt-not-reached-advice = Das Teil oder den Fuß des Arms versetzen oder die Bahn ändern
-robot-doubt-film-off-plan = Das Programm brächte { $written } % der Fläche in { $tolerance } % um den Sollwert, im Mittel { $written_um } µm; geplant sind { $planned } % und { $planned_um } µm. Mit offener Pistole hielte es { $stops }-mal an
-robot-doubt-film-off-plan-advice = Die Bahn ohne Züge entlang von Flanken planen (Neigung zu Flanken 0) oder das Programm für eine Steuerung schreiben, die die Pistole während der Bewegung schaltet
-# Why a past result has no pose for a robot; the kind is a word of the JSON line's robot_doubts
-robot-doubt-kind =
-    { $kind ->
-        [reported_wrong] { operator-reported-wrong }
-        [source_lost] { robot-doubt-source-lost }
-        [moving] { robot-doubt-moving }
-        [not_accepted] { robot-doubt-not-accepted }
-        [no_pose] { robot-doubt-no-pose }
-        [superseded] { robot-doubt-superseded }
-        [not_calibrated] { robot-doubt-not-calibrated }
-        [clock_ahead] die Aufnahme ist später als jetzt datiert
-        [old] { robot-doubt-old }
-        [ambiguous_pose] { robot-doubt-ambiguous }
-        [off_scale] das Teil ist größer oder kleiner als seine Referenz
-        [frames_disagree] die Aufnahmen des Scans widersprechen sich
-        [poses_apart] die Posen des Scans widersprechen sich
-       *[other] { $kind }
-    }
-robot-got-no-pose = Der Roboter bekam keine Pose: { $why }
 robot-motion-unknown = Nicht bekannt, ob das Teil still hing
 
 ## Was nicht geprüft wurde

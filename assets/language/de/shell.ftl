@@ -137,6 +137,7 @@ shell-empty-cell-captured = Leere Zelle aufgenommen: Ab der nächsten Aufnahme w
 shell-capturing = Aufnahme läuft
 shell-opening = { $name } wird geöffnet
 shell-waiting-for-file = Warten auf neue Datei
+shell-same-capture = { $scene } wurde noch einmal geprüft: seither unverändert
 shell-inspecting-again = Erneute Prüfung
 shell-opening-library = Bibliothek wird geöffnet
 shell-loading-library = Bibliothek wird geladen

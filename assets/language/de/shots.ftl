@@ -51,10 +51,6 @@ shots-part-moved-by = das Teil hat sich bewegt: Die Zelle stimmt mit den anderen
 shots-excluded-advice = Prüfen, ob diese Pose zu diesem Bild gehört, und das Bild bei ruhendem Arm erneut aufnehmen
 shots-overlaps-none-advice = Prüfen, ob diese Pose zu diesem Bild gehört, oder eine Aufnahme hinzufügen, die Fläche von dieser und von einer anderen zeigt
 shots-part-moved-advice = Das Bild bei stillstehendem Teil erneut aufnehmen
-shots-poor-agreement = die Aufnahmen passen vielleicht nicht zusammen: Von dem, was { $shot } und die anderen Aufnahmen gemeinsam sehen, stimmen { $share } % nicht überein
-shots-poor-agreement-advice = Prüfen, ob jede Pose zu ihrem Bild gehört und sich zwischen den Aufnahmen nichts bewegt hat
-shots-poses-apart = die Posen widersprechen einander: { $a } und { $b } passen nur zusammen, wenn eine um { $apart } verschoben wird
-shots-poses-apart-advice = Prüfen, ob jede Pose zu ihrem Bild gehört, der Arm stillstand und seine Kalibrierung noch stimmt
 
 ## Files
 

@@ -29,6 +29,7 @@ inspect-hold-not-calibrated-operator = Do not start the robot: call the engineer
 inspect-hold-clock-operator = Do not start the robot: call the engineer to set the clocks
 inspect-hold-old = Captured more than 10 minutes ago: it may hang elsewhere now
 inspect-hold-old-file = From a file more than 10 minutes old: it may hang elsewhere now
+inspect-hold-open-newer = Open a newer capture, or choose a camera as the source
 
 ## The card
 
@@ -183,9 +184,9 @@ inspect-not-asked-for = not aligned: no pose was asked for
 inspect-flat-shape = not aligned: it is enrolled as a flat shape
 inspect-no-pose-found = not aligned: no pose was found
 inspect-score-too-low = not aligned: its score was too low to be tried
-inspect-nothing-yet =
-    Nothing inspected yet
-    Press Capture for a frame of the simulated cell, or drop a captured scene here
+inspect-nothing-yet = Nothing inspected yet
+inspect-capture-cell = Press Capture for a frame of the simulated cell, or drop a captured scene here
+inspect-capture-or-drop = Press Capture, or drop a captured scene here
 
 ## Shortcuts and files
 

@@ -216,53 +216,6 @@ robot-long-rotation-advice = Give the rotation vector in radians; these look lik
 robot-not-rigid = the 16 numbers are not a rigid transform: they stretch, mirror or do not end in 0 0 0 1
 robot-not-rigid-advice = Give a rotation and a shift, row after row with at least 4 decimals; check rows against columns
 
-## Why a robot must not act on a result
-robot-doubt-source-lost = the source was lost, so what hangs there now is not known
-robot-doubt-source-lost-advice = Connect the source again, and capture the part again
-robot-doubt-moving = the part is moving
-robot-doubt-moving-advice = Wait until the part hangs still
-robot-doubt-superseded = another part may hang there by now
-robot-doubt-capture-again = Capture the part again
-robot-doubt-not-accepted = the part was not accepted
-robot-doubt-no-pose = the part has no pose
-robot-doubt-no-pose-advice = Choose a recipe that estimates the pose, and inspect the part again
-robot-doubt-not-calibrated = the cell is not calibrated
-robot-doubt-not-calibrated-advice = Calibrate where the camera stands in the robot's cell, with Robot… at the top
-robot-doubt-clock-ahead = the capture is dated { $seconds } s later than now, so its age is not known
-robot-doubt-clock-ahead-advice = Set the clocks of this computer and of the one that wrote the capture from the same time server, and capture the part again
-robot-doubt-old = the capture is more than 10 minutes old, or of unknown age
-robot-doubt-ambiguous = another pose of the part fits nearly as well
-robot-doubt-ambiguous-advice = Turn the part's face to the camera, all of it inside the picture
-robot-doubt-frames-disagree = the frames may not fit together: { $disagree } % of what { $frame } and the others see together disagrees, at most 2 % is usual
-robot-doubt-frames-disagree-advice = Check that each pose belongs to its frame and that nothing moved between the frames
-robot-doubt-poses-apart = the poses contradict one another: { $one } and { $other } fit together only if one is moved by { $apart }
-robot-doubt-poses-apart-advice = Check that each pose belongs to its frame, that the arm was at rest and that its calibration still holds; the part's place in the robot's base frame is only as certain as the poses agree
-robot-doubt-off-part = the spray path does not aim at the part (only { $aiming } of { $all } points with the gun on)
-robot-doubt-too-near = the spray path does not aim at the part (at { $near } of { $all } points with the gun on, the nozzle is less than 20 mm in front of it or behind its surface)
-robot-doubt-off-part-advice = Check that the path is that of this part, or plan and store a new one in Paint
-robot-doubt-not-reached = { $arm } misses { $missed } of { $all } points
-robot-doubt-not-reached-advice = Move the part or the arm's base, or change the path
-robot-doubt-film-off-plan = The program would bring { $written } % of the surface within { $tolerance } % of the target with { $written_um } µm on average, where { $planned } % and { $planned_um } µm were planned; with the gun open it would stop { $stops } times
-robot-doubt-film-off-plan-advice = Plan the path without added strokes along flanks (Lean to flanks 0), or write it for a controller that switches the gun while the robot moves
-# Why a past result has no pose for a robot; the kind is a word of the JSON line's robot_doubts
-robot-doubt-kind =
-    { $kind ->
-        [reported_wrong] { operator-reported-wrong }
-        [source_lost] { robot-doubt-source-lost }
-        [moving] { robot-doubt-moving }
-        [not_accepted] { robot-doubt-not-accepted }
-        [no_pose] { robot-doubt-no-pose }
-        [superseded] { robot-doubt-superseded }
-        [not_calibrated] { robot-doubt-not-calibrated }
-        [clock_ahead] the capture is dated later than now
-        [old] { robot-doubt-old }
-        [ambiguous_pose] { robot-doubt-ambiguous }
-        [off_scale] the part is larger or smaller than its reference
-        [frames_disagree] the frames of the scan disagree
-        [poses_apart] the poses of the scan contradict one another
-       *[other] { $kind }
-    }
-robot-got-no-pose = The robot got no pose: { $why }
 robot-motion-unknown = Not known whether the part hung still
 
 ## What was not checked

@@ -137,6 +137,7 @@ shell-empty-cell-captured = Empty cell captured: from the next capture on, nothi
 shell-capturing = Capturing
 shell-opening = Opening { $name }
 shell-waiting-for-file = Waiting for a new file
+shell-same-capture = { $scene } was inspected again: it has not changed since
 shell-inspecting-again = Inspecting again
 shell-opening-library = Opening the library
 shell-loading-library = Loading the library

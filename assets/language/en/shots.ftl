@@ -51,10 +51,6 @@ shots-part-moved-by = the part moved: the cell agrees with the other frames, { $
 shots-excluded-advice = Check that this pose belongs to this frame, and capture the frame again with the arm at rest
 shots-overlaps-none-advice = Check that this pose belongs to this frame, or add a shot that shows surface of this one and of another
 shots-part-moved-advice = Capture the frame again while the part stands still
-shots-poor-agreement = the shots may not fit together: of what { $shot } and the other shots see together, { $share } % disagrees
-shots-poor-agreement-advice = Check that each pose belongs to its frame and that nothing moved between the shots
-shots-poses-apart = the poses contradict one another: { $a } and { $b } fit together only if one is moved by { $apart }
-shots-poses-apart-advice = Check that each pose belongs to its frame, that the arm was at rest and that its calibration still holds
 
 ## Files
 

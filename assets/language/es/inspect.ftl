@@ -29,6 +29,7 @@ inspect-hold-not-calibrated-operator = No arrancar el robot: llamar al técnico 
 inspect-hold-clock-operator = No arrancar el robot: llamar al técnico para que ponga los relojes en hora
 inspect-hold-old = Capturada hace más de 10 minutos: ahora puede colgar de otro modo
 inspect-hold-old-file = De un archivo de más de 10 minutos: ahora puede colgar de otro modo
+inspect-hold-open-newer = Abrir una captura más reciente o elegir una cámara como fuente
 
 ## The card
 
@@ -183,9 +184,9 @@ inspect-not-asked-for = sin alinear: no se pidió pose
 inspect-flat-shape = sin alinear: está registrada como forma plana
 inspect-no-pose-found = sin alinear: no se encontró la pose
 inspect-score-too-low = sin alinear: puntuación demasiado baja para intentarlo
-inspect-nothing-yet =
-    Aún no se ha inspeccionado nada
-    Pulsar Capturar para una imagen de la celda simulada, o soltar aquí una escena capturada
+inspect-nothing-yet = Aún no se ha inspeccionado nada
+inspect-capture-cell = Pulsar Capturar para una imagen de la celda simulada, o soltar aquí una escena capturada
+inspect-capture-or-drop = Pulsar Capturar, o soltar aquí una escena capturada
 
 ## Shortcuts and files
 

@@ -216,53 +216,6 @@ robot-long-rotation-advice = Indicar el vector de rotación en radianes; estos n
 robot-not-rigid = los 16 números no son una transformación rígida: estiran, reflejan o no terminan en 0 0 0 1
 robot-not-rigid-advice = Indicar una rotación y un desplazamiento, fila a fila con al menos 4 decimales; no confundir filas y columnas
 
-## Por qué un robot no debe actuar según un resultado
-robot-doubt-source-lost = la fuente se perdió, así que no se sabe qué cuelga ahí ahora
-robot-doubt-source-lost-advice = Conecte la fuente de nuevo y capture la pieza otra vez
-robot-doubt-moving = la pieza se mueve
-robot-doubt-moving-advice = Espere a que la pieza cuelgue quieta
-robot-doubt-superseded = puede que ya cuelgue ahí otra pieza
-robot-doubt-capture-again = Capture de nuevo la pieza
-robot-doubt-not-accepted = la pieza no fue aceptada
-robot-doubt-no-pose = la pieza no tiene pose
-robot-doubt-no-pose-advice = Elija una receta que estime la pose e inspeccione la pieza de nuevo
-robot-doubt-not-calibrated = la celda no está calibrada
-robot-doubt-not-calibrated-advice = Calibre dónde está la cámara en la celda del robot, arriba en Robot…
-robot-doubt-clock-ahead = la captura tiene una fecha { $seconds } s posterior a la actual, así que no se conoce su antigüedad
-robot-doubt-clock-ahead-advice = Ponga en hora este ordenador y el que escribió la captura con el mismo servidor de hora y capture la pieza de nuevo
-robot-doubt-old = la captura tiene más de 10 minutos, o no se conoce su antigüedad
-robot-doubt-ambiguous = otra pose de la pieza encaja casi igual de bien
-robot-doubt-ambiguous-advice = Gire la cara de la pieza hacia la cámara, toda dentro de la imagen
-robot-doubt-frames-disagree = puede que las tomas no encajen: el { $disagree } % de lo que { $frame } y las demás ven en común se contradice; lo habitual es un 2 % como máximo
-robot-doubt-frames-disagree-advice = Compruebe que cada pose corresponde a su toma y que nada se movió entre las tomas
-robot-doubt-poses-apart = las poses se contradicen: { $one } y { $other } solo encajan si una se desplaza { $apart }
-robot-doubt-poses-apart-advice = Compruebe que cada pose corresponde a su toma, que el brazo estaba parado y que su calibración sigue siendo válida; el lugar de la pieza en el sistema de la base del robot solo es tan seguro como concuerdan las poses
-robot-doubt-off-part = la trayectoria no apunta a la pieza (solo { $aiming } de { $all } puntos con la pistola abierta)
-robot-doubt-too-near = la trayectoria no apunta a la pieza (en { $near } de { $all } puntos con la pistola abierta, la boquilla está a menos de 20 mm delante de ella o detrás de su superficie)
-robot-doubt-off-part-advice = Compruebe que la trayectoria es de esta pieza, o planifique y guarde otra en Pintar
-robot-doubt-not-reached = { $arm } no alcanza { $missed } de { $all } puntos
-robot-doubt-not-reached-advice = Mueva la pieza o la base del brazo, o cambie la trayectoria
-robot-doubt-film-off-plan = El programa dejaría el { $written } % de la superficie a menos del { $tolerance } % del objetivo, con { $written_um } µm de media; estaban previstos { $planned } % y { $planned_um } µm. Con la pistola abierta se detendría { $stops } veces
-robot-doubt-film-off-plan-advice = Planifique la trayectoria sin pasadas por los flancos (Inclinación a flancos 0), o escríbala para un controlador que conmute la pistola en movimiento
-# Why a past result has no pose for a robot; the kind is a word of the JSON line's robot_doubts
-robot-doubt-kind =
-    { $kind ->
-        [reported_wrong] { operator-reported-wrong }
-        [source_lost] { robot-doubt-source-lost }
-        [moving] { robot-doubt-moving }
-        [not_accepted] { robot-doubt-not-accepted }
-        [no_pose] { robot-doubt-no-pose }
-        [superseded] { robot-doubt-superseded }
-        [not_calibrated] { robot-doubt-not-calibrated }
-        [clock_ahead] la captura tiene una fecha posterior a la actual
-        [old] { robot-doubt-old }
-        [ambiguous_pose] { robot-doubt-ambiguous }
-        [off_scale] la pieza es mayor o menor que su referencia
-        [frames_disagree] las tomas del escaneo se contradicen
-        [poses_apart] las poses del escaneo se contradicen
-       *[other] { $kind }
-    }
-robot-got-no-pose = El robot no recibió ninguna pose: { $why }
 robot-motion-unknown = No se sabe si la pieza colgaba quieta
 
 ## Lo que no se comprobó

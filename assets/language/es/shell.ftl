@@ -137,6 +137,7 @@ shell-empty-cell-captured = Celda vacía capturada: desde la próxima captura na
 shell-capturing = Capturando
 shell-opening = Abriendo { $name }
 shell-waiting-for-file = Esperando un archivo nuevo
+shell-same-capture = { $scene } se ha inspeccionado de nuevo: no ha cambiado
 shell-inspecting-again = Inspeccionando de nuevo
 shell-opening-library = Abriendo la biblioteca
 shell-loading-library = Cargando la biblioteca

@@ -51,10 +51,6 @@ shots-part-moved-by = la pieza se movió: la celda concuerda con las demás imá
 shots-excluded-advice = Comprobar que esta pose corresponde a esta imagen y volver a capturarla con el brazo en reposo
 shots-overlaps-none-advice = Comprobar que esta pose corresponde a esta imagen, o añadir una toma que muestre superficie de esta y de otra
 shots-part-moved-advice = Volver a capturar la imagen con la pieza inmóvil
-shots-poor-agreement = es posible que las tomas no encajen: de lo que { $shot } y las demás tomas ven en común, no concuerda el { $share } %
-shots-poor-agreement-advice = Comprobar que cada pose corresponde a su imagen y que nada se movió entre las tomas
-shots-poses-apart = las poses se contradicen: { $a } y { $b } solo encajan si una se desplaza { $apart }
-shots-poses-apart-advice = Comprobar que cada pose corresponde a su imagen, que el brazo estaba en reposo y que su calibración sigue siendo válida
 
 ## Files
 

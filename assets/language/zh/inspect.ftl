@@ -29,6 +29,7 @@ inspect-hold-not-calibrated-operator = 请勿启动机器人：请联系工程�
 inspect-hold-clock-operator = 请勿启动机器人：请联系工程师校准时钟
 inspect-hold-old = 采集已超过 10 分钟：零件现在的位置可能不同
 inspect-hold-old-file = 来自超过 10 分钟的文件：零件现在的位置可能不同
+inspect-hold-open-newer = 打开更新的采集，或选择相机作为来源
 
 ## The card
 
@@ -179,9 +180,9 @@ inspect-not-asked-for = 未配准：未要求位姿
 inspect-flat-shape = 未配准：注册为平面形状
 inspect-no-pose-found = 未配准：未找到位姿
 inspect-score-too-low = 未配准：得分过低，未尝试
-inspect-nothing-yet =
-    尚未检测
-    按“采集”获取仿真工位的一帧，或将采集的场景拖放到此处
+inspect-nothing-yet = 尚未检测
+inspect-capture-cell = 按“采集”获取仿真工位的一帧，或将采集的场景拖放到此处
+inspect-capture-or-drop = 按“采集”，或将采集的场景拖放到此处
 
 ## Shortcuts and files
 

@@ -205,53 +205,6 @@ robot-long-rotation-advice = 请以弧度给出旋转向量；这些数值看起
 robot-not-rigid = 这 16 个数值不是刚体变换：有拉伸、镜像，或不以 0 0 0 1 结尾
 robot-not-rigid-advice = 输入旋转和平移，逐行排列，保留至少 4 位小数；检查行与列是否颠倒
 
-## 机器人为何不得按结果动作
-robot-doubt-source-lost = 来源已断开，无法得知现在挂着什么
-robot-doubt-source-lost-advice = 请重新连接来源，并重新采集零件
-robot-doubt-moving = 零件在移动
-robot-doubt-moving-advice = 请等零件静止
-robot-doubt-superseded = 那里现在可能挂着另一个零件
-robot-doubt-capture-again = 请重新采集零件
-robot-doubt-not-accepted = 零件未接受
-robot-doubt-no-pose = 零件没有位姿
-robot-doubt-no-pose-advice = 请选择估计位姿的配方，并重新检测零件
-robot-doubt-not-calibrated = 工位未标定
-robot-doubt-not-calibrated-advice = 请在上方“机器人…”中标定相机在机器人工位中的位置
-robot-doubt-clock-ahead = 采集的时间比现在晚 { $seconds } 秒，因此无法得知其新旧
-robot-doubt-clock-ahead-advice = 请让本机和写出该采集的计算机与同一时间服务器对时，然后重新采集零件
-robot-doubt-old = 采集已超过 10 分钟，或新旧未知
-robot-doubt-ambiguous = 零件的另一个位姿几乎同样吻合
-robot-doubt-ambiguous-advice = 请将零件正面朝向相机，并使其完整位于画面内
-robot-doubt-frames-disagree = 各次拍摄可能不吻合：{ $frame } 与其他拍摄共同看到的部分有 { $disagree } % 不一致，通常最多 2 %
-robot-doubt-frames-disagree-advice = 请检查每个位姿是否属于其拍摄，以及各次拍摄之间是否有物体移动
-robot-doubt-poses-apart = 位姿相互矛盾：{ $one } 与 { $other } 只有在其中一个移动 { $apart } 后才吻合
-robot-doubt-poses-apart-advice = 请检查每个位姿是否属于其拍摄、机械臂是否静止以及其标定是否仍然有效；零件在机器人基坐标系中位置的可靠程度取决于位姿的一致程度
-robot-doubt-off-part = 喷涂轨迹未对准零件（喷枪打开的 { $all } 个点中只有 { $aiming } 个对准）
-robot-doubt-too-near = 喷涂轨迹未对准零件（喷枪打开的 { $all } 个点中有 { $near } 个点喷嘴距零件不足 20 mm 或位于其表面之后）
-robot-doubt-off-part-advice = 请检查轨迹是否属于此零件，或在“喷涂”中重新规划并保存
-robot-doubt-not-reached = { $arm } 有 { $missed } 个点不可达，共 { $all } 个
-robot-doubt-not-reached-advice = 请移动零件或机械臂底座，或修改轨迹
-robot-doubt-film-off-plan = 该程序只会使 { $written } % 的表面处于目标的 { $tolerance } % 以内，平均 { $written_um } µm，而计划为 { $planned } % 和 { $planned_um } µm；喷枪打开时会停顿 { $stops } 次
-robot-doubt-film-off-plan-advice = 请规划不含侧面行程的轨迹（侧面倾角设为 0），或为能在运动中开关喷枪的控制器写出程序
-# Why a past result has no pose for a robot; the kind is a word of the JSON line's robot_doubts
-robot-doubt-kind =
-    { $kind ->
-        [reported_wrong] { operator-reported-wrong }
-        [source_lost] { robot-doubt-source-lost }
-        [moving] { robot-doubt-moving }
-        [not_accepted] { robot-doubt-not-accepted }
-        [no_pose] { robot-doubt-no-pose }
-        [superseded] { robot-doubt-superseded }
-        [not_calibrated] { robot-doubt-not-calibrated }
-        [clock_ahead] 采集的时间比现在晚
-        [old] { robot-doubt-old }
-        [ambiguous_pose] { robot-doubt-ambiguous }
-        [off_scale] 零件比其参考大或小
-        [frames_disagree] 扫描的各次拍摄不一致
-        [poses_apart] 扫描的各个位姿相互矛盾
-       *[other] { $kind }
-    }
-robot-got-no-pose = 机器人未得到位姿：{ $why }
 robot-motion-unknown = 无法得知零件是否静止
 
 ## 未检查的内容

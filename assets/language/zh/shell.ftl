@@ -128,6 +128,7 @@ shell-empty-cell-captured = 已采集空工位：从下次采集起，其中的�
 shell-capturing = 正在采集
 shell-opening = 正在打开 { $name }
 shell-waiting-for-file = 等待新文件
+shell-same-capture = 已再次检测 { $scene }：其内容未变化
 shell-inspecting-again = 正在重新检测
 shell-opening-library = 正在打开零件库
 shell-loading-library = 正在加载零件库

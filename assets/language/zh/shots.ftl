@@ -51,10 +51,6 @@ shots-part-moved-by = 零件移动：工位与其他帧一致，零件仅 { $sha
 shots-excluded-advice = 确认该位姿属于该帧，并在机械臂静止时重新采集
 shots-overlaps-none-advice = 确认该位姿属于该帧，或增加一次同时拍到该帧与另一帧表面的拍摄
 shots-part-moved-advice = 在零件静止时重新采集该帧
-shots-poor-agreement = 各次拍摄可能不吻合：{ $shot } 与其他拍摄共同可见的部分有 { $share } % 不一致
-shots-poor-agreement-advice = 确认每个位姿属于其帧，且两次拍摄之间没有任何移动
-shots-poses-apart = 各位姿相互矛盾：将其中一帧移动 { $apart } 后，{ $a } 与 { $b } 才能吻合
-shots-poses-apart-advice = 确认每个位姿属于其帧、机械臂当时静止，且其标定仍然有效
 
 ## Files
 

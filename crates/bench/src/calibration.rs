@@ -65,7 +65,7 @@ pub fn samples(results: &[SuiteResult], question: Question) -> Vec<Sample> {
             .flat_map(|(suite, case)| case.contenders.iter().map(move |c| (suite, c)))
             .map(|(suite, contender)| Sample {
                 evidence: contender.evidence,
-                is_right: suite != Suite::OtherMakes
+                is_right: !matches!(suite, Suite::OtherMakes | Suite::NoisyMakes)
                     && contender
                         .pose_off
                         .is_some_and(|off| off[0] <= RIGHT_POSE[0] && off[1] <= RIGHT_POSE[1]),

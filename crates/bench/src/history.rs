@@ -9,7 +9,7 @@ use geometry::statistics::quantile;
 use inspection::pipeline::{Recipe, RecipeLabel, Refusal, Rejection};
 use records::history::{
     Filter, History, HistoryError, HungId, InspectionDetail, KeepFrames, NewEntry, Record,
-    Retention, SceneTitle, StoredVerdict, Summary,
+    Retention, RobotMarks, SceneTitle, StoredVerdict, Summary,
 };
 use simulate::{CellSetup, PartKind, Side, frame};
 use stages::scene::{SceneCloud, scene_from_frame};
@@ -184,6 +184,7 @@ fn entry(
                 part: Some(part.name().into()),
                 title: part.title().into(),
                 reason: refusal.as_ref().map(Refusal::kind),
+                noted: RobotMarks::default(),
                 score: Some([0.97, 0.3]),
                 total_ms: 40.0,
                 remark: String::new(),

@@ -10,6 +10,9 @@ use std::time::Duration;
 use super::error::{Expected, FileError, NoFile};
 use super::{MAX_FILE_BYTES, MAX_POINTS, MAX_UNPACKED_BYTES};
 
+/// What is expected of a heading that names a coordinate twice.
+pub(super) const ONE_COLUMN_EACH: &str = "one column each for x, y and z";
+
 /// The bytes of a file and its path.
 #[derive(Clone, Copy)]
 pub(super) struct Source<'a> {

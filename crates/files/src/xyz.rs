@@ -12,7 +12,7 @@ use nalgebra::Point3;
 use super::cells::{MAX_COLUMNS, Row};
 use super::error::FileError;
 use super::readings::tidy;
-use super::source::Source;
+use super::source::{ONE_COLUMN_EACH, Source};
 use geometry::cloud::PointCloud;
 
 /// Indices of the columns that hold x, y and z.
@@ -36,7 +36,7 @@ pub(super) fn read(source: Source<'_>) -> Result<PointCloud, FileError> {
             None if i == 0 && is_heading(row) => match Heading::of(row) {
                 Some(Heading::Columns(named)) => columns = named,
                 Some(Heading::Ambiguous) => {
-                    return Err(source.malformed(number, &line, "one column each for x, y and z"));
+                    return Err(source.malformed(number, &line, ONE_COLUMN_EACH));
                 }
                 None => {}
             },

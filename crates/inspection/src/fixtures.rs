@@ -105,6 +105,13 @@ pub fn rejections() -> Vec<Rejection> {
             part: part.clone(),
             shift: Metres(0.0213),
             limit: Metres(0.015),
+            frames_disagree: false,
+        },
+        Rejection::Uncertain {
+            part: part.clone(),
+            shift: Metres(0.0213),
+            limit: Metres(0.015),
+            frames_disagree: true,
         },
         Rejection::Unknown {
             nearest: part.clone(),

@@ -9,8 +9,8 @@ use inspection::pipeline::{Recipe, RecipeLabel, Refusal, Rejection, Unrecognisab
 use stages::{fixtures::small_scene, segment::NoPart};
 
 use crate::history::{
-    History, HungId, InspectionDetail, NewEntry, Record, SceneTitle, StoredVerdict, Summary,
-    Traceability,
+    History, HungId, InspectionDetail, NewEntry, Record, RobotMarks, SceneTitle, StoredVerdict,
+    Summary, Traceability,
 };
 
 /// A history entry for an inspection at that time.
@@ -41,6 +41,7 @@ pub fn history_entry(seconds: i64, verdict: StoredVerdict, part: &str) -> NewEnt
                 part: is_named.then(|| part.to_owned()),
                 title: part.replace('_', " "),
                 reason: refusal.as_ref().map(Refusal::kind),
+                noted: RobotMarks::default(),
                 score: (verdict != StoredVerdict::NoPart).then_some([0.97, 0.25]),
                 total_ms: 31.5,
                 remark: String::new(),

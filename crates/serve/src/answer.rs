@@ -256,6 +256,8 @@ pub struct Found {
     pub pose: Option<RigidTransform>,
     /// The part's stored spray path, moved by that pose.
     pub path: Vec<PathStep>,
+    /// Why the stored path is not given; `None` also if none is stored.
+    pub no_path: Option<Trouble>,
     /// The inspection as a JSON line; empty if there was none.
     pub report: String,
     /// Why there is no pose.
@@ -429,23 +431,26 @@ impl Answer {
             match request {
                 Request::Trigger | Request::Last => answer.pose = found.pose,
                 Request::Status | Request::Path { point: 0, .. } => {}
-                Request::Path { point, .. } => answer.take_point(point, &found.path),
+                Request::Path { point, .. } => answer.take_point(point, found),
             }
         }
         answer
     }
 
-    fn take_point(&mut self, point: u32, path: &[PathStep]) {
-        let step = usize::try_from(point).ok().and_then(|i| path.get(i - 1));
-        let Some(step) = step else {
+    fn take_point(&mut self, point: u32, found: &Found) {
+        let step = usize::try_from(point).ok();
+        let Some(step) = step.and_then(|i| found.path.get(i - 1)) else {
             self.verdict = VerdictCode::BadRequest;
-            let what = format!("there is no point {point} in a path of {}", path.len());
-            let advice = if path.is_empty() {
-                "Store a path: partsight library path NAME path.csv, and start the server again"
-            } else {
-                "Ask for points from 1 to the number of points in PATH's answer"
-            };
-            self.trouble = Trouble::new("no_such_point", &what, advice);
+            self.trouble = found.no_path.clone().unwrap_or_else(|| {
+                let num = found.path.len();
+                let what = format!("there is no point {point} in a path of {num}");
+                let advice = if found.path.is_empty() {
+                    "Store a path for the part: partsight library path NAME path.csv, or Paint in the window"
+                } else {
+                    "Ask for points from 1 to the number of points in PATH's answer"
+                };
+                Trouble::new("no_such_point", &what, advice)
+            });
             return;
         };
         self.point = point;
@@ -508,6 +513,7 @@ mod tests {
                 marks: Answer::GUN_ON,
                 speed: Some(0.25),
             }],
+            no_path: None,
             report: "{}".into(),
             trouble: Trouble::default(),
         }
@@ -593,6 +599,24 @@ mod tests {
         let beyond = Answer::of(path(2), &last, &at);
         assert_eq!(beyond.verdict, VerdictCode::BadRequest);
         assert_eq!(beyond.trouble.reason, "no_such_point");
+        let withheld = Trouble::new(
+            "off_the_part",
+            "the path does not aim at the part",
+            "Check it",
+        );
+        let mut last = inspected(Found {
+            path: Vec::new(),
+            no_path: Some(withheld.clone()),
+            ..found(start)
+        });
+        let answer = Answer::of(path(1), &last, &at);
+        assert_eq!(
+            (answer.verdict, answer.trouble),
+            (VerdictCode::BadRequest, withheld)
+        );
+        last.found.no_path = None;
+        let answer = Answer::of(path(1), &last, &at);
+        assert!(answer.trouble.message.contains("Store a path"));
     }
 
     #[test]

@@ -52,6 +52,7 @@ fn accepted(number: u32) -> Found {
                 speed: None,
             },
         ],
+        no_path: None,
         report: String::new(),
         trouble: Trouble::default(),
     }

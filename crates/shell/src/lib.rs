@@ -28,7 +28,7 @@ pub mod settings;
 pub mod settings_file;
 pub mod shift;
 pub mod source;
-mod standing;
+pub mod standing;
 pub mod state;
 pub mod trace;
 pub mod truth_menu;

@@ -1,11 +1,30 @@
-//! Whether a robot may act on a result of this session: everything that shows, copies or writes one asks here.
+//! Whether a robot may act on a result: everything that shows, copies or writes one asks here.
 
 use std::ptr;
 
 use super::session::Session;
 use crate::{inspection::inspected::Inspected, source::live::SourceState};
 use inspection::{library::Truth, pipeline::live::MotionState};
+use records::history::{StoredVerdict, Summary};
 use station::{self, Doubt, Subject, age_doubt};
+use ui::widgets::Mark;
+
+/// Returns the mark of a verdict that is not about what hangs there now: green only without doubts. `is_ok` is `None` where
+/// no part was found, because an empty cell is not a bad part.
+pub fn verdict_mark(is_ok: Option<bool>, has_doubts: bool) -> Mark {
+    match is_ok {
+        None => Mark::Open,
+        Some(false) => Mark::Bad,
+        Some(true) if has_doubts => Mark::Look,
+        Some(true) => Mark::Good,
+    }
+}
+
+/// Returns the mark of an inspection in the history.
+pub fn past_mark(past: &Summary) -> Mark {
+    let is_ok = (past.verdict != StoredVerdict::NoPart).then(|| past.is_ok());
+    verdict_mark(is_ok, !past.noted.robot_doubts.is_empty())
+}
 
 impl Session {
     /// Why another part may hang before the source now, or this one elsewhere; `None` if it hangs there as captured.
@@ -67,5 +86,28 @@ impl Session {
     /// True if a robot may act on a result, and the part hangs there: only then it is shown in green.
     pub fn is_go(&self, inspected: &Inspected) -> bool {
         !inspected.subject.is_staged() && self.robot_doubts(inspected).is_empty()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use records::fixtures::history_entry;
+
+    #[test]
+    fn a_past_inspection_is_green_only_if_it_was_accepted_without_doubts() {
+        let past = |verdict, doubts: &[&str], label: Option<Truth>| {
+            let mut past = history_entry(1, verdict, "fender").record.summary;
+            past.noted.robot_doubts = doubts.iter().map(|kind| (*kind).to_owned()).collect();
+            past.label = label;
+            past_mark(&past)
+        };
+        let accepted = StoredVerdict::Accepted;
+        assert_eq!(past(accepted, &[], None), Mark::Good);
+        assert_eq!(past(accepted, &["old"], None), Mark::Look);
+        let wrong = Some(Truth::NotEnrolled);
+        assert_eq!(past(accepted, &["old"], wrong), Mark::Bad);
+        assert_eq!(past(StoredVerdict::Rejected, &[], None), Mark::Bad);
+        assert_eq!(past(StoredVerdict::NoPart, &[], None), Mark::Open);
     }
 }

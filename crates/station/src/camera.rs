@@ -150,6 +150,8 @@ pub enum NoFrame {
     Late {
         /// How long the trigger waited.
         waited: Duration,
+        /// The rule for a new frame.
+        rule: NewFrame,
     },
     /// A frame arrived that cannot be read.
     #[error("{name}: {error}")]
@@ -198,6 +200,10 @@ impl Advice for NoFrame {
                     .into()
             }
             Self::Ended => "TRIGGER again: the source is being reopened".into(),
+            Self::Late { rule: NewFrame::WrittenAfter, .. } => {
+                "Have a new file written to the watched folder after each trigger; if that takes longer, raise --frame-timeout"
+                    .into()
+            }
             Self::Late { .. } => {
                 "Check that the camera delivers frames; a slow one needs a longer --frame-timeout"
                     .into()
@@ -402,7 +408,10 @@ impl Opened {
                 },
             }
             if Instant::now() >= until {
-                return Err(unreadable.unwrap_or(NoFrame::Late { waited: at_most }));
+                return Err(unreadable.unwrap_or(NoFrame::Late {
+                    waited: at_most,
+                    rule: self.rule,
+                }));
             }
         }
         Err(Unanswered::Stopping.into())

@@ -3,13 +3,14 @@
 use std::time::{Duration, SystemTime};
 
 use super::Inspected;
-use geometry::error::Advice;
+use geometry::error::Advice as _;
 use records::{history::RobotMarks, report::pose_report::DoubtBlock};
 use robot::{arm::NotReached, paint::FilmOffPlan, spray::OffThePart};
 use stages::{
     pose::{OffScale, PoseEstimate},
     scan,
 };
+use texts::{Described, Message};
 
 /// A part captured longer ago than this may hang elsewhere by now.
 const STALE: Duration = Duration::from_mins(10);
@@ -19,7 +20,6 @@ const CLOCK_TOLERANCE: Duration = Duration::from_secs(5);
 
 /// A capture that is dated later than now by this computer's clock, so that its age is not known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the capture is dated {} s later than now, so its age is not known", ahead.as_secs())]
 pub struct ClockAhead {
     /// The difference between the clocks.
     pub ahead: Duration,
@@ -29,49 +29,34 @@ pub struct ClockAhead {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Doubt {
     /// A person has reported that the part is another one, or none. Only the window knows that.
-    #[error("the part was reported as wrong")]
     ReportedWrong,
     /// The source gives no more frames.
-    #[error("the source was lost, so what hangs there now is not known")]
     SourceLost,
     /// What hangs there moves.
-    #[error("the part is moving")]
     Moving,
     /// Another part may hang there by now.
-    #[error("another part may hang there by now")]
     Superseded,
     /// No part was accepted.
-    #[error("the part was not accepted")]
     NotAccepted,
     /// The part has no pose.
-    #[error("the part has no pose")]
     NoPose,
     /// The camera's pose in the robot's cell is not known.
-    #[error("the cell is not calibrated")]
     NotCalibrated,
     /// The capture is dated later than now.
-    #[error(transparent)]
     ClockAhead(ClockAhead),
     /// The capture is old, or its age cannot be read.
-    #[error("the capture is more than 10 minutes old, or of unknown age")]
     Old,
     /// Another pose fits nearly as well.
-    #[error("another pose of the part fits nearly as well")]
     Ambiguous,
     /// The part is larger or smaller than its reference, so the camera's numbers are probably wrong.
-    #[error(transparent)]
     OffScale(OffScale),
     /// The frames of a scan, or the poses of their cameras, contradict one another.
-    #[error(transparent)]
     Scan(scan::Doubt),
     /// The path does not aim at the part.
-    #[error(transparent)]
     OffThePart(OffThePart),
     /// The arm does not reach the path, or collides on it.
-    #[error(transparent)]
     NotReached(NotReached),
     /// A program would leave another film than planned.
-    #[error(transparent)]
     FilmOffPlan(FilmOffPlan),
 }
 
@@ -106,37 +91,27 @@ impl Doubt {
     }
 }
 
-impl Advice for ClockAhead {
-    fn advice(&self) -> String {
-        "Set the clocks of this computer and of the one that wrote the capture from the same time server, and capture the part again".into()
+impl Described for ClockAhead {
+    fn message(&self) -> Message {
+        Message::new("doubt-clock-ahead").with("seconds", self.ahead.as_secs_f64().floor())
     }
 }
 
-impl Advice for Doubt {
-    fn advice(&self) -> String {
+impl Described for Doubt {
+    fn message(&self) -> Message {
         match self {
-            Self::ReportedWrong => "Check which part hangs there, and capture it again".into(),
-            Self::SourceLost => "Connect the source again, and capture the part again".into(),
-            Self::Moving => "Wait until the part hangs still".into(),
-            Self::Superseded | Self::NotAccepted | Self::Old => {
-                "Capture the part again".into()
-            }
-            Self::NoPose => "Choose a recipe that estimates the pose, and inspect the part again".into(),
-            Self::NotCalibrated => {
-                "Calibrate where the camera stands in the robot's cell: partsight calibrate, or Robot… in the window".into()
-            }
-            Self::ClockAhead(ahead) => ahead.advice(),
-            Self::Ambiguous => {
-                "Turn the part's face to the camera, all of it inside the picture".into()
-            }
-            Self::OffScale(off) => off.advice(),
-            Self::Scan(doubt) => doubt.advice(),
-            Self::OffThePart(off) => off.advice(),
-            Self::NotReached(missed) => missed.advice(),
-            Self::FilmOffPlan(off_plan) => off_plan.advice(),
+            Self::ClockAhead(ahead) => ahead.message(),
+            Self::OffScale(off) => off.message(),
+            Self::Scan(doubt) => doubt.message(),
+            Self::OffThePart(off) => off.message(),
+            Self::NotReached(missed) => missed.message(),
+            Self::FilmOffPlan(off_plan) => off_plan.message(),
+            _ => Message::new(format!("doubt-{}", self.kind().replace('_', "-"))),
         }
     }
 }
+
+texts::display!(ClockAhead, Doubt);
 
 /// Returns the doubt about a capture of this time whose source is not followed: another part may hang there by now.
 pub fn age_doubt(captured: SystemTime) -> Option<Doubt> {
@@ -175,11 +150,10 @@ impl Inspected<'_> {
         doubts.into_iter().flatten().collect()
     }
 
-    /// The doubts about the result as a report states them, which says by itself that a calibration is missing.
+    /// The doubts about the result as a report states them.
     pub fn doubt_blocks(&self) -> Vec<DoubtBlock> {
         let doubts = self.doubts().into_iter();
-        let about_result = doubts.filter(|doubt| *doubt != Doubt::NotCalibrated);
-        let blocks = about_result.map(|doubt| DoubtBlock {
+        let blocks = doubts.map(|doubt| DoubtBlock {
             kind: doubt.kind(),
             what: doubt.to_string(),
             advice: doubt.advice(),

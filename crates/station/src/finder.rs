@@ -10,7 +10,7 @@ use inspection::{
 };
 use robot::{
     RobotFrame,
-    spray::{BandStatus, carry},
+    spray::{BandStatus, OffThePart, carry},
 };
 use serve::{Answer, Found, PathStep, PoseKind, Trouble, VerdictCode};
 
@@ -21,6 +21,8 @@ pub struct NumberedPart {
     pub number: u32,
     /// Its stored spray path.
     pub path: Option<SprayPath>,
+    /// Why robots get no point of that path, if it does not aim at the part.
+    pub off: Option<OffThePart>,
     /// True if it was enrolled from a simulation.
     pub is_simulated: bool,
 }
@@ -89,10 +91,18 @@ impl PartFinder {
                 PoseKind::RobotFromPart => self.robot.robot_from_part(&camera_from_part),
                 PoseKind::RobotOffset => self.robot.robot_offset(&camera_from_part),
             });
-            let path = numbered.and_then(|numbered| numbered.path.as_ref());
-            found.path = path.map_or_else(Vec::new, |path| {
-                self.carried(path, &camera_from_part, inspection, inspected.recipe)
-            });
+            match numbered {
+                Some(NumberedPart { off: Some(off), .. }) => {
+                    found.no_path = Some(Trouble::of("off_the_part", off));
+                }
+                Some(NumberedPart {
+                    path: Some(path), ..
+                }) => {
+                    found.path =
+                        self.carried(path, &camera_from_part, inspection, inspected.recipe);
+                }
+                _ => {}
+            }
         }
         found
     }
@@ -156,6 +166,7 @@ mod tests {
         let parts = parts.map(|number| NumberedPart {
             number,
             path: path.clone(),
+            off: None,
             is_simulated: false,
         });
         PartFinder {
@@ -225,6 +236,25 @@ mod tests {
             let carried = finder.robot.robot_from_camera * (pose * taught);
             assert!((mouth - carried.coords).norm() < 1e-9);
         }
+    }
+
+    #[test]
+    fn of_a_path_that_does_not_aim_at_the_part_no_point_is_given() {
+        let library = shipped_library();
+        let mut finder = finder(&library, PoseKind::default());
+        let off = OffThePart {
+            num_spraying: 12,
+            num_aiming: 1,
+            num_too_near: 0,
+        };
+        for part in &mut finder.parts {
+            part.off = Some(off);
+        }
+        let scene = facing_part(PartKind::Fender, Side::Left, 5);
+        let inspection = run(&scene, &library, &Recipe::default(), &Unwatched).expect("run");
+        let found = found(&finder, &inspection, &simulated());
+        assert!(found.pose.is_some() && found.path.is_empty());
+        assert_eq!(found.no_path, Some(Trouble::of("off_the_part", &off)));
     }
 
     #[test]

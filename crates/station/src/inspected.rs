@@ -312,7 +312,7 @@ mod tests {
         fixtures::shipped_library,
         pipeline::{Unwatched, live::refuse_moving, run},
     };
-    use records::history::StoredVerdict;
+    use records::history::{RobotMarks, StoredVerdict};
     use simulate::{PartKind, Side};
     use stages::{fixtures::facing_part, scan::Shot};
 
@@ -358,6 +358,18 @@ mod tests {
         fn line(&self, subject: &Subject) -> Value {
             let line = self.inspected(subject).line(&self.trace);
             serde_json::from_str(&line).expect("JSON")
+        }
+
+        /// What the history notes about letting a robot act on it.
+        fn noted(&self, subject: &Subject) -> RobotMarks {
+            let names = LibraryNames {
+                identity: "",
+                title_of: &|name| name.to_owned(),
+            };
+            let entry =
+                self.inspected(subject)
+                    .entry(HungId::new(), self.trace.clone(), names, None);
+            entry.record.summary.noted
         }
     }
 
@@ -417,6 +429,8 @@ mod tests {
         };
         let line = found.line(&old);
         assert_eq!(line["robot_doubts"], serde_json::json!(["old"]));
+        // The list of the history knows it too.
+        assert_eq!(found.noted(&old).robot_doubts, ["old"]);
         assert!(line.get("robot").is_none());
         assert!(line["pose"]["camera_from_part"].is_array());
         let forced = |found: &Found, robot| {

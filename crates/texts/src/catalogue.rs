@@ -23,7 +23,7 @@ pub static LIBRARY: Catalogue = Catalogue::new(files);
 
 macro_rules! files {
     ($language:literal) => {
-        files!($language: "enrol" "pose" "refusal")
+        files!($language: "doubt" "enrol" "pose" "refusal")
     };
     ($language:literal: $($area:literal)+) => {
         &[$(($area, include_str!(concat!("../language/", $language, "/", $area, ".ftl")))),+]

@@ -4,11 +4,12 @@
 //! FIXED($score, 2)         0.81 with two decimals
 //! PERCENT($share, 1)       0.123 as 12.3
 //! MM($shift_m, 1)          0.0042 metres as 4.2
+//! UM($film_m, 1)           0.0000385 metres as 38.5
 //! DEGREES($turn_rad, 2)    radians as degrees
 //! LIST(a, b, c, between: ", ", last: " and ", end: "; ")    those that are not empty; `end` only if one is not
 //! ```
 //!
-//! The first four are numbers: a text can choose by them, as in `[0.0]`, written with as many decimals.
+//! The first five are numbers: a text can choose by them, as in `[0.0]`, written with as many decimals.
 
 use fluent_bundle::{
     FluentArgs, FluentResource, FluentValue, concurrent::FluentBundle, types::FluentNumber,
@@ -19,6 +20,7 @@ pub(crate) fn add_to(bundle: &mut FluentBundle<FluentResource>) {
         ("FIXED", 1.0),
         ("PERCENT", 100.0),
         ("MM", 1000.0),
+        ("UM", 1e6),
         ("DEGREES", 1_f64.to_degrees()),
     ];
     for (name, factor) in numbers {

@@ -32,15 +32,21 @@ pub enum Mark {
     Runs,
 }
 
+impl Mark {
+    /// Returns the colour of the disc, and of words with the same meaning.
+    pub fn colour(self, theme: &Theme) -> Color32 {
+        match self {
+            Self::Good => theme.accepted,
+            Self::Bad => theme.rejected,
+            Self::Look => theme.warning,
+            Self::Known | Self::Open | Self::Runs => theme.weak_text,
+        }
+    }
+}
+
 /// Draws a filled disc with a sign in it.
 pub fn mark(painter: &Painter, centre: Pos2, radius: f32, mark: Mark, theme: &Theme) {
-    let fill = match mark {
-        Mark::Good => theme.accepted,
-        Mark::Bad => theme.rejected,
-        Mark::Look => theme.warning,
-        Mark::Known | Mark::Open | Mark::Runs => theme.weak_text,
-    };
-    painter.circle_filled(centre, radius, fill);
+    painter.circle_filled(centre, radius, mark.colour(theme));
     let at = |x: f32, y: f32| centre + vec2(x, y) * radius;
     let stroke = Stroke::new(radius * 0.24, theme.panel);
     match mark {

@@ -52,6 +52,8 @@ pub(super) enum SuiteChoice {
     BoothUnknown,
     /// The same parts of cars of other makes, 6 to 12 % off in every dimension
     OtherMakes,
+    /// The same with three times the noise
+    NoisyMakes,
 }
 
 impl SuiteChoice {
@@ -69,6 +71,7 @@ impl SuiteChoice {
             Self::Booth => Suite::Booth,
             Self::BoothUnknown => Suite::BoothUnknown,
             Self::OtherMakes => Suite::OtherMakes,
+            Self::NoisyMakes => Suite::NoisyMakes,
         };
         vec![one]
     }

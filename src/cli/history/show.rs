@@ -294,10 +294,9 @@ fn record_table(from: ReadFrom<'_>, record: &Record) -> Table {
             row(name, in_columns(line));
         }
     }
-    let marks = record.robot_marks();
-    if !marks.robot_doubts.is_empty() {
-        let doubts = marks.robot_doubts.join(", ");
-        row("robot", format!("may not act on this pose: {doubts}"));
+    let marks = summary.robot_marks();
+    if let Some(doubts) = marks.past_doubts(Language::English) {
+        row("robot", doubts);
     }
     if marks.motion_checked == Some(false) {
         row(

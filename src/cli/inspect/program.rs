@@ -9,6 +9,7 @@ use crate::cli::{
     Outcome,
     console::{Advised as _, Console, advised_error, store_a_path},
     program::{ProgramFile, ProgramOptions, ProgramSubject, language_help, parse_language},
+    robot_file::refuse_inspection,
 };
 use geometry::units::any_of;
 use inspection::library::{Library, LibraryLoad, LibraryPlace, PartMeta};
@@ -96,16 +97,14 @@ impl CapturedProgram {
         let first = inspection.ranking.entries.first();
         let part = inspection.segmentation.part.as_ref().ok();
         let (Some((pose, first)), Some(part)) = (pose.zip(first), part) else {
-            console.note(&"no program was written: no part was found with a pose");
-            return Ok(Outcome::NotAccepted);
+            return Ok(refuse_inspection("program", seen, console));
         };
         let meta = &self.parts[first.reference];
         let name = &meta.name;
         let Some(path) = self.place.spray_path(name.as_str()).advised()? else {
             // A part that was only the nearest need not have a path.
             if !inspection.verdict.is_accepted() {
-                console.note(&"no program was written: the part was not accepted");
-                return Ok(Outcome::NotAccepted);
+                return Ok(refuse_inspection("program", seen, console));
             }
             return Err(advised_error(
                 format!("{name} has no spray path, so there is nothing to write a program from"),

@@ -121,8 +121,7 @@ impl SprayFile {
         let first = inspection.ranking.entries.first();
         let part = inspection.segmentation.part.as_ref().ok();
         let (Some((pose, first)), Some(part)) = (pose.zip(first), part) else {
-            console.note(&"no spray path was written: no part was found with a pose");
-            return Ok(Outcome::NotAccepted);
+            return Ok(robot_file::refuse_inspection("spray path", seen, console));
         };
         let reference = &library.references[first.reference];
         let meta = &self.parts[first.reference];

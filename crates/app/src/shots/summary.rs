@@ -4,10 +4,10 @@ use egui::{RichText, Ui};
 
 use shell::{
     inspection::{fuse::FusedShots, scan_figure::ShotFate, unit_system::UnitSystem},
-    language::results::{doubt, excluded, excluded_advice},
+    language::results::{excluded, excluded_advice},
 };
 use ui::{
-    language::text,
+    language::{text, what_and_advice},
     theme::{Theme, font, space},
     widgets::{grouped, heading, row, sentence},
 };
@@ -67,7 +67,7 @@ fn figures(ui: &mut Ui, fused: &FusedShots, units: UnitSystem) {
         }
     }
     if let Some(found) = &fused.scan.doubt {
-        let [what, advice] = doubt(found);
-        advised(ui, &what, advice);
+        let [what, advice] = what_and_advice(found);
+        advised(ui, &sentence(&what), advice);
     }
 }

@@ -20,7 +20,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use files::save_cloud;
 use inspection::{library::Truth, pipeline::Recipe};
 use records::history::{
-    History, HungId, KeepFrames, NewEntry, Retention, SceneTitle, StoredVerdict,
+    History, HungId, KeepFrames, NewEntry, Retention, RobotMarks, SceneTitle, StoredVerdict,
 };
 use shell::{
     action::{Action, Effect},
@@ -485,11 +485,10 @@ fn what_a_command_inspects_shows_in_an_open_history() {
     let mut history = History::open(folder.path()).expect("opened").history;
     let mut record = history.known(1).expect("written");
     record.summary.hung = HungId::new();
-    let line = &mut record.detail.line;
-    let mut marked: serde_json::Value = serde_json::from_str(line).expect("JSON");
-    marked["robot_doubts"] = serde_json::json!(["ambiguous_pose", "poses_apart"]);
-    marked["motion_checked"] = false.into();
-    *line = marked.to_string();
+    record.summary.noted = RobotMarks {
+        robot_doubts: vec!["ambiguous_pose".into(), "poses_apart".into()],
+        motion_checked: Some(false),
+    };
     let entry = NewEntry {
         record,
         picture: None,
@@ -509,11 +508,11 @@ fn what_a_command_inspects_shows_in_an_open_history() {
     harness.get_by_label("2 of 2 entries");
     press(&mut harness, "Inspection 2: Front door, left, Accepted");
     harness.get_by_label(
-        "The robot got no pose: another pose of the part fits nearly as well; the poses of the scan contradict one another",
+        "A robot must not act on this pose: another pose of the part fitted nearly as well; the poses of the scan contradicted one another",
     );
     harness.get_by_label("Not known whether the part hung still");
     press(&mut harness, "Inspection 1: Front door, left, Accepted");
-    assert!(harness.query_by_label_contains("got no pose").is_none());
+    assert!(harness.query_by_label_contains("must not act").is_none());
 }
 
 #[test]

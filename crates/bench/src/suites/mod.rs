@@ -63,11 +63,13 @@ pub enum Suite {
     BoothUnknown,
     /// The same parts of other makes, placed: 6 to 12 % off in every dimension, and curved differently.
     OtherMakes,
+    /// The same with three times the noise.
+    NoisyMakes,
 }
 
 impl Suite {
     /// All suites.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Standard,
         Self::Placed,
         Self::OtherModels,
@@ -79,6 +81,7 @@ impl Suite {
         Self::Booth,
         Self::BoothUnknown,
         Self::OtherMakes,
+        Self::NoisyMakes,
     ];
 
     /// Returns the name used in files and on the command line.
@@ -95,6 +98,7 @@ impl Suite {
             Self::Booth => "booth",
             Self::BoothUnknown => "booth_unknown",
             Self::OtherMakes => "other_makes",
+            Self::NoisyMakes => "noisy_makes",
         }
     }
 
@@ -137,7 +141,8 @@ impl Suite {
             | Self::Hard
             | Self::Floor
             | Self::Booth
-            | Self::OtherMakes => PartKind::ALL.map(|kind| part(kind, Side::Left)).to_vec(),
+            | Self::OtherMakes
+            | Self::NoisyMakes => PartKind::ALL.map(|kind| part(kind, Side::Left)).to_vec(),
             Self::Unknown | Self::BoothUnknown => ObjectKind::ALL
                 .into_iter()
                 .map(SimulatedObject::Object)
@@ -167,13 +172,16 @@ impl Suite {
                     ..PoseRange::placed()
                 });
             }
-            Self::OtherModels | Self::OtherMakes => {
+            Self::OtherModels | Self::OtherMakes | Self::NoisyMakes => {
                 if let SimulatedObject::Part { model_seed, .. } = &mut setup.subject {
                     // Never 0, and different models for tuning and measuring.
                     *model_seed = seed / 10_000 + pose;
-                    if self == Self::OtherMakes {
+                    if self != Self::OtherModels {
                         *model_seed += FIRST_OTHER_MAKE;
                     }
+                }
+                if self == Self::NoisyMakes {
+                    setup.noise.multiplier = 3.0;
                 }
             }
             Self::Hard => {
@@ -260,6 +268,7 @@ mod tests {
         for frame in of(Suite::OtherModels)
             .into_iter()
             .chain(of(Suite::OtherMakes))
+            .chain(of(Suite::NoisyMakes))
         {
             let SimulatedObject::Part { model_seed, .. } = frame.setup.subject else {
                 panic!("a part");

@@ -2,7 +2,7 @@
 
 use super::super::error::FileError;
 use super::super::scalar::Scalar;
-use super::super::source::{Source, header_text};
+use super::super::source::{ONE_COLUMN_EACH, Source, header_text};
 use geometry::cloud::Grid;
 
 /// How the points are stored after the header.
@@ -140,6 +140,11 @@ impl Lines {
 
     fn fields(&self, source: Source<'_>) -> Result<(Vec<Field>, usize), FileError> {
         let num_fields = self.fields.len();
+        let num_of = |name| self.fields.iter().filter(|field| *field == name).count();
+        if ["x", "y", "z"].into_iter().any(|name| num_of(name) > 1) {
+            let fields = format!("FIELDS {}", self.fields.join(" "));
+            return Err(source.bad_header(fields, ONE_COLUMN_EACH));
+        }
         let is_consistent = self.sizes.len() == num_fields
             && self.types.len() == num_fields
             && (self.counts.is_empty() || self.counts.len() == num_fields);

@@ -287,6 +287,9 @@ fn a_header_that_makes_no_sense_is_quoted() {
             "{to}"
         );
     }
+    let twice = header("x:F:4:1 y:F:4:1 z:F:4:1 x:F:4:1", "1", "1", "ascii") + "1 2 3 4\n";
+    let error = read_bytes(twice.as_bytes()).unwrap_err().to_string();
+    assert!(error.contains("one column each"), "{error}");
     let none = good.replace("WIDTH 1", "WIDTH 0");
     assert!(matches!(
         read_bytes(none.as_bytes()),

@@ -2,7 +2,7 @@
 
 use super::super::error::FileError;
 use super::super::scalar::Scalar;
-use super::super::source::{Source, header_text};
+use super::super::source::{ONE_COLUMN_EACH, Source, header_text};
 
 /// How the rows are stored after the header.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -137,6 +137,11 @@ impl Header {
                     let element = element.ok_or_else(|| {
                         source.bad_header(&text, "an element before its properties")
                     })?;
+                    let is_same = |known: &Property| known.name == property.name;
+                    let is_read = ["x", "y", "z"].contains(&&*property.name);
+                    if is_read && element.properties.iter().any(is_same) {
+                        return Err(source.bad_header(&text, ONE_COLUMN_EACH));
+                    }
                     element.properties.push(property);
                 }
                 ["end_header"] => {

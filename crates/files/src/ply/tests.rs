@@ -209,6 +209,7 @@ fn a_bad_number_and_a_bad_header_are_named() {
         ("property double x", "property quadruple x"),
         ("property double x", "property double w"),
         ("property double x", "property double"),
+        ("property double x", "property double x\nproperty double x"),
         ("element vertex 4", "element vertex four"),
         ("element vertex 4", "element vertices 4"),
         ("element camera 1\n", ""),

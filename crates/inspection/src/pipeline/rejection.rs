@@ -109,6 +109,9 @@ pub enum Rejection {
         /// Largest bound that is accepted.
         #[serde(rename = "limit_m")]
         limit: Metres,
+        /// True if most of it is how far the frames of a scan disagree about where the part is.
+        #[serde(default)]
+        frames_disagree: bool,
     },
     /// Nothing enrolled is like it.
     Unknown {

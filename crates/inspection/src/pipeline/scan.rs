@@ -14,7 +14,7 @@ use rand_pcg::Pcg64;
 
 use self::placements::{Placement, disagreement};
 use super::{
-    Cancelled, Inspection, ProgressObserver, Recipe, Unrecognisable, Verdict, run,
+    Cancelled, Inspection, ProgressObserver, Recipe, Rejection, Unrecognisable, Verdict, run,
     unsound::refuse_unsound, verdict::verdict,
 };
 use crate::library::Library;
@@ -115,7 +115,8 @@ pub fn run_scan(
     let middle = scan.cloud.middle_of_part();
     // A stable sort: equal scores keep the library's order.
     entries.sort_by(|a, b| b.score.total_cmp(&a.score));
-    for entry in &mut entries {
+    let mut disagree_most = false;
+    for (place, entry) in entries.iter_mut().enumerate() {
         if let Some(pose) = &mut entry.pose {
             // The part is no better placed in the base frame than the robot's poses agree.
             let apart = middle.map(|middle| {
@@ -128,6 +129,9 @@ pub fn run_scan(
                 )
             });
             let bounds = pose.uncertainty.zip(apart);
+            if place == 0 {
+                disagree_most = bounds.is_some_and(|(own, apart)| apart.shift > own.shift);
+            }
             pose.uncertainty = bounds.map(|(bounds, apart)| bounds.widened(&apart));
             pose.target_from_source *= base_from_first;
             for step in &mut pose.iterations {
@@ -147,6 +151,15 @@ pub fn run_scan(
     });
     inspection.ranking = ConfirmedRanking { entries };
     inspection.verdict = verdict(&inspection.ranking, pose.as_ref(), recipe);
+    if let Verdict::Part {
+        rejected: Some(Rejection::Uncertain {
+            frames_disagree, ..
+        }),
+        ..
+    } = &mut inspection.verdict
+    {
+        *frames_disagree = disagree_most;
+    }
     let camera_from_part = pose.as_ref().and_then(|pose| pose.as_ref().ok());
     let base_from_part = camera_from_part.map(|pose| base_from_first * pose.camera_from_part());
     inspection.pose = pose;
@@ -441,11 +454,8 @@ mod tests {
     use nalgebra::Translation3;
 
     use super::*;
-    use crate::{
-        fixtures::shipped_library,
-        pipeline::{Rejection, Unwatched},
-    };
-    use geometry::rigid::pose_error;
+    use crate::{fixtures::shipped_library, pipeline::Unwatched};
+    use geometry::{error::Advice as _, rigid::pose_error};
     use simulate::{PartKind, ScanSetup, Side, SimulatedObject, SimulatedScan};
     use stages::{
         scan::{ScanParams, Shot, Unwatched as UnwatchedScan, assemble},
@@ -505,7 +515,21 @@ mod tests {
         let bound = bound_mm(drifted);
         assert!(bound + 0.5 >= off, "{bound} {off}");
         let why = drifted.inspection.verdict.rejected();
-        assert!(matches!(why, Some(Rejection::Uncertain { .. })), "{why:?}");
+        let disagree = matches!(
+            why,
+            Some(Rejection::Uncertain {
+                frames_disagree: true,
+                ..
+            })
+        );
+        assert!(disagree, "{why:?}");
+        let advice = drifted
+            .inspection
+            .verdict
+            .refusal()
+            .expect("refused")
+            .advice();
+        assert!(advice.starts_with("Check the robot's pose"), "{advice}");
     }
 
     #[test]

@@ -234,6 +234,7 @@ pub(super) fn verdict(
             part: best.part.clone(),
             shift: found.shift,
             limit: accept.max_uncertainty,
+            frames_disagree: false,
         }),
         _ => other_model.map(|evidence| Rejection::AnotherModel {
             part: best.part.clone(),

@@ -59,6 +59,8 @@ const FIRST: &str = "
         job_order text,
         operator text,
         reason_kind text,
+        robot_doubts text,
+        motion_checked boolean,
         time timestamptz GENERATED ALWAYS AS (to_timestamp(at / 1000000.0::double precision)) STORED,
         received timestamptz NOT NULL DEFAULT now(),
         changed timestamptz NOT NULL DEFAULT now(),

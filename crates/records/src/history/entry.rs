@@ -20,7 +20,7 @@ use inspection::{
     pipeline::{Inspection, NamedRecipe, Recipe, RecipeLabel, Refusal, RefusalKind, Verdict},
 };
 use stages::{pose::PoseEstimate, scan::Shot, scene::SceneCloud};
-use texts::{Described as _, Message};
+use texts::{Described as _, Language, Message};
 
 /// Verdict of an inspection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -103,6 +103,8 @@ pub struct Summary {
     pub title: String,
     /// Kind of the refusal; `None` if it was accepted.
     pub reason: Option<RefusalKind>,
+    /// What its line said, when it was inspected, about letting a robot act on the pose.
+    pub noted: RobotMarks,
     /// Score (0..1) and margin of the best guess.
     pub score: Option<[f64; 2]>,
     /// Time from points to verdict, milliseconds.
@@ -138,6 +140,18 @@ impl Summary {
     /// True if it was accepted and its true label says that it is another part, or none.
     pub fn is_wrongly_accepted(&self) -> bool {
         self.verdict == StoredVerdict::Accepted && !self.is_ok()
+    }
+
+    /// Returns what is known about letting a robot act on the pose: what was noted when it was inspected, and whether a
+    /// person has said since that the part is another one.
+    pub fn robot_marks(&self) -> RobotMarks {
+        let mut marks = self.noted.clone();
+        let doubts = &mut marks.robot_doubts;
+        let is_noted = doubts.iter().any(|kind| kind == RobotMarks::REPORTED_WRONG);
+        if self.is_wrongly_accepted() && !is_noted {
+            doubts.insert(0, RobotMarks::REPORTED_WRONG.into());
+        }
+        marks
     }
 
     /// Returns the lower-case text in which a filter looks for its words. What the row shows in words of its own begins
@@ -206,7 +220,7 @@ pub struct InspectionDetail {
     pub frame: Option<FrameRecord>,
 }
 
-/// What a line says about letting a robot act on the pose.
+/// What the line of an inspection says about letting a robot act on the pose.
 #[derive(Clone, Debug, Default, PartialEq, Eq, serde::Deserialize)]
 #[serde(default)]
 pub struct RobotMarks {
@@ -219,6 +233,20 @@ pub struct RobotMarks {
 impl RobotMarks {
     /// The word for a part that a person has reported as wrong.
     pub const REPORTED_WRONG: &str = "reported_wrong";
+
+    /// Says why a robot must not act on the pose; `None` if nothing is against it.
+    pub fn past_doubts(&self, language: Language) -> Option<String> {
+        let kinds = self.robot_doubts.iter();
+        let whys = kinds.map(|kind| {
+            let message = Message::new(format!("doubt-{}", kind.replace('_', "-")));
+            // Files of later versions may have further words.
+            let past = message.attribute(language, "past");
+            past.unwrap_or_else(|| kind.clone())
+        });
+        let whys: Vec<String> = whys.collect();
+        let message = Message::new("doubt-past").with("why", &*whys.join("; "));
+        (!whys.is_empty()).then(|| message.text(language))
+    }
 }
 
 /// An inspection in full.
@@ -298,6 +326,7 @@ impl NewEntry {
             part: nearest.clone().filter(|_| is_named),
             title: nearest.as_deref().map(about.title_of).unwrap_or_default(),
             reason: refusal.as_ref().map(Refusal::kind),
+            noted: serde_json::from_str(&about.line).unwrap_or_default(),
             score: inspection.verdict.score(),
             total_ms: inspection.timings.total.as_secs_f64() * 1e3,
             remark: String::new(),
@@ -410,18 +439,6 @@ impl InspectionDetail {
 }
 
 impl Record {
-    /// Returns what is known about letting a robot act on the pose: what the line says, and whether a person has said since
-    /// that the part is another one.
-    pub fn robot_marks(&self) -> RobotMarks {
-        let mut marks: RobotMarks = serde_json::from_str(&self.detail.line).unwrap_or_default();
-        let doubts = &mut marks.robot_doubts;
-        let is_noted = doubts.iter().any(|kind| kind == RobotMarks::REPORTED_WRONG);
-        if self.summary.is_wrongly_accepted() && !is_noted {
-            doubts.insert(0, RobotMarks::REPORTED_WRONG.into());
-        }
-        marks
-    }
-
     /// Returns the pose as 16 numbers in row-major order, metres.
     pub fn matrix(&self) -> Option<[f64; 16]> {
         self.detail.camera_from_part.as_ref().map(row_major)

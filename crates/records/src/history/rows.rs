@@ -6,7 +6,7 @@ use jiff::Timestamp;
 use rusqlite::{Connection, OptionalExtension as _, Row, TransactionBehavior, params};
 
 use super::{
-    entry::{InspectionDetail, NewEntry, Record, StoredVerdict, Summary, png_of},
+    entry::{InspectionDetail, NewEntry, Record, RobotMarks, StoredVerdict, Summary, png_of},
     frames::FrameRecord,
     hung::HungId,
     scene_title::SceneTitle,
@@ -17,7 +17,7 @@ use inspection::pipeline::{Recipe, RecipeLabel, RefusalKind};
 
 /// The columns of a list row.
 pub(super) const COLUMNS: &str = "number, at, scene, simulated_frame, num_shots, source, simulated, verdict, part, title, \
-    reason_kind, score, margin, total_ms, remark, label, frame_bytes, hung, parent, serial, job_order, operator, \
+    reason_kind, robot_doubts, motion_checked, score, margin, total_ms, remark, label, frame_bytes, hung, parent, serial, job_order, operator, \
     (SELECT count(*) FROM inspection AS other WHERE other.parent = inspection.number) AS num_below";
 
 /// The columns of the rest of an inspection, with its recipe.
@@ -69,8 +69,9 @@ pub(super) fn insert(
     let recipe = recipe_key(file, &detail.recipe_identity, detail.recipe.as_deref())?;
     file.execute(
         "INSERT INTO inspection (at, scene, simulated_frame, num_shots, source, simulated, verdict, part, title, score,
-            margin, total_ms, remark, label, frame_bytes, search, hung, parent, serial, job_order, operator, reason_kind)
-            VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+            margin, total_ms, remark, label, frame_bytes, search, hung, parent, serial, job_order, operator, reason_kind,
+            robot_doubts, motion_checked)
+            VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
         params![
             summary.at.as_microsecond(),
             scene,
@@ -94,6 +95,8 @@ pub(super) fn insert(
             summary.trace.order,
             summary.trace.operator,
             summary.reason.as_ref().map(RefusalKind::name),
+            summary.noted.robot_doubts.join(" "),
+            summary.noted.motion_checked,
         ],
     )?;
     let number = file.last_insert_rowid();
@@ -201,6 +204,7 @@ pub(super) fn summary_of(row: &Row<'_>) -> rusqlite::Result<Summary> {
     let at = Timestamp::from_microsecond(row.get("at")?);
     let bytes: Option<i64> = row.get("frame_bytes")?;
     let reason: Option<String> = row.get("reason_kind")?;
+    let doubts: String = row.get("robot_doubts")?;
     let name: String = row.get("scene")?;
     let frame: Option<i64> = row.get("simulated_frame")?;
     let shots: Option<i64> = row.get("num_shots")?;
@@ -223,6 +227,10 @@ pub(super) fn summary_of(row: &Row<'_>) -> rusqlite::Result<Summary> {
         part: row.get("part")?,
         title: row.get("title")?,
         reason: reason.map(RefusalKind::named),
+        noted: RobotMarks {
+            robot_doubts: doubts.split_whitespace().map(str::to_owned).collect(),
+            motion_checked: row.get("motion_checked")?,
+        },
         score: score.zip(margin).map(|(score, margin)| [score, margin]),
         total_ms: row.get("total_ms")?,
         remark: row.get("remark")?,

@@ -3,7 +3,7 @@
 use rusqlite::{Connection, TransactionBehavior};
 
 /// The version that this program writes and reads. Files of development builds have lower ones and are set aside.
-pub(super) const VERSION: u32 = 6;
+pub(super) const VERSION: u32 = 7;
 
 /// Application id that distinguishes our files from those of other programs: `PsHi`.
 pub(super) const APPLICATION: i32 = i32::from_be_bytes(*b"PsHi");
@@ -42,7 +42,9 @@ const TABLES: &str = "
         serial TEXT NOT NULL DEFAULT '',
         job_order TEXT NOT NULL DEFAULT '',         -- ORDER is a word of SQL
         operator TEXT NOT NULL DEFAULT '',
-        reason_kind TEXT                            -- the kind of refusal, here too so that statistics need not read detail
+        reason_kind TEXT,                           -- the kind of refusal, here too so that statistics need not read detail
+        robot_doubts TEXT NOT NULL DEFAULT '',      -- why no robot might act on the pose, words separated by blanks
+        motion_checked INTEGER                      -- 0: no other frame showed whether the part hung still
     );
     CREATE TABLE detail (
         number INTEGER PRIMARY KEY REFERENCES inspection (number) ON DELETE CASCADE,

@@ -38,7 +38,7 @@ pub enum ColumnKind {
 pub type Column = (&'static str, ColumnKind);
 
 /// All columns of `inspection`; the first is the key.
-pub const INSPECTION_COLUMNS: [Column; 23] = [
+pub const INSPECTION_COLUMNS: [Column; 25] = [
     ("number", Integer),
     ("at", Integer),
     ("scene", Text),
@@ -62,6 +62,8 @@ pub const INSPECTION_COLUMNS: [Column; 23] = [
     ("job_order", Text),
     ("operator", Text),
     ("reason_kind", Text),
+    ("robot_doubts", Text),
+    ("motion_checked", Boolean),
 ];
 
 /// All columns of `detail`; the first is the key.

@@ -89,7 +89,7 @@ fn write_row(writer: &mut dyn Write, record: &Record, columns: &str) -> io::Resu
     let trace = &summary.trace;
     let [serial, order, operator] =
         [&trace.serial, &trace.order, &trace.operator].map(|text| quoted(text));
-    let marks = record.robot_marks();
+    let marks = summary.robot_marks();
     let doubts = marks.robot_doubts.join(" ");
     let motion_checked = marks
         .motion_checked

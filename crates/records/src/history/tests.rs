@@ -32,7 +32,11 @@ fn numbers(history: &History, filter: &Filter) -> Vec<i64> {
 #[test]
 fn what_is_written_comes_back_whole_also_after_closing() {
     let (folder, mut history) = new_history();
-    let written = history_entry(1, StoredVerdict::Rejected, "front_door");
+    let mut written = history_entry(1, StoredVerdict::Rejected, "front_door");
+    written.record.summary.noted = RobotMarks {
+        robot_doubts: vec!["old".into(), "moving".into()],
+        motion_checked: Some(false),
+    };
     assert_eq!(history.add(&written, &ALL).expect("written"), 1);
     history.set_remark(1, " a dent, below ").expect("written");
     let label = Truth::Part("back_door".into());
@@ -405,7 +409,7 @@ fn only_an_accepted_part_with_the_label_of_another_is_wrongly_accepted() {
         record.summary.label = Some(label);
         assert_eq!(record.summary.is_wrongly_accepted(), is_wrong);
         // Whatever its line said when it was inspected.
-        let doubts = record.robot_marks().robot_doubts;
+        let doubts = record.summary.robot_marks().robot_doubts;
         assert_eq!(doubts.contains(&"reported_wrong".to_owned()), is_wrong);
     }
     record.summary.verdict = StoredVerdict::Rejected;

@@ -4,14 +4,11 @@ use std::path::PathBuf;
 
 use super::ARM_NAMES;
 use files::FileError;
-use geometry::{
-    error::Advice,
-    units::{Metres, counted},
-};
+use geometry::{error::Advice, units::Metres};
+use texts::{Described, Message};
 
 /// An arm that does not reach all of a path, or collides on it.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{arm} reaches {num_reached} of {}{}", counted(*num_points, "point", "points"), self.collisions())]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, serde::Serialize)]
 pub struct NotReached {
     /// Name of the arm.
     pub arm: String,
@@ -23,20 +20,14 @@ pub struct NotReached {
     pub num_points: usize,
 }
 
-impl NotReached {
-    fn collisions(&self) -> String {
-        match self.num_collisions {
-            0 => String::new(),
-            num => format!(" and would collide at {num}"),
-        }
+impl Described for NotReached {
+    fn message(&self) -> Message {
+        let message = Message::new("doubt-not-reached").with_fields(self);
+        message.with("num_missed", (self.num_points - self.num_reached) as f64)
     }
 }
 
-impl Advice for NotReached {
-    fn advice(&self) -> String {
-        "Move part or arm, or change the path".into()
-    }
-}
+texts::display!(NotReached);
 
 /// Why an arm cannot be used, or a path not be checked.
 #[derive(Debug, thiserror::Error)]

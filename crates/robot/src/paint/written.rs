@@ -12,9 +12,10 @@ use super::{
     surface::PaintSurface,
 };
 use crate::program::{MotionPiece, Program, RobotLanguage};
-use geometry::{cloud::PointCloud, error::Advice};
+use geometry::cloud::PointCloud;
 use inspection::library::{PathPoint, Side, SprayPath};
 use stages::reference::Coverage;
+use texts::{Described, Message};
 
 /// Least share of the reachable surface within the tolerance for a film to be good.
 pub const LEAST_WITHIN: f64 = 0.9;
@@ -96,10 +97,6 @@ impl WrittenFilm {
 
 /// A program that leaves another film than its path was planned for.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error(
-    "the program would bring {:.1} % of the surface within {:.0} % of the target with {:.1} µm on average, where {:.1} % and {:.1} µm were planned; with the gun open it would stop {num_stops} times",
-    100.0 * within[1], 100.0 * tolerance, 1e6 * mean[1], 100.0 * within[0], 1e6 * mean[0]
-)]
 pub struct FilmOffPlan {
     /// Shares of the surface within the tolerance: planned, and of the program.
     pub within: [f64; 2],
@@ -111,11 +108,20 @@ pub struct FilmOffPlan {
     pub num_stops: usize,
 }
 
-impl Advice for FilmOffPlan {
-    fn advice(&self) -> String {
-        "Plan the path without added strokes along flanks (flank_lean = 0), or write it for a controller that switches the gun while the robot moves".into()
+impl Described for FilmOffPlan {
+    fn message(&self) -> Message {
+        let ([planned, written], [planned_m, written_m]) = (self.within, self.mean);
+        Message::new("doubt-film-off-plan")
+            .with("planned", planned)
+            .with("written", written)
+            .with("planned_m", planned_m)
+            .with("written_m", written_m)
+            .with("tolerance", self.tolerance)
+            .with("num_stops", self.num_stops as f64)
     }
 }
+
+texts::display!(FilmOffPlan);
 
 /// The motion as a path over the part.
 fn moved(

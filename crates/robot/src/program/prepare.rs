@@ -139,7 +139,7 @@ mod tests {
         let problems: Vec<bool> = far.points.iter().map(|p| p.problem.is_some()).collect();
         assert_eq!(problems, [true, false, false, false, true]);
         let doubt = far.missed("arm").expect("not reached").to_string();
-        assert!(doubt.starts_with("arm reaches 3 of 5 points"), "{doubt}");
+        assert!(doubt.starts_with("arm misses 2 of 5 points"), "{doubt}");
         let none = CarriedPath { points: Vec::new() };
         assert!(check_reach(&arm, &none, &frame, &settings, None).is_err());
         // Counted as in the path, without the approach point.
@@ -168,7 +168,7 @@ mod tests {
         assert_eq!(checked(&plate, 1.75, 0.1).missed("arm"), None);
         // 50 mm behind it.
         let through = checked(&plate, 1.55, 0.1);
-        let wanted = "arm reaches 0 of 5 points and would collide at 5";
+        let wanted = "arm misses 5 of 5 points, 5 of them because it would collide";
         assert_eq!(
             through
                 .missed("arm")

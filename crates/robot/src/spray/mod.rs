@@ -31,10 +31,9 @@ use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, Translation3, UnitQuaterni
 
 use geometry::{
     cloud::PointCloud,
-    error::Advice,
     rigid::RigidTransform,
     statistics::median,
-    units::{Metres, Radians, counted},
+    units::{Metres, Radians},
 };
 use inspection::library::{PathPoint, SprayPath};
 use stages::{
@@ -44,6 +43,7 @@ use stages::{
         ray::{Ray, ReferenceSurface, SeenSurface},
     },
 };
+use texts::{Described, Message};
 
 pub use self::export::{SprayExport, remove_previous_export};
 
@@ -206,8 +206,7 @@ pub fn against_reference(
 }
 
 /// A path that does not belong to the part with which it is stored.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the spray path does not aim at the part: {}", self.reason())]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error, serde::Serialize)]
 pub struct OffThePart {
     /// Number of points with the gun on.
     pub num_spraying: usize,
@@ -218,32 +217,14 @@ pub struct OffThePart {
     pub num_too_near: usize,
 }
 
-impl OffThePart {
-    fn reason(&self) -> String {
-        let all = counted(self.num_spraying, "point", "points");
-        if self.num_too_near > 0 {
-            let least = Metres(MIN_DISTANCE_M).mm();
-            return format!(
-                "at {} of {all} with the gun on the nozzle is less than {least:.0} mm in front of the enrolled part, or behind its surface",
-                self.num_too_near
-            );
-        }
-        let verb = if self.num_aiming == 1 { "has" } else { "have" };
-        format!(
-            "{} of {all} with the gun on {verb} the enrolled part in front of the nozzle at about the stand-off",
-            self.num_aiming
-        )
+impl Described for OffThePart {
+    fn message(&self) -> Message {
+        let message = Message::new("doubt-off-the-part").with_fields(self);
+        message.with("least_m", MIN_DISTANCE_M)
     }
 }
 
-impl Advice for OffThePart {
-    fn advice(&self) -> String {
-        if self.num_too_near > 0 {
-            return "Check that the positions are those of the nozzle (nozzle_x_mm) and not of the surface (x_mm, normal_x, stand_off_mm), in the part's frame and in the unit that the heading says".into();
-        }
-        "Check that the path is that of this part, in the part's frame, in the unit that its heading says, and points towards the part".into()
-    }
-}
+texts::display!(OffThePart);
 
 /// Minimum share of the points with the gun on that aim at the part. It is low because a gun also sprays beyond edges and
 /// over openings: of the points planned over the shipped parts, 40 to 70 % aim at them, and 13 % with an overrun of 400 mm.

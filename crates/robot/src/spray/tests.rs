@@ -7,7 +7,7 @@ use crate::{
     paint::{Coat, PaintSurface, Pattern, plan},
     parse_written_pose,
 };
-use geometry::{fixtures::moved, rigid::from_euler_zyx};
+use geometry::{error::Advice as _, fixtures::moved, rigid::from_euler_zyx};
 use inspection::fixtures::shipped_library;
 use stages::{fixtures::plate, reference::Coverage};
 
@@ -184,7 +184,7 @@ fn a_path_on_the_surface_or_behind_it_is_refused_with_any_stand_off() {
         assert_eq!(off.is_some(), is_refused, "{distance} {stand_off:?}");
         let Some(off) = off else { continue };
         assert_eq!((off.num_aiming, off.num_too_near), (0, 9), "{off}");
-        let wanted = "at 9 of 9 points with the gun on the nozzle is less than 20 mm in front";
+        let wanted = "at 9 of 9 points with the gun on, the nozzle is less than 20 mm in front";
         assert!(off.to_string().contains(wanted), "{off}");
         assert!(off.advice().contains("nozzle_x_mm"), "{}", off.advice());
     }

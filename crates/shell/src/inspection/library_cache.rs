@@ -27,7 +27,10 @@ use robot::{
     spray::{OffThePart, off_the_part},
 };
 use stages::reference::ReferenceParams;
-use ui::{language::text, user_error::UserError};
+use ui::{
+    language::{advised, text},
+    user_error::UserError,
+};
 
 /// A handle to the library, the camera, the recording, the history and the robot frame in use; clones share them.
 #[derive(Clone, Debug)]
@@ -385,10 +388,14 @@ fn load(
                     off: off_the_part(&path, reference),
                     path,
                 });
-                if path.as_ref().is_some_and(|path| path.off.is_some()) {
+                if let Some(advice) = path
+                    .as_ref()
+                    .and_then(|path| path.off.as_ref())
+                    .map(advised)
+                {
                     troubles.push(UserError {
                         what: text!("shell-path-off-part", part = part.shown_title()),
-                        advice: text!("robot-doubt-off-part-advice"),
+                        advice,
                     });
                 }
                 path

@@ -8,7 +8,7 @@ use std::{
 use image::{DynamicImage, ImageFormat};
 
 use super::{inspected::Inspected, source::Origin};
-use crate::language::robot::{convention_title, doubt, not_checked};
+use crate::language::robot::{convention_title, not_checked};
 use files::{file_name, write_atomically};
 use records::{
     history::Traceability,
@@ -28,7 +28,7 @@ use station::{
     robot_file::{RobotFile, RobotFileContent, RobotFileError, remove_previous},
 };
 use ui::{
-    language::text,
+    language::{text, what_and_advice},
     user_error::UserError,
     viewport::{ViewColours, ViewShot},
 };
@@ -173,7 +173,7 @@ pub fn robot_file(file: &RobotFile<'_>) -> Result<WrittenForRobot, UserError> {
 
 /// The refusal to write a file because of doubts, of which the first is shown.
 fn not_written(content: RobotFileContent<'_>, doubts: &[Doubt]) -> UserError {
-    let [why, advice] = doubts.first().map(doubt).unwrap_or_default();
+    let [why, advice] = doubts.first().map(what_and_advice).unwrap_or_default();
     let what = match content {
         RobotFileContent::Poses { .. } => text!("inspect-path-not-written", why = why),
         RobotFileContent::Program { .. } => text!("program-not-written", why = why),
@@ -183,7 +183,7 @@ fn not_written(content: RobotFileContent<'_>, doubts: &[Doubt]) -> UserError {
 
 /// The refusal to write a program of a path that the arm of this name does not reach; `None` if it reaches all of it.
 pub fn not_reached(arm: &str, check: &PathCheck) -> Option<UserError> {
-    let [why, advice] = doubt(&Doubt::NotReached(check.missed(arm)?));
+    let [why, advice] = what_and_advice(&check.missed(arm)?);
     let what = text!("program-not-written", why = why);
     Some(UserError { what, advice })
 }

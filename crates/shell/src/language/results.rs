@@ -12,11 +12,7 @@ use inspection::{
 use records::history::{KeepFrames, SceneTitle, StoredVerdict, Summary};
 use robot::cell_check::{CellFinding, CellViewError};
 use simulate::ObjectKind;
-use stages::{
-    pose::Stopped,
-    scan::{Doubt, Excluded},
-    stand_off::StandOffError,
-};
+use stages::{pose::Stopped, scan::Excluded, stand_off::StandOffError};
 use ui::language::{Language, advised, described, text};
 
 /// Formats a number with a fixed number of decimals.
@@ -261,32 +257,6 @@ pub fn excluded(why: &Excluded) -> String {
         Excluded::PartMoved { share } => {
             text!("shots-part-moved-by", share = fixed!(share * 100.0, 0))
         }
-    }
-}
-
-/// Warns of shots that were used and do not agree, and advises what to do.
-pub fn doubt(doubt: &Doubt) -> [String; 2] {
-    match doubt {
-        Doubt::PoorAgreement { name, share } => [
-            text!(
-                "shots-poor-agreement",
-                shot = name.as_str(),
-                share = fixed!((1.0 - share) * 100.0, 1)
-            ),
-            text!("shots-poor-agreement-advice"),
-        ],
-        Doubt::PosesApart {
-            names: [a, b],
-            apart,
-        } => [
-            text!(
-                "shots-poses-apart",
-                a = a.as_str(),
-                b = b.as_str(),
-                apart = apart.to_string()
-            ),
-            text!("shots-poses-apart-advice"),
-        ],
     }
 }
 

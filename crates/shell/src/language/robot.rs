@@ -1,12 +1,10 @@
 //! Texts about the poses of a robot in the language of the window. In English they equal those of the library itself.
 
-use records::history::RobotMarks;
 use robot::{
     Convention, ConventionError, FARTHEST, NOZZLE_DISTANCE, WrittenPoseError, calibration::UNNAMED,
 };
-use stages::scan;
-use station::{Doubt, robot_file::Unchecked};
-use ui::language::{advised, described, text};
+use station::robot_file::Unchecked;
+use ui::language::text;
 
 /// Returns the name of a convention.
 pub fn convention_title(convention: Convention) -> String {
@@ -46,126 +44,6 @@ pub fn calibration_name(name: &str) -> String {
     match name.strip_prefix(UNNAMED) {
         Some(identity) => text!("robot-unnamed") + identity,
         None => name.to_owned(),
-    }
-}
-
-/// Explains why a robot must not act on a result, and what to do.
-pub fn doubt(doubt: &Doubt) -> [String; 2] {
-    match doubt {
-        Doubt::ReportedWrong => [
-            text!("operator-reported-wrong"),
-            text!("robot-doubt-capture-again"),
-        ],
-        Doubt::SourceLost => [
-            text!("robot-doubt-source-lost"),
-            text!("robot-doubt-source-lost-advice"),
-        ],
-        Doubt::Moving => [
-            text!("robot-doubt-moving"),
-            text!("robot-doubt-moving-advice"),
-        ],
-        Doubt::Superseded => [
-            text!("robot-doubt-superseded"),
-            text!("robot-doubt-capture-again"),
-        ],
-        Doubt::NotAccepted => [
-            text!("robot-doubt-not-accepted"),
-            text!("robot-doubt-capture-again"),
-        ],
-        Doubt::NoPose => [
-            text!("robot-doubt-no-pose"),
-            text!("robot-doubt-no-pose-advice"),
-        ],
-        Doubt::NotCalibrated => [
-            text!("robot-doubt-not-calibrated"),
-            text!("robot-doubt-not-calibrated-advice"),
-        ],
-        Doubt::ClockAhead(ahead) => [
-            text!(
-                "robot-doubt-clock-ahead",
-                seconds = ahead.ahead.as_secs().to_string()
-            ),
-            text!("robot-doubt-clock-ahead-advice"),
-        ],
-        Doubt::Old => [text!("robot-doubt-old"), text!("robot-doubt-capture-again")],
-        Doubt::Ambiguous => [
-            text!("robot-doubt-ambiguous"),
-            text!("robot-doubt-ambiguous-advice"),
-        ],
-        Doubt::OffScale(off) => [described(off), advised(off)],
-        Doubt::Scan(doubt) => of_scan(doubt),
-        Doubt::OffThePart(off) => [
-            if off.num_too_near > 0 {
-                text!(
-                    "robot-doubt-too-near",
-                    near = off.num_too_near,
-                    all = off.num_spraying
-                )
-            } else {
-                text!(
-                    "robot-doubt-off-part",
-                    aiming = off.num_aiming,
-                    all = off.num_spraying
-                )
-            },
-            text!("robot-doubt-off-part-advice"),
-        ],
-        Doubt::NotReached(missed) => [
-            text!(
-                "robot-doubt-not-reached",
-                arm = missed.arm.as_str(),
-                missed = missed.num_points - missed.num_reached,
-                all = missed.num_points
-            ),
-            text!("robot-doubt-not-reached-advice"),
-        ],
-        Doubt::FilmOffPlan(off_plan) => {
-            let [planned, written] = off_plan.within.map(|share| format!("{:.1}", 100.0 * share));
-            let [planned_um, written_um] = off_plan.mean.map(|mean| format!("{:.1}", 1e6 * mean));
-            [
-                text!(
-                    "robot-doubt-film-off-plan",
-                    written = written,
-                    written_um = written_um,
-                    planned = planned,
-                    planned_um = planned_um,
-                    tolerance = format!("{:.0}", 100.0 * off_plan.tolerance),
-                    stops = off_plan.num_stops
-                ),
-                text!("robot-doubt-film-off-plan-advice"),
-            ]
-        }
-    }
-}
-
-/// Explains why a robot got no pose from a past inspection; `None` if nothing was against it.
-pub fn past_doubts(marks: &RobotMarks) -> Option<String> {
-    let kinds = marks.robot_doubts.iter();
-    let doubts: Vec<_> = kinds
-        .map(|kind| text!("robot-doubt-kind", kind = kind))
-        .collect();
-    (!doubts.is_empty()).then(|| text!("robot-got-no-pose", why = doubts.join("; ")))
-}
-
-fn of_scan(doubt: &scan::Doubt) -> [String; 2] {
-    match doubt {
-        scan::Doubt::PoorAgreement { name, share } => [
-            text!(
-                "robot-doubt-frames-disagree",
-                frame = name.as_str(),
-                disagree = format!("{:.1}", 100.0 * (1.0 - share))
-            ),
-            text!("robot-doubt-frames-disagree-advice"),
-        ],
-        scan::Doubt::PosesApart { names, apart } => [
-            text!(
-                "robot-doubt-poses-apart",
-                one = names[0].as_str(),
-                other = names[1].as_str(),
-                apart = apart.to_string()
-            ),
-            text!("robot-doubt-poses-apart-advice"),
-        ],
     }
 }
 
@@ -282,13 +160,9 @@ fn convention_error(error: &ConventionError) -> [String; 2] {
 
 #[cfg(test)]
 mod tests {
-    use std::time::Duration;
-
     use super::*;
-    use geometry::{error::Advice as _, units::Metres};
+    use geometry::error::Advice as _;
     use robot::parse_nozzle;
-    use stages::pose::OffScale;
-    use station::ClockAhead;
     use ui::language::Language;
 
     #[test]
@@ -321,32 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn doubts_and_what_was_not_checked_read_as_in_the_commands() {
-        let ahead = Duration::from_hours(1);
-        for kind in [
-            Doubt::SourceLost,
-            Doubt::Moving,
-            Doubt::Superseded,
-            Doubt::NotAccepted,
-            Doubt::NoPose,
-            Doubt::ClockAhead(ClockAhead { ahead }),
-            Doubt::Old,
-            Doubt::Ambiguous,
-            Doubt::OffScale(OffScale {
-                is_larger: true,
-                by: 0.05,
-            }),
-            Doubt::Scan(scan::Doubt::PoorAgreement {
-                name: "a.png".into(),
-                share: 0.93,
-            }),
-            Doubt::Scan(scan::Doubt::PosesApart {
-                names: ["a.png".into(), "b.png".into()],
-                apart: Metres::from_mm(31.4),
-            }),
-        ] {
-            assert_eq!(doubt(&kind), [kind.to_string(), kind.advice()]);
-        }
+    fn what_was_not_checked_reads_as_in_the_commands() {
         for unchecked in [
             Unchecked::Arm,
             Unchecked::Surroundings,

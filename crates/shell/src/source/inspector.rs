@@ -534,6 +534,17 @@ fn show(state: &mut State, mut inspected: Arc<Inspected>) -> Event {
     for warning in &inspected.warnings {
         notify(state, Notice::of_scene(&inspected.origin, warning));
     }
+    // An engineer inspects a file again on purpose.
+    if state.inspector.purpose == ReinspectionPurpose::New
+        && state.session.role == UserRole::Operator
+        && let Some(former) = &state.session.shown
+        && former.inspected.origin == inspected.origin
+        && former.inspected.captured_at == inspected.captured_at
+    {
+        let what = text!("shell-same-capture", scene = inspected.origin.shown_title());
+        let advice = text!("inspect-hold-choose-camera-operator");
+        notify(state, Notice::look(what, advice).about(NoticeTopic::Scene));
+    }
     state.use_library(&inspected.library);
     let shots = inspected.scan.as_ref();
     if let Origin::File { path, .. } = &inspected.origin {
@@ -720,6 +731,47 @@ mod tests {
             state.notices
         );
         assert!(state.inspector.running().is_none() && state.session.shown.is_none());
+    }
+
+    #[test]
+    fn an_operator_who_captures_from_a_file_is_told_that_it_is_the_same_capture() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("a.png");
+        write_depth_png(&path, &small_frame(8, [900; 48])).expect("written");
+        let mut state = State::default();
+        apply(&mut state, Action::Open(path.clone()));
+        assert!(state.inspector.run_waiting());
+        update(&mut state);
+        let mut again = |role| {
+            state.session.role = role;
+            apply(&mut state, Action::Capture);
+            assert!(state.inspector.run_waiting());
+            update(&mut state);
+            let notices = state.notices.iter();
+            let mut same = notices.filter(|notice| notice.what.contains("inspected again"));
+            same.next().map(|notice| notice.advice.clone())
+        };
+        assert_eq!(again(UserRole::Engineer), None);
+        let advice = "Ask the engineer to choose a camera".to_owned();
+        assert_eq!(again(UserRole::Operator), Some(advice));
+        // What was saved since then is another capture.
+        let file = std::fs::File::options().write(true).open(&path);
+        let later = std::time::SystemTime::now() + std::time::Duration::from_secs(1);
+        file.expect("there").set_modified(later).expect("dated");
+        assert_eq!(again(UserRole::Operator), None);
+        // Nor is there a source menu for Live.
+        for (role, advice) in [
+            (UserRole::Operator, "Ask the engineer to choose a camera"),
+            (
+                UserRole::Engineer,
+                "Choose a camera, a recording or a folder in the source menu",
+            ),
+        ] {
+            state.session.role = role;
+            apply(&mut state, Action::Live(live::LiveAction::Toggle));
+            let notice = state.notices.last().expect("told");
+            assert_eq!(notice.advice, advice);
+        }
     }
 
     #[test]

@@ -14,6 +14,7 @@ use geometry::{
     rigid::{PoseDelta, RigidTransform, pose_error},
     units::{Metres, Radians},
 };
+use texts::Message;
 
 /// Limits at which a shot is excluded.
 #[derive(Clone, Debug, PartialEq)]
@@ -104,12 +105,6 @@ const LEAST_AGREEING: f64 = 0.98;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Doubt {
     /// Too much of what a shot and the others see disagrees.
-    #[error(
-        "the frames may not fit together: {:.1} % of what {name} and the others see together disagrees, at most {:.0} % is \
-         usual",
-        (1.0 - share) * 100.0,
-        (1.0 - LEAST_AGREEING) * 100.0
-    )]
     PoorAgreement {
         /// The shot that agrees least.
         name: String,
@@ -117,11 +112,6 @@ pub enum Doubt {
         share: f64,
     },
     /// The shots fit together, but not at the robot's poses.
-    #[error(
-        "the poses contradict one another: {} and {} fit together only if one is moved by {apart}",
-        names[0],
-        names[1]
-    )]
     PosesApart {
         /// The two shots whose poses disagree most.
         names: [String; 2],
@@ -130,20 +120,25 @@ pub enum Doubt {
     },
 }
 
-impl geometry::error::Advice for Doubt {
-    fn advice(&self) -> String {
+impl texts::Described for Doubt {
+    fn message(&self) -> Message {
         match self {
-            Self::PoorAgreement { .. } => {
-                "Check that each pose belongs to its frame and that nothing moved between the frames".into()
-            }
-            Self::PosesApart { .. } => {
-                "Check that each pose belongs to its frame, that the arm was at rest and that its calibration still holds; the \
-                 part's place in the robot's base frame is only as certain as the poses agree"
-                    .into()
-            }
+            Self::PoorAgreement { name, share } => Message::new("doubt-frames-disagree")
+                .with("frame", &**name)
+                .with("disagreeing", 1.0 - share)
+                .with("most", 1.0 - LEAST_AGREEING),
+            Self::PosesApart {
+                names: [one, other],
+                apart,
+            } => Message::new("doubt-poses-apart")
+                .with("one", &**one)
+                .with("other", &**other)
+                .with("apart_m", apart.0),
         }
     }
 }
+
+texts::display!(Doubt);
 
 /// Readings of one place in two shots: how many agree, and how many do not.
 #[derive(Clone, Copy, Debug, Default)]

@@ -59,10 +59,16 @@ refusal-unconstrained = die Pose von { $part } ist durch das Sichtbare nicht bes
     .otherwise = { step-if-it-persists }
     .compared = die Pose ist nicht bestimmt: { free-motion }
 refusal-uncertain = die Pose von { $part } ist um { MM($shift_m, 1) } mm unsicher, zulässig sind { MM($limit_m, 1) } mm
-    .advice = { see-an-edge }
+    .advice = { $frames_disagree ->
+        [true] { scan-poses }
+       *[other] { see-an-edge }
+    }
     .kind = Pose zu unsicher
     .short = { short-uncertain-pose }
-    .step = { step-turn }
+    .step = { $frames_disagree ->
+        [true] { step-scan-again }
+       *[other] { step-turn }
+    }
     .otherwise = { step-if-it-persists }
     .compared = die Pose ist um { MM($shift_m, 1) } mm unsicher, zulässig sind { MM($limit_m, 1) } mm
 refusal-unknown = unbekannt: Kein eingelerntes Teil ist ähnlich{ $like ->
@@ -227,6 +233,7 @@ piece-hidden = Entfernen, was vor dem Teil steht, und erneut aufnehmen
 piece-outside = Das Teil weiter ins Bild hängen und erneut aufnehmen
 piece-hidden-or-outside = Entfernen, was vor dem Teil steht, oder das Teil weiter ins Bild hängen, und erneut aufnehmen
 see-an-edge = Die Kamera so bewegen, dass sie eine Ecke oder eine weitere Kante des Teils sieht, und erneut aufnehmen
+scan-poses = Zuerst die Roboterpose jeder Aufnahme und die Hand-Auge-Kalibrierung prüfen, dann erneut scannen; stimmt beides, die Kamera so bewegen, dass sie eine Ecke oder eine weitere Kante des Teils sieht
 short-uncertain-pose = Erkannt, aber die Pose ist unsicher
 short-damaged-file = Die aufgenommene Datei ist beschädigt
 short-undecided = Die Bilder stimmen nicht überein
@@ -237,6 +244,7 @@ step-unconfirmed-next = Den Einrichter bitten, auch die Pose schätzen zu lassen
 step-uncover = Entfernen, was das Teil verdeckt
 step-all-in-picture = Die Sichtseite ganz im Bild zur Kamera drehen
 step-turn = Die Sichtseite zur Kamera drehen
+step-scan-again = Das Teil noch einmal scannen, ohne dass sich etwas bewegt
 step-hang = Das Teil mindestens 10 cm vor der Wand vor die Kamera hängen
 step-uncover-camera = Entfernen, was die Kamera verdeckt
 step-if-it-persists = Bleibt es dabei, den Einrichter rufen

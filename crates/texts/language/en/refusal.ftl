@@ -59,10 +59,16 @@ refusal-unconstrained = the pose of { $part } is unconstrained by what is in sig
     .otherwise = { step-if-it-persists }
     .compared = the pose is unconstrained: { free-motion }
 refusal-uncertain = the pose of { $part } is uncertain by { MM($shift_m, 1) } mm, and { MM($limit_m, 1) } mm is allowed
-    .advice = { see-an-edge }
+    .advice = { $frames_disagree ->
+        [true] { scan-poses }
+       *[other] { see-an-edge }
+    }
     .kind = Pose too uncertain
     .short = { short-uncertain-pose }
-    .step = { step-turn }
+    .step = { $frames_disagree ->
+        [true] { step-scan-again }
+       *[other] { step-turn }
+    }
     .otherwise = { step-if-it-persists }
     .compared = the pose is uncertain by { MM($shift_m, 1) } mm, and { MM($limit_m, 1) } mm is allowed
 refusal-unknown = unknown: no enrolled part is like it{ $like ->
@@ -231,6 +237,7 @@ piece-hidden = Take away what stands in front of the part and capture again
 piece-outside = Hang the part further inside the picture and capture again
 piece-hidden-or-outside = Take away what stands in front of the part, or hang it further inside the picture, and capture again
 see-an-edge = Move the camera so that it sees a corner or another edge of the part, and capture again
+scan-poses = Check the robot's pose of each frame and the hand-eye calibration first, then scan again; if both are right, move the camera so that it sees a corner or another edge of the part
 short-uncertain-pose = Recognised, but its pose is uncertain
 short-damaged-file = The captured file is damaged
 short-undecided = The frames do not agree
@@ -241,6 +248,7 @@ step-unconfirmed-next = Ask the engineer to have the pose estimated too
 step-uncover = Take away what covers the part
 step-all-in-picture = Turn its face to the camera, all of it inside the picture
 step-turn = Turn its face to the camera
+step-scan-again = Scan the part again, with nothing moving
 step-hang = Hang the part in front of the camera, at least 10 cm away from the wall
 step-uncover-camera = Take away what covers the camera
 step-if-it-persists = If it persists, ask the engineer

@@ -59,10 +59,16 @@ refusal-unconstrained = lo que se ve no determina la pose de { $part }: { free-m
     .otherwise = { step-if-it-persists }
     .compared = la pose no está determinada: { free-motion }
 refusal-uncertain = la pose de { $part } tiene una incertidumbre de { MM($shift_m, 1) } mm; se admiten { MM($limit_m, 1) } mm
-    .advice = { see-an-edge }
+    .advice = { $frames_disagree ->
+        [true] { scan-poses }
+       *[other] { see-an-edge }
+    }
     .kind = Pose con demasiada incertidumbre
     .short = { short-uncertain-pose }
-    .step = { step-turn }
+    .step = { $frames_disagree ->
+        [true] { step-scan-again }
+       *[other] { step-turn }
+    }
     .otherwise = { step-if-it-persists }
     .compared = la pose tiene una incertidumbre de { MM($shift_m, 1) } mm; se admiten { MM($limit_m, 1) } mm
 refusal-unknown = desconocida: ninguna pieza registrada se le parece{ $like ->
@@ -227,6 +233,7 @@ piece-hidden = Retirar lo que hay delante de la pieza y volver a capturar
 piece-outside = Colgar la pieza más adentro de la imagen y volver a capturar
 piece-hidden-or-outside = Retirar lo que hay delante de la pieza, o colgarla más adentro de la imagen, y volver a capturar
 see-an-edge = Mover la cámara para que vea una esquina u otro borde de la pieza, y volver a capturar
+scan-poses = Comprobar primero la pose del robot de cada toma y la calibración mano-ojo, y escanear de nuevo; si ambas son correctas, mover la cámara para que vea una esquina u otro borde de la pieza
 short-uncertain-pose = Reconocida, pero su pose es incierta
 short-damaged-file = El archivo capturado está dañado
 short-undecided = Las imágenes no concuerdan
@@ -237,6 +244,7 @@ step-unconfirmed-next = Pedir al técnico que active también la estimación de 
 step-uncover = Retirar lo que tapa la pieza
 step-all-in-picture = Orientar la cara hacia la cámara, toda dentro de la imagen
 step-turn = Orientar la cara hacia la cámara
+step-scan-again = Escanear de nuevo la pieza sin que nada se mueva
 step-hang = Colgar la pieza delante de la cámara, a 10 cm o más de la pared
 step-uncover-camera = Retirar lo que tapa la cámara
 step-if-it-persists = Si persiste, avisar al técnico

@@ -59,10 +59,16 @@ refusal-unconstrained = 可见部分不足以确定“{ $part }”的位姿：{ 
     .otherwise = { step-if-it-persists }
     .compared = 位姿未约束：{ free-motion }
 refusal-uncertain = “{ $part }”的位姿不确定度为 { MM($shift_m, 1) } mm，允许值为 { MM($limit_m, 1) } mm
-    .advice = { see-an-edge }
+    .advice = { $frames_disagree ->
+        [true] { scan-poses }
+       *[other] { see-an-edge }
+    }
     .kind = 位姿不确定度超过允许值
     .short = { short-uncertain-pose }
-    .step = { step-turn }
+    .step = { $frames_disagree ->
+        [true] { step-scan-again }
+       *[other] { step-turn }
+    }
     .otherwise = { step-if-it-persists }
     .compared = 位姿不确定度为 { MM($shift_m, 1) } mm，允许 { MM($limit_m, 1) } mm
 refusal-unknown = 未知：没有相似的已注册零件{ $like ->
@@ -224,6 +230,7 @@ piece-hidden = 移开零件前方的物体，然后重新采集
 piece-outside = 将零件移入画面内，然后重新采集
 piece-hidden-or-outside = 移开零件前方的物体或将零件移入画面内，然后重新采集
 see-an-edge = 移动相机，使其看到零件的拐角或另一条边，然后重新采集
+scan-poses = 请先检查每次拍摄的机器人位姿和手眼标定，然后重新扫描；若两者都正确，再移动相机，使其看到零件的拐角或另一条边
 short-uncertain-pose = 已识别，但位姿不确定
 short-damaged-file = 采集文件已损坏
 short-undecided = 各帧结果不一致
@@ -234,6 +241,7 @@ step-unconfirmed-next = 请工程师启用位姿估计
 step-uncover = 移开遮挡零件的物体
 step-all-in-picture = 将零件正面朝向相机并完全置于画面内
 step-turn = 将零件正面朝向相机
+step-scan-again = 重新扫描零件，期间不要移动任何物体
 step-hang = 将零件挂在相机前，距墙至少 10 cm
 step-uncover-camera = 移开遮挡相机的物体
 step-if-it-persists = 若仍如此，请联系工程师

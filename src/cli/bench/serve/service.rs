@@ -50,6 +50,7 @@ impl Inspections {
         let parts = parts.map(|(number, _)| NumberedPart {
             number,
             path: None,
+            off: None,
             is_simulated: true,
         });
         let finder = PartFinder {

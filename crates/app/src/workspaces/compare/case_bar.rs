@@ -2,10 +2,11 @@
 
 use egui::{Button, RichText, Ui, WidgetInfo};
 
-use super::{CompareAction, CompareState, Front, Undo};
-use records::cases::{CaseOutcome, FoundVerdict, Truth};
+use super::{CompareAction, CompareState, Front, Undo, study::CaseStudy};
+use records::cases::{CaseOutcome, Truth};
 use shell::{
     session::Session,
+    standing::verdict_mark,
     truth_menu::{truth_entries, truth_title},
 };
 use ui::{
@@ -114,7 +115,7 @@ fn verdict(ui: &mut Ui, compare: &CompareState, session: &Session) {
     ui.label(weak(&verb));
     ui.label(strong(&part));
     let judgement = judged(compare);
-    line_mark(ui, 18.0, 8.0, sign(found, judgement));
+    line_mark(ui, 18.0, 8.0, sign(study, judgement));
     let is_wrong = |outcome| matches!(outcome, CaseOutcome::WrongAccepted | CaseOutcome::Refused);
     let asked = match (found.accepted, judgement.map(is_wrong)) {
         (true, None) => text!("compare-accepted-asked"),
@@ -125,8 +126,8 @@ fn verdict(ui: &mut Ui, compare: &CompareState, session: &Session) {
         (false, Some(true)) => text!("compare-not-accepted-wrong"),
     };
     let word = ui.label(weak(&asked));
-    if let Some(refusal) = study.refusal(session.units) {
-        word.on_hover_text(format!("{refusal}\n{}", study.advice()));
+    if let Some([what, advice]) = study.complaint(session.units) {
+        word.on_hover_text(format!("{what}\n{advice}"));
     }
 }
 
@@ -138,15 +139,11 @@ pub(super) fn judged(compare: &CompareState) -> Option<CaseOutcome> {
 }
 
 /// The sign of a verdict. A refusal never gets the mark of an accepted part, even if it is right.
-pub(super) fn sign(found: &FoundVerdict, judgement: Option<CaseOutcome>) -> Mark {
-    if found.accepted && judgement != Some(CaseOutcome::WrongAccepted) {
-        Mark::Good
-    } else if found.part.is_none() && judgement != Some(CaseOutcome::Refused) {
-        // An empty cell is not a bad part.
-        Mark::Open
-    } else {
-        Mark::Bad
-    }
+pub(super) fn sign(study: &CaseStudy, judgement: Option<CaseOutcome>) -> Mark {
+    let found = &study.found;
+    let is_nothing = found.part.is_none() && judgement != Some(CaseOutcome::Refused);
+    let is_ok = found.accepted && judgement != Some(CaseOutcome::WrongAccepted);
+    verdict_mark((!is_nothing).then_some(is_ok), !study.doubts.is_empty())
 }
 
 fn truth_menu(

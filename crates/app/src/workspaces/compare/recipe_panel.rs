@@ -13,7 +13,7 @@ use ui::{
     language::{parameters, text, within_sentence},
     parameter_control::{self, ParameterChange, fold},
     theme::{Theme, font, space},
-    widgets::{Mark, line_mark},
+    widgets::line_mark,
 };
 
 pub(super) fn ui(
@@ -158,15 +158,11 @@ fn outcome(ui: &mut Ui, compare: &CompareState, session: &Session, acts: &mut Ve
                 _ => text!("compare-verdict-nothing"),
             };
             let judgement = case_bar::judged(compare);
-            let sign = case_bar::sign(found, judgement);
-            let colour = match sign {
-                Mark::Good => theme.accepted,
-                Mark::Open => theme.weak_text,
-                _ => theme.rejected,
-            };
+            let sign = case_bar::sign(study, judgement);
             ui.horizontal_top(|ui| {
                 line_mark(ui, 20.0, 9.0, sign);
-                let text = RichText::new(title).font(font::verdict()).color(colour);
+                let text = RichText::new(title).font(font::verdict());
+                let text = text.color(sign.colour(theme));
                 ui.add(egui::Label::new(text).wrap());
             });
             let (word, colour) = match (judgement, found.accepted) {
@@ -187,9 +183,8 @@ fn outcome(ui: &mut Ui, compare: &CompareState, session: &Session, acts: &mut Ve
             };
             let word = format!("{word} · {:.0} ms", study.time_ms);
             ui.label(RichText::new(word).color(colour));
-            if let Some(refusal) = study.refusal(session.units) {
-                let text = RichText::new(refusal).small();
-                ui.label(text).on_hover_text(study.advice());
+            if let Some([what, advice]) = study.complaint(session.units) {
+                ui.label(RichText::new(what).small()).on_hover_text(advice);
             }
         }
     });

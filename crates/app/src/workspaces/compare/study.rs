@@ -13,13 +13,16 @@ use shell::inspection::{
 };
 use stages::{
     rank::{MatchRanking, Matcher, Query, RankParams, rank},
+    scene::SceneCloud,
     signature::LiteralSignature,
 };
+use station::{Doubt, Subject};
 use texts::{Described as _, Message};
 use ui::{
-    language::{Language, advised, described, text},
+    language::{Language, advised, described, text, what_and_advice},
     task::TaskError,
     user_error::UserError,
+    widgets::sentence,
 };
 
 /// The scene of a case.
@@ -64,6 +67,8 @@ pub struct CaseStudy {
     pub found_title: String,
     /// Why it was refused, with the titles of the parts; named when drawn, because the language may change.
     pub refused: Option<Message>,
+    /// Why no robot may act on the pose although the part is accepted, whatever hangs there now; empty if one may.
+    pub doubts: Vec<Doubt>,
     /// Time of the inspection, milliseconds.
     pub time_ms: f64,
     /// The distance of every enrolled reference, nearest by the matcher in use first.
@@ -107,8 +112,19 @@ impl CaseStudy {
         self.refused.as_ref().map_or_else(String::new, advised)
     }
 
+    /// Why it was refused or why no robot may act on it, in one sentence, and what to do; `None` if nothing is wrong.
+    pub fn complaint(&self, units: UnitSystem) -> Option<[String; 2]> {
+        let refusal = self.refusal(units);
+        let refusal = refusal.map(|refusal| [refusal, self.advice()]);
+        let doubted = || {
+            let [what, advice] = what_and_advice(self.doubts.first()?);
+            Some([sentence(&what), advice])
+        };
+        refusal.or_else(doubted)
+    }
+
     /// Why it was refused, in one sentence.
-    pub fn refusal(&self, units: UnitSystem) -> Option<String> {
+    fn refusal(&self, units: UnitSystem) -> Option<String> {
         let refused = self.reason()?;
         let nearest = self.distances.iter();
         let mut nearest = nearest.filter(|d| self.found.part.as_ref() == Some(&d.part));
@@ -163,6 +179,7 @@ pub fn study(
         titles.get(place).cloned()
     };
     let mut study = CaseStudy {
+        doubts: doubts(&scene, &inspection, inspected.as_deref(), &request.recipe),
         inspected,
         truth,
         recipe: Arc::clone(&request.recipe),
@@ -235,6 +252,34 @@ fn against(
     chosen.map(str::to_owned).or_else(best)
 }
 
+/// The doubts about an accepted part that its capture gives, wherever the part hangs by now and whether or not the cell is
+/// calibrated.
+fn doubts(
+    scene: &Arc<SceneCloud>,
+    inspection: &Inspection,
+    inspected: Option<&Inspected>,
+    recipe: &NamedRecipe,
+) -> Vec<Doubt> {
+    if !inspection.verdict.is_accepted() {
+        return Vec::new();
+    }
+    let subject = Subject {
+        scan: inspected.and_then(|inspected| inspected.subject.scan.clone()),
+        ..Subject::of_scene(String::new(), String::new(), false)
+    };
+    let captured = station::Inspected {
+        subject: &subject,
+        scene,
+        inspection,
+        recipe,
+        robot: None,
+        is_forced: false,
+    };
+    let mut doubts = captured.doubts();
+    doubts.retain(|doubt| *doubt != Doubt::NotCalibrated);
+    doubts
+}
+
 /// The reason of a refusal with the figure that decided.
 fn refused(why: &Message) -> String {
     let reason = why.attribute(Language::current(), "compared");
@@ -295,14 +340,16 @@ fn distances(
 mod tests {
     use std::time::Instant;
 
-    use super::*;
+    use super::{super::case_bar::sign, *};
     use inspection::{
         fixtures::{add_reference, copy_library, shipped_library},
         pipeline::{Recipe, Unwatched},
     };
+    use records::cases::CaseOutcome;
     use shell::inspection::{camera::Camera, inspected::inspected_cell, source::CellChoice};
     use simulate::{PartKind, Side};
-    use ui::language::Language;
+    use stages::pose::RunnerUp;
+    use ui::{language::Language, widgets::Mark};
 
     fn request(choice: CellChoice) -> StudyRequest {
         StudyRequest {
@@ -436,6 +483,36 @@ mod tests {
             refusal.starts_with("Refused: its lead over ") && refusal.contains("below 1.00"),
             "{refusal}"
         );
+    }
+
+    #[test]
+    fn an_accepted_part_with_a_doubt_is_amber_and_says_what_to_do() {
+        let door = CellChoice::Part(PartKind::FrontDoor, Side::Left);
+        let mut inspected = inspected_cell(door, 2);
+        let mut study = studied(&request(door));
+        let units = UnitSystem::MillimetresDegrees;
+        assert!(study.doubts.is_empty() && study.complaint(units).is_none());
+        assert_eq!(sign(&study, None), Mark::Good);
+        let Some(Ok(pose)) = &mut inspected.inspection.pose else {
+            panic!("a pose");
+        };
+        pose.runner_up = Some(RunnerUp {
+            target_from_source: pose.target_from_source,
+            ratio: 1.01,
+        });
+        let (scene, found) = (&inspected.scene, &inspected.inspection);
+        study.doubts = doubts(scene, found, Some(&inspected), &study.recipe);
+        assert_eq!(study.doubts, [Doubt::Ambiguous]);
+        let [what, advice] = study.complaint(units).expect("doubted");
+        assert_eq!(what, "Another pose of the part fits nearly as well");
+        assert_eq!(advice, advised(&Doubt::Ambiguous));
+        for (judgement, expected) in [
+            (None, Mark::Look),
+            (Some(CaseOutcome::Right), Mark::Look),
+            (Some(CaseOutcome::WrongAccepted), Mark::Bad),
+        ] {
+            assert_eq!(sign(&study, judgement), expected);
+        }
     }
 
     #[test]

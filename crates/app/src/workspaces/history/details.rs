@@ -11,21 +11,17 @@ use super::{
 use records::history::{Differences, InspectionDetail, Record, StoredVerdict, Summary};
 use shell::{
     inspection::unit_system::UnitSystem,
-    language::{
-        results::{
-            accepted_or_not, inspection_title, recipe_label, refusal_kind, scene_title,
-            source_title, stored_verdict,
-        },
-        robot::past_doubts,
+    language::results::{
+        accepted_or_not, inspection_title, recipe_label, refusal_kind, scene_title, source_title,
+        stored_verdict,
     },
     session::Session,
+    standing::past_mark,
 };
 use ui::{
-    language::{advised, described, keys, text},
+    language::{Language, advised, described, keys, text},
     theme::{Theme, font, space},
-    widgets::{
-        Mark, fitted, heading, labelled, line_mark, path_row, row, sentence, shortened, texture,
-    },
+    widgets::{fitted, heading, labelled, line_mark, path_row, row, sentence, shortened, texture},
 };
 
 /// State of the details kept between frames.
@@ -140,16 +136,9 @@ fn verdict(ui: &mut Ui, record: &Record, of_part: &Record, session: &Session) {
     let summary = &summary;
     let title = RichText::new(inspection_title(summary)).font(font::title());
     ui.label(title);
-    let marks = record.robot_marks();
-    let (sign, colour) = if !summary.is_ok() {
-        (Mark::Bad, theme.rejected)
-    } else if marks.robot_doubts.is_empty() {
-        (Mark::Good, theme.accepted)
-    } else {
-        (Mark::Look, theme.warning)
-    };
-    // An empty cell is not a bad part: its title says all.
+    // The title of an empty cell says all.
     if summary.verdict != StoredVerdict::NoPart {
+        let sign = past_mark(summary);
         ui.horizontal(|ui| {
             line_mark(ui, 20.0, 9.0, sign);
             let word = if summary.is_wrongly_accepted() {
@@ -158,7 +147,7 @@ fn verdict(ui: &mut Ui, record: &Record, of_part: &Record, session: &Session) {
                 accepted_or_not(summary.is_ok())
             };
             let word = RichText::new(word).font(font::verdict());
-            ui.label(word.color(colour));
+            ui.label(word.color(sign.colour(theme)));
         });
     }
     if summary.is_simulated {
@@ -175,10 +164,10 @@ fn verdict(ui: &mut Ui, record: &Record, of_part: &Record, session: &Session) {
     } else if let Some(kind) = &summary.reason {
         ui.label(refusal_kind(kind));
     }
-    if let Some(doubts) = past_doubts(&marks) {
+    if let Some(doubts) = summary.noted.past_doubts(Language::current()) {
         ui.colored_label(theme.warning, doubts);
     }
-    if marks.motion_checked == Some(false) {
+    if summary.noted.motion_checked == Some(false) {
         ui.weak(text!("robot-motion-unknown"));
     }
 }

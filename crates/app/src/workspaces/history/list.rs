@@ -8,17 +8,18 @@ use egui::{
 use jiff::{Timestamp, tz::TimeZone};
 
 use super::{HistoryAction, HistoryState, bar, label::in_one_line};
-use records::history::{StoredVerdict, Summary};
+use records::history::Summary;
 use shell::{
     inspection::library_cache::LibraryView,
     language::results::{inspection_title, scene_title, stored_verdict},
     session::Session,
+    standing::past_mark,
     truth_menu::truth_title,
 };
 use ui::{
-    language::text,
+    language::{Language, text},
     theme::{ROUNDING, Theme, font, space},
-    widgets::{Mark, fitted_middle, fitted_path, focus_ring, mark, shortened, text_width},
+    widgets::{fitted_middle, fitted_path, focus_ring, mark, shortened, text_width},
 };
 
 /// Height of a row, logical pixels: a target for a gloved finger.
@@ -343,7 +344,8 @@ fn row(
     });
     let scene = scene_title(&past.scene, past.is_simulated);
     let path = scene.contains(['/', '\\']).then_some(scene);
-    let says: Vec<String> = actual.into_iter().chain(path).collect();
+    let says = [actual, past.noted.past_doubts(Language::current()), path];
+    let says: Vec<String> = says.into_iter().flatten().collect();
     let response = if says.is_empty() {
         response
     } else {
@@ -366,14 +368,8 @@ fn row(
 }
 
 fn paint(painter: &Painter, rect: Rect, past: &Summary, layout: &Layout, theme: &Theme) {
-    let sign = match past.verdict {
-        // An empty cell is not a bad part.
-        StoredVerdict::NoPart => Mark::Open,
-        _ if past.is_ok() => Mark::Good,
-        _ => Mark::Bad,
-    };
     let at = pos2(rect.left() + 20.0, rect.center().y);
-    mark(painter, at, 9.0, sign, theme);
+    mark(painter, at, 9.0, past_mark(past), theme);
     // A person has said what really hung there.
     if past.label.is_some() {
         let edge = Stroke::new(1.5, theme.canvas);
@@ -410,8 +406,9 @@ mod tests {
     use egui::{RawInput, Shape};
 
     use super::*;
+    use inspection::library::Truth;
     use records::fixtures::history_entry;
-    use records::history::SceneTitle;
+    use records::history::{SceneTitle, StoredVerdict};
 
     /// The texts of a row of a narrow list that are not cut off.
     fn written(past: &Summary) -> Vec<String> {
@@ -439,6 +436,39 @@ mod tests {
     fn accepted() -> Summary {
         let entry = history_entry(1, StoredVerdict::Accepted, "front_door");
         entry.record.summary
+    }
+
+    #[test]
+    fn only_an_accepted_part_without_doubts_has_a_green_mark() {
+        let mark = |past: &Summary| {
+            let ctx = egui::Context::default();
+            Theme::install_fonts(&ctx);
+            let mut theme = None;
+            let output = ctx.run_ui(RawInput::default(), |ui| {
+                let rect = Rect::from_min_size(pos2(0.0, 0.0), vec2(600.0, ROW_HEIGHT_PX));
+                theme = Some(Theme::of(ui));
+                paint(
+                    ui.painter(),
+                    rect,
+                    past,
+                    &Layout::across(600.0),
+                    Theme::of(ui),
+                );
+            });
+            let disc = output.shapes.iter().find_map(|drawn| match &drawn.shape {
+                Shape::Circle(disc) => Some(disc.fill),
+                _ => None,
+            });
+            output.drop_without_applying_deltas();
+            (disc.expect("a mark"), theme.expect("drawn"))
+        };
+        let mut past = accepted();
+        let (fill, theme) = mark(&past);
+        assert_eq!(fill, theme.accepted);
+        past.noted.robot_doubts = vec!["ambiguous_pose".into()];
+        assert_eq!(mark(&past).0, theme.warning);
+        past.label = Some(Truth::NotEnrolled);
+        assert_eq!(mark(&past).0, theme.rejected);
     }
 
     #[test]

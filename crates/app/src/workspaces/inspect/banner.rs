@@ -172,7 +172,7 @@ impl Banner {
             return Self {
                 tone: Tone::Open,
                 reason: text!("inspect-from-history"),
-                next: inspect_current(&session.source),
+                next: inspect_current(session, UserRole::Operator),
                 caution: String::new(),
                 ..verdict
             };
@@ -195,7 +195,7 @@ impl Banner {
             [
                 text!("inspect-no-verdict"),
                 text!("operator-counts-no-longer"),
-                inspect_current(&session.source),
+                inspect_current(session, UserRole::Operator),
             ]
         } else {
             [

@@ -61,10 +61,15 @@ impl Headline {
         let Some(truth) = actual else {
             return verdict;
         };
+        let actual = truth_title(Some(truth), &inspected.library);
         Self {
-            actual: Some(truth_title(Some(truth), &inspected.library)),
-            // What really hung there says it.
-            complaint: None,
+            complaint: Some((
+                text!("shell-actual-part", part = &actual),
+                verdict
+                    .complaint
+                    .map_or_else(String::new, |(_, advice)| advice),
+            )),
+            actual: Some(actual),
             ..verdict
         }
     }
@@ -216,17 +221,15 @@ pub(super) fn ui(ui: &mut Ui, headline: &Headline) {
             wrapped(ui, &word, &fitting_font(ui, &word, &fonts, 1), colour);
         });
     }
-    if let Some(actual) = &headline.actual {
-        let text = text!("shell-actual-part", part = actual);
-        wrapped(ui, &text, &font::far_reason(), theme.text);
-    }
     if let Some(nearest) = &headline.nearest {
         ui.weak(text!("inspect-nearest", part = nearest));
     }
     if let Some((reason, advice)) = &headline.complaint {
         ui.add_space(space::SMALL);
         wrapped(ui, &sentence(reason), &font::far_reason(), theme.text);
-        wrapped(ui, advice, &font::body_strong(), theme.warning);
+        if !advice.is_empty() {
+            wrapped(ui, advice, &font::body_strong(), theme.warning);
+        }
     }
     ui.add_space(space::SMALL);
 }

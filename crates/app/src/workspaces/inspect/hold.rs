@@ -7,12 +7,11 @@ use egui::Ui;
 use robot::RobotFrame;
 use shell::{
     inspection::{inspected::Inspected, source::Origin},
-    language::robot::doubt,
-    session::{Session, Source, UserRole},
+    session::{Session, UserRole},
 };
 use station::Doubt;
 use ui::{
-    language::{library_text, text},
+    language::{library_text, text, what_and_advice},
     user_error::UserError,
     widgets::sentence,
 };
@@ -73,17 +72,14 @@ impl Hold {
             } else {
                 text!("inspect-hold-simulated")
             },
-            advice: match role {
-                UserRole::Operator => text!("inspect-hold-choose-camera-operator"),
-                UserRole::Engineer => text!("inspect-hold-choose-camera"),
-            },
+            advice: choose_camera(role),
         }
     }
 
     fn of_doubt(found: &Doubt, session: &Session, inspected: &Inspected, role: UserRole) -> Self {
         let is_past = session.shown.as_ref().is_some_and(|shown| shown.is_past);
         let is_file = matches!(inspected.origin, Origin::File { .. } | Origin::Scan { .. });
-        let [usual_reason, usual_advice] = doubt(found);
+        let [usual_reason, usual_advice] = what_and_advice(found);
         let reason = match found {
             Doubt::Superseded if is_past => text!("inspect-from-history"),
             Doubt::Superseded if session.inspecting.is_some() => text!("inspect-previous-result"),
@@ -95,10 +91,17 @@ impl Hold {
         };
         let advice = match (found, role) {
             (Doubt::Superseded, _) if session.inspecting.is_some() => text!("inspect-wait"),
-            (Doubt::Superseded, _) => inspect_current(&session.source),
+            (Doubt::Superseded, _) => inspect_current(session, role),
+            (Doubt::Old, UserRole::Operator) if is_file => choose_camera(role),
+            (Doubt::Old, UserRole::Engineer) if is_file => text!("inspect-hold-open-newer"),
             (Doubt::NotAccepted, _) => text!("inspect-no-pose-advice"),
             // What only the engineer can do.
             (Doubt::ReportedWrong, UserRole::Operator) => text!("operator-reported-wrong-next"),
+            (Doubt::Ambiguous, UserRole::Operator) => {
+                ["step-all-in-picture", "step-if-it-persists"]
+                    .map(library_text)
+                    .join("\n")
+            }
             (Doubt::NoPose, UserRole::Operator) => library_text("step-unconfirmed-next"),
             (Doubt::NotCalibrated, UserRole::Operator) => {
                 text!("inspect-hold-not-calibrated-operator")
@@ -125,9 +128,109 @@ pub(super) fn look_again(ui: &Ui) {
 }
 
 /// Says how the part that hangs there now is inspected.
-pub(super) fn inspect_current(source: &Source) -> String {
-    match source.followed() {
-        Some(_) => text!("operator-follow-current"),
-        None => text!("operator-capture-current"),
+pub(super) fn inspect_current(session: &Session, role: UserRole) -> String {
+    match &session.failed {
+        // Live goes on with the next file by itself.
+        Some(failed) if session.is_watching() => failed.advice.clone(),
+        _ if session.is_watching() => text!("operator-save-capture"),
+        _ if session.is_live() => text!("inspect-wait"),
+        _ if session.source.followed().is_some() => text!("operator-follow-current"),
+        // A file shows what it showed before.
+        _ => choose_camera(role),
+    }
+}
+
+fn choose_camera(role: UserRole) -> String {
+    match role {
+        UserRole::Operator => text!("inspect-hold-choose-camera-operator"),
+        UserRole::Engineer => text!("inspect-hold-choose-camera"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::SystemTime;
+
+    use super::*;
+    use shell::{
+        inspection::{inspected::inspected_cell, source::CellChoice},
+        session::{Shown, Source},
+    };
+
+    const ROLES: [UserRole; 2] = [UserRole::Operator, UserRole::Engineer];
+
+    #[test]
+    fn the_current_part_is_inspected_as_its_source_allows() {
+        let folder = || Source::Camera(Box::new("watch:captures".parse().expect("a source")));
+        let file = || Source::File("door.pcd".into());
+        let next = |source, is_live, failed: Option<UserError>| {
+            let mut session = Session {
+                source,
+                failed,
+                ..Session::default()
+            };
+            session.live.is_on = is_live;
+            ROLES.map(|role| inspect_current(&session, role))
+        };
+        let unreadable = UserError {
+            what: "door.pcd cannot be read".into(),
+            advice: "Save it again".into(),
+        };
+        for (found, expected) in [
+            (next(folder(), true, Some(unreadable)), ["Save it again"; 2]),
+            (
+                next(folder(), true, None),
+                ["Save a capture to the folder: it is inspected automatically"; 2],
+            ),
+            (next(Source::default(), true, None), ["Wait a moment"; 2]),
+            (
+                next(Source::default(), false, None),
+                ["Press Live or Capture for the current part"; 2],
+            ),
+            (
+                next(file(), false, None),
+                [
+                    "Ask the engineer to choose a camera",
+                    "Choose a camera as the source",
+                ],
+            ),
+        ] {
+            assert_eq!(found, expected);
+        }
+    }
+
+    #[test]
+    fn an_old_file_is_not_captured_again() {
+        let mut inspected = inspected_cell(CellChoice::InTurn, 1);
+        let hour = Duration::from_hours(1);
+        inspected.set_origin(Origin::File {
+            path: "door.pcd".into(),
+            is_simulated: false,
+        });
+        inspected.set_captured_at(SystemTime::now() - hour);
+        let session = Session {
+            source: Source::File("door.pcd".into()),
+            shown: Some(Shown {
+                generation: 1,
+                inspected: Arc::new(inspected),
+                is_past: false,
+                session: None,
+                is_outdated: false,
+            }),
+            ..Session::default()
+        };
+        let inspected = &session.shown.as_ref().expect("shown").inspected;
+        let holds = ROLES.map(|role| Hold::of(&session, inspected, role).expect("old"));
+        for (hold, advice) in holds.iter().zip([
+            "Ask the engineer to choose a camera",
+            "Open a newer capture, or choose a camera as the source",
+        ]) {
+            assert!(
+                hold.reason.starts_with("From a file more than 10"),
+                "{}",
+                hold.reason
+            );
+            assert_eq!(hold.advice, advice);
+        }
     }
 }

@@ -29,6 +29,7 @@ pub use self::{
     view::WorkCounts,
 };
 use crate::shots::{ShotList, ShotsAction, ShotsFile, ShownShots, StripTab};
+use capture::SourceSpec;
 use shell::{
     context::ShellContext,
     inspection::{fuse::FusedShots, inspected::Inspected},
@@ -345,12 +346,22 @@ fn strip_height(state: &InspectState, inspected: &Inspected, height: f32) -> f32
     }
 }
 
+/// Says how the source is inspected for the first time.
+fn first_step(session: &Session) -> String {
+    match session.source.followed() {
+        _ if session.is_watching() => text!("operator-save-capture"),
+        _ if session.is_live() => text!("inspect-wait"),
+        Some(SourceSpec::Simulated(_)) => text!("inspect-capture-cell"),
+        _ => text!("inspect-capture-or-drop"),
+    }
+}
+
 /// Draws the area before the first result.
 fn empty(ui: &Ui, session: &Session) {
     let theme = Theme::of(ui);
     let text = match &session.inspecting {
         Some(run) => format!("{}…", run.title),
-        None => text!("inspect-nothing-yet"),
+        None => format!("{}\n{}", text!("inspect-nothing-yet"), first_step(session)),
     };
     let rect = ui.max_rect();
     let galley = ui.painter().layout(

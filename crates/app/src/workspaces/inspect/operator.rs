@@ -16,10 +16,11 @@ use shell::{
     frame::operator_bars::column_width,
     language::results::{recognised_part, stored_verdict},
     session::Session,
+    standing::past_mark,
     trace::entry,
 };
 use ui::{
-    language::text,
+    language::{Language, text},
     theme::{Theme, font, space},
     widgets::{Mark, fitted_middle, line_mark, mark, title_rows, wrapped, wrapped_rows},
 };
@@ -270,11 +271,7 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session) {
     ui.spacing_mut().item_spacing.y = 0.0;
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         for row in &shift.last {
-            let (sign, colour) = if row.is_ok() {
-                (Mark::Good, theme.accepted)
-            } else {
-                (Mark::Bad, theme.rejected)
-            };
+            let sign = past_mark(row);
             // The nearest part is only of interest to the engineer.
             let name = match row.verdict {
                 StoredVerdict::Accepted => row.title.clone(),
@@ -290,10 +287,19 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session) {
             let serial = Some(row.trace.serial.clone()).filter(|serial| !serial.is_empty());
             let is_wrong = row.is_wrongly_accepted();
             let wrong = is_wrong.then(|| text!("operator-reported-wrong"));
-            let below = [
-                (wrong, font::body()),
-                (mirrored, font::body()),
-                (serial, font::far_list()),
+            let below: [(_, LineDrawer); 3] = [
+                (
+                    wrong.or_else(|| row.noted.past_doubts(Language::current())),
+                    |ui, text| {
+                        wrapped(ui, text, &font::body(), Theme::of(ui).text);
+                    },
+                ),
+                (mirrored, |ui, text| {
+                    fitted_label(ui, text, font::body(), Theme::of(ui).text);
+                }),
+                (serial, |ui, text| {
+                    fitted_label(ui, text, font::far_list(), Theme::of(ui).text);
+                }),
             ];
             let [name_line, line_below] = TWO_LINES;
             let line = ui.horizontal(|ui| {
@@ -306,20 +312,20 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session) {
                     let at = RichText::new(at).font(font::far_list());
                     ui.label(at.weak());
                     ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                        fitted_label(ui, &name, font::far_list(), colour);
+                        fitted_label(ui, &name, font::far_list(), sign.colour(theme));
                     });
                 });
                 from
             });
             let mut rect = line.response.rect;
-            for (text, font) in below {
+            for (text, draw) in below {
                 let Some(text) = text else {
                     continue;
                 };
                 let drawn = ui.horizontal(|ui| {
                     ui.set_min_height(line_below);
                     ui.add_space(line.inner - ui.cursor().left());
-                    fitted_label(ui, &text, font, theme.text);
+                    draw(ui, &text);
                 });
                 rect = rect.union(drawn.response.rect);
             }
@@ -328,6 +334,9 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session) {
         }
     });
 }
+
+/// Draws a text below the name of one of the last parts.
+type LineDrawer = fn(&mut Ui, &str);
 
 /// A text whose middle is cut out if there is no room for it; hovering then shows all of it.
 fn fitted_label(ui: &mut Ui, text: &str, font: FontId, colour: Color32) {
@@ -398,6 +407,45 @@ mod tests {
                 "{visible:?}"
             );
         }
+    }
+
+    #[test]
+    fn of_the_last_parts_one_that_no_robot_was_to_act_on_is_not_green() {
+        let mut session = Session::default();
+        session.shift.since = Some(geometry::clock::zoned_now());
+        for doubts in [&[][..], &["moving".to_owned()]] {
+            let mut row = inspected_cell(CellChoice::InTurn, 1).entry.record.summary;
+            row.title = format!("Door with {} doubts", doubts.len());
+            row.noted.robot_doubts = doubts.to_vec();
+            session.shift.last.push(row);
+        }
+        let ctx = egui::Context::default();
+        Theme::install_fonts(&ctx);
+        Theme::install(ThemeChoice::default(), &ctx);
+        let input = RawInput {
+            screen_rect: Some(Rect::from_min_size(Pos2::ZERO, vec2(COLUMN[1], 600.0))),
+            ..RawInput::default()
+        };
+        let mut theme = None;
+        let banner = Banner::new(Tone::Open, "", "", "");
+        let output = ctx.run_ui(input, |ui| {
+            theme = Some(Theme::of(ui));
+            column(ui, &banner, &session);
+        });
+        let colour_of = |words: &str| {
+            let texts = output.shapes.iter().filter_map(|drawn| match &drawn.shape {
+                Shape::Text(text) if text.galley.text().starts_with(words) => {
+                    Some(text.galley.job.sections[0].format.color)
+                }
+                _ => None,
+            });
+            texts.last()
+        };
+        let theme = theme.expect("drawn");
+        assert_eq!(colour_of("Door with 0"), Some(theme.accepted));
+        assert_eq!(colour_of("Door with 1"), Some(theme.warning));
+        assert!(colour_of("The robot was not to act on it: the part was moving").is_some());
+        output.drop_without_applying_deltas();
     }
 
     /// The texts of a banner of this size and their numbers of rows. None may be cut off or overlap another.

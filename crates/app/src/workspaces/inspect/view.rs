@@ -13,7 +13,7 @@ use crate::shots::{Overlay, POINT_SIZE};
 use geometry::{rigid::RigidTransform, units::Metres};
 use records::history::HungId;
 use shell::{
-    inspection::{inspected::Inspected, unit_system::UnitSystem},
+    inspection::{inspected::Inspected, scene_figure::SprayFigure, unit_system::UnitSystem},
     session::{Session, Shown},
 };
 use ui::{
@@ -326,11 +326,7 @@ impl SceneView {
                         lines.push(spray.lines.clone());
                         labels.push(TextLabel {
                             at: spray.start,
-                            text: text!(
-                                "inspect-path-in-band",
-                                inside = spray.num_inside,
-                                num = spray.num_seen
-                            ),
+                            text: path_label(spray),
                         });
                     }
                 }
@@ -422,6 +418,13 @@ fn plate(
     rect
 }
 
+fn path_label(spray: &SprayFigure) -> String {
+    match spray.num_seen {
+        0 => text!("inspect-path-not-seen"),
+        num => text!("inspect-path-in-band", inside = spray.num_inside, num = num),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use std::sync::Arc;
@@ -435,12 +438,29 @@ mod tests {
     use simulate::{PartKind, Side};
     use ui::{
         task::TaskRunner,
-        viewport::{Measurement, ViewTool},
+        viewport::{LineSet, Measurement, ViewTool},
     };
 
     fn view() -> SceneView {
         let reason = String::new();
         SceneView::new(Err(ViewError::NoDevice { reason }))
+    }
+
+    #[test]
+    fn a_path_that_the_camera_does_not_see_has_no_share_in_the_band() {
+        let label = |num_inside, num_seen| {
+            path_label(&SprayFigure {
+                lines: LineSet::new(Vec::new()),
+                start: glam::Vec3::ZERO,
+                num_inside,
+                num_seen,
+            })
+        };
+        assert_eq!(label(3, 5), "Spray path · 3 of 5 in the band");
+        assert_eq!(
+            label(0, 0),
+            "The camera sees the part at no point of the path"
+        );
     }
 
     #[test]

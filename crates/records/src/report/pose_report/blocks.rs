@@ -77,7 +77,7 @@ impl TransformBlock {
 /// Where the part is before the camera, and how well that is known.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct PoseBlock {
-    /// True if something may move by it.
+    /// True if a robot may act on it: the part was accepted, and there is no doubt.
     pub usable: bool,
     /// What to mind before using it.
     pub cautions: Vec<String>,
@@ -319,12 +319,11 @@ impl RobotBlock {
         let convention = subject.convention;
         let robot = subject.robot;
         let usable = camera_from_part.zip(subject.for_robot);
-        let unavailable = match (accepted, camera_from_part, robot) {
-            (false, ..) => Some("the part was not accepted: there is nothing to move by"),
-            (_, None, _) => Some("no pose was estimated"),
-            (_, _, None) => Some("the cell is not calibrated, so the camera's pose is not known"),
-            _ if usable.is_some() => None,
-            _ => subject.doubts.first().map(|doubt| doubt.what.as_str()),
+        let whats = || subject.doubts.iter().map(|doubt| doubt.what.as_str());
+        let unavailable = match usable {
+            Some(_) => None,
+            None if accepted => Some(whats().collect::<Vec<_>>().join("; ")),
+            None => Some("the part was not accepted: there is nothing to move by".to_owned()),
         };
         Self {
             convention,
@@ -339,7 +338,7 @@ impl RobotBlock {
                     convention,
                 )
             }),
-            unavailable: unavailable.map(str::to_owned),
+            unavailable,
             robot_from_part: usable.map(|(pose, robot)| {
                 TransformBlock::of(
                     [

@@ -178,7 +178,7 @@ pub struct ReportSubject<'a> {
     pub robot: Option<&'a RobotFrame>,
     /// The same frame, if the pose may be given in it.
     pub for_robot: Option<&'a RobotFrame>,
-    /// Why a robot must not act on the result, but for a missing calibration.
+    /// Why a robot must not act on the result; not empty if `for_robot` is `None`.
     pub doubts: &'a [DoubtBlock],
     /// Convention of the poses, in addition to matrix and quaternion.
     pub convention: Convention,

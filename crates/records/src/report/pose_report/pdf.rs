@@ -186,7 +186,7 @@ fn verdict(
     let robot = &report.robot;
     // As in the window: green only if a robot may move on it.
     let ink = match is_right {
-        true if robot.doubts.is_empty() && robot.unavailable.is_none() => GREEN,
+        true if robot.doubts.is_empty() => GREEN,
         true => AMBER,
         false => RED,
     };
@@ -206,7 +206,6 @@ fn verdict(
     let words = match (verdict.accepted, &report.refused_pose) {
         (true, _) if !is_right => "REPORTED AS WRONG: do not move on this pose",
         (true, _) if !robot.doubts.is_empty() => "RECOGNISED: do not move on this pose",
-        (true, _) if robot.unavailable.is_some() => "Recognised: there is no pose for a robot",
         (true, _) => "Accepted",
         (false, Some(_)) => "NOT ACCEPTED: do not move on this pose",
         (false, None) => "NOT ACCEPTED: there is no pose",

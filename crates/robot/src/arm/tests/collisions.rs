@@ -66,7 +66,10 @@ fn a_box_beside_the_gun_is_run_into_as_far_as_gun_and_clearance_reach() {
     }
     assert_eq!(found.num_reached() + found.num_collisions(), 60);
     let doubt = found.missed("arm").expect("collides").to_string();
-    assert!(doubt.contains(&format!("would collide at {}", found.num_collisions())));
+    assert!(doubt.contains(&format!(
+        "{} of them because it would collide",
+        found.num_collisions()
+    )));
     let problem = gun_at("post");
     assert_eq!(problem.describe(), "the gun is too near to the box post");
     assert_eq!(problem.kind(), "collision");

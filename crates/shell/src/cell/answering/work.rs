@@ -429,8 +429,8 @@ impl AnsweringSession<'_> {
             let parts = shown.parts.iter().zip(&shown.spray_paths);
             let parts = parts.map(|(part, stored)| NumberedPart {
                 number: numbers.of(&part.name).unwrap_or(0),
-                path: (stored.as_ref().filter(|stored| stored.off.is_none()))
-                    .map(|stored| stored.path.clone()),
+                path: stored.as_ref().map(|stored| stored.path.clone()),
+                off: stored.as_ref().and_then(|stored| stored.off),
                 is_simulated: part.simulated,
             });
             self.finder.parts = parts.collect();

@@ -130,7 +130,11 @@ fn start(state: &mut State) {
             Source::Scan(_) => text!("live-scan-cannot"),
             _ => text!("live-file-cannot"),
         };
-        let notice = Notice::look(what, text!("live-cannot-advice"));
+        let advice = match state.session.role {
+            UserRole::Operator => text!("inspect-hold-choose-camera-operator"),
+            UserRole::Engineer => text!("live-cannot-advice"),
+        };
+        let notice = Notice::look(what, advice);
         notify(state, notice.about(NoticeTopic::Following));
         return;
     }

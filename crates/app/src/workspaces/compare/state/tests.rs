@@ -436,6 +436,7 @@ fn a_study_that_failed_leaves_no_verdict_of_another_case() {
         found: FoundVerdict::default(),
         found_title: String::new(),
         refused: None,
+        doubts: Vec::new(),
         time_ms: 1.0,
         distances: Vec::new(),
         against: None,
