@@ -60,13 +60,14 @@ fn a_format_is_known_by_its_content_whatever_the_name() {
 #[test]
 fn every_small_file_cut_anywhere_opens_or_fails_by_name() {
     let folder = tempfile::tempdir().unwrap();
-    // Each under a name of its own: some file systems wait for the disk when a file is written again.
-    let mut num_written = 0;
-    let mut cut = |bytes: &[u8], extension: &str| {
-        num_written += 1;
-        let path = folder.path().join(format!("cut{num_written}{extension}"));
-        fs::write(&path, bytes).unwrap();
-        path
+    // All before any is opened: opening waits until a file is old enough for any later change to show in its time.
+    let cuts = |bytes: &[u8], ending: &str| -> Vec<_> {
+        let cut = |length: usize| {
+            let path = folder.path().join(format!("cut{length}{ending}"));
+            fs::write(&path, &bytes[..length]).unwrap();
+            path
+        };
+        (0..bytes.len()).map(cut).collect()
     };
     for bytes in [
         PCD.as_bytes(),
@@ -76,8 +77,8 @@ fn every_small_file_cut_anywhere_opens_or_fails_by_name() {
         b"x,y,z\n1,2,3\n",
         &binary_stl(),
     ] {
-        for length in 0..bytes.len() {
-            if let Err(error) = open(&cut(&bytes[..length], "")) {
+        for path in cuts(bytes, "") {
+            if let Err(error) = open(&path) {
                 assert!(error.to_string().contains("cut") && !error.advice().is_empty());
             }
         }
@@ -86,8 +87,8 @@ fn every_small_file_cut_anywhere_opens_or_fails_by_name() {
     let whole = folder.path().join("whole.png");
     super::super::write_depth_png(&whole, &frame).unwrap();
     let bytes = fs::read(&whole).unwrap();
-    for length in 0..bytes.len() {
-        match open(&cut(&bytes[..length], ".png")) {
+    for (length, path) in cuts(&bytes, ".png").into_iter().enumerate() {
+        match open(&path) {
             // The last chunk holds nothing.
             Ok(opened) => assert_eq!(
                 opened,
