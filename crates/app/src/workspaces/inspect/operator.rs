@@ -433,13 +433,13 @@ mod tests {
             column(ui, &banner, &session);
         });
         let colour_of = |words: &str| {
-            let texts = output.shapes.iter().filter_map(|drawn| match &drawn.shape {
+            let mut texts = output.shapes.iter().filter_map(|drawn| match &drawn.shape {
                 Shape::Text(text) if text.galley.text().starts_with(words) => {
                     Some(text.galley.job.sections[0].format.color)
                 }
                 _ => None,
             });
-            texts.last()
+            texts.next_back()
         };
         let theme = theme.expect("drawn");
         assert_eq!(colour_of("Door with 0"), Some(theme.accepted));
