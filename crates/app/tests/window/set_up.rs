@@ -71,15 +71,17 @@ pub(crate) fn wait_until(harness: &mut WindowHarness, is_so: impl Fn(&State) -> 
 /// Draws until the window meets the condition.
 ///
 /// The window's clock advances normally for animations, then hardly at all: the time that the work takes must not
-/// decide which notices are still shown.
+/// decide which notices are still shown. The longer the work takes, the rarer the frames are, which take processor time
+/// from it.
 pub(crate) fn wait_for(harness: &mut WindowHarness, is_so: impl Fn(&Window) -> bool) {
     let until = Instant::now() + Duration::from_mins(3);
     let moving = (0..20).map(|_| 0.1);
     let mut ticks = moving.chain(std::iter::repeat(1e-3));
+    let mut pauses_ms = (5..30).chain(std::iter::repeat(30));
     harness.step();
     while !is_so(harness.state()) {
         assert!(Instant::now() < until, "still working after three minutes");
-        thread::sleep(Duration::from_millis(5));
+        thread::sleep(Duration::from_millis(pauses_ms.next().unwrap_or_default()));
         let time = harness.ctx.input(|input| input.time) + ticks.next().unwrap_or_default();
         harness.input_mut().time = Some(time);
         harness.step();

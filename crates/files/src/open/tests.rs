@@ -60,7 +60,15 @@ fn a_format_is_known_by_its_content_whatever_the_name() {
 #[test]
 fn every_small_file_cut_anywhere_opens_or_fails_by_name() {
     let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("cut");
+    // All before any is opened: opening waits until a file is old enough for any later change to show in its time.
+    let cuts = |bytes: &[u8], ending: &str| -> Vec<_> {
+        let cut = |length: usize| {
+            let path = folder.path().join(format!("cut{length}{ending}"));
+            fs::write(&path, &bytes[..length]).unwrap();
+            path
+        };
+        (0..bytes.len()).map(cut).collect()
+    };
     for bytes in [
         PCD.as_bytes(),
         PLY.as_bytes(),
@@ -69,8 +77,7 @@ fn every_small_file_cut_anywhere_opens_or_fails_by_name() {
         b"x,y,z\n1,2,3\n",
         &binary_stl(),
     ] {
-        for length in 0..bytes.len() {
-            fs::write(&path, &bytes[..length]).unwrap();
+        for path in cuts(bytes, "") {
             if let Err(error) = open(&path) {
                 assert!(error.to_string().contains("cut") && !error.advice().is_empty());
             }
@@ -80,9 +87,8 @@ fn every_small_file_cut_anywhere_opens_or_fails_by_name() {
     let whole = folder.path().join("whole.png");
     super::super::write_depth_png(&whole, &frame).unwrap();
     let bytes = fs::read(&whole).unwrap();
-    for length in 0..bytes.len() {
-        fs::write(&whole, &bytes[..length]).unwrap();
-        match open(&whole) {
+    for (length, path) in cuts(&bytes, ".png").into_iter().enumerate() {
+        match open(&path) {
             // The last chunk holds nothing.
             Ok(opened) => assert_eq!(
                 opened,

@@ -199,8 +199,8 @@ fn a_word_of_what_is_shown_finds_what_is_stored() {
 }
 
 #[test]
-fn a_hundred_thousand_rows_are_asked_right_and_from_the_index_alone() {
-    const NUM: i64 = 100_000;
+fn twenty_thousand_rows_are_asked_right_and_from_the_index_alone() {
+    const NUM: i64 = 20_000;
     let (_folder, mut history) = new_history();
     let entries = (0..NUM).map(|i| {
         let verdict = if i % 10 == 0 {
@@ -238,11 +238,11 @@ fn a_hundred_thousand_rows_are_asked_right_and_from_the_index_alone() {
         ),
         (
             Filter {
-                // Also matches 19999, 29999 and so on.
+                // Also matches 19999.
                 text: "frame 9999".into(),
                 ..Filter::default()
             },
-            19,
+            2,
         ),
         (
             Filter {

@@ -8,7 +8,7 @@
 #![allow(clippy::disallowed_methods, reason = "tests change files")]
 #![cfg(target_os = "linux")]
 
-use std::{env, ffi::OsString, fs, path::Path, process::Command};
+use std::{env, ffi::OsString, fs, path::Path, process::Command, thread};
 
 use capture::fixtures::{SHARED, compile_c};
 use geometry::error::Advice as _;
@@ -182,45 +182,54 @@ fn fails_at_every_call(num_before: usize, is_listed: bool, prepare: impl Fn(&Pat
     let prepared = tools.path().join("prepared");
     fs::create_dir(&prepared).expect("made");
     prepare(&prepared);
-    for kind in ["full", "broken", "once", "killed"] {
-        let mut num_errors = 0;
-        let mut is_through = false;
-        for at in 1..=MOST_CALLS {
-            let fault = format!("{kind} {at}");
-            let folder = tempfile::tempdir().expect("a folder");
-            copy(&prepared, folder.path());
-            let told = run(folder.path(), &disk, &fault);
-            let has_failed = folder.path().join("mark").exists();
-            for error in &told.errors {
-                let is_fitting = error.contains("disk") || error.contains("writable");
-                assert!(is_fitting && !error.contains("move"), "{fault}: {error}");
-            }
-            let is_cut_off = told.is_killed || told.num_done < STEPS.len();
-            assert!(!is_cut_off || has_failed, "{fault}");
-            // A step that fails once succeeds when it is tried again.
-            assert!(kind != "once" || !is_cut_off, "{fault}: {:?}", told.errors);
-            match told.num_read {
-                Some(num) => assert!(num >= num_before, "{fault}: {num} read"),
-                None => assert!(
-                    told.is_killed || !is_cut_off || !is_listed,
-                    "{fault}: {:?}",
-                    told.errors
-                ),
-            }
-            check(folder.path(), num_before, &fault, &told);
-            num_errors += told.errors.len();
-            if !has_failed {
-                is_through = true;
-                assert!(at > 10, "{kind}: only {at} calls");
-                break;
-            }
+    // At once, because most of the time goes by waiting for the disk and for processes.
+    thread::scope(|scope| {
+        for kind in ["full", "broken", "once", "killed"] {
+            let (prepared, disk) = (&prepared, &disk);
+            scope.spawn(move || fails_in_one_way(kind, num_before, is_listed, prepared, disk));
         }
-        assert!(is_through, "{kind}: no end");
-        assert!(
-            num_errors > 0 || kind == "killed",
-            "{kind}: nothing was said"
-        );
+    });
+}
+
+/// Does this for one kind of fault.
+fn fails_in_one_way(kind: &str, num_before: usize, is_listed: bool, prepared: &Path, disk: &Path) {
+    let mut num_errors = 0;
+    let mut is_through = false;
+    for at in 1..=MOST_CALLS {
+        let fault = format!("{kind} {at}");
+        let folder = tempfile::tempdir().expect("a folder");
+        copy(prepared, folder.path());
+        let told = run(folder.path(), disk, &fault);
+        let has_failed = folder.path().join("mark").exists();
+        for error in &told.errors {
+            let is_fitting = error.contains("disk") || error.contains("writable");
+            assert!(is_fitting && !error.contains("move"), "{fault}: {error}");
+        }
+        let is_cut_off = told.is_killed || told.num_done < STEPS.len();
+        assert!(!is_cut_off || has_failed, "{fault}");
+        // A step that fails once succeeds when it is tried again.
+        assert!(kind != "once" || !is_cut_off, "{fault}: {:?}", told.errors);
+        match told.num_read {
+            Some(num) => assert!(num >= num_before, "{fault}: {num} read"),
+            None => assert!(
+                told.is_killed || !is_cut_off || !is_listed,
+                "{fault}: {:?}",
+                told.errors
+            ),
+        }
+        check(folder.path(), num_before, &fault, &told);
+        num_errors += told.errors.len();
+        if !has_failed {
+            is_through = true;
+            assert!(at > 10, "{kind}: only {at} calls");
+            break;
+        }
     }
+    assert!(is_through, "{kind}: no end");
+    assert!(
+        num_errors > 0 || kind == "killed",
+        "{kind}: nothing was said"
+    );
 }
 
 fn copy(from: &Path, to: &Path) {

@@ -71,10 +71,10 @@ fn watch(folder: &Path, context: &TaskContext<()>) -> Result<(), TaskError> {
 }
 
 /// Name, size and time of an entry.
-type Entry = (OsString, u64, Option<SystemTime>);
+pub(super) type Entry = (OsString, u64, Option<SystemTime>);
 
 /// Lists the visible entries, sorted by name; none if the folder cannot be read.
-fn entries(folder: &Path) -> Vec<Entry> {
+pub(super) fn entries(folder: &Path) -> Vec<Entry> {
     let found = fs::read_dir(folder).into_iter().flatten().flatten();
     let is_visible = |name: &OsStr| {
         let name = name.as_encoded_bytes();

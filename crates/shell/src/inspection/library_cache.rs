@@ -10,7 +10,12 @@ use std::{
 
 use image::RgbaImage;
 
-use super::{camera::Camera, fitted::PreparedLibraryCache, recording::SharedRecording};
+use super::{
+    camera::Camera,
+    fitted::PreparedLibraryCache,
+    folder_watch::{self, entries},
+    recording::SharedRecording,
+};
 use geometry::error::{Advice as _, lock};
 use inspection::library::{
     Library, LibraryError, LibraryFolder, LibraryLoad, LibraryPlace, PartMeta, PartName,
@@ -61,9 +66,16 @@ pub struct LoadedLibrary {
     pub shown: Arc<LibraryView>,
     /// The references prepared for another recipe.
     pub fitted: PreparedLibraryCache,
+    /// The entries of its folder before it was loaded; none without a folder.
+    entries: Vec<folder_watch::Entry>,
 }
 
 impl LoadedLibrary {
+    /// True if it has a folder, which has not changed since.
+    fn is_unchanged(&self) -> bool {
+        !self.entries.is_empty() && entries(&self.shown.path) == self.entries
+    }
+
     /// Returns its folder, or why it cannot be changed.
     pub fn folder_to_change(&self) -> Result<&LibraryFolder, UserError> {
         let folder = self.place.as_ref().and_then(LibraryPlace::folder);
@@ -265,7 +277,11 @@ impl LibraryCache {
     pub fn refresh(&self) -> Result<Option<Arc<LoadedLibrary>>, LibraryError> {
         let choice = self.lock();
         let (given, taken_version) = (choice.given.clone(), choice.taken_version);
+        let known = choice.loaded.clone();
         drop(choice);
+        if known.is_some_and(|known| known.is_unchanged()) {
+            return Ok(None);
+        }
         // The lock is released while loading, so that no other thread waits for the disk.
         let found = Arc::new(load(given.as_deref(), taken_version)?);
         let mut choice = self.lock();
@@ -336,6 +352,7 @@ impl Choice {
             library: Library::default(),
             shown: Arc::new(shown),
             fitted: PreparedLibraryCache::default(),
+            entries: Vec::new(),
         });
         self.loaded = Some(Arc::clone(&loaded));
         loaded
@@ -347,6 +364,8 @@ fn load(
     taken_version: Option<ReadTakenVersion>,
 ) -> Result<LoadedLibrary, LibraryError> {
     let place = open_library(given)?;
+    // Before the parts, so that the next look notices what changes meanwhile.
+    let entries = place.folder().map(|folder| entries(folder.path()));
     let load = place.load(&ReferenceParams::default())?;
     let identity = load.identity();
     let LibraryLoad {
@@ -431,6 +450,7 @@ fn load(
         library,
         shown,
         fitted: PreparedLibraryCache::default(),
+        entries: entries.unwrap_or_default(),
     })
 }
 
@@ -469,6 +489,7 @@ fn no_library(folder: &LibraryFolder) -> Option<UserError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use ::inspection::fixtures::copy_library;
 
     #[test]
     fn a_library_that_cannot_be_loaded_leaves_the_old_one_in_use() {
@@ -502,6 +523,23 @@ mod tests {
         fs::create_dir(&path).expect("made");
         let found = library_cache.get();
         assert!(found.shown.unloaded.is_none() && found.shown.troubles.is_empty());
+    }
+
+    #[test]
+    fn a_library_is_loaded_again_only_after_its_folder_has_changed() {
+        let folder = tempfile::tempdir().expect("a folder");
+        copy_library(folder.path());
+        let library_cache = LibraryCache::new(Some(folder.path().into()), Camera::default());
+        library_cache.get();
+        // In place, which no writer does: the folder's entries stay as they were, so that nothing is read.
+        let fender = folder.path().join("fender");
+        fs::write(fender.join("part.toml"), "no part").expect("written");
+        let unchanged = library_cache.refresh().expect("there");
+        assert!(unchanged.is_none());
+        fs::rename(fender.join("part.toml"), fender.join("gone.toml")).expect("renamed");
+        let changed = library_cache.refresh().expect("there").expect("another");
+        assert_eq!(changed.shown.place_of("fender"), None);
+        assert_eq!(changed.shown.damaged.len(), 1);
     }
 
     #[test]
