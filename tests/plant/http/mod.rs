@@ -58,6 +58,7 @@ fn accepted(number: u32) -> Found {
         ],
         report: r#"{"schema":1,"status":"ok","pose":{"rms_m":0.5},"robot":{"calibration":"cell"},"ranking":[]}"#
             .into(),
+        no_path: None,
         trouble: Trouble::default(),
     }
 }
