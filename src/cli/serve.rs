@@ -212,7 +212,7 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
         mirrored: MirrorTally::default(),
         console,
         last: None,
-        trouble: None,
+        problem: None,
         has_run: false,
         has_told_closed: false,
         failure: None,

@@ -143,7 +143,7 @@ fn open(given: WindowOptions, is_reopened: bool) -> Result<(), WindowError> {
             reason: error.to_string(),
         },
     })?;
-    match gpu.get().and_then(ViewportGpu::trouble) {
+    match gpu.get().and_then(ViewportGpu::problem) {
         Some(ViewError::DeviceLost { reason }) => Err(WindowError::DeviceLost { reason }),
         _ => Ok(()),
     }

@@ -131,7 +131,7 @@ impl Window {
         } = options;
         let is_first_start = settings.as_ref().is_some_and(|path| !path.exists());
         language.unwrap_or_default().make_current();
-        let (remembered, trouble) = settings.as_deref().map(settings::load).unwrap_or_default();
+        let (remembered, problem) = settings.as_deref().map(settings::load).unwrap_or_default();
         let data_lock = DataLock::take(history.as_deref());
         // The other window keeps its settings and its draft there.
         let settings = settings.filter(|_| !data_lock.is_taken);
@@ -180,7 +180,7 @@ impl Window {
         let language = window.state.session.chosen_language.or(language);
         window.state.session.language = language.unwrap_or_default();
         window.state.session.language.make_current();
-        window.state.notices.extend(trouble.map(Notice::from));
+        window.state.notices.extend(problem.map(Notice::from));
         let is_second = window.data_lock.is_taken;
         if is_second {
             let advice = text!("shell-second-window-advice");
@@ -439,7 +439,7 @@ impl Window {
             self.lend(kind, ctx, Workspace::update);
         }
         let history = self.workspace::<HistoryWorkspace>();
-        let is_failing = history.is_some_and(|history| history.state.trouble.is_some());
+        let is_failing = history.is_some_and(|history| history.state.problem.is_some());
         self.state.session.is_history_failing = is_failing;
         let history = self.services.library_cache.history();
         self.state

@@ -136,19 +136,19 @@ pub struct CameraStatus {
     /// In one word.
     pub state: CameraState,
     /// Why it gives nothing; null while it does.
-    pub trouble: Option<Trouble>,
+    pub problem: Option<Problem>,
 }
 
 /// Why there is no pose: for programs and for people.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
-pub struct Trouble {
+pub struct Problem {
     /// A word that stays the same in later versions; empty if there is nothing to say.
     pub reason: String,
     /// What happened and what to do.
     pub message: String,
 }
 
-impl Trouble {
+impl Problem {
     /// Joins what happened and what to do about it in one line.
     pub fn new(reason: impl Into<String>, what: &str, advice: &str) -> Self {
         Self {
@@ -214,7 +214,7 @@ pub struct LibraryStatus {
     /// The version in use; null if it was not taken from a store.
     pub version: Option<u32>,
     /// Why a newer version could not be taken or used; null if there is none.
-    pub trouble: Option<Trouble>,
+    pub problem: Option<Problem>,
 }
 
 /// Which of the poses goes out; see [`robot`].
@@ -257,30 +257,30 @@ pub struct Found {
     /// The part's stored spray path, moved by that pose.
     pub path: Vec<PathStep>,
     /// Why the stored path is not given; `None` also if none is stored.
-    pub no_path: Option<Trouble>,
+    pub no_path: Option<Problem>,
     /// The inspection as a JSON line; empty if there was none.
     pub report: String,
     /// Why there is no pose.
-    pub trouble: Trouble,
+    pub problem: Problem,
 }
 
 impl Found {
     /// A result for a trigger after which nothing could be inspected.
-    pub fn error(trouble: Trouble) -> Self {
+    pub fn error(problem: Problem) -> Self {
         Self {
             verdict: VerdictCode::Error,
-            trouble,
+            problem,
             ..Self::default()
         }
     }
 
     /// Refuses a part that was accepted, and withholds its pose and its path.
-    pub fn refuse(&mut self, trouble: Trouble) {
+    pub fn refuse(&mut self, problem: Problem) {
         self.verdict = VerdictCode::Refused;
         self.marks &= !Answer::OF_ACCEPTED;
         self.pose = None;
         self.path.clear();
-        self.trouble = trouble;
+        self.problem = problem;
     }
 }
 
@@ -297,15 +297,15 @@ pub(super) struct Inspected {
     pub(super) boot: u32,
     pub(super) found: Found,
     /// Why its pose and its path may not be sent any more, if it was accepted.
-    pub(super) revoked: OnceLock<Trouble>,
+    pub(super) revoked: OnceLock<Problem>,
 }
 
 impl Inspected {
     /// The verdict as it holds now, with the reason if it differs from the original.
-    fn judged(&self, age: Option<Duration>, max_age: Duration) -> (VerdictCode, Trouble) {
+    fn judged(&self, age: Option<Duration>, max_age: Duration) -> (VerdictCode, Problem) {
         match self.revoked.get() {
-            Some(trouble) if self.found.verdict == VerdictCode::Accepted => {
-                (VerdictCode::Refused, trouble.clone())
+            Some(problem) if self.found.verdict == VerdictCode::Accepted => {
+                (VerdictCode::Refused, problem.clone())
             }
             _ => judged(&self.found, age, max_age),
         }
@@ -352,8 +352,8 @@ pub struct Answer {
     pub speed_mm_s: Option<f64>,
     /// Pose in the robot's base frame; only with an accepted verdict.
     pub pose: Option<RigidTransform>,
-    /// Why there is no pose; in an answer to a status request, the camera's trouble.
-    pub trouble: Trouble,
+    /// Why there is no pose; in an answer to a status request, the camera's problem.
+    pub problem: Problem,
 }
 
 impl Answer {
@@ -387,12 +387,12 @@ impl Answer {
     }
 
     /// An answer to a client that is refused, or whose request could not be read.
-    pub(super) fn turned_away(verdict: VerdictCode, trouble: Trouble, at: &Situation) -> Self {
+    pub(super) fn turned_away(verdict: VerdictCode, problem: Problem, at: &Situation) -> Self {
         Self {
             verdict,
             boot: at.boot,
             camera: at.camera.state,
-            trouble,
+            problem,
             ..Self::default()
         }
     }
@@ -403,7 +403,7 @@ impl Answer {
         let age = found
             .captured
             .map(|captured| at.now.saturating_duration_since(captured));
-        let (verdict, trouble) = inspected.judged(age, at.max_age);
+        let (verdict, problem) = inspected.judged(age, at.max_age);
         let marks = match verdict {
             VerdictCode::Refused => found.marks & !Self::OF_ACCEPTED,
             _ => found.marks,
@@ -419,11 +419,11 @@ impl Answer {
             part: found.part.clone(),
             number: found.number,
             marks,
-            trouble,
+            problem,
             ..Self::default()
         };
-        if let (Request::Status, Some(trouble)) = (request, &at.camera.trouble) {
-            answer.trouble = trouble.clone();
+        if let (Request::Status, Some(problem)) = (request, &at.camera.problem) {
+            answer.problem = problem.clone();
         }
         // The only place where numbers get into an answer.
         if verdict == VerdictCode::Accepted {
@@ -441,7 +441,7 @@ impl Answer {
         let step = usize::try_from(point).ok();
         let Some(step) = step.and_then(|i| found.path.get(i - 1)) else {
             self.verdict = VerdictCode::BadRequest;
-            self.trouble = found.no_path.clone().unwrap_or_else(|| {
+            self.problem = found.no_path.clone().unwrap_or_else(|| {
                 let num = found.path.len();
                 let what = format!("there is no point {point} in a path of {num}");
                 let advice = if found.path.is_empty() {
@@ -449,7 +449,7 @@ impl Answer {
                 } else {
                     "Ask for points from 1 to the number of points in PATH's answer"
                 };
-                Trouble::new("no_such_point", &what, advice)
+                Problem::new("no_such_point", &what, advice)
             });
             return;
         };
@@ -470,9 +470,9 @@ pub(super) fn judged(
     found: &Found,
     age: Option<Duration>,
     max_age: Duration,
-) -> (VerdictCode, Trouble) {
+) -> (VerdictCode, Problem) {
     if found.verdict != VerdictCode::Accepted {
-        return (found.verdict, found.trouble.clone());
+        return (found.verdict, found.problem.clone());
     }
     let is_fresh = age.is_some_and(|age| age <= max_age);
     let poses = found.path.iter().map(|step| &step.robot_from_nozzle);
@@ -481,13 +481,13 @@ pub(super) fn judged(
     if !is_fresh {
         let what = format!("the frame is older than {} s", max_age.as_secs_f64());
         let advice = "TRIGGER again; if a path takes longer to fetch, raise --max-age";
-        (VerdictCode::Stale, Trouble::new("stale", &what, advice))
+        (VerdictCode::Stale, Problem::new("stale", &what, advice))
     } else if found.pose.is_none() || !is_finite {
         let what = "the part was accepted without a pose";
         let advice = "Start the server without --pose none, and TRIGGER again";
-        (VerdictCode::Refused, Trouble::new("no_pose", what, advice))
+        (VerdictCode::Refused, Problem::new("no_pose", what, advice))
     } else {
-        (VerdictCode::Accepted, found.trouble.clone())
+        (VerdictCode::Accepted, found.problem.clone())
     }
 }
 
@@ -515,7 +515,7 @@ mod tests {
             }],
             no_path: None,
             report: "{}".into(),
-            trouble: Trouble::default(),
+            problem: Problem::default(),
         }
     }
 
@@ -525,7 +525,7 @@ mod tests {
             max_age: Duration::from_secs(10),
             camera: CameraStatus {
                 state: CameraState::Running,
-                trouble: None,
+                problem: None,
             },
             now,
         }
@@ -598,8 +598,8 @@ mod tests {
         );
         let beyond = Answer::of(path(2), &last, &at);
         assert_eq!(beyond.verdict, VerdictCode::BadRequest);
-        assert_eq!(beyond.trouble.reason, "no_such_point");
-        let withheld = Trouble::new(
+        assert_eq!(beyond.problem.reason, "no_such_point");
+        let withheld = Problem::new(
             "off_the_part",
             "the path does not aim at the part",
             "Check it",
@@ -611,12 +611,12 @@ mod tests {
         });
         let answer = Answer::of(path(1), &last, &at);
         assert_eq!(
-            (answer.verdict, answer.trouble),
+            (answer.verdict, answer.problem),
             (VerdictCode::BadRequest, withheld)
         );
         last.found.no_path = None;
         let answer = Answer::of(path(1), &last, &at);
-        assert!(answer.trouble.message.contains("Store a path"));
+        assert!(answer.problem.message.contains("Store a path"));
     }
 
     #[test]
@@ -630,7 +630,7 @@ mod tests {
             let answer = Answer::of(request, &last, &late);
             assert_eq!(answer.verdict, VerdictCode::Stale, "{request:?}");
             assert_eq!((answer.pose, answer.points), (None, 0));
-            assert_eq!(answer.trouble.reason, "stale");
+            assert_eq!(answer.problem.reason, "stale");
             assert_eq!(answer.part, "fender");
         }
     }
@@ -664,7 +664,7 @@ mod tests {
                 let answer = Answer::of(request, &last, &situation(start));
                 assert_eq!(answer.verdict, VerdictCode::Refused);
                 assert_eq!(answer.pose, None);
-                assert_eq!(answer.trouble.reason, "no_pose");
+                assert_eq!(answer.problem.reason, "no_pose");
             }
         }
     }
@@ -672,19 +672,19 @@ mod tests {
     #[test]
     fn a_status_tells_why_the_camera_gives_nothing() {
         let now = Instant::now();
-        let trouble = Trouble {
+        let problem = Problem {
             reason: "camera_lost".into(),
             message: "the Kinect is gone (to do: Plug it in)".into(),
         };
         let at = Situation {
             camera: CameraStatus {
                 state: CameraState::Lost,
-                trouble: Some(trouble.clone()),
+                problem: Some(problem.clone()),
             },
             ..situation(now)
         };
         let answer = Answer::of(Request::Status, &Inspected::default(), &at);
-        assert_eq!(answer.trouble, trouble);
+        assert_eq!(answer.problem, problem);
         assert_eq!(answer.camera, CameraState::Lost);
         let none = (answer.verdict, answer.sequence, answer.age_or_none());
         assert_eq!(none, (VerdictCode::None, 0, -1));
@@ -701,7 +701,7 @@ mod tests {
         let mut wrong = found(now);
         wrong.marks |= Answer::APPROXIMATE | Answer::MOTION_UNCHECKED;
         let last = inspected(5, wrong);
-        last.revoked.set(Trouble::reported_wrong()).expect("once");
+        last.revoked.set(Problem::reported_wrong()).expect("once");
         let at = Situation {
             boot: 8,
             ..situation(now)
@@ -711,7 +711,7 @@ mod tests {
             assert_eq!(answer.verdict, VerdictCode::Refused, "{request:?}");
             assert_eq!((answer.pose, answer.points), (None, 0));
             assert_eq!((answer.flags(), answer.boot), (Answer::SIMULATED, 7));
-            assert_eq!(answer.trouble.reason, "reported_wrong");
+            assert_eq!(answer.problem.reason, "reported_wrong");
         }
     }
 }

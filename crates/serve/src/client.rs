@@ -8,7 +8,7 @@ use std::{
 };
 
 use super::{
-    answer::{Answer, Inspected, Trouble, VerdictCode},
+    answer::{Answer, Inspected, Problem, VerdictCode},
     listen::Listener,
     protocol::bad_request::BadRequest,
     server::{ClientNews, Job, LINGER, Shared, WRITE_TIMEOUT, answer_to},
@@ -122,9 +122,9 @@ impl Client {
     /// Sends the reason and closes the connection. Reads and discards what the client still sends for a moment: closing a
     /// socket with unread bytes resets the connection, and the client might lose the answer.
     fn refuse(&self, why: &BadRequest) -> io::Result<()> {
-        let trouble = Trouble::of(why.reason(), why);
+        let problem = Problem::of(why.reason(), why);
         let at = self.shared.situation();
-        self.send(&Answer::turned_away(VerdictCode::BadRequest, trouble, &at))?;
+        self.send(&Answer::turned_away(VerdictCode::BadRequest, problem, &at))?;
         self.stream.shutdown(Shutdown::Write)?;
         let since = Instant::now();
         let mut chunk = [0; CHUNK];

@@ -8,7 +8,7 @@ use std::{
 use serde_json::{Map, Value};
 
 use super::{
-    answer::{Answer, LibraryStatus, PathStep, Request, Trouble, VerdictCode},
+    answer::{Answer, LibraryStatus, PathStep, Problem, Request, VerdictCode},
     server::{ClientNews, ClientSlot, Job, ServerSettings, Shared, answer_to, path_of},
     tally::Tally,
 };
@@ -53,8 +53,8 @@ impl ServerHandle {
 
     /// The answer to a client for which there is no place.
     pub fn full(&self) -> Answer {
-        let trouble = Trouble::full(self.settings().max_clients);
-        Answer::turned_away(VerdictCode::Full, trouble, &self.shared.situation())
+        let problem = Problem::full(self.settings().max_clients);
+        Answer::turned_away(VerdictCode::Full, problem, &self.shared.situation())
     }
 
     /// Answers a request of a client that is known by no connection; for a trigger it blocks until the inspection is done. A
@@ -74,8 +74,8 @@ impl ServerHandle {
 
     /// Refuses the last inspection from now on, and those before it, if they were accepted: their poses and paths do not go
     /// out any more.
-    pub fn refuse_last(&self, trouble: &Trouble) {
-        lock(&self.shared.inspections).revoke(trouble);
+    pub fn refuse_last(&self, problem: &Problem) {
+        lock(&self.shared.inspections).revoke(problem);
     }
 
     /// Draws a new boot number and drops the inspections so far. Call it whenever the same numbers come to mean another pose:
@@ -89,8 +89,8 @@ impl ServerHandle {
         let at = self.shared.situation();
         let inspected = match path_of(Some(sequence), None, &self.shared) {
             Ok(inspected) => inspected,
-            Err(trouble) => {
-                let refused = Answer::turned_away(VerdictCode::BadRequest, trouble, &at);
+            Err(problem) => {
+                let refused = Answer::turned_away(VerdictCode::BadRequest, problem, &at);
                 return (refused, Vec::new());
             }
         };

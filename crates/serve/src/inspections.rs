@@ -8,7 +8,7 @@ use std::{
 
 use jiff::Timestamp;
 
-use super::answer::{Found, Inspected, MAX_COUNT, Trouble};
+use super::answer::{Found, Inspected, MAX_COUNT, Problem};
 
 /// Inspections that are kept for clients that name one by its number, such as after a lost connection.
 const NUM_KEPT: usize = 16;
@@ -77,17 +77,17 @@ impl Inspections {
     }
 
     /// Refuses every inspection so far that was accepted: their poses and paths do not go out any more.
-    pub(super) fn revoke(&self, trouble: &Trouble) {
+    pub(super) fn revoke(&self, problem: &Problem) {
         for inspected in &self.kept {
             // The first reason stays.
-            let _ = inspected.revoked.set(trouble.clone());
+            let _ = inspected.revoked.set(problem.clone());
         }
     }
 
     /// Draws a new boot number, because the meaning of poses has changed: every inspection so far is revoked and dropped.
     /// The numbers of inspections go on, so that none is used twice.
     pub(super) fn renew(&mut self) {
-        self.revoke(&Trouble::numbers_changed());
+        self.revoke(&Problem::numbers_changed());
         self.kept.clear();
         let before = self.boot;
         while self.boot == before {
@@ -139,7 +139,7 @@ mod tests {
         assert!(inspections.find(1).is_some() && inspections.find(2).is_none());
         let last = inspections.last().sequence;
         assert!(inspections.find(last - NUM_KEPT as u32 + 2).is_some());
-        inspections.revoke(&Trouble::reported_wrong());
+        inspections.revoke(&Problem::reported_wrong());
         assert!(held.revoked.get().is_some());
         drop(held);
         inspections.add(accepted());

@@ -33,7 +33,7 @@ pub use self::server::bound;
 pub use self::{
     answer::{
         Answer, CameraState, CameraStatus, Found, LibraryStatus, MAX_COUNT, PathStep, PoseKind,
-        Request, Trouble, VerdictCode,
+        Problem, Request, VerdictCode,
     },
     handle::ServerHandle,
     listen::{ListenAddress, ListenError, Listener, OpenToNetwork, parse_address},

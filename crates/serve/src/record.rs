@@ -26,7 +26,7 @@ impl InspectionRecord {
             number: answer.number,
             marks: answer.marks,
             pose: answer.pose,
-            trouble: answer.trouble,
+            problem: answer.problem,
             ..Found::default()
         };
         Self {
@@ -169,6 +169,6 @@ mod tests {
         let at = within(Duration::from_hours(1));
         let answer = InspectionRecord::of(&inspected, at).answer();
         assert_eq!((answer.verdict, answer.pose), (VerdictCode::Refused, None));
-        assert_eq!(answer.trouble.reason, "no_pose");
+        assert_eq!(answer.problem.reason, "no_pose");
     }
 }

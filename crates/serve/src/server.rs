@@ -20,7 +20,7 @@ use thiserror::Error;
 
 use super::{
     answer::{
-        Answer, CameraStatus, Found, Inspected, LibraryStatus, Request, Situation, Trouble,
+        Answer, CameraStatus, Found, Inspected, LibraryStatus, Problem, Request, Situation,
         VerdictCode, judged,
     },
     client::Client,
@@ -395,7 +395,7 @@ impl Server {
             return;
         }
         let found = guarded(|| inspector.inspect(&job.asked));
-        let found = found.unwrap_or_else(|fault| Found::error(Trouble::of("fault", &fault)));
+        let found = found.unwrap_or_else(|fault| Found::error(Problem::of("fault", &fault)));
         let age = found.captured.map(|captured| captured.elapsed());
         let (verdict, _) = judged(&found, age, self.shared.settings.max_age);
         lock(&self.shared.tally).add(verdict, job.asked.at.elapsed());
@@ -498,8 +498,8 @@ fn listen(listener: Listener, socket: &TcpListener, shared: &Arc<Shared>, jobs: 
 
 /// Tells a client that the server is full.
 fn turn_away(mut stream: &TcpStream, listener: Listener, shared: &Shared) {
-    let trouble = Trouble::full(shared.settings.max_clients);
-    let answer = Answer::turned_away(VerdictCode::Full, trouble, &shared.situation());
+    let problem = Problem::full(shared.settings.max_clients);
+    let answer = Answer::turned_away(VerdictCode::Full, problem, &shared.situation());
     let bytes = listener.at.protocol.write(&answer, listener.convention);
     let told = stream
         .set_nonblocking(false)
@@ -523,20 +523,20 @@ pub(super) fn answer_to(
         Request::Trigger => {
             let triggered = triggered(jobs, Box::new(is_withdrawn));
             *own = triggered.as_ref().ok().map(Arc::clone);
-            triggered.map_err(|why| (VerdictCode::Error, Trouble::of(why.reason(), &why)))
+            triggered.map_err(|why| (VerdictCode::Error, Problem::of(why.reason(), &why)))
         }
         Request::Status | Request::Last => Ok(shared.last()),
         Request::Path { sequence, .. } => {
             let known = path_of(sequence, own.as_ref(), shared);
-            known.map_err(|trouble| (VerdictCode::BadRequest, trouble))
+            known.map_err(|problem| (VerdictCode::BadRequest, problem))
         }
     };
     let at = shared.situation();
     match inspected {
         Ok(inspected) => Answer::of(request, &inspected, &at),
-        Err((verdict, trouble)) => Answer {
+        Err((verdict, problem)) => Answer {
             request: Some(request),
-            ..Answer::turned_away(verdict, trouble, &at)
+            ..Answer::turned_away(verdict, problem, &at)
         },
     }
 }
@@ -546,12 +546,12 @@ pub(super) fn path_of(
     sequence: Option<u32>,
     own: Option<&Arc<Inspected>>,
     shared: &Shared,
-) -> Result<Arc<Inspected>, Trouble> {
+) -> Result<Arc<Inspected>, Problem> {
     let Some(sequence) = sequence else {
-        return own.map(Arc::clone).ok_or_else(Trouble::no_trigger);
+        return own.map(Arc::clone).ok_or_else(Problem::no_trigger);
     };
     let known = lock(&shared.inspections).find(sequence);
-    known.ok_or_else(|| Trouble::no_such_inspection(sequence))
+    known.ok_or_else(|| Problem::no_such_inspection(sequence))
 }
 
 /// Requests an inspection of a frame captured from now on, and waits for it.
@@ -607,14 +607,14 @@ mod tests {
         for request in with_numbers {
             assert!(answer(request).pose.is_some(), "{request:?}");
         }
-        handle.refuse_last(&Trouble::reported_wrong());
+        handle.refuse_last(&Problem::reported_wrong());
         for request in with_numbers.into_iter().chain([Request::Status]) {
             let answer = answer(request);
             assert_eq!(answer.verdict, VerdictCode::Refused, "{request:?}");
             assert_eq!((answer.pose, answer.points), (None, 0));
             assert_eq!(answer.flags(), Answer::SIMULATED);
             assert_eq!((answer.sequence, &*answer.part), (1, "fender"));
-            assert_eq!(answer.trouble.reason, "reported_wrong");
+            assert_eq!(answer.problem.reason, "reported_wrong");
         }
         let boot = handle.boot();
         handle.renew();
@@ -627,7 +627,7 @@ mod tests {
         let before = answer(path(None));
         assert_eq!((before.verdict, before.boot), (VerdictCode::Refused, boot));
         let named = answer(path(Some(1)));
-        assert_eq!(named.trouble.reason, "no_such_inspection");
+        assert_eq!(named.problem.reason, "no_such_inspection");
         assert_eq!((named.sequence, named.pose), (0, None));
     }
 

@@ -21,7 +21,7 @@ use geometry::rigid::RigidTransform;
 use robot::Convention;
 use serve::{
     Answer, Asked, CameraState, CameraStatus, ClientEvent, ClientNews, Found, Inspector,
-    ListenAddress, Listener, PathStep, Server, ServerSettings, Trouble, VerdictCode,
+    ListenAddress, Listener, PathStep, Problem, Server, ServerSettings, VerdictCode,
 };
 
 /// Timeout with room for a busy machine; what is awaited normally comes at once.
@@ -54,14 +54,14 @@ fn accepted(number: u32) -> Found {
         ],
         no_path: None,
         report: String::new(),
-        trouble: Trouble::default(),
+        problem: Problem::default(),
     }
 }
 
 fn refused(number: u32) -> Found {
     Found {
         verdict: VerdictCode::Refused,
-        trouble: Trouble {
+        problem: Problem {
             reason: "low_score".into(),
             message: "too low (to do: Look again)".into(),
         },
@@ -120,7 +120,7 @@ impl Service {
         let listeners: Vec<Listener> = listeners.collect();
         let camera = Arc::new(Mutex::new(CameraStatus {
             state: CameraState::Running,
-            trouble: None,
+            problem: None,
         }));
         let events = Arc::new(Mutex::new(Vec::new()));
         let (of_clients, told) = (Arc::clone(&camera), Arc::clone(&events));
@@ -882,11 +882,11 @@ fn a_client_that_asks_for_nothing_is_let_go() {
 
 #[test]
 fn a_camera_that_is_lost_is_an_error_and_the_next_trigger_may_succeed() {
-    let trouble = Trouble {
+    let problem = Problem {
         reason: "camera_lost".into(),
         message: "the camera is gone (to do: Plug it in)".into(),
     };
-    let lost = trouble.clone();
+    let lost = problem.clone();
     let find = move |number| match number {
         2 => Found::error(lost.clone()),
         3 => panic!("no ray for this pixel"),
@@ -897,7 +897,7 @@ fn a_camera_that_is_lost_is_an_error_and_the_next_trigger_may_succeed() {
     assert_eq!(robot.ask("TRIGGER").verdict, 1);
     *service.camera.lock().expect("whole") = CameraStatus {
         state: CameraState::Lost,
-        trouble: Some(trouble),
+        problem: Some(problem),
     };
     let status = robot.ask("STATUS");
     assert_eq!((status.verdict, status.camera), (1, 2));
@@ -914,7 +914,7 @@ fn a_camera_that_is_lost_is_an_error_and_the_next_trigger_may_succeed() {
     }
     *service.camera.lock().expect("whole") = CameraStatus {
         state: CameraState::Running,
-        trouble: None,
+        problem: None,
     };
     let told = robot.ask("TRIGGER");
     assert_eq!((told.verdict, told.sequence, told.camera), (1, 4, 1));

@@ -197,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn troubles_with_one_way_out_are_one_notice_that_counts_them() {
+    fn problems_with_one_way_out_are_one_notice_that_counts_them() {
         let mut state = State::default();
         let unread = |file: &str| Notice::look(format!("{file} ends early"), "Copy it again");
         for file in ["a.png", "b.png", "b.png", "c.png"] {

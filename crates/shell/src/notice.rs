@@ -176,8 +176,8 @@ impl Notice {
 
     /// True for two problems with the same advice, such as two files that cannot be read.
     fn is_like(&self, other: &Self) -> bool {
-        let are_troubles = self.kind == NoticeKind::Look && other.kind == NoticeKind::Look;
-        are_troubles
+        let are_problems = self.kind == NoticeKind::Look && other.kind == NoticeKind::Look;
+        are_problems
             && self.topic == other.topic
             && !self.topic.has_one_notice()
             && !self.advice.is_empty()

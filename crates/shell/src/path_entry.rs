@@ -25,7 +25,7 @@ pub(super) struct PathEntry {
     /// The folder in which typing started.
     folder: PathBuf,
     text: String,
-    trouble: Option<String>,
+    problem: Option<String>,
     /// The existing file that would be replaced, once the user was warned.
     replaced: Option<PathBuf>,
     /// The confirmed path; `None` inside if cancelled.
@@ -46,7 +46,7 @@ impl PathEntry {
             text: begun.display().to_string(),
             request,
             folder,
-            trouble: None,
+            problem: None,
             replaced: None,
             outcome: Poll::Pending,
             is_new: true,
@@ -56,7 +56,7 @@ impl PathEntry {
     /// Replaces the text.
     fn write(&mut self, text: &str) {
         text.clone_into(&mut self.text);
-        (self.trouble, self.replaced) = (None, None);
+        (self.problem, self.replaced) = (None, None);
     }
 
     /// Accepts the text as a path, or shows what is wrong with it.
@@ -66,20 +66,20 @@ impl PathEntry {
             (Ok(rest), Some(user)) => user.home_dir().join(rest),
             _ => typed.to_owned(),
         };
-        self.trouble = match path::absolute(&typed) {
+        self.problem = match path::absolute(&typed) {
             Err(_) => Some(text!("shell-type-a-path")),
             Ok(path) => {
-                let trouble = self.trouble_with(&path);
-                if trouble.is_none() {
+                let problem = self.problem_with(&path);
+                if problem.is_none() {
                     self.outcome = Poll::Ready(Some(path));
                 }
-                trouble
+                problem
             }
         };
     }
 
-    fn trouble_with(&mut self, path: &Path) -> Option<String> {
-        let trouble = match &self.request.choice {
+    fn problem_with(&mut self, path: &Path) -> Option<String> {
+        let problem = match &self.request.choice {
             FileChoice::File | FileChoice::NewFile(_) if path.is_dir() => {
                 text!("shell-add-a-name")
             }
@@ -99,7 +99,7 @@ impl PathEntry {
             }
             _ => return None,
         };
-        Some(trouble)
+        Some(problem)
     }
 }
 
@@ -138,8 +138,8 @@ pub fn ui(ctx: &Context, lock: &DialogLock) {
             field.request_focus();
         }
         let is_entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-        if let Some(trouble) = &entry.trouble {
-            ui.label(RichText::new(trouble).color(theme.warning));
+        if let Some(problem) = &entry.problem {
+            ui.label(RichText::new(problem).color(theme.warning));
         }
         ui.add_space(space::SMALL);
         ui.horizontal(|ui| {
@@ -197,7 +197,7 @@ mod tests {
             (Path::new(""), "Type a path"),
         ] {
             assert!(confirmed(&mut opened, wrong).is_pending());
-            let said = opened.trouble.as_deref().unwrap_or_default();
+            let said = opened.problem.as_deref().unwrap_or_default();
             assert!(said.contains(says), "{said}");
         }
         // A suffix after the path may say how to read the file.
@@ -297,7 +297,7 @@ mod tests {
         let free = folder.path().join("view-2.png");
         assert_eq!(saved.text, free.display().to_string());
         assert!(confirmed(&mut saved, &file).is_pending());
-        assert!(saved.trouble.is_some());
+        assert!(saved.problem.is_some());
         saved.confirm();
         assert_eq!(saved.outcome, Poll::Ready(Some(file)));
     }

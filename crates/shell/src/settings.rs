@@ -234,9 +234,9 @@ fn language<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Language>, D::E
 pub fn load(path: &Path) -> (Settings, Option<UserError>) {
     match read(path) {
         Ok(ReadSettings { settings, bad_keys }) => {
-            let trouble =
+            let problem =
                 (!bad_keys.is_empty()).then(|| values_not_used(path, &settings, &bad_keys));
-            (settings, trouble)
+            (settings, problem)
         }
         Err(BadSettings::Unreadable(error)) if error.kind() == io::ErrorKind::NotFound => {
             (Settings::default(), None)
@@ -443,10 +443,10 @@ mod tests {
     }
 
     #[test]
-    fn a_missing_file_is_no_trouble() {
+    fn a_missing_file_is_no_problem() {
         let folder = tempfile::tempdir().expect("a folder");
-        let (settings, trouble) = load(&folder.path().join("settings.toml"));
-        assert_eq!((settings, trouble), (Settings::default(), None));
+        let (settings, problem) = load(&folder.path().join("settings.toml"));
+        assert_eq!((settings, problem), (Settings::default(), None));
     }
 
     #[test]
@@ -456,13 +456,13 @@ mod tests {
         let bad: [&[u8]; 3] = [b"theme = [", b"schema = 99\nnew = 1", b"\xff\xfe\x00"];
         for (number, contents) in bad.into_iter().enumerate() {
             fs::write(&path, contents).expect("written");
-            let (settings, trouble) = load(&path);
+            let (settings, problem) = load(&path);
             assert_eq!(settings, Settings::default());
-            let trouble = trouble.expect("said");
+            let problem = problem.expect("said");
             let aside = folder
                 .path()
                 .join(format!("settings.broken-{}.toml", number + 1));
-            assert!(trouble.advice.contains(&aside.display().to_string()));
+            assert!(problem.advice.contains(&aside.display().to_string()));
             assert_eq!(fs::read(&aside).expect("kept"), contents);
             assert!(!path.exists());
         }
@@ -491,22 +491,22 @@ mod tests {
         for (number, (line, key)) in bad.into_iter().enumerate() {
             let text = format!("average = 4\nlock_after = 15\n{line}\n");
             fs::write(&path, &text).expect("written");
-            let (settings, trouble) = load(&path);
+            let (settings, problem) = load(&path);
             let kept = Settings {
                 average: 4,
                 lock_after: 15,
                 ..Settings::default()
             };
             assert_eq!(settings, kept, "{line}");
-            let trouble = trouble.expect("said");
+            let problem = problem.expect("said");
             assert!(
-                trouble.what.starts_with(&format!("{key} in ")),
-                "{trouble:?}"
+                problem.what.starts_with(&format!("{key} in ")),
+                "{problem:?}"
             );
             let aside = folder
                 .path()
                 .join(format!("settings.broken-{}.toml", number + 1));
-            assert!(trouble.advice.contains(&aside.display().to_string()));
+            assert!(problem.advice.contains(&aside.display().to_string()));
             assert_eq!(fs::read_to_string(&aside).expect("kept"), text);
             // The next start has nothing to complain about.
             assert_eq!(load(&path), (kept, None), "{line}");
@@ -540,10 +540,10 @@ mod tests {
         let text = "[program]\narm = \"gp25\"\nspeed = nan\nblend = inf\nclearance = 0.03\n\
                     base = [nan, -800.0, 0.0, 500.0, 0.0, 90.0]\n";
         fs::write(&path, text).expect("written");
-        let (settings, trouble) = load(&path);
+        let (settings, problem) = load(&path);
         let named = "program.speed, program.blend, program.base in ";
-        let trouble = trouble.expect("said");
-        assert!(trouble.what.starts_with(named), "{trouble:?}");
+        let problem = problem.expect("said");
+        assert!(problem.what.starts_with(named), "{problem:?}");
         let wanted = ProgramSetup {
             arm: Some("gp25".into()),
             base: [0.0, -800.0, 0.0, 0.0, 0.0, 90.0],

@@ -145,7 +145,7 @@ mod tests {
             subject,
             ..
         } = answered.expect("a second frame");
-        assert_eq!(found.verdict, VerdictCode::Accepted, "{:?}", found.trouble);
+        assert_eq!(found.verdict, VerdictCode::Accepted, "{:?}", found.problem);
         assert_eq!(num_scenes, 2, "looked for again in a later frame");
         assert_eq!((&*found.part, found.marks), ("fender", Answer::SIMULATED));
         let pose = inspection.found_pose().expect("accepted");

@@ -29,7 +29,7 @@ use inspection::pipeline::{
     Inspection,
     live::{MotionState, SteadyParams, refuse_moving, refuse_unless_again},
 };
-use serve::{Asked, CameraState, CameraStatus, Trouble, Unanswered};
+use serve::{Asked, CameraState, CameraStatus, Problem, Unanswered};
 
 /// Least time between the two frames that must agree, if the scene was still until the first one. More would show slower
 /// motion and let robots wait longer.
@@ -215,8 +215,8 @@ impl Advice for NoFrame {
 
 /// Converts a source's state into the answer for a client.
 pub fn camera_status(state: &FeedState) -> CameraStatus {
-    let gone = |reason: &str, error: &Arc<CaptureError>| Some(Trouble::of(reason, &**error));
-    let (state, trouble) = match state {
+    let gone = |reason: &str, error: &Arc<CaptureError>| Some(Problem::of(reason, &**error));
+    let (state, problem) = match state {
         FeedState::Opening => (CameraState::Opening, None),
         FeedState::Running => (CameraState::Running, None),
         FeedState::Lost { error } => (CameraState::Lost, gone("camera_lost", error)),
@@ -225,10 +225,10 @@ pub fn camera_status(state: &FeedState) -> CameraStatus {
             (CameraState::Over, Some((&NoFrame::Ended).into()))
         }
     };
-    CameraStatus { state, trouble }
+    CameraStatus { state, problem }
 }
 
-impl From<&NoFrame> for Trouble {
+impl From<&NoFrame> for Problem {
     fn from(why: &NoFrame) -> Self {
         Self::of(why.reason(), why)
     }
@@ -561,7 +561,7 @@ mod tests {
         assert!(why.to_string().contains("does not exist") && !why.advice().is_empty());
         let status = camera.status();
         assert_eq!(status.state, CameraState::Lost);
-        assert!(status.trouble.expect("why").message.contains("to do"));
+        assert!(status.problem.expect("why").message.contains("to do"));
         is_plugged_in.store(true, Ordering::SeqCst);
         while frame().is_err() {}
         assert_eq!(camera.status().state, CameraState::Running);

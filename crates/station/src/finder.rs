@@ -12,7 +12,7 @@ use robot::{
     RobotFrame,
     spray::{BandStatus, OffThePart, carry},
 };
-use serve::{Answer, Found, PathStep, PoseKind, Trouble, VerdictCode};
+use serve::{Answer, Found, PathStep, PoseKind, Problem, VerdictCode};
 
 /// Data about a reference of the library that a client gets besides its name.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -70,12 +70,12 @@ impl PartFinder {
             } else {
                 why.kind().to_string()
             };
-            found.trouble = Trouble::new(reason, &what, &advice);
+            found.problem = Problem::new(reason, &what, &advice);
             return found;
         }
         if let Some(doubt) = inspected.doubts().first() {
             found.verdict = VerdictCode::Refused;
-            found.trouble = Trouble::of(doubt.kind(), doubt);
+            found.problem = Problem::of(doubt.kind(), doubt);
             return found;
         }
         found.verdict = VerdictCode::Accepted;
@@ -93,7 +93,7 @@ impl PartFinder {
             });
             match numbered {
                 Some(NumberedPart { off: Some(off), .. }) => {
-                    found.no_path = Some(Trouble::of("off_the_part", off));
+                    found.no_path = Some(Problem::of("off_the_part", off));
                 }
                 Some(NumberedPart {
                     path: Some(path), ..
@@ -221,7 +221,7 @@ mod tests {
                 found.verdict,
                 VerdictCode::Accepted,
                 "{}",
-                found.trouble.message
+                found.problem.message
             );
             assert_eq!(found.part, "fender");
             assert_eq!(found.number as usize, best + 1);
@@ -254,7 +254,7 @@ mod tests {
         let inspection = run(&scene, &library, &Recipe::default(), &Unwatched).expect("run");
         let found = found(&finder, &inspection, &simulated());
         assert!(found.pose.is_some() && found.path.is_empty());
-        assert_eq!(found.no_path, Some(Trouble::of("off_the_part", &off)));
+        assert_eq!(found.no_path, Some(Problem::of("off_the_part", &off)));
     }
 
     #[test]
@@ -265,8 +265,8 @@ mod tests {
         let of = |inspection: &Inspection| {
             let found = found(&finder, inspection, &simulated());
             assert_eq!((found.pose, found.path.len()), (None, 0));
-            assert!(found.trouble.message.contains("to do"));
-            (found.verdict, found.trouble.reason)
+            assert!(found.problem.message.contains("to do"));
+            (found.verdict, found.problem.reason)
         };
         let nothing = run(&SceneCloud::default(), &library, &recipe, &Unwatched).expect("run");
         assert_eq!(of(&nothing).0, VerdictCode::NoPart);
@@ -302,7 +302,7 @@ mod tests {
         let found = found(&finder, &inspection, &unknown);
         assert_eq!(found.verdict, VerdictCode::Refused);
         assert_eq!((found.pose, found.path.len()), (None, 0));
-        assert_eq!(found.trouble.reason, "moving");
+        assert_eq!(found.problem.reason, "moving");
         assert_eq!((&*found.part, found.marks), ("fender", Answer::SIMULATED));
     }
 
@@ -345,7 +345,7 @@ mod tests {
         let is_refused_as = |reason: &str, inspection: &Inspection, subject: &Subject| {
             let found = found(&finder, inspection, subject);
             assert_eq!(found.verdict, VerdictCode::Refused);
-            assert_eq!(found.trouble.reason, reason);
+            assert_eq!(found.problem.reason, reason);
             assert_eq!((found.pose, found.path.len()), (None, 0));
         };
         let old = Subject {

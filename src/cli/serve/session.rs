@@ -27,7 +27,7 @@ use records::{
     report::InspectionLine,
 };
 use serve::{
-    Asked, ClientEvent, ClientNews, Found, InspectionRecord, Inspector, Trouble, VerdictCode,
+    Asked, ClientEvent, ClientNews, Found, InspectionRecord, Inspector, Problem, VerdictCode,
 };
 use station::{Answered, Answering, Camera, CameraScenes, Inspected, NoFrame, PartFinder, Subject};
 
@@ -50,7 +50,7 @@ pub(super) struct ServeSession<'a> {
     /// The inspection that is being answered.
     pub(super) last: Option<Answered>,
     /// The error of the camera that was shown last.
-    pub(super) trouble: Option<String>,
+    pub(super) problem: Option<String>,
     /// True once the camera has run.
     pub(super) has_run: bool,
     /// True once the warning about a closed standard output was shown.
@@ -91,7 +91,7 @@ impl Inspector for ServeSession<'_> {
     fn recorded(&mut self, record: InspectionRecord) {
         let answer = record.answer();
         if answer.verdict == VerdictCode::Error && matches!(self.format, OutputFormat::Json) {
-            let Trouble { reason, message } = &answer.trouble;
+            let Problem { reason, message } = &answer.problem;
             let source = self.source.to_string();
             let line = InspectionLine::failed(&source, reason, message).traced(&self.trace);
             self.console.line(&line.to_json());
@@ -187,7 +187,7 @@ impl ServeSession<'_> {
         let (error, is_failed) = match self.camera.feed_status().state {
             FeedState::Running => {
                 self.has_run = true;
-                if self.trouble.take().is_some() {
+                if self.problem.take().is_some() {
                     self.console.note(&"The camera is back");
                 }
                 return;
@@ -201,9 +201,9 @@ impl ServeSession<'_> {
             self.failure = Some(advised_error(words, error.advice()));
             return;
         }
-        if self.trouble.as_ref() != Some(&words) {
+        if self.problem.as_ref() != Some(&words) {
             self.console.warn(&words, &*error);
-            self.trouble = Some(words);
+            self.problem = Some(words);
         }
     }
 

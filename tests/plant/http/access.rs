@@ -76,7 +76,7 @@ fn without_a_right_token_nothing_but_the_health_is_told() {
             assert_eq!(reply.field("www-authenticate"), "Bearer");
             let answer = reply.json();
             assert_eq!(answer["verdict"], "bad_request");
-            assert_eq!(answer["trouble"]["reason"], "wrong_token");
+            assert_eq!(answer["problem"]["reason"], "wrong_token");
             assert!(answer["camera"].is_null() && answer["part"].is_null());
         }
         assert_eq!(bad.get("/v1/healthz").status, 200);
@@ -102,7 +102,7 @@ fn a_web_page_may_not_ask_where_no_token_is_needed() {
     page.fields = "Origin: http://example.com\r\n".into();
     let reply = page.trigger();
     assert_eq!(reply.status, 403);
-    assert_eq!(reply.json()["trouble"]["reason"], "web_page");
+    assert_eq!(reply.json()["problem"]["reason"], "web_page");
     for (fields, status) in [
         ("Host: 127.0.0.1:30180\r\n", 200),
         ("Host: localhost\r\n", 200),

@@ -5,7 +5,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use partsight::serve::{CameraState, CameraStatus, Found, ServerSettings, Trouble};
+use partsight::serve::{CameraState, CameraStatus, Found, Problem, ServerSettings};
 use serde_json::{Value, json};
 
 use super::{Service, accepted, client::Reply, http_settings, patient, refused, schema, tokens};
@@ -88,7 +88,7 @@ fn every_path_answers_about_the_last_inspection() {
         (&json!(true), &json!(false))
     );
     assert_eq!(
-        (&triggered["camera"], &triggered["trouble"]),
+        (&triggered["camera"], &triggered["problem"]),
         (&json!("running"), &Value::Null)
     );
     let again = client.get("/v1/last").json();
@@ -144,7 +144,7 @@ fn a_refused_part_and_a_stale_pose_have_no_numbers() {
             assert_known(answer, verdict, 1);
             assert_eq!(answer["pose"], Value::Null);
             assert_eq!(answer["points"], 0);
-            assert_eq!(answer["trouble"]["reason"], reason);
+            assert_eq!(answer["problem"]["reason"], reason);
             assert_eq!(answer["part"], "fender");
         }
         assert_eq!(answers[3]["path"], json!([]));
@@ -159,11 +159,11 @@ fn a_refused_part_and_a_stale_pose_have_no_numbers() {
 
 #[test]
 fn a_camera_that_is_lost_and_a_program_that_fails_are_errors_with_their_reason() {
-    let trouble = Trouble {
+    let problem = Problem {
         reason: "camera_lost".into(),
         message: "the camera is gone (to do: Plug it in)".into(),
     };
-    let lost = trouble.clone();
+    let lost = problem.clone();
     let service = Service::start(move |number| match number {
         1 => Found::error(lost.clone()),
         2 => panic!("no ray for this pixel"),
@@ -171,7 +171,7 @@ fn a_camera_that_is_lost_and_a_program_that_fails_are_errors_with_their_reason()
     });
     *service.camera.lock().expect("whole") = Some(CameraStatus {
         state: CameraState::Lost,
-        trouble: Some(trouble),
+        problem: Some(problem),
     });
     let mut client = service.client();
     for (sequence, reason) in [(1, "camera_lost"), (2, "fault")] {
@@ -180,7 +180,7 @@ fn a_camera_that_is_lost_and_a_program_that_fails_are_errors_with_their_reason()
         let answer = reply.json();
         assert_known(&answer, "error", sequence);
         assert_eq!(
-            (&answer["trouble"]["reason"], &answer["pose"]),
+            (&answer["problem"]["reason"], &answer["pose"]),
             (&json!(reason), &Value::Null)
         );
         // The last answer is repeated; its error is not an error of this request.
@@ -192,7 +192,7 @@ fn a_camera_that_is_lost_and_a_program_that_fails_are_errors_with_their_reason()
     }
     let status = client.get("/v1/status").json();
     assert_eq!(
-        (&status["camera"], &status["trouble"]["reason"]),
+        (&status["camera"], &status["problem"]["reason"]),
         (&json!("lost"), &json!("camera_lost"))
     );
     assert_eq!(client.get("/v1/healthz").json()["camera"], "lost");
@@ -214,9 +214,9 @@ fn a_panic_in_a_handler_is_the_error_of_that_request_alone() {
         assert_eq!(reply.status, 500, "{path}");
         let answer = reply.json();
         assert_known(&answer, "error", 0);
-        assert_eq!(answer["trouble"]["reason"], "fault");
+        assert_eq!(answer["problem"]["reason"], "fault");
         assert!(
-            answer["trouble"]["message"]
+            answer["problem"]["message"]
                 .as_str()
                 .is_some_and(|text| text.contains("to do"))
         );
@@ -293,7 +293,7 @@ fn assert_described(reply: &Reply, method: &str, path: &str, document: &Value) {
 fn every_answer_is_as_the_published_description_says() {
     let service = Service::start(|number| match number {
         2 => refused(number),
-        3 => Found::error(Trouble::default()),
+        3 => Found::error(Problem::default()),
         4 => Found {
             part: String::new(),
             number: 0,
@@ -393,7 +393,7 @@ fn a_path_is_that_of_the_trigger_that_the_client_names() {
         let answer = reply.json();
         assert_known(&answer, "bad_request", 0);
         assert_eq!(
-            (reply.status, &answer["trouble"]["reason"], &answer["pose"]),
+            (reply.status, &answer["problem"]["reason"], &answer["pose"]),
             (status, &json!(reason), &Value::Null),
             "{query}"
         );
@@ -427,7 +427,7 @@ fn requests_after_each_other_and_in_pieces_are_answered_one_by_one() {
         let reply = client.ask(method, path);
         let answer = reply.json();
         assert_eq!(
-            (reply.status, &answer["trouble"]["reason"]),
+            (reply.status, &answer["problem"]["reason"]),
             (status, &json!(reason))
         );
         assert_known(&answer, "bad_request", 0);

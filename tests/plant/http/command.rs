@@ -198,7 +198,7 @@ fn new_versions_of_the_library_are_taken_between_inspections() {
             std::thread::sleep(Duration::from_millis(50));
         }
     };
-    library_until(&|library| library == &json!({ "version": 1, "trouble": null }));
+    library_until(&|library| library == &json!({ "version": 1, "problem": null }));
     ran(&["library", "rename", "fender", "--to", "wing"]);
     ran(&publish);
     library_until(&|library| library["version"] == 2);
@@ -207,7 +207,7 @@ fn new_versions_of_the_library_are_taken_between_inspections() {
 
     let third = folder.path().join("store/manifests/0000000003.txt");
     std::fs::write(third, "not signed").expect("written");
-    library_until(&|library| library["trouble"]["reason"] == "library_not_taken");
+    library_until(&|library| library["problem"]["reason"] == "library_not_taken");
     let mut client = Client::connect(address);
     assert_eq!(told(&mut client), (json!("wing"), json!(3)));
     let metrics = client.get("/v1/metrics").text;

@@ -98,7 +98,7 @@ fn as_many_triggers_wait_as_there_are_places_and_others_are_answered_at_once() {
         assert_eq!(reply.status, 503);
         let answer = reply.json();
         assert_eq!(
-            (&answer["verdict"], &answer["trouble"]["reason"]),
+            (&answer["verdict"], &answer["problem"]["reason"]),
             (&json!("full"), &json!("full"))
         );
         assert_eq!(
@@ -216,7 +216,7 @@ fn what_is_too_long_or_too_slow_is_refused_and_the_connection_closed() {
         let reply = client.reply().expect("an answer");
         assert_eq!(reply.status, status, "{reply:?}");
         if !reason.is_empty() {
-            assert_eq!(reply.json()["trouble"]["reason"], reason);
+            assert_eq!(reply.json()["problem"]["reason"], reason);
         }
         assert!(client.is_let_go(), "{reason}");
     };
@@ -287,7 +287,7 @@ fn who_waits_when_the_service_ends_is_told_so() {
     assert_eq!(first.reply().expect("an answer").json()["sequence"], 1);
     let reply = second.reply().expect("an answer");
     assert_eq!(reply.status, 503);
-    assert_eq!(reply.json()["trouble"]["reason"], "stopping");
+    assert_eq!(reply.json()["problem"]["reason"], "stopping");
     service.end();
     assert!(idle.is_let_go());
     assert!(TcpStream::connect(service.address).is_err());

@@ -28,7 +28,7 @@ use partsight::{
     robot::Convention,
     serve::{
         Answer, Asked, CameraState, CameraStatus, ClientEvent, ClientNews, Found, Inspector,
-        PathStep, Server, ServerSettings, Trouble, VerdictCode,
+        PathStep, Problem, Server, ServerSettings, VerdictCode,
     },
 };
 
@@ -59,14 +59,14 @@ fn accepted(number: u32) -> Found {
         report: r#"{"schema":1,"status":"ok","pose":{"rms_m":0.5},"robot":{"calibration":"cell"},"ranking":[]}"#
             .into(),
         no_path: None,
-        trouble: Trouble::default(),
+        problem: Problem::default(),
     }
 }
 
 fn refused(number: u32) -> Found {
     Found {
         verdict: VerdictCode::Refused,
-        trouble: Trouble {
+        problem: Problem {
             reason: "low_score".into(),
             message: "too low (to do: Look again)".into(),
         },
@@ -127,7 +127,7 @@ impl Service {
     ) -> Self {
         let camera: Camera = Arc::new(Mutex::new(Some(CameraStatus {
             state: CameraState::Running,
-            trouble: None,
+            problem: None,
         })));
         let events = Arc::new(Mutex::new(Vec::new()));
         let (of_clients, told) = (Arc::clone(&camera), Arc::clone(&events));

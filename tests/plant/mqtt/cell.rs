@@ -22,7 +22,7 @@ use partsight::{
     robot::Convention,
     serve::{
         Answer, Asked, CameraStatus, Found, InspectionRecord, Inspector, ListenAddress, Listener,
-        PoseKind, Server, ServerSettings, Trouble, VerdictCode,
+        PoseKind, Problem, Server, ServerSettings, VerdictCode,
     },
 };
 
@@ -45,7 +45,7 @@ pub(crate) fn accepted(number: u32) -> Found {
 pub(crate) fn refused(number: u32) -> Found {
     Found {
         verdict: VerdictCode::Refused,
-        trouble: Trouble {
+        problem: Problem {
             reason: "low_score".into(),
             message: "too low (to do: Look again)".into(),
         },

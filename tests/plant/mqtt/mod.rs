@@ -13,8 +13,8 @@ use std::{thread, time::Duration};
 
 use partsight::{
     Advice as _,
-    plant::mqtt::{LinkNews, LinkTrouble, MAX_UNSENT, messages_schema},
-    serve::{CameraState, CameraStatus, Found, ServerSettings, Trouble},
+    plant::mqtt::{LinkNews, LinkProblem, MAX_UNSENT, messages_schema},
+    serve::{CameraState, CameraStatus, Found, Problem, ServerSettings},
 };
 use serde_json::{Value, json};
 
@@ -62,7 +62,7 @@ fn the_state_is_kept_and_inspections_arrive_in_order() {
     };
     let find = |number| match number {
         2 => refused(number),
-        3 => Found::error(Trouble {
+        3 => Found::error(Problem {
             reason: "no_frame".into(),
             message: "no frame came".into(),
         }),
@@ -87,7 +87,7 @@ fn the_state_is_kept_and_inspections_arrive_in_order() {
     assert_eq!(subscriber.next_of("state").json["online"], true);
     cell.link.set_camera(CameraStatus {
         state: CameraState::Running,
-        trouble: None,
+        problem: None,
     });
     let running = subscriber.next_of("state");
     assert_eq!(running.json["camera"]["state"], "running");
@@ -112,7 +112,7 @@ fn the_state_is_kept_and_inspections_arrive_in_order() {
             "{message}"
         );
         assert_eq!(
-            message["trouble"].is_null(),
+            message["problem"].is_null(),
             verdict == "accepted",
             "{message}"
         );
@@ -176,7 +176,7 @@ fn what_was_inspected_while_the_broker_was_gone_arrives_once_it_is_back() {
     let news = cell.news();
     let [
         LinkNews::Connected { .. },
-        LinkNews::Lost(trouble),
+        LinkNews::Lost(problem),
         LinkNews::Connected {
             num_waiting,
             num_dropped: 0,
@@ -186,7 +186,7 @@ fn what_was_inspected_while_the_broker_was_gone_arrives_once_it_is_back() {
         panic!("one loss, told once: {news:?}");
     };
     assert!(*num_waiting >= 20, "{news:?}");
-    assert!(trouble.advice().contains("is retried"), "{trouble}");
+    assert!(problem.advice().contains("is retried"), "{problem}");
     assert_eq!(cell.end(), Ok(()));
 }
 
@@ -234,7 +234,7 @@ fn a_pose_that_became_too_old_in_the_queue_is_not_sent() {
         (&message["part"], &message["sequence"]),
         (&json!("fender"), &json!(1))
     );
-    assert_eq!(message["trouble"]["reason"], "stale");
+    assert_eq!(message["problem"]["reason"], "stale");
     assert!(message["age_ms"].as_u64() >= Some(2000), "{message}");
     assert_eq!(cell.end(), Ok(()));
 }
@@ -248,11 +248,11 @@ fn a_wrong_password_is_told_with_what_to_do_and_no_robot_waits() {
     cell.wait_lost();
     assert_eq!(cell.trigger(), "accepted");
     let news = cell.news();
-    let [LinkNews::Lost(trouble @ LinkTrouble::Refused { .. })] = &news[..] else {
+    let [LinkNews::Lost(problem @ LinkProblem::Refused { .. })] = &news[..] else {
         panic!("{news:?}");
     };
-    assert!(trouble.to_string().contains("password"), "{trouble}");
-    assert!(trouble.advice().contains("--mqtt-password-file"));
+    assert!(problem.to_string().contains("password"), "{problem}");
+    assert!(problem.advice().contains("--mqtt-password-file"));
     let unsent = cell.end().expect_err("nothing went out");
     assert!(unsent.to_string().ends_with(": 1"), "{unsent}");
 }

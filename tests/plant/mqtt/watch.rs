@@ -93,7 +93,7 @@ fn every_capture_of_a_folder_is_published_and_the_last_state_is_offline() {
         assert_eq!(message["pose"]["in_convention"]["convention"], "kuka");
     }
     assert_eq!(unreadable["verdict"], "error", "{unreadable}");
-    assert_eq!(unreadable["trouble"]["reason"], "unreadable");
+    assert_eq!(unreadable["problem"]["reason"], "unreadable");
     assert_eq!(unreadable["pose"], Value::Null);
     let kept = Subscriber::retained(&broker);
     assert_eq!(

@@ -129,7 +129,7 @@ fn a_window_whose_device_is_gone_closes_instead_of_breaking_off() {
     }
     assert!(window.closes);
     let gpu = window.window().gpu().as_ref().expect("a device once");
-    assert!(matches!(gpu.trouble(), Some(ViewError::DeviceLost { .. })));
+    assert!(matches!(gpu.problem(), Some(ViewError::DeviceLost { .. })));
 }
 
 #[test]

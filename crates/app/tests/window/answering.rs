@@ -358,7 +358,7 @@ fn a_port_in_use_is_said_with_what_to_do_and_tried_again_until_it_is_free() {
     let setup = on_at(&format!("ascii={port}"));
     answer(&mut harness, setup);
     wait_for(&mut harness, |window| {
-        window.robot().answering().trouble().is_some()
+        window.robot().answering().problem().is_some()
     });
     turn_to_page(&mut harness);
     assert!(says(&harness, "another program listens at this port"));
@@ -366,16 +366,16 @@ fn a_port_in_use_is_said_with_what_to_do_and_tried_again_until_it_is_free() {
     assert!(says(&harness, "Robots are not answered"));
     drop(taken);
     assert_eq!(listening(&mut harness).port(), port);
-    assert!(harness.state().robot().answering().trouble().is_none());
+    assert!(harness.state().robot().answering().problem().is_none());
     harness.run_steps(4);
     assert!(says(&harness, &format!("ascii=127.0.0.1:{port}")));
 }
 
 /// Waits until the server reports a problem, or none.
-fn wait_for_trouble(harness: &mut WindowHarness, is_expected: bool) {
+fn wait_for_problem(harness: &mut WindowHarness, is_expected: bool) {
     wait_for(harness, |window| {
         let status = window.robot().answering().status();
-        status.is_some_and(|status| status.trouble.is_some() == is_expected)
+        status.is_some_and(|status| status.problem.is_some() == is_expected)
     });
 }
 
@@ -415,11 +415,11 @@ fn parts_are_numbered_once_robots_are_answered_and_keep_their_numbers() {
     let numbers = parts.join("numbers.toml");
     let sound = fs::read(&numbers).expect("there");
     fs::write(&numbers, "[parts").expect("written");
-    wait_for_trouble(&mut harness, true);
+    wait_for_problem(&mut harness, true);
     let told = Robot::connect(at).ask("TRIGGER");
     assert_eq!([&*told[6], &*told[7]], ["fender", "0"], "{told:?}");
     fs::write(&numbers, sound).expect("written");
-    wait_for_trouble(&mut harness, false);
+    wait_for_problem(&mut harness, false);
 }
 
 /// Opens the dialog at the page on answering.

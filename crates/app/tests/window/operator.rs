@@ -621,12 +621,12 @@ fn a_part_that_is_labelled_as_another_one_is_no_longer_ok() {
 fn two_notices_show_at_once_and_cover_no_control() {
     let mut harness = open_operators(plain_options());
     for name in ["First", "Second", "Third"] {
-        let notice = Notice::look(format!("{name} trouble"), format!("{name} advice"));
+        let notice = Notice::look(format!("{name} problem"), format!("{name} advice"));
         act(&mut harness, Action::Notify(notice));
     }
-    assert!(!shows(&harness, "First trouble"));
+    assert!(!shows(&harness, "First problem"));
     let dismiss = harness.get_all_by_label("Dismiss").map(|node| node.rect());
-    let covered = ["Second trouble.", "Third trouble."]
+    let covered = ["Second problem.", "Third problem."]
         .map(|what| harness.get_by_label(what).rect())
         .into_iter()
         .chain(dismiss)
@@ -640,7 +640,7 @@ fn two_notices_show_at_once_and_cover_no_control() {
         }
     }
     press(&mut harness, "Dismiss all");
-    assert!(!shows(&harness, "trouble"));
+    assert!(!shows(&harness, "problem"));
 }
 
 #[test]

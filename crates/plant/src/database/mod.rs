@@ -33,5 +33,5 @@ pub use self::{
     error::{DatabaseError, TransferError},
     overview::{CellCount, CellPage, CellRecord},
     send::BATCH,
-    sender::{HistorySender, SendNews, SendTrouble, SenderError, Unsent},
+    sender::{HistorySender, SendNews, SendProblem, SenderError, Unsent},
 };

@@ -42,7 +42,7 @@ pub enum SendNews {
         num_waiting: usize,
     },
     /// Sending fails; reported once for each cause until it succeeds again.
-    Failed(SendTrouble),
+    Failed(SendProblem),
     /// The history was damaged: it was set aside, and a new one with another identity was begun.
     SetAside(SetAside),
 }
@@ -50,12 +50,12 @@ pub enum SendNews {
 /// Why sending fails at present.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("{what}")]
-pub struct SendTrouble {
+pub struct SendProblem {
     what: String,
     advice: String,
 }
 
-impl Advice for SendTrouble {
+impl Advice for SendProblem {
     fn advice(&self) -> String {
         self.advice.clone()
     }
@@ -106,8 +106,8 @@ struct State {
     is_ending: bool,
     has_ended: bool,
     num_waiting: usize,
-    /// The trouble last reported, until sending succeeds again.
-    told: Option<SendTrouble>,
+    /// The problem last reported, until sending succeeds again.
+    told: Option<SendProblem>,
     /// True once a connection was reported.
     is_connected: bool,
     news: VecDeque<SendNews>,
@@ -285,14 +285,14 @@ impl Shared {
     }
 
     fn failed(&self, error: &TransferError) {
-        let trouble = SendTrouble {
+        let problem = SendProblem {
             what: error.to_string(),
             advice: error.advice(),
         };
         let mut state = lock(&self.state);
-        if state.told.as_ref() != Some(&trouble) {
-            state.told = Some(trouble.clone());
-            state.news.push_back(SendNews::Failed(trouble));
+        if state.told.as_ref() != Some(&problem) {
+            state.told = Some(problem.clone());
+            state.news.push_back(SendNews::Failed(problem));
         }
     }
 }

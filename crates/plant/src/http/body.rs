@@ -6,7 +6,7 @@ use serde_json::{Map, Value};
 
 use geometry::rigid::row_major;
 use robot::{Convention, RobotPose};
-use serve::{Answer, CameraState, LibraryStatus, PathStep, Trouble, VerdictCode};
+use serve::{Answer, CameraState, LibraryStatus, PathStep, Problem, VerdictCode};
 
 /// An answer about the last inspection, or why there is none.
 #[derive(Debug, JsonSchema, Serialize)]
@@ -36,7 +36,7 @@ pub(super) struct AnswerBody {
     /// The pose in the robot's base frame; null unless the part was accepted and the frame is fresh.
     pose: Option<PoseBody>,
     /// Why there is no pose; of the status why the camera gives nothing; null if there is nothing to say.
-    trouble: Option<Trouble>,
+    problem: Option<Problem>,
 }
 
 /// A pose in the robot's base frame.
@@ -67,16 +67,16 @@ impl AnswerBody {
                 in_convention: convention.write(&pose),
                 transform: row_major(&pose),
             }),
-            trouble: (answer.trouble != Trouble::default()).then(|| answer.trouble.clone()),
+            problem: (answer.problem != Problem::default()).then(|| answer.problem.clone()),
         }
     }
 
     /// An answer that is not about an inspection, because the request was refused or the program failed.
-    pub(super) fn without_inspection(verdict: VerdictCode, boot: u32, trouble: Trouble) -> Self {
+    pub(super) fn without_inspection(verdict: VerdictCode, boot: u32, problem: Problem) -> Self {
         let answer = Answer {
             verdict,
             boot,
-            trouble,
+            problem,
             ..Answer::default()
         };
         Self {

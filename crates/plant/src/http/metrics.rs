@@ -85,7 +85,7 @@ pub(super) fn text(
         text.gauge(
             "library_take_failed",
             "1 if a newer version of the library could not be taken or used",
-            Some(f64::from(u8::from(library.trouble.is_some()))),
+            Some(f64::from(u8::from(library.problem.is_some()))),
         );
     }
     text.0

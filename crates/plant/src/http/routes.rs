@@ -23,7 +23,7 @@ use super::{
 };
 use geometry::error::guarded;
 use robot::Convention;
-use serve::{Answer, Request, ServerHandle, Trouble, VerdictCode};
+use serve::{Answer, Problem, Request, ServerHandle, VerdictCode};
 
 /// The only path that needs no token.
 pub(super) const HEALTH: &str = "/v1/healthz";
@@ -41,19 +41,19 @@ impl Api {
     /// Runs a handler; a panic becomes an error response.
     fn answered(&self, work: impl FnOnce(&Self) -> Response) -> Response {
         guarded(|| work(self)).unwrap_or_else(|fault| {
-            let trouble = Trouble::of("fault", &fault);
+            let problem = Problem::of("fault", &fault);
             self.without_inspection(
                 StatusCode::INTERNAL_SERVER_ERROR,
                 VerdictCode::Error,
-                trouble,
+                problem,
             )
         })
     }
 
     pub(super) fn refuse(&self, refusal: Refusal) -> Response {
-        let trouble = Trouble::of(refusal.reason(), &refusal);
+        let problem = Problem::of(refusal.reason(), &refusal);
         let mut response =
-            self.without_inspection(refusal.status(), VerdictCode::BadRequest, trouble);
+            self.without_inspection(refusal.status(), VerdictCode::BadRequest, problem);
         if let Refusal::WrongToken = refusal {
             let scheme = HeaderValue::from_static("Bearer");
             response.headers_mut().insert(WWW_AUTHENTICATE, scheme);
@@ -65,9 +65,9 @@ impl Api {
         &self,
         status: StatusCode,
         verdict: VerdictCode,
-        trouble: Trouble,
+        problem: Problem,
     ) -> Response {
-        let body = AnswerBody::without_inspection(verdict, self.server.boot(), trouble);
+        let body = AnswerBody::without_inspection(verdict, self.server.boot(), problem);
         json(status, &body)
     }
 

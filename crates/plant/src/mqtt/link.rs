@@ -15,7 +15,7 @@ use super::{
     access::BrokerAccess,
     address::BrokerAddress,
     message::{InspectionMessage, LibraryMessage, MESSAGE_SCHEMA, PoseMessage, StateMessage},
-    news::{LinkError, LinkNews, LinkTrouble, Unsent},
+    news::{LinkError, LinkNews, LinkProblem, Unsent},
 };
 use geometry::error::{guarded, lock};
 use records::history::Traceability;
@@ -261,14 +261,14 @@ impl Shared {
         loop {
             let begun = Instant::now();
             let ended = guarded(|| self.connection(options.clone()));
-            let Err(trouble) = ended.unwrap_or_else(|fault| Err(fault.into())) else {
+            let Err(problem) = ended.unwrap_or_else(|fault| Err(fault.into())) else {
                 break;
             };
             // If connections keep breaking right away, keep increasing the pause.
             if begun.elapsed() > LONGEST_PAUSE {
                 pause = FIRST_PAUSE;
             }
-            if self.lost(trouble, pause).is_break() {
+            if self.lost(problem, pause).is_break() {
                 break;
             }
             pause = (pause * 2).min(LONGEST_PAUSE);
@@ -278,7 +278,7 @@ impl Shared {
     }
 
     /// Runs one connection until it breaks or the program disconnects.
-    fn connection(&self, mut options: MqttOptions) -> Result<(), LinkTrouble> {
+    fn connection(&self, mut options: MqttOptions) -> Result<(), LinkProblem> {
         let will = lock(&self.outbox).state.offline().to_json();
         options.set_last_will(LastWill::new(
             self.topic("state"),
@@ -294,7 +294,7 @@ impl Shared {
         network.set_tcp_nodelay(true);
         connection.eventloop.set_network_options(network);
         for event in connection.iter() {
-            match event.map_err(|error| LinkTrouble::of(error, &self.broker))? {
+            match event.map_err(|error| LinkProblem::of(error, &self.broker))? {
                 Event::Incoming(Packet::ConnAck(_)) => self.connected(client.clone()),
                 Event::Incoming(Packet::PubAck(_)) => {
                     let mut outbox = lock(&self.outbox);
@@ -305,7 +305,7 @@ impl Shared {
                 Event::Incoming(Packet::PingResp)
                     if lock(&self.outbox).is_overdue(Instant::now()) =>
                 {
-                    return Err(LinkTrouble::Broken {
+                    return Err(LinkProblem::Broken {
                         broker: self.broker.clone(),
                         cause: "it acknowledges no message".into(),
                     });
@@ -334,7 +334,7 @@ impl Shared {
     }
 
     /// Requeues the message in flight, reports the loss once, and waits before the next attempt; `Break` if there is none.
-    fn lost(&self, trouble: LinkTrouble, pause: Duration) -> ControlFlow<()> {
+    fn lost(&self, problem: LinkProblem, pause: Duration) -> ControlFlow<()> {
         let mut outbox = lock(&self.outbox);
         outbox.client = None;
         if let Some(InFlight::Inspection(waiting)) = outbox.in_flight.take() {
@@ -346,7 +346,7 @@ impl Shared {
         }
         if outbox.told != Some(Told::Lost) {
             outbox.told = Some(Told::Lost);
-            outbox.news.push_back(LinkNews::Lost(trouble));
+            outbox.news.push_back(LinkNews::Lost(problem));
         }
         let is_running = |outbox: &mut Outbox| outbox.phase == Phase::Running;
         drop(
@@ -410,7 +410,7 @@ impl Shared {
                 in_convention: convention.write(&pose),
             }),
             part: Some(answer.part).filter(|part| !part.is_empty()),
-            trouble: Some(answer.trouble).filter(|trouble| !trouble.reason.is_empty()),
+            problem: Some(answer.problem).filter(|problem| !problem.reason.is_empty()),
             traceability: self.subject.trace.clone(),
         }
     }

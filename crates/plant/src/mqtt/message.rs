@@ -7,7 +7,7 @@ use serde::Serialize;
 use inspection::library::LibraryLoad;
 use records::history::Traceability;
 use robot::RobotPose;
-use serve::{CameraStatus, PoseKind, Trouble, VerdictCode};
+use serve::{CameraStatus, PoseKind, Problem, VerdictCode};
 
 /// Version of the messages; compatible changes only add fields.
 pub const MESSAGE_SCHEMA: u32 = 1;
@@ -86,7 +86,7 @@ pub struct InspectionMessage {
     /// The pose in the robot's base frame; null unless the verdict is `accepted`.
     pub pose: Option<PoseMessage>,
     /// Why there is no pose; null with one.
-    pub trouble: Option<Trouble>,
+    pub problem: Option<Problem>,
     /// Serial number, order and operator, as far as they are known.
     pub traceability: Traceability,
 }
@@ -162,7 +162,7 @@ mod tests {
             online: true,
             camera: Some(CameraStatus {
                 state: CameraState::Lost,
-                trouble: Some(Trouble {
+                problem: Some(Problem {
                     reason: "camera_lost".into(),
                     message: "gone (to do: Plug it in)".into(),
                 }),
@@ -194,7 +194,7 @@ mod tests {
                 transform: PoseKind::RobotFromPart,
                 in_convention: Convention::Kuka.write(&pose),
             }),
-            trouble: None,
+            problem: None,
             traceability: Traceability {
                 order: "A-17".into(),
                 ..Traceability::default()
@@ -226,7 +226,7 @@ mod tests {
             part: None,
             number: None,
             pose: None,
-            trouble: Some(Trouble::default()),
+            problem: Some(Problem::default()),
             traceability: Traceability::default(),
             ..accepted()
         };

@@ -27,5 +27,5 @@ pub use self::{
         InspectionMessage, LibraryMessage, MESSAGE_SCHEMA, PoseMessage, StateMessage,
         messages_schema,
     },
-    news::{LinkError, LinkNews, LinkTrouble, Unsent},
+    news::{LinkError, LinkNews, LinkProblem, Unsent},
 };

@@ -20,12 +20,12 @@ pub enum LinkNews {
         num_dropped: u64,
     },
     /// The connection is lost; reported once until it is back.
-    Lost(LinkTrouble),
+    Lost(LinkProblem),
 }
 
 /// Why there is no connection.
 #[derive(Clone, Debug, PartialEq, Error)]
-pub enum LinkTrouble {
+pub enum LinkProblem {
     /// The broker does not answer.
     #[error("{broker} cannot be reached: {cause}")]
     Unreachable {
@@ -63,7 +63,7 @@ pub enum LinkTrouble {
     Fault(#[from] Fault),
 }
 
-impl LinkTrouble {
+impl LinkProblem {
     pub(super) fn of(error: ConnectionError, broker: &BrokerAddress) -> Self {
         let broker = broker.clone();
         match error {
@@ -104,7 +104,7 @@ impl LinkTrouble {
     }
 }
 
-impl Advice for LinkTrouble {
+impl Advice for LinkProblem {
     fn advice(&self) -> String {
         match self {
             Self::Unreachable { .. } => {

@@ -36,8 +36,8 @@ pub(super) fn write(answer: &Answer, convention: Convention) -> String {
         }
         None => fields.extend(convention.names().iter().map(|_| String::new())),
     }
-    fields.push(plain(&answer.trouble.reason, MAX_MESSAGE));
-    fields.push(plain(&answer.trouble.message, MAX_MESSAGE));
+    fields.push(plain(&answer.problem.reason, MAX_MESSAGE));
+    fields.push(plain(&answer.problem.message, MAX_MESSAGE));
     let mut line = fields.join(";");
     line.push('\n');
     line
@@ -54,7 +54,7 @@ mod tests {
 
     use super::*;
     use crate::{
-        answer::{Trouble, VerdictCode},
+        answer::{Problem, VerdictCode},
         protocol::tests::refused,
     };
     use geometry::rigid::{RigidTransform, from_euler_zyx, pose_error};
@@ -64,7 +64,7 @@ mod tests {
         let answer = Answer {
             verdict: VerdictCode::Accepted,
             pose: Some(pose),
-            trouble: Trouble::default(),
+            problem: Problem::default(),
             ..refused()
         };
         (answer, pose)

@@ -158,8 +158,8 @@ pub(super) fn write(answer: &Answer, convention: Convention, order: ByteOrder) -
         frame.real(numbers.get(i).copied().unwrap_or(0.0));
     }
     frame.text(&answer.part, 64);
-    frame.text(&answer.trouble.reason, 24);
-    frame.text(&answer.trouble.message, 52);
+    frame.text(&answer.problem.reason, 24);
+    frame.text(&answer.problem.message, 52);
     let checksum = crc32(&frame.bytes);
     frame.long(checksum);
     frame.bytes
@@ -226,7 +226,7 @@ mod tests {
 
     use super::*;
     use crate::{
-        answer::{Trouble, VerdictCode},
+        answer::{Problem, VerdictCode},
         protocol::tests::refused,
     };
     use geometry::rigid::{from_euler_zyx, pose_error};
@@ -326,7 +326,7 @@ mod tests {
             speed_mm_s: Some(250.0),
             marks: Answer::GUN_ON,
             pose: Some(pose),
-            trouble: Trouble::default(),
+            problem: Problem::default(),
             ..refused()
         };
         for order in ORDERS {

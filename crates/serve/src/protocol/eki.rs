@@ -91,8 +91,8 @@ pub(super) fn write(answer: &Answer) -> String {
         ("Point", answer.point.to_string()),
         ("Points", answer.points.to_string()),
         ("Speed", format!("{:.1}", answer.speed_mm_s.unwrap_or(0.0))),
-        ("Reason", escaped(&answer.trouble.reason)),
-        ("Message", escaped(&answer.trouble.message)),
+        ("Reason", escaped(&answer.problem.reason)),
+        ("Message", escaped(&answer.problem.message)),
     ];
     let elements = elements.map(|(tag, content)| format!("<{tag}>{content}</{tag}>"));
     let pose = answer.pose.as_ref().map(|pose| {
@@ -117,7 +117,7 @@ mod tests {
 
     use super::*;
     use crate::{
-        answer::{Trouble, VerdictCode},
+        answer::{Problem, VerdictCode},
         protocol::tests::refused,
     };
     use geometry::rigid::{from_euler_zyx, pose_error};
@@ -202,7 +202,7 @@ mod tests {
         let accepted = Answer {
             verdict: VerdictCode::Accepted,
             pose: Some(pose),
-            trouble: Trouble::default(),
+            problem: Problem::default(),
             ..refused()
         };
         let text = write(&accepted);

@@ -164,7 +164,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::answer::{CameraState, Trouble, VerdictCode};
+    use crate::answer::{CameraState, Problem, VerdictCode};
 
     /// An answer without a pose whose other fields are as awkward as possible.
     pub(super) fn refused() -> Answer {
@@ -178,7 +178,7 @@ mod tests {
             part: "front_door".into(),
             number: 3,
             marks: Answer::SIMULATED,
-            trouble: Trouble {
+            problem: Problem {
                 reason: "low_score".into(),
                 message: format!(
                     "it scores; <0.5> & \"less\"\r\nthan 90 % at 3°, {}",
@@ -200,7 +200,7 @@ mod tests {
 
     #[test]
     fn a_text_of_an_answer_is_one_line_of_printable_letters() {
-        let shown = plain(&refused().trouble.message, MAX_MESSAGE);
+        let shown = plain(&refused().problem.message, MAX_MESSAGE);
         assert_eq!(shown.len(), MAX_MESSAGE);
         assert!(shown.starts_with("it scores, <0.5> & \"less\"??than 90 % at 3 , ????"));
     }

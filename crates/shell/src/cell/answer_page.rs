@@ -67,13 +67,13 @@ pub(super) fn ui(
         }
         Ok((_, Ok(_))) => {}
         Ok((_, Err(error))) => {
-            let trouble = UserError {
+            let problem = UserError {
                 what: error.to_string(),
                 advice: text!("robot-other-convention"),
             };
-            error_row(ui, Mark::Bad, &trouble);
+            error_row(ui, Mark::Bad, &problem);
         }
-        Err(trouble) => error_row(ui, Mark::Bad, trouble),
+        Err(problem) => error_row(ui, Mark::Bad, problem),
     }
     ui.add_space(space::SMALL);
     let wanted = listener
@@ -224,8 +224,8 @@ fn state(ui: &mut Ui, robot: &RobotCell, session: &Session) {
         Mark::Look => text!("robot-answers-without-frames-advice"),
         Mark::Good | Mark::Known | Mark::Bad | Mark::Open | Mark::Runs => String::new(),
     };
-    match answering.trouble() {
-        Some(trouble) => error_row(ui, Mark::Bad, trouble),
+    match answering.problem() {
+        Some(problem) => error_row(ui, Mark::Bad, problem),
         None => error_row(ui, sign, &UserError { what, advice }),
     }
     if let Some(status) = answering.status() {
@@ -246,8 +246,8 @@ fn figures(ui: &mut Ui, status: &AnsweringStatus) {
         None => text!("robot-no-trigger"),
     };
     row(ui, &text!("robot-last-trigger"), &last);
-    if let Some(trouble) = &status.trouble {
-        error_row(ui, Mark::Bad, trouble);
+    if let Some(problem) = &status.problem {
+        error_row(ui, Mark::Bad, problem);
     }
 }
 
@@ -281,7 +281,7 @@ fn client(ui: &mut Ui, event: &ClientEvent) {
 fn in_words(last: &LastAnswer) -> String {
     let LastAnswer { at, answer } = last;
     let at = clock(*at);
-    let verdict = match answer.trouble.reason.as_str() {
+    let verdict = match answer.problem.reason.as_str() {
         "" => answer.verdict.name().to_owned(),
         reason => format!("{} ({reason})", answer.verdict.name()),
     };

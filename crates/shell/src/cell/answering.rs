@@ -48,7 +48,7 @@ pub struct Answering {
 #[derive(Debug)]
 struct Failure {
     listener: Listener,
-    trouble: UserError,
+    problem: UserError,
     at: Instant,
 }
 
@@ -87,8 +87,8 @@ impl Answering {
     }
 
     /// Why no server listens, if it failed.
-    pub fn trouble(&self) -> Option<&UserError> {
-        self.failed.as_ref().map(|failed| &failed.trouble)
+    pub fn problem(&self) -> Option<&UserError> {
+        self.failed.as_ref().map(|failed| &failed.problem)
     }
 
     /// True unless a server is being started or stopped.
@@ -126,7 +126,7 @@ impl Answering {
                     self.status = Some(status);
                 }
                 Ok(_) => self.ended(),
-                Err(trouble) => self.note_failure(trouble, cx),
+                Err(problem) => self.note_failure(problem, cx),
             }
         }
         let Some((listener, robot)) = wanted(cx.session) else {
@@ -157,15 +157,15 @@ impl Answering {
     }
 
     /// Reports a failure, unless it is the same as at the last attempt.
-    fn note_failure(&mut self, trouble: UserError, cx: &mut ShellContext<'_>) {
-        let is_known = self.trouble() == Some(&trouble);
+    fn note_failure(&mut self, problem: UserError, cx: &mut ShellContext<'_>) {
+        let is_known = self.problem() == Some(&problem);
         self.failed = self.run.as_ref().map(|run| Failure {
             listener: run.listener,
-            trouble: trouble.clone(),
+            problem: problem.clone(),
             at: Instant::now(),
         });
         if !is_known {
-            cx.notify(Notice::from(trouble).about(NoticeTopic::Answering));
+            cx.notify(Notice::from(problem).about(NoticeTopic::Answering));
         }
         self.ended();
     }

@@ -59,7 +59,7 @@ pub struct CheckFolderContent {
     /// All checks, oldest first.
     pub checks: Vec<CellCheck>,
     /// Why baseline or checks are unreadable.
-    pub trouble: Vec<UserError>,
+    pub problem: Vec<UserError>,
 }
 
 /// Result of the task.
@@ -70,7 +70,7 @@ struct CheckAnswer {
     /// The check, if one was made.
     made: Option<CellCheck>,
     /// Why the check could not be added to the list.
-    trouble: Option<UserError>,
+    problem: Option<UserError>,
     /// Further notices for the user.
     notices: Vec<Notice>,
 }
@@ -177,7 +177,7 @@ impl CellChecks {
         let CheckAnswer {
             content,
             made,
-            trouble,
+            problem,
             notices,
         } = answer;
         self.content = content;
@@ -186,7 +186,7 @@ impl CellChecks {
             cx.notify(notice);
         }
         self.warn(cx);
-        trouble
+        problem
     }
 
     /// Reads the folder once per shift of an operator, because a command may have made the check.
@@ -343,7 +343,7 @@ impl CheckAnswer {
         Self {
             content: CheckFolderContent::read(folder),
             made: None,
-            trouble: None,
+            problem: None,
             notices: Vec::new(),
         }
     }
@@ -358,11 +358,11 @@ impl CheckFolderContent {
         match folder.baseline() {
             Ok(baseline) => content.baseline = Some(Arc::new(baseline)),
             Err(CellCheckError::NoBaseline { .. }) => content.has_baseline = false,
-            Err(error) => content.trouble.push(UserError::of(&error)),
+            Err(error) => content.problem.push(UserError::of(&error)),
         }
         match folder.checks() {
             Ok(checks) => content.checks = checks,
-            Err(error) => content.trouble.push(UserError::of(&error)),
+            Err(error) => content.problem.push(UserError::of(&error)),
         }
         content
     }
@@ -406,10 +406,10 @@ fn check(
     let made = made.map_err(|error| in_words(&error))?;
     context.check()?;
     // Show the check even if it cannot be added to the list.
-    let trouble = folder.add(&made).err().map(|error| UserError::of(&error));
+    let problem = folder.add(&made).err().map(|error| UserError::of(&error));
     Ok(CheckAnswer {
         made: Some(made),
-        trouble,
+        problem,
         notices,
         ..CheckAnswer::of(folder)
     })

@@ -55,8 +55,8 @@ pub(super) fn ui(
     let content = checks.content();
     let units = session.units;
     baseline(ui, content, units);
-    for trouble in &content.trouble {
-        error_row(ui, Mark::Bad, trouble);
+    for problem in &content.problem {
+        error_row(ui, Mark::Bad, problem);
     }
     let source = source_menu::now(&session.source);
     row(ui, &text!("robot-frames-from"), &source);
@@ -68,8 +68,8 @@ pub(super) fn ui(
         buttons(ui, checks, caused);
     }
     progress(ui, checks, caused);
-    if let Some(trouble) = &dialog.trouble {
-        error_row(ui, Mark::Bad, trouble);
+    if let Some(problem) = &dialog.problem {
+        error_row(ui, Mark::Bad, problem);
     }
     if let (Some(check), Some(baseline)) = (checks.latest(), &content.baseline) {
         finding(ui, check, baseline.limits, units);

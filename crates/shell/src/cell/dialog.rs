@@ -85,7 +85,7 @@ impl RobotCell {
             RobotPage::Check => return check_page::ui(ui, self, session, dialog, caused),
             RobotPage::Answer => answer_page::ui(ui, self, session, dialog, caused),
         }
-        if let Some(error) = &dialog.trouble {
+        if let Some(error) = &dialog.problem {
             ui.add_space(space::SMALL);
             error_row(ui, Mark::Bad, error);
         }

@@ -98,7 +98,7 @@ pub struct RobotDialog {
     /// The convention that robots are answered in.
     pub answered_in: Convention,
     /// The last error.
-    pub trouble: Option<UserError>,
+    pub problem: Option<UserError>,
 }
 
 impl RobotDialog {
@@ -132,7 +132,7 @@ impl RobotDialog {
             address,
             pose,
             answered_in: convention,
-            trouble: None,
+            problem: None,
         }
     }
 

@@ -151,7 +151,7 @@ impl RobotCell {
             RobotAction::Check(action) => {
                 let started = self.check(action, cx);
                 if let Some(dialog) = &mut self.dialog {
-                    dialog.trouble = started.err();
+                    dialog.problem = started.err();
                 }
             }
             RobotAction::Answer(setup) => cx.send(Message::UseAnswering(setup)),
@@ -251,7 +251,7 @@ impl RobotCell {
         if let Some(dialog) = &mut self.dialog
             && let Some(pairs) = dialog.pairs.clone()
         {
-            dialog.trouble = None;
+            dialog.problem = None;
             dialog.solved = None;
             let (mount, left_out) = (dialog.mount, dialog.left_out.clone());
             let job = move |_: &_| Ok(work::solve_pairs(pairs, mount, left_out)?);
@@ -301,7 +301,7 @@ impl RobotCell {
     /// Shows an error in the dialog if it is open, else as a notice.
     fn report(&mut self, error: UserError, cx: &mut ShellContext<'_>) {
         match &mut self.dialog {
-            Some(dialog) => dialog.trouble = Some(error),
+            Some(dialog) => dialog.problem = Some(error),
             None => cx.notify(error),
         }
     }
@@ -325,7 +325,7 @@ impl RobotCell {
                     Some(dialog) => {
                         dialog.page = RobotPage::InUse;
                         dialog.question = None;
-                        dialog.trouble = None;
+                        dialog.problem = None;
                     }
                     None if is_edited => cx.notify(edited()),
                     None => {}
@@ -334,7 +334,7 @@ impl RobotCell {
             RobotResult::Solved(solved) => {
                 if let Some(dialog) = &mut self.dialog {
                     dialog.solved = Some(solved);
-                    dialog.trouble = None;
+                    dialog.problem = None;
                 }
             }
         }

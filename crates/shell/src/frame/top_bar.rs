@@ -269,8 +269,8 @@ fn library_menu(
         if let Some(version) = &library.version {
             ui.label(version);
         }
-        if let Some(trouble) = &library.unloaded {
-            ui.label(&trouble.what);
+        if let Some(problem) = &library.unloaded {
+            ui.label(&problem.what);
         }
         ui.separator();
         if ui.button(text!("shell-use-another-library")).clicked() {

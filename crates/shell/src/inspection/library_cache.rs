@@ -111,7 +111,7 @@ pub struct LibraryView {
     /// Why it cannot be changed, if so.
     pub is_fixed: Option<UserError>,
     /// Entries that had to be set aside, and other oddities.
-    pub troubles: Vec<UserError>,
+    pub problems: Vec<UserError>,
     /// The published version that it was taken from, if it was, in words.
     pub version: Option<String>,
 }
@@ -131,7 +131,7 @@ pub struct Damaged {
     /// Name of its folder.
     pub entry: String,
     /// Why, and what to do.
-    pub trouble: UserError,
+    pub problem: UserError,
 }
 
 impl LibraryView {
@@ -331,20 +331,20 @@ impl Choice {
 
     /// Returns the stand-in for a library that could not be loaded, the same one for the same error.
     fn without(&mut self, error: &LibraryError) -> Arc<LoadedLibrary> {
-        let trouble = UserError {
+        let problem = UserError {
             what: text!("shell-library-not-loaded", error = error.to_string()),
             advice: text!("shell-library-not-loaded-advice", advice = error.advice()),
         };
         if let Some(known) = &self.loaded
-            && known.shown.unloaded.as_ref() == Some(&trouble)
+            && known.shown.unloaded.as_ref() == Some(&problem)
         {
             return Arc::clone(known);
         }
         let shown = LibraryView {
             path: self.given.clone().unwrap_or_default(),
-            troubles: vec![trouble.clone()],
-            is_fixed: Some(trouble.clone()),
-            unloaded: Some(trouble),
+            problems: vec![problem.clone()],
+            is_fixed: Some(problem.clone()),
+            unloaded: Some(problem),
             ..LibraryView::default()
         };
         let loaded = Arc::new(LoadedLibrary {
@@ -371,11 +371,11 @@ fn load(
     let LibraryLoad {
         library,
         parts,
-        problems,
+        problems: of_entries,
         warnings,
     } = load;
-    let troubles = problems.iter().map(UserError::of);
-    let mut troubles: Vec<UserError> = troubles.chain(warnings.iter().map(UserError::of)).collect();
+    let problems = of_entries.iter().map(UserError::of);
+    let mut problems: Vec<UserError> = problems.chain(warnings.iter().map(UserError::of)).collect();
     let mut spray_paths = Vec::with_capacity(parts.len());
     for (part, reference) in parts.iter().zip(&library.references) {
         let stored = part
@@ -393,7 +393,7 @@ fn load(
                     .and_then(|path| path.off.as_ref())
                     .map(advised)
                 {
-                    troubles.push(UserError {
+                    problems.push(UserError {
                         what: text!("shell-path-off-part", part = part.shown_title()),
                         advice,
                     });
@@ -401,19 +401,19 @@ fn load(
                 path
             }
             Err(error) => {
-                troubles.push(UserError::of(&error));
+                problems.push(UserError::of(&error));
                 None
             }
         });
     }
     let numbers = place.numbers().unwrap_or_else(|error| {
-        troubles.push(UserError::of(&error));
+        problems.push(UserError::of(&error));
         PartNumbers::default()
     });
     let thumbnails = parts.iter().map(|part| place.thumbnail(part.name.as_str()));
-    let damaged = problems.iter().map(|problem| Damaged {
+    let damaged = of_entries.iter().map(|problem| Damaged {
         entry: problem.entry.clone(),
-        trouble: UserError::of(problem),
+        problem: UserError::of(problem),
     });
     let is_fixed = match &place {
         LibraryPlace::Program(reason) => Some(UserError {
@@ -423,12 +423,12 @@ fn load(
         _ => None,
     };
     let without_parts = place.folder().filter(|_| parts.is_empty());
-    troubles.extend(without_parts.and_then(no_library));
+    problems.extend(without_parts.and_then(no_library));
     let taken = taken_version.map(|version_of| version_of(&place));
     let version = match taken.transpose() {
         Ok(version) => version.flatten().map(|version| in_words(&version)),
         Err([what, advice]) => {
-            troubles.push(UserError { what, advice });
+            problems.push(UserError { what, advice });
             None
         }
     };
@@ -442,7 +442,7 @@ fn load(
         unloaded: None,
         is_fixed,
         parts,
-        troubles,
+        problems,
         version,
     });
     Ok(LoadedLibrary {
@@ -512,17 +512,17 @@ mod tests {
         let path = stick.path().join("parts");
         let library_cache = LibraryCache::new(Some(path.clone()), Camera::default());
         let missing = library_cache.get();
-        let trouble = missing.shown.unloaded.as_ref().expect("not there");
+        let problem = missing.shown.unloaded.as_ref().expect("not there");
         assert!(
-            trouble.what.contains("no such library folder"),
-            "{trouble:?}"
+            problem.what.contains("no such library folder"),
+            "{problem:?}"
         );
         assert!(missing.library.references.is_empty() && missing.shown.is_fixed.is_some());
         // The same error is reported only once.
         assert!(Arc::ptr_eq(&missing, &library_cache.get()));
         fs::create_dir(&path).expect("made");
         let found = library_cache.get();
-        assert!(found.shown.unloaded.is_none() && found.shown.troubles.is_empty());
+        assert!(found.shown.unloaded.is_none() && found.shown.problems.is_empty());
     }
 
     #[test]
@@ -560,7 +560,7 @@ mod tests {
         fs::write(folder.path().join("letter.txt"), "").expect("written");
         let said = |path: &Path| {
             let loaded = LibraryCache::new(Some(path.to_owned()), Camera::default()).get();
-            loaded.shown.troubles.clone()
+            loaded.shown.problems.clone()
         };
         let other = said(folder.path());
         assert!(other[0].what.contains("holds no library"), "{other:?}");

@@ -245,12 +245,12 @@ pub fn report(
     report: &PoseReport,
     shot: Option<&ViewShot>,
 ) -> Result<String, UserError> {
-    let trouble = |error: ReportError| UserError::of(&error);
+    let problem = |error: ReportError| UserError::of(&error);
     let name = scene_name(&inspected.origin);
     let name = unused_name(folder, &name);
     let stages = stage_pictures(&inspected.scene, &inspected.inspection);
-    let mut out = ReportFolder::make(folder).map_err(trouble)?;
-    let path = out.write(&name, line, &stages).map_err(trouble)?;
+    let mut out = ReportFolder::make(folder).map_err(problem)?;
+    let path = out.write(&name, line, &stages).map_err(problem)?;
     let view = shot.and_then(|shot| on_paper(shot).take().ok());
     let view = view.map(|view| DynamicImage::from(view).into_rgb8());
     let pictures = PdfPictures {
@@ -260,7 +260,7 @@ pub fn report(
     };
     let pdf = pose_pdf(report, &pictures);
     let files = [("json", report.to_json().into_bytes()), ("pdf", pdf)];
-    let written = out.write_pose(&name, &files).map_err(trouble)?;
+    let written = out.write_pose(&name, &files).map_err(problem)?;
     let table = out.csv(report.robot.convention);
     let aside = append_csv(&table, report).map_err(|error| UserError::of(&error))?;
     let names: Vec<String> = [&path]

@@ -89,8 +89,8 @@ impl State {
     /// Reports entries of the library that were set aside, and other oddities.
     pub(crate) fn report_library(&mut self) {
         let library = self.session.library.clone();
-        for trouble in library.iter().flat_map(|library| &library.troubles) {
-            notify(self, trouble.clone().into());
+        for problem in library.iter().flat_map(|library| &library.problems) {
+            notify(self, problem.clone().into());
         }
     }
 }

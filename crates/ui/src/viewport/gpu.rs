@@ -82,7 +82,7 @@ struct Shared {
     device: wgpu::Device,
     queue: wgpu::Queue,
     pipelines: Pipelines,
-    trouble: Arc<Mutex<Option<ViewError>>>,
+    problem: Arc<Mutex<Option<ViewError>>>,
     points: Mutex<HashMap<u64, Weak<GpuPoints>>>,
     lines: Mutex<HashMap<u64, Weak<GpuLines>>>,
     num_uploads: AtomicU64,
@@ -127,13 +127,13 @@ impl ViewportGpu {
     }
 
     fn new(device: wgpu::Device, queue: wgpu::Queue, window_format: wgpu::TextureFormat) -> Self {
-        let trouble = Arc::new(Mutex::new(None));
-        listen(&device, &trouble);
+        let problem = Arc::new(Mutex::new(None));
+        listen(&device, &problem);
         Self(Arc::new(Shared {
             pipelines: Pipelines::new(&device, window_format),
             device,
             queue,
-            trouble,
+            problem,
             points: Mutex::default(),
             lines: Mutex::default(),
             num_uploads: AtomicU64::new(0),
@@ -141,15 +141,15 @@ impl ViewportGpu {
     }
 
     /// The first error of the device, or its loss. Views then show it as text.
-    pub fn trouble(&self) -> Option<ViewError> {
-        lock(&self.0.trouble).clone()
+    pub fn problem(&self) -> Option<ViewError> {
+        lock(&self.0.problem).clone()
     }
 
     /// Returns true once the device is lost.
     pub fn is_lost(&self) -> bool {
         // The device reports its loss only when polled.
         let _ = self.0.device.poll(wgpu::PollType::Poll);
-        matches!(self.trouble(), Some(ViewError::DeviceLost { .. }))
+        matches!(self.problem(), Some(ViewError::DeviceLost { .. }))
     }
 
     /// Number of sets uploaded so far.
@@ -212,13 +212,13 @@ impl Pipelines {
 }
 
 /// Records the first error of the device. Without these callbacks wgpu panics on any error.
-fn listen(device: &wgpu::Device, trouble: &Arc<Mutex<Option<ViewError>>>) {
-    let on_lost = Arc::clone(trouble);
+fn listen(device: &wgpu::Device, problem: &Arc<Mutex<Option<ViewError>>>) {
+    let on_lost = Arc::clone(problem);
     device.set_device_lost_callback(move |_, reason| {
         // A loss explains all earlier errors. A device dropped on purpose also lands here, but then nobody asks.
         *lock(&on_lost) = Some(ViewError::DeviceLost { reason });
     });
-    let on_error = Arc::clone(trouble);
+    let on_error = Arc::clone(problem);
     device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
         lock(&on_error).get_or_insert(ViewError::DeviceError {
             reason: error.to_string(),

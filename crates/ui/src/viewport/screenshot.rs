@@ -63,9 +63,9 @@ impl ViewShot {
         let read = renderer
             .picture()
             .map(|picture| read_back(gpu, picture, encoder));
-        match (gpu.trouble(), read) {
+        match (gpu.problem(), read) {
             (None, Some(Some(image))) => Ok(image),
-            (Some(trouble), _) => Err(trouble),
+            (Some(problem), _) => Err(problem),
             (None, _) => Err(ViewError::DeviceError {
                 reason: "the picture could not be read back".into(),
             }),

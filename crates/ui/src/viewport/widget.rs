@@ -175,7 +175,7 @@ impl Viewport {
 
     fn drawable(&self) -> Result<&ViewportGpu, ViewError> {
         let gpu = self.gpu.as_ref().map_err(Clone::clone)?;
-        gpu.trouble().map_or(Ok(gpu), Err)
+        gpu.problem().map_or(Ok(gpu), Err)
     }
 
     fn tool_keys(&mut self, ui: &Ui, response: &Response) {

@@ -64,7 +64,7 @@ fn a_segmented_frame_shows_the_part_in_its_colour_in_every_colouring_and_theme()
             }
         }
     }
-    assert_eq!(gpu.trouble(), None);
+    assert_eq!(gpu.problem(), None);
 }
 
 #[test]
@@ -150,5 +150,5 @@ fn an_empty_scene_is_the_background_and_an_impossible_size_an_error() {
         matches!(refused, Err(ViewError::PictureSize { .. })),
         "{refused:?}"
     );
-    assert_eq!(gpu.trouble(), None);
+    assert_eq!(gpu.problem(), None);
 }

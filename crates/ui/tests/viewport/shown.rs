@@ -85,7 +85,7 @@ fn the_view_shows_a_frame_and_draws_nothing_anew_while_nothing_changes() {
     harness.step();
     keep("widget_height", &harness.render().expect("a picture"));
     assert_eq!(harness.state().view.num_pictures(), drawn + 1);
-    assert_eq!(gpu.trouble(), None);
+    assert_eq!(gpu.problem(), None);
 }
 
 #[test]
@@ -267,7 +267,7 @@ fn two_views_that_share_a_camera_turn_together_each_with_its_own_picture() {
     );
     let (dark, light) = (picture.get_pixel(20, 390), picture.get_pixel(980, 390));
     assert!(dark[0] < 60 && light[0] > 180, "{dark:?} {light:?}");
-    assert_eq!(gpu.trouble(), None);
+    assert_eq!(gpu.problem(), None);
 }
 
 #[test]

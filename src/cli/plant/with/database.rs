@@ -112,8 +112,8 @@ impl HistorySender {
                 SendNews::Connected { num_waiting } => console.note(&format_args!(
                     "Database: connected; inspections waiting: {num_waiting}"
                 )),
-                SendNews::Failed(trouble) => {
-                    console.warn(&format_args!("Database: {trouble}"), &trouble);
+                SendNews::Failed(problem) => {
+                    console.warn(&format_args!("Database: {problem}"), &problem);
                 }
                 SendNews::SetAside(aside) => tell(HistoryEvent::SetAside(aside), console),
             }

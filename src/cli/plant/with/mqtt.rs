@@ -100,7 +100,7 @@ pub(super) fn show_news(link: &MqttLink, console: &Console) {
             } => console.note(&format_args!(
                 "MQTT: connected; inspections waiting: {num_waiting}, dropped since the start: {num_dropped}"
             )),
-            LinkNews::Lost(trouble) => console.warn(&format_args!("MQTT: {trouble}"), &trouble),
+            LinkNews::Lost(problem) => console.warn(&format_args!("MQTT: {problem}"), &problem),
         }
     }
 }

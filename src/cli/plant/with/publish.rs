@@ -16,7 +16,7 @@ use inspection::library::{LibraryLoad, LibraryPlace};
 use plant::mqtt::MqttLink;
 use records::history::Traceability;
 use robot::RobotFrame;
-use serve::{CameraStatus, Found, InspectionRecorder, ServerSettings, Trouble};
+use serve::{CameraStatus, Found, InspectionRecorder, Problem, ServerSettings};
 use station::{Inspected, NoFrame, PartFinder, camera_status};
 
 /// Where `inspect` publishes.
@@ -137,7 +137,7 @@ impl Publisher {
 
     /// Publishes that the program failed at a frame.
     pub(crate) fn failed(&mut self, fault: &Fault) {
-        self.publish(Found::error(Trouble::of("fault", fault)));
+        self.publish(Found::error(Problem::of("fault", fault)));
     }
 
     /// Sends what is queued, for a few seconds at most, and disconnects.

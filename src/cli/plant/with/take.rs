@@ -20,7 +20,7 @@ use inspection::library::{LibraryFolder, LibraryLoad, LibraryPlace};
 use plant::bundle::{
     self, BundleError, BundleStore, Installed, LocalParts, Manifest, Take, TakenBundle, TrustedKey,
 };
-use serve::{LibraryStatus, ServeError, ServerHandle, Trouble};
+use serve::{LibraryStatus, Problem, ServeError, ServerHandle};
 use stages::reference::ReferenceParams;
 use station::NumberedPart;
 
@@ -68,7 +68,7 @@ struct NewVersion {
 }
 
 /// A new version, nothing new, or why it is not known.
-type Look = Result<Option<NewVersion>, Trouble>;
+type Look = Result<Option<NewVersion>, Problem>;
 
 /// Looks into the store on a thread of its own, since a store may take minutes to answer.
 struct StoreWatch {
@@ -82,8 +82,8 @@ struct StoreWatch {
 impl StoreWatch {
     fn run(mut self, looks: &SyncSender<Look>) {
         loop {
-            let look = guarded(|| self.look().map_err(|error| Trouble::of(NOT_TAKEN, &error)));
-            let look = look.unwrap_or_else(|fault| Err(Trouble::of(NOT_TAKEN, &fault)));
+            let look = guarded(|| self.look().map_err(|error| Problem::of(NOT_TAKEN, &error)));
+            let look = look.unwrap_or_else(|fault| Err(Problem::of(NOT_TAKEN, &fault)));
             if looks.send(look).is_err() {
                 return;
             }
@@ -120,7 +120,7 @@ pub(super) struct LibraryTaker<'a> {
     numbers: &'a NumbersChoice,
     server: ServerHandle,
     /// Why the newest version cannot be used, although it was taken.
-    unusable: Option<Trouble>,
+    unusable: Option<Problem>,
 }
 
 /// A library and its parts for robots, to be used in place of the present ones.
@@ -147,7 +147,7 @@ impl<'a> LibraryTaker<'a> {
         let taken = TakenBundle::of(folder).advised()?;
         server.set_library(LibraryStatus {
             version: taken.map(|taken| taken.manifest.version),
-            trouble: None,
+            problem: None,
         });
         let watch = StoreWatch {
             folder: folder.clone(),
@@ -177,8 +177,8 @@ impl<'a> LibraryTaker<'a> {
         let look = self.looks.try_recv().ok()?;
         let before = self.server.library().unwrap_or_default();
         let mut version = before.version;
-        let (taken, trouble) = match look {
-            Err(trouble) => (None, Some(trouble)),
+        let (taken, problem) = match look {
+            Err(problem) => (None, Some(problem)),
             Ok(None) => (None, self.unusable.clone()),
             Ok(Some(new)) => match self.numbers.parts(self.place, &new.load, console) {
                 Ok(parts) => {
@@ -197,22 +197,22 @@ impl<'a> LibraryTaker<'a> {
                 }
             },
         };
-        if trouble != before.trouble {
-            match &trouble {
-                Some(Trouble { message, .. }) => console.note(&format_args!(
+        if problem != before.problem {
+            match &problem {
+                Some(Problem { message, .. }) => console.note(&format_args!(
                     "warning: the present library stays in use: {message}"
                 )),
                 None => console.note(&"New versions of the library can be taken again"),
             }
         }
-        self.server.set_library(LibraryStatus { version, trouble });
+        self.server.set_library(LibraryStatus { version, problem });
         taken
     }
 }
 
-fn unusable(version: u32, error: &anyhow::Error) -> Trouble {
+fn unusable(version: u32, error: &anyhow::Error) -> Problem {
     let advice = advice_of(error).unwrap_or("Start the service again with other options");
-    Trouble {
+    Problem {
         reason: NOT_TAKEN.into(),
         message: format!("version {version} cannot be used: {error:#} (to do: {advice})"),
     }

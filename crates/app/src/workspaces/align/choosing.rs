@@ -122,9 +122,9 @@ fn part_menu(ui: &mut Ui, align: &AlignState, session: &Session, actions: &mut V
         ui.label(text!("align-library-loading"));
         return;
     };
-    if let Some(trouble) = &library.unloaded {
+    if let Some(problem) = &library.unloaded {
         ui.label(text!("align-library-failed"))
-            .on_hover_text(format!("{}. {}", trouble.what, trouble.advice));
+            .on_hover_text(format!("{}. {}", problem.what, problem.advice));
         return;
     }
     let chosen = align.chosen_part(session);

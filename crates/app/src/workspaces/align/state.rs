@@ -164,8 +164,8 @@ impl AlignState {
             let Some(library) = &session.library else {
                 return Err(text!("align-library-loading"));
             };
-            if let Some(trouble) = &library.unloaded {
-                return Err(trouble.what.clone());
+            if let Some(problem) = &library.unloaded {
+                return Err(problem.what.clone());
             }
             let part = self.chosen_part(session).map(str::to_owned);
             part.ok_or_else(|| text!("align-library-has-no-part"))

@@ -163,14 +163,14 @@ mod tests {
     use super::*;
 
     fn cell(method: PoseMethod, e_m2: Option<f64>) -> TableCell {
-        let trouble = || UserError {
+        let problem = || UserError {
             what: "no pose".into(),
             advice: "none".into(),
         };
         TableCell {
             method,
             time: Duration::from_millis(12),
-            figures: e_m2.ok_or_else(trouble).map(|e_m2| TableFigures {
+            figures: e_m2.ok_or_else(problem).map(|e_m2| TableFigures {
                 e_m2,
                 rms_m: e_m2.sqrt(),
                 rotation_deg: 0.5,

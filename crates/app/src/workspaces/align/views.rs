@@ -168,13 +168,13 @@ impl View {
         let body = Rect::from_min_max(pos2(all.left(), split), all.max);
         match run.map(|run| &run.track) {
             Some(Err(error)) => {
-                let trouble = in_the_window(error);
+                let problem = in_the_window(error);
                 words(
                     ui,
                     body,
                     &[
-                        (&trouble.what, theme.text),
-                        (&trouble.advice, theme.warning),
+                        (&problem.what, theme.text),
+                        (&problem.advice, theme.warning),
                     ],
                 );
                 false

@@ -64,7 +64,7 @@ pub(super) fn keep_case(
     history: &HistoryBuffer,
 ) -> Result<(KeptCase, Option<HistoryError>), CaseError> {
     let labelled = history.label_part(inspected.hung(), &about.truth, &about.remark);
-    let (row, trouble) = match labelled {
+    let (row, problem) = match labelled {
         Ok(row) => (row, None),
         Err(error) => (None, Some(error)),
     };
@@ -72,7 +72,7 @@ pub(super) fn keep_case(
         about.remark = row.remark;
     }
     let kept = folder.keep(&inspected.scene, about)?;
-    Ok((kept, trouble))
+    Ok((kept, problem))
 }
 
 #[cfg(test)]
@@ -104,8 +104,8 @@ mod tests {
         history.add(1, inspected.entry.clone(), Instant::now());
         let keep = |remark: &str| {
             let about = about(&inspected, remark);
-            let (kept, trouble) = keep_case(&folder, &inspected, about, &history).expect("kept");
-            assert!(trouble.is_none(), "{trouble:?}");
+            let (kept, problem) = keep_case(&folder, &inspected, about, &history).expect("kept");
+            assert!(problem.is_none(), "{problem:?}");
             let row = history.row(1).expect("asked").expect("there").summary;
             assert_eq!(row.label, Some(Truth::Nothing));
             (kept.meta.about.remark, row.remark)
@@ -126,8 +126,8 @@ mod tests {
         let keep = |history: &HistoryBuffer| {
             keep_case(&folder, &inspected, about(&inspected, "dark"), history).expect("kept")
         };
-        let (kept, trouble) = keep(&HistoryBuffer::default());
-        assert!(trouble.is_none(), "{trouble:?}");
+        let (kept, problem) = keep(&HistoryBuffer::default());
+        assert!(problem.is_none(), "{problem:?}");
         assert_eq!(kept.meta.about.remark, "dark");
 
         let place = home.path().join("history");
@@ -136,8 +136,8 @@ mod tests {
         let file = rusqlite::Connection::open(place.join(FILE)).expect("opened");
         let broken = file.execute_batch("ALTER TABLE inspection RENAME TO gone");
         broken.expect("renamed");
-        let (kept, trouble) = keep(&history);
-        assert!(trouble.is_some());
+        let (kept, problem) = keep(&history);
+        assert!(problem.is_some());
         assert_eq!(kept.name, "simulated_frame_1_2");
     }
 }

@@ -160,12 +160,12 @@ fn header(ui: &mut Ui, compare: &CompareState, session: &Session, acts: &mut Vec
             total = tally.total,
             refused = tally.refused,
         )];
-        let problems = run.cases.problems.iter().chain(&run.troubles);
+        let problems = run.cases.problems.iter().chain(&run.problems);
         let problems: Vec<UserError> = problems.cloned().collect();
         if !problems.is_empty() {
             rest.push(text!("compare-num-unreadable", count = problems.len()));
         }
-        let done = run.results.len() + run.troubles.len();
+        let done = run.results.len() + run.problems.len();
         let total = run.cases.list.len();
         if run.ended.is_none() {
             rest.push(if compare.is_running_cases() {

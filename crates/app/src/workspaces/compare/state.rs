@@ -304,8 +304,8 @@ impl CompareState {
                     self.take_cases(run.cases.clone(), cx);
                 }
                 if run.ended.is_some() {
-                    for trouble in run.troubles.clone() {
-                        cx.notify(trouble);
+                    for problem in run.problems.clone() {
+                        cx.notify(problem);
                     }
                 }
                 self.run = Some(run);
@@ -318,12 +318,12 @@ impl CompareState {
             }
             CompareResult::Cases {
                 cases,
-                trouble,
+                problem,
                 done,
                 way,
             } => {
-                if let Some(trouble) = trouble {
-                    cx.notify(trouble);
+                if let Some(problem) = problem {
+                    cx.notify(problem);
                 }
                 self.take_done(done, &cases.folder, way, cx);
                 self.take_cases(cases, cx);

@@ -104,7 +104,7 @@ pub enum CompareResult {
         /// The cases and their folder.
         cases: Cases,
         /// A history that does not take the label.
-        trouble: Option<UserError>,
+        problem: Option<UserError>,
         /// The change before they were listed.
         done: CaseDone,
         /// The direction of a change that undoes or redoes another one.
@@ -135,7 +135,7 @@ pub struct CaseRun {
     /// One result per case that could be read.
     pub results: Vec<CaseResult>,
     /// The listed cases whose scenes could not be read.
-    pub troubles: Vec<UserError>,
+    pub problems: Vec<UserError>,
     /// The cases in the folder.
     pub cases: Cases,
     /// Truth against answer.
@@ -162,10 +162,10 @@ pub(super) fn run(
         } => {
             let history = library_cache.history();
             let changed = change_cases(folder.as_deref(), change, history);
-            let (cases, trouble, done) = changed.map_err(|error| UserError::of(&error))?;
+            let (cases, problem, done) = changed.map_err(|error| UserError::of(&error))?;
             CompareResult::Cases {
                 cases,
-                trouble: trouble.map(|error| UserError::of(&error)),
+                problem: problem.map(|error| UserError::of(&error)),
                 done,
                 way,
             }
@@ -211,13 +211,13 @@ fn change_cases(
     change: CaseEdit,
     history: &HistoryBuffer,
 ) -> Result<(Cases, Option<HistoryError>, CaseDone), CaseError> {
-    let mut trouble = None;
+    let mut problem = None;
     let folder = folder.map_or_else(CaseFolder::of_user, |path| Ok(CaseFolder::at(path)))?;
     let done = match change {
         CaseEdit::List => CaseDone::Listed,
         CaseEdit::Keep { inspected, about } => {
             let (kept, error) = keep_case(&folder, &inspected, *about, history)?;
-            trouble = error;
+            problem = error;
             CaseDone::Kept(Box::new(kept))
         }
         CaseEdit::Remove(name) => {
@@ -233,7 +233,7 @@ fn change_cases(
             CaseDone::TruthSet { name, before }
         }
     };
-    Ok((Cases::of(folder)?, trouble, done))
+    Ok((Cases::of(folder)?, problem, done))
 }
 
 fn run_cases(
@@ -249,8 +249,8 @@ fn run_cases(
     let order = library.references.iter().map(|r| r.name.clone());
     let order: Vec<String> = order.collect();
     let judge = CaseJudge::new(&library, recipe);
-    let (mut results, mut troubles) = (Vec::new(), Vec::new());
-    let so_far = |results: &[CaseResult], troubles: &[UserError], ended| {
+    let (mut results, mut problems) = (Vec::new(), Vec::new());
+    let so_far = |results: &[CaseResult], problems: &[UserError], ended| {
         let confusion = Confusion::of(results, &order);
         Arc::new(CaseRun {
             recipe: Arc::clone(recipe),
@@ -258,7 +258,7 @@ fn run_cases(
             calibration: Calibration::of(results),
             trade_off: TradeOff::of(results),
             results: results.to_vec(),
-            troubles: troubles.to_vec(),
+            problems: problems.to_vec(),
             cases: cases.clone(),
             ended,
         })
@@ -268,11 +268,11 @@ fn run_cases(
         context.progress(done, cases.list.len());
         match folder.read_scene(case) {
             Ok(scene) => results.push(judge.judge(case, &scene, context)?),
-            Err(error) => troubles.push(UserError::of(&error)),
+            Err(error) => problems.push(UserError::of(&error)),
         }
-        let run = so_far(&results, &troubles, None);
+        let run = so_far(&results, &problems, None);
         context.partial(CompareResult::Ran(run));
     }
-    let run = so_far(&results, &troubles, Some(geometry::clock::now()));
+    let run = so_far(&results, &problems, Some(geometry::clock::now()));
     Ok(CompareResult::Ran(run))
 }

@@ -78,7 +78,7 @@ pub(super) fn ui(
         } else {
             let mut damaged = library.iter().flat_map(|library| &library.damaged);
             if let Some(damaged) = damaged.find(|d| d.entry == open.name.as_str()) {
-                complaint(ui, &damaged.trouble.what, &damaged.trouble.advice);
+                complaint(ui, &damaged.problem.what, &damaged.problem.advice);
             }
         }
         ui.add_enabled_ui(can_change, |ui| {

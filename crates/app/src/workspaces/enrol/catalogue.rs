@@ -73,9 +73,9 @@ impl Catalogue {
             ui.weak(text!("enrol-library-loading"));
             return;
         };
-        if let Some(trouble) = &library.unloaded {
-            ui.label(RichText::new(&trouble.what).color(theme.warning));
-            ui.weak(&trouble.advice);
+        if let Some(problem) = &library.unloaded {
+            ui.label(RichText::new(&problem.what).color(theme.warning));
+            ui.weak(&problem.advice);
             return;
         }
         self.sort(library);

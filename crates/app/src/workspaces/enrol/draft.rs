@@ -234,7 +234,7 @@ mod tests {
         let named = |title: &str, taken: &[&str]| {
             let damaged = taken.iter().map(|entry| Damaged {
                 entry: (*entry).to_owned(),
-                trouble: UserError {
+                problem: UserError {
                     what: String::new(),
                     advice: String::new(),
                 },

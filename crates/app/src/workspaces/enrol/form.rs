@@ -104,7 +104,7 @@ fn unready(draft: &Draft, session: &Session) -> Option<String> {
     let has_no_words = draft.form.title.is_empty() && draft.form.name.is_empty();
     match &draft.checked {
         _ if is_fixed => Some(text!("enrol-unready-library")),
-        Some(Err(_)) => Some(text!("enrol-unready-trouble")),
+        Some(Err(_)) => Some(text!("enrol-unready-problem")),
         _ if has_no_words => Some(text!("enrol-unready-title")),
         _ if draft.form.words().is_err() => Some(text!("enrol-unready-name")),
         None => Some(text!("enrol-unready-unknown")),
@@ -300,9 +300,9 @@ pub(super) fn fixed(ui: &mut Ui, session: &Session) {
         .library
         .as_ref()
         .and_then(|library| library.is_fixed.as_ref());
-    if let Some(trouble) = fixed {
+    if let Some(problem) = fixed {
         ui.add_space(space::MEDIUM);
-        complaint(ui, &trouble.what, &trouble.advice);
+        complaint(ui, &problem.what, &problem.advice);
     }
 }
 

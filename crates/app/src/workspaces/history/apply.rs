@@ -287,13 +287,13 @@ impl HistoryState {
             }
             HistoryEvent::Failed { what, advice } => {
                 let error = UserError { what, advice };
-                self.trouble = Some(error.clone());
+                self.problem = Some(error.clone());
                 let mut notice = Notice::from(error);
                 notice.advice = text!("history-failed-advice", advice = notice.advice);
                 cx.notify(notice);
             }
             HistoryEvent::Works { numbers, num_lost } => {
-                self.trouble = None;
+                self.problem = None;
                 self.renumber(&numbers);
                 let count = numbers.len();
                 cx.notify(Notice::done(if num_lost > 0 {

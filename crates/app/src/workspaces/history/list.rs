@@ -50,11 +50,11 @@ impl List {
     ) {
         let theme = Theme::of(ui);
         bar::ui(ui, history, session, actions);
-        if let Some(trouble) = &history.trouble {
-            let text = text!("history-in-memory", reason = &trouble.what);
+        if let Some(problem) = &history.problem {
+            let text = text!("history-in-memory", reason = &problem.what);
             ui.colored_label(theme.warning, text);
             ui.label(
-                RichText::new(&trouble.advice)
+                RichText::new(&problem.advice)
                     .font(font::body_strong())
                     .color(theme.warning),
             );

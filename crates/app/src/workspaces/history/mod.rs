@@ -139,7 +139,7 @@ impl Workspace for HistoryWorkspace {
             ..
         } = self;
         let (session, theme) = (cx.session, Theme::of(ui));
-        if state.num_rows() == 0 && state.trouble.is_none() {
+        if state.num_rows() == 0 && state.problem.is_none() {
             empty(ui);
             return;
         }

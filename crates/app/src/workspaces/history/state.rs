@@ -68,7 +68,7 @@ pub struct HistoryState {
     /// The folder of the kept frames.
     pub(super) frames: Option<PathBuf>,
     /// Why the history cannot be written, while it cannot.
-    pub trouble: Option<UserError>,
+    pub problem: Option<UserError>,
     /// True once a person was told that the disk is too slow.
     pub(super) is_crowded: bool,
     /// The retention rule as edited, while its window is open.
@@ -156,7 +156,7 @@ impl HistoryState {
             record: None,
             kept: Default::default(),
             frames: None,
-            trouble: None,
+            problem: None,
             is_crowded: false,
             rule: None,
             differences: None,

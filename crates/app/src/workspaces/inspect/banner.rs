@@ -35,7 +35,7 @@ pub(super) enum Tone {
     /// There is no verdict, or not yet.
     Open,
     /// There is no result, and somebody has to fix it.
-    Trouble,
+    Problem,
 }
 
 impl Tone {
@@ -44,7 +44,7 @@ impl Tone {
             Self::Ok => text!("operator-ok"),
             Self::Recognised => text!("inspect-recognised"),
             Self::NotOk => text!("operator-not-ok"),
-            Self::Open | Self::Trouble => String::new(),
+            Self::Open | Self::Problem => String::new(),
         }
     }
 
@@ -54,7 +54,7 @@ impl Tone {
             Self::Recognised => Mark::Known,
             Self::NotOk => Mark::Bad,
             Self::Open => Mark::Open,
-            Self::Trouble => Mark::Look,
+            Self::Problem => Mark::Look,
         }
     }
 
@@ -65,7 +65,7 @@ impl Tone {
             Self::Recognised => [theme.text, theme.panel],
             Self::NotOk => [theme.rejected, theme.rejected_back],
             Self::Open => [theme.weak_text, theme.panel],
-            Self::Trouble => [theme.warning, theme.panel],
+            Self::Problem => [theme.warning, theme.panel],
         }
     }
 }
@@ -116,33 +116,33 @@ impl Banner {
             }
             return Self::new(Tone::Open, text!("operator-inspecting"), &run.title, wait);
         }
-        if let Some(trouble) = &session.failed {
+        if let Some(problem) = &session.failed {
             // A watched folder has no Capture: the next file comes by itself.
             let next = if session.is_watching() {
-                trouble.advice.clone()
+                problem.advice.clone()
             } else {
                 text!("operator-no-result-next")
             };
             return Self::new(
-                Tone::Trouble,
+                Tone::Problem,
                 text!("operator-no-result"),
-                sentence(&trouble.what),
+                sentence(&problem.what),
                 next,
             );
         }
         if let Some(library) = &session.library {
             let ask = text!("operator-ask-to-enrol");
-            if let Some(trouble) = &library.unloaded {
+            if let Some(problem) = &library.unloaded {
                 return Self::new(
-                    Tone::Trouble,
+                    Tone::Problem,
                     text!("shell-no-library"),
-                    sentence(&trouble.what),
+                    sentence(&problem.what),
                     ask,
                 );
             }
             if library.parts.is_empty() {
                 let why = library_text("short-no-parts-why");
-                return Self::new(Tone::Trouble, text!("operator-no-parts"), why, ask);
+                return Self::new(Tone::Problem, text!("operator-no-parts"), why, ask);
             }
         }
         // What is shown may be of another source, or from before this one was followed. After Live, the line may have gone on;
@@ -229,7 +229,7 @@ impl Banner {
                 text!("operator-no-camera-next"),
             )
         };
-        Self::new(Tone::Trouble, title, text!("operator-lost"), next)
+        Self::new(Tone::Problem, title, text!("operator-lost"), next)
     }
 
     fn of_result(inspected: &Inspected, session: &Session) -> Self {
@@ -269,7 +269,7 @@ impl Banner {
         );
         match &inspection.verdict {
             Verdict::NoPart(why @ Unrecognisable::EmptyLibrary) => Self::new(
-                Tone::Trouble,
+                Tone::Problem,
                 text!("operator-no-parts"),
                 in_short(&why.message()),
                 text!("operator-ask-to-enrol"),
@@ -309,7 +309,7 @@ fn caution(inspected: &Inspected, tone: Tone) -> String {
             let cautions: Vec<String> = cautions.into_iter().flatten().collect();
             cautions.join("\n")
         }
-        Tone::NotOk | Tone::Open | Tone::Trouble => String::new(),
+        Tone::NotOk | Tone::Open | Tone::Problem => String::new(),
     }
 }
 

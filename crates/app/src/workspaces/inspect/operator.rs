@@ -145,7 +145,7 @@ fn banner_ui(ui: &mut Ui, banner: &Banner) {
         0.0,
         match banner.tone {
             Tone::Ok | Tone::NotOk => colour,
-            Tone::Recognised | Tone::Open | Tone::Trouble => theme.edge,
+            Tone::Recognised | Tone::Open | Tone::Problem => theme.edge,
         },
     );
 }

@@ -121,7 +121,7 @@ fn open_error(text: &str) -> CameraError {
 fn next_capture(source: &mut dyn DepthSource) -> Captured {
     let start = Instant::now();
     while start.elapsed() < PATIENCE {
-        match source.next(Duration::from_millis(50)).expect("no trouble") {
+        match source.next(Duration::from_millis(50)).expect("no problem") {
             NextCapture::Captured(captured) => return captured,
             NextCapture::NotYet => {}
             // A busy machine loses packets.

@@ -149,7 +149,7 @@ fn a_camera_that_sends_nothing_is_waited_for() {
         let mut kinect = open_kinect().expect("opens");
         let next = kinect
             .next(Duration::from_millis(5))
-            .expect("no trouble yet");
+            .expect("no problem yet");
         assert!(matches!(next, NextCapture::NotYet), "{next:?}");
         drop(kinect);
         assert_eq!(calls(), WHOLE);

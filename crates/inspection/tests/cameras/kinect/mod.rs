@@ -45,7 +45,7 @@ fn listed() -> Vec<SourceListing> {
 fn next_capture(source: &mut dyn DepthSource) -> Option<Captured> {
     let start = Instant::now();
     while start.elapsed() < PATIENCE {
-        match source.next(Duration::from_millis(20)).expect("no trouble") {
+        match source.next(Duration::from_millis(20)).expect("no problem") {
             NextCapture::Captured(captured) => return Some(captured),
             NextCapture::End => return None,
             NextCapture::NotYet => {}

@@ -143,7 +143,7 @@ fn a_camera_that_sends_nothing_is_waited_for() {
             let mut camera = open_camera().expect("opens");
             let next = camera
                 .next(Duration::from_millis(5))
-                .expect("no trouble yet");
+                .expect("no problem yet");
             assert!(matches!(next, NextCapture::NotYet), "{next:?}");
         },
     );

@@ -67,7 +67,7 @@ fn plays_whole(test: &str, state: &str, size: [usize; 2], metres_per_unit: f64) 
                 let mut file = open_file().expect("opens");
                 assert!(!file.is_simulated());
                 let mut numbers = Vec::new();
-                while let Some(captured) = next_capture(file.as_mut()).expect("no trouble") {
+                while let Some(captured) = next_capture(file.as_mut()).expect("no problem") {
                     assert_eq!(captured.number, numbers.len() as u64 + 1);
                     let frame = frame_of(captured);
                     assert!((frame.metres_per_unit - metres_per_unit).abs() < 1e-9);
@@ -182,7 +182,7 @@ fn a_file_that_is_damaged_or_none_is_named() {
 
             fs::write(file(), &whole).expect("written");
             let mut again = open_file().expect("whole again");
-            assert!(next_capture(again.as_mut()).expect("no trouble").is_some());
+            assert!(next_capture(again.as_mut()).expect("no problem").is_some());
         },
     );
 }
@@ -208,7 +208,7 @@ fn a_file_that_was_cut_off_is_refused_before_the_library_has_it() {
             }
             fs::write(file(), &whole[..end + 28]).expect("written");
             let mut file = open_file().expect("whole");
-            while let Some(captured) = next_capture(file.as_mut()).expect("no trouble") {
+            while let Some(captured) = next_capture(file.as_mut()).expect("no problem") {
                 check(&frame_of(captured), 16, 12);
             }
         },

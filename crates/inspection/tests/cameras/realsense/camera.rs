@@ -25,7 +25,7 @@ fn depth_comes_in_the_preferred_size_and_in_metres() {
         assert_eq!(camera.title(), "Intel RealSense D435 A1");
         assert!(!camera.is_simulated());
         for number in 1..=3 {
-            let captured = next_capture(camera.as_mut()).expect("no trouble");
+            let captured = next_capture(camera.as_mut()).expect("no problem");
             let captured = captured.expect("no end");
             assert_eq!(captured.number, u64::from(number));
             // For a live camera this is the present time, whatever its own clock says.
@@ -150,7 +150,7 @@ fn a_camera_that_sends_nothing_is_waited_for_then_opened_again() {
         let mut camera = open_camera().expect("opens");
         let next = camera
             .next(Duration::from_millis(5))
-            .expect("no trouble yet");
+            .expect("no problem yet");
         assert!(matches!(next, NextCapture::NotYet), "{next:?}");
         let error = next_capture(camera.as_mut()).expect_err("silent");
         assert_eq!(error.recovery(), Recovery::Reopen);

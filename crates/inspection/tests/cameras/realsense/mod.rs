@@ -87,7 +87,7 @@ fn next_capture(source: &mut dyn DepthSource) -> Result<Option<Captured>, Captur
 }
 
 fn next_frame(source: &mut dyn DepthSource) -> DepthFrame {
-    let captured = next_capture(source).expect("no trouble").expect("no end");
+    let captured = next_capture(source).expect("no problem").expect("no end");
     frame_of(captured)
 }
 

@@ -109,7 +109,7 @@ fn every_frame_of_a_file_comes_as_it_was_recorded_and_then_the_end() {
             assert_eq!(played.title(), format!("Recording {}", file().display()));
             assert!(!played.is_simulated());
             for number in 1..=NUM_FRAMES {
-                let captured = next_capture(played.as_mut()).expect("no trouble");
+                let captured = next_capture(played.as_mut()).expect("no problem");
                 let captured = captured.expect("no end");
                 assert_eq!(captured.number, u64::from(number));
                 let taken_at = 1_700_000_000_000 + 100 * (i64::from(number) - 1);
@@ -144,7 +144,7 @@ fn a_file_is_let_go_before_its_end() {
         for num in [0, 1, 2, 5, 20, 40] {
             let mut played = open_file().expect("opens");
             for number in 1..=num {
-                let captured = next_capture(played.as_mut()).expect("no trouble");
+                let captured = next_capture(played.as_mut()).expect("no problem");
                 assert_eq!(captured.expect("no end").number, number);
             }
         }
@@ -220,7 +220,7 @@ fn a_file_that_is_damaged_cut_off_or_none_is_named() {
 
         fs::write(&path, &whole).expect("written");
         let mut again = open_file().expect("whole again");
-        assert!(next_capture(again.as_mut()).expect("no trouble").is_some());
+        assert!(next_capture(again.as_mut()).expect("no problem").is_some());
     });
 }
 
@@ -237,7 +237,7 @@ fn librealsense_without_a_camera_says_so() {
             assert_eq!(error.recovery(), Recovery::Reopen);
         }
         let mut played = open_file().expect("opens");
-        let next = played.next(Duration::from_secs(5)).expect("no trouble");
+        let next = played.next(Duration::from_secs(5)).expect("no problem");
         assert!(matches!(next, NextCapture::Captured(_)), "{next:?}");
     });
 }

@@ -37,7 +37,7 @@ use records::{
 use robot::RobotFrame;
 use serve::{
     Answer, Asked, CameraState, ClientEvent, Found, InspectionRecord, Inspector, ListenAddress,
-    Listener, PoseKind, ServeError, Server, ServerHandle, ServerSettings, Trouble, VerdictCode,
+    Listener, PoseKind, Problem, ServeError, Server, ServerHandle, ServerSettings, VerdictCode,
 };
 use stages::scene::{EmptyCell, SceneCloud};
 use station::{
@@ -66,7 +66,7 @@ pub struct AnsweringStatus {
     /// The answer to the last trigger.
     pub last: Option<LastAnswer>,
     /// Why the last inspection was not kept, which does not affect its answer, or why the parts have no stored numbers.
-    pub trouble: Option<UserError>,
+    pub problem: Option<UserError>,
 }
 
 /// The last trigger and its answer.
@@ -182,7 +182,7 @@ pub(super) fn answer(
             num_clients: 0,
             client: None,
             last: None,
-            trouble: None,
+            problem: None,
         },
         told: None,
     };
@@ -327,7 +327,7 @@ impl Inspector for AnsweringSession<'_> {
         if found.verdict == VerdictCode::Accepted
             && let Some(actual) = answered_part.reported_as(self.parts)
         {
-            found.refuse(Trouble::reported_wrong());
+            found.refuse(Problem::reported_wrong());
             answered.subject.reported_as = Some(actual.name().to_owned());
         }
         self.part = Some(answered_part);
@@ -366,7 +366,7 @@ impl Inspector for AnsweringSession<'_> {
         let is_reported = |part: &mut AnsweredPart| part.reported_as(parts).is_some();
         if self.part.take_if(is_reported).is_some() {
             // Or LAST and PATH would still give its pose.
-            self.handle.refuse_last(&Trouble::reported_wrong());
+            self.handle.refuse_last(&Problem::reported_wrong());
         }
         let loaded = self.library_cache.get();
         if loaded.shown.unloaded.is_none() {
@@ -440,18 +440,18 @@ impl AnsweringSession<'_> {
     /// The numbers of the parts; none if they cannot be read.
     fn numbers_of(&mut self, loaded: &LoadedLibrary) -> PartNumbers {
         let given = loaded.place.as_ref().map(LibraryPlace::give_numbers);
-        let (numbers, trouble) = match given.transpose() {
+        let (numbers, problem) = match given.transpose() {
             Ok(None) => (PartNumbers::default(), None),
             Ok(Some(GivenNumbers { numbers, unstored })) => {
-                let trouble = unstored.map(|error| UserError {
+                let problem = unstored.map(|error| UserError {
                     what: text!("robot-numbers-not-stored", reason = error.to_string()),
                     advice: error.advice(),
                 });
-                (numbers, trouble)
+                (numbers, problem)
             }
             Err(error) => (PartNumbers::default(), Some(UserError::of(&error))),
         };
-        self.unnumbered = trouble;
+        self.unnumbered = problem;
         numbers
     }
 
@@ -497,8 +497,8 @@ impl AnsweringSession<'_> {
     /// Publishes the status if it has changed.
     fn publish(&mut self) {
         self.status.num_clients = self.handle.num_clients();
-        let trouble = self.unkept.as_ref().or(self.unnumbered.as_ref());
-        self.status.trouble = trouble.cloned();
+        let problem = self.unkept.as_ref().or(self.unnumbered.as_ref());
+        self.status.problem = problem.cloned();
         if self.told.as_ref() != Some(&self.status) {
             self.told = Some(self.status.clone());
             self.context.latest(self.status.clone());

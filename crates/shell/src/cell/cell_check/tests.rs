@@ -73,8 +73,8 @@ impl Bench {
         self.robot.dialog().expect("open")
     }
 
-    fn trouble(&self) -> &UserError {
-        self.dialog().trouble.as_ref().expect("trouble")
+    fn problem(&self) -> &UserError {
+        self.dialog().problem.as_ref().expect("problem")
     }
 
     /// Switches to the operator's role and runs the work that this starts.
@@ -90,18 +90,18 @@ impl Bench {
 fn without_a_baseline_there_is_nothing_to_compare_with() {
     let mut bench = Bench::new();
     assert!(!bench.checks().content().has_baseline);
-    assert!(bench.checks().content().trouble.is_empty());
+    assert!(bench.checks().content().problem.is_empty());
     bench.look_from(1, 0.0);
     assert!(bench.check(CheckAction::Check));
-    assert!(bench.trouble().what.contains("no baseline"));
+    assert!(bench.problem().what.contains("no baseline"));
     assert!(bench.checks().latest().is_none());
     // A source that cannot be used is refused before any work starts.
     bench.shell.session.source = Source::Scan(ScanFiles::of_folder("scan".into()));
     assert!(!bench.check(CheckAction::TakeBaseline));
-    assert!(bench.trouble().what.contains("scan"));
+    assert!(bench.problem().what.contains("scan"));
     bench.shell.session.source = Source::File("missing.pcd".into());
     assert!(bench.check(CheckAction::TakeBaseline));
-    assert!(bench.trouble().what.contains("missing.pcd"));
+    assert!(bench.problem().what.contains("missing.pcd"));
     assert!(!bench.folder.path().join("cell").exists());
 }
 
@@ -192,15 +192,15 @@ fn a_folder_that_cannot_be_written_says_so_and_the_finding_is_shown() {
     fs::create_dir_all(&lock).expect("made");
     bench.look_from(1, 0.0);
     assert!(bench.check(CheckAction::TakeBaseline));
-    assert!(!bench.trouble().advice.is_empty());
+    assert!(!bench.problem().advice.is_empty());
     assert!(bench.checks().content().baseline.is_none());
     fs::remove_dir(&lock).expect("removed");
     assert!(bench.check(CheckAction::TakeBaseline));
-    assert_eq!(bench.dialog().trouble, None);
+    assert_eq!(bench.dialog().problem, None);
     fs::remove_file(&lock).expect("the lock of whoever wrote last");
     fs::create_dir(&lock).expect("made");
     assert!(bench.check(CheckAction::Check));
-    assert!(!bench.trouble().what.is_empty());
+    assert!(!bench.problem().what.is_empty());
     let found = bench.checks().latest().map(|check| check.finding);
     assert_eq!(found, Some(CellFinding::InPlace));
     assert!(bench.checks().content().checks.is_empty());

@@ -416,8 +416,8 @@ pub(crate) fn outdate_shown(state: &mut State) {
 /// Shows a notice while the source is lost. The operator's view says it in other words.
 fn watch_source(state: &mut State, source: &SourceState) {
     match source {
-        SourceState::Lost(trouble) => {
-            let notice = Notice::from(trouble.clone());
+        SourceState::Lost(problem) => {
+            let notice = Notice::from(problem.clone());
             if state.follower.lost.as_ref() != Some(&notice) {
                 dismiss_lost_notice(state);
                 state.follower.lost = Some(notice);

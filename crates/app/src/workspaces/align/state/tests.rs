@@ -369,9 +369,9 @@ fn poor_pairs_are_refused_in_words_in_each_methods_place() {
     let shown = bench.align.shown.as_ref().expect("a result");
     assert_eq!(shown.runs.len(), PoseMethod::ALL.len());
     for run in &shown.runs {
-        let trouble = in_the_window(run.track.as_ref().expect_err("too few points"));
-        assert!(trouble.what.contains("4 points") && !trouble.advice.is_empty());
-        assert!(!trouble.advice.contains("--"), "{}", trouble.advice);
+        let problem = in_the_window(run.track.as_ref().expect_err("too few points"));
+        assert!(problem.what.contains("4 points") && !problem.advice.is_empty());
+        assert!(!problem.advice.contains("--"), "{}", problem.advice);
     }
     assert_eq!(bench.align.last_place(), 0);
     bench.act(AlignAction::Chosen(AlignFile::Target, none));

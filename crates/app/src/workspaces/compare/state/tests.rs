@@ -57,7 +57,7 @@ fn listed(done: CaseDone) -> CompareResult {
 fn listed_as(names: &[&str], done: CaseDone) -> CompareResult {
     CompareResult::Cases {
         cases: cases(names),
-        trouble: None,
+        problem: None,
         done,
         way: None,
     }
@@ -76,7 +76,7 @@ fn ran(bench: &Bench, cases: Cases) -> CompareResult {
     CompareResult::Ran(Arc::new(CaseRun {
         recipe: Arc::clone(&bench.shell.session.recipe),
         results: Vec::new(),
-        troubles: Vec::new(),
+        problems: Vec::new(),
         cases,
         matrix: Matrix::of(Confusion::of(&[], &[])),
         calibration: Calibration::of(&[]),
@@ -242,7 +242,7 @@ fn a_run_is_outdated_until_it_covers_the_cases_that_are_kept_now() {
     other[1].meta.about.truth = Truth::NotEnrolled;
     bench.done(CompareResult::Cases {
         cases,
-        trouble: None,
+        problem: None,
         done: CaseDone::Listed,
         way: None,
     });
@@ -411,7 +411,7 @@ fn a_problem_of_the_list_is_reported_once_and_the_advice_to_keep_a_case_goes_wit
                 problems: problems.iter().map(problem).collect(),
                 ..cases(names)
             },
-            trouble: None,
+            problem: None,
             done: CaseDone::Listed,
             way: None,
         }

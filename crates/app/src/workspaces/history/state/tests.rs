@@ -202,11 +202,11 @@ fn what_waited_keeps_its_place_under_its_new_number() {
     let found = inspected(1);
     let mut bench = Bench::new();
     let ticket = bench.history.ticket(&HungId::new(), Some(&found));
-    let trouble = HistoryEvent::Failed {
+    let problem = HistoryEvent::Failed {
         what: "the disk is full".into(),
         advice: "Make room".into(),
     };
-    bench.take_news(trouble);
+    bench.take_news(problem);
     bench.take_news(HistoryEvent::Added { ticket, number: -1 });
     assert_eq!(bench.history.selected, Some(-1));
     assert_eq!(bench.shell.notices().len(), 1);
@@ -216,7 +216,7 @@ fn what_waited_keeps_its_place_under_its_new_number() {
     };
     bench.take_news(works);
     assert_eq!(bench.history.selected, Some(58));
-    assert!(bench.history.whole(58).is_some() && bench.history.trouble.is_none());
+    assert!(bench.history.whole(58).is_some() && bench.history.problem.is_none());
     assert!(bench.shell.notices()[1].contains("one inspection that waited"));
 }
 
