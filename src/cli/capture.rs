@@ -59,7 +59,7 @@ fn record(
     let frames = frames.or(arm.num_left());
     let mut recorder: Option<Recorder> = None;
     let mut outcome = Outcome::Accepted;
-    let mut told: Vec<CaptureWarning> = Vec::new();
+    let mut shown: Vec<CaptureWarning> = Vec::new();
     match frames {
         Some(frames) => console.start_progress(usize::try_from(frames).unwrap_or(usize::MAX)),
         None => console.start_counting(),
@@ -85,12 +85,12 @@ fn record(
             FramePoseResult::End => return Ok(ControlFlow::Break(())),
         }
         for warning in &captured.warnings {
-            if told.contains(warning) {
+            if shown.contains(warning) {
                 continue;
             }
             console.warn(&format_args!("{}: {warning}", captured.name), warning);
             if warning.is_about_source() {
-                told.push(warning.clone());
+                shown.push(warning.clone());
             }
         }
         let recorder = match &mut recorder {

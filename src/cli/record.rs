@@ -241,10 +241,10 @@ mod tests {
         let Some(HistoryEvent::Works { numbers, num_lost }) = news.last() else {
             panic!("{news:?}");
         };
-        let told = writable_again(numbers.len(), *num_lost);
-        assert!(told[0].ends_with("2000 waiting inspections were saved"));
+        let notes = writable_again(numbers.len(), *num_lost);
+        assert!(notes[0].ends_with("2000 waiting inspections were saved"));
         let expected = "warning: 100 inspections are not in the history: too many waited";
-        assert_eq!(told[1..], [expected]);
+        assert_eq!(notes[1..], [expected]);
         assert_eq!(losses([0; 2]), [""; 0]);
         assert_eq!(writable_again(1, 0).len(), 1);
         let slow = "warning: 1 inspection is not in the history: the disk is too slow";

@@ -46,12 +46,12 @@ fn recognition_is_measured_beside_the_other_systems_and_its_worst_confusions_are
         "--pictures",
         "why",
     ]);
-    for said in [
+    for output in [
         "standard",
         "SHOT",
         "paper's sources for its four are not known",
     ] {
-        assert!(ran.out.contains(said), "{said}: {}", ran.out);
+        assert!(ran.out.contains(output), "{output}: {}", ran.out);
     }
     let text = fs::read_to_string(place.path("r.json")).expect("written");
     let file: Value = serde_json::from_str(&text).expect("JSON");
@@ -189,7 +189,7 @@ fn protocols_are_timed_beside_bare_exchanges_and_direct_calls() {
         assert_eq!(row["times"]["num"], 8);
         assert_ratio(row, direct);
     }
-    for said in ["status", "called directly", "urscript"] {
-        assert!(ran.out.contains(said), "{said}: {}", ran.out);
+    for output in ["status", "called directly", "urscript"] {
+        assert!(ran.out.contains(output), "{output}: {}", ran.out);
     }
 }

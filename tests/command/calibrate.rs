@@ -482,8 +482,8 @@ fn what_was_taught_over_a_part_is_not_sprayed_over_another_reference_of_it() {
     );
     hang("9", "door.pcd");
     let ran = shop.coded(2, &["inspect", "door.pcd", "--spray", "out.csv"]);
-    let said = "door_b, one more reference of front_door, has no spray path";
-    assert!(ran.err.contains(said), "{}", ran.err);
+    let output = "door_b, one more reference of front_door, has no spray path";
+    assert!(ran.err.contains(output), "{}", ran.err);
     assert!(!shop.path("out.csv").exists());
 }
 

@@ -53,9 +53,9 @@ fn a_part_that_moved_is_found_told_and_listed() {
     place.accepted(&[
         "simulate", "--part", "fender", "--pose", pose, "--out", "now.pcd",
     ]);
-    let told = place.run(&["cell", "check", "now.pcd", "--no-list"]);
+    let reply = place.run(&["cell", "check", "now.pcd", "--no-list"]);
     // In a cell of another seed the wall stands elsewhere.
-    assert!(told.out.contains("in place"), "{}", told.out);
+    assert!(reply.out.contains("in place"), "{}", reply.out);
     assert_eq!(place.accepted(&["cell", "list", "--json"]).out, lines);
 }
 
@@ -63,28 +63,30 @@ fn a_part_that_moved_is_found_told_and_listed() {
 fn what_cannot_be_compared_says_why() {
     let place = Workplace::new();
     place.accepted(&["cell", "baseline", "--source", "simulated:fender"]);
-    let said = |args: &[&str]| {
+    let output = |args: &[&str]| {
         let all = [&["cell"], args].concat();
         place.coded(2, &all).err
     };
-    let other = said(&["check", "--source", "simulated:front_door"]);
+    let other = output(&["check", "--source", "simulated:front_door"]);
     assert!(
         other.contains("lies on the part of the baseline"),
         "{other}"
     );
     assert!(other.contains("Hang the part"), "{other}");
-    let nothing = said(&["check", "--source", "simulated:empty"]);
+    let nothing = output(&["check", "--source", "simulated:empty"]);
     assert!(nothing.contains("nothing the size of a part"), "{nothing}");
-    assert!(said(&["check", "missing.pcd"]).contains("no such file"));
-    assert!(said(&["check", "--frames", "99", "--source", "simulated:fender"]).contains("1..=16"));
-    assert!(said(&["baseline", "x.pcd", "--max-shift", "0"]).contains("from 0.5 to 100"));
+    assert!(output(&["check", "missing.pcd"]).contains("no such file"));
+    assert!(
+        output(&["check", "--frames", "99", "--source", "simulated:fender"]).contains("1..=16")
+    );
+    assert!(output(&["baseline", "x.pcd", "--max-shift", "0"]).contains("from 0.5 to 100"));
     let listed = place.accepted(&["cell", "list", "--json"]);
     assert_eq!(listed.out, "");
     place.write(
         "data/partsight/cell-check/baseline.toml",
         "schema_version = 7",
     );
-    let newer = said(&["check", "--source", "simulated:fender"]);
+    let newer = output(&["check", "--source", "simulated:fender"]);
     assert!(
         newer.contains("newer version") && newer.contains("Update"),
         "{newer}"

@@ -19,38 +19,38 @@ fn output_of(example: &str) -> String {
 
 #[test]
 fn a_frame_is_inspected() {
-    let said = output_of("inspect");
+    let words = output_of("inspect");
     assert!(
-        said.contains("fender") && said.contains("accepted"),
-        "{said}"
+        words.contains("fender") && words.contains("accepted"),
+        "{words}"
     );
-    assert!(!said.contains("not accepted"), "{said}");
-    assert!(said.contains("camera_from_part"), "{said}");
+    assert!(!words.contains("not accepted"), "{words}");
+    assert!(words.contains("camera_from_part"), "{words}");
 }
 
 #[test]
 fn an_enrolled_part_is_recognised_in_another_capture() {
-    let said = output_of("enrol");
+    let words = output_of("enrol");
     assert!(
-        said.contains("part: \"door_right\"") && said.contains("rejected: None"),
-        "{said}"
+        words.contains("part: \"door_right\"") && words.contains("rejected: None"),
+        "{words}"
     );
 }
 
 #[test]
 fn clouds_that_share_no_point_are_aligned() {
-    let said = output_of("align");
-    let rms: f64 = said
+    let words = output_of("align");
+    let rms: f64 = words
         .split_whitespace()
         .next()
         .and_then(|number| number.parse().ok())
         .expect("millimetres first");
-    assert!(rms < 5.0, "{said}");
-    assert!(!said.contains("warning"), "{said}");
+    assert!(rms < 5.0, "{words}");
+    assert!(!words.contains("warning"), "{words}");
 }
 
 #[test]
 fn a_source_is_followed() {
-    let said = output_of("follow");
-    assert_eq!(said.matches("rejected: None").count(), 3, "{said}");
+    let words = output_of("follow");
+    assert_eq!(words.matches("rejected: None").count(), 3, "{words}");
 }

@@ -155,10 +155,10 @@ fn what_stands_in_the_empty_cell_is_no_part_and_a_second_reference_names_its_par
     let empty = place.run(&[&inspect[..], &["--empty-cell", "scene.pcd"]].concat());
     assert_eq!(empty.code, 1, "{}", empty.err);
     assert_eq!(empty.lines()[0]["status"], "no_part");
-    let told = ["inspect", "scene.pcd", "--library", "parts"];
-    let told = place.run(&[&told[..], &["--empty-cell", "scene.pcd"]].concat());
-    let said = told.out + &told.err;
-    assert!(said.contains("the empty cell was captured"), "{said}");
+    let command = ["inspect", "scene.pcd", "--library", "parts"];
+    let ran = place.run(&[&command[..], &["--empty-cell", "scene.pcd"]].concat());
+    let output = ran.out + &ran.err;
+    assert!(output.contains("the empty cell was captured"), "{output}");
     seen("other_make.pcd", &["--model", "5"]);
     let enrol = [
         "enrol",
@@ -181,12 +181,13 @@ fn what_stands_in_the_empty_cell_is_no_part_and_a_second_reference_names_its_par
     assert_eq!(line["ranking"].as_array().map(Vec::len), Some(1));
     // The pose is in the coordinates of this reference, not in those of the part's first one.
     assert_eq!(line["pose"]["reference"], "fender_b");
-    let told = place.accepted(&["inspect", "other_scene.pcd", "--library", "parts"]);
+    let command = place.accepted(&["inspect", "other_scene.pcd", "--library", "parts"]);
     assert!(
-        told.out
+        command
+            .out
             .contains("fender_b, another reference of this part"),
         "{}",
-        told.out
+        command.out
     );
     let own = place.accepted(&["inspect", "scene.pcd", "--json", "--library", "parts"]);
     assert_eq!(own.lines()[0]["pose"]["reference"], "fender");
@@ -267,8 +268,8 @@ fn a_report_holds_the_line_and_a_picture_of_every_stage() {
     ];
     let ran = place.run(&[&inspect[..], &files].concat());
     assert_eq!(ran.code, 2);
-    let said = "The reports are in why/deep";
-    assert!(ran.err.contains(said), "{}", ran.err);
+    let output = "The reports are in why/deep";
+    assert!(ran.err.contains(output), "{}", ran.err);
     let read = |name: &str| fs::read_to_string(place.path("why/deep").join(name)).expect("there");
     let written = [
         "fender.report.json",

@@ -129,21 +129,21 @@ fn a_kill_at_any_moment_loses_at_most_the_inspection_in_flight() {
     for kill in 0..NUM_KILLS {
         // From before it has opened the file until after several inspections.
         let moment = Duration::from_micros(random.random_range(0..100_000));
-        let told = killed_after(moment, folder.path());
+        let reply = killed_after(moment, folder.path());
         let history = open_history(folder.path());
         let page = history.page(&Filter::default(), 0, 1).expect("asked");
         let newest = page.rows.first().map_or(0, |row| row.number);
         assert_eq!(page.num_all as i64, newest, "kill {kill}: none is missing");
-        let told = told.unwrap_or(known);
+        let reply = reply.unwrap_or(known);
         assert!(
-            told <= newest,
-            "kill {kill}: {told} was told, {newest} is there"
+            reply <= newest,
+            "kill {kill}: {reply} was told, {newest} is there"
         );
         assert!(
-            newest <= told + 1,
-            "kill {kill}: {told} was told, {newest} is there"
+            newest <= reply + 1,
+            "kill {kill}: {reply} was told, {newest} is there"
         );
-        num_in_flight += newest - told;
+        num_in_flight += newest - reply;
         for number in known + 1..=newest {
             let record = history.known(number).expect("whole");
             assert_eq!(record.detail.line, line_of(number));
@@ -152,7 +152,7 @@ fn a_kill_at_any_moment_loses_at_most_the_inspection_in_flight() {
             let written = small_scene(number as u16);
             assert!(kept.cloud.points == written.cloud.points, "another frame");
         }
-        for number in known + 1..=told {
+        for number in known + 1..=reply {
             let path = folder
                 .path()
                 .join(format!("reports/frame-{number}.report.json"));

@@ -133,9 +133,9 @@ fn every_example_of_the_service_starts_once_there_is_a_calibration() {
             .output()
             .expect("runs");
         // Options, addresses and conventions are checked before the missing file.
-        let said = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{example}: {said}");
-        assert!(said.contains(missing), "{example}: {said}");
+        let words = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{example}: {words}");
+        assert!(words.contains(missing), "{example}: {words}");
     }
 }
 
@@ -163,10 +163,10 @@ fn run(command: &mut Command) -> Option<Output> {
 /// Both outputs of a program, which must have succeeded.
 fn said_by(output: &Output) -> String {
     let streams = [&output.stdout, &output.stderr];
-    let said = streams.map(|stream| String::from_utf8_lossy(stream));
-    let said = said.concat();
-    assert!(output.status.success(), "{said}");
-    said
+    let words = streams.map(|stream| String::from_utf8_lossy(stream));
+    let words = words.concat();
+    assert!(output.status.success(), "{words}");
+    words
 }
 
 #[test]
@@ -180,12 +180,15 @@ fn the_help_of_the_three_cells_starts_nothing() {
             .output()
             .expect("runs")
     };
-    let said = said_by(&output_with("--help"));
-    assert!(said.contains("packaging/three_cells.sh [FOLDER]"), "{said}");
-    assert!(!said.contains("set -"), "{said}");
+    let words = said_by(&output_with("--help"));
+    assert!(
+        words.contains("packaging/three_cells.sh [FOLDER]"),
+        "{words}"
+    );
+    assert!(!words.contains("set -"), "{words}");
     let wrong = output_with("--unheard-of");
-    let said = String::from_utf8_lossy(&wrong.stderr);
-    assert!(said.contains("no option --unheard-of"), "{said}");
+    let words = String::from_utf8_lossy(&wrong.stderr);
+    assert!(words.contains("no option --unheard-of"), "{words}");
     let mut left = fs::read_dir(&folder).expect("a folder");
     assert!(left.next().is_none(), "it made a folder");
 }
@@ -203,8 +206,8 @@ fn systemd_accepts_the_unit() {
     let output = run(Command::new("systemd-analyze").args(verify).arg(&path));
     if let Some(output) = output {
         // Unknown settings give only a message; messages about other units do not count.
-        let said = said_by(&output);
-        assert!(!said.contains("partsight-serve"), "{said}");
+        let words = said_by(&output);
+        assert!(!words.contains("partsight-serve"), "{words}");
     }
 }
 
@@ -212,8 +215,8 @@ fn systemd_accepts_the_unit() {
 fn the_desktop_entry_is_valid() {
     let entry = at("packaging/partsight.desktop");
     if let Some(output) = run(Command::new("desktop-file-validate").arg(entry)) {
-        let said = said_by(&output);
-        assert_eq!(said, "");
+        let words = said_by(&output);
+        assert_eq!(words, "");
     }
 }
 
@@ -225,10 +228,10 @@ fn udev_accepts_the_rules() {
     let Some(output) = run(Command::new("udevadm").arg("--version")) else {
         return;
     };
-    let said = said_by(&output);
-    let version: u32 = said.split_whitespace().next().map_or(0, |word| {
+    let words = said_by(&output);
+    let version: u32 = words.split_whitespace().next().map_or(0, |word| {
         word.parse()
-            .unwrap_or_else(|error| panic!("{said}: {error}"))
+            .unwrap_or_else(|error| panic!("{words}: {error}"))
     });
     if version < VERIFIES_RULES {
         println!("skipped: udevadm {version} has no verify, which {VERIFIES_RULES} has");
@@ -270,9 +273,9 @@ fn the_zip_for_windows_holds_the_program_and_the_documents() {
     }
     let missing = pack(&folder.path().join("missing.exe")).expect("it ran before");
     assert!(!missing.status.success());
-    let said = String::from_utf8_lossy(&missing.stderr);
+    let words = String::from_utf8_lossy(&missing.stderr);
     assert!(
-        said.contains("no such file") && said.contains("to do:"),
-        "{said}"
+        words.contains("no such file") && words.contains("to do:"),
+        "{words}"
     );
 }

@@ -229,12 +229,12 @@ fn the_program_opens_a_file_shows_every_workspace_and_closes_with_code_0() {
         assert!(Instant::now() < until, "the window does not close");
         thread::sleep(Duration::from_millis(50));
     };
-    let mut said = String::new();
+    let mut words = String::new();
     if let Some(mut errors) = program.0.stderr.take() {
-        std::io::Read::read_to_string(&mut errors, &mut said).expect("read");
+        std::io::Read::read_to_string(&mut errors, &mut words).expect("read");
     }
-    assert_eq!(status.code(), Some(0), "{said}");
-    assert!(!said.contains("panicked"), "{said}");
+    assert_eq!(status.code(), Some(0), "{words}");
+    assert!(!words.contains("panicked"), "{words}");
     let settings = folder.path().join("config/partsight/settings.toml");
     assert!(settings.is_file(), "the settings are not remembered");
 }

@@ -214,11 +214,11 @@ fn every_protocol_triggers_the_simulated_camera_and_gets_the_pose() {
         .map(|line| serde_json::from_str(line).expect("a line of JSON"))
         .collect();
     assert_eq!(lines.len(), 4, "{out}");
-    for (line, told) in lines.iter().zip([&ascii[..], &binary, &eki, &urscript]) {
+    for (line, reply) in lines.iter().zip([&ascii[..], &binary, &eki, &urscript]) {
         assert_eq!(line["part"], "fender");
         let pose = matrix(&line["robot"]["robot_from_part"]);
-        for (metres, mm) in [pose[3], pose[7], pose[11]].iter().zip(told) {
-            assert!((metres * 1000.0 - mm).abs() < 2e-3, "{line} {told:?}");
+        for (metres, mm) in [pose[3], pose[7], pose[11]].iter().zip(reply) {
+            assert!((metres * 1000.0 - mm).abs() < 2e-3, "{line} {reply:?}");
         }
     }
     // Each trigger had its own frame, captured after the previous inspection.

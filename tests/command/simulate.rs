@@ -21,10 +21,10 @@ fn the_same_seed_gives_the_same_file() {
 fn the_origin_of_the_model_is_not_called_its_middle() {
     let place = Workplace::new();
     let simulate = ["simulate", "--part", "fender", "--out", "fender.pcd"];
-    let told = place.accepted(&simulate).out;
+    let reply = place.accepted(&simulate).out;
     assert!(
-        told.contains("the origin of its model") && !told.contains("its middle"),
-        "{told}"
+        reply.contains("the origin of its model") && !reply.contains("its middle"),
+        "{reply}"
     );
 }
 

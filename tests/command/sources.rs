@@ -288,14 +288,15 @@ fn a_watched_folder_is_followed_until_ctrl_c() {
     simulate("one.pcd");
     let verdicts = place.path("verdicts.jsonl");
     let messages = place.path("messages.txt");
-    let said = |words: &str| fs::read_to_string(&messages).is_ok_and(|text| text.contains(words));
+    let has_printed =
+        |words: &str| fs::read_to_string(&messages).is_ok_and(|text| text.contains(words));
     let following = place
         .command(&["inspect", "--source", "watch,from=all:scans", "--json"])
         .stdout(fs::File::create(&verdicts).expect("a file"))
         .stderr(fs::File::create(&messages).expect("a file"))
         .spawn()
         .expect("starts");
-    wait_until(|| said("the folder does not exist"));
+    wait_until(|| has_printed("the folder does not exist"));
     fs::create_dir(place.path("scans")).expect("a folder");
     fs::rename(place.path("one.pcd"), place.path("scans/one.pcd")).expect("renamed");
     wait_until(|| num_lines(&verdicts) == 1);
@@ -303,7 +304,7 @@ fn a_watched_folder_is_followed_until_ctrl_c() {
     wait_until(|| num_lines(&verdicts) == 2);
     interrupt(&following);
     assert_eq!(ended(following).code, 2);
-    assert!(said("1 inspected, 0 dropped, 1 could not be read"));
+    assert!(has_printed("1 inspected, 0 dropped, 1 could not be read"));
     let lines = fs::read_to_string(&verdicts).expect("verdicts");
     let lines: Vec<Value> = lines
         .lines()

@@ -48,10 +48,10 @@ fn inspect(arguments: &[&str]) -> Option<Output> {
 /// The lines of JSON of a run, which must end by itself.
 fn lines_of(arguments: &[&str]) -> Option<Vec<serde_json::Value>> {
     let output = inspect(arguments)?;
-    let told = String::from_utf8_lossy(&output.stderr);
+    let reply = String::from_utf8_lossy(&output.stderr);
     assert!(
-        matches!(output.status.code(), Some(0..=2)) && !told.contains("panicked"),
-        "{arguments:?}: {:?}\n{told}",
+        matches!(output.status.code(), Some(0..=2)) && !reply.contains("panicked"),
+        "{arguments:?}: {:?}\n{reply}",
         output.status
     );
     let shown = String::from_utf8(output.stdout).expect("text");

@@ -85,9 +85,9 @@ impl Advice for ScanFramesError {
 /// Reads the frames of one folder or recording, or the files given. `told` receives the progress and may cancel.
 pub fn read_frames(
     paths: &[PathBuf],
-    told: &mut dyn FnMut(FrameNews<'_>) -> ControlFlow<()>,
+    observer: &mut dyn FnMut(FrameNews<'_>) -> ControlFlow<()>,
 ) -> Result<Vec<ScanFrame>, ScanFramesError> {
-    let mut tell = |news: FrameNews<'_>| match told(news) {
+    let mut tell = |news: FrameNews<'_>| match observer(news) {
         ControlFlow::Continue(()) => Ok(()),
         ControlFlow::Break(()) => Err(ScanFramesError::Cancelled),
     };

@@ -35,7 +35,7 @@ enum EndReason {
     /// The client hung up or was idle for too long, or the server stops.
     Silent,
     /// The request was bad; the answer gives the reason.
-    Told(BadRequest),
+    Answered(BadRequest),
 }
 
 impl Client {
@@ -44,7 +44,7 @@ impl Client {
         let protocol = self.listener.at.protocol.name();
         self.shared.tell(self.peer, protocol, ClientNews::Connected);
         let news = match self.talk() {
-            Ok(EndReason::Told(why)) => {
+            Ok(EndReason::Answered(why)) => {
                 // If the client has hung up, it needs no answer.
                 let _ = self.refuse(&why);
                 ClientNews::BadRequest(why)
@@ -90,12 +90,12 @@ impl Client {
                     last_answer = Instant::now();
                     continue;
                 }
-                Some(Err(why)) => return Ok(EndReason::Told(why)),
+                Some(Err(why)) => return Ok(EndReason::Answered(why)),
                 None => {}
             }
             if begun.is_some_and(|begun| begun.elapsed() > settings.request_timeout) {
                 let seconds = settings.request_timeout.as_secs();
-                return Ok(EndReason::Told(BadRequest::Incomplete { seconds }));
+                return Ok(EndReason::Answered(BadRequest::Incomplete { seconds }));
             }
             if begun.is_none() && last_answer.elapsed() > settings.idle_timeout {
                 return Ok(EndReason::Silent);

@@ -501,13 +501,13 @@ fn turn_away(mut stream: &TcpStream, listener: Listener, shared: &Shared) {
     let problem = Problem::full(shared.settings.max_clients);
     let answer = Answer::turned_away(VerdictCode::Full, problem, &shared.situation());
     let bytes = listener.at.protocol.write(&answer, listener.convention);
-    let told = stream
+    let written = stream
         .set_nonblocking(false)
         .and_then(|()| stream.set_write_timeout(Some(TURN_AWAY_TIMEOUT)))
         .and_then(|()| stream.write_all(&bytes))
         .and_then(|()| stream.shutdown(Shutdown::Write));
     // The connection is dropped whether or not that succeeded.
-    drop(told);
+    drop(written);
 }
 
 /// Answers a client's request; for a trigger it blocks until the inspection is done. `own` is the inspection of the client's last

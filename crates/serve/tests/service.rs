@@ -123,12 +123,12 @@ impl Service {
             problem: None,
         }));
         let events = Arc::new(Mutex::new(Vec::new()));
-        let (of_clients, told) = (Arc::clone(&camera), Arc::clone(&events));
+        let (of_clients, reply) = (Arc::clone(&camera), Arc::clone(&events));
         let mut server = Server::start(
             &listeners,
             settings,
             move || of_clients.lock().expect("whole").clone(),
-            move |event| told.lock().expect("whole").push(event),
+            move |event| reply.lock().expect("whole").push(event),
         )
         .expect("started");
         let addresses = server.addresses().iter().map(|at| at.address).collect();
@@ -185,7 +185,7 @@ fn wait_until(what: impl Fn() -> bool) {
 
 /// An answer as a robot reads it.
 #[derive(Clone, Debug, Default, PartialEq)]
-struct Told {
+struct Reply {
     verdict: u32,
     sequence: u32,
     boot: u32,
@@ -242,18 +242,18 @@ impl Robot {
         self.stream.get_mut().write_all(bytes).expect("sent");
     }
 
-    fn ask(&mut self, word: &str) -> Told {
+    fn ask(&mut self, word: &str) -> Reply {
         self.ask_point(word, 0)
     }
 
-    fn ask_point(&mut self, word: &str, point: u32) -> Told {
+    fn ask_point(&mut self, word: &str, point: u32) -> Reply {
         let bytes = request(&self.protocol, word, point);
         self.send(&bytes);
-        self.told()
+        self.reply()
     }
 
     /// Asks for a point of the path of the inspection with this number.
-    fn ask_path_of(&mut self, sequence: u32, point: u32) -> Told {
+    fn ask_path_of(&mut self, sequence: u32, point: u32) -> Reply {
         let bytes = match self.protocol.as_str() {
             "ascii" | "urscript" => format!("PATH {point} {sequence}\n").into_bytes(),
             "eki" => format!(
@@ -263,22 +263,22 @@ impl Robot {
             protocol => frame(protocol, "PATH", &[point, sequence]),
         };
         self.send(&bytes);
-        self.told()
+        self.reply()
     }
 
-    fn told(&mut self) -> Told {
+    fn reply(&mut self) -> Reply {
         if self.protocol.starts_with("binary") {
             let mut frame = [0; 256];
             self.stream.read_exact(&mut frame).expect("a frame");
-            return told_in_frame(&frame, self.protocol == "binary-be");
+            return reply_in_frame(&frame, self.protocol == "binary-be");
         }
         let mut line = String::new();
         self.stream.read_line(&mut line).expect("a line");
         let line = line.strip_suffix('\n').expect("a whole line");
         match self.protocol.as_str() {
-            "ascii" => told_in_fields(line),
-            "eki" => told_in_xml(line),
-            _ => told_in_list(line),
+            "ascii" => reply_in_fields(line),
+            "eki" => reply_in_xml(line),
+            _ => reply_in_list(line),
         }
     }
 
@@ -352,7 +352,7 @@ fn frame(protocol: &str, word: &str, numbers: &[u32]) -> Vec<u8> {
     frame
 }
 
-fn told_in_frame(frame: &[u8; 256], is_big: bool) -> Told {
+fn reply_in_frame(frame: &[u8; 256], is_big: bool) -> Reply {
     let whole = |at: usize, num_bytes: usize| {
         let bytes = &frame[at..at + num_bytes];
         let add = |sum: u64, byte: &u8| (sum << 8) | u64::from(*byte);
@@ -374,7 +374,7 @@ fn told_in_frame(frame: &[u8; 256], is_big: bool) -> Told {
     let num = number(40, 2) as usize;
     let numbers: Vec<f64> = (0..7).map(|i| real(56 + 8 * i)).collect();
     assert!(numbers[num..].iter().all(|number| number.to_bits() == 0));
-    Told {
+    Reply {
         verdict: number(10, 2),
         boot: number(12, 4),
         sequence: number(16, 4),
@@ -391,12 +391,12 @@ fn told_in_frame(frame: &[u8; 256], is_big: bool) -> Told {
     }
 }
 
-fn told_in_fields(line: &str) -> Told {
+fn reply_in_fields(line: &str) -> Reply {
     let fields: Vec<&str> = line.split(';').collect();
     assert_eq!(fields.len(), 20, "{line}");
     let number = |i: usize| fields[i].parse::<i64>().expect("a whole number");
     let numbers = fields[12..18].iter().filter(|field| !field.is_empty());
-    Told {
+    Reply {
         verdict: place_of(fields[1], &VERDICTS),
         sequence: number(2) as u32,
         boot: number(3) as u32,
@@ -415,7 +415,7 @@ fn told_in_fields(line: &str) -> Told {
     }
 }
 
-fn told_in_xml(line: &str) -> Told {
+fn reply_in_xml(line: &str) -> Reply {
     let between = |begin: &str, end: &str| {
         let rest = line.split_once(begin).map(|(_, rest)| rest);
         rest.and_then(|rest| rest.split_once(end))
@@ -435,7 +435,7 @@ fn told_in_xml(line: &str) -> Told {
     });
     let verdict = number("Code") as u32;
     assert_eq!(VERDICTS[verdict as usize], text("Verdict"));
-    Told {
+    Reply {
         verdict,
         sequence: number("Sequence") as u32,
         boot: number("Boot") as u32,
@@ -452,7 +452,7 @@ fn told_in_xml(line: &str) -> Told {
     }
 }
 
-fn told_in_list(line: &str) -> Told {
+fn reply_in_list(line: &str) -> Reply {
     let inner = line
         .strip_prefix('(')
         .and_then(|line| line.strip_suffix(')'));
@@ -466,7 +466,7 @@ fn told_in_list(line: &str) -> Told {
     // The other protocols send millimetres.
     let numbers = list[11..].iter().enumerate();
     let numbers = numbers.map(|(i, number)| if i < 3 { number * 1000.0 } else { *number });
-    Told {
+    Reply {
         verdict: number(1),
         sequence: number(2),
         boot: number(3),
@@ -483,17 +483,17 @@ fn told_in_list(line: &str) -> Told {
     }
 }
 
-fn assert_at(told: &Told, expected: [f64; 3]) {
-    assert_eq!(told.numbers.len(), 6, "{told:?}");
-    for (found, expected) in told.numbers.iter().zip(expected) {
-        assert!((found - expected).abs() < 2e-3, "{told:?}");
+fn assert_at(reply: &Reply, expected: [f64; 3]) {
+    assert_eq!(reply.numbers.len(), 6, "{reply:?}");
+    for (found, expected) in reply.numbers.iter().zip(expected) {
+        assert!((found - expected).abs() < 2e-3, "{reply:?}");
     }
-    assert_eq!(told.flags & 1, 1);
+    assert_eq!(reply.flags & 1, 1);
 }
 
-fn assert_no_numbers(told: &Told) {
-    assert!(told.numbers.is_empty(), "{told:?}");
-    assert_eq!((told.flags & 1, told.points), (0, 0), "{told:?}");
+fn assert_no_numbers(reply: &Reply) {
+    assert!(reply.numbers.is_empty(), "{reply:?}");
+    assert_eq!((reply.flags & 1, reply.points), (0, 0), "{reply:?}");
 }
 
 #[test]
@@ -566,12 +566,12 @@ fn a_refused_part_and_a_stale_pose_have_no_numbers() {
                 ("PATH", 0),
                 ("PATH", 1),
             ] {
-                let told = robot.ask_point(word, point);
-                assert_eq!(told.verdict, verdict, "{} {word}", robot.protocol);
-                assert_eq!(told.sequence, place as u32 + 1);
-                assert_no_numbers(&told);
+                let reply = robot.ask_point(word, point);
+                assert_eq!(reply.verdict, verdict, "{} {word}", robot.protocol);
+                assert_eq!(reply.sequence, place as u32 + 1);
+                assert_no_numbers(&reply);
                 if robot.protocol != "urscript" {
-                    assert_eq!(told.reason, reason);
+                    assert_eq!(reply.reason, reason);
                 }
             }
         }
@@ -583,7 +583,7 @@ fn of_ten_thousand_triggers_by_several_clients_none_is_lost_or_answered_twice() 
     const CLIENTS: usize = 8;
     const EACH: usize = 1250;
     let service = Service::start(&ALL, ServerSettings::default(), accepted);
-    let told: Vec<Told> = thread::scope(|scope| {
+    let reply: Vec<Reply> = thread::scope(|scope| {
         let service = &service;
         let clients = (0..CLIENTS).map(|client| {
             scope.spawn(move || {
@@ -593,20 +593,20 @@ fn of_ten_thousand_triggers_by_several_clients_none_is_lost_or_answered_twice() 
         });
         // Start all of them before waiting for the first.
         let clients: Vec<_> = clients.collect();
-        let told = clients
+        let reply = clients
             .into_iter()
             .map(|client| client.join().expect("served"));
-        let told: Vec<Vec<Told>> = told.collect();
-        for of_one in &told {
+        let reply: Vec<Vec<Reply>> = reply.collect();
+        for of_one in &reply {
             assert!(of_one.is_sorted_by(|a, b| a.sequence < b.sequence));
         }
-        told.into_iter().flatten().collect()
+        reply.into_iter().flatten().collect()
     });
-    for told in &told {
-        assert_eq!(told.verdict, 1);
-        assert_at(told, [f64::from(told.sequence), 250.0, 1500.0]);
+    for reply in &reply {
+        assert_eq!(reply.verdict, 1);
+        assert_at(reply, [f64::from(reply.sequence), 250.0, 1500.0]);
     }
-    let sequences: BTreeSet<u32> = told.iter().map(|told| told.sequence).collect();
+    let sequences: BTreeSet<u32> = reply.iter().map(|reply| reply.sequence).collect();
     assert!(sequences.into_iter().eq(1..=10_000));
     assert_eq!(service.num_inspected.load(Ordering::SeqCst), 10_000);
 }
@@ -628,11 +628,11 @@ fn triggers_wait_in_their_order_and_a_status_does_not() {
     let status = other.ask("STATUS");
     assert_eq!((status.verdict, status.sequence, status.age_ms), (0, 0, -1));
     go_on.send(()).expect("awaited");
-    assert_eq!(first.told().sequence, 1);
+    assert_eq!(first.reply().sequence, 1);
     assert_eq!(has_begun.recv_timeout(PATIENCE), Ok(2));
     assert_eq!(other.ask("LAST").sequence, 1);
     go_on.send(()).expect("awaited");
-    assert_eq!(second.told().sequence, 2);
+    assert_eq!(second.reply().sequence, 2);
 }
 
 /// Sets the flag when dropped, to end the threads that watch it.
@@ -691,9 +691,9 @@ fn hostile_clients_do_not_disturb_a_good_one() {
         let _end = EndAtLast(&is_over);
         for round in 0..40 {
             for robot in &mut good {
-                let told = robot.ask("TRIGGER");
-                assert_eq!(told.verdict, 1, "round {round}: {told:?}");
-                assert_at(&told, [f64::from(told.sequence), 250.0, 1500.0]);
+                let reply = robot.ask("TRIGGER");
+                assert_eq!(reply.verdict, 1, "round {round}: {reply:?}");
+                assert_at(&reply, [f64::from(reply.sequence), 250.0, 1500.0]);
             }
         }
     });
@@ -721,9 +721,14 @@ fn a_thousand_connections_leave_the_good_one_alone_and_get_an_answer() {
     for i in 0..1000 {
         let mut robot = service.robot(i % ALL.len());
         if i % 100 < ALL.len() {
-            let told = robot.told();
-            assert_eq!((told.verdict, told.sequence), (6, 0), "{}", robot.protocol);
-            assert_no_numbers(&told);
+            let reply = robot.reply();
+            assert_eq!(
+                (reply.verdict, reply.sequence),
+                (6, 0),
+                "{}",
+                robot.protocol
+            );
+            assert_no_numbers(&reply);
             assert!(robot.is_let_go());
         }
     }
@@ -792,13 +797,13 @@ fn a_thousand_silent_connections_make_room_for_others() {
         }
     };
     for place in 0..ALL.len() {
-        let told = connected(place).ask("TRIGGER");
-        assert_eq!((told.verdict, told.sequence), (1, place as u32 + 2));
+        let reply = connected(place).ask("TRIGGER");
+        assert_eq!((reply.verdict, reply.sequence), (1, place as u32 + 2));
     }
     assert_eq!(kept.ask("TRIGGER").sequence, ALL.len() as u32 + 2);
     // Whoever has sent a request keeps its place.
     let others = [1, 2, 3].map(connected);
-    assert_eq!(service.robot(4).told().verdict, 6);
+    assert_eq!(service.robot(4).reply().verdict, 6);
     assert_eq!(others.map(|mut robot| robot.ask("LAST").verdict), [1; 3]);
     assert_eq!(kept.ask("LAST").verdict, 1);
 }
@@ -836,11 +841,11 @@ fn a_bad_request_is_answered_with_its_reason_and_the_connection_closed() {
     ] {
         let mut robot = service.robot(place);
         robot.send(&bytes);
-        let told = robot.told();
-        assert_eq!(told.verdict, 7, "{reason}");
-        assert_no_numbers(&told);
+        let reply = robot.reply();
+        assert_eq!(reply.verdict, 7, "{reason}");
+        assert_no_numbers(&reply);
         if robot.protocol != "urscript" {
-            assert_eq!(told.reason, reason);
+            assert_eq!(reply.reason, reason);
         }
         assert!(robot.is_let_go(), "{reason}");
         // The client may connect again.
@@ -860,11 +865,11 @@ fn a_request_in_pieces_and_several_at_once_are_answered_one_by_one() {
         for byte in request(&protocol, "TRIGGER", 0) {
             robot.send(&[byte]);
         }
-        assert_eq!(robot.told().sequence, before + 1);
+        assert_eq!(robot.reply().sequence, before + 1);
         let three = request(&protocol, "TRIGGER", 0).repeat(3);
         robot.send(&three);
         for i in 2..=4 {
-            assert_eq!(robot.told().sequence, before + i);
+            assert_eq!(robot.reply().sequence, before + i);
         }
     }
 }
@@ -903,35 +908,35 @@ fn a_camera_that_is_lost_is_an_error_and_the_next_trigger_may_succeed() {
     assert_eq!((status.verdict, status.camera), (1, 2));
     assert_eq!(status.reason, "camera_lost");
     for (sequence, reason) in [(2, "camera_lost"), (3, "fault")] {
-        let told = robot.ask("TRIGGER");
+        let reply = robot.ask("TRIGGER");
         assert_eq!(
-            (told.verdict, told.sequence, told.age_ms),
+            (reply.verdict, reply.sequence, reply.age_ms),
             (5, sequence, -1)
         );
-        assert_eq!(told.reason, reason);
-        assert_no_numbers(&told);
+        assert_eq!(reply.reason, reason);
+        assert_no_numbers(&reply);
         assert_eq!(robot.ask("LAST").verdict, 5);
     }
     *service.camera.lock().expect("whole") = CameraStatus {
         state: CameraState::Running,
         problem: None,
     };
-    let told = robot.ask("TRIGGER");
-    assert_eq!((told.verdict, told.sequence, told.camera), (1, 4, 1));
+    let reply = robot.ask("TRIGGER");
+    assert_eq!((reply.verdict, reply.sequence, reply.camera), (1, 4, 1));
 }
 
 #[test]
 fn whichever_side_starts_again_the_other_goes_on() {
     let mut service = Service::start(&["ascii=0"], ServerSettings::default(), accepted);
     let mut robot = service.robot(0);
-    let told = robot.ask("TRIGGER");
+    let reply = robot.ask("TRIGGER");
     // The robot restarts before it has read the answer.
     robot.send(b"TRIGGER\n");
     wait_until(|| service.num_inspected.load(Ordering::SeqCst) == 2);
     drop(robot);
     let mut robot = service.robot(0);
     let last = robot.ask("LAST");
-    assert_eq!(last.boot, told.boot);
+    assert_eq!(last.boot, reply.boot);
     assert!((1..=2).contains(&last.sequence));
     // The server restarts at the same port.
     let address = format!("ascii={}", service.addresses[0]);
@@ -962,7 +967,7 @@ fn who_waits_when_the_service_ends_is_told_so() {
     service.is_ending.store(true, Ordering::SeqCst);
     go_on.send(()).expect("awaited");
     // Its inspection had begun.
-    assert_eq!(first.told().sequence, 1);
+    assert_eq!(first.reply().sequence, 1);
     // There is no line if the server ended before it read the request.
     let mut line = String::new();
     let _ = second.stream.read_line(&mut line);
@@ -980,9 +985,9 @@ fn a_client_reads_the_path_of_its_own_trigger_or_of_one_that_it_names() {
         found
     };
     let service = Service::start(&ALL, ServerSettings::default(), find);
-    let assert_of = |told: &Told, sequence: u32| {
-        assert_eq!((told.verdict, told.sequence), (1, sequence), "{told:?}");
-        assert_at(told, [f64::from(sequence) * 10.0, 250.0, 1500.0]);
+    let assert_of = |reply: &Reply, sequence: u32| {
+        assert_eq!((reply.verdict, reply.sequence), (1, sequence), "{reply:?}");
+        assert_at(reply, [f64::from(sequence) * 10.0, 250.0, 1500.0]);
     };
     for place in 0..ALL.len() {
         let [mut first, mut second, mut third] = [0; 3].map(|_| service.robot(place));
@@ -994,11 +999,11 @@ fn a_client_reads_the_path_of_its_own_trigger_or_of_one_that_it_names() {
         assert_of(&first.ask_path_of(others, 1), others);
         // One that has not triggered, or that has connected again, has to say which one it means.
         for point in [0, 1] {
-            let told = third.ask_point("PATH", point);
-            assert_eq!((told.verdict, told.sequence), (7, 0), "{told:?}");
-            assert_no_numbers(&told);
+            let reply = third.ask_point("PATH", point);
+            assert_eq!((reply.verdict, reply.sequence), (7, 0), "{reply:?}");
+            assert_no_numbers(&reply);
             if third.protocol != "urscript" {
-                assert_eq!((&*told.reason, &*told.part), ("no_trigger", ""));
+                assert_eq!((&*reply.reason, &*reply.part), ("no_trigger", ""));
             }
         }
         drop(first);
@@ -1043,11 +1048,15 @@ fn triggers_of_clients_that_have_gone_are_not_inspected() {
     for _ in 0..2 {
         go_on.send(()).expect("awaited");
     }
-    assert_eq!(first.told().sequence, 1);
-    assert_eq!(second.told().sequence, 2);
-    let told = half.told();
-    assert_eq!((told.verdict, &*told.reason), (5, "withdrawn"), "{told:?}");
-    assert_no_numbers(&told);
+    assert_eq!(first.reply().sequence, 1);
+    assert_eq!(second.reply().sequence, 2);
+    let reply = half.reply();
+    assert_eq!(
+        (reply.verdict, &*reply.reason),
+        (5, "withdrawn"),
+        "{reply:?}"
+    );
+    assert_no_numbers(&reply);
     let mut last = service.robot(0);
     go_on.send(()).expect("awaited");
     assert_eq!(last.ask("TRIGGER").sequence, 3);

@@ -197,8 +197,8 @@ mod tests {
             (Path::new(""), "Type a path"),
         ] {
             assert!(confirmed(&mut opened, wrong).is_pending());
-            let said = opened.problem.as_deref().unwrap_or_default();
-            assert!(said.contains(says), "{said}");
+            let problem = opened.problem.as_deref().unwrap_or_default();
+            assert!(problem.contains(says), "{problem}");
         }
         // A suffix after the path may say how to read the file.
         let with_words = PathBuf::from(format!("{}#units=mm", file.display()));

@@ -612,19 +612,19 @@ mod tests {
     #[test]
     fn of_the_latest_parts_only_the_newest_waits() {
         let mut task = task();
-        let (told, tells) = channel();
+        let (sender, receiver) = channel();
         let (go_on, waits) = channel::<()>();
         task.start("live", move |context| {
             (1..=100).for_each(|number| context.latest(number));
-            told.send(context.is_latest_read()).expect("waited for");
+            sender.send(context.is_latest_read()).expect("waited for");
             waits.recv().expect("released");
-            told.send(context.is_latest_read()).expect("waited for");
+            sender.send(context.is_latest_read()).expect("waited for");
             Ok(0)
         });
-        assert!(!tells.recv().expect("told"), "nobody has read it");
+        assert!(!receiver.recv().expect("told"), "nobody has read it");
         assert_eq!(next(&mut task), TaskEvent::Partial(100));
         go_on.send(()).expect("it waits");
-        assert!(tells.recv().expect("told"), "it was read");
+        assert!(receiver.recv().expect("told"), "it was read");
         assert_eq!(next(&mut task), TaskEvent::Done(0));
     }
 

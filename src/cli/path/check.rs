@@ -346,7 +346,7 @@ mod tests {
             gun_radius: 0.05,
             obstacles: Obstacles::default(),
         };
-        let told = |num_reached| {
+        let words = |num_reached| {
             let place = PlaceSuggestion {
                 shift: [0.5, 0.0, 0.0],
                 num_reached,
@@ -354,11 +354,11 @@ mod tests {
             better_places(&placed, 10, [Some(place), None], Convention::Kuka).join("\n")
         };
         assert!(
-            told(7).ends_with("a further step may reach more"),
+            words(7).ends_with("a further step may reach more"),
             "{}",
-            told(7)
+            words(7)
         );
-        assert!(!told(10).contains("further"), "{}", told(10));
+        assert!(!words(10).contains("further"), "{}", words(10));
     }
 
     #[test]

@@ -86,7 +86,7 @@ impl Plant {
 
     /// Runs a command; returns its exit code and output, which never contain a secret.
     fn run(&self, args: &[&str]) -> (Option<i32>, String) {
-        said(&self.command(args).output().expect("ran"))
+        words(&self.command(args).output().expect("ran"))
     }
 
     fn accepted(&self, args: &[&str]) -> String {
@@ -117,7 +117,7 @@ fn take_from(store: &str) -> Vec<&str> {
     [&["take", "--from", store][..], &trust].concat()
 }
 
-fn said(output: &Output) -> (Option<i32>, String) {
+fn words(output: &Output) -> (Option<i32>, String) {
     let text = [&output.stdout[..], &output.stderr].concat();
     let text = String::from_utf8(text).expect("text");
     assert!(!text.contains(SECRET), "{text}");
@@ -225,7 +225,7 @@ fn of_two_programs_that_publish_to_s3_at_once_none_writes_over_the_other() {
     let programs = [start(), start(), start()];
     let mut versions = Vec::new();
     for program in programs {
-        let (code, text) = said(&program.wait_with_output().expect("ended"));
+        let (code, text) = words(&program.wait_with_output().expect("ended"));
         if code == Some(0) {
             let number = text.strip_prefix("Published version ");
             let number = number.and_then(|rest| rest.split_once(':'));
@@ -310,7 +310,7 @@ fn an_endpoint_without_encryption_needs_permission_and_a_wrong_one_is_named() {
     let mut plant = Plant::new();
     plant.endpoint = Some(s3::closed_endpoint());
     let mut command = plant.command(&take_from("s3://parts"));
-    let (code, text) = said(&command.env_remove("AWS_ALLOW_HTTP").output().expect("ran"));
+    let (code, text) = words(&command.env_remove("AWS_ALLOW_HTTP").output().expect("ran"));
     assert_eq!(code, Some(2), "{text}");
     assert!(
         text.contains("nothing would be encrypted") && text.contains("https://"),

@@ -65,7 +65,7 @@ impl Drop for Ended {
 struct Started {
     child: Ended,
     /// Its messages up to the one with the address.
-    said: Vec<String>,
+    words: Vec<String>,
     address: SocketAddr,
     /// Its further messages.
     rest: Box<dyn Iterator<Item = String> + Send>,
@@ -78,20 +78,20 @@ fn started(folder: &Path, args: &[&str]) -> Started {
         .spawn();
     let mut child = Ended(child.expect("starts"));
     let stderr = BufReader::new(child.0.stderr.take().expect("a pipe"));
-    let mut said = Vec::new();
+    let mut words = Vec::new();
     let mut lines = stderr.lines().map_while(Result::ok);
     let address = lines.find_map(|line| {
         let rest = line.strip_prefix("Listening: http://");
         let address = rest
             .and_then(|rest| rest.split_once("/v1"))
             .map(|(address, _)| address.to_owned());
-        said.push(line);
+        words.push(line);
         address
     });
-    let address = address.unwrap_or_else(|| panic!("{said:?}"));
+    let address = address.unwrap_or_else(|| panic!("{words:?}"));
     Started {
         child,
-        said,
+        words,
         address: address.parse().expect("an address"),
         rest: Box::new(lines),
     }
@@ -102,8 +102,8 @@ fn http_alone_opens_no_other_port() {
     let folder = cell();
     let args = [&SERVE[..5], &["--as", "fanuc", "--http", "0"]].concat();
     let service = started(folder.path(), &args);
-    let said = service.said.iter();
-    let listening: Vec<_> = said.filter(|line| line.starts_with("Listening")).collect();
+    let words = service.words.iter();
+    let listening: Vec<_> = words.filter(|line| line.starts_with("Listening")).collect();
     assert_eq!(listening.len(), 1, "{listening:?}");
 }
 
@@ -179,12 +179,12 @@ fn new_versions_of_the_library_are_taken_between_inspections() {
     } = started(folder.path(), &args);
     let reader = std::thread::spawn(move || rest.for_each(drop));
     let mut client = Client::connect(address);
-    let told = |client: &mut Client| {
+    let reply = |client: &mut Client| {
         let answer = client.trigger().json();
         assert_eq!(answer["verdict"], "accepted", "{answer}");
         (answer["part"].clone(), answer["number"].clone())
     };
-    assert_eq!(told(&mut client), (json!("fender"), json!(3)));
+    assert_eq!(reply(&mut client), (json!("fender"), json!(3)));
 
     let library_until = |is_so: &dyn Fn(&Value) -> bool| {
         let until = Instant::now() + super::PATIENCE;
@@ -203,13 +203,13 @@ fn new_versions_of_the_library_are_taken_between_inspections() {
     ran(&publish);
     library_until(&|library| library["version"] == 2);
     let mut client = Client::connect(address);
-    assert_eq!(told(&mut client), (json!("wing"), json!(3)));
+    assert_eq!(reply(&mut client), (json!("wing"), json!(3)));
 
     let third = folder.path().join("store/manifests/0000000003.txt");
     std::fs::write(third, "not signed").expect("written");
     library_until(&|library| library["problem"]["reason"] == "library_not_taken");
     let mut client = Client::connect(address);
-    assert_eq!(told(&mut client), (json!("wing"), json!(3)));
+    assert_eq!(reply(&mut client), (json!("wing"), json!(3)));
     let metrics = client.get("/v1/metrics").text;
     assert!(
         metrics.contains("\npartsight_library_version 2\n"),
@@ -252,8 +252,8 @@ fn what_cannot_be_served_is_said_with_advice() {
     ] {
         let args = [&SERVE[..], args].concat();
         let ran = partsight(folder.path(), &args).output().expect("ran");
-        let told = String::from_utf8_lossy(&ran.stderr);
-        assert_eq!(ran.status.code(), Some(2), "{told}");
-        assert!(told.contains(what) && told.contains(advice), "{told}");
+        let reply = String::from_utf8_lossy(&ran.stderr);
+        assert_eq!(ran.status.code(), Some(2), "{reply}");
+        assert!(reply.contains(what) && reply.contains(advice), "{reply}");
     }
 }

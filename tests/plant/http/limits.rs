@@ -31,38 +31,38 @@ fn of_ten_thousand_triggers_by_eight_clients_none_is_lost_or_answered_twice() {
     const CLIENTS: usize = 8;
     const EACH: usize = 1250;
     let service = Service::start(accepted);
-    let told: Vec<Value> = thread::scope(|scope| {
+    let words: Vec<Value> = thread::scope(|scope| {
         let service = &service;
         let clients = (0..CLIENTS).map(|_| {
             scope.spawn(move || {
                 let mut client = service.client();
-                let told = (0..EACH).map(|_| client.trigger().json());
-                told.collect::<Vec<_>>()
+                let words = (0..EACH).map(|_| client.trigger().json());
+                words.collect::<Vec<_>>()
             })
         });
         // Start all of them before waiting for the first.
         let clients: Vec<_> = clients.collect();
-        let told = clients
+        let words = clients
             .into_iter()
             .map(|client| client.join().expect("served"));
-        let told: Vec<Vec<Value>> = told.collect();
-        for of_one in &told {
-            assert!(of_one.is_sorted_by_key(|told| told["sequence"].as_u64()));
+        let words: Vec<Vec<Value>> = words.collect();
+        for of_one in &words {
+            assert!(of_one.is_sorted_by_key(|words| words["sequence"].as_u64()));
         }
-        told.into_iter().flatten().collect()
+        words.into_iter().flatten().collect()
     });
-    let sequences = told.iter().map(|told| {
-        assert_eq!(told["verdict"], "accepted");
-        let sequence = told["sequence"].as_u64().expect("a number");
-        let x = told["pose"]["values"][0]["value"]
+    let sequences = words.iter().map(|words| {
+        assert_eq!(words["verdict"], "accepted");
+        let sequence = words["sequence"].as_u64().expect("a number");
+        let x = words["pose"]["values"][0]["value"]
             .as_f64()
             .expect("a number");
-        assert!((x - sequence as f64).abs() < 1e-6, "{told}");
+        assert!((x - sequence as f64).abs() < 1e-6, "{words}");
         sequence
     });
     let sequences: BTreeSet<u64> = sequences.collect();
     assert!(sequences.into_iter().eq(1..=10_000));
-    assert_eq!(told.len(), 10_000);
+    assert_eq!(words.len(), 10_000);
     assert_eq!(service.num_inspected(), 10_000);
 }
 
@@ -172,10 +172,10 @@ fn hostile_clients_do_not_disturb_good_ones() {
         let mut kept = service.client().with_token(TOKEN);
         for round in 0..100 {
             // One client stays connected, the other connects for each request.
-            let told = kept.trigger();
-            assert_eq!(told.status, 200, "round {round}: {told:?}");
-            let told = service.client().with_token(TOKEN).trigger();
-            assert_eq!(told.status, 200, "round {round}: {told:?}");
+            let words = kept.trigger();
+            assert_eq!(words.status, 200, "round {round}: {words:?}");
+            let words = service.client().with_token(TOKEN).trigger();
+            assert_eq!(words.status, 200, "round {round}: {words:?}");
         }
     });
     assert_eq!(service.num_inspected(), 200);

@@ -130,7 +130,7 @@ impl Service {
             problem: None,
         })));
         let events = Arc::new(Mutex::new(Vec::new()));
-        let (of_clients, told) = (Arc::clone(&camera), Arc::clone(&events));
+        let (of_clients, reply) = (Arc::clone(&camera), Arc::clone(&events));
         let mut server = Server::start(
             &[],
             settings,
@@ -138,7 +138,7 @@ impl Service {
                 let status = of_clients.lock().map(|status| status.clone());
                 status.expect("whole").expect("the camera is asked")
             },
-            move |event| told.lock().expect("whole").push(event),
+            move |event| reply.lock().expect("whole").push(event),
         )
         .expect("started");
         let http = HttpServer::start(http, server.handle()).expect("started");

@@ -91,9 +91,9 @@ fn the_state_is_kept_and_inspections_arrive_in_order() {
     });
     let running = subscriber.next_of("state");
     assert_eq!(running.json["camera"]["state"], "running");
-    let told: Vec<String> = (0..4).map(|_| cell.trigger()).collect();
-    assert_eq!(told, ["accepted", "refused", "error", "accepted"]);
-    for (number, verdict) in (1..).zip(&told) {
+    let reply: Vec<String> = (0..4).map(|_| cell.trigger()).collect();
+    assert_eq!(reply, ["accepted", "refused", "error", "accepted"]);
+    for (number, verdict) in (1..).zip(&reply) {
         let received = subscriber.next();
         assert_eq!(
             (received.topic.as_str(), received.is_retained),

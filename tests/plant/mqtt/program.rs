@@ -161,10 +161,10 @@ fn a_password_in_the_address_is_refused_and_not_shown() {
         let serve = ["serve", "--source", "simulated:fender", "--as", "kuka"];
         let args = [&serve[..], &["--mqtt", address]].concat();
         let refused = partsight(folder.path(), &args).output().expect("starts");
-        let said = String::from_utf8_lossy(&refused.stderr).into_owned();
-        assert_eq!(refused.status.code(), Some(2), "{said}");
-        assert!(said.contains("to do: "), "{said}");
-        assert!(!said.contains("secret"), "{said}");
+        let words = String::from_utf8_lossy(&refused.stderr).into_owned();
+        assert_eq!(refused.status.code(), Some(2), "{words}");
+        assert!(words.contains("to do: "), "{words}");
+        assert!(!words.contains("secret"), "{words}");
     }
 }
 

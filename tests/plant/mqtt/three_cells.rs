@@ -113,9 +113,9 @@ fn three_cells_tell_their_states_and_verdicts_and_end_together() {
         .stderr(messages)
         .spawn();
     let mut script = Script(script.expect("starts"));
-    let said = || {
-        let said = fs::read_to_string(folder.path().join("messages"));
-        said.unwrap_or_default()
+    let words = || {
+        let words = fs::read_to_string(folder.path().join("messages"));
+        words.unwrap_or_default()
     };
     wait_until("mosquitto listens", || {
         TcpStream::connect((Ipv4Addr::LOCALHOST, broker)).is_ok()
@@ -130,8 +130,12 @@ fn three_cells_tell_their_states_and_verdicts_and_end_together() {
         let state = inbox.find(&format!("{cell}/state"), is_running);
         assert_conforms(&state, "StateMessage");
         assert_eq!(state["online"], true, "{state}");
-        let told = trigger(port);
-        assert!(told.starts_with("TRIGGER;accepted;1;"), "{told}{}", said());
+        let reply = trigger(port);
+        assert!(
+            reply.starts_with("TRIGGER;accepted;1;"),
+            "{reply}{}",
+            words()
+        );
         let message = inbox.find(&format!("{cell}/inspection"), |_| true);
         assert_conforms(&message, "InspectionMessage");
         assert_eq!(
@@ -147,7 +151,7 @@ fn three_cells_tell_their_states_and_verdicts_and_end_together() {
 
     interrupt(&script.0);
     let ended = script.0.wait().expect("ends");
-    assert_eq!(ended.code(), Some(0), "{}", said());
+    assert_eq!(ended.code(), Some(0), "{}", words());
     for (cell, _) in CELLS {
         let state = inbox.find(&format!("{cell}/state"), |state| state["online"] == false);
         assert_conforms(&state, "StateMessage");
@@ -186,8 +190,8 @@ fn compose() -> Option<Value> {
         .arg(at("packaging/compose.yaml"))
         .output();
     let read = read.expect("it was there");
-    let said = String::from_utf8_lossy(&read.stderr);
-    assert!(read.status.success(), "{said}");
+    let words = String::from_utf8_lossy(&read.stderr);
+    assert!(read.status.success(), "{words}");
     Some(serde_json::from_slice(&read.stdout).expect("JSON"))
 }
 
@@ -248,8 +252,8 @@ fn the_containers_are_the_same_three_cells() {
             .env("XDG_DATA_HOME", folder.path())
             .output()
             .expect("starts");
-        let said = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{said}");
-        assert!(said.contains("no_such_cell.toml"), "{said}");
+        let words = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{words}");
+        assert!(words.contains("no_such_cell.toml"), "{words}");
     }
 }

@@ -71,11 +71,11 @@ fn every_capture_of_a_folder_is_published_and_the_last_state_is_offline() {
     let subscriber = Subscriber::start(&broker);
     let ran = inspect(folder.path(), &broker, "recording:captures").output();
     let ran = ran.expect("starts");
-    let said = String::from_utf8_lossy(&ran.stderr);
-    assert_eq!(ran.status.code(), Some(2), "one cannot be read: {said}");
+    let words = String::from_utf8_lossy(&ran.stderr);
+    assert_eq!(ran.status.code(), Some(2), "one cannot be read: {words}");
     let found = inspections(&subscriber);
     let [fender, grille, unreadable] = &found[..] else {
-        panic!("three captures: {found:?} {said}");
+        panic!("three captures: {found:?} {words}");
     };
     for (number, message) in (1..).zip(&found) {
         assert_eq!(message["sequence"], number, "{message}");
@@ -162,9 +162,9 @@ fn options_that_would_be_passed_over_are_refused() {
         let args = format!("inspect --no-history {args}");
         let args: Vec<&str> = args.split(' ').collect();
         let refused = partsight(folder.path(), &args).output().expect("starts");
-        let said = String::from_utf8_lossy(&refused.stderr);
-        assert_eq!(refused.status.code(), Some(2), "{args:?}: {said}");
-        assert!(said.contains(why), "{args:?}: {said}");
-        assert!(said.contains("to do: "), "{args:?}: {said}");
+        let words = String::from_utf8_lossy(&refused.stderr);
+        assert_eq!(refused.status.code(), Some(2), "{args:?}: {words}");
+        assert!(words.contains(why), "{args:?}: {words}");
+        assert!(words.contains("to do: "), "{args:?}: {words}");
     }
 }

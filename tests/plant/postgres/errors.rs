@@ -79,12 +79,12 @@ fn the_program_says_what_to_do_and_keeps_the_history() {
     let address = server.address();
     let send = ["history", "send", "--history", "here", "--to", &address];
     let rest = ["--cell", "cell7", "--database-password-file", "password"];
-    let [_, said] = run(folder.path(), &[&send[..], &rest].concat(), 2);
+    let [_, output] = run(folder.path(), &[&send[..], &rest].concat(), 2);
     assert!(
-        said.contains("refuses the connection") && said.contains("to do:"),
-        "{said}"
+        output.contains("refuses the connection") && output.contains("to do:"),
+        "{output}"
     );
-    assert!(!said.contains("wrong secret"), "{said}");
+    assert!(!output.contains("wrong secret"), "{output}");
     assert_eq!(history.num_unsent().expect("asked"), 3);
     // Verdicts count even if the database refuses.
     let inspect = [
@@ -95,10 +95,10 @@ fn the_program_says_what_to_do_and_keeps_the_history() {
         "1",
     ];
     let to = ["--history-to", &address, "--history", "here"];
-    let [_, said] = run(folder.path(), &[&inspect[..], &to, &rest].concat(), 0);
+    let [_, output] = run(folder.path(), &[&inspect[..], &to, &rest].concat(), 0);
     assert!(
-        said.contains("Database: ") && said.contains("not in the plant's database yet"),
-        "{said}"
+        output.contains("Database: ") && output.contains("not in the plant's database yet"),
+        "{output}"
     );
     for (args, words) in [
         (["--from", "postgres://me:hidden@db/parts"], "password"),
@@ -106,8 +106,11 @@ fn the_program_says_what_to_do_and_keeps_the_history() {
         (["--database-password-file", "password"], "none is given"),
     ] {
         let args = [&["history", "list"][..], &args].concat();
-        let [_, said] = run(folder.path(), &args, 2);
-        assert!(said.contains(words) && said.contains("to do:"), "{said}");
-        assert!(!said.contains("hidden"), "{said}");
+        let [_, output] = run(folder.path(), &args, 2);
+        assert!(
+            output.contains(words) && output.contains("to do:"),
+            "{output}"
+        );
+        assert!(!output.contains("hidden"), "{output}");
     }
 }

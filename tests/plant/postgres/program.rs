@@ -27,10 +27,10 @@ pub(crate) fn partsight(folder: &Path, args: &[&str]) -> Command {
 /// Runs a command that must end with this code, and returns both outputs.
 pub(crate) fn run(folder: &Path, args: &[&str], code: i32) -> [String; 2] {
     let output = partsight(folder, args).output().expect("starts");
-    let said = [output.stdout, output.stderr];
-    let said = said.map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
-    assert_eq!(output.status.code(), Some(code), "{said:?}");
-    said
+    let words = [output.stdout, output.stderr];
+    let words = words.map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
+    assert_eq!(output.status.code(), Some(code), "{words:?}");
+    words
 }
 
 #[test]
@@ -98,8 +98,8 @@ fn an_overview_over_cells_is_listed_and_exported() {
     ] {
         let number = if more == "--again" { "4" } else { "99" };
         let show = ["history", "show", number, more];
-        let [_, said] = run(folder.path(), &[&show[..], &from].concat(), 2);
-        assert!(said.contains(what), "{said}");
+        let [_, words] = run(folder.path(), &[&show[..], &from].concat(), 2);
+        assert!(words.contains(what), "{words}");
     }
 
     with(&["history", "export", "--csv", "all.csv"]);
@@ -108,13 +108,13 @@ fn an_overview_over_cells_is_listed_and_exported() {
     let are_known = written.iter().all(|cell| cells.contains(&cell.as_str()));
     assert!(written.len() == 9 && are_known, "{written:?}");
     let cases = ["history", "export", "--csv", "a.csv", "--cases", "cases"];
-    let [_, said] = run(folder.path(), &[&cases[..], &from].concat(), 2);
-    assert!(said.contains("frames"), "{said}");
+    let [_, words] = run(folder.path(), &[&cases[..], &from].concat(), 2);
+    assert!(words.contains("frames"), "{words}");
     let unknown = ["history", "list", "--cell", "cell9"];
-    let [_, said] = run(folder.path(), &[&unknown[..], &from].concat(), 2);
+    let [_, words] = run(folder.path(), &[&unknown[..], &from].concat(), 2);
     assert!(
-        said.contains("cell9") && said.contains("to do: Give one of"),
-        "{said}"
+        words.contains("cell9") && words.contains("to do: Give one of"),
+        "{words}"
     );
     // No data folder was created.
     assert!(!folder.path().join("data").exists());
@@ -144,15 +144,15 @@ fn what_is_inspected_while_a_database_is_named_arrives_there() {
         "--frames",
         "1",
     ];
-    let [_, said] = run(folder.path(), &[&inspect[..], &to].concat(), 0);
-    assert!(!said.contains(PASSWORD), "{said}");
+    let [_, words] = run(folder.path(), &[&inspect[..], &to].concat(), 0);
+    assert!(!words.contains(PASSWORD), "{words}");
     // Send what was not sent in the last seconds of the run.
     let send = ["history", "send", "--history", "here", "--to", &address];
     let rest = ["--cell", "cell7", "--database-password-file", "password"];
-    let [_, said] = run(folder.path(), &[&send[..], &rest].concat(), 0);
+    let [_, words] = run(folder.path(), &[&send[..], &rest].concat(), 0);
     assert!(
-        said.contains("inspections sent to postgres://127.0.0.1"),
-        "{said}"
+        words.contains("inspections sent to postgres://127.0.0.1"),
+        "{words}"
     );
     let num = assert_same(&server, &folder.path().join("here"), "cell7");
     assert_eq!(num, 1, "one part hung there");
@@ -160,9 +160,9 @@ fn what_is_inspected_while_a_database_is_named_arrives_there() {
     server.sql("DELETE FROM partsight.detail");
     server.sql("DELETE FROM partsight.inspection");
     for (all, num) in [(&[][..], 0), (&["--all"], 1)] {
-        let [_, said] = run(folder.path(), &[&send[..], &rest, all].concat(), 0);
+        let [_, words] = run(folder.path(), &[&send[..], &rest, all].concat(), 0);
         let expected = format!("{num} inspections sent");
-        assert!(said.contains(&expected), "{said}");
+        assert!(words.contains(&expected), "{words}");
     }
     let num = assert_same(&server, &folder.path().join("here"), "cell7");
     assert_eq!(num, 1, "sent again");

@@ -65,8 +65,8 @@ fn as_somebody(program: &Path) -> Command {
 
 fn done(command: &mut Command) -> Output {
     let output = command.output().expect("started");
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{command:?}: {said}");
+    let words = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{command:?}: {words}");
     output
 }
 
@@ -206,8 +206,8 @@ impl Postgres {
 
     fn sql_in(&self, database: &str, sql: &str) -> Vec<String> {
         let output = self.psql(database, sql);
-        let said = String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.success(), "{sql}: {said}");
+        let words = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{sql}: {words}");
         let text = String::from_utf8(output.stdout).expect("text");
         text.lines().map(str::to_owned).collect()
     }

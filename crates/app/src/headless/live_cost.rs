@@ -50,7 +50,7 @@ const TICK: Duration = Duration::from_micros(16_667);
 pub fn live_stretches(
     num_stretches: usize,
     stretch: Duration,
-    mut told: impl FnMut(&LiveSample),
+    mut observer: impl FnMut(&LiveSample),
 ) -> Result<Vec<LiveSample>, ViewError> {
     let mut window = HeadlessWindow::open(SIZE, WindowOptions::default())?;
     window.settle();
@@ -79,7 +79,7 @@ pub fn live_stretches(
             memory_mb: memory_mb(),
         };
         before = now;
-        told(&found);
+        observer(&found);
         stretches.push(found);
     }
     Ok(stretches)

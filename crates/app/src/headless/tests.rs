@@ -95,7 +95,7 @@ pub(super) fn read_output(window: &mut HeadlessWindow, output: &FullOutput) {
 }
 
 fn says(window: &HeadlessWindow, text: &str) -> bool {
-    window.says.iter().any(|said| said.contains(text))
+    window.says.iter().any(|words| words.contains(text))
 }
 
 #[test]

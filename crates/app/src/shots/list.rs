@@ -261,7 +261,7 @@ fn words(ui: &mut Ui, row: &ShotRow, is_taken: bool, units: UnitSystem) {
         let text = RichText::new(text).small().color(colour);
         ui.add(Label::new(text).truncate())
     };
-    let said = |ui: &mut Ui, text: String, hint: &str| {
+    let remark = |ui: &mut Ui, text: String, hint: &str| {
         ui.horizontal_top(|ui| {
             line_mark(ui, 14.0, 6.5, Mark::Look);
             let text = RichText::new(text).small().color(theme.warning);
@@ -280,7 +280,7 @@ fn words(ui: &mut Ui, row: &ShotRow, is_taken: bool, units: UnitSystem) {
             );
             // The card of the workspace shows the details.
             let short = text!("shots-left-out", why = excluded_in_short(&why));
-            said(ui, short, &all);
+            remark(ui, short, &all);
         }
         ShotFate::Used {
             moved,

@@ -194,9 +194,9 @@ impl Robot {
     fn ask(&mut self, request: &str) -> Vec<String> {
         let line = format!("{request}\n");
         self.0.get_mut().write_all(line.as_bytes()).expect("sent");
-        let mut told = String::new();
-        self.0.read_line(&mut told).expect("a line");
-        told.trim_end().split(';').map(str::to_owned).collect()
+        let mut reply = String::new();
+        self.0.read_line(&mut reply).expect("a line");
+        reply.trim_end().split(';').map(str::to_owned).collect()
     }
 }
 
@@ -217,9 +217,9 @@ fn a_robot_is_told_the_pose_that_the_window_shows_and_the_history_keeps_it() {
 
     // The window draws no frame meanwhile: a robot does not wait for it.
     let mut robot = Robot::connect(at);
-    let told = robot.ask("TRIGGER");
-    assert_eq!(told[1], "accepted", "{told:?}");
-    let [sequence, camera, part, flags] = [2, 5, 6, 8].map(|field| told[field].as_str());
+    let reply = robot.ask("TRIGGER");
+    assert_eq!(reply[1], "accepted", "{reply:?}");
+    let [sequence, camera, part, flags] = [2, 5, 6, 8].map(|field| reply[field].as_str());
     // The flags mean "with a pose" and "simulated".
     assert_eq!(
         [sequence, camera, part, flags],
@@ -228,14 +228,14 @@ fn a_robot_is_told_the_pose_that_the_window_shows_and_the_history_keeps_it() {
     let session = &harness.state().state().session;
     let library = session.library.as_ref().expect("loaded");
     let place = library.place_of("fender").expect("enrolled");
-    assert_eq!(told[7], (place + 1).to_string());
+    assert_eq!(reply[7], (place + 1).to_string());
     let pose = shown_pose(harness.state()).expect("shown");
     let frame = session.robot.as_ref().expect("calibrated");
     let expected = Convention::Kuka.write(&frame.robot_from_part(&pose));
-    let numbers = told[12..18].iter().map(|number| number.parse::<f64>());
-    for (told, expected) in numbers.zip(expected.numbers()) {
-        let told = told.expect("a number");
-        assert!((told - expected).abs() < 0.01, "{told} for {expected}");
+    let numbers = reply[12..18].iter().map(|number| number.parse::<f64>());
+    for (reply, expected) in numbers.zip(expected.numbers()) {
+        let reply = reply.expect("a number");
+        assert!((reply - expected).abs() < 0.01, "{reply} for {expected}");
     }
     assert_eq!(robot.ask("LAST")[2], "1");
 
@@ -267,17 +267,17 @@ fn without_live_a_trigger_is_answered_with_what_to_do_and_with_it_again_with_a_p
     toggle(&mut harness);
     assert!(!harness.state().state().session.is_live());
     harness.run_steps(4);
-    let told = robot.ask("TRIGGER");
-    let [verdict, number, reason] = [1, 12, 18].map(|field| told[field].as_str());
+    let reply = robot.ask("TRIGGER");
+    let [verdict, number, reason] = [1, 12, 18].map(|field| reply[field].as_str());
     assert_eq!([verdict, number, reason], ["error", "", "camera_failed"]);
-    assert!(told[19].contains("Press Live"), "{told:?}");
+    assert!(reply[19].contains("Press Live"), "{reply:?}");
     assert_eq!(robot.ask("STATUS")[5], "over");
     assert!(says(&harness, "Answers robots, without frames"));
 
     toggle(&mut harness);
     wait_until(&mut harness, |state| state.session.live.status.is_some());
-    let told = robot.ask("TRIGGER");
-    assert_eq!([&*told[1], &*told[2]], ["accepted", "2"], "{told:?}");
+    let reply = robot.ask("TRIGGER");
+    assert_eq!([&*reply[1], &*reply[2]], ["accepted", "2"], "{reply:?}");
     assert!(!says(&harness, "without frames"));
 }
 
@@ -298,9 +298,9 @@ fn another_library_is_the_one_that_robots_are_answered_by() {
         let library = state.session.library.as_ref();
         library.is_some_and(|library| library.path.ends_with("other parts"))
     });
-    let told = robot.ask("TRIGGER");
-    assert!(told[1] != "accepted" && told[6] != "fender", "{told:?}");
-    assert_eq!(told[2], "2", "the same server");
+    let reply = robot.ask("TRIGGER");
+    assert!(reply[1] != "accepted" && reply[6] != "fender", "{reply:?}");
+    assert_eq!(reply[2], "2", "the same server");
 }
 
 #[test]
@@ -310,8 +310,8 @@ fn another_convention_or_another_pose_changes_the_boot_number_and_ends_earlier_p
     let at = turn_on(&mut harness);
     wait_until(&mut harness, |state| state.session.live.status.is_some());
     let mut robot = Robot::connect(at);
-    let told = robot.ask("TRIGGER");
-    assert_eq!(told[1], "accepted", "{told:?}");
+    let reply = robot.ask("TRIGGER");
+    assert_eq!(reply[1], "accepted", "{reply:?}");
 
     // The same server and connection.
     let setup = harness.state().state().session.answering;
@@ -322,11 +322,11 @@ fn another_convention_or_another_pose_changes_the_boot_number_and_ends_earlier_p
     answer(&mut harness, offset);
     let until = Instant::now() + PATIENCE;
     let mut last = robot.ask("LAST");
-    while last[3] == told[3] && Instant::now() < until {
+    while last[3] == reply[3] && Instant::now() < until {
         harness.run_steps(1);
         last = robot.ask("LAST");
     }
-    assert_ne!(last[3], told[3], "another boot number");
+    assert_ne!(last[3], reply[3], "another boot number");
     assert_eq!([&*last[1], &*last[12]], ["none", ""], "{last:?}");
     let again = robot.ask("TRIGGER");
     assert_eq!([&again[1], &again[3]], ["accepted", &last[3]], "{again:?}");
@@ -409,15 +409,15 @@ fn parts_are_numbered_once_robots_are_answered_and_keep_their_numbers() {
         library.is_some_and(|library| library.place_of("fender") == Some(1))
     });
     wait_until(&mut harness, |state| state.session.live.status.is_some());
-    let told = Robot::connect(at).ask("TRIGGER");
-    assert_eq!([&*told[6], &*told[7]], ["fender", "3"], "{told:?}");
+    let reply = Robot::connect(at).ask("TRIGGER");
+    assert_eq!([&*reply[6], &*reply[7]], ["fender", "3"], "{reply:?}");
 
     let numbers = parts.join("numbers.toml");
     let sound = fs::read(&numbers).expect("there");
     fs::write(&numbers, "[parts").expect("written");
     wait_for_problem(&mut harness, true);
-    let told = Robot::connect(at).ask("TRIGGER");
-    assert_eq!([&*told[6], &*told[7]], ["fender", "0"], "{told:?}");
+    let reply = Robot::connect(at).ask("TRIGGER");
+    assert_eq!([&*reply[6], &*reply[7]], ["fender", "0"], "{reply:?}");
     fs::write(&numbers, sound).expect("written");
     wait_for_problem(&mut harness, false);
 }
@@ -560,8 +560,8 @@ fn a_window_that_answered_robots_answers_again_when_it_is_opened_again() {
     });
     let at = listening(&mut harness);
     wait_until(&mut harness, |state| state.session.live.status.is_some());
-    let told = Robot::connect(at).ask("TRIGGER");
-    assert_eq!(told[1], "accepted", "{told:?}");
+    let reply = Robot::connect(at).ask("TRIGGER");
+    assert_eq!(reply[1], "accepted", "{reply:?}");
     assert!(says(&harness, "Answers robots · 127.0.0.1:"));
     // The operator's view shows it, too.
     cause(&mut harness, Action::Role(RoleAction::Switch));
@@ -627,15 +627,15 @@ fn told_while(
 
 /// The same; the part is accepted, unless it swings.
 fn ask_while(harness: &mut WindowHarness, wire: &Sender<Step>, at: SocketAddr, places: [f64; 2]) {
-    let told = told_while(harness, wire, at, places);
+    let reply = told_while(harness, wire, at, places);
     let expected = if places[1] > places[0] {
         ["refused", "moving"]
     } else {
         ["accepted", ""]
     };
-    let reason = told.len().checked_sub(2).map_or("", |place| &told[place]);
-    assert_eq!([&*told[1], reason], expected, "{told:?}");
-    assert_eq!(told[6], "fender", "{told:?}");
+    let reason = reply.len().checked_sub(2).map_or("", |place| &reply[place]);
+    assert_eq!([&*reply[1], reason], expected, "{reply:?}");
+    assert_eq!(reply[6], "fender", "{reply:?}");
 }
 
 /// The same; then Live has seen what the robot was answered by.
@@ -749,9 +749,9 @@ fn report(harness: &mut WindowHarness, truth: &Truth) {
 }
 
 /// True if this answer refuses the fender because it was reported as wrong; the flags mean "simulated", without a pose.
-fn is_reported(told: &[String]) -> bool {
-    let has_reason = told.iter().any(|field| field == "reported_wrong");
-    has_reason && [&*told[1], &*told[6], &*told[8]] == ["refused", "fender", "4"]
+fn is_reported(reply: &[String]) -> bool {
+    let has_reason = reply.iter().any(|field| field == "reported_wrong");
+    has_reason && [&*reply[1], &*reply[6], &*reply[8]] == ["refused", "fender", "4"]
 }
 
 #[test]
@@ -774,14 +774,14 @@ fn a_part_that_was_reported_as_wrong_has_no_pose_until_it_has_left_or_the_report
         last = robot.ask("LAST");
     }
     assert!(is_reported(&last), "{last:?}");
-    let told = told_while(&mut harness, &wire, at, [0.0; 2]);
-    assert!(is_reported(&told), "{told:?}");
+    let reply = told_while(&mut harness, &wire, at, [0.0; 2]);
+    assert!(is_reported(&reply), "{reply:?}");
 
     report(&mut harness, &Truth::Part("fender".into()));
     trigger(&mut harness, &wire, at, [0.0; 2]);
     report(&mut harness, &Truth::Part("grille".into()));
-    let told = told_while(&mut harness, &wire, at, [0.0; 2]);
-    assert!(is_reported(&told), "{told:?}");
+    let reply = told_while(&mut harness, &wire, at, [0.0; 2]);
+    assert!(is_reported(&reply), "{reply:?}");
 
     sees(&mut harness, &wire, GOING);
     sees(&mut harness, &wire, COMING);

@@ -250,8 +250,8 @@ fn a_capture_of_a_followed_folder_is_enrolled_and_not_inspected() {
     let context = harness.ctx.clone();
     harness.state_mut().act(Action::Capture, &context);
     wait_until(&mut harness, |state| state.follower.is_idle());
-    let mut said = notices(&harness).into_iter();
-    assert!(said.any(|what| what.contains("Live stopped")));
+    let mut shown = notices(&harness).into_iter();
+    assert!(shown.any(|what| what.contains("Live stopped")));
     let scene = facing_part(PartKind::Fender, Side::Left, 5);
     save_cloud(&folder.path().join("fender.pcd"), &scene.cloud).expect("written");
     settle(&mut harness);
@@ -870,10 +870,10 @@ fn without_a_library_the_window_says_so_everywhere_and_still_captures() {
     let folder = tempfile::tempdir().expect("a folder");
     let missing = folder.path().join("WRONG");
     let mut harness = open_at(&missing, USUAL);
-    let said = &state(&harness).notices[0];
-    assert!(said.what.contains("could not be loaded"), "{said:?}");
-    assert!(said.what.contains("no such library folder"), "{said:?}");
-    assert!(said.advice.contains("create the folder"), "{said:?}");
+    let shown = &state(&harness).notices[0];
+    assert!(shown.what.contains("could not be loaded"), "{shown:?}");
+    assert!(shown.what.contains("no such library folder"), "{shown:?}");
+    assert!(shown.advice.contains("create the folder"), "{shown:?}");
     assert_eq!(notices(&harness).len(), 1);
     // The scene is shown, and no part is named.
     let shown = state(&harness).session.shown.as_ref().expect("captured");
@@ -1104,9 +1104,9 @@ fn a_draft_is_written_when_the_window_closes_and_a_bad_one_is_set_aside() {
     fs::write(&file, &text[..text.len() / 2]).expect("written");
     let harness = open_with(USUAL, options());
     assert!(enrol_of(&harness).draft.is_none());
-    let said = notices(&harness);
-    let is_said = |what: &String| what.starts_with("The draft in ");
-    assert!(said.iter().any(is_said), "{said:?}");
+    let shown = notices(&harness);
+    let is_shown = |what: &String| what.starts_with("The draft in ");
+    assert!(shown.iter().any(is_shown), "{shown:?}");
     let aside = folder.path().join("draft.broken-1.json");
     assert_eq!(
         fs::read_to_string(aside).expect("kept"),

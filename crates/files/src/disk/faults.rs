@@ -197,14 +197,18 @@ impl Writer<'_> {
             .env(KILLED, format!("{at} {}", folder.path().display()))
             .output()
             .expect("ran");
-        let said = String::from_utf8_lossy(&ran.stdout);
-        assert!(said.contains("running 1 test"), "{} is no test", self.test);
+        let output = String::from_utf8_lossy(&ran.stdout);
+        assert!(
+            output.contains("running 1 test"),
+            "{} is no test",
+            self.test
+        );
         let found = (self.state)(folder.path());
         if ran.status.success() {
             assert_eq!(found, new);
             return false;
         }
-        assert!(ran.status.code().is_none(), "not killed: {said}");
+        assert!(ran.status.code().is_none(), "not killed: {output}");
         self.is_whole(&found, old, new, &format!("killed at call {at}"));
         self.goes_on(folder.path(), &found, old, new, &format!("killed at {at}"));
         true

@@ -247,7 +247,7 @@ mod tests {
 
     use super::*;
 
-    fn told(error: &StoreError) -> String {
+    fn text_of(error: &StoreError) -> String {
         let text = format!("{error}; {}", error.advice());
         for internal in ["Error {", "Generic", "os error", "Kind", "<", "retries"] {
             assert!(!text.contains(internal), "{text}");
@@ -280,7 +280,7 @@ mod tests {
             let status = StatusCode::from_u16(status).expect("a status");
             let body = format!("<?xml version=\"1.0\"?><Error><Code>{code}</Code></Error>");
             let error = StoreError::of_answer(status, body.as_bytes()).expect(code);
-            let text = told(&error);
+            let text = text_of(&error);
             assert!(text.contains(words), "{text}");
         }
         for status in [404, 409, 412] {
@@ -304,7 +304,7 @@ mod tests {
             store: "LocalFileSystem",
             source: Box::new(io::Error::from(io::ErrorKind::StorageFull)),
         };
-        let text = told(&StoreError::of(&full));
+        let text = text_of(&StoreError::of(&full));
         assert_eq!(
             text,
             "the disk is full; Make room on the disk, or choose another one"
@@ -313,7 +313,7 @@ mod tests {
             store: "S3",
             source: "unexpected\n  answer: <?xml?><Error/>".into(),
         };
-        let text = told(&StoreError::of(&other));
+        let text = text_of(&StoreError::of(&other));
         assert!(text.starts_with("unexpected answer; "), "{text}");
     }
 
@@ -331,13 +331,13 @@ mod tests {
     fn a_connection_that_fails_names_the_host_and_the_reason() {
         let refused = io::Error::from_raw_os_error(111);
         let error = StoreError::of_connection("minio:9000", &refused);
-        assert!(told(&error).starts_with("minio:9000 cannot be reached: "));
+        assert!(text_of(&error).starts_with("minio:9000 cannot be reached: "));
         let certificate = rustls::Error::InvalidCertificate(CertificateError::UnknownIssuer);
         let error = StoreError::of_connection(
             "minio:9000",
             &io::Error::other(io::Error::other(certificate)),
         );
-        assert!(told(&error).contains("SSL_CERT_FILE"), "{error}");
+        assert!(text_of(&error).contains("SSL_CERT_FILE"), "{error}");
         let late = io::Error::from(io::ErrorKind::TimedOut);
         assert_eq!(StoreError::of_connection("minio", &late), StoreError::Late);
     }

@@ -131,11 +131,11 @@ pub enum DatabaseError {
 impl DatabaseError {
     pub(super) fn of(error: &tokio_postgres::Error, database: &DatabaseAddress) -> Self {
         let database = Box::new(database.clone());
-        let Some(told) = error.as_db_error() else {
+        let Some(reported) = error.as_db_error() else {
             return Self::of_connection(error, database);
         };
-        let cause = told.message().to_owned();
-        match *told.code() {
+        let cause = reported.message().to_owned();
+        match *reported.code() {
             SqlState::INVALID_PASSWORD | SqlState::INVALID_AUTHORIZATION_SPECIFICATION => {
                 Self::Refused { database, cause }
             }

@@ -107,7 +107,7 @@ struct State {
     has_ended: bool,
     num_waiting: usize,
     /// The problem last reported, until sending succeeds again.
-    told: Option<SendProblem>,
+    notified: Option<SendProblem>,
     /// True once a connection was reported.
     is_connected: bool,
     news: VecDeque<SendNews>,
@@ -276,9 +276,9 @@ impl Shared {
 
     fn works(&self) {
         let mut state = lock(&self.state);
-        if !state.is_connected || state.told.is_some() {
+        if !state.is_connected || state.notified.is_some() {
             state.is_connected = true;
-            state.told = None;
+            state.notified = None;
             let num_waiting = state.num_waiting;
             state.news.push_back(SendNews::Connected { num_waiting });
         }
@@ -290,8 +290,8 @@ impl Shared {
             advice: error.advice(),
         };
         let mut state = lock(&self.state);
-        if state.told.as_ref() != Some(&problem) {
-            state.told = Some(problem.clone());
+        if state.notified.as_ref() != Some(&problem) {
+            state.notified = Some(problem.clone());
             state.news.push_back(SendNews::Failed(problem));
         }
     }

@@ -82,7 +82,7 @@ enum Phase {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Told {
+enum Notified {
     Connected,
     Lost,
 }
@@ -99,7 +99,7 @@ struct Outbox {
     /// Set while connected.
     client: Option<Client>,
     /// What was last reported to the operator.
-    told: Option<Told>,
+    notified: Option<Notified>,
     news: VecDeque<LinkNews>,
 }
 
@@ -156,7 +156,7 @@ impl MqttLink {
                 in_flight: None,
                 handed_over_at: Instant::now(),
                 client: None,
-                told: None,
+                notified: None,
                 news: VecDeque::new(),
             }),
             phase_changed: Condvar::new(),
@@ -322,8 +322,8 @@ impl Shared {
         outbox.client = Some(client);
         // The broker may have lost the state, or published the last will.
         outbox.is_state_due = true;
-        if outbox.told != Some(Told::Connected) {
-            outbox.told = Some(Told::Connected);
+        if outbox.notified != Some(Notified::Connected) {
+            outbox.notified = Some(Notified::Connected);
             let news = LinkNews::Connected {
                 num_waiting: outbox.waiting.len(),
                 num_dropped: outbox.state.num_dropped,
@@ -344,8 +344,8 @@ impl Shared {
         if outbox.phase != Phase::Running {
             return ControlFlow::Break(());
         }
-        if outbox.told != Some(Told::Lost) {
-            outbox.told = Some(Told::Lost);
+        if outbox.notified != Some(Notified::Lost) {
+            outbox.notified = Some(Notified::Lost);
             outbox.news.push_back(LinkNews::Lost(problem));
         }
         let is_running = |outbox: &mut Outbox| outbox.phase == Phase::Running;
@@ -443,7 +443,7 @@ mod tests {
             in_flight: Some(InFlight::State),
             handed_over_at: start,
             client: None,
-            told: None,
+            notified: None,
             news: VecDeque::new(),
         };
         let late = start + ACK_TIMEOUT + Duration::from_millis(1);

@@ -90,14 +90,14 @@ fn sound(folder: &Path) -> Result<History, HistoryError> {
 }
 
 /// The report of the other process.
-struct Told {
+struct Reply {
     is_killed: bool,
     num_done: usize,
     errors: Vec<String>,
     num_read: Option<usize>,
 }
 
-fn run(folder: &Path, disk: &Path, fault: &str) -> Told {
+fn run(folder: &Path, disk: &Path, fault: &str) -> Reply {
     let output = Command::new(env::current_exe().expect("this program"))
         .args(["body", "--exact", "--nocapture", "--test-threads=1"])
         .env(BODY, folder)
@@ -106,41 +106,41 @@ fn run(folder: &Path, disk: &Path, fault: &str) -> Told {
         .env("DISK_MARK", folder.join("mark"))
         .output()
         .expect("started");
-    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    let words = String::from_utf8_lossy(&output.stdout).into_owned();
     let is_killed = output.status.code().is_none();
     let complaint = String::from_utf8_lossy(&output.stderr);
     assert!(
         is_killed == (fault.starts_with("killed") && folder.join("mark").exists())
             && (is_killed || output.status.success()),
-        "{fault}: {}\n{said}\n{complaint}",
+        "{fault}: {}\n{words}\n{complaint}",
         output.status
     );
-    let mut told = Told {
+    let mut reply = Reply {
         is_killed,
         num_done: 0,
         errors: Vec::new(),
         num_read: None,
     };
     // The first line follows the name of the test.
-    for line in said
+    for line in words
         .lines()
         .map(|line| line.trim_start_matches("test body ... "))
     {
         if line.starts_with("done ") {
-            told.num_done += 1;
+            reply.num_done += 1;
         } else if let Some(error) = line.strip_prefix("error ") {
-            told.errors.push(error.to_owned());
+            reply.errors.push(error.to_owned());
         } else if let Some(advice) = line.strip_prefix("advice ") {
-            told.errors.last_mut().expect("an error").push_str(advice);
+            reply.errors.last_mut().expect("an error").push_str(advice);
         } else if let Some(num) = line.strip_prefix("read ") {
-            told.num_read = num.parse().ok();
+            reply.num_read = num.parse().ok();
         }
     }
-    told
+    reply
 }
 
 /// Checks the history afterwards: the steps in `told` are done, and nothing else has changed.
-fn check(folder: &Path, num_before: usize, fault: &str, told: &Told) {
+fn check(folder: &Path, num_before: usize, fault: &str, reply: &Reply) {
     let mut history = open_history(folder);
     let page = history.page(&Filter::default(), 0, 10).expect("asked");
     let first = history.known(1).expect("the first is there");
@@ -155,9 +155,9 @@ fn check(folder: &Path, num_before: usize, fault: &str, told: &Told) {
         other => panic!("{fault}: {other:?}"),
     };
     assert!(
-        (told.num_done..=told.num_done + 1).contains(&state),
+        (reply.num_done..=reply.num_done + 1).contains(&state),
         "{fault}: {} done, {state} there",
-        told.num_done
+        reply.num_done
     );
     for row in page
         .rows
@@ -199,26 +199,26 @@ fn fails_in_one_way(kind: &str, num_before: usize, is_listed: bool, prepared: &P
         let fault = format!("{kind} {at}");
         let folder = tempfile::tempdir().expect("a folder");
         copy(prepared, folder.path());
-        let told = run(folder.path(), disk, &fault);
+        let reply = run(folder.path(), disk, &fault);
         let has_failed = folder.path().join("mark").exists();
-        for error in &told.errors {
+        for error in &reply.errors {
             let is_fitting = error.contains("disk") || error.contains("writable");
             assert!(is_fitting && !error.contains("move"), "{fault}: {error}");
         }
-        let is_cut_off = told.is_killed || told.num_done < STEPS.len();
+        let is_cut_off = reply.is_killed || reply.num_done < STEPS.len();
         assert!(!is_cut_off || has_failed, "{fault}");
         // A step that fails once succeeds when it is tried again.
-        assert!(kind != "once" || !is_cut_off, "{fault}: {:?}", told.errors);
-        match told.num_read {
+        assert!(kind != "once" || !is_cut_off, "{fault}: {:?}", reply.errors);
+        match reply.num_read {
             Some(num) => assert!(num >= num_before, "{fault}: {num} read"),
             None => assert!(
-                told.is_killed || !is_cut_off || !is_listed,
+                reply.is_killed || !is_cut_off || !is_listed,
                 "{fault}: {:?}",
-                told.errors
+                reply.errors
             ),
         }
-        check(folder.path(), num_before, &fault, &told);
-        num_errors += told.errors.len();
+        check(folder.path(), num_before, &fault, &reply);
+        num_errors += reply.errors.len();
         if !has_failed {
             is_through = true;
             assert!(at > 10, "{kind}: only {at} calls");

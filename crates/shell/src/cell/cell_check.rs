@@ -293,8 +293,8 @@ impl Look {
                 what: format!("{}: {}", origin.shown_title(), described(&why)),
                 advice: advised(&why),
             })?;
-            let told = warnings.iter().map(UserError::of);
-            notices.extend(told.map(Notice::from));
+            let errors = warnings.iter().map(UserError::of);
+            notices.extend(errors.map(Notice::from));
         }
         Ok((views, notices))
     }

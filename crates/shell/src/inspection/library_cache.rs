@@ -558,14 +558,14 @@ mod tests {
     fn a_folder_of_other_things_is_not_silently_taken_for_a_library() {
         let folder = tempfile::tempdir().expect("a folder");
         fs::write(folder.path().join("letter.txt"), "").expect("written");
-        let said = |path: &Path| {
+        let problems_at = |path: &Path| {
             let loaded = LibraryCache::new(Some(path.to_owned()), Camera::default()).get();
             loaded.shown.problems.clone()
         };
-        let other = said(folder.path());
+        let other = problems_at(folder.path());
         assert!(other[0].what.contains("holds no library"), "{other:?}");
         let shipped = Path::new(::inspection::fixtures::SHIPPED_PARTS);
-        let part = said(&shipped.join("fender"));
+        let part = problems_at(&shipped.join("fender"));
         let above = shipped.canonicalize().expect("there");
         let advice = &part[0].advice;
         assert!(advice.contains(&above.display().to_string()), "{advice}");

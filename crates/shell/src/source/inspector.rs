@@ -616,8 +616,8 @@ mod tests {
         assert!(state.session.shown.is_some() && state.inspector.running().is_none());
         apply(&mut state, Action::TakeEmptyCell);
         assert!(state.session.empty_cell.is_none(), "a part hangs there");
-        let said = state.notices.last().map(|notice| notice.what.clone());
-        assert!(said.is_some_and(|said| said.contains("not empty")));
+        let notice = state.notices.last().map(|notice| notice.what.clone());
+        assert!(notice.is_some_and(|notice| notice.contains("not empty")));
 
         apply(&mut state, Action::Capture);
         assert!(state.session.is_old());
@@ -790,8 +790,8 @@ mod tests {
         };
         assert_eq!(files.frames, [folder.path()]);
         assert!(state.inspector.running().is_none());
-        let said = state.notices.last().expect("said");
-        assert!(said.what.contains("no poses"), "{said:?}");
-        assert!(said.advice.contains("Choose the file"), "{said:?}");
+        let notice = state.notices.last().expect("said");
+        assert!(notice.what.contains("no poses"), "{notice:?}");
+        assert!(notice.advice.contains("Choose the file"), "{notice:?}");
     }
 }

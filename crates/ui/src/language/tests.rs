@@ -192,19 +192,19 @@ fn a_thread_speaks_one_language_and_a_task_that_of_its_starter() {
     assert_eq!(keys("Ctrl Shift O"), "Strg Umschalt O");
     let mut task = Task::new("test", &TaskRunner::new(|| {}));
     task.start("", |_| Ok(text!("shell-cancel")));
-    let said = loop {
+    let label = loop {
         if let Some(event) = task.poll() {
             break event;
         }
     };
-    assert_eq!(said, Ok("Abbrechen".to_owned()));
+    assert_eq!(label, Ok("Abbrechen".to_owned()));
     let elsewhere = std::thread::spawn(|| text!("shell-cancel"));
     assert_eq!(elsewhere.join().expect("ended"), "Cancel");
 }
 
 #[test]
 fn counts_choose_the_words_of_their_language() {
-    let said = |num: usize| text!("shell-num-parts", num = num);
+    let label = |num: usize| text!("shell-num-parts", num = num);
     for (language, one, many) in [
         (Language::English, "1 part", "2000 parts"),
         (Language::German, "1 Teil", "2000 Teile"),
@@ -212,7 +212,7 @@ fn counts_choose_the_words_of_their_language() {
         (Language::Chinese, "1 个零件", "2000 个零件"),
     ] {
         language.make_current();
-        assert_eq!([said(1), said(2000)], [one, many]);
+        assert_eq!([label(1), label(2000)], [one, many]);
     }
 }
 
@@ -220,9 +220,9 @@ fn counts_choose_the_words_of_their_language() {
 fn a_percent_sign_stays_with_its_number() {
     for language in Language::ALL {
         language.make_current();
-        let said = text!("enrol-most-similar", part = "Fender", percent = 2);
-        assert!(said.contains("2\u{a0}%"), "{said}");
-        let said = text!("enrol-most-similar-mirrored", part = "Fender", percent = 2);
-        assert!(said.contains("2\u{a0}%"), "{said}");
+        let label = text!("enrol-most-similar", part = "Fender", percent = 2);
+        assert!(label.contains("2\u{a0}%"), "{label}");
+        let label = text!("enrol-most-similar-mirrored", part = "Fender", percent = 2);
+        assert!(label.contains("2\u{a0}%"), "{label}");
     }
 }

@@ -82,13 +82,13 @@ fn progress(ui: &mut Ui, align: &AlignState, session: &Session, actions: &mut Ve
     let total = num_parts * Start::NUM_PAPER;
     let num = table.rows.len();
     let is_at_work = align.is_table_at_work();
-    let said = if is_at_work {
+    let progress = if is_at_work {
         going(num, total, table.remaining(total))
     } else {
         standing(num, total)
     };
     ui.horizontal(|ui| {
-        ui.label(RichText::new(said).small().weak());
+        ui.label(RichText::new(progress).small().weak());
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if is_at_work {
                 let label = text!("align-cancel-table");

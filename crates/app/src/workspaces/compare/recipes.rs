@@ -252,15 +252,15 @@ impl CompareState {
         if now.label != in_use.label {
             cx.send(Message::UseRecipe(Arc::new(now)));
         }
-        let said = match done {
+        let what = match done {
             RecipeDone::Listed => return,
             RecipeDone::Resumed(file) => return self.resume(file, cx),
             RecipeDone::Saved(name) => text!("compare-saved-recipe", name = name.as_str()),
             RecipeDone::Restored(name) => {
-                let said = text!("compare-restored-recipe", name = name.as_str());
+                let what = text!("compare-restored-recipe", name = name.as_str());
                 let undone = Some(UndoDirection::Undo);
                 self.undo.add_inverse(undone, Undo::RemoveRecipe(name));
-                said
+                what
             }
             RecipeDone::Renamed(from, to) => {
                 let [before, now] = [&from, &to].map(PartName::as_str);
@@ -271,10 +271,10 @@ impl CompareState {
                 was_default,
                 way,
             } => {
-                let said = text!("compare-removed-recipe", name = file.name.as_str());
+                let what = text!("compare-removed-recipe", name = file.name.as_str());
                 let inverse = Undo::Recipe { file, was_default };
                 self.undo.add_inverse(way, inverse);
-                said
+                what
             }
             RecipeDone::Default(name) => text!("compare-default-recipe", name = name.as_str()),
             RecipeDone::Imported(name) => {
@@ -286,7 +286,7 @@ impl CompareState {
                 text!("shell-wrote", path = path)
             }
         };
-        self.say(said, cx);
+        self.say(what, cx);
     }
 
     /// Puts the recipe on trial again that was when the last window was closed.

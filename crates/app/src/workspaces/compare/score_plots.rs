@@ -21,25 +21,25 @@ const REFUSED: LineStyle = LineStyle::Dashed { length: 6.0 };
 /// Draws a plot of shares, 0 to 1 on both axes, with its caption.
 fn square<'a>(
     ui: &mut Ui,
-    said: PlotText,
+    texts: PlotText,
     draw: impl FnOnce(&mut PlotUi<'a>) + 'a,
 ) -> PlotTransform {
     let theme = Theme::of(ui);
     let (all, response) = ui.allocate_exact_size(vec2(WIDTH, HEIGHT), Sense::hover());
-    response.widget_info(|| WidgetInfo::labeled(egui::Role::Label, true, &said.words));
-    response.on_hover_text(said.help);
+    response.widget_info(|| WidgetInfo::labeled(egui::Role::Label, true, &texts.words));
+    response.on_hover_text(texts.help);
     let canvas = all.with_max_y(all.bottom() - 18.0);
     ui.painter().rect_filled(canvas, ROUNDING, theme.canvas);
     let at = pos2(canvas.center().x, canvas.bottom() + 4.0);
     let (anchor, colour) = (Align2::CENTER_TOP, theme.weak_text);
     ui.painter()
-        .text(at, anchor, said.caption, font::small(), colour);
+        .text(at, anchor, texts.caption, font::small(), colour);
     let axis = || {
         let marks = [0.0, 0.5, 1.0].map(|value| (value, format!("{value:.1}")));
         Axis::new([0.0, 1.0], marks.to_vec())
     };
     let axes = Axes {
-        title: vec![(said.title, theme.text)],
+        title: vec![(texts.title, theme.text)],
         across: axis(),
         up: axis(),
         font: font::small(),
@@ -62,7 +62,7 @@ struct PlotText {
 /// Draws the share of right guesses over the score. On the diagonal the score is the probability that a guess is right.
 pub(super) fn calibration(ui: &mut Ui, calibration: &Calibration) {
     let theme = Theme::of(ui);
-    let said = PlotText {
+    let texts = PlotText {
         title: text!("compare-calibration"),
         caption: match calibration.expected_error {
             Some(error) => {
@@ -78,7 +78,7 @@ pub(super) fn calibration(ui: &mut Ui, calibration: &Calibration) {
     let bins = bins.filter_map(|bin| Some((bin.num, [bin.mean_score, bin.share_right()?])));
     let bins: Vec<(usize, [f64; 2])> = bins.collect();
     let places: Vec<[f64; 2]> = bins.iter().map(|(_, at)| *at).collect();
-    let shown = square(ui, said, |plot| {
+    let shown = square(ui, texts, |plot| {
         let diagonal = Line::new("", vec![[0.0, 0.0], [1.0, 1.0]]);
         plot.line(diagonal.color(theme.weak_text).width(1.0));
         let colour = theme.first_series;
@@ -120,7 +120,7 @@ pub(super) fn trade_off(ui: &mut Ui, trade_off: &TradeOff, threshold: f64) {
                 enrolled = *num_enrolled,
             )
         });
-    let said = PlotText {
+    let texts = PlotText {
         title: text!("compare-threshold"),
         caption: text!("compare-threshold-caption"),
         words,
@@ -133,7 +133,7 @@ pub(super) fn trade_off(ui: &mut Ui, trade_off: &TradeOff, threshold: f64) {
     };
     let wrong = curve(&|step| share(step.num_wrong_accepted, *num_cases));
     let refused = curve(&|step| share(step.num_refused, *num_enrolled));
-    let shown = square(ui, said, |plot| {
+    let shown = square(ui, texts, |plot| {
         plot.line(refused.color(theme.first_series).style(REFUSED));
         plot.line(wrong.color(theme.rejected));
         plot.vline(VLine::new("", threshold).color(theme.text));

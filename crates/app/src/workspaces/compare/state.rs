@@ -83,7 +83,7 @@ pub struct CompareState {
     /// Watches for changes of the kept cases by other programs.
     watch: FolderWatch,
     /// The last notice of something done; the next one replaces it.
-    said: Option<Notice>,
+    last_notice: Option<Notice>,
 }
 
 /// The case in front.
@@ -180,7 +180,7 @@ impl CompareState {
             followed: None,
             is_listed: false,
             watch: FolderWatch::new("case-watch", runner),
-            said: None,
+            last_notice: None,
         }
     }
 
@@ -384,31 +384,31 @@ impl CompareState {
         way: Option<UndoDirection>,
         cx: &mut ShellContext<'_>,
     ) {
-        let (said, inverse) = match done {
+        let (what, inverse) = match done {
             CaseDone::Listed => return,
             CaseDone::Kept(case) => {
                 self.remark.clear();
-                let said = text!("compare-kept-as", name = &case.name);
-                (said, CaseEdit::Remove(case.name))
+                let what = text!("compare-kept-as", name = &case.name);
+                (what, CaseEdit::Remove(case.name))
             }
             CaseDone::Removed { name, trash } => {
                 if matches!(&self.front, Front::Kept(case) if case.name == name) {
                     self.front_scene();
                 }
-                let said = text!("compare-removed-case", name = &name);
-                (said, CaseEdit::Restore { name, from: trash })
+                let what = text!("compare-removed-case", name = &name);
+                (what, CaseEdit::Restore { name, from: trash })
             }
             CaseDone::Restored(name) => {
-                let said = text!("compare-restored-case", name = &name);
-                (said, CaseEdit::Remove(name))
+                let what = text!("compare-restored-case", name = &name);
+                (what, CaseEdit::Remove(name))
             }
             CaseDone::TruthSet { name, before } => {
-                let said = text!("compare-truth-saved", name = &name);
+                let what = text!("compare-truth-saved", name = &name);
                 let truth = before;
-                (said, CaseEdit::SetTruth { name, truth })
+                (what, CaseEdit::SetTruth { name, truth })
             }
         };
-        self.say(said, cx);
+        self.say(what, cx);
         let inverse = Undo::Cases(folder.clone(), inverse);
         self.undo.add_inverse(way, inverse);
     }
@@ -416,7 +416,7 @@ impl CompareState {
     /// Shows a notice of something done, in place of the one before.
     pub(super) fn say(&mut self, what: String, cx: &mut ShellContext<'_>) {
         let notice = Notice::done(what);
-        if let Some(before) = self.said.replace(notice.clone()) {
+        if let Some(before) = self.last_notice.replace(notice.clone()) {
             cx.send(Message::Retract(before));
         }
         cx.notify(notice);

@@ -72,12 +72,12 @@ pub(super) fn ui(ui: &mut Ui, form: &Form) -> Option<Field> {
 /// Draws what is wrong and what to do.
 pub(super) fn complaint(ui: &mut Ui, what: &str, advice: &str) {
     let theme = Theme::of(ui);
-    said(ui, Mark::Look, what);
+    remark(ui, Mark::Look, what);
     ui.label(RichText::new(advice).color(theme.warning));
 }
 
 /// Draws a mark and a sentence.
-pub(super) fn said(ui: &mut Ui, sign: Mark, text: &str) {
+pub(super) fn remark(ui: &mut Ui, sign: Mark, text: &str) {
     ui.horizontal_top(|ui| {
         line_mark(ui, 18.0, 8.0, sign);
         let mut letters = text.chars();

@@ -7,7 +7,7 @@ use egui::{
 use super::{
     EnrolAction, EnrolState,
     draft::{Draft, Field, Form},
-    fields::{self, complaint, said},
+    fields::{self, complaint, remark},
     thumbnails::{Thumbnails, paint_fitted},
     title_of,
 };
@@ -171,7 +171,7 @@ fn stored(
             complaint(ui, &what, &advice);
         }
         None if !is_working => {
-            said(ui, Mark::Look, &text!("enrol-stored-unknown"));
+            remark(ui, Mark::Look, &text!("enrol-stored-unknown"));
             if text_button(ui, &text!("enrol-look-again")).clicked() {
                 actions.push(EnrolAction::LookAgain);
             }
@@ -273,7 +273,7 @@ fn likeness(ui: &mut Ui, draft: &Draft, session: &Session, actions: &mut Vec<Enr
     ui.add_space(space::MEDIUM);
     ui.label(text);
     if likeness.is_distinguishable() {
-        said(ui, Mark::Good, &text!("enrol-distinguishable"));
+        remark(ui, Mark::Good, &text!("enrol-distinguishable"));
         return;
     }
     let what = text!("enrol-indistinguishable");

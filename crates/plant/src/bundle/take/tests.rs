@@ -209,11 +209,11 @@ fn an_older_version_is_taken_only_when_it_is_asked_for() {
     let newest = plant.path("store").join(manifest_name(2));
     fs::rename(&newest, plant.path("hidden")).expect("moved");
     let older = plant.take_newest().expect_err("older");
-    let told = BundleError::Older {
+    let reply = BundleError::Older {
         found: 1,
         installed: 2,
     };
-    assert_eq!(older.to_string(), told.to_string());
+    assert_eq!(older.to_string(), reply.to_string());
     assert!(older.advice().contains("--version 1"), "{}", older.advice());
     assert_eq!(contents(&plant.cell()), contents(&plant.library()));
     let back = plant.take(Some(1), LocalParts::Keep).expect("asked for");

@@ -75,9 +75,9 @@ fn a_kept_scene_opens_again_bit_for_bit_with_the_same_verdict() {
     };
     let before = found_in(&scene);
     assert!(before.accepted);
-    let mut said = about("Simulated frame 4");
-    said.found = before.clone();
-    let kept = cases.keep(&scene, said).expect("kept");
+    let mut problems = about("Simulated frame 4");
+    problems.found = before.clone();
+    let kept = cases.keep(&scene, problems).expect("kept");
     assert_eq!(kept.name, "simulated_frame_4");
     // The readings end inside the picture, which a depth image cannot express.
     assert_eq!(kept.meta.scene.file, "scene.pcd");
@@ -132,12 +132,16 @@ fn a_damaged_case_is_named_and_the_others_load() {
     let list = cases.list().expect("listed");
     let sound: Vec<_> = list.cases.iter().map(|case| case.name.as_str()).collect();
     assert_eq!(sound, ["sound", "swapped"]);
-    let said: Vec<String> = list.problems.iter().map(ToString::to_string).collect();
-    for (said, name) in said.iter().zip(names) {
-        assert!(said.contains(name), "{said}");
+    let problems: Vec<String> = list.problems.iter().map(ToString::to_string).collect();
+    for (problems, name) in problems.iter().zip(names) {
+        assert!(problems.contains(name), "{problems}");
     }
-    assert_eq!(said.len(), 5);
-    assert!(said[4].ends_with("scene.pcd is missing"), "{}", said[4]);
+    assert_eq!(problems.len(), 5);
+    assert!(
+        problems[4].ends_with("scene.pcd is missing"),
+        "{}",
+        problems[4]
+    );
     assert!(
         list.problems
             .iter()

@@ -158,7 +158,7 @@ fn sound_pairs_are_not_suspected() {
 fn poses_the_wrong_way_round_are_told() {
     over_cells(20, |cell, random| {
         let sound = cell.pairs(10, 0.7, noise(0.5, 0.1), random);
-        let told = |pairs: &[PosePair]| match solve(pairs, cell.mount) {
+        let reply = |pairs: &[PosePair]| match solve(pairs, cell.mount) {
             Ok(found) => found.doubts.first().cloned(),
             Err(error) => panic!("{error}"),
         };
@@ -175,7 +175,7 @@ fn poses_the_wrong_way_round_are_told() {
                     pair.camera_from_target.inverse_mut();
                 }
             }
-            let doubt = told(&pairs);
+            let doubt = reply(&pairs);
             assert!(
                 matches!(doubt, Some(HandEyeDoubt::Mistaken { mistake, .. }) if mistake == expected),
                 "{expected:?}: {doubt:?}"

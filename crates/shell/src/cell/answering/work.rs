@@ -184,7 +184,7 @@ pub(super) fn answer(
             last: None,
             problem: None,
         },
-        told: None,
+        sent: None,
     };
     server.run(&mut session);
     Ok(session.finish())
@@ -243,7 +243,7 @@ struct AnsweringSession<'a> {
     /// The part of the last answer.
     part: Option<AnsweredPart>,
     status: AnsweringStatus,
-    told: Option<AnsweringStatus>,
+    sent: Option<AnsweringStatus>,
 }
 
 /// An inspection to be kept in the history.
@@ -263,13 +263,13 @@ struct AnsweredPart {
     /// Which part it is as far as was known when its frame came, then also as Live saw it.
     hung: Vec<HungId>,
     /// Tells what Live saw.
-    told: Receiver<HungId>,
+    hung_reports: Receiver<HungId>,
 }
 
 impl AnsweredPart {
     /// What it really is, if a person has reported it as wrong.
     fn reported_as(&mut self, parts: &Mutex<FollowedParts>) -> Option<Truth> {
-        self.hung.extend(self.told.try_recv().ok());
+        self.hung.extend(self.hung_reports.try_recv().ok());
         let parts = lock(parts);
         let mut hung = self.hung.iter();
         hung.find_map(|hung| parts.reported_as(hung, &self.name))
@@ -295,7 +295,8 @@ impl Inspector for AnsweringSession<'_> {
         // At once: by the end of the inspection another part may hang there.
         let mut parts = lock(self.parts);
         let hung = vec![parts.part_now(&source, true)];
-        let [part, told] = [(); 2].map(|()| parts.part_of_frame(source.clone(), captured.arrived));
+        let [part, hung_reports] =
+            [(); 2].map(|()| parts.part_of_frame(source.clone(), captured.arrived));
         drop(parts);
         let num_dropped = self.camera.feed_status().num_dropped;
         let origin = Origin::of_capture(&captured, spec, num_dropped);
@@ -322,7 +323,7 @@ impl Inspector for AnsweringSession<'_> {
         let mut answered_part = AnsweredPart {
             name: found.part.clone(),
             hung,
-            told,
+            hung_reports,
         };
         if found.verdict == VerdictCode::Accepted
             && let Some(actual) = answered_part.reported_as(self.parts)
@@ -499,8 +500,8 @@ impl AnsweringSession<'_> {
         self.status.num_clients = self.handle.num_clients();
         let problem = self.unkept.as_ref().or(self.unnumbered.as_ref());
         self.status.problem = problem.cloned();
-        if self.told.as_ref() != Some(&self.status) {
-            self.told = Some(self.status.clone());
+        if self.sent.as_ref() != Some(&self.status) {
+            self.sent = Some(self.status.clone());
             self.context.latest(self.status.clone());
         }
     }

@@ -334,16 +334,16 @@ fn take_record(state: &mut State, record: LiveRecord) -> Option<Event> {
 /// Handles an answer of the task.
 fn receive(state: &mut State, answer: LiveAnswer) {
     match answer {
-        LiveAnswer::Stands(told) if state.session.is_live() => {
-            watch_source(state, &told.status.source);
+        LiveAnswer::Stands(received) if state.session.is_live() => {
+            watch_source(state, &received.status.source);
             // The window may have missed the loss itself.
-            let is_lost = matches!(told.status.source, SourceState::Lost(_));
-            if is_lost || (told.inspected.is_none() && told.status.num_inspected > 0) {
+            let is_lost = matches!(received.status.source, SourceState::Lost(_));
+            if is_lost || (received.inspected.is_none() && received.status.num_inspected > 0) {
                 outdate_shown(state);
             }
-            state.session.live.status = Some(told.status);
+            state.session.live.status = Some(received.status);
             // Every capture of a folder is recorded, and a record may be of a later one that has no verdict.
-            if let Some(inspected) = told.inspected
+            if let Some(inspected) = received.inspected
                 && !state.session.is_watching()
             {
                 show(state, inspected);
@@ -654,11 +654,11 @@ mod tests {
             state.follower.recorder.send(record).expect("room");
         }
         update(state);
-        let told = LiveStatusUpdate {
-            status: told(),
+        let received = LiveStatusUpdate {
+            status: running(),
             inspected: Some(Arc::clone(inspected)),
         };
-        receive(state, LiveAnswer::Stands(Box::new(told)));
+        receive(state, LiveAnswer::Stands(Box::new(received)));
     }
 
     #[test]
@@ -790,10 +790,10 @@ mod tests {
         // None depends on a recording.
         state.session.live.recording = Some("recorded".into());
         apply_any(&mut state, Action::Live(LiveAction::ToggleRecording));
-        state.session.live.status = Some(told());
+        state.session.live.status = Some(running());
         assert!(state.session.current_result().is_some());
         apply_any(&mut state, Action::Live(LiveAction::Average(4)));
-        state.session.live.status = Some(told());
+        state.session.live.status = Some(running());
         assert!(state.session.current_result().is_none() && state.session.is_old());
     }
 
@@ -811,7 +811,7 @@ mod tests {
             assert!(state.session.shown.is_some() && !state.session.is_old());
             apply_any(&mut state, choose);
             // Neither while the source has given nothing, nor when the user gives up waiting for it.
-            state.session.live.status = Some(told());
+            state.session.live.status = Some(running());
             assert!(state.session.current_result().is_none() && state.session.is_old());
             if state.session.is_live() {
                 toggle(&mut state);
@@ -880,9 +880,9 @@ mod tests {
         toggle(&mut state);
         state.show_past(inspected);
         assert!(!state.session.is_live());
-        let said = state.notices.last().expect("said");
-        assert!(said.what.starts_with("Live stopped"), "{said:?}");
-        assert!(said.advice.contains("start Live again"), "{said:?}");
+        let notice = state.notices.last().expect("said");
+        assert!(notice.what.starts_with("Live stopped"), "{notice:?}");
+        assert!(notice.advice.contains("start Live again"), "{notice:?}");
         toggle(&mut state);
         assert!(state.notices.is_empty(), "{:?}", state.notices);
     }
@@ -950,7 +950,7 @@ mod tests {
         assert!(state.follower.is_idle());
         toggle(&mut state);
         let before = state.follower.session;
-        state.session.live.status = Some(told());
+        state.session.live.status = Some(running());
         apply_any(&mut state, Action::Live(LiveAction::Average(99)));
         assert!(
             state.session.live.status.is_none() && at_work(&state) == Some("Live"),
@@ -976,16 +976,19 @@ mod tests {
             advice: "Check it".into(),
         });
         for source in [lost, SourceState::Running] {
-            let status = LiveStatus { source, ..told() };
+            let status = LiveStatus {
+                source,
+                ..running()
+            };
             let inspected = None;
-            let told = LiveStatusUpdate { status, inspected };
-            receive(&mut state, LiveAnswer::Stands(Box::new(told)));
+            let received = LiveStatusUpdate { status, inspected };
+            receive(&mut state, LiveAnswer::Stands(Box::new(received)));
             let shown = state.session.shown.as_ref().expect("kept");
             assert!(shown.is_outdated);
         }
     }
 
-    fn told() -> LiveStatus {
+    fn running() -> LiveStatus {
         LiveStatus {
             source: SourceState::Running,
             stillness: None,

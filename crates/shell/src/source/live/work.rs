@@ -226,7 +226,7 @@ struct LiveSession<'a> {
     /// Frames that the source had dropped before the start.
     dropped_before: u64,
     inspected: Option<Arc<Inspected>>,
-    told: Option<LiveStatus>,
+    sent: Option<LiveStatus>,
 }
 
 /// Passes cancellation on but no stages: frames come too fast to read them.
@@ -261,7 +261,7 @@ impl<'a> LiveSession<'a> {
             num_inspected: 0,
             dropped_before: 0,
             inspected: None,
-            told: None,
+            sent: None,
         }
     }
 
@@ -331,7 +331,7 @@ impl<'a> LiveSession<'a> {
         };
         send(&self.request.recorder, record);
         // The next status is published, which wakes the window.
-        self.told = None;
+        self.sent = None;
     }
 
     /// Inspects a capture again, as another inspection of its part.
@@ -519,16 +519,16 @@ impl<'a> LiveSession<'a> {
             num_averaged: self.watch.as_ref().map_or(1, LiveTracker::num_averaged),
             recorded: self.recorded.clone(),
         };
-        let is_news = self.told.as_ref().is_none_or(|told| {
-            told.num_inspected != status.num_inspected || told.source != status.source
+        let is_news = self.sent.as_ref().is_none_or(|sent| {
+            sent.num_inspected != status.num_inspected || sent.source != status.source
         });
         if is_news {
-            self.told = Some(status.clone());
-            let told = LiveStatusUpdate {
+            self.sent = Some(status.clone());
+            let update = LiveStatusUpdate {
                 status,
                 inspected: self.inspected.clone(),
             };
-            self.context.latest(LiveAnswer::Stands(Box::new(told)));
+            self.context.latest(LiveAnswer::Stands(Box::new(update)));
         }
     }
 }

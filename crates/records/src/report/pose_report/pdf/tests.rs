@@ -10,7 +10,7 @@ fn texts(report: &PoseReport, pictures: &PdfPictures<'_>) -> Vec<(String, Area)>
     sheet.texts
 }
 
-fn said(report: &PoseReport, pictures: &PdfPictures<'_>) -> String {
+fn text_of(report: &PoseReport, pictures: &PdfPictures<'_>) -> String {
     let texts: Vec<String> = texts(report, pictures)
         .into_iter()
         .map(|(text, _)| text)
@@ -39,10 +39,10 @@ fn is_tidy(report: &PoseReport, pictures: &PdfPictures<'_>, what: &str) {
 #[test]
 fn a_part_that_was_reported_as_wrong_is_not_called_accepted() {
     let report = reported();
-    let said = said(&report, &PdfPictures::default());
-    assert!(said.contains("REPORTED AS WRONG"), "{said}");
-    assert!(said.contains("really hung there: back door"), "{said}");
-    assert!(!said.lines().any(|line| line == "Accepted"), "{said}");
+    let text = text_of(&report, &PdfPictures::default());
+    assert!(text.contains("REPORTED AS WRONG"), "{text}");
+    assert!(text.contains("really hung there: back door"), "{text}");
+    assert!(!text.lines().any(|line| line == "Accepted"), "{text}");
     is_tidy(&report, &PdfPictures::default(), "reported as wrong");
 }
 
@@ -58,13 +58,13 @@ fn the_page_says_why_a_robot_must_not_move_by_the_pose() {
         let doubts = [old()];
         let frames = [Some(&frame), for_robot];
         let report = door().doubted(inspection, frames, &doubts, Convention::Kuka);
-        let said = said(&report, &PdfPictures::default());
-        assert!(said.contains("RECOGNISED: do not move"), "{said}");
-        assert!(!said.lines().any(|line| line == "Accepted"), "{said}");
-        let said = said.replace('\n', " ");
-        assert!(said.contains(&format!("{says}{why}")), "{said}");
-        let gives = said.contains("robot_from_part: the pose");
-        assert_eq!(gives, for_robot.is_some(), "{said}");
+        let text = text_of(&report, &PdfPictures::default());
+        assert!(text.contains("RECOGNISED: do not move"), "{text}");
+        assert!(!text.lines().any(|line| line == "Accepted"), "{text}");
+        let text = text.replace('\n', " ");
+        assert!(text.contains(&format!("{says}{why}")), "{text}");
+        let gives = text.contains("robot_from_part: the pose");
+        assert_eq!(gives, for_robot.is_some(), "{text}");
         is_tidy(&report, &PdfPictures::default(), says);
     }
 }
@@ -117,7 +117,7 @@ fn every_kind_of_report_fits_on_the_page() {
 #[test]
 fn the_page_says_the_pose_in_the_robots_numbers() {
     let report = door().report(Some(&robot()), Convention::Fanuc);
-    let said = said(
+    let text = text_of(
         &report,
         &PdfPictures {
             title: Some("Front door, left"),
@@ -126,7 +126,7 @@ fn the_page_says_the_pose_in_the_robots_numbers() {
     );
     let block = report.robot.robot_from_part.as_ref().expect("a pose");
     for value in &block.in_convention.values {
-        assert!(said.contains(&value.rounded()), "{value:?}\n{said}");
+        assert!(text.contains(&value.rounded()), "{value:?}\n{text}");
     }
     for words in [
         "Front door, left",
@@ -137,30 +137,30 @@ fn the_page_says_the_pose_in_the_robots_numbers() {
         "2026-03-04 05:06:07 UTC",
         "FANUC W P R",
     ] {
-        assert!(said.contains(words), "{words}\n{said}");
+        assert!(text.contains(words), "{words}\n{text}");
     }
-    assert!(!said.contains("NOT ACCEPTED"));
+    assert!(!text.contains("NOT ACCEPTED"));
 }
 
 #[test]
 fn a_refused_part_has_no_number_on_the_page_that_a_robot_takes() {
     let report = refused().report(Some(&robot()), Convention::Kuka);
-    let said = said(&report, &PdfPictures::default());
+    let text = text_of(&report, &PdfPictures::default());
     assert!(
-        said.contains("NOT ACCEPTED: do not move on this pose")
-            && said.contains("No pose is given")
+        text.contains("NOT ACCEPTED: do not move on this pose")
+            && text.contains("No pose is given")
     );
-    assert!(said.contains("Unknown part") && !said.contains("\nAccepted"));
-    assert!(said.contains("Source\na simulation"), "{said}");
+    assert!(text.contains("Unknown part") && !text.contains("\nAccepted"));
+    assert!(text.contains("Source\na simulation"), "{text}");
     assert!(
-        said.contains(", margin ") && !said.contains("ahead of"),
-        "{said}"
+        text.contains(", margin ") && !text.contains("ahead of"),
+        "{text}"
     );
     let refused = report.refused_pose.as_ref().expect("a pose");
     for value in &refused.camera_from_part.in_convention.values {
-        assert!(!said.contains(&value.rounded()), "{value:?}\n{said}");
+        assert!(!text.contains(&value.rounded()), "{value:?}\n{text}");
     }
-    assert!(!said.contains("robot_from_part"));
+    assert!(!text.contains("robot_from_part"));
 }
 
 #[test]
@@ -169,8 +169,8 @@ fn the_page_names_no_part_that_is_not_like_it() {
     (report.verdict.part, report.verdict.nearest) = (None, Some("grille".into()));
     for (score, is_named) in [(0.3, true), (0.01, false)] {
         report.verdict.score = Some(score);
-        let said = said(&report, &PdfPictures::default());
-        assert_eq!(said.contains("Nearest enrolled part: grille"), is_named);
+        let text = text_of(&report, &PdfPictures::default());
+        assert_eq!(text.contains("Nearest enrolled part: grille"), is_named);
     }
 }
 
@@ -189,10 +189,10 @@ fn a_refused_part_that_was_recognised_is_called_by_its_title() {
         (0.97, 0.43, "Part not accepted"),
     ] {
         (report.verdict.score, report.verdict.margin) = (Some(score), Some(margin));
-        let said = said(&report, &pictures);
-        assert!(said.contains(headline) && said.contains("NOT ACCEPTED"));
-        let is_below = said.contains("Nearest enrolled part: Real door");
-        assert_eq!(is_below, headline != "Real door", "{said}");
+        let text = text_of(&report, &pictures);
+        assert!(text.contains(headline) && text.contains("NOT ACCEPTED"));
+        let is_below = text.contains("Nearest enrolled part: Real door");
+        assert_eq!(is_below, headline != "Real door", "{text}");
     }
 }
 
@@ -202,14 +202,14 @@ fn usual_texts_are_not_cut() {
     report.seen_by = SeenBy::NotKnown;
     let calibration = "an unnamed calibration (3b2f68d5)";
     report.robot.calibration = Some(calibration.into());
-    let said = said(&report, &PdfPictures::default());
+    let text = text_of(&report, &PdfPictures::default());
     for words in [
         SeenBy::NotKnown.describe(),
         "calibration: an unnamed calibration (3b2f68d5)",
     ] {
-        assert!(said.contains(words), "{words}\n{said}");
+        assert!(text.contains(words), "{words}\n{text}");
     }
-    assert_eq!(said.matches(calibration).count(), 2);
+    assert_eq!(text.matches(calibration).count(), 2);
 }
 
 #[test]
