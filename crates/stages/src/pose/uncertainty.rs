@@ -98,7 +98,7 @@ const REGION_SHARE: f64 = 0.5;
 /// Scatter of turns and shifts divided by that of the model, on parts of other cars in frames of the tuning seeds, with
 /// every kind of camera (`partsight bench bounds --seed 3000000`).
 const TURN_FACTOR: f64 = 1.1;
-const SHIFT_FACTOR: f64 = 1.5;
+const SHIFT_FACTOR: f64 = 1.55;
 
 /// The bounds of a pose that a refinement at this level ended at, from the closest points of the source's surface. The
 /// source was seen in `num_views` frames, which err independently in what the residuals do not show.
