@@ -584,7 +584,9 @@ fn the_report_of_an_inspection_is_written_and_a_bad_folder_is_a_notice() {
     let record = &shown.expect("a result").inspected.entry.record;
     assert_eq!(record.summary.source, "simulated cell");
     assert_eq!(report["source"], "simulated cell");
-    assert_eq!(report["pose"]["usable"], true);
+    // Without a calibration no robot may act on it.
+    assert_eq!(report["pose"]["usable"], false);
+    assert_eq!(report["robot"]["doubts"][0]["kind"], "not_calibrated");
     let pdf = fs::read(out.join("simulated_1.pose.pdf")).expect("written");
     assert!(pdf.starts_with(b"%PDF-"));
     let table = fs::read_to_string(out.join("poses.matrix.csv")).expect("written");

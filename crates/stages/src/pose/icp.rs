@@ -55,6 +55,7 @@ pub fn icp(
     let mut iterations = Vec::new();
     let mut stopped = Stopped::IterationLimit;
     let mut pairs: Vec<(Point3<f64>, Point3<f64>)> = Vec::with_capacity(source.len());
+    let mut closest: Vec<Option<usize>> = vec![None; source.len()];
     for _ in 0..params.max_iterations {
         if is_cancelled() {
             return Err(PoseError::Cancelled);
@@ -62,10 +63,18 @@ pub fn icp(
         let moved = pose.cast::<f32>();
         pairs.clear();
         let mut sum_sq = 0.0;
-        for p in source {
-            if let Some(n) = target_tree.nearest(&(moved * p), f32::INFINITY) {
-                sum_sq += f64::from(n.distance_sq);
-                pairs.push((p.cast(), target[n.index].cast()));
+        for (p, closest) in source.iter().zip(&mut closest) {
+            let at = moved * p;
+            // Nothing farther away than the closest point of the step before needs to be looked at.
+            let mut distance_sq =
+                closest.map_or(f32::INFINITY, |before| (target[before] - at).norm_squared());
+            if let Some(closer) = target_tree.nearest(&at, distance_sq) {
+                *closest = Some(closer.index);
+                distance_sq = closer.distance_sq;
+            }
+            if let Some(index) = *closest {
+                sum_sq += f64::from(distance_sq);
+                pairs.push((p.cast(), target[index].cast()));
             }
         }
         // Eq. (12)
