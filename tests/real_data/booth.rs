@@ -7,6 +7,7 @@ use partsight::{
     files::{FileContent, open},
     geometry::{
         cloud::{PointCloud, is_finite},
+        parallel::{map_each, num_cores},
         rigid::{RigidTransform, from_row_major, pose_error},
     },
     library::{
@@ -400,11 +401,12 @@ fn a_camera_that_moves_before_a_part_is_never_told_as_a_part_that_moved() {
             Some((frame, view.ok()?))
         })
         .collect();
-    let (mut num_compared, mut num_told) = (0, 0);
-    for (before, before_view) in &views {
+    let compared = map_each(views.len(), num_cores(), |i| {
+        let (before, before_view) = &views[i];
         let one = std::slice::from_ref(before_view);
         let baseline =
             CellBaseline::new(one, CellLimits::default(), false, at).expect("a baseline");
+        let (mut num_compared, mut num_told) = (0, 0);
         for (now, now_view) in views.iter().filter(|(now, _)| now.part == before.part) {
             let Ok(found) = baseline.check(std::slice::from_ref(now_view), false, at) else {
                 continue;
@@ -425,7 +427,10 @@ fn a_camera_that_moves_before_a_part_is_never_told_as_a_part_that_moved() {
                 finding => assert_eq!(finding, CellFinding::PartOrCameraMoved, "{found:?}"),
             }
         }
-    }
+        [num_compared, num_told]
+    });
+    let sum = |which: usize| compared.iter().map(|nums| nums[which]).sum::<usize>();
+    let [num_compared, num_told] = [sum(0), sum(1)];
     println!("{num_compared} pairs compared, {num_told} told as a camera that moved");
     assert!(num_compared >= 4 && num_told >= 2);
 }

@@ -7,7 +7,7 @@ use std::{
     panic::resume_unwind,
     path::Path,
     process::{self, Command},
-    thread,
+    thread::{self, ScopedJoinHandle},
 };
 
 use geometry::error::Advice;
@@ -98,9 +98,12 @@ const KILLED: &str = "PARTSIGHT_TEST_KILLED_AT";
 /// More calls than any writer makes.
 const MOST_CALLS: u32 = 1000;
 
-/// The first call, counted from 0, that a writer does not make; `makes` returns whether it makes one.
-fn first_without(makes: impl Fn(u32) -> bool) -> u32 {
-    (0..MOST_CALLS).find(|&at| !makes(at)).expect("it ends")
+/// Number of child processes at once.
+const NUM_CHILDREN: u32 = 4;
+
+/// The first of these calls, counted from 0, that a writer does not make; `makes` returns whether it makes one.
+fn first_without(mut calls: impl Iterator<Item = u32>, makes: impl Fn(u32) -> bool) -> u32 {
+    calls.find(|&at| !makes(at)).expect("it ends")
 }
 
 /// A writer under test.
@@ -149,15 +152,22 @@ impl Writer<'_> {
                     has_struck: false,
                 };
                 let (old, new) = (&old, &new);
-                scope.spawn(move || first_without(|at| self.survives(plan(at), old, new)))
+                let survives = move |at| self.survives(plan(at), old, new);
+                scope.spawn(move || first_without(0..MOST_CALLS, survives))
             });
             let fails: Vec<_> = fails.collect();
-            let killed = first_without(|at| self.survives_being_killed(at, &old, &new));
-            let fails = fails.into_iter().map(|thread| {
+            let kills = (0..NUM_CHILDREN).map(|first| {
+                let calls = (first..MOST_CALLS).step_by(NUM_CHILDREN as usize);
+                let survives = |at| self.survives_being_killed(at, &old, &new);
+                scope.spawn(move || first_without(calls, survives))
+            });
+            let kills: Vec<_> = kills.collect();
+            let joined = |thread: ScopedJoinHandle<'_, u32>| {
                 let failed = thread.join();
                 failed.unwrap_or_else(|panic| resume_unwind(panic))
-            });
-            fails.chain([killed]).collect()
+            };
+            let killed = kills.into_iter().map(joined).min();
+            fails.into_iter().map(joined).chain(killed).collect()
         });
         assert!(num_calls.iter().all(|&num| num > 0), "{num_calls:?}");
         eprintln!("{}: calls that failed: {num_calls:?}", self.test);
