@@ -8,7 +8,7 @@ use partsight::{
     pipeline::NamedRecipe, report::InspectionLine, run,
 };
 use pyo3::{exceptions::PyKeyboardInterrupt, prelude::*};
-use station::{Inspected, Subject};
+use station::{Doubt, Inspected, Subject};
 
 use crate::{
     arrays::{matrix_of, points_of, shape_of},
@@ -122,8 +122,10 @@ impl Inspection {
     /// may, as far as is known without the cell's calibration.
     #[getter]
     fn robot_doubts(&self) -> Vec<&'static str> {
-        let doubts = self.recorded().doubt_blocks();
-        doubts.iter().map(|doubt| doubt.kind).collect()
+        let doubts = self.recorded().doubts().into_iter();
+        // The caller has the calibration.
+        let of_result = doubts.filter(|doubt| *doubt != Doubt::NotCalibrated);
+        of_result.map(|doubt| doubt.kind()).collect()
     }
 
     /// True if the segmented part reaches the edge of the picture, so that some of it may be missing.

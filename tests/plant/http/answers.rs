@@ -153,6 +153,12 @@ fn a_refused_part_and_a_stale_pose_have_no_numbers() {
         assert_eq!(line["status"], "ok");
         assert_eq!((line.get("pose"), line.get("robot")), (None, None));
         let text = client.get("/v1/report").text;
+        let mut answer: Value = serde_json::from_str(&text).expect("JSON");
+        // Boot number and age may have any digits.
+        for name in ["boot", "age_ms"] {
+            answer[name] = Value::Null;
+        }
+        let text = answer.to_string();
         assert!(!text.contains("250") && !text.contains("rms_m"), "{text}");
     }
 }
