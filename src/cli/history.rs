@@ -386,6 +386,11 @@ pub(super) fn show_rows(rows: &[CellRow<'_>], asked: &ListArgs, console: &mut Co
     if has_traces {
         heading.extend(["SERIAL", "ORDER", "OPERATOR"]);
     }
+    let doubts = |row: &Summary| row.robot_marks().robot_doubts;
+    let has_doubts = rows.iter().any(|(_, row)| !doubts(row).is_empty());
+    if has_doubts {
+        heading.push("NOT FOR ROBOTS");
+    }
     let has_cells = rows.iter().any(|(cell, _)| cell.is_some());
     if has_cells {
         heading.insert(0, "CELL");
@@ -399,7 +404,9 @@ pub(super) fn show_rows(rows: &[CellRow<'_>], asked: &ListArgs, console: &mut Co
         } = row.trace.clone();
         let trace = has_traces.then_some([serial, order, operator]);
         let cell = cell.map(str::to_owned).into_iter();
-        table.row(cell.chain(cells(row)).chain(trace.into_iter().flatten()));
+        let trace = trace.into_iter().flatten();
+        let doubts = has_doubts.then(|| doubts(row).join(", "));
+        table.row(cell.chain(cells(row)).chain(trace).chain(doubts));
     }
     console.table(&table);
 }

@@ -329,6 +329,13 @@ fn an_old_capture_is_in_no_output_a_pose_for_the_robot_unless_it_is_forced() {
     assert_eq!(forced["robot_doubts"], line["robot_doubts"]);
     let rows = place.accepted(&["history", "list", "--json"]).lines();
     let number = rows[1]["number"].to_string();
+    assert_eq!(rows[1]["robot_doubts"], line["robot_doubts"]);
+    assert!(rows[2].get("robot_doubts").is_none(), "{}", rows[2]);
+    let table = place.accepted(&["history", "list"]).out;
+    let columns: Vec<&str> = table.lines().map(str::trim_end).collect();
+    assert!(columns[0].ends_with("NOT FOR ROBOTS"), "{table}");
+    assert!(columns[2].ends_with("old"), "{table}");
+    assert!(columns[3].ends_with('-'), "{table}");
     let record = place.accepted(&["history", "show", &number, "--json"]);
     assert_eq!(record.json()["line"], line);
     let shown = place.accepted(&["history", "show", &number]).out;

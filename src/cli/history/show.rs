@@ -46,6 +46,9 @@ struct RowLine<'a> {
     reinspections: usize,
     /// Title of the part of which it is the mirror image; null if it is none.
     mirror_of: Option<&'a str>,
+    /// Why a robot must not act on the pose.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    robot_doubts: Vec<String>,
     /// `serial`, `order` and `operator`, as far as known.
     #[serde(flatten)]
     trace: &'a Traceability,
@@ -74,6 +77,7 @@ impl<'a> RowLine<'a> {
             parent: row.parent,
             reinspections: row.num_below,
             mirror_of: row.mirror_of(),
+            robot_doubts: row.robot_marks().robot_doubts,
             trace: &row.trace,
             cell,
         }
