@@ -122,10 +122,8 @@ impl Inspection {
     /// may, as far as is known without the cell's calibration.
     #[getter]
     fn robot_doubts(&self) -> Vec<&'static str> {
-        let doubts = self.recorded().doubts().into_iter();
-        // The caller has the calibration.
-        let of_result = doubts.filter(|doubt| *doubt != Doubt::NotCalibrated);
-        of_result.map(|doubt| doubt.kind()).collect()
+        let doubts = self.recorded().doubts_if_calibrated();
+        doubts.iter().map(Doubt::kind).collect()
     }
 
     /// True if the segmented part reaches the edge of the picture, so that some of it may be missing.

@@ -137,11 +137,11 @@ fn a_kill_at_any_moment_loses_at_most_the_inspection_in_flight() {
         let reply = reply.unwrap_or(known);
         assert!(
             reply <= newest,
-            "kill {kill}: {reply} was told, {newest} is there"
+            "kill {kill}: {reply} was reported as written, {newest} is there"
         );
         assert!(
             newest <= reply + 1,
-            "kill {kill}: {reply} was told, {newest} is there"
+            "kill {kill}: {reply} was reported as written, {newest} is there"
         );
         num_in_flight += newest - reply;
         for number in known + 1..=newest {

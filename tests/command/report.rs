@@ -340,7 +340,7 @@ fn an_old_capture_is_in_no_output_a_pose_for_the_robot_unless_it_is_forced() {
     assert_eq!(record.json()["line"], line);
     let shown = place.accepted(&["history", "show", &number]).out;
     assert!(
-        shown.contains("must not act on this pose: the capture was more than 10 minutes old"),
+        shown.contains("Not for robots: the capture was more than 10 minutes old"),
         "{shown}"
     );
     place.accepted(&["history", "export", "--csv", "all.csv"]);

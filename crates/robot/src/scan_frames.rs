@@ -82,7 +82,7 @@ impl Advice for ScanFramesError {
     }
 }
 
-/// Reads the frames of one folder or recording, or the files given. `told` receives the progress and may cancel.
+/// Reads the frames of one folder or recording, or the files given. `observer` receives the progress and may cancel.
 pub fn read_frames(
     paths: &[PathBuf],
     observer: &mut dyn FnMut(FrameNews<'_>) -> ControlFlow<()>,

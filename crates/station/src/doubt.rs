@@ -150,6 +150,13 @@ impl Inspected<'_> {
         doubts.into_iter().flatten().collect()
     }
 
+    /// The doubts for someone who has the camera's pose in the robot's cell.
+    pub fn doubts_if_calibrated(&self) -> Vec<Doubt> {
+        let mut doubts = self.doubts();
+        doubts.retain(|doubt| *doubt != Doubt::NotCalibrated);
+        doubts
+    }
+
     /// The doubts about the result as a report states them.
     pub fn doubt_blocks(&self) -> Vec<DoubtBlock> {
         let doubts = self.doubts().into_iter();

@@ -621,10 +621,10 @@ mod tests {
             sender.send(context.is_latest_read()).expect("waited for");
             Ok(0)
         });
-        assert!(!receiver.recv().expect("told"), "nobody has read it");
+        assert!(!receiver.recv().expect("sent"), "nobody has read it");
         assert_eq!(next(&mut task), TaskEvent::Partial(100));
         go_on.send(()).expect("it waits");
-        assert!(receiver.recv().expect("told"), "it was read");
+        assert!(receiver.recv().expect("sent"), "it was read");
         assert_eq!(next(&mut task), TaskEvent::Done(0));
     }
 

@@ -46,7 +46,7 @@ pub struct LiveSample {
 /// Refresh interval of a display.
 const TICK: Duration = Duration::from_micros(16_667);
 
-/// Follows the simulated line in a window without a display, and reports every stretch to `told` as it ends.
+/// Follows the simulated line in a window without a display, and reports every stretch to `observer` as it ends.
 pub fn live_stretches(
     num_stretches: usize,
     stretch: Duration,

@@ -245,7 +245,7 @@ fn a_robot_is_told_the_pose_that_the_window_shows_and_the_history_keeps_it() {
     });
     let status = harness.state().robot().answering().status();
     let last = status.and_then(|status| status.last.clone());
-    let answer = last.expect("told").answer;
+    let answer = last.expect("an answer").answer;
     assert_eq!(
         (answer.verdict, answer.sequence),
         (VerdictCode::Accepted, 1)

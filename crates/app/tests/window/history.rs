@@ -508,11 +508,11 @@ fn what_a_command_inspects_shows_in_an_open_history() {
     harness.get_by_label("2 of 2 entries");
     press(&mut harness, "Inspection 2: Front door, left, Accepted");
     harness.get_by_label(
-        "A robot must not act on this pose: another pose of the part fitted nearly as well; the poses of the scan contradicted one another",
+        "Not for robots: another pose of the part fitted nearly as well; the poses of the scan contradicted one another",
     );
     harness.get_by_label("Not known whether the part hung still");
     press(&mut harness, "Inspection 1: Front door, left, Accepted");
-    assert!(harness.query_by_label_contains("must not act").is_none());
+    assert!(harness.query_by_label_contains("Not for robots").is_none());
 }
 
 #[test]

@@ -139,7 +139,7 @@ fn run(folder: &Path, disk: &Path, fault: &str) -> Reply {
     reply
 }
 
-/// Checks the history afterwards: the steps in `told` are done, and nothing else has changed.
+/// Checks the history afterwards: the steps in `reply` are done, and nothing else has changed.
 fn check(folder: &Path, num_before: usize, fault: &str, reply: &Reply) {
     let mut history = open_history(folder);
     let page = history.page(&Filter::default(), 0, 10).expect("asked");

@@ -59,7 +59,7 @@ pub struct CheckFolderContent {
     /// All checks, oldest first.
     pub checks: Vec<CellCheck>,
     /// Why baseline or checks are unreadable.
-    pub problem: Vec<UserError>,
+    pub problems: Vec<UserError>,
 }
 
 /// Result of the task.
@@ -358,11 +358,11 @@ impl CheckFolderContent {
         match folder.baseline() {
             Ok(baseline) => content.baseline = Some(Arc::new(baseline)),
             Err(CellCheckError::NoBaseline { .. }) => content.has_baseline = false,
-            Err(error) => content.problem.push(UserError::of(&error)),
+            Err(error) => content.problems.push(UserError::of(&error)),
         }
         match folder.checks() {
             Ok(checks) => content.checks = checks,
-            Err(error) => content.problem.push(UserError::of(&error)),
+            Err(error) => content.problems.push(UserError::of(&error)),
         }
         content
     }

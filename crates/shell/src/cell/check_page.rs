@@ -55,7 +55,7 @@ pub(super) fn ui(
     let content = checks.content();
     let units = session.units;
     baseline(ui, content, units);
-    for problem in &content.problem {
+    for problem in &content.problems {
         error_row(ui, Mark::Bad, problem);
     }
     let source = source_menu::now(&session.source);

@@ -73,6 +73,17 @@ fn watch(folder: &Path, context: &TaskContext<()>) -> Result<(), TaskError> {
 /// Name, size and time of an entry.
 pub(super) type Entry = (OsString, u64, Option<SystemTime>);
 
+/// Some disks, such as memory sticks, date their entries in steps of 2 s.
+const SETTLED: Duration = Duration::from_secs(3);
+
+/// True if every entry is so old that a later change shows in its time.
+pub(super) fn are_settled(entries: &[Entry]) -> bool {
+    let is_settled = |changed: SystemTime| changed.elapsed().is_ok_and(|age| age > SETTLED);
+    entries
+        .iter()
+        .all(|(_, _, changed)| changed.is_some_and(is_settled))
+}
+
 /// Lists the visible entries, sorted by name; none if the folder cannot be read.
 pub(super) fn entries(folder: &Path) -> Vec<Entry> {
     let found = fs::read_dir(folder).into_iter().flatten().flatten();

@@ -66,7 +66,7 @@ pub struct LoadedLibrary {
     pub shown: Arc<LibraryView>,
     /// The references prepared for another recipe.
     pub fitted: PreparedLibraryCache,
-    /// The entries of its folder before it was loaded; none without a folder.
+    /// The entries of its folder before it was loaded; none without a folder, or if one was still young.
     entries: Vec<folder_watch::Entry>,
 }
 
@@ -366,6 +366,7 @@ fn load(
     let place = open_library(given)?;
     // Before the parts, so that the next look notices what changes meanwhile.
     let entries = place.folder().map(|folder| entries(folder.path()));
+    let entries = entries.filter(|entries| folder_watch::are_settled(entries));
     let load = place.load(&ReferenceParams::default())?;
     let identity = load.identity();
     let LibraryLoad {
@@ -488,6 +489,11 @@ fn no_library(folder: &LibraryFolder) -> Option<UserError> {
 
 #[cfg(test)]
 mod tests {
+    use std::{
+        fs::File,
+        time::{Duration, SystemTime},
+    };
+
     use super::*;
     use ::inspection::fixtures::copy_library;
 
@@ -529,15 +535,27 @@ mod tests {
     fn a_library_is_loaded_again_only_after_its_folder_has_changed() {
         let folder = tempfile::tempdir().expect("a folder");
         copy_library(folder.path());
-        let library_cache = LibraryCache::new(Some(folder.path().into()), Camera::default());
-        library_cache.get();
+        let load = || {
+            let library_cache = LibraryCache::new(Some(folder.path().into()), Camera::default());
+            library_cache.get();
+            library_cache
+        };
+        let refreshed = |cache: &LibraryCache| cache.refresh().expect("there");
+        // Within a step of the disk's clock a change would not show.
+        let young = load();
+        assert!(!young.lock().loaded.as_ref().expect("loaded").is_unchanged());
+        let before = SystemTime::now() - Duration::from_mins(1);
+        for entry in fs::read_dir(folder.path()).expect("listed") {
+            let entry = File::open(entry.expect("an entry").path()).expect("opened");
+            entry.set_modified(before).expect("dated");
+        }
+        let library_cache = load();
         // In place, which no writer does: the folder's entries stay as they were, so that nothing is read.
         let fender = folder.path().join("fender");
         fs::write(fender.join("part.toml"), "no part").expect("written");
-        let unchanged = library_cache.refresh().expect("there");
-        assert!(unchanged.is_none());
+        assert!(refreshed(&library_cache).is_none());
         fs::rename(fender.join("part.toml"), fender.join("gone.toml")).expect("renamed");
-        let changed = library_cache.refresh().expect("there").expect("another");
+        let changed = refreshed(&library_cache).expect("another");
         assert_eq!(changed.shown.place_of("fender"), None);
         assert_eq!(changed.shown.damaged.len(), 1);
     }

@@ -769,7 +769,7 @@ mod tests {
         ] {
             state.session.role = role;
             apply(&mut state, Action::Live(live::LiveAction::Toggle));
-            let notice = state.notices.last().expect("told");
+            let notice = state.notices.last().expect("a notice");
             assert_eq!(notice.advice, advice);
         }
     }

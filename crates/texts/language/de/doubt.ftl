@@ -1,6 +1,6 @@
 # Warum ein Roboter auf ein Ergebnis hin nicht handeln darf
 
-doubt-past = Ein Roboter darf nach dieser Pose nicht handeln: { $why }
+doubt-past = Nicht für Roboter: { $why }
 
 doubt-reported-wrong = das Teil wurde als falsch gemeldet
     .advice = Prüfen, welches Teil dort hängt, und es neu aufnehmen

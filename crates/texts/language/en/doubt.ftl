@@ -1,7 +1,7 @@
 # Why a robot must not act on a result
 
 # In History: the reasons are those below, in the past
-doubt-past = A robot must not act on this pose: { $why }
+doubt-past = Not for robots: { $why }
 
 doubt-reported-wrong = the part was reported as wrong
     .advice = Check which part hangs there, and capture it again

@@ -1,6 +1,6 @@
 # Por qué un robot no debe actuar según un resultado
 
-doubt-past = Un robot no debe actuar según esta pose: { $why }
+doubt-past = No apta para robots: { $why }
 
 doubt-reported-wrong = la pieza fue notificada como errónea
     .advice = Compruebe qué pieza cuelga ahí y captúrela de nuevo

@@ -1,6 +1,6 @@
 # 机器人不得依据某个结果动作的原因
 
-doubt-past = 机器人不得按此位姿动作：{ $why }
+doubt-past = 不可用于机器人：{ $why }
 
 doubt-reported-wrong = 零件已被报告为误识别
     .advice = 请检查现在悬挂的是哪个零件，然后重新采集

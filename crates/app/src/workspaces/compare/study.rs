@@ -275,9 +275,7 @@ fn doubts(
         robot: None,
         is_forced: false,
     };
-    let mut doubts = captured.doubts();
-    doubts.retain(|doubt| *doubt != Doubt::NotCalibrated);
-    doubts
+    captured.doubts_if_calibrated()
 }
 
 /// The reason of a refusal with the figure that decided.

@@ -410,27 +410,30 @@ mod tests {
     use records::fixtures::history_entry;
     use records::history::{SceneTitle, StoredVerdict};
 
-    /// The texts of a row of a narrow list that are not cut off.
-    fn written(past: &Summary) -> Vec<String> {
+    /// What is drawn of a row of a narrow list, in this theme.
+    fn drawn(past: &Summary) -> (Vec<Shape>, Theme) {
         let ctx = egui::Context::default();
         Theme::install_fonts(&ctx);
+        let mut theme = None;
         let output = ctx.run_ui(RawInput::default(), |ui| {
             let rect = Rect::from_min_size(pos2(0.0, 0.0), vec2(600.0, ROW_HEIGHT_PX));
-            paint(
-                ui.painter(),
-                rect,
-                past,
-                &Layout::across(600.0),
-                Theme::of(ui),
-            );
+            theme = Some(Theme::of(ui));
+            let layout = Layout::across(600.0);
+            paint(ui.painter(), rect, past, &layout, Theme::of(ui));
         });
-        let written = output.shapes.iter().filter_map(|shape| match &shape.shape {
+        let shapes = output.shapes.iter().map(|drawn| drawn.shape.clone());
+        let shapes = shapes.collect();
+        output.drop_without_applying_deltas();
+        (shapes, theme.expect("drawn").clone())
+    }
+
+    /// The texts of a row of a narrow list that are not cut off.
+    fn written(past: &Summary) -> Vec<String> {
+        let written = drawn(past).0.into_iter().filter_map(|shape| match shape {
             Shape::Text(text) if !text.galley.elided => Some(text.galley.text().to_owned()),
             _ => None,
         });
-        let written = written.collect();
-        output.drop_without_applying_deltas();
-        written
+        written.collect()
     }
 
     fn accepted() -> Summary {
@@ -441,26 +444,12 @@ mod tests {
     #[test]
     fn only_an_accepted_part_without_doubts_has_a_green_mark() {
         let mark = |past: &Summary| {
-            let ctx = egui::Context::default();
-            Theme::install_fonts(&ctx);
-            let mut theme = None;
-            let output = ctx.run_ui(RawInput::default(), |ui| {
-                let rect = Rect::from_min_size(pos2(0.0, 0.0), vec2(600.0, ROW_HEIGHT_PX));
-                theme = Some(Theme::of(ui));
-                paint(
-                    ui.painter(),
-                    rect,
-                    past,
-                    &Layout::across(600.0),
-                    Theme::of(ui),
-                );
-            });
-            let disc = output.shapes.iter().find_map(|drawn| match &drawn.shape {
+            let (shapes, theme) = drawn(past);
+            let disc = shapes.iter().find_map(|shape| match shape {
                 Shape::Circle(disc) => Some(disc.fill),
                 _ => None,
             });
-            output.drop_without_applying_deltas();
-            (disc.expect("a mark"), theme.expect("drawn"))
+            (disc.expect("a mark"), theme)
         };
         let mut past = accepted();
         let (fill, theme) = mark(&past);

@@ -444,7 +444,7 @@ mod tests {
         let theme = theme.expect("drawn");
         assert_eq!(colour_of("Door with 0"), Some(theme.accepted));
         assert_eq!(colour_of("Door with 1"), Some(theme.warning));
-        assert!(colour_of("A robot must not act on this pose: the part was moving").is_some());
+        assert!(colour_of("Not for robots: the part was moving").is_some());
         output.drop_without_applying_deltas();
     }
 

@@ -351,7 +351,7 @@ fn a_history_that_was_moved_away_keeps_its_rows_and_frames_and_a_new_one_gets_th
         HistoryEvent::SetAside(aside) => Some(&aside.aside),
         _ => None,
     });
-    fs::rename(aside.expect("told"), archive.join("history-frames")).expect("moved");
+    fs::rename(aside.expect("set aside"), archive.join("history-frames")).expect("moved");
     assert_eq!(numbers(&keeper), [1]);
     let history = open_history(&archive);
     let first = history.known(1).expect("kept");

@@ -90,7 +90,7 @@ impl Bench {
 fn without_a_baseline_there_is_nothing_to_compare_with() {
     let mut bench = Bench::new();
     assert!(!bench.checks().content().has_baseline);
-    assert!(bench.checks().content().problem.is_empty());
+    assert!(bench.checks().content().problems.is_empty());
     bench.look_from(1, 0.0);
     assert!(bench.check(CheckAction::Check));
     assert!(bench.problem().what.contains("no baseline"));
