@@ -445,7 +445,7 @@ impl Answer {
                 let num = found.path.len();
                 let what = format!("there is no point {point} in a path of {num}");
                 let advice = if found.path.is_empty() {
-                    "Store a path for the part: partsight library path NAME path.csv, or Paint in the window"
+                    "Store a path for the part, in Paint or with partsight library path NAME path.csv. A running partsight serve has to be started again"
                 } else {
                     "Ask for points from 1 to the number of points in PATH's answer"
                 };
