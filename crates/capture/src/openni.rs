@@ -11,10 +11,12 @@
 
 mod file;
 mod header;
+mod library_thread;
 mod oni;
 
 use std::{
     ffi::CString,
+    io,
     path::{Path, PathBuf},
     time::{Duration, Instant},
 };
@@ -51,10 +53,16 @@ const CAMERA_WAIT: Duration = Duration::from_millis(50);
 /// only the second.
 const FILE_WAIT: Duration = Duration::from_secs(1);
 
+/// The camera or file that is open on the library's thread. Dropping it closes that.
+struct Source {
+    title: String,
+    /// False once it is lost or has ended: the thread has closed it then, and may have another one open.
+    is_open: bool,
+}
+
 /// An open camera or file whose depth stream runs. Dropping it stops the stream and closes the camera.
-pub(super) struct OpenNi {
-    /// `None` once it is lost or has ended.
-    device: Option<Device>,
+struct OpenNi {
+    device: Device,
     title: String,
     /// Path of the file that is played, if any.
     file: Option<PathBuf>,
@@ -71,29 +79,51 @@ pub(super) fn open(spec: &OpenNiSpec) -> Result<Box<dyn DepthSource>, CaptureErr
     if let Some(path) = spec.file() {
         file::check(path)?;
     }
-    Ok(Box::new(OpenNi::open(spec)?))
+    let spec = spec.clone();
+    let opened = library_thread::run(move |opened| {
+        let source = OpenNi::open(&spec, opened.is_some())?;
+        let title = source.title.clone();
+        *opened = Some(source);
+        Ok(title)
+    });
+    let title = opened.unwrap_or_else(|error| Err(no_thread(&error)))?;
+    Ok(Box::new(Source {
+        title,
+        is_open: true,
+    }))
 }
 
 /// The cameras that are plugged in, or why there is none.
 pub(super) fn list() -> Vec<SourceListing> {
-    match found_devices(None) {
-        Ok((_, devices)) => devices.into_iter().map(can_be_opened).collect(),
+    let found = library_thread::run(|opened| found_devices(&start(None, opened.is_some())?));
+    match found.unwrap_or_else(|error| Err(no_thread(&error))) {
+        Ok(devices) => devices.into_iter().map(can_be_opened).collect(),
         Err(error) => vec![SourceListing::unusable(error)],
     }
 }
 
-/// Starts the library and finds at least one device.
-fn found_devices(library: Option<&Path>) -> Result<(Context, Vec<FoundDevice>), CameraError> {
-    let context = start(library)?;
+fn no_thread(error: &io::Error) -> CameraError {
+    OPENNI
+        .error(CameraErrorKind::LibraryNotStarted)
+        .quoting([error.to_string()])
+}
+
+/// Finds at least one device.
+fn found_devices(context: &Context) -> Result<Vec<FoundDevice>, CameraError> {
     let devices = context.devices().map_err(not_opened)?;
     if devices.is_empty() {
         return Err(OPENNI.no_device(None, Vec::new()));
     }
-    Ok((context, devices))
+    Ok(devices)
 }
 
-fn start(library: Option<&Path>) -> Result<Context, CameraError> {
-    Context::new(OPENNI.find(library, Functions::load)?)
+/// Starts the library, unless it runs already.
+fn start(library: Option<&Path>, is_running: bool) -> Result<Context, CameraError> {
+    let functions = OPENNI.find(library, Functions::load)?;
+    if is_running {
+        return Err(OPENNI.error(CameraErrorKind::InUse));
+    }
+    Context::new(functions)
 }
 
 fn not_opened(messages: Messages) -> CameraError {
@@ -128,14 +158,14 @@ fn title(found: &FoundDevice) -> String {
 }
 
 impl OpenNi {
-    fn open(spec: &OpenNiSpec) -> Result<Self, CameraError> {
-        let library = spec.library.as_deref();
+    fn open(spec: &OpenNiSpec, is_running: bool) -> Result<Self, CameraError> {
+        let context = start(spec.library.as_deref(), is_running)?;
         let (device, title) = match spec.file() {
             Some(path) => (
-                open_file(path, library)?,
+                open_file(context, path)?,
                 SourceSpec::OpenNi(spec.clone()).title(),
             ),
-            None => open_camera(spec.device.as_deref(), library)?,
+            None => open_camera(context, spec.device.as_deref())?,
         };
         let mode = device.get::<VideoMode>(STREAM_MODE).unwrap_or_default();
         let unsuitable =
@@ -167,7 +197,7 @@ impl OpenNi {
         }
         device.start().map_err(not_started)?;
         Ok(Self {
-            device: Some(device),
+            device,
             title,
             file,
             mode,
@@ -179,13 +209,11 @@ impl OpenNi {
         })
     }
 
-    /// Waits for a frame once.
-    fn turn(&mut self, wait: Duration) -> Result<NextCapture, CaptureError> {
-        let Some(device) = &self.device else {
-            return Ok(NextCapture::End);
-        };
+    /// Waits for a frame once. An error ends the source.
+    fn turn(&mut self, wait: Duration) -> Result<NextCapture, CameraError> {
+        let device = &self.device;
         if device.is_lost() {
-            return self.end(disconnected(Messages::new()));
+            return Err(self.interrupted(disconnected(Messages::new())));
         }
         // Query this before the wait: frames before the end of a file have then arrived.
         let is_at_end = device.is_at_end();
@@ -196,7 +224,7 @@ impl OpenNi {
             Ok(Some(received)) => {
                 let mode = received.mode;
                 if received.is_part {
-                    self.end(OPENNI.unsuitable(
+                    Err(OPENNI.unsuitable(
                         format!("{} sends only a part of its picture", self.title),
                         "Switch cropping off, and record the whole picture again",
                     ))
@@ -204,7 +232,7 @@ impl OpenNi {
                     != (self.mode.width, self.mode.height, self.mode.format)
                     || is_mirrored != Some(self.is_mirrored)
                 {
-                    self.end(OPENNI.unsuitable(
+                    Err(OPENNI.unsuitable(
                         format!(
                             "the picture of {} has changed its size, unit or mirroring",
                             self.title
@@ -215,15 +243,14 @@ impl OpenNi {
                     Ok(NextCapture::Captured(self.captured(received)))
                 }
             }
-            Ok(None) if is_at_end => {
-                self.device = None;
-                Ok(NextCapture::End)
-            }
+            Ok(None) if is_at_end => Ok(NextCapture::End),
             Ok(None) => match self.silence.add(start.elapsed()) {
-                Some(seconds) => self.end(OPENNI.error(CameraErrorKind::NoFrames { seconds })),
+                Some(seconds) => {
+                    Err(self.interrupted(OPENNI.error(CameraErrorKind::NoFrames { seconds })))
+                }
                 None => Ok(NextCapture::NotYet),
             },
-            Err(messages) => self.end(disconnected(messages)),
+            Err(messages) => Err(self.interrupted(disconnected(messages))),
         }
     }
 
@@ -245,34 +272,18 @@ impl OpenNi {
         Captured::now(self.num_frames, name, image)
     }
 
-    /// Closes the camera. If a file cannot be played on, it is damaged.
-    fn end(&mut self, reason: CameraError) -> Result<NextCapture, CaptureError> {
-        self.device = None;
-        let is_interrupted = matches!(
-            reason.kind,
-            CameraErrorKind::NoFrames { .. } | CameraErrorKind::Disconnected
-        );
-        let reason = match &self.file {
-            Some(path) if is_interrupted => OPENNI.file_unusable(
+    /// The reason for which nothing more comes. If a file cannot be played on, it is damaged.
+    fn interrupted(&self, reason: CameraError) -> CameraError {
+        match &self.file {
+            Some(path) => OPENNI.file_unusable(
                 path,
                 format!("nothing can be read after frame {}", self.num_frames),
             ),
-            _ => reason,
-        };
-        Err(reason.into())
-    }
-}
-
-impl DepthSource for OpenNi {
-    fn title(&self) -> String {
-        self.title.clone()
+            None => reason,
+        }
     }
 
-    fn is_simulated(&self) -> bool {
-        false
-    }
-
-    fn next(&mut self, wait: Duration) -> Result<NextCapture, CaptureError> {
+    fn next(&mut self, wait: Duration) -> Result<NextCapture, CameraError> {
         let start = Instant::now();
         loop {
             let left = wait.saturating_sub(start.elapsed());
@@ -287,14 +298,50 @@ impl DepthSource for OpenNi {
     }
 }
 
+impl DepthSource for Source {
+    fn title(&self) -> String {
+        self.title.clone()
+    }
+
+    fn is_simulated(&self) -> bool {
+        false
+    }
+
+    fn next(&mut self, wait: Duration) -> Result<NextCapture, CaptureError> {
+        if !self.is_open {
+            return Ok(NextCapture::End);
+        }
+        let next = library_thread::run(move |opened| {
+            let next = opened
+                .as_mut()
+                .map_or(Ok(NextCapture::End), |source| source.next(wait));
+            if matches!(next, Err(_) | Ok(NextCapture::End)) {
+                *opened = None;
+            }
+            next
+        });
+        let next = next.unwrap_or_else(|error| Err(no_thread(&error)));
+        self.is_open = !matches!(next, Err(_) | Ok(NextCapture::End));
+        Ok(next?)
+    }
+}
+
+impl Drop for Source {
+    fn drop(&mut self) {
+        if self.is_open {
+            // Without its thread the library does not run.
+            let _ = library_thread::run(|opened| *opened = None);
+        }
+    }
+}
+
 /// Opens a recorded file.
-fn open_file(path: &Path, library: Option<&Path>) -> Result<Device, CameraError> {
+fn open_file(context: Context, path: &Path) -> Result<Device, CameraError> {
     let name = path.to_string_lossy();
     if name.len() > MAX_PATH_BYTES {
         let what = format!("OpenNI opens paths of at most {MAX_PATH_BYTES} bytes");
         return Err(OPENNI.file_unusable(path, what));
     }
-    let context = start(library)?;
     open_device(context, &name).map_err(|messages| {
         let message = quoted(messages.first().map(String::as_str));
         OPENNI.file_unusable(path, format!("OpenNI cannot read it{message}"))
@@ -302,8 +349,8 @@ fn open_file(path: &Path, library: Option<&Path>) -> Result<Device, CameraError>
 }
 
 /// Opens the camera with that URI, or the first one, in its best mode. Also returns its title.
-fn open_camera(uri: Option<&str>, library: Option<&Path>) -> Result<(Device, String), CameraError> {
-    let (context, devices) = found_devices(library)?;
+fn open_camera(context: Context, uri: Option<&str>) -> Result<(Device, String), CameraError> {
+    let devices = found_devices(&context)?;
     let chosen = match uri {
         Some(uri) => devices.iter().find(|device| device.uri == uri),
         None => devices.first(),

@@ -3,12 +3,12 @@
 //! The functions are those of `OniCAPI.h` 2.2, looked up when the library is loaded.
 //!
 //! Guarantees to the rest of the crate that C does not give by itself:
-//! - one [`Context`] at a time in the process: the library counts its starts without a lock;
+//! - one [`Context`] at a time in the process, made and used on the library's thread alone (`library_thread`);
 //! - the library is never unloaded, because its drivers may have threads;
 //! - it never holds a pointer into our memory: frames are copied, and its threads report to a static.
 //!
-//! While it starts, the library changes the working directory to that of its drivers and back. On Linux the calling thread
-//! first gets a working directory of its own, so that no other thread resolves a path there in the meantime.
+//! While it starts, the library changes the working directory to that of its drivers and back. On Linux its thread has a
+//! working directory of its own, so that no other thread resolves a path there in the meantime.
 
 #![expect(
     unsafe_code,
@@ -18,10 +18,7 @@
 use std::{
     ffi::{CStr, c_char, c_int, c_void},
     ptr::{self, NonNull},
-    sync::{
-        Mutex,
-        atomic::{AtomicBool, Ordering},
-    },
+    sync::Mutex,
     thread,
     time::Duration,
 };
@@ -81,18 +78,11 @@ pub(super) struct FoundDevice {
     pub(super) name: String,
 }
 
-/// True while a [`Context`] exists.
-static IS_RUNNING: AtomicBool = AtomicBool::new(false);
-
 impl Context {
     /// Starts the library with all its drivers.
     pub(super) fn new(functions: &'static Functions) -> Result<Self, CameraError> {
-        if IS_RUNNING.swap(true, Ordering::Acquire) {
-            return Err(OPENNI.error(CameraErrorKind::InUse));
-        }
         // The library counts failed starts too: dropping the context undoes the count.
         let context = Self { functions };
-        use_own_working_folder();
         context
             // SAFETY: takes a number; nobody else starts or stops the library in the meantime.
             .checked(|| unsafe { (functions.oniInitialize)(API_VERSION) })
@@ -196,7 +186,6 @@ impl Drop for Context {
     fn drop(&mut self) {
         // SAFETY: the library was started once, and a `Device` drops its context last.
         unsafe { (self.functions.oniShutdown)() };
-        IS_RUNNING.store(false, Ordering::Release);
     }
 }
 
@@ -207,7 +196,7 @@ fn text(chars: &[c_char; 256]) -> String {
 }
 
 /// Gives this thread a working directory of its own, initially the common one.
-fn use_own_working_folder() {
+pub(super) fn use_own_working_folder() {
     #[cfg(target_os = "linux")]
     {
         const CLONE_FS: c_int = 0x200;

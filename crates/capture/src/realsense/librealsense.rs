@@ -50,6 +50,7 @@ driver_functions! {
     rs2_delete_device: fn(Handle);
     rs2_supports_device_info: fn(Handle, c_int, ErrorPlace) -> c_int;
     rs2_get_device_info: fn(Handle, c_int, ErrorPlace) -> *const c_char;
+    rs2_playback_device_pause: fn(Handle, ErrorPlace);
     rs2_playback_device_set_real_time: fn(Handle, c_int, ErrorPlace);
     rs2_playback_device_set_playback_speed: fn(Handle, f32, ErrorPlace);
     rs2_playback_device_get_current_status: fn(Handle, ErrorPlace) -> c_int;
@@ -674,5 +675,18 @@ impl Drop for Stream {
         let _ = functions.checked(|error| unsafe { (functions.rs2_stop)(sensor, error) });
         // SAFETY: the sensor lives.
         let _ = functions.checked(|error| unsafe { (functions.rs2_close)(sensor, error) });
+        if self.sensor.device.is_file {
+            // The thread that reads the file still has work from both, and deleting the device during it ends the program.
+            // Pausing waits for that thread.
+            let _ = functions.checked(|error| {
+                // SAFETY: the device lives.
+                unsafe {
+                    (functions.rs2_playback_device_pause)(
+                        self.sensor.device.object.handle(),
+                        error,
+                    );
+                }
+            });
+        }
     }
 }

@@ -121,6 +121,23 @@ fn another_library_and_one_without_drivers_are_told_apart() {
 }
 
 #[test]
+fn threads_that_ended_are_not_asked_for() {
+    let test = "openni::library::threads_that_ended_are_not_asked_for";
+    with_camera(
+        test,
+        "well",
+        |_| {},
+        || {
+            // A stack of this size goes back to the system with its thread.
+            let builder = thread::Builder::new().stack_size(256 << 20);
+            let thread = builder.spawn(|| listed().len()).expect("a thread");
+            assert_eq!(thread.join().expect("ended"), 1);
+            assert_eq!(listed().len(), 1);
+        },
+    );
+}
+
+#[test]
 fn the_working_folder_of_other_threads_stays_while_the_library_starts() {
     let test =
         "openni::library::the_working_folder_of_other_threads_stays_while_the_library_starts";

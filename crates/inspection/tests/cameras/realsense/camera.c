@@ -109,6 +109,7 @@ static void no_playback(void) {
 void *rs2_context_add_device(void *context, const char *path, void **error) { (void)context, (void)path; fail(error, "no files here"); return NULL; }
 void rs2_playback_device_set_real_time(const void *device, int real_time, void **error) { (void)device, (void)real_time, (void)error; no_playback(); }
 void rs2_playback_device_set_playback_speed(const void *device, float speed, void **error) { (void)device, (void)speed, (void)error; no_playback(); }
+void rs2_playback_device_pause(const void *device, void **error) { (void)device, (void)error; no_playback(); }
 int rs2_playback_device_get_current_status(const void *device, void **error) { (void)device, (void)error; no_playback(); return 0; }
 
 /* Sensors: one for motion, one for depth. */
