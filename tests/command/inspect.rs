@@ -1,6 +1,6 @@
 //! Inspecting scenes.
 
-use std::fs;
+use std::{fs, path::Path};
 
 use serde_json::Value;
 
@@ -43,6 +43,70 @@ fn the_pose_is_that_of_the_simulation() {
             "the middle is off by {difference} m in row {row}"
         );
     }
+}
+
+/// Writes a depth image of two parts: at each pixel the nearer reading of two frames with one of them each.
+fn two_parts(place: &Workplace, merged: &str) {
+    for (part, pose, name) in [
+        ("front_door", "0deg 0deg 6deg -500mm 0mm 1900mm", "left"),
+        ("trunk_lid", "0deg 0deg -11deg 520mm 0mm 1950mm", "right"),
+    ] {
+        let out = format!("{name}.png");
+        place.accepted(&[
+            "simulate", "--part", part, "--pose", pose, "--seed", "7", "--out", &out,
+        ]);
+    }
+    let read = |name: &str| {
+        let image = image::open(place.path(name)).expect("a picture");
+        image.into_luma16()
+    };
+    let (left, mut both) = (read("left.png"), read("right.png"));
+    for (depth, left) in both.iter_mut().zip(left.iter()) {
+        *depth = match (*depth, *left) {
+            (0, other) | (other, 0) => other,
+            (a, b) => a.min(b),
+        };
+    }
+    both.save(place.path(merged)).expect("written");
+    let camera = Path::new(merged).with_extension("json");
+    let camera = place.path(camera.to_str().expect("ASCII"));
+    fs::copy(place.path("left.json"), camera).expect("copied");
+}
+
+#[test]
+fn several_parts_are_listed_from_left_to_right_each_with_its_row_in_the_history() {
+    let place = Workplace::new();
+    place.with_part("front_door");
+    place.with_part("trunk_lid");
+    two_parts(&place, "both.png");
+    let inspect = ["inspect", "both.png", "--library", "parts"];
+    let several = ["--set", "segment.max_parts=4"];
+    let line = &place
+        .accepted(&[&inspect[..], &several, &["--json", "--history", "history"]].concat())
+        .lines()[0];
+    let parts = line["parts"].as_array().expect("a list");
+    let names: Vec<&Value> = parts.iter().map(|part| &part["part"]).collect();
+    assert_eq!(names, ["front_door", "trunk_lid"]);
+    assert!(parts.iter().all(|part| part["accepted"] == true), "{line}");
+    for field in ["part", "score", "pose", "status"] {
+        assert_eq!(
+            line[field], parts[0][field],
+            "those of the line are of the first"
+        );
+    }
+    let card = place.run(&[&inspect[..], &several].concat()).out;
+    let at = |words: &str| {
+        card.find(words)
+            .unwrap_or_else(|| panic!("{words} in {card}"))
+    };
+    assert!(at("1 of 2") < at("front_door: accepted"));
+    assert!(at("front_door: accepted") < at("2 of 2") && at("2 of 2") < at("trunk_lid: accepted"));
+    let listed = place.run(&["history", "list", "--history", "history", "--json"]);
+    assert_eq!(listed.lines().len(), 2, "{}", listed.out);
+
+    // By default, one.
+    let one = &place.run(&[&inspect[..], &["--json"]].concat()).lines()[0];
+    assert!(one.get("parts").is_none(), "{one}");
 }
 
 #[test]

@@ -17,6 +17,8 @@ mod unsound;
 mod verdict;
 mod watch;
 
+use nalgebra::Point3;
+
 use crate::library::Library;
 use files::crc32;
 use geometry::{
@@ -143,7 +145,8 @@ pub struct Inspection {
     pub timings: Timings,
 }
 
-/// Inspects a scene: which enrolled part hangs there, and where.
+/// Inspects a scene: which enrolled part hangs there, and where. Of several, it is the likeliest, as [`SegmentParams`]
+/// defines it; [`run_all`] finds the others too.
 ///
 /// If nothing is enrolled or found, the inspection still holds the results of the earlier stages. A panic in a stage
 /// becomes the verdict [`Unrecognisable::Fault`].
@@ -153,24 +156,117 @@ pub fn run(
     recipe: &Recipe,
     watch: &dyn ProgressObserver,
 ) -> Result<Inspection, Cancelled> {
-    let ran = match &scene.fault {
-        Some(fault) => Err(fault.clone()),
-        None => guarded(|| inspect(scene, library, recipe, watch)),
-    };
-    let mut inspection = ran.unwrap_or_else(|fault| {
-        let num_points = scene.cloud.points.len();
-        Ok(Inspection::broken_off(fault, num_points))
-    })?;
-    refuse_unsound(&mut inspection, scene);
-    Ok(inspection)
+    inspect(scene, library, recipe, watch, || {
+        Some(segment(scene, &recipe.segment))
+    })
+    .map(|inspection| inspection.expect("a scene has a segmentation"))
 }
 
+/// Inspects a surface after the other of a scene, until nothing of a part's size is left that is neither background nor
+/// explained. Returns an inspection for each, those of accepted parts first, from left to right in the picture; the first is
+/// that of [`run`] where one part hangs. At most [`SegmentParams::max_parts`] are accepted.
+///
+/// What an accepted part explains are the readings at its reference in its pose, and no other part has them.
+pub fn run_all(
+    scene: &SceneCloud,
+    library: &Library,
+    recipe: &Recipe,
+    watch: &dyn ProgressObserver,
+) -> Result<Vec<Inspection>, Cancelled> {
+    let mut found = vec![run(scene, library, recipe, watch)?];
+    let mut known = Vec::new();
+    let max_parts = recipe.segment.max_parts;
+    for _ in 1..MAX_SURFACES_PER_PART * max_parts {
+        let num_accepted = found.iter().filter(|i| i.verdict.is_accepted()).count();
+        let last = found.last().filter(|_| num_accepted < max_parts);
+        let Some(last) = last else { break };
+        known.extend(explained(last, scene, library));
+        let next = inspect(scene, library, recipe, watch, || {
+            let first = &found[0].segmentation;
+            first.without(scene, &known, &recipe.segment)
+        })?;
+        let Some(next) = next else { break };
+        found.push(next);
+    }
+    if found.len() > 1 {
+        found.sort_by(|a, b| {
+            let rank = |inspection: &Inspection| {
+                (!inspection.verdict.is_accepted(), inspection.direction())
+            };
+            let ((a, left), (b, right)) = (rank(a), rank(b));
+            a.cmp(&b).then(left.total_cmp(&right))
+        });
+    }
+    Ok(found)
+}
+
+/// Number of surfaces inspected for each part that may hang there: as many others may hang in between.
+const MAX_SURFACES_PER_PART: usize = 2;
+/// Distance from a placed reference up to which a reading belongs to the part, metres, beyond the noise: rims that the
+/// reference lacks, and the part's deviations from it.
+const EXPLAINED_DISTANCE_M: f64 = 0.015;
+/// Number of standard deviations of noise by which readings of a part lie off its reference.
+const EXPLAINED_DEVIATIONS: f64 = 3.0;
+
+/// Indices of the readings that an inspection explains: those at the placed reference of an accepted part; otherwise the
+/// surface that was inspected. What was taken for the stand of an accepted part may be another part.
+fn explained(inspection: &Inspection, scene: &SceneCloud, library: &Library) -> Vec<u32> {
+    let Ok(part) = &inspection.segmentation.part else {
+        return Vec::new();
+    };
+    let placed = inspection
+        .found_pose()
+        .zip(inspection.best_reference(library));
+    let Some((pose, reference)) = placed.filter(|_| inspection.verdict.is_accepted()) else {
+        return part.indices.iter().chain(&part.stand).copied().collect();
+    };
+    let field = reference.field();
+    let noise_at_1m = inspection.segmentation.noise_at_1m.0;
+    let labels = &inspection.segmentation.labels;
+    let is_explained = |(i, p): &(usize, &Point3<f32>)| {
+        if !matches!(labels[*i], PointLabel::Rest | PointLabel::Part) {
+            return false;
+        }
+        let p: Point3<f64> = p.cast();
+        let noise = EXPLAINED_DEVIATIONS * noise_at_1m * p.z * p.z;
+        let reach = (EXPLAINED_DISTANCE_M + noise) as f32;
+        let nearest = field.nearest(&(pose.target_from_source * p).cast());
+        nearest.is_some_and(|nearest| nearest.distance_sq < reach * reach)
+    };
+    let readings = scene.cloud.points.iter().enumerate();
+    let explained = readings.filter(is_explained);
+    explained.map(|(i, _)| i as u32).collect()
+}
+
+/// Inspects the part of a segmentation; `None` if there is no segmentation.
 fn inspect(
     scene: &SceneCloud,
     library: &Library,
     recipe: &Recipe,
     watch: &dyn ProgressObserver,
-) -> Result<Inspection, Cancelled> {
+    segment: impl FnOnce() -> Option<Segmentation>,
+) -> Result<Option<Inspection>, Cancelled> {
+    let ran = match &scene.fault {
+        Some(fault) => Err(fault.clone()),
+        None => guarded(|| inspect_part(scene, library, recipe, watch, segment)),
+    };
+    let mut inspection = ran.unwrap_or_else(|fault| {
+        let num_points = scene.cloud.points.len();
+        Ok(Some(Inspection::broken_off(fault, num_points)))
+    })?;
+    if let Some(inspection) = &mut inspection {
+        refuse_unsound(inspection, scene);
+    }
+    Ok(inspection)
+}
+
+fn inspect_part(
+    scene: &SceneCloud,
+    library: &Library,
+    recipe: &Recipe,
+    watch: &dyn ProgressObserver,
+    segment: impl FnOnce() -> Option<Segmentation>,
+) -> Result<Option<Inspection>, Cancelled> {
     let clock = &StageClock::start(watch);
     let inputs = &InspectionInputs {
         scene,
@@ -178,7 +274,9 @@ fn inspect(
         recipe,
         clock,
     };
-    let segmentation = clock.time(Stage::Segment, || segment(scene, &recipe.segment))?;
+    let Some(segmentation) = clock.time(Stage::Segment, segment)? else {
+        return Ok(None);
+    };
     let mut inspection = Inspection {
         segmentation,
         plane: None,
@@ -199,7 +297,7 @@ fn inspect(
         Err(no_part) => inspection.verdict = Verdict::NoPart(no_part.into()),
     }
     inspection.timings = clock.finish();
-    Ok(inspection)
+    Ok(Some(inspection))
 }
 
 impl Inspection {
@@ -239,6 +337,14 @@ impl Inspection {
         }
         let part = self.segmentation.part.as_ref();
         part.is_ok_and(|part| part.touches_edge)
+    }
+
+    /// Direction of the part in the picture: the mean of x/z of its readings, camera space, negative on the left.
+    fn direction(&self) -> f64 {
+        let part = self.segmentation.part.as_ref();
+        let points = part.map_or(&[][..], |part| &part.cloud.points);
+        let sum: f64 = points.iter().map(|p| f64::from(p.x / p.z)).sum();
+        sum / points.len().max(1) as f64
     }
 
     /// The shape to rank by, of a scene whose outline was found.

@@ -221,6 +221,21 @@ impl<'a> Inspected<'a> {
 
     /// Returns the line of JSON, without a line end.
     pub fn line(&self, trace: &Traceability) -> String {
+        self.inspection_line(trace).to_json()
+    }
+
+    /// Returns the line of JSON of a frame in which several parts may hang, without a line end: that of the first, and every part.
+    /// `None` without a part.
+    pub fn line_of_all(parts: &[Self], trace: &Traceability) -> Option<String> {
+        let first = parts.first()?;
+        let all = parts.iter().map(|part| part.inspection_line(trace));
+        Some(first.inspection_line(trace).with_parts(all).to_json())
+    }
+
+    fn inspection_line<'b>(&self, trace: &'b Traceability) -> InspectionLine<'b>
+    where
+        'a: 'b,
+    {
         let Self {
             subject,
             inspection,
@@ -268,7 +283,7 @@ impl<'a> Inspected<'a> {
                 base_from_part,
             });
         }
-        line.to_json()
+        line
     }
 
     /// Returns the entry for the history. `picture` is that of the segmentation, if there is one.

@@ -3,6 +3,7 @@
 use std::{
     collections::VecDeque,
     fmt::Display,
+    iter,
     path::{Path, PathBuf},
     sync::Arc,
     time::{Duration, Instant},
@@ -20,7 +21,9 @@ use crate::cli::{
 use geometry::error::{Advice, guarded};
 use inspection::{
     library::Library,
-    pipeline::{self, Inspection, MirrorTally, NamedRecipe, Unwatched, live::refuse_moving},
+    pipeline::{
+        self, Inspection, MirrorTally, NamedRecipe, Unwatched, live::refuse_moving, run_all,
+    },
 };
 use records::{
     history::{HungId, NewEntry, Traceability},
@@ -66,6 +69,8 @@ pub(super) struct InspectedFrame {
     scene: Arc<SceneCloud>,
     subject: Subject,
     inspection: Inspection,
+    /// What else hangs in a file in which several parts may hang.
+    others: Vec<Inspection>,
     /// Time of the frame, by the camera.
     at: Duration,
     /// When it was captured, of a source.
@@ -173,11 +178,14 @@ impl InspectSession {
             return Ok(before.max(self.show_settled(&last, console)?));
         }
         let line = self.show(&frame, console);
-        let outcome = Outcome::accepted_if(frame.inspection.verdict.is_accepted());
+        let mut all = iter::once(&frame.inspection).chain(&frame.others);
+        let outcome = Outcome::accepted_if(all.all(|part| part.verdict.is_accepted()));
         let pictures = self.pictures(&frame);
         // After the verdict is shown, which must not wait for it, and before the exports, any of which may fail.
-        let kept = self.kept(&frame, &frame.subject, &frame.inspection, HungId::new());
-        self.keep(kept, console);
+        for part in iter::once(&frame.inspection).chain(&frame.others) {
+            let kept = self.kept(&frame, &frame.subject, part, HungId::new());
+            self.keep(kept, console);
+        }
         let written = self.write_robot_file(&frame, console)?;
         if written.is_none() {
             self.write_report(&frame.path, &line, pictures)?;
@@ -207,15 +215,20 @@ impl InspectSession {
         if let (Some(followed), Some(capture)) = (&mut self.followed, &subject.capture) {
             scene = followed.look(scene, capture.taken_at);
         }
-        let mut inspection = pipeline::run(&scene, &self.library, &self.recipe, &Unwatched)?;
-        if let Some(followed) = &mut self.followed {
-            followed.refuse_if_moving(&mut inspection);
-        }
+        let (inspection, others) = if let Some(followed) = &mut self.followed {
+            let mut one = pipeline::run(&scene, &self.library, &self.recipe, &Unwatched)?;
+            followed.refuse_if_moving(&mut one);
+            (one, Vec::new())
+        } else {
+            let mut all = run_all(&scene, &self.library, &self.recipe, &Unwatched)?;
+            (all.remove(0), all)
+        };
         Ok(InspectedFrame {
             path: path.to_owned(),
             scene,
             subject,
             inspection,
+            others,
             at: (self.followed.as_ref()).map_or(Duration::ZERO, PartFollower::at),
             captured,
         })
@@ -284,22 +297,39 @@ impl InspectSession {
 
     /// Shows an inspection, and returns its line of JSON.
     fn show(&mut self, frame: &InspectedFrame, console: &mut Console) -> String {
-        let InspectedFrame {
-            subject,
-            inspection,
-            ..
-        } = frame;
-        let is_accepted = inspection.verdict.is_accepted();
-        self.num_unchecked += usize::from(is_accepted && subject.is_motion_unchecked);
+        let subject = &frame.subject;
         let file_says_simulated = subject.capture.is_none() && subject.is_simulated;
-        let inspected = self.record(frame, subject, inspection);
-        let line = inspected.line(&self.trace);
         // The table has no room for the mark; reports and history have it.
         let shown = match self.format {
             OutputFormat::Card => marked_simulated(&subject.scene, file_says_simulated),
             _ => subject.scene.clone(),
         };
-        (self.format).inspected(&shown, &line, &inspected, &self.library, console);
+        let parts: Vec<Inspected<'_>> = iter::once(&frame.inspection)
+            .chain(&frame.others)
+            .map(|part| self.record(frame, subject, part))
+            .collect();
+        let accepted = parts
+            .iter()
+            .filter(|one| one.inspection.verdict.is_accepted());
+        let num_unchecked = accepted.filter(|_| subject.is_motion_unchecked).count();
+        let line = if self.recipe.segment.max_parts > 1 {
+            Inspected::line_of_all(&parts, &self.trace).unwrap_or_default()
+        } else {
+            parts[0].line(&self.trace)
+        };
+        // The line has all parts.
+        let num_shown = match self.format {
+            OutputFormat::Json => 1,
+            _ => parts.len(),
+        };
+        for (number, part) in (1..=num_shown).zip(&parts) {
+            let shown = match num_shown {
+                1 => shown.clone(),
+                num => format!("{shown}, {number} of {num}"),
+            };
+            (self.format).inspected(&shown, &line, part, &self.library, console);
+        }
+        self.num_unchecked += num_unchecked;
         line
     }
 
@@ -376,6 +406,14 @@ impl InspectSession {
         frame: &InspectedFrame,
         console: &Console,
     ) -> anyhow::Result<Option<Outcome>> {
+        let is_wanted = self.spray.is_some() || self.program.is_some();
+        if is_wanted && frame.others.iter().any(|part| part.verdict.is_accepted()) {
+            console.advise(
+                &"error: several parts hang there, and a robot's file is that of one",
+                &"Leave segment.max_parts at 1, and let one part hang there",
+            );
+            return Ok(Some(Outcome::CouldNotRun));
+        }
         let seen = self.record(frame, &frame.subject, &frame.inspection);
         Ok(match (&self.spray, &self.program, &self.robot) {
             (Some(spray), _, Some(robot)) => {

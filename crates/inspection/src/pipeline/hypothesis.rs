@@ -10,7 +10,7 @@ use stages::{
     confirm::CUT_SHARE,
     pose::PoseMethod,
     rank::Matcher,
-    segment::{Bars, SegmentedPart, other_segments, without_bars},
+    segment::{Bars, SegmentedPart, other_segments, split, without_bars},
 };
 
 /// What may hang there, if the likeliest surface is not accepted as a part.
@@ -24,14 +24,17 @@ enum Hypothesis {
     Piece,
     /// A part on a stand, whose bars were taken for some of the part.
     PartOnStand,
+    /// One of several parts, which hang so close that they were taken for one.
+    OneOfSeveral,
 }
 
 /// In the order in which they are tried, until one is accepted.
-const HYPOTHESES: [Hypothesis; 4] = [
+const HYPOTHESES: [Hypothesis; 5] = [
     Hypothesis::OtherSurface,
     Hypothesis::MirrorImage,
     Hypothesis::Piece,
     Hypothesis::PartOnStand,
+    Hypothesis::OneOfSeveral,
 ];
 
 /// Maximum number of other surfaces that are tried.
@@ -57,6 +60,7 @@ pub(super) fn try_hypotheses(
             Hypothesis::OtherSurface | Hypothesis::MirrorImage => true,
             Hypothesis::Piece => looks_whole && !inspection.verdict.is_likeness(),
             Hypothesis::PartOnStand => !inspection.verdict.is_likeness(),
+            Hypothesis::OneOfSeveral => inputs.recipe.segment.max_parts > 1,
         };
         if is_plausible {
             hypothesis.attempt(inspection, &likeliest, inputs)?;
@@ -121,6 +125,11 @@ impl Hypothesis {
                         is_new.then_some(Ok(bare))
                     });
                 try_surfaces(inspection, bare, inputs)
+            }
+            Self::OneOfSeveral => {
+                let parts =
+                    clock.time(Stage::Segment, || split(scene, likeliest, &recipe.segment))?;
+                try_surfaces(inspection, parts.into_iter().map(Ok), inputs)
             }
         }
     }

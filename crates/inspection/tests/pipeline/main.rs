@@ -3,6 +3,7 @@
 #![allow(clippy::disallowed_methods, reason = "tests change files")]
 
 mod cameras;
+mod several;
 
 use std::cell::Cell;
 

@@ -21,6 +21,33 @@ pub struct InspectionLine<'a> {
     /// Set for a scene known to be simulated; captures from a source have their own field.
     #[serde(skip_serializing_if = "Option::is_none")]
     simulated: Option<bool>,
+    #[serde(flatten)]
+    first: PartLine<'a>,
+    /// Every part of a frame in which several may hang, from left to right, then what else hangs there.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    parts: Vec<PartLine<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    recipe: Option<RecipeBlock>,
+    /// Set for several frames inspected together.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    scan: Option<ScanLine<'a>>,
+    /// `serial`, `order` and `operator`, as far as known.
+    #[serde(flatten)]
+    trace: Option<&'a Traceability>,
+    /// What really hung there, if a person reported the acceptance as wrong.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reported_as: Option<&'a str>,
+    /// False if the part was accepted in a frame of a source and no other frame shows whether it hangs still.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    motion_checked: Option<bool>,
+    /// True if the frame was recorded earlier, and is replayed now.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    replayed: Option<bool>,
+}
+
+/// The fields for one part of a scene.
+#[derive(Debug, Default, Serialize)]
+struct PartLine<'a> {
     status: &'static str,
     part: Option<&'a str>,
     accepted: bool,
@@ -37,26 +64,9 @@ pub struct InspectionLine<'a> {
     robot: Option<RobotLine<'a>>,
     ranking: Vec<RankLine<'a>>,
     timings_ms: Option<TimingsLine>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    recipe: Option<RecipeBlock>,
-    /// Set for several frames inspected together.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    scan: Option<ScanLine<'a>>,
-    /// `serial`, `order` and `operator`, as far as known.
-    #[serde(flatten)]
-    trace: Option<&'a Traceability>,
-    /// What really hung there, if a person reported the acceptance as wrong.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    reported_as: Option<&'a str>,
-    /// False if the part was accepted in a frame of a source and no other frame shows whether it hangs still.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    motion_checked: Option<bool>,
     /// Why a robot may not act on the pose although the cell is calibrated and the part was accepted.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     robot_doubts: Vec<&'static str>,
-    /// True if the frame was recorded earlier, and is replayed now.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    replayed: Option<bool>,
 }
 
 /// Additional fields for several frames that were inspected together.
@@ -160,19 +170,21 @@ impl<'a> InspectionLine<'a> {
         Self {
             schema: SCHEMA,
             scene,
-            status: "unreadable",
-            reason: Some(reason.to_string()),
+            first: PartLine {
+                status: "unreadable",
+                reason: Some(reason.to_string()),
+                ..PartLine::default()
+            },
             ..Self::default()
         }
     }
 
     /// Creates the line for a trigger after which nothing was inspected. `kind` is the reason in a form for programs.
     pub fn failed(source: &'a str, kind: &str, reason: &str) -> Self {
-        Self {
-            status: "error",
-            reason_kind: Some(kind.to_owned()),
-            ..Self::unreadable(source, &reason)
-        }
+        let mut line = Self::unreadable(source, &reason);
+        line.first.status = "error";
+        line.first.reason_kind = Some(kind.to_owned());
+        line
     }
 
     /// Adds serial number, order and operator.
@@ -240,8 +252,8 @@ impl<'a> InspectionLine<'a> {
 
     /// Adds the pose in the robot's base frame. Without a frame, nothing is added that a robot could move by.
     #[must_use]
-    pub fn in_robot(self, frame: Option<&'a RobotFrame>, inspection: &Inspection) -> Self {
-        let robot = frame.zip(inspection.found_pose()).map(|(frame, pose)| {
+    pub fn in_robot(mut self, frame: Option<&'a RobotFrame>, inspection: &Inspection) -> Self {
+        self.first.robot = frame.zip(inspection.found_pose()).map(|(frame, pose)| {
             let camera_from_part = pose.camera_from_part();
             RobotLine {
                 calibration: &frame.name,
@@ -250,7 +262,7 @@ impl<'a> InspectionLine<'a> {
                 robot_offset: row_major(&frame.robot_offset(&camera_from_part)),
             }
         });
-        Self { robot, ..self }
+        self
     }
 
     /// Adds that the frame was recorded earlier, and is replayed now.
@@ -264,9 +276,16 @@ impl<'a> InspectionLine<'a> {
 
     /// States why a robot may not act on the pose although the cell is calibrated and the part was accepted.
     #[must_use]
-    pub fn doubted(self, doubts: Vec<&'static str>) -> Self {
+    pub fn doubted(mut self, doubts: Vec<&'static str>) -> Self {
+        self.first.robot_doubts = doubts;
+        self
+    }
+
+    /// Adds every part of the frame, each from its own line.
+    #[must_use]
+    pub fn with_parts(self, parts: impl Iterator<Item = Self>) -> Self {
         Self {
-            robot_doubts: doubts,
+            parts: parts.map(|line| line.first).collect(),
             ..self
         }
     }
@@ -298,18 +317,23 @@ impl<'a> InspectionLine<'a> {
         });
         let verdict = &inspection.verdict;
         Self {
-            status: status_of(verdict),
-            part: verdict.guess().filter(|_| !verdict.is_unknown()),
-            accepted: verdict.is_accepted(),
-            score: verdict.score().map(|[score, _]| score),
-            margin: verdict.score().map(|[_, margin]| margin),
-            reason: verdict.complaint().map(|[why, _]| why),
-            reason_kind: verdict.refusal().map(|why| why.kind().to_string()),
-            touches_edge: inspection.touches_edge(),
-            pose,
-            ranking: ranking.collect(),
-            timings_ms: Some(TimingsLine::of(&inspection.timings)),
-            ..Self::unreadable(scene, &"")
+            schema: SCHEMA,
+            scene,
+            first: PartLine {
+                status: status_of(verdict),
+                part: verdict.guess().filter(|_| !verdict.is_unknown()),
+                accepted: verdict.is_accepted(),
+                score: verdict.score().map(|[score, _]| score),
+                margin: verdict.score().map(|[_, margin]| margin),
+                reason: verdict.complaint().map(|[why, _]| why),
+                reason_kind: verdict.refusal().map(|why| why.kind().to_string()),
+                touches_edge: inspection.touches_edge(),
+                pose,
+                ranking: ranking.collect(),
+                timings_ms: Some(TimingsLine::of(&inspection.timings)),
+                ..PartLine::default()
+            },
+            ..Self::default()
         }
     }
 }
@@ -317,7 +341,7 @@ impl<'a> InspectionLine<'a> {
 impl InspectionLine<'_> {
     /// Returns `ok`, `unknown`, `no_part`, `unreadable` or `error`.
     pub fn status(&self) -> &'static str {
-        self.status
+        self.first.status
     }
 
     /// Returns the line without a line end.

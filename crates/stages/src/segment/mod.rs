@@ -28,7 +28,7 @@ pub(crate) use self::clusters::BRIDGED_PIXELS;
 pub use self::{
     clusters::Cluster,
     noise::noise_of_picture,
-    part::{BackgroundSign, SegmentedPart, other_segments, pieces, without_bars},
+    part::{BackgroundSign, SegmentedPart, other_segments, pieces, split, without_bars},
     stand::Bars,
 };
 use crate::scene::SceneCloud;
@@ -56,6 +56,8 @@ pub struct SegmentParams {
     pub link_distance: Metres,
     /// Minimum area of a part as seen from the camera, square metres, 0.001..1.
     pub min_part_area: f64,
+    /// Maximum number of parts in a frame, 1..8.
+    pub max_parts: usize,
     /// Seed of the random samples, 0..999 999.
     pub seed: u64,
 }
@@ -70,6 +72,7 @@ impl Default for SegmentParams {
             max_planes: 3,
             link_distance: Metres::from_mm(6.0),
             min_part_area: 0.02,
+            max_parts: 1,
             seed: 1,
         }
     }

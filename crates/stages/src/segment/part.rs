@@ -210,21 +210,15 @@ pub fn other_segments(
     params: &SegmentParams,
     limit: usize,
 ) -> Vec<SegmentedPart> {
-    let largest = segmentation.clusters.first().map_or(0.0, |c| c.area);
-    let least = params.min_part_area.max(LEAST_SHARE * largest);
-    let is_candidate =
-        |cluster: &Cluster| cluster.area >= least && cluster.num_points >= MIN_POINTS;
-    if segmentation
-        .clusters
-        .iter()
-        .filter(|c| is_candidate(c))
-        .count()
-        < 2
-    {
-        return Vec::new();
-    }
     let part = segmentation.part.as_ref().ok();
     let taken = part.and_then(SegmentedPart::first_of_surface);
+    let least = segmentation.least_area(params);
+    let is_candidate =
+        |cluster: &Cluster| cluster.area >= least && cluster.num_points >= MIN_POINTS;
+    let candidates = segmentation.clusters.iter().filter(|c| is_candidate(c));
+    if taken.is_some() && candidates.count() < 2 {
+        return Vec::new();
+    }
     let surfaces = segmentation.clusters.iter().zip(&segmentation.surfaces);
     let mut others: Vec<(&Cluster, &Vec<u32>)> = surfaces
         .filter(|(cluster, indices)| is_candidate(cluster) && indices.first() != taken)
@@ -247,6 +241,57 @@ pub fn other_segments(
         .collect()
 }
 
+impl Segmentation {
+    /// Minimum area of another surface to be a part, square metres.
+    fn least_area(&self, params: &SegmentParams) -> f64 {
+        let largest = self.clusters.first().map_or(0.0, |c| c.area);
+        params.min_part_area.max(LEAST_SHARE * largest)
+    }
+
+    /// Returns the segmentation of what is left of a scene without the points at these indices, which are known to belong to
+    /// something else. Its part is the likeliest surface left; `None` if there is none of a part's size.
+    pub fn without(
+        &self,
+        scene: &SceneCloud,
+        known: &[u32],
+        params: &SegmentParams,
+    ) -> Option<Self> {
+        let mut labels = self.labels.clone();
+        for label in &mut labels {
+            if *label == PointLabel::Part {
+                *label = PointLabel::Rest;
+            }
+        }
+        let mut unknown = labels.clone();
+        for &i in known {
+            unknown[i as usize] = PointLabel::NoReading;
+        }
+        let left = clusters::connect(scene, &unknown, self.noise_at_1m, params);
+        let least = self.least_area(params);
+        let (clusters, surfaces) = left
+            .into_iter()
+            .filter(|members| members.cluster.area >= least)
+            .map(|members| (members.cluster, members.indices))
+            .unzip();
+        let mut left = Self {
+            labels,
+            planes: self.planes.clone(),
+            clusters,
+            surfaces,
+            noise_at_1m: self.noise_at_1m,
+            part: Err(NoPart::OnlyBackground {
+                planes: self.planes.len(),
+                found: 0.0,
+                needed: least,
+                knows_cell: scene.empty_cell.is_some(),
+            }),
+        };
+        let part = other_segments(scene, &left, params, 1).pop()?;
+        left.take(part);
+        Some(left)
+    }
+}
+
 /// Minimum share of its border along which a surface is the nearer one; below it, the surface lies behind others.
 const IN_FRONT: f64 = 0.5;
 
@@ -266,6 +311,48 @@ pub fn without_bars(scene: &SceneCloud, part: &SegmentedPart, bars: Bars) -> Opt
     let bare = SegmentedPart::of_surface(scene, members, part.surface?, part.noise_at_1m, bars);
     let num_taken = part.indices.len() as f64 - bare.indices.len() as f64;
     (num_taken > least && bare.indices.len() >= MIN_POINTS).then_some(bare)
+}
+
+/// Link distance and noise at which a surface is split, as shares of those at which it was connected. A quarter of the noise
+/// is one standard deviation of a difference, which still joins two neighbours in three, and so nearly every pixel.
+const SPLIT_LINK_SHARE: f64 = 0.5;
+const SPLIT_NOISE_SHARE: f64 = 0.25;
+
+/// Splits a surface where its readings are less close than a single sheet's, largest piece first; empty if it is one sheet.
+/// Pieces smaller than a part are left out.
+pub fn split(
+    scene: &SceneCloud,
+    part: &SegmentedPart,
+    params: &SegmentParams,
+) -> Vec<SegmentedPart> {
+    let mut labels = vec![PointLabel::NoReading; scene.cloud.points.len()];
+    for &i in part.indices.iter().chain(&part.stand) {
+        labels[i as usize] = PointLabel::Rest;
+    }
+    let close = SegmentParams {
+        link_distance: Metres(SPLIT_LINK_SHARE * params.link_distance.0),
+        ..params.clone()
+    };
+    let noise = Metres(SPLIT_NOISE_SHARE * part.noise_at_1m.0);
+    let mut pieces = clusters::connect(scene, &labels, noise, &close);
+    pieces.retain(|piece| {
+        piece.cluster.area >= params.min_part_area && piece.indices.len() >= MIN_POINTS
+    });
+    if pieces.len() < 2 {
+        return Vec::new();
+    }
+    pieces
+        .into_iter()
+        .map(|piece| {
+            SegmentedPart::of_surface(
+                scene,
+                piece.indices,
+                piece.cluster,
+                part.noise_at_1m,
+                Bars::OffSurface,
+            )
+        })
+        .collect()
 }
 
 /// Rates how likely a surface is the part: the more of the view it fills, the more likely, since the camera looks at the
