@@ -76,6 +76,7 @@ results-segment-max-planes = Ebenen höchstens
 results-segment-max-planes-help = Höchstzahl der Hintergrundebenen, die entfernt werden: Wand, Boden und eine weitere. Höhere Werte kosten Zeit und können ein flaches Teil entfernen.
 results-segment-link-distance = Verbindungsabstand
 results-segment-link-distance-help = Benachbarte Punkte mit größerem Abstand (plus Rauschen) gelten als nicht verbunden. Höhere Werte verbinden, was nahe am Teil hängt, niedrigere zerreißen das Teil.
+results-segment-max-parts = Teile höchstens
 results-segment-min-part-area = Kleinste Teilfläche
 results-segment-min-part-area-help = Kleinere Flächen sind kein Teil. Höhere Werte lehnen kleine Teile ab, niedrigere halten Störobjekte für Teile.
 results-segment-seed = Startwert der Ebenen

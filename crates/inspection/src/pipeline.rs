@@ -163,8 +163,8 @@ pub fn run(
 }
 
 /// Inspects a surface after the other of a scene, until nothing of a part's size is left that is neither background nor
-/// explained. Returns an inspection for each, those of accepted parts first, from left to right in the picture; the first is
-/// that of [`run`] where one part hangs. At most [`SegmentParams::max_parts`] are accepted.
+/// explained. Returns an inspection for each, those of accepted parts first, from left to right in the picture. At most
+/// [`SegmentParams::max_parts`] are accepted; of one, the inspection is that of [`run`].
 ///
 /// What an accepted part explains are the readings at its reference in its pose, and no other part has them.
 pub fn run_all(
@@ -176,7 +176,8 @@ pub fn run_all(
     let mut found = vec![run(scene, library, recipe, watch)?];
     let mut known = Vec::new();
     let max_parts = recipe.segment.max_parts;
-    for _ in 1..MAX_SURFACES_PER_PART * max_parts {
+    // One other thing may hang between two parts. Of one part, the surface that was inspected is the likeliest.
+    for _ in 1..(2 * max_parts).saturating_sub(1) {
         let num_accepted = found.iter().filter(|i| i.verdict.is_accepted()).count();
         let last = found.last().filter(|_| num_accepted < max_parts);
         let Some(last) = last else { break };
@@ -200,8 +201,6 @@ pub fn run_all(
     Ok(found)
 }
 
-/// Number of surfaces inspected for each part that may hang there: as many others may hang in between.
-const MAX_SURFACES_PER_PART: usize = 2;
 /// Distance from a placed reference up to which a reading belongs to the part, metres, beyond the noise: rims that the
 /// reference lacks, and the part's deviations from it.
 const EXPLAINED_DISTANCE_M: f64 = 0.015;

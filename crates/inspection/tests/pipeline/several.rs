@@ -162,6 +162,10 @@ fn one_part_is_inspected_as_ever() {
     assert_eq!(all.len(), 1);
     assert_eq!((&all[0].verdict, &all[0].pose), (&one.verdict, &one.pose));
     assert!(one.verdict.is_accepted(), "{:?}", one.verdict);
+    // Nor is anything else inspected if it is refused.
+    let wheel = hung(SimulatedObject::Object(ObjectKind::Wheel), -0.6, 1.9, 0.0);
+    let hood = hung(SimulatedObject::Object(ObjectKind::Hood), 0.5, 2.0, 0.0);
+    assert_eq!(all_in(&scene_of_all(&[wheel, hood]), &library, 1).len(), 1);
     let alone = scene_of_all(&parts[..1]);
     let found = all_in(&alone, &library, 4);
     assert_eq!(found.len(), 1);
