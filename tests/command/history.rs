@@ -6,6 +6,7 @@ use std::{
     path::{self, Path},
     process::Command,
     sync::Arc,
+    thread,
     time::{Duration, Instant},
 };
 
@@ -492,12 +493,20 @@ impl Disk {
         ran.is_ok_and(|ran| ran.status.success())
     }
 
+    /// Remounts the disk. It is busy while a process that another test is starting has copies of this one's files.
     fn remount(&self, options: &str) {
-        let ran = Command::new("mount")
-            .args(["-o", &format!("remount,{options}")])
-            .arg(self.path())
-            .status();
-        assert!(ran.expect("ran").success(), "{options}");
+        let remounted = || {
+            let ran = Command::new("mount")
+                .args(["-o", &format!("remount,{options}")])
+                .arg(self.path())
+                .status();
+            ran.expect("ran").success()
+        };
+        let until = Instant::now() + Duration::from_secs(10);
+        while !remounted() {
+            assert!(Instant::now() < until, "{options}");
+            thread::sleep(Duration::from_millis(20));
+        }
     }
 
     fn path(&self) -> &Path {

@@ -276,16 +276,7 @@ fn inspect_part(
     let Some(segmentation) = clock.time(Stage::Segment, segment)? else {
         return Ok(None);
     };
-    let mut inspection = Inspection {
-        segmentation,
-        plane: None,
-        contour: None,
-        signature: None,
-        ranking: ConfirmedRanking::default(),
-        pose: None,
-        verdict: Verdict::NoPart(Unrecognisable::EmptyLibrary),
-        timings: Timings::default(),
-    };
+    let mut inspection = Inspection::of(segmentation, Unrecognisable::EmptyLibrary);
     let part = inspection.segmentation.part.as_ref();
     let first = part.map(|part| inspect_surface(part, inputs, 0.0));
     match first.map_err(|no_part| *no_part) {
@@ -300,28 +291,34 @@ fn inspect_part(
 }
 
 impl Inspection {
-    /// The empty inspection of a scene during which the program failed.
-    fn broken_off(fault: Fault, num_points: usize) -> Self {
+    /// An inspection without the results of the stages after the segmentation.
+    fn of(segmentation: Segmentation, why: Unrecognisable) -> Self {
         Self {
-            segmentation: Segmentation {
-                labels: vec![PointLabel::NoReading; num_points],
-                planes: Vec::new(),
-                clusters: Vec::new(),
-                surfaces: Vec::new(),
-                noise_at_1m: Metres(0.0),
-                part: Err(NoPart::TooFewPoints {
-                    found: 0,
-                    needed: 0,
-                }),
-            },
+            segmentation,
             plane: None,
             contour: None,
             signature: None,
             ranking: ConfirmedRanking::default(),
             pose: None,
-            verdict: Verdict::NoPart(Unrecognisable::Fault(fault)),
+            verdict: Verdict::NoPart(why),
             timings: Timings::default(),
         }
+    }
+
+    /// The empty inspection of a scene during which the program failed.
+    fn broken_off(fault: Fault, num_points: usize) -> Self {
+        let segmentation = Segmentation {
+            labels: vec![PointLabel::NoReading; num_points],
+            planes: Vec::new(),
+            clusters: Vec::new(),
+            surfaces: Vec::new(),
+            noise_at_1m: Metres(0.0),
+            part: Err(NoPart::TooFewPoints {
+                found: 0,
+                needed: 0,
+            }),
+        };
+        Self::of(segmentation, Unrecognisable::Fault(fault))
     }
 
     /// True if some of the part is outside the picture: of an accepted part, if some of its reference lies beyond the field of

@@ -215,13 +215,15 @@ impl InspectSession {
         if let (Some(followed), Some(capture)) = (&mut self.followed, &subject.capture) {
             scene = followed.look(scene, capture.taken_at);
         }
-        let (inspection, others) = if let Some(followed) = &mut self.followed {
-            let mut one = pipeline::run(&scene, &self.library, &self.recipe, &Unwatched)?;
-            followed.refuse_if_moving(&mut one);
-            (one, Vec::new())
-        } else {
+        let (inspection, others) = if subject.capture.is_none() {
             let mut all = run_all(&scene, &self.library, &self.recipe, &Unwatched)?;
             (all.remove(0), all)
+        } else {
+            let mut one = pipeline::run(&scene, &self.library, &self.recipe, &Unwatched)?;
+            if let Some(followed) = &mut self.followed {
+                followed.refuse_if_moving(&mut one);
+            }
+            (one, Vec::new())
         };
         Ok(InspectedFrame {
             path: path.to_owned(),
@@ -312,7 +314,7 @@ impl InspectSession {
             .iter()
             .filter(|one| one.inspection.verdict.is_accepted());
         let num_unchecked = accepted.filter(|_| subject.is_motion_unchecked).count();
-        let line = if self.recipe.segment.max_parts > 1 {
+        let line = if subject.capture.is_none() && self.recipe.segment.max_parts > 1 {
             Inspected::line_of_all(&parts, &self.trace).unwrap_or_default()
         } else {
             parts[0].line(&self.trace)

@@ -313,8 +313,8 @@ pub fn without_bars(scene: &SceneCloud, part: &SegmentedPart, bars: Bars) -> Opt
     (num_taken > least && bare.indices.len() >= MIN_POINTS).then_some(bare)
 }
 
-/// Link distance and noise at which a surface is split, as shares of those at which it was connected. A quarter of the noise
-/// is one standard deviation of a difference, which still joins two neighbours in three, and so nearly every pixel.
+/// Link distance and noise at which a surface is split, as shares of those at which it was connected. With a quarter of the
+/// noise, two neighbouring readings of one sheet are still joined two times in three, which keeps the sheet in one piece.
 const SPLIT_LINK_SHARE: f64 = 0.5;
 const SPLIT_NOISE_SHARE: f64 = 0.25;
 
