@@ -10,7 +10,7 @@ use super::booth;
 use super::clutter::{Clutter, on_floor, plank};
 use super::object::ObjectKind;
 use super::part::{PartKind, PartModel, Side};
-use super::placement::{PoseRange, SampledPose};
+use super::placement::PoseRange;
 use super::rasteriser::{Plane, Rendering, SurfaceLabel};
 use super::sensor::{Sensor, SensorNoise};
 use super::stand::{Stand, down_from_above, floor_below, post};
@@ -150,8 +150,6 @@ const STREAM: u64 = 0x00ce_11ce_11ce_11ce;
 pub(super) struct Cell<'a> {
     pub(super) part: &'a TriangleMesh,
     pub(super) camera_from_part: RigidTransform,
-    /// True if the whole part lies within the picture.
-    pub(super) fits_frame: bool,
     /// Everything else, drawn in this order.
     pub(super) meshes: Vec<(TriangleMesh, SurfaceLabel)>,
     pub(super) planes: Vec<(Plane, SurfaceLabel)>,
@@ -169,15 +167,12 @@ impl<'a> Cell<'a> {
 
     fn plain(setup: &CellSetup, part: &'a TriangleMesh) -> Self {
         let mut random = Pcg64::seed_from_u64(setup.seed ^ STREAM);
-        let SampledPose {
-            camera_from_part,
-            fully_visible,
-        } = match setup.pose {
-            PartPose::Drawn(placement) => placement.draw(part, &setup.intrinsics, setup.seed),
-            PartPose::Fixed(camera_from_part) => SampledPose {
-                camera_from_part,
-                fully_visible: is_in_frame(part, &camera_from_part, &setup.intrinsics),
-            },
+        let camera_from_part = match setup.pose {
+            PartPose::Drawn(range) => {
+                let placed = range.draw(part, &setup.intrinsics, setup.seed);
+                placed.camera_from_part
+            }
+            PartPose::Fixed(camera_from_part) => camera_from_part,
         };
         let hung = part.placed_vertices(|p| camera_from_part * p);
         let mut wall = beyond(
@@ -217,7 +212,6 @@ impl<'a> Cell<'a> {
         Self {
             part,
             camera_from_part,
-            fits_frame: fully_visible,
             meshes: vec![
                 (stand.into_mesh(), SurfaceLabel::Stand),
                 (clutter.into_mesh(), SurfaceLabel::Clutter),

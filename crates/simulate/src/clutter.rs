@@ -139,7 +139,7 @@ pub(super) fn plank(
 }
 
 /// Returns the same view with a quarter of the pixels in each direction.
-fn quartered(camera: &Intrinsics) -> Intrinsics {
+pub(super) fn quartered(camera: &Intrinsics) -> Intrinsics {
     // Pixel centres are at whole numbers, so the corner of the picture is at -½.
     let shrink = |c: f64| (c + 0.5) / 4.0 - 0.5;
     Intrinsics {

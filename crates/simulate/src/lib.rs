@@ -8,6 +8,7 @@
 //! Stand, Clutter, wall, floor ────────────┘  cell    rasteriser    sensor
 //! ```
 //!
+//! A rack is several parts that hang side by side: [`rack_frame`] arranges the cell around all of them, with a truth for each.
 //! [`Surroundings::Booth`] replaces the lower two inputs by a paint booth, seen by a camera on the robot's flange.
 
 mod assembly;
@@ -22,6 +23,7 @@ mod part;
 mod parts;
 mod placement;
 mod plan_curve;
+mod rack;
 mod rasteriser;
 mod region;
 mod scan;
@@ -39,6 +41,7 @@ pub use clutter::Clutter;
 pub use object::ObjectKind;
 pub use part::{PartKind, PartModel, Side};
 pub use placement::{PoseRange, SampledPose};
+pub use rack::{RackError, RackFrame, RackKind, RackSetup, RackTruth, Spacing, rack_frame};
 pub use rasteriser::SurfaceLabel;
 pub use scan::{ScanSetup, SimulatedScan, SimulatedShot};
 pub use sensor::SensorNoise;

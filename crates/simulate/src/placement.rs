@@ -84,6 +84,17 @@ impl PoseRange {
     /// The distance is drawn uniformly. A part that would leave the frame is moved to the nearest distance within the range at
     /// which it fits, and sideways as far as needed.
     pub fn draw(&self, mesh: &TriangleMesh, intrinsics: &Intrinsics, seed: u64) -> SampledPose {
+        self.draw_moved_back(mesh, intrinsics, self.farthest, seed)
+    }
+
+    /// Like [`PoseRange::draw`], but a part that would leave the frame may be moved back beyond the range, up to `limit`.
+    pub(super) fn draw_moved_back(
+        &self,
+        mesh: &TriangleMesh,
+        intrinsics: &Intrinsics,
+        limit: Metres,
+        seed: u64,
+    ) -> SampledPose {
         let mut random = Pcg64::seed_from_u64(seed ^ STREAM);
         let mut within = |limit: Radians| limit.0 * (2.0 * random.random::<f64>() - 1.0);
         let yaw = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), within(self.yaw));
@@ -105,14 +116,14 @@ impl PoseRange {
             .iter()
             .map(ShiftRange::nearest_fit)
             .fold(drawn, f64::max);
-        let distance = fitting.min(self.farthest.0);
+        let distance = fitting.min(limit.0);
         let [x, y] = [0, 1].map(|axis| axes[axis].shift(distance, wished[axis]));
         SampledPose {
             camera_from_part: RigidTransform::from_parts(
                 Translation3::new(x, y, distance),
                 rotation,
             ),
-            fully_visible: fitting <= self.farthest.0,
+            fully_visible: fitting <= limit.0,
         }
     }
 }

@@ -28,6 +28,8 @@ pub enum SurfaceLabel {
     Stand,
     /// Anything else in the cell.
     Clutter,
+    /// The part, or the unknown object, of this number on a rack, from 0 at the left.
+    RackPart(u8),
 }
 
 /// Nothing nearer than this is drawn, in metres.

@@ -94,11 +94,11 @@ impl Sensor {
         }
     }
 
-    /// Counts the pixels of the rendering that show the part and lie within the field of view.
-    pub(super) fn num_part_pixels(&self, rendering: &Rendering) -> usize {
+    /// Counts the pixels of the rendering that show `label` and lie within the field of view.
+    pub(super) fn num_pixels_in_view(&self, rendering: &Rendering, label: SurfaceLabel) -> usize {
         match self {
-            Self::Kinect => rendering.num_pixels(SurfaceLabel::Part),
-            Self::Registered(camera) => camera.num_part_pixels(rendering),
+            Self::Kinect => rendering.num_pixels(label),
+            Self::Registered(camera) => camera.num_pixels_in_view(rendering, label),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::cell::{Cell, CellSetup, SimulatedObject};
+use super::cell::{Cell, CellSetup, SimulatedObject, is_in_frame};
 use super::part::PartKind;
 use super::rasteriser::{Rendering, SurfaceLabel};
 use geometry::depth_frame::{DepthFrame, Intrinsics};
@@ -59,24 +59,69 @@ pub fn frame_of_mesh(setup: &CellSetup, mesh: &TriangleMesh) -> SimulatedFrame {
     let cell = Cell::arrange(setup, mesh);
     let mut rendering = Rendering::new(setup.intrinsics);
     cell.draw_part(&mut rendering);
-    let num_in_frame = rendering.num_pixels(SurfaceLabel::Part);
-    let num_in_view = cell.sensor.num_part_pixels(&rendering);
-    let num_alone = if cell.fits_frame {
-        num_in_frame
-    } else {
-        num_pixels_without_edges(mesh, &cell.camera_from_part, &setup.intrinsics)
-    };
+    let alone = Unhidden::count(
+        &rendering,
+        &cell,
+        mesh,
+        &cell.camera_from_part,
+        SurfaceLabel::Part,
+    );
     cell.draw_rest(&mut rendering);
-    let num_visible = cell.sensor.num_part_pixels(&rendering);
-    SimulatedFrame {
-        frame: cell.sensor.sense(&rendering, &setup.noise),
-        truth: FrameTruth {
-            subject: setup.subject,
-            camera_from_part: cell.camera_from_part,
-            fully_visible: cell.fits_frame && num_in_view == num_in_frame,
-            visible_share: num_visible as f64 / num_alone.max(1) as f64,
-            labels: rendering.labels,
-        },
+    let mut truth = alone.truth(setup.subject, &cell, &rendering);
+    let frame = cell.sensor.sense(&rendering, &setup.noise);
+    truth.labels = rendering.labels;
+    SimulatedFrame { frame, truth }
+}
+
+/// How much of a part the camera would see if nothing hid it.
+pub(super) struct Unhidden {
+    label: SurfaceLabel,
+    camera_from_part: RigidTransform,
+    /// In an unlimited picture.
+    num_pixels: usize,
+    fully_visible: bool,
+}
+
+impl Unhidden {
+    /// Counts the pixels of a part that is alone in `rendering`, with this label.
+    pub(super) fn count(
+        rendering: &Rendering,
+        cell: &Cell<'_>,
+        part: &TriangleMesh,
+        camera_from_part: &RigidTransform,
+        label: SurfaceLabel,
+    ) -> Self {
+        let camera = &rendering.intrinsics;
+        let num_in_frame = rendering.num_pixels(label);
+        let fits_frame = is_in_frame(part, camera_from_part, camera);
+        Self {
+            label,
+            camera_from_part: *camera_from_part,
+            num_pixels: if fits_frame {
+                num_in_frame
+            } else {
+                num_pixels_without_edges(part, camera_from_part, camera)
+            },
+            fully_visible: fits_frame
+                && cell.sensor.num_pixels_in_view(rendering, label) == num_in_frame,
+        }
+    }
+
+    /// Returns the truth, without labels, about the part in the finished rendering.
+    pub(super) fn truth(
+        &self,
+        subject: SimulatedObject,
+        cell: &Cell<'_>,
+        rendering: &Rendering,
+    ) -> FrameTruth {
+        let num_visible = cell.sensor.num_pixels_in_view(rendering, self.label);
+        FrameTruth {
+            subject,
+            camera_from_part: self.camera_from_part,
+            fully_visible: self.fully_visible,
+            visible_share: num_visible as f64 / self.num_pixels.max(1) as f64,
+            labels: Vec::new(),
+        }
     }
 }
 

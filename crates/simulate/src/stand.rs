@@ -71,46 +71,87 @@ pub(super) fn post(hung: &[Point3<f64>], floor: &Plane) -> Assembly {
     };
     let x = 0.5 * (low.x + high.x);
     let z = high.z + 0.05;
-    let reach = 0.2 * (high.x - low.x);
-    // The upper edge at a hook: the highest point within 2 cm to either side.
+    let reach = HOOK_REACH * (high.x - low.x);
+    let hooks = hooked_edges(hung);
+    let bar_y = hooks.iter().map(|p| p.y).fold(low.y + 0.1, f64::min);
+    let facing = -Vector3::z();
+    let bar = [
+        Point3::new(x - reach - 0.05, bar_y, z),
+        Point3::new(x + reach + 0.05, bar_y, z),
+    ];
+    sweep(&mut stand, &bar, ROD, facing);
+    add_upright(&mut stand, Point3::new(x, bar_y, z), floor);
+    for edge in hooks {
+        add_hook(&mut stand, bar_y, z, edge);
+    }
+    stand
+}
+
+/// Builds a bar above parts side by side, two hooks from it over the upper edge of each, and an upright at either end.
+pub(super) fn rack(parts: &[Vec<Point3<f64>>], floor: &Plane) -> Assembly {
+    const ABOVE: f64 = 0.06;
+    const BESIDE: f64 = 0.10;
+    let mut stand = Assembly::default();
+    let Some((low, high)) = bounds(&parts.concat()) else {
+        return stand;
+    };
+    let hooks: Vec<Point3<f64>> = parts.iter().flat_map(|part| hooked_edges(part)).collect();
+    let z = hooks.iter().map(|p| p.z).fold(low.z, f64::max) + 0.05;
+    let ends = [low.x - BESIDE, high.x + BESIDE].map(|x| Point3::new(x, low.y - ABOVE, z));
+    sweep(&mut stand, &ends, ROD, -Vector3::z());
+    for end in ends {
+        add_upright(&mut stand, end, floor);
+    }
+    for edge in hooks {
+        add_hook(&mut stand, low.y - ABOVE, z, edge);
+    }
+    stand
+}
+
+/// Distance of a hook from the middle of the part, as a share of the part's width.
+const HOOK_REACH: f64 = 0.2;
+/// The bar that carries the hooks.
+const ROD: Section = Section::Round { radius: 0.012 };
+
+/// Returns the points of the part's upper edge over which its two hooks go: the highest within 2 cm to either side.
+fn hooked_edges(hung: &[Point3<f64>]) -> Vec<Point3<f64>> {
+    let Some((low, high)) = bounds(hung) else {
+        return Vec::new();
+    };
+    let x = 0.5 * (low.x + high.x);
+    let reach = HOOK_REACH * (high.x - low.x);
     let edge_above = |x: f64| {
         hung.iter()
             .filter(|p| (p.x - x).abs() < 0.02)
             .min_by(|a, b| a.y.total_cmp(&b.y))
             .copied()
     };
-    let hooks: Vec<Point3<f64>> = [x - reach, x + reach]
+    [x - reach, x + reach]
         .into_iter()
         .filter_map(edge_above)
-        .collect();
-    let bar_y = hooks.iter().map(|p| p.y).fold(low.y + 0.1, f64::min);
-    let facing = -Vector3::z();
-    let rod = Section::Round { radius: 0.012 };
-    let bar = [
-        Point3::new(x - reach - 0.05, bar_y, z),
-        Point3::new(x + reach + 0.05, bar_y, z),
-    ];
-    sweep(&mut stand, &bar, rod, facing);
-    let upright = [
-        Point3::new(x, floor.height_at(x, z), z),
-        Point3::new(x, bar_y, z),
-    ];
+        .collect()
+}
+
+/// Adds an upright from the floor to `top`.
+fn add_upright(stand: &mut Assembly, top: Point3<f64>, floor: &Plane) {
+    let foot = Point3::new(top.x, floor.height_at(top.x, top.z), top.z);
     let square = Section::Bar {
         width: 0.04,
         depth: 0.04,
     };
-    sweep(&mut stand, &upright, square, facing);
+    sweep(stand, &[foot, top], square, -Vector3::z());
+}
+
+/// Adds a hook from the bar at height `bar_y` and depth `bar_z` over an upper edge.
+fn add_hook(stand: &mut Assembly, bar_y: f64, bar_z: f64, edge: Point3<f64>) {
+    let over = Point3::new(edge.x, edge.y - 0.008, edge.z - 0.01);
+    let path = [
+        Point3::new(edge.x, bar_y, bar_z),
+        over,
+        over + Vector3::new(0.0, 0.025, -0.012),
+    ];
     let wire = Section::Round { radius: 0.006 };
-    for edge in hooks {
-        let over = Point3::new(edge.x, edge.y - 0.008, edge.z - 0.01);
-        let path = [
-            Point3::new(edge.x, bar_y, z),
-            over,
-            over + Vector3::new(0.0, 0.025, -0.012),
-        ];
-        sweep(&mut stand, &path, wire, Vector3::x());
-    }
-    stand
+    sweep(stand, &path, wire, Vector3::x());
 }
 
 #[cfg(test)]

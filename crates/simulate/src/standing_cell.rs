@@ -47,7 +47,9 @@ impl StandingCell {
         let mut rendering = Rendering::new(self.intrinsics);
         rendering.draw_mesh(&self.mesh, camera_from_part, SurfaceLabel::Part);
         let num_in_frame = rendering.num_pixels(SurfaceLabel::Part);
-        let num_in_view = self.sensor.num_part_pixels(&rendering);
+        let num_in_view = self
+            .sensor
+            .num_pixels_in_view(&rendering, SurfaceLabel::Part);
         let fully_visible = is_in_frame(&self.mesh, camera_from_part, &self.intrinsics);
         let num_alone = if fully_visible || num_in_frame == 0 {
             num_in_frame
@@ -56,7 +58,9 @@ impl StandingCell {
             num_in_frame.max(self.num_pixels_without_edges(camera_from_part))
         };
         rendering.draw_behind(&self.backdrop);
-        let num_visible = self.sensor.num_part_pixels(&rendering);
+        let num_visible = self
+            .sensor
+            .num_pixels_in_view(&rendering, SurfaceLabel::Part);
         SimulatedFrame {
             frame: self.sensor.sense(&rendering, noise),
             truth: FrameTruth {

@@ -13,7 +13,7 @@ use super::{
     walls::walls,
 };
 use crate::{
-    cell::{Cell, CellSetup, PartPose, SimulatedObject, is_in_frame},
+    cell::{Cell, CellSetup, PartPose, SimulatedObject},
     part::{PartKind, PartModel, Side},
     rasteriser::SurfaceLabel,
     sensor::Sensor,
@@ -79,7 +79,6 @@ pub(crate) fn arrange<'a>(setup: &CellSetup, part: &'a TriangleMesh) -> Cell<'a>
     Cell {
         part,
         camera_from_part,
-        fits_frame: is_in_frame(part, &camera_from_part, camera),
         meshes,
         planes: walls.planes,
         sensor: Sensor::Registered(Box::new(sensor)),

@@ -49,13 +49,13 @@ impl RegisteredCamera {
         }
     }
 
-    /// Counts the pixels in the field of view that show the part.
-    pub(crate) fn num_part_pixels(&self, rendering: &Rendering) -> usize {
+    /// Counts the pixels in the field of view that show `label`.
+    pub(crate) fn num_pixels_in_view(&self, rendering: &Rendering, label: SurfaceLabel) -> usize {
         let width = rendering.intrinsics.width;
         let labels = rendering.labels.iter().enumerate();
         labels
-            .filter(|(pixel, label)| {
-                **label == SurfaceLabel::Part
+            .filter(|(pixel, shown)| {
+                **shown == label
                     && self.field_of_view.contains(
                         (pixel % width) as f64,
                         (pixel / width) as f64,
