@@ -1,6 +1,7 @@
 //! `partsight simulate`: writes a frame of the simulated cell, or many of them as cases with their truth.
 
 mod cases;
+mod rack;
 mod scan;
 
 use std::path::{Path, PathBuf};
@@ -14,10 +15,11 @@ use super::{
     write_json,
 };
 use files::{depth_png::intrinsics_path, save_cloud, write_depth_png};
+use geometry::depth_frame::DepthFrame;
 use geometry::written_pose::{GivenPose, parse_pose};
 use simulate::{
-    CellSetup, Clutter, ObjectKind, PartKind, PartPose, PoseRange, Side, SimulatedFrame,
-    SimulatedObject, Stand, frame,
+    CellSetup, Clutter, ObjectKind, PartKind, PartPose, PoseRange, RackKind, Side, SimulatedObject,
+    Stand, frame,
 };
 use stages::scene::scene_from_frame;
 
@@ -30,6 +32,7 @@ Examples:
   partsight simulate --part grille --pose \"0 0 15deg 0 0 1.2\" --out grille.pcd
   partsight simulate --cases tried --num 40 --placement facing,placed,hard
   partsight simulate --part fender --scan frames --shots 8
+  partsight simulate --rack 3 --rack-kind touching --seed 4 --out rack.png --truth rack.truth.json
   partsight simulate --cases tried --part objects,empty --num 9 --clutter on-floor
   partsight simulate --cases booth --booth --num 80
 
@@ -39,7 +42,7 @@ Only the left doors and the left fender are shipped: a right one is not recognis
 pub(super) struct SimulateArgs {
     /// What hangs in the cell; objects stands for the eight things that are not shipped parts. With --cases several may
     /// be given; default: all parts
-    #[arg(long, value_name = "NAME", value_delimiter = ',', required_unless_present = "cases", value_parser = PossibleValuesParser::new(subject_names()))]
+    #[arg(long, value_name = "NAME", value_delimiter = ',', required_unless_present_any = ["cases", "rack"], value_parser = PossibleValuesParser::new(subject_names()))]
     part: Vec<String>,
     /// Side of the car, for doors and fenders
     #[arg(long, value_enum, default_value_t = SideChoice::Left)]
@@ -75,6 +78,13 @@ pub(super) struct SimulateArgs {
     /// Camera noise as a multiple of a Kinect's; 0 is none
     #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = |text: &str| within(text, &(0.0..=5.0)))]
     noise: f64,
+    /// Instead of one part: a rack with this many places, 2 to 5, side by side. The seed also draws the parts and how each hangs;
+    /// --truth lists them from left to right. With --stand post they hang on one bar
+    #[arg(long, value_name = "N", conflicts_with_all = ["part", "side", "pose", "placement", "booth", "cases", "scan"])]
+    rack: Option<usize>,
+    /// With --rack: what is special about it
+    #[arg(long, value_name = "KIND", value_enum, default_value_t = RackChoice::Apart, requires = "rack", conflicts_with_all = ["part", "cases"])]
+    rack_kind: RackChoice,
     /// The file: .pcd (organised), .png (16-bit depth, intrinsics in a .json beside it), .ply or .xyz (points only)
     #[arg(long, value_name = "FILE", required_unless_present_any = ["cases", "scan"])]
     out: Option<PathBuf>,
@@ -150,12 +160,17 @@ impl SimulateArgs {
 
     /// Creates the cell with this object; the pose is drawn.
     fn cell(&self, subject: SimulatedObject, seed: u64) -> CellSetup {
-        if self.booth {
-            let mut setup = CellSetup::booth(subject, seed);
-            setup.noise.multiplier = self.noise;
-            return setup;
-        }
-        let mut setup = CellSetup::new(subject, seed);
+        let mut setup = if self.booth {
+            CellSetup::booth(subject, seed)
+        } else {
+            CellSetup::new(subject, seed)
+        };
+        self.equip(&mut setup);
+        setup
+    }
+
+    /// Sets the noise, and what stands around the part.
+    fn equip(&self, setup: &mut CellSetup) {
         setup.noise.multiplier = self.noise;
         setup.clutter = match self.clutter {
             ClutterChoice::None => Clutter::None,
@@ -167,7 +182,6 @@ impl SimulateArgs {
             StandChoice::Post => Stand::Post,
             StandChoice::Floor => Stand::Floor,
         };
-        setup
     }
 }
 
@@ -189,6 +203,38 @@ enum StandChoice {
     Post,
     /// It stands on the floor
     Floor,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum RackChoice {
+    /// Different parts with gaps of 40 to 150 mm
+    Apart,
+    /// Different parts with gaps of at most 10 mm
+    Touching,
+    /// Different parts in pairs: one hangs 100 to 300 mm in front of the other and hides up to a third of it
+    Overlapping,
+    /// Two equal parts among others
+    Equal,
+    /// The left and the right part of one kind among others
+    Mirrored,
+    /// An object that is not a shipped part among parts
+    Foreign,
+    /// One place is empty
+    Empty,
+}
+
+impl From<RackChoice> for RackKind {
+    fn from(choice: RackChoice) -> Self {
+        match choice {
+            RackChoice::Apart => Self::Apart,
+            RackChoice::Touching => Self::Touching,
+            RackChoice::Overlapping => Self::Overlapping,
+            RackChoice::Equal => Self::Equal,
+            RackChoice::Mirrored => Self::Mirrored,
+            RackChoice::Foreign => Self::Foreign,
+            RackChoice::Empty => Self::Empty,
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -236,6 +282,9 @@ pub(super) fn run(args: &SimulateArgs, console: &mut Console) -> anyhow::Result<
         return scan::run(folder, args, console);
     }
     let (subjects, out) = (args.subjects(), args.out.as_deref());
+    if let (Some(num_places), Some(out)) = (args.rack, out) {
+        return rack::run(num_places, out, args, console);
+    }
     let (&[subject], &[placement], Some(out)) = (&subjects[..], &args.placement[..], out) else {
         return Err(advised_error(
             "one file shows one part at one placement",
@@ -252,7 +301,7 @@ pub(super) fn run(args: &SimulateArgs, console: &mut Console) -> anyhow::Result<
         None => PartPose::Drawn(placement.into()),
     };
     let simulated = frame(&setup);
-    write_frame(out, &simulated)?;
+    write_frame(out, &simulated.frame)?;
     let truth = &simulated.truth;
     if let Some(path) = &args.truth {
         write_json(path, truth)?;
@@ -328,10 +377,10 @@ fn is_png(path: &Path) -> bool {
         .is_some_and(|e| e.eq_ignore_ascii_case("png"))
 }
 
-fn write_frame(path: &Path, simulated: &SimulatedFrame) -> anyhow::Result<()> {
+fn write_frame(path: &Path, frame: &DepthFrame) -> anyhow::Result<()> {
     if is_png(path) {
-        write_depth_png(path, &simulated.frame).advised()
+        write_depth_png(path, frame).advised()
     } else {
-        save_cloud(path, &scene_from_frame(&simulated.frame).cloud).advised()
+        save_cloud(path, &scene_from_frame(frame).cloud).advised()
     }
 }

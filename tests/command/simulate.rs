@@ -118,3 +118,54 @@ fn a_pose_in_the_wrong_unit_is_doubted_and_an_unseen_part_is_said() {
     assert!(far.contains("did you mean 1200mm?"), "{far}");
     assert!(far.contains("does not see the part"), "{far}");
 }
+
+#[test]
+fn a_rack_lists_its_parts_from_left_to_right() {
+    let place = Workplace::new();
+    let simulate = ["simulate", "--rack", "3", "--seed", "4"];
+    let make = |kind: &str, out: &str| {
+        let more = [
+            "--rack-kind",
+            kind,
+            "--out",
+            out,
+            "--truth",
+            "rack.truth.json",
+        ];
+        let reply = place.accepted(&[&simulate[..], &more[..]].concat()).out;
+        let file = fs::read(place.path(out)).expect("written");
+        (reply, file, place.json("rack.truth.json"))
+    };
+    let (reply, file, truth) = make("mirrored", "a.png");
+    let (_, file_again, truth_again) = make("mirrored", "b.png");
+    assert!(file == file_again && truth == truth_again);
+    let parts = truth["parts"].as_array().expect("a list");
+    assert_eq!(parts.len(), 3);
+    let x_of = |part: &serde_json::Value| part["camera_from_model"][3].as_f64().expect("a number");
+    assert!(parts.is_sorted_by_key(x_of), "{truth}");
+    for part in parts {
+        let share = part["visible_share"].as_f64().expect("a number");
+        assert!((0.6..=1.0).contains(&share), "{share}");
+    }
+    let sides = |side: &str| {
+        let of_side = parts
+            .iter()
+            .filter(|p| p["subject"]["part"]["side"] == side);
+        of_side.count()
+    };
+    assert_eq!(sides("right"), 1);
+    assert!(reply.contains("3 of them taken") && reply.contains("  right "));
+    assert!(make("empty", "c.pcd").0.contains("2 of them taken"));
+    for (wrong, expected) in [
+        (&["--rack", "6"][..], "2 to 5 places"),
+        (&["--rack", "1"], "a single part"),
+        (&["--rack", "3", "--booth"], "--booth"),
+        (&["--rack", "3", "--part", "fender"], "--part"),
+        (&["--part", "fender", "--rack-kind", "equal"], "--rack"),
+    ] {
+        let ran = place.run(&[&["simulate", "--out", "d.pcd"], wrong].concat());
+        assert_eq!(ran.code, 2, "{wrong:?}");
+        assert!(ran.err.contains(expected), "{}", ran.err);
+        assert!(!place.path("d.pcd").exists());
+    }
+}

@@ -9,7 +9,7 @@ use rand::{RngExt as _, SeedableRng as _, seq::SliceRandom as _};
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 
-use self::layout::hang;
+use self::layout::{Hung, hang};
 use super::assembly::Assembly;
 use super::cell::{Cell, CellSetup, PartPose, SimulatedObject, Surroundings};
 use super::object::ObjectKind;
@@ -128,7 +128,7 @@ impl Advice for RackError {
     }
 }
 
-/// From this number of places on, parts that are wider than high hang on end, and with more places drawn sets have no
+/// From this number of places on, parts that are much wider than high hang on end, and with more places drawn sets have no
 /// doors, which are wide either way: otherwise the camera would have to stand so far away that little of each is left.
 const MANY: usize = 3;
 
@@ -252,7 +252,7 @@ pub fn rack_frame(setup: &RackSetup) -> Result<RackFrame, RackError> {
     };
     let mut cell = Cell::arrange(&around, &all);
     if setup.cell.stand == Stand::Post {
-        let parts: Vec<_> = hung.iter().map(|part| part.vertices()).collect();
+        let parts: Vec<_> = hung.iter().map(Hung::vertices).collect();
         let floor = cell
             .planes
             .iter()

@@ -152,7 +152,7 @@ fn draw_bodies(setup: &RackSetup) -> Vec<Body> {
         let roll = about(Vector3::z_axis(), MAX_TURN.0);
         let quarter = if random.random_bool(0.5) { 1.0 } else { -1.0 };
         let extents = mesh.bounds().map(|(low, high)| high - low);
-        let is_on_end = num_places >= MANY && extents.is_some_and(|e| e.x > e.y);
+        let is_on_end = num_places >= MANY && extents.is_some_and(|e| e.x > 1.2 * e.y);
         let on_end = if is_on_end {
             quarter * std::f64::consts::FRAC_PI_2
         } else {
