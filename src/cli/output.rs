@@ -32,18 +32,29 @@ impl OutputFormat {
         }
     }
 
+    /// Shows the parts of a scene; `line` is that of all.
     pub(super) fn inspected(
         &self,
         scene: &str,
         line: &str,
-        inspected: &Inspected<'_>,
+        parts: &[Inspected<'_>],
         library: &Library,
         console: &mut Console,
     ) {
-        match self {
-            Self::Json => console.line(&line),
-            Self::Card => show_card(scene, inspected, library, console),
-            Self::Rows(columns) => columns.inspected(scene, inspected, library, console),
+        if matches!(self, Self::Json) {
+            console.line(&line);
+            return;
+        }
+        for (number, part) in (1..).zip(parts) {
+            let shown = match parts.len() {
+                1 => scene.to_owned(),
+                num => format!("{scene}, {number} of {num}"),
+            };
+            match self {
+                Self::Json => {}
+                Self::Card => show_card(&shown, part, library, console),
+                Self::Rows(columns) => columns.inspected(&shown, part, library, console),
+            }
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Requests that a client may send, and the answers to them.
 
 use std::{
+    iter,
     sync::OnceLock,
     time::{Duration, Instant},
 };
@@ -29,6 +30,13 @@ pub enum Request {
         /// The inspection's sequence number; `None` for that of the client's own last trigger.
         sequence: Option<u32>,
     },
+    /// Send a part of the frame of an inspection, as a trigger sends the first one.
+    Part {
+        /// The part's number in the frame from 1, or 0 for the number of parts.
+        index: u32,
+        /// The sequence number of any part of the frame; `None` for that of the client's own last trigger.
+        sequence: Option<u32>,
+    },
 }
 
 impl Request {
@@ -39,18 +47,55 @@ impl Request {
             Self::Status => ("STATUS", 2),
             Self::Last => ("LAST", 3),
             Self::Path { .. } => ("PATH", 4),
+            Self::Part { .. } => ("PART", 5),
         }
     }
 
-    /// Finds a request by its word, ignoring case; a path request is one for the number of points.
-    pub(super) fn of_name(word: &str) -> Option<Self> {
-        let path = Self::Path {
-            point: 0,
-            sequence: None,
-        };
-        let all = [Self::Trigger, Self::Status, Self::Last, path];
-        let mut all = all.into_iter();
-        all.find(|request| request.name().0.eq_ignore_ascii_case(word))
+    /// Finds a request whose name, in a text or in a frame, fulfils `is_it`; its numbers are 0.
+    pub(super) fn find(is_it: impl Fn((&str, u16)) -> bool) -> Option<Self> {
+        let (path, part) = (Self::path(0, 0), Self::part(0, 0));
+        let mut all = [Self::Trigger, Self::Status, Self::Last, path, part].into_iter();
+        all.find(|request| is_it(request.name()))
+    }
+
+    /// A request for a point of a path; the sequence number 0 stands for the client's own last trigger.
+    pub fn path(point: u32, sequence: u32) -> Self {
+        Self::Path {
+            point,
+            sequence: (sequence > 0).then_some(sequence),
+        }
+    }
+
+    /// A request for a part of a frame; the sequence number 0 stands for the client's own last trigger.
+    pub fn part(index: u32, sequence: u32) -> Self {
+        Self::Part {
+            index,
+            sequence: (sequence > 0).then_some(sequence),
+        }
+    }
+
+    /// The request with these numbers; `None` if it takes none.
+    pub(super) fn numbered(self, number: u32, sequence: u32) -> Option<Self> {
+        match self {
+            Self::Path { .. } => Some(Self::path(number, sequence)),
+            Self::Part { .. } => Some(Self::part(number, sequence)),
+            Self::Trigger | Self::Status | Self::Last => None,
+        }
+    }
+
+    /// Its numbers, 0 where it has none: of a point or of a part, and the sequence number.
+    pub(super) fn numbers(self) -> [u32; 2] {
+        match self {
+            Self::Path {
+                point: number,
+                sequence,
+            }
+            | Self::Part {
+                index: number,
+                sequence,
+            } => [number, sequence.unwrap_or(0)],
+            Self::Trigger | Self::Status | Self::Last => [0, 0],
+        }
     }
 }
 
@@ -189,6 +234,15 @@ impl Problem {
         )
     }
 
+    /// The frame has fewer parts.
+    fn no_such_part(index: u32, num_parts: u32) -> Self {
+        Self::new(
+            "no_such_part",
+            &format!("there is no part {index} in a frame of {num_parts}"),
+            "Ask for parts from 1 to the number of parts in PART's answer",
+        )
+    }
+
     /// The inspection is not kept any more, or never was.
     pub(super) fn no_such_inspection(sequence: u32) -> Self {
         Self::new(
@@ -284,30 +338,96 @@ impl Found {
     }
 }
 
+/// What hangs in a frame: the first part, or what there is instead of one, and the others.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FrameParts {
+    /// The part of those who ask for one.
+    pub first: Found,
+    /// Further parts, in their order.
+    pub others: Vec<Found>,
+}
+
+impl From<Found> for FrameParts {
+    fn from(first: Found) -> Self {
+        Self {
+            first,
+            others: Vec::new(),
+        }
+    }
+}
+
+impl FrameParts {
+    /// All of them in their order: at least one.
+    pub fn iter(&self) -> impl Iterator<Item = &Found> {
+        iter::once(&self.first).chain(&self.others)
+    }
+
+    /// All of them in their order, to be changed.
+    pub fn iter_mut(&mut self) -> impl Iterator<Item = &mut Found> {
+        iter::once(&mut self.first).chain(&mut self.others)
+    }
+
+    /// The one at this place, counted from 0.
+    pub(super) fn get(&self, index: usize) -> Option<&Found> {
+        self.iter().nth(index)
+    }
+
+    /// Number of parts; 0 if nothing recognisable hangs there.
+    pub(super) fn num_parts(&self) -> u32 {
+        let has_part = |found: &&Found| {
+            let verdict = found.verdict;
+            matches!(verdict, VerdictCode::Accepted | VerdictCode::Refused)
+        };
+        u32::try_from(self.iter().filter(has_part).count()).unwrap_or(u32::MAX)
+    }
+}
+
 /// Maximum of sequence and boot numbers, and of ages in milliseconds: up to here a 32-bit real of a controller holds whole
 /// numbers exactly.
 pub const MAX_COUNT: u32 = (1 << 24) - 1;
 
-/// An inspection with its numbers.
+/// What a trigger found in its frame, with its numbers.
 #[derive(Debug, Default)]
 pub(super) struct Inspected {
-    /// From 1; 0 before the first one.
+    /// The sequence number of the first part, from 1; those of the others follow. 0 before the first inspection.
     pub(super) sequence: u32,
     /// The boot number when it was made.
     pub(super) boot: u32,
-    pub(super) found: Found,
-    /// Why its pose and its path may not be sent any more, if it was accepted.
+    /// The parts, or what there is instead of one.
+    pub(super) found: FrameParts,
+    /// Why its poses and paths may not be sent any more, if they were accepted.
     pub(super) revoked: OnceLock<Problem>,
 }
 
 impl Inspected {
-    /// The verdict as it holds now, with the reason if it differs from the original.
-    fn judged(&self, age: Option<Duration>, max_age: Duration) -> (VerdictCode, Problem) {
+    /// The sequence number of a part, counted from 0.
+    pub(super) fn sequence_of(&self, index: usize) -> u32 {
+        match (self.sequence, u32::try_from(index)) {
+            (sequence @ 1.., Ok(index)) => (sequence - 1 + index) % MAX_COUNT + 1,
+            _ => 0,
+        }
+    }
+
+    /// The answers to a request about each part.
+    pub(super) fn answers(&self, request: Request, at: &Situation) -> Vec<Answer> {
+        let places = 0..self.found.iter().count();
+        places
+            .map(|place| Answer::of(request, self, place, at))
+            .collect()
+    }
+
+    /// The verdict of a part as it holds now, with the reason if it differs from the original.
+    fn judged(
+        &self,
+        found: &Found,
+        age: Option<Duration>,
+        max_age: Duration,
+    ) -> (VerdictCode, Problem) {
         match self.revoked.get() {
-            Some(problem) if self.found.verdict == VerdictCode::Accepted => {
+            Some(problem) if found.verdict == VerdictCode::Accepted => {
                 (VerdictCode::Refused, problem.clone())
             }
-            _ => judged(&self.found, age, max_age),
+            _ => judged(found, age, max_age),
         }
     }
 }
@@ -344,10 +464,14 @@ pub struct Answer {
     pub number: u32,
     /// The flags of this type except [`Answer::POSE`], which [`Answer::flags`] adds.
     pub marks: u16,
-    /// Number of the path's point, from 1; 0 in other answers.
+    /// Number of the path's point, from 1; in the answer to [`Request::Part`] that of the part; 0 in other answers.
     pub point: u32,
-    /// Number of points of the path.
+    /// Number of points of the path; in the answer to [`Request::Part`] that of the frame's parts.
     pub points: u32,
+    /// Number of the part in its frame, from 1; 0 if nothing recognisable hangs there.
+    pub index: u32,
+    /// Number of parts of the frame, refused ones included.
+    pub num_parts: u32,
     /// Speed from this point to the next, mm/s.
     pub speed_mm_s: Option<f64>,
     /// Pose in the robot's base frame; only with an accepted verdict.
@@ -397,13 +521,19 @@ impl Answer {
         }
     }
 
-    /// Answers a request from an inspection.
-    pub(super) fn of(request: Request, inspected: &Inspected, at: &Situation) -> Self {
-        let found = &inspected.found;
+    /// Answers a request from a part of an inspected frame, counted from 0.
+    pub(super) fn of(
+        request: Request,
+        inspected: &Inspected,
+        index: usize,
+        at: &Situation,
+    ) -> Self {
+        let found = inspected.found.get(index).unwrap_or(&inspected.found.first);
+        let num_parts = inspected.found.num_parts();
         let age = found
             .captured
             .map(|captured| at.now.saturating_duration_since(captured));
-        let (verdict, problem) = inspected.judged(age, at.max_age);
+        let (verdict, problem) = inspected.judged(found, age, at.max_age);
         let marks = match verdict {
             VerdictCode::Refused => found.marks & !Self::OF_ACCEPTED,
             _ => found.marks,
@@ -411,7 +541,7 @@ impl Answer {
         let mut answer = Self {
             request: Some(request),
             verdict,
-            sequence: inspected.sequence,
+            sequence: inspected.sequence_of(index),
             // Its numbers have the meaning that they had then.
             boot: inspected.boot,
             age_ms: age.map(in_milliseconds),
@@ -419,19 +549,36 @@ impl Answer {
             part: found.part.clone(),
             number: found.number,
             marks,
+            // No part, no number.
+            index: u32::try_from(index + 1).map_or(num_parts, |index| index.min(num_parts)),
+            num_parts,
             problem,
             ..Self::default()
         };
+        if let Request::Part { index, .. } = request {
+            if index > answer.num_parts {
+                answer.verdict = VerdictCode::BadRequest;
+                answer.problem = Problem::no_such_part(index, answer.num_parts);
+            }
+            (answer.point, answer.points) = (index, answer.num_parts);
+        }
         if let (Request::Status, Some(problem)) = (request, &at.camera.problem) {
             answer.problem = problem.clone();
         }
         // The only place where numbers get into an answer.
-        if verdict == VerdictCode::Accepted {
-            answer.points = u32::try_from(found.path.len()).unwrap_or(u32::MAX);
+        if answer.verdict == VerdictCode::Accepted {
+            let num_points = u32::try_from(found.path.len()).unwrap_or(u32::MAX);
             match request {
-                Request::Trigger | Request::Last => answer.pose = found.pose,
-                Request::Status | Request::Path { point: 0, .. } => {}
-                Request::Path { point, .. } => answer.take_point(point, found),
+                Request::Trigger | Request::Last => {
+                    (answer.pose, answer.points) = (found.pose, num_points);
+                }
+                Request::Status | Request::Path { point: 0, .. } => answer.points = num_points,
+                Request::Path { point, .. } => {
+                    answer.points = num_points;
+                    answer.take_point(point, found);
+                }
+                Request::Part { index: 0, .. } => {}
+                Request::Part { .. } => answer.pose = found.pose,
             }
         }
         answer
@@ -496,6 +643,11 @@ mod tests {
     use super::*;
     use geometry::rigid::from_euler_zyx;
 
+    /// The answer about the first part.
+    fn answer_of(request: Request, inspected: &Inspected, at: &Situation) -> Answer {
+        Answer::of(request, inspected, 0, at)
+    }
+
     fn pose() -> RigidTransform {
         from_euler_zyx([0.1, -0.2, 0.3, 1.2, -0.4, 1.9])
     }
@@ -538,20 +690,39 @@ mod tests {
         }
     }
 
-    const ALL: [Request; 6] = [
+    const fn part(index: u32) -> Request {
+        Request::Part {
+            index,
+            sequence: None,
+        }
+    }
+
+    const ALL: [Request; 8] = [
         Request::Trigger,
         Request::Status,
         Request::Last,
         path(0),
         path(1),
         path(2),
+        part(0),
+        part(1),
     ];
+
+    /// True if the answer has no pose, and no number of points of a path.
+    fn has_no_numbers(request: Request, answer: &Answer) -> bool {
+        // Of the frame's parts, refused ones count as well.
+        let num_parts = match request {
+            Request::Part { .. } => answer.num_parts,
+            _ => 0,
+        };
+        answer.pose.is_none() && answer.points == num_parts
+    }
 
     fn inspected(sequence: u32, found: Found) -> Inspected {
         Inspected {
             sequence,
             boot: 7,
-            found,
+            found: found.into(),
             ..Inspected::default()
         }
     }
@@ -572,22 +743,28 @@ mod tests {
                 ..found(start)
             });
             for request in ALL {
-                let answer = Answer::of(request, &last, &at);
-                assert_eq!(answer.verdict, verdict);
-                assert_eq!((answer.pose, answer.points), (None, 0), "{request:?}");
+                let answer = answer_of(request, &last, &at);
+                let has_part = verdict == VerdictCode::Refused;
+                let expected = match request {
+                    Request::Part { index: 1, .. } if !has_part => VerdictCode::BadRequest,
+                    _ => verdict,
+                };
+                assert_eq!(answer.verdict, expected, "{request:?}");
+                assert!(has_no_numbers(request, &answer), "{request:?}");
                 assert_eq!(answer.flags() & Answer::POSE, 0);
                 assert_eq!(answer.speed_mm_s, None);
             }
         }
         let last = inspected(found(start));
         for request in ALL {
-            let answer = Answer::of(request, &last, &at);
-            let has_pose = request != Request::Status && request != path(0) && request != path(2);
+            let answer = answer_of(request, &last, &at);
+            let without = [Request::Status, path(0), path(2), part(0)];
+            let has_pose = !without.contains(&request);
             assert_eq!(answer.pose.is_some(), has_pose, "{request:?}");
             assert_eq!(answer.age_ms, Some(1500));
             assert_eq!((answer.sequence, answer.boot), (5, 7));
         }
-        let step = Answer::of(path(1), &last, &at);
+        let step = answer_of(path(1), &last, &at);
         assert_eq!(
             (step.point, step.points, step.speed_mm_s),
             (1, 1, Some(250.0))
@@ -596,7 +773,7 @@ mod tests {
             step.flags(),
             Answer::POSE | Answer::SIMULATED | Answer::GUN_ON
         );
-        let beyond = Answer::of(path(2), &last, &at);
+        let beyond = answer_of(path(2), &last, &at);
         assert_eq!(beyond.verdict, VerdictCode::BadRequest);
         assert_eq!(beyond.problem.reason, "no_such_point");
         let withheld = Problem::new(
@@ -609,13 +786,13 @@ mod tests {
             no_path: Some(withheld.clone()),
             ..found(start)
         });
-        let answer = Answer::of(path(1), &last, &at);
+        let answer = answer_of(path(1), &last, &at);
         assert_eq!(
             (answer.verdict, answer.problem),
             (VerdictCode::BadRequest, withheld)
         );
-        last.found.no_path = None;
-        let answer = Answer::of(path(1), &last, &at);
+        last.found.first.no_path = None;
+        let answer = answer_of(path(1), &last, &at);
         assert!(answer.problem.message.contains("Store a path"));
     }
 
@@ -624,12 +801,12 @@ mod tests {
         let start = Instant::now();
         let last = inspected(1, found(start));
         let fresh = situation(start + Duration::from_secs(10));
-        assert!(Answer::of(Request::Last, &last, &fresh).pose.is_some());
+        assert!(answer_of(Request::Last, &last, &fresh).pose.is_some());
         let late = situation(start + Duration::from_millis(10_001));
         for request in ALL {
-            let answer = Answer::of(request, &last, &late);
+            let answer = answer_of(request, &last, &late);
             assert_eq!(answer.verdict, VerdictCode::Stale, "{request:?}");
-            assert_eq!((answer.pose, answer.points), (None, 0));
+            assert!(has_no_numbers(request, &answer), "{request:?}");
             assert_eq!(answer.problem.reason, "stale");
             assert_eq!(answer.part, "fender");
         }
@@ -661,7 +838,7 @@ mod tests {
         ] {
             let last = inspected(1, wrong);
             for request in ALL {
-                let answer = Answer::of(request, &last, &situation(start));
+                let answer = answer_of(request, &last, &situation(start));
                 assert_eq!(answer.verdict, VerdictCode::Refused);
                 assert_eq!(answer.pose, None);
                 assert_eq!(answer.problem.reason, "no_pose");
@@ -683,7 +860,7 @@ mod tests {
             },
             ..situation(now)
         };
-        let answer = Answer::of(Request::Status, &Inspected::default(), &at);
+        let answer = answer_of(Request::Status, &Inspected::default(), &at);
         assert_eq!(answer.problem, problem);
         assert_eq!(answer.camera, CameraState::Lost);
         let none = (answer.verdict, answer.sequence, answer.age_or_none());
@@ -707,9 +884,9 @@ mod tests {
             ..situation(now)
         };
         for request in ALL {
-            let answer = Answer::of(request, &last, &at);
+            let answer = answer_of(request, &last, &at);
             assert_eq!(answer.verdict, VerdictCode::Refused, "{request:?}");
-            assert_eq!((answer.pose, answer.points), (None, 0));
+            assert!(has_no_numbers(request, &answer), "{request:?}");
             assert_eq!((answer.flags(), answer.boot), (Answer::SIMULATED, 7));
             assert_eq!(answer.problem.reason, "reported_wrong");
         }

@@ -9,7 +9,9 @@ use serde_json::{Map, Value};
 
 use super::{
     answer::{Answer, LibraryStatus, PathStep, Problem, Request, VerdictCode},
-    server::{ClientNews, ClientSlot, Job, ServerSettings, Shared, answer_to, path_of},
+    server::{
+        ClientNews, ClientSlot, Job, ServerSettings, Shared, answer_to, inspection_of, triggered,
+    },
     tally::Tally,
 };
 use geometry::error::lock;
@@ -67,6 +69,26 @@ impl ServerHandle {
         answer_to(request, &self.shared, &self.jobs, &mut None, is_withdrawn)
     }
 
+    /// Inspects a frame, and answers about each of its parts, or what there is instead of one. It blocks as
+    /// [`answer`](Self::answer) does.
+    pub fn trigger(&self, is_withdrawn: impl Fn() -> bool + Send + 'static) -> Vec<Answer> {
+        let inspected = triggered(&self.jobs, Box::new(is_withdrawn));
+        let at = self.shared.situation();
+        match inspected {
+            Ok(inspected) => inspected.answers(Request::Trigger, &at),
+            Err((verdict, problem)) => vec![Answer {
+                request: Some(Request::Trigger),
+                ..Answer::turned_away(verdict, problem, &at)
+            }],
+        }
+    }
+
+    /// Answers about each part of the last inspection, or what there is instead of one.
+    pub fn last(&self) -> Vec<Answer> {
+        let at = self.shared.situation();
+        self.shared.last().answers(Request::Last, &at)
+    }
+
     /// The state of the camera, and the last verdict without its numbers.
     pub fn status(&self) -> Answer {
         self.answer(Request::Status, || false)
@@ -87,35 +109,35 @@ impl ServerHandle {
     /// The inspection with this sequence number and its whole path, which is empty unless the pose may be used.
     pub fn path(&self, sequence: u32) -> (Answer, Vec<PathStep>) {
         let at = self.shared.situation();
-        let inspected = match path_of(Some(sequence), None, &self.shared) {
-            Ok(inspected) => inspected,
+        let (inspected, place) = match inspection_of(Some(sequence), None, &self.shared) {
+            Ok(found) => found,
             Err(problem) => {
                 let refused = Answer::turned_away(VerdictCode::BadRequest, problem, &at);
                 return (refused, Vec::new());
             }
         };
-        let answer = Answer::of(Request::Last, &inspected, &at);
-        let path = match answer.verdict {
-            VerdictCode::Accepted => inspected.found.path.clone(),
-            _ => Vec::new(),
-        };
+        let answer = Answer::of(Request::Last, &inspected, place, &at);
+        let found = inspected.found.get(place);
+        let path = found.filter(|_| answer.verdict == VerdictCode::Accepted);
+        let path = path.map_or_else(Vec::new, |found| found.path.clone());
         (answer, path)
     }
 
-    /// The last inspection and its JSON line, if there is one. Unless the pose may be used, all poses are removed from the
-    /// line.
-    pub fn report(&self) -> (Answer, Option<Map<String, Value>>) {
+    /// The parts of the last inspection, or what there is instead of one, and its JSON line, if there is one. The line has
+    /// the poses of those parts alone whose pose may be used.
+    pub fn report(&self) -> (Vec<Answer>, Option<Map<String, Value>>) {
         let last = self.shared.last();
-        let answer = Answer::of(Request::Last, &last, &self.shared.situation());
-        let mut report = serde_json::from_str::<Map<String, Value>>(&last.found.report).ok();
-        if let Some(line) = &mut report
-            && answer.verdict != VerdictCode::Accepted
-        {
-            for field in POSE_FIELDS {
-                line.remove(field);
+        let answers = last.answers(Request::Last, &self.shared.situation());
+        let mut report = serde_json::from_str::<Map<String, Value>>(&last.found.first.report).ok();
+        if let Some(line) = &mut report {
+            if let Some(Value::Array(parts)) = line.get_mut("parts") {
+                for (i, part) in parts.iter_mut().enumerate() {
+                    remove_pose(part.as_object_mut(), answers.get(i));
+                }
             }
+            remove_pose(Some(line), answers.first());
         }
-        (answer, report)
+        (answers, report)
     }
 
     /// Counts since the start.
@@ -136,5 +158,15 @@ impl ServerHandle {
     /// Reports a client's event to the operator.
     pub fn tell(&self, peer: SocketAddr, protocol: &'static str, news: ClientNews) {
         self.shared.tell(peer, protocol, news);
+    }
+}
+
+/// Removes the poses of a part, unless its answer has one.
+fn remove_pose(line: Option<&mut Map<String, Value>>, answer: Option<&Answer>) {
+    let may_be_used = answer.is_some_and(|answer| answer.verdict == VerdictCode::Accepted);
+    if let Some(line) = line.filter(|_| !may_be_used) {
+        for field in POSE_FIELDS {
+            line.remove(field);
+        }
     }
 }

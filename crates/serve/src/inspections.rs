@@ -8,16 +8,16 @@ use std::{
 
 use jiff::Timestamp;
 
-use super::answer::{Found, Inspected, MAX_COUNT, Problem};
+use super::answer::{FrameParts, Inspected, MAX_COUNT, Problem};
 
-/// Inspections that are kept for clients that name one by its number, such as after a lost connection.
+/// Inspected frames that are kept for clients that name one by its number, such as after a lost connection.
 const NUM_KEPT: usize = 16;
 
 /// The last inspections of a server, and those that a client still holds.
 #[derive(Debug)]
 pub(super) struct Inspections {
     boot: u32,
-    /// Number of the last inspection; 0 before the first one.
+    /// Number of the last part inspected; 0 before the first one.
     sequence: u32,
     /// The oldest first.
     kept: VecDeque<Arc<Inspected>>,
@@ -49,22 +49,25 @@ impl Inspections {
         self.kept.back().map_or_else(none, Arc::clone)
     }
 
-    /// The inspection with this number, if it is still kept.
-    pub(super) fn find(&self, sequence: u32) -> Option<Arc<Inspected>> {
+    /// The frame with the part of this number, if it is still kept, and the part's place in it, from 0.
+    pub(super) fn find(&self, sequence: u32) -> Option<(Arc<Inspected>, usize)> {
         let mut newest_first = self.kept.iter().rev();
-        let found = newest_first.find(|inspected| inspected.sequence == sequence);
-        found.map(Arc::clone)
+        newest_first.find_map(|inspected| {
+            let mut places = 0..inspected.found.iter().count();
+            let place = places.find(|place| inspected.sequence_of(*place) == sequence)?;
+            Some((Arc::clone(inspected), place))
+        })
     }
 
-    /// Numbers the next inspection, which becomes the last one.
-    pub(super) fn add(&mut self, found: Found) -> Arc<Inspected> {
-        self.sequence = self.sequence % MAX_COUNT + 1;
+    /// Numbers the parts of the next frame, which becomes the last one.
+    pub(super) fn add(&mut self, found: FrameParts) -> Arc<Inspected> {
         let inspected = Arc::new(Inspected {
-            sequence: self.sequence,
+            sequence: self.sequence % MAX_COUNT + 1,
             boot: self.boot,
             found,
             revoked: OnceLock::new(),
         });
+        self.sequence = inspected.sequence_of(inspected.found.others.len());
         self.kept.push_back(Arc::clone(&inspected));
         let mut num_surplus = self.kept.len().saturating_sub(NUM_KEPT);
         // What a client holds stays, so that it can be revoked.
@@ -108,13 +111,49 @@ mod tests {
     use std::collections::BTreeSet;
 
     use super::*;
-    use crate::VerdictCode;
+    use crate::{Found, VerdictCode};
 
-    fn accepted() -> Found {
+    fn accepted() -> FrameParts {
+        let verdict = VerdictCode::Accepted;
         Found {
-            verdict: VerdictCode::Accepted,
+            verdict,
             ..Found::default()
         }
+        .into()
+    }
+
+    /// A frame of this many parts.
+    fn several(num: usize) -> FrameParts {
+        let FrameParts { first, .. } = accepted();
+        FrameParts {
+            others: vec![first.clone(); num - 1],
+            first,
+        }
+    }
+
+    #[test]
+    fn every_part_of_a_frame_has_a_number_of_its_own_that_leads_to_it() {
+        let mut inspections = Inspections::start();
+        assert_eq!(inspections.add(accepted()).sequence, 1);
+        assert_eq!(inspections.add(several(3)).sequence, 2);
+        assert_eq!(inspections.add(accepted()).sequence, 5);
+        let place = |sequence| {
+            inspections
+                .find(sequence)
+                .map(|(frame, place)| (frame.sequence, place))
+        };
+        let places = [1, 2, 3, 4, 5, 6].map(place);
+        let expected = [(1, 0), (2, 0), (2, 1), (2, 2), (5, 0)].map(Some);
+        assert_eq!(places[..5], expected);
+        assert_eq!(places[5], None);
+        // Numbers go on from one within a frame too.
+        inspections.sequence = MAX_COUNT - 2;
+        let last = inspections.add(several(3));
+        assert_eq!(
+            [0, 1, 2].map(|place| last.sequence_of(place)),
+            [MAX_COUNT - 1, MAX_COUNT, 1]
+        );
+        assert_eq!(inspections.add(accepted()).sequence, 2);
     }
 
     #[test]

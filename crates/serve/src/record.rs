@@ -3,25 +3,36 @@
 use std::time::{Duration, Instant};
 
 use super::{
-    answer::{Answer, CameraStatus, Found, Inspected, Request, Situation},
+    answer::{Answer, CameraStatus, Found, FrameParts, Inspected, Request, Situation},
     inspections::Inspections,
 };
 
-/// An inspection, kept for receivers other than the client that triggered it. Its verdict is judged again at each access,
+/// An inspected part, kept for receivers other than the client that triggered it. Its verdict is judged again at each access,
 /// so that a pose that has become too old is not sent.
 #[derive(Debug)]
 pub struct InspectionRecord {
+    /// Of this part alone.
     inspected: Inspected,
+    index: u32,
+    num_parts: u32,
     at: Situation,
 }
 
 impl InspectionRecord {
-    pub(super) fn of(inspected: &Inspected, at: Situation) -> Self {
+    /// A record of each part of a frame.
+    pub(super) fn of_all(inspected: &Inspected, at: &Situation) -> Vec<Self> {
+        let places = 0..inspected.found.iter().count();
+        places
+            .map(|index| Self::of(inspected, index, at.clone()))
+            .collect()
+    }
+
+    fn of(inspected: &Inspected, index: usize, at: Situation) -> Self {
         // Judge with the path, then leave it out of the record: it may be long.
-        let answer = Answer::of(Request::Last, inspected, &at);
+        let answer = Answer::of(Request::Last, inspected, index, &at);
         let found = Found {
             verdict: answer.verdict,
-            captured: inspected.found.captured,
+            captured: inspected.found.first.captured,
             part: answer.part,
             number: answer.number,
             marks: answer.marks,
@@ -33,21 +44,27 @@ impl InspectionRecord {
             inspected: Inspected {
                 sequence: answer.sequence,
                 boot: answer.boot,
-                found,
+                found: found.into(),
                 ..Inspected::default()
             },
+            index: answer.index,
+            num_parts: answer.num_parts,
             at,
         }
     }
 
-    /// The answer to [`Request::Last`] as of now, except that the path has 0 points and the camera's state is that at the
+    /// The answer to [`Request::Last`] about this part as of now, except that the path has 0 points and the camera's state is that at the
     /// end of the inspection.
     pub fn answer(&self) -> Answer {
         let now = Situation {
             now: Instant::now(),
             ..self.at.clone()
         };
-        Answer::of(Request::Last, &self.inspected, &now)
+        Answer {
+            index: self.index,
+            num_parts: self.num_parts,
+            ..Answer::of(Request::Last, &self.inspected, 0, &now)
+        }
     }
 }
 
@@ -72,8 +89,8 @@ impl InspectionRecorder {
         self.inspections.boot()
     }
 
-    /// Records the next inspection with the camera's present status.
-    pub fn record(&mut self, found: Found, camera: CameraStatus) -> InspectionRecord {
+    /// Records the parts of the next frame with the camera's present status.
+    pub fn record(&mut self, found: FrameParts, camera: CameraStatus) -> Vec<InspectionRecord> {
         let inspected = self.inspections.add(found);
         let at = Situation {
             boot: self.boot(),
@@ -81,7 +98,7 @@ impl InspectionRecorder {
             camera,
             now: Instant::now(),
         };
-        InspectionRecord::of(&inspected, at)
+        InspectionRecord::of_all(&inspected, &at)
     }
 }
 
@@ -105,7 +122,8 @@ mod tests {
                     speed: None,
                 }],
                 ..Found::default()
-            },
+            }
+            .into(),
             boot: 7,
             ..Inspected::default()
         }
@@ -124,14 +142,14 @@ mod tests {
     fn a_record_loses_its_pose_with_age() {
         let inspected = inspected(RigidTransform::identity(), RigidTransform::identity());
         let hour = Duration::from_hours(1);
-        let fresh = InspectionRecord::of(&inspected, within(hour)).answer();
+        let fresh = InspectionRecord::of(&inspected, 0, within(hour)).answer();
         assert_eq!(fresh.verdict, VerdictCode::Accepted);
         assert_eq!((fresh.sequence, fresh.boot), (5, 7));
         assert!(fresh.pose.is_some());
         // Fresh when the inspection ended, too old now.
         let record = InspectionRecord {
             at: within(Duration::ZERO),
-            ..InspectionRecord::of(&inspected, within(hour))
+            ..InspectionRecord::of(&inspected, 0, within(hour))
         };
         std::thread::sleep(Duration::from_millis(2));
         let late = record.answer();
@@ -141,11 +159,15 @@ mod tests {
 
     #[test]
     fn records_without_a_server_are_numbered_and_judged_as_its_own() {
-        let found = || inspected(RigidTransform::identity(), RigidTransform::identity()).found;
+        let found = || {
+            inspected(RigidTransform::identity(), RigidTransform::identity())
+                .found
+                .first
+        };
         let mut recorder = InspectionRecorder::new(Duration::from_hours(1));
         let answers = [(), ()].map(|()| {
-            let record = recorder.record(found(), CameraStatus::default());
-            record.answer()
+            let record = recorder.record(found().into(), CameraStatus::default());
+            record[0].answer()
         });
         assert_eq!(answers.each_ref().map(|answer| answer.sequence), [1, 2]);
         for answer in &answers {
@@ -157,7 +179,7 @@ mod tests {
             captured: Instant::now().checked_sub(Duration::from_millis(5)),
             ..found()
         };
-        let late = strict.record(old, CameraStatus::default()).answer();
+        let late = strict.record(old.into(), CameraStatus::default())[0].answer();
         assert_eq!((late.verdict, late.pose), (VerdictCode::Stale, None));
     }
 
@@ -167,7 +189,7 @@ mod tests {
         endless.translation.vector.x = f64::NAN;
         let inspected = inspected(RigidTransform::identity(), endless);
         let at = within(Duration::from_hours(1));
-        let answer = InspectionRecord::of(&inspected, at).answer();
+        let answer = InspectionRecord::of(&inspected, 0, at).answer();
         assert_eq!((answer.verdict, answer.pose), (VerdictCode::Refused, None));
         assert_eq!(answer.problem.reason, "no_pose");
     }

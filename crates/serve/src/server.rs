@@ -20,8 +20,8 @@ use thiserror::Error;
 
 use super::{
     answer::{
-        Answer, CameraStatus, Found, Inspected, LibraryStatus, Problem, Request, Situation,
-        VerdictCode, judged,
+        Answer, CameraStatus, Found, FrameParts, Inspected, LibraryStatus, Problem, Request,
+        Situation, VerdictCode, judged,
     },
     client::Client,
     handle::ServerHandle,
@@ -71,10 +71,10 @@ impl Asked {
 /// Captures and inspects frames, on the thread that calls [`Server::run`].
 pub trait Inspector {
     /// Captures a frame after the trigger and inspects it.
-    fn inspect(&mut self, asked: &Asked) -> Found;
+    fn inspect(&mut self, asked: &Asked) -> FrameParts;
 
-    /// Passes on the last inspection with its number, for receivers other than the client. Called right after the answer
-    /// was sent; has to return soon.
+    /// Passes on a part of the last inspection with its number, for receivers other than the client. Called for each part
+    /// right after the answer was sent; has to return soon.
     fn recorded(&mut self, _record: InspectionRecord) {}
 
     /// Called after the answer to the last inspection was sent, for work that nobody waits for.
@@ -395,15 +395,18 @@ impl Server {
             return;
         }
         let found = guarded(|| inspector.inspect(&job.asked));
-        let found = found.unwrap_or_else(|fault| Found::error(Problem::of("fault", &fault)));
-        let age = found.captured.map(|captured| captured.elapsed());
-        let (verdict, _) = judged(&found, age, self.shared.settings.max_age);
-        lock(&self.shared.tally).add(verdict, job.asked.at.elapsed());
+        let found = found.unwrap_or_else(|fault| Found::error(Problem::of("fault", &fault)).into());
+        let verdicts = found.iter().map(|part| {
+            let age = part.captured.map(|captured| captured.elapsed());
+            judged(part, age, self.shared.settings.max_age).0
+        });
+        lock(&self.shared.tally).add(verdicts, job.asked.at.elapsed());
         let inspected = lock(&self.shared.inspections).add(found);
         // Keep it as the last inspection even if the client has disconnected.
         let _ = job.reply.send(Ok(Arc::clone(&inspected)));
         // `situation` calls the camera's callback; if that panics, lose one record and not the service.
-        if let Ok(record) = guarded(|| InspectionRecord::of(&inspected, self.shared.situation())) {
+        let records = guarded(|| InspectionRecord::of_all(&inspected, &self.shared.situation()));
+        for record in records.into_iter().flatten() {
             inspector.recorded(record);
         }
         inspector.answered();
@@ -523,17 +526,23 @@ pub(super) fn answer_to(
         Request::Trigger => {
             let triggered = triggered(jobs, Box::new(is_withdrawn));
             *own = triggered.as_ref().ok().map(Arc::clone);
-            triggered.map_err(|why| (VerdictCode::Error, Problem::of(why.reason(), &why)))
+            triggered.map(|inspected| (inspected, 0))
         }
-        Request::Status | Request::Last => Ok(shared.last()),
-        Request::Path { sequence, .. } => {
-            let known = path_of(sequence, own.as_ref(), shared);
+        Request::Status | Request::Last => Ok((shared.last(), 0)),
+        Request::Path { sequence, .. } | Request::Part { sequence, .. } => {
+            let known = inspection_of(sequence, own.as_ref(), shared);
             known.map_err(|problem| (VerdictCode::BadRequest, problem))
         }
     };
     let at = shared.situation();
     match inspected {
-        Ok(inspected) => Answer::of(request, &inspected, &at),
+        Ok((inspected, place)) => {
+            let index = match request {
+                Request::Part { index, .. } => index.saturating_sub(1) as usize,
+                _ => place,
+            };
+            Answer::of(request, &inspected, index, &at)
+        }
         Err((verdict, problem)) => Answer {
             request: Some(request),
             ..Answer::turned_away(verdict, problem, &at)
@@ -541,24 +550,26 @@ pub(super) fn answer_to(
     }
 }
 
-/// The inspection whose path a client gets: its own, or the one that it names. Never the last one of any other client.
-pub(super) fn path_of(
+/// The inspection whose path or parts a client gets: its own, or the one that it names. Never the last one of any other client.
+/// Also returns the place of the part in its frame, from 0.
+pub(super) fn inspection_of(
     sequence: Option<u32>,
     own: Option<&Arc<Inspected>>,
     shared: &Shared,
-) -> Result<Arc<Inspected>, Problem> {
+) -> Result<(Arc<Inspected>, usize), Problem> {
     let Some(sequence) = sequence else {
-        return own.map(Arc::clone).ok_or_else(Problem::no_trigger);
+        let own = own.map(|own| (Arc::clone(own), 0));
+        return own.ok_or_else(Problem::no_trigger);
     };
     let known = lock(&shared.inspections).find(sequence);
     known.ok_or_else(|| Problem::no_such_inspection(sequence))
 }
 
-/// Requests an inspection of a frame captured from now on, and waits for it.
-fn triggered(
+/// Requests an inspection of a frame captured from now on, and waits for it. An error is a verdict with its reason.
+pub(super) fn triggered(
     jobs: &SyncSender<Job>,
     is_withdrawn: Box<dyn Fn() -> bool + Send>,
-) -> Result<Arc<Inspected>, Unanswered> {
+) -> Result<Arc<Inspected>, (VerdictCode, Problem)> {
     let (reply, inspected) = mpsc::sync_channel(1);
     let job = Job {
         asked: Asked::now(),
@@ -566,8 +577,9 @@ fn triggered(
         reply,
     };
     // Both fail once the service ends.
-    jobs.send(job).ok().ok_or(Unanswered::Stopping)?;
-    inspected.recv().ok().ok_or(Unanswered::Stopping)?
+    let sent = jobs.send(job).ok().ok_or(Unanswered::Stopping);
+    let inspected = sent.and_then(|()| inspected.recv().ok().ok_or(Unanswered::Stopping)?);
+    inspected.map_err(|why| (VerdictCode::Error, Problem::of(why.reason(), &why)))
 }
 
 #[cfg(test)]
@@ -586,15 +598,18 @@ mod tests {
             marks: Answer::GUN_ON,
             speed: None,
         };
-        let own = lock(&server.shared.inspections).add(Found {
-            verdict: VerdictCode::Accepted,
-            captured: Some(Instant::now()),
-            part: "fender".into(),
-            marks: Answer::APPROXIMATE | Answer::SIMULATED,
-            pose: Some(RigidTransform::identity()),
-            path: vec![step],
-            ..Found::default()
-        });
+        let own = lock(&server.shared.inspections).add(
+            Found {
+                verdict: VerdictCode::Accepted,
+                captured: Some(Instant::now()),
+                part: "fender".into(),
+                marks: Answer::APPROXIMATE | Answer::SIMULATED,
+                pose: Some(RigidTransform::identity()),
+                path: vec![step],
+                ..Found::default()
+            }
+            .into(),
+        );
         let path = |sequence| Request::Path { point: 1, sequence };
         let handle = server.handle();
         let answer = |request| {

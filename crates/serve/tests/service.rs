@@ -20,8 +20,8 @@ use std::{
 use geometry::rigid::RigidTransform;
 use robot::Convention;
 use serve::{
-    Answer, Asked, CameraState, CameraStatus, ClientEvent, ClientNews, Found, Inspector,
-    ListenAddress, Listener, PathStep, Problem, Server, ServerSettings, VerdictCode,
+    Answer, Asked, CameraState, CameraStatus, ClientEvent, ClientNews, Found, FrameParts,
+    Inspector, ListenAddress, Listener, PathStep, Problem, Server, ServerSettings, VerdictCode,
 };
 
 /// Timeout with room for a busy machine; what is awaited normally comes at once.
@@ -73,13 +73,13 @@ fn refused(number: u32) -> Found {
 /// An inspector that returns what it is told to, and counts.
 struct Fake {
     number: u32,
-    find: Box<dyn FnMut(u32) -> Found + Send>,
+    find: Box<dyn FnMut(u32) -> FrameParts + Send>,
     is_ending: Arc<AtomicBool>,
     num_inspected: Arc<AtomicU32>,
 }
 
 impl Inspector for Fake {
-    fn inspect(&mut self, asked: &Asked) -> Found {
+    fn inspect(&mut self, asked: &Asked) -> FrameParts {
         assert!(asked.at <= Instant::now());
         self.number += 1;
         self.num_inspected.fetch_add(1, Ordering::SeqCst);
@@ -108,10 +108,10 @@ struct Service {
 }
 
 impl Service {
-    fn start(
+    fn start<F: Into<FrameParts>>(
         listen: &[&str],
         settings: ServerSettings,
-        find: impl FnMut(u32) -> Found + Send + 'static,
+        mut find: impl FnMut(u32) -> F + Send + 'static,
     ) -> Self {
         let listeners = listen.iter().map(|text| {
             let at: ListenAddress = text.parse().expect("an address");
@@ -136,7 +136,7 @@ impl Service {
         let num_inspected = Arc::new(AtomicU32::new(0));
         let mut fake = Fake {
             number: 0,
-            find: Box::new(find),
+            find: Box::new(move |number| find(number).into()),
             is_ending: Arc::clone(&is_ending),
             num_inspected: Arc::clone(&num_inspected),
         };
@@ -252,15 +252,15 @@ impl Robot {
         self.reply()
     }
 
-    /// Asks for a point of the path of the inspection with this number.
-    fn ask_path_of(&mut self, sequence: u32, point: u32) -> Reply {
+    /// Asks for a point of the path, or a part, of the inspection with this number.
+    fn ask_of(&mut self, sequence: u32, word: &str, number: u32) -> Reply {
         let bytes = match self.protocol.as_str() {
-            "ascii" | "urscript" => format!("PATH {point} {sequence}\n").into_bytes(),
+            "ascii" | "urscript" => format!("{word} {number} {sequence}\n").into_bytes(),
             "eki" => format!(
-                "<Robot><Request>PATH</Request><Point>{point}</Point><Sequence>{sequence}</Sequence></Robot>"
+                "<Robot><Request>{word}</Request><Point>{number}</Point><Sequence>{sequence}</Sequence></Robot>"
             )
             .into_bytes(),
-            protocol => frame(protocol, "PATH", &[point, sequence]),
+            protocol => frame(protocol, word, &[number, sequence]),
         };
         self.send(&bytes);
         self.reply()
@@ -311,7 +311,9 @@ fn crc32(bytes: &[u8]) -> u32 {
 
 fn request(protocol: &str, word: &str, point: u32) -> Vec<u8> {
     match protocol {
-        "ascii" | "urscript" if word == "PATH" => format!("PATH {point}\n").into_bytes(),
+        "ascii" | "urscript" if matches!(word, "PATH" | "PART") => {
+            format!("{word} {point}\n").into_bytes()
+        }
         "ascii" | "urscript" => format!("{word}\n").into_bytes(),
         "eki" => {
             format!("<Robot><Request>{word}</Request><Point>{point}</Point></Robot>").into_bytes()
@@ -322,7 +324,7 @@ fn request(protocol: &str, word: &str, point: u32) -> Vec<u8> {
 
 /// A request as a binary frame with these numbers.
 fn frame(protocol: &str, word: &str, numbers: &[u32]) -> Vec<u8> {
-    let words = ["TRIGGER", "STATUS", "LAST", "PATH"];
+    let words = ["TRIGGER", "STATUS", "LAST", "PATH", "PART"];
     let code = place_of(word, &words) + 1;
     let mut frame = b"PSRQ".to_vec();
     let is_big = protocol == "binary-be";
@@ -574,6 +576,75 @@ fn a_refused_part_and_a_stale_pose_have_no_numbers() {
                     assert_eq!(reply.reason, reason);
                 }
             }
+        }
+    }
+}
+
+/// The parts of the frame with this number: 2, 8, none, and an accepted one beside a refused one.
+fn several(frame: u32) -> FrameParts {
+    let all = |num| (1..=num).map(|part| accepted(1000 * frame + part));
+    let parts: Vec<Found> = match frame % 4 {
+        1 => all(2).collect(),
+        2 => all(8).collect(),
+        3 => vec![Found {
+            verdict: VerdictCode::NoPart,
+            ..refused(0)
+        }],
+        _ => vec![accepted(1000 * frame + 1), refused(2)],
+    };
+    let mut parts = parts.into_iter();
+    FrameParts {
+        first: parts.next().expect("one at least"),
+        others: parts.collect(),
+    }
+}
+
+#[test]
+fn every_protocol_gives_the_parts_of_a_frame_one_by_one_and_a_trigger_the_first() {
+    let service = Service::start(&ALL, ServerSettings::default(), several);
+    let mut frame = 0;
+    let mut next_sequence = 1;
+    for place in 0..ALL.len() {
+        let mut robot = service.robot(place);
+        let none = robot.ask_point("PART", 1);
+        assert_eq!((none.verdict, none.numbers.len()), (7, 0), "not triggered");
+        for num_parts in [2, 8, 0, 2] {
+            frame += 1;
+            let triggered = robot.ask("TRIGGER");
+            assert_eq!(triggered.sequence, next_sequence);
+            let count = robot.ask_point("PART", 0);
+            assert_eq!((count.point, count.points), (0, num_parts));
+            assert_eq!(count.verdict, triggered.verdict);
+            assert!(count.numbers.is_empty());
+            for part in 1..=num_parts {
+                let sequence = next_sequence + part - 1;
+                let own = robot.ask_point("PART", part);
+                assert_eq!((own.point, own.points), (part, num_parts));
+                assert_eq!(own.sequence, sequence);
+                // As from any of the numbers of its frame.
+                let named = robot.ask_of(next_sequence + num_parts - 1, "PART", part);
+                assert_eq!(named.numbers, own.numbers);
+                let point = robot.ask_of(sequence, "PATH", 1);
+                assert_eq!(point.sequence, sequence);
+                if frame % 4 == 0 && part == 2 {
+                    assert_eq!((own.verdict, own.numbers.len()), (2, 0), "refused");
+                    assert_eq!((point.verdict, point.numbers.len()), (2, 0));
+                } else {
+                    let x = f64::from(1000 * frame + part);
+                    assert_at(&own, [x, 250.0, 1500.0]);
+                    assert_at(&point, [7.0, 250.0, 1500.0]);
+                }
+            }
+            if num_parts > 0 {
+                assert_at(&triggered, [f64::from(1000 * frame + 1), 250.0, 1500.0]);
+            }
+            let beyond = robot.ask_point("PART", num_parts + 1);
+            assert_eq!((beyond.verdict, beyond.numbers.len()), (7, 0));
+            if robot.protocol != "urscript" {
+                assert_eq!(beyond.reason, "no_such_part");
+            }
+            assert_eq!(robot.ask("LAST").numbers, triggered.numbers);
+            next_sequence += num_parts.max(1);
         }
     }
 }
@@ -996,7 +1067,7 @@ fn a_client_reads_the_path_of_its_own_trigger_or_of_one_that_it_names() {
         assert_eq!(others, own + 1);
         assert_of(&first.ask_point("PATH", 1), own);
         assert_of(&second.ask_point("PATH", 1), others);
-        assert_of(&first.ask_path_of(others, 1), others);
+        assert_of(&first.ask_of(others, "PATH", 1), others);
         // One that has not triggered, or that has connected again, has to say which one it means.
         for point in [0, 1] {
             let reply = third.ask_point("PATH", point);
@@ -1007,9 +1078,9 @@ fn a_client_reads_the_path_of_its_own_trigger_or_of_one_that_it_names() {
             }
         }
         drop(first);
-        assert_of(&third.ask_path_of(own, 1), own);
-        assert_eq!(third.ask_path_of(own, 0).points, 2);
-        let never = third.ask_path_of(1000, 1);
+        assert_of(&third.ask_of(own, "PATH", 1), own);
+        assert_eq!(third.ask_of(own, "PATH", 0).points, 2);
+        let never = third.ask_of(1000, "PATH", 1);
         assert_eq!(never.verdict, 7, "{never:?}");
         assert_no_numbers(&never);
         if third.protocol != "urscript" {

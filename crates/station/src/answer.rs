@@ -6,11 +6,12 @@ use super::{Camera, Inspected, NoFrame, PartFinder, Subject, motion::time_of};
 use capture::Captured;
 use inspection::{
     library::Library,
-    pipeline::{self, Inspection, NamedRecipe, Unwatched},
+    pipeline::{Inspection, NamedRecipe, Unwatched, run_all},
 };
 use records::history::Traceability;
-use serve::Found;
-use stages::{reference::Reference, scene::SceneCloud};
+use robot::RobotFrame;
+use serve::FrameParts;
+use stages::scene::SceneCloud;
 
 /// What triggers are answered with.
 pub struct Answering<'a> {
@@ -33,12 +34,41 @@ pub struct Answering<'a> {
 pub struct Answered {
     /// What was inspected, and whether it was checked that the part hung still.
     pub subject: Subject,
-    /// The result for the client; its report is the line of JSON.
-    pub found: Found,
+    /// The result for the client; the report of the first part is the line of JSON.
+    pub found: FrameParts,
     /// The scene that was inspected.
     pub scene: Arc<SceneCloud>,
-    /// The result of all stages.
-    pub inspection: Inspection,
+    /// The results of all stages for each part, in the order of `found`.
+    pub inspections: Vec<Inspection>,
+}
+
+impl Answered {
+    /// The parts, to be shown and recorded. `robot` is the frame of the numbers that were sent.
+    pub fn parts<'a>(
+        &'a self,
+        recipe: &'a NamedRecipe,
+        robot: &'a RobotFrame,
+    ) -> Vec<Inspected<'a>> {
+        parts_of(&self.subject, &self.scene, &self.inspections, recipe, robot)
+    }
+}
+
+fn parts_of<'a>(
+    subject: &'a Subject,
+    scene: &'a Arc<SceneCloud>,
+    inspections: &'a [Inspection],
+    recipe: &'a NamedRecipe,
+    robot: &'a RobotFrame,
+) -> Vec<Inspected<'a>> {
+    let part = |inspection| Inspected {
+        subject,
+        scene,
+        inspection,
+        recipe,
+        robot: Some(robot),
+        is_forced: false,
+    };
+    inspections.iter().map(part).collect()
 }
 
 impl Answering<'_> {
@@ -52,37 +82,36 @@ impl Answering<'_> {
         mut scene_of: impl FnMut(Captured) -> Arc<SceneCloud>,
     ) -> Result<Answered, NoFrame> {
         let inspected = |scene: &SceneCloud| {
-            pipeline::run(scene, self.library, self.recipe, &Unwatched).expect("not cancelled")
+            run_all(scene, self.library, self.recipe, &Unwatched).expect("not cancelled")
         };
+        let middle_of = |part: &Inspection| part.best_reference(self.library)?.middle();
         let (captured_at, at) = (self.camera.captured_at(&captured), time_of(&captured));
         let scene = scene_of(captured);
-        let mut inspection = inspected(&scene);
-        let middle = inspection.best_reference(self.library);
-        let middle = middle.and_then(Reference::middle);
+        let mut inspections = inspected(&scene);
         let is_checked = self.camera.refuse_if_moving(
             at,
-            &mut inspection,
-            middle,
+            &mut inspections,
+            middle_of,
             self.at_most,
             self.is_ending,
             |later| inspected(&scene_of(later)),
         )?;
         subject.is_motion_unchecked |= !is_checked;
-        let inspected = Inspected {
-            subject: &subject,
-            scene: &scene,
-            inspection: &inspection,
-            recipe: self.recipe,
-            robot: Some(&self.finder.robot),
-            is_forced: false,
+        let robot = &self.finder.robot;
+        let parts = parts_of(&subject, &scene, &inspections, self.recipe, robot);
+        let mut found = parts
+            .iter()
+            .map(|part| self.finder.found(part, captured_at));
+        let mut found = FrameParts {
+            first: found.next().expect("an inspection has a verdict"),
+            others: found.collect(),
         };
-        let mut found = self.finder.found(&inspected, captured_at);
-        found.report = inspected.line(trace);
+        found.first.report = Inspected::line_of_all(&parts, trace);
         Ok(Answered {
             subject,
             found,
             scene,
-            inspection,
+            inspections,
         })
     }
 }
@@ -96,7 +125,6 @@ mod tests {
     use capture::SourceSpec;
     use geometry::rigid::RigidTransform;
     use inspection::fixtures::shipped_library;
-    use robot::RobotFrame;
     use serve::{Answer, Asked, PoseKind, VerdictCode};
     use stages::scene::scene_from_image;
 
@@ -141,14 +169,15 @@ mod tests {
         });
         let Answered {
             found,
-            inspection,
+            inspections,
             subject,
             ..
         } = answered.expect("a second frame");
+        let found = found.first;
         assert_eq!(found.verdict, VerdictCode::Accepted, "{:?}", found.problem);
         assert_eq!(num_scenes, 2, "looked for again in a later frame");
         assert_eq!((&*found.part, found.marks), ("fender", Answer::SIMULATED));
-        let pose = inspection.found_pose().expect("accepted");
+        let pose = inspections[0].found_pose().expect("accepted");
         let pose = finder.robot.robot_from_part(&pose.camera_from_part());
         assert_eq!(found.pose, Some(pose));
         let line: Value = serde_json::from_str(&found.report).expect("JSON");

@@ -305,30 +305,30 @@ impl Camera {
         })
     }
 
-    /// Refuses an accepted part that moves. `at` is the camera's time of the inspected frame. If the scene was still until
-    /// then, a frame at least 150 ms later must show the part in the same place; if that is not known, because the source
-    /// has just begun or is slow, one at least 900 ms later. `again` inspects that frame, `middle` is the middle of the
-    /// part, part space, metres. Returns false if the source does not show it, or ends before. An error leaves the part
-    /// unchecked and must be answered instead of it.
+    /// Refuses the accepted parts of a frame that move. `at` is the camera's time of the frame. If the scene was still until
+    /// then, a frame at least 150 ms later must show each part in the same place; if that is not known, because the source
+    /// has just begun or is slow, one at least 900 ms later. `again` inspects that frame, `middle_of` is the middle of a
+    /// part, part space, metres. Returns false if the source does not show it, or ends before. An error leaves the parts
+    /// unchecked and must be answered instead of them.
     pub fn refuse_if_moving(
         &self,
         at: Duration,
-        inspection: &mut Inspection,
-        middle: Option<Point3<f64>>,
+        inspections: &mut [Inspection],
+        middle_of: impl Fn(&Inspection) -> Option<Point3<f64>>,
         at_most: Duration,
         is_ending: impl Fn() -> bool,
-        again: impl FnOnce(Captured) -> Inspection,
+        again: impl FnOnce(Captured) -> Vec<Inspection>,
     ) -> Result<bool, NoFrame> {
         let opened = self.opened();
         let Some(motion) = &opened.motion else {
             return Ok(false);
         };
-        if !inspection.verdict.is_accepted() {
+        if !inspections.iter().any(|part| part.verdict.is_accepted()) {
             return Ok(true);
         }
         let apart = match motion.state_at(at) {
             MotionState::Moving => {
-                refuse_moving(inspection);
+                refuse_all(inspections);
                 return Ok(true);
             }
             MotionState::Steady { .. } => APART,
@@ -345,9 +345,12 @@ impl Camera {
         let at = time_of(&later);
         let again = again(later);
         if motion.state_at(at) == MotionState::Moving {
-            refuse_moving(inspection);
+            refuse_all(inspections);
         } else {
-            refuse_unless_again(inspection, &again, middle);
+            for inspection in inspections {
+                let middle = middle_of(inspection);
+                refuse_unless_again(inspection, &again, middle);
+            }
         }
         Ok(true)
     }
@@ -370,6 +373,12 @@ impl Camera {
             error: Arc::new(error),
         })?;
         Ok(())
+    }
+}
+
+fn refuse_all(inspections: &mut [Inspection]) {
+    for inspection in inspections {
+        refuse_moving(inspection);
     }
 }
 
@@ -422,6 +431,7 @@ impl Opened {
 mod tests {
     use std::{
         collections::VecDeque,
+        slice,
         sync::atomic::{AtomicBool, AtomicUsize, Ordering},
     };
 
@@ -734,7 +744,7 @@ mod tests {
         let (library, recipe) = (shipped_library(), Recipe::default());
         let inspect = |captured: Captured| {
             let scene = scene_from_image(captured.image);
-            run(&scene, &library, &recipe, &Unwatched).expect("not cancelled")
+            vec![run(&scene, &library, &recipe, &Unwatched).expect("not cancelled")]
         };
         let mut resting = Line::new().cell;
         let opened = camera.opened();
@@ -759,14 +769,14 @@ mod tests {
             let frame = frame.expect("a frame");
             let taken_at = time_of(&frame);
             let truth = Arc::clone(frame.truth.as_ref().expect("known"));
-            let mut inspection = inspect(frame);
+            let mut inspection = inspect(frame).remove(0);
             let was_accepted = inspection.verdict.is_accepted();
             let middle = inspection.best_reference(&library);
             let middle = middle.and_then(Reference::middle);
             let checked = camera.refuse_if_moving(
                 taken_at,
-                &mut inspection,
-                middle,
+                slice::from_mut(&mut inspection),
+                |_| middle,
                 LINE_PATIENCE,
                 || false,
                 inspect,

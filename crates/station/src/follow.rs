@@ -1,6 +1,6 @@
 //! The parts that hang before a followed camera one after the other: one inspection of each is recorded and published.
 
-use std::{sync::Arc, time::Duration};
+use std::{slice, sync::Arc, time::Duration};
 
 use jiff::Timestamp;
 use nalgebra::Point3;
@@ -77,7 +77,7 @@ impl<E> PartFollower<E> {
             MotionState::Steady { since, .. } if since <= at => {}
             MotionState::Steady { .. } | MotionState::Moving => refuse_moving(inspection),
             MotionState::Watching if self.at < at + SteadyParams::default().settle => return false,
-            MotionState::Watching => refuse_unless_again(inspection, last, middle),
+            MotionState::Watching => refuse_unless_again(inspection, slice::from_ref(last), middle),
         }
         true
     }

@@ -224,12 +224,19 @@ impl<'a> Inspected<'a> {
         self.inspection_line(trace).to_json()
     }
 
-    /// Returns the line of JSON of a frame in which several parts may hang, without a line end: that of the first, and every part.
-    /// `None` without a part.
-    pub fn line_of_all(parts: &[Self], trace: &Traceability) -> Option<String> {
-        let first = parts.first()?;
+    /// Returns the line of JSON of a frame, without a line end: that of its first part and, if several may hang there, every
+    /// part.
+    ///
+    /// # Panics
+    /// Without a part: an inspection has one at least.
+    pub fn line_of_all(parts: &[Self], trace: &Traceability) -> String {
+        let first = &parts[0];
+        let line = first.inspection_line(trace);
+        if first.recipe.segment.max_parts == 1 {
+            return line.to_json();
+        }
         let all = parts.iter().map(|part| part.inspection_line(trace));
-        Some(first.inspection_line(trace).with_parts(all).to_json())
+        line.with_parts(all).to_json()
     }
 
     fn inspection_line<'b>(&self, trace: &'b Traceability) -> InspectionLine<'b>

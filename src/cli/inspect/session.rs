@@ -315,22 +315,11 @@ impl InspectSession {
             .filter(|one| one.inspection.verdict.is_accepted());
         let num_unchecked = accepted.filter(|_| subject.is_motion_unchecked).count();
         let line = if subject.capture.is_none() && self.recipe.segment.max_parts > 1 {
-            Inspected::line_of_all(&parts, &self.trace).unwrap_or_default()
+            Inspected::line_of_all(&parts, &self.trace)
         } else {
             parts[0].line(&self.trace)
         };
-        // The line has all parts.
-        let num_shown = match self.format {
-            OutputFormat::Json => 1,
-            _ => parts.len(),
-        };
-        for (number, part) in (1..=num_shown).zip(&parts) {
-            let shown = match num_shown {
-                1 => shown.clone(),
-                num => format!("{shown}, {number} of {num}"),
-            };
-            (self.format).inspected(&shown, &line, part, &self.library, console);
-        }
+        (self.format).inspected(&shown, &line, &parts, &self.library, console);
         self.num_unchecked += num_unchecked;
         line
     }

@@ -27,9 +27,10 @@ use records::{
     report::InspectionLine,
 };
 use serve::{
-    Asked, ClientEvent, ClientNews, Found, InspectionRecord, Inspector, Problem, VerdictCode,
+    Asked, ClientEvent, ClientNews, Found, FrameParts, InspectionRecord, Inspector, Problem,
+    VerdictCode,
 };
-use station::{Answered, Answering, Camera, CameraScenes, Inspected, NoFrame, PartFinder, Subject};
+use station::{Answered, Answering, Camera, CameraScenes, NoFrame, PartFinder, Subject};
 
 /// The inspections of a service, on the thread that runs its server.
 pub(super) struct ServeSession<'a> {
@@ -62,7 +63,7 @@ pub(super) struct ServeSession<'a> {
 }
 
 impl Inspector for ServeSession<'_> {
-    fn inspect(&mut self, asked: &Asked) -> Found {
+    fn inspect(&mut self, asked: &Asked) -> FrameParts {
         let interrupt = &self.interrupt;
         let captured = (self.camera).frame_after(asked, self.frame_timeout, || interrupt.came());
         let captured = match captured {
@@ -130,41 +131,31 @@ impl Inspector for ServeSession<'_> {
 
 impl ServeSession<'_> {
     /// The result of a trigger after which nothing can be inspected; shows why.
-    fn without_frame(&self, why: &NoFrame) -> Found {
+    fn without_frame(&self, why: &NoFrame) -> FrameParts {
         self.console
             .advise(&format_args!("error: {why}"), &why.advice());
-        Found::error(why.into())
+        Found::error(why.into()).into()
     }
 
     /// Shows an inspection and adds it to the history.
     fn show(&mut self, answered: &Answered) {
-        let Answered {
-            subject,
-            found,
-            scene,
-            inspection,
-        } = answered;
+        let Answered { subject, found, .. } = answered;
         // Only the answer marks a replayed frame as well.
         if self.num_inspected == 0 && subject.is_simulated {
             self.console.note(&"Simulated: no camera is read.");
         }
         self.num_inspected += 1;
-        self.mirrored.add(&inspection.verdict);
-        let inspected = Inspected {
-            subject,
-            scene,
-            inspection,
-            recipe: &self.recipe,
-            robot: Some(&self.finder.robot),
-            is_forced: false,
-        };
-        let (name, line) = (&subject.scene, &found.report);
+        let parts = answered.parts(&self.recipe, &self.finder.robot);
+        let (name, line) = (&subject.scene, &found.first.report);
         self.format
-            .inspected(name, line, &inspected, &self.library, self.console);
-        if let Some(recording) = &mut self.recording {
-            // Only the client knows whether it is the same part again.
-            let entry = recording.entry(&inspected, HungId::new());
-            recording.add(entry, self.console);
+            .inspected(name, line, &parts, &self.library, self.console);
+        for part in &parts {
+            self.mirrored.add(&part.inspection.verdict);
+            if let Some(recording) = &mut self.recording {
+                // Only the client knows whether it is the same part again.
+                let entry = recording.entry(part, HungId::new());
+                recording.add(entry, self.console);
+            }
         }
     }
 

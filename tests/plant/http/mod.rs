@@ -27,8 +27,8 @@ use partsight::{
     plant::http::{HttpServer, HttpSettings, Tls, Tokens},
     robot::Convention,
     serve::{
-        Answer, Asked, CameraState, CameraStatus, ClientEvent, ClientNews, Found, Inspector,
-        PathStep, Problem, Server, ServerSettings, VerdictCode,
+        Answer, Asked, CameraState, CameraStatus, ClientEvent, ClientNews, Found, FrameParts,
+        Inspector, PathStep, Problem, Server, ServerSettings, VerdictCode,
     },
 };
 
@@ -78,13 +78,13 @@ fn refused(number: u32) -> Found {
 /// An inspector that returns what it is told to, and counts.
 struct Fake {
     number: u32,
-    find: Box<dyn FnMut(u32) -> Found + Send>,
+    find: Box<dyn FnMut(u32) -> FrameParts + Send>,
     is_ending: Arc<AtomicBool>,
     num_inspected: Arc<AtomicU32>,
 }
 
 impl Inspector for Fake {
-    fn inspect(&mut self, _: &Asked) -> Found {
+    fn inspect(&mut self, _: &Asked) -> FrameParts {
         self.number += 1;
         self.num_inspected.fetch_add(1, Ordering::SeqCst);
         (self.find)(self.number)
@@ -116,14 +116,14 @@ struct Service {
 }
 
 impl Service {
-    fn start(find: impl FnMut(u32) -> Found + Send + 'static) -> Self {
+    fn start<F: Into<FrameParts>>(find: impl FnMut(u32) -> F + Send + 'static) -> Self {
         Self::start_with(patient(), http_settings(), find)
     }
 
-    fn start_with(
+    fn start_with<F: Into<FrameParts>>(
         settings: ServerSettings,
         http: HttpSettings,
-        find: impl FnMut(u32) -> Found + Send + 'static,
+        mut find: impl FnMut(u32) -> F + Send + 'static,
     ) -> Self {
         let camera: Camera = Arc::new(Mutex::new(Some(CameraStatus {
             state: CameraState::Running,
@@ -146,7 +146,7 @@ impl Service {
         let num_inspected = Arc::new(AtomicU32::new(0));
         let mut fake = Fake {
             number: 0,
-            find: Box::new(find),
+            find: Box::new(move |number| find(number).into()),
             is_ending: Arc::clone(&is_ending),
             num_inspected: Arc::clone(&num_inspected),
         };

@@ -21,8 +21,8 @@ use partsight::{
     },
     robot::Convention,
     serve::{
-        Answer, Asked, CameraStatus, Found, InspectionRecord, Inspector, ListenAddress, Listener,
-        PoseKind, Problem, Server, ServerSettings, VerdictCode,
+        Answer, Asked, CameraStatus, Found, FrameParts, InspectionRecord, Inspector, ListenAddress,
+        Listener, PoseKind, Problem, Server, ServerSettings, VerdictCode,
     },
 };
 
@@ -63,9 +63,9 @@ struct Fake {
 }
 
 impl Inspector for Fake {
-    fn inspect(&mut self, _asked: &Asked) -> Found {
+    fn inspect(&mut self, _asked: &Asked) -> FrameParts {
         self.number += 1;
-        (self.find)(self.number)
+        (self.find)(self.number).into()
     }
 
     fn recorded(&mut self, record: InspectionRecord) {

@@ -31,6 +31,10 @@ pub(super) struct AnswerBody {
     simulated: bool,
     /// It was checked that the part hung still, or there is no pose; false if the source does not show it.
     motion_checked: bool,
+    /// The number of the part in its frame, from 1; 0 if nothing recognisable hangs there.
+    index: u32,
+    /// How many parts hang in the frame, refused ones included.
+    num_parts: u32,
     /// How many points the part's spray path has; 0 without a pose.
     points: u32,
     /// The pose in the robot's base frame; null unless the part was accepted and the frame is fresh.
@@ -62,6 +66,8 @@ impl AnswerBody {
             approximate: has(Answer::APPROXIMATE),
             simulated: has(Answer::SIMULATED),
             motion_checked: !has(Answer::MOTION_UNCHECKED),
+            index: answer.index,
+            num_parts: answer.num_parts,
             points: answer.points,
             pose: answer.pose.map(|pose| PoseBody {
                 in_convention: convention.write(&pose),
@@ -82,6 +88,25 @@ impl AnswerBody {
         Self {
             camera: None,
             ..Self::of(&answer, Convention::default())
+        }
+    }
+}
+
+/// The answer about the first part of a frame, and those about all.
+#[derive(Debug, JsonSchema, Serialize)]
+pub(super) struct FrameBody {
+    #[serde(flatten)]
+    answer: AnswerBody,
+    /// Every part, from left to right, accepted ones first; empty if nothing recognisable hangs there.
+    parts: Vec<AnswerBody>,
+}
+
+impl FrameBody {
+    pub(super) fn of(answers: &[Answer], convention: Convention) -> Self {
+        let parts = answers.iter().filter(|part| part.num_parts > 0);
+        Self {
+            answer: AnswerBody::of(&answers[0], convention),
+            parts: parts.map(|part| AnswerBody::of(part, convention)).collect(),
         }
     }
 }
@@ -139,8 +164,8 @@ impl PathBody {
 #[derive(Debug, JsonSchema, Serialize)]
 pub(super) struct ReportBody {
     #[serde(flatten)]
-    pub(super) answer: AnswerBody,
-    /// The line of JSON that `partsight serve --json` writes of it; null if nothing was inspected. Unless there is a pose
+    pub(super) frame: FrameBody,
+    /// The line of JSON that `partsight serve --json` writes of it; null if nothing was inspected. Of a part without a pose
     /// above, it has none either.
     pub(super) report: Option<Map<String, Value>>,
 }

@@ -27,7 +27,7 @@ pub(super) fn text(
     text.head(
         "inspections_total",
         "counter",
-        "Inspections since the start, by verdict",
+        "Inspected parts since the start, by verdict",
     );
     for (verdict, count) in tally.by_verdict() {
         text.value(
@@ -48,7 +48,7 @@ pub(super) fn text(
             count as f64,
         );
     }
-    let count = tally.count() as f64;
+    let count = tally.num_triggers() as f64;
     text.value("trigger_seconds_bucket", Some(("le", "+Inf")), count);
     text.value("trigger_seconds_sum", None, tally.waited_s());
     text.value("trigger_seconds_count", None, count);

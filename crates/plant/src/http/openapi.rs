@@ -5,7 +5,7 @@ use schemars::{JsonSchema, generate::SchemaSettings};
 use serde_json::{Map, Value, json};
 
 use super::{
-    body::{AnswerBody, HealthBody, PathBody, ReportBody, StatusBody},
+    body::{AnswerBody, FrameBody, HealthBody, PathBody, ReportBody, StatusBody},
     metrics,
 };
 
@@ -17,6 +17,7 @@ pub(super) fn document(has_tokens: bool) -> Value {
     settings.definitions_path = "/components/schemas".into();
     let mut generator = settings.into_generator();
     let answer = schema_of::<AnswerBody>(&mut generator);
+    let frame = schema_of::<FrameBody>(&mut generator);
     let status = schema_of::<StatusBody>(&mut generator);
     let path = schema_of::<PathBody>(&mut generator);
     let report = schema_of::<ReportBody>(&mut generator);
@@ -43,7 +44,7 @@ pub(super) fn document(has_tokens: bool) -> Value {
     let trigger = operation(
         "Take a frame that is captured from now on, and inspect it",
         JSON,
-        &answer,
+        &frame,
         &[&refused[..], &[StatusCode::SERVICE_UNAVAILABLE]].concat(),
     );
     let mut path = operation(
@@ -86,7 +87,7 @@ pub(super) fn document(has_tokens: bool) -> Value {
         "paths": {
             "/v1/trigger": { "post": trigger },
             "/v1/status": get("How camera and library are, and the last verdict without its numbers", JSON, &status),
-            "/v1/last": get("The last inspection again", JSON, &answer),
+            "/v1/last": get("The last inspection again", JSON, &frame),
             "/v1/path": { "get": path },
             "/v1/report": get("The last inspection with its line of JSON", JSON, &report),
             "/v1/healthz": { "get": health },

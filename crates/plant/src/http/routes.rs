@@ -17,13 +17,13 @@ use tokio::task::spawn_blocking;
 
 use super::{
     access::Tokens,
-    body::{AnswerBody, HealthBody, PathBody, ReportBody, StatusBody},
+    body::{AnswerBody, FrameBody, HealthBody, PathBody, ReportBody, StatusBody},
     metrics, openapi,
     refusal::Refusal,
 };
 use geometry::error::guarded;
 use robot::Convention;
-use serve::{Answer, Problem, Request, ServerHandle, VerdictCode};
+use serve::{Answer, Problem, ServerHandle, VerdictCode};
 
 /// The only path that needs no token.
 pub(super) const HEALTH: &str = "/v1/healthz";
@@ -71,14 +71,15 @@ impl Api {
         json(status, &body)
     }
 
-    fn ok(&self, answer: &Answer) -> Response {
-        json(StatusCode::OK, &AnswerBody::of(answer, self.convention))
+    /// A response with these answers, one at least.
+    fn ok(&self, answers: &[Answer]) -> Response {
+        json(StatusCode::OK, &FrameBody::of(answers, self.convention))
     }
 
     /// The response to a trigger: a success if something was inspected, whatever the verdict.
-    fn triggered(&self, answer: &Answer) -> Response {
-        let mut response = self.ok(answer);
-        if matches!(answer.verdict, VerdictCode::Error | VerdictCode::Full) {
+    fn triggered(&self, answers: &[Answer]) -> Response {
+        let mut response = self.ok(answers);
+        if matches!(answers[0].verdict, VerdictCode::Error | VerdictCode::Full) {
             *response.status_mut() = StatusCode::SERVICE_UNAVAILABLE;
         }
         response
@@ -102,7 +103,7 @@ pub(super) fn router(api: Arc<Api>) -> Router {
 
 async fn trigger(State(api): State<Arc<Api>>) -> Response {
     let Some(slot) = api.server.slot() else {
-        return api.answered(|api| api.triggered(&api.server.full()));
+        return api.answered(|api| api.triggered(&[api.server.full()]));
     };
     // If the client hangs up, this future is dropped. An inspection that has begun continues, and holds its place until it is
     // done.
@@ -110,8 +111,7 @@ async fn trigger(State(api): State<Arc<Api>>) -> Response {
     let waiting = Arc::downgrade(&waits);
     let work = spawn_blocking(move || {
         let is_withdrawn = move || waiting.strong_count() == 0;
-        let response =
-            api.answered(|api| api.triggered(&api.server.answer(Request::Trigger, is_withdrawn)));
+        let response = api.answered(|api| api.triggered(&api.server.trigger(is_withdrawn)));
         drop(slot);
         response
     });
@@ -134,7 +134,7 @@ async fn status(State(api): State<Arc<Api>>) -> Response {
 }
 
 async fn last(State(api): State<Arc<Api>>) -> Response {
-    api.answered(|api| api.ok(&api.server.answer(Request::Last, || false)))
+    api.answered(|api| api.ok(&api.server.last()))
 }
 
 /// The sequence number in the query of a request, if there is one.
@@ -164,9 +164,9 @@ async fn path(State(api): State<Arc<Api>>, uri: Uri) -> Response {
 
 async fn report(State(api): State<Arc<Api>>) -> Response {
     api.answered(|api| {
-        let (answer, report) = api.server.report();
-        let answer = AnswerBody::of(&answer, api.convention);
-        json(StatusCode::OK, &ReportBody { answer, report })
+        let (answers, report) = api.server.report();
+        let frame = FrameBody::of(&answers, api.convention);
+        json(StatusCode::OK, &ReportBody { frame, report })
     })
 }
 

@@ -404,6 +404,8 @@ impl Shared {
             simulated: has(Answer::SIMULATED),
             approximate: has(Answer::APPROXIMATE),
             motion_checked: !has(Answer::MOTION_UNCHECKED),
+            index: answer.index,
+            num_parts: answer.num_parts,
             number: (answer.number > 0).then_some(answer.number),
             pose: answer.pose.map(|pose| PoseMessage {
                 transform: kind,

@@ -73,6 +73,11 @@ pub struct InspectionMessage {
     pub age_ms: Option<u32>,
     /// The verdict when this message was written: `stale` was accepted, but had become too old by then.
     pub verdict: VerdictCode,
+    /// The number of the part in its frame, from 1, in the order of the sequence numbers; 0 if nothing recognisable hangs
+    /// there. Each part of a frame has a message of its own.
+    pub index: u32,
+    /// How many parts hang in the frame, refused ones included.
+    pub num_parts: u32,
     /// Name of the part; null if it is none of the library.
     pub part: Option<String>,
     /// The number by which robots know the part; null if it has none.
@@ -185,6 +190,8 @@ mod tests {
             captured_at: Some(moment(4)),
             age_ms: Some(1000),
             verdict: VerdictCode::Accepted,
+            index: 1,
+            num_parts: 2,
             part: Some("fender".into()),
             number: Some(3),
             simulated: true,

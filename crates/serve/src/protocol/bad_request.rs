@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use super::{
     ByteOrder,
-    binary::{PATH_REQUEST_BYTES, REQUEST_BYTES, VERSION},
+    binary::{NAMING_REQUEST_BYTES, REQUEST_BYTES, VERSION},
     plain,
 };
 use geometry::error::Advice;
@@ -31,8 +31,8 @@ pub enum BadRequest {
         /// The text found, in printable characters.
         found: String,
     },
-    /// The text after `PATH` is not a number.
-    #[error("not the number of a point or of an inspection: {found:?}")]
+    /// The text after `PATH` or `PART` is not a number.
+    #[error("not the number of a point, a part or an inspection: {found:?}")]
     NoPoint {
         /// The text found, in printable characters.
         found: String,
@@ -50,7 +50,7 @@ pub enum BadRequest {
     },
     /// The frame's length field is not the length of a request.
     #[error(
-        "the frame gives its length as {found} bytes, expected {REQUEST_BYTES} or {PATH_REQUEST_BYTES}"
+        "the frame gives its length as {found} bytes, expected {REQUEST_BYTES} or {NAMING_REQUEST_BYTES}"
     )]
     Length {
         /// The length found.
@@ -115,10 +115,10 @@ impl Advice for BadRequest {
     fn advice(&self) -> String {
         match self {
             Self::TooLong { .. } | Self::Unknown { .. } => {
-                "Send TRIGGER, STATUS, LAST or PATH, in the protocol of this port".into()
+                "Send TRIGGER, STATUS, LAST, PATH or PART, in the protocol of this port".into()
             }
             Self::Incomplete { .. } => "Send the complete request, with its terminator".into(),
-            Self::NoPoint { .. } => "Send PATH, or PATH and the number of a point from 1, and behind it, if need be, the sequence number of a trigger's answer".into(),
+            Self::NoPoint { .. } => "Send PATH or PART, or behind it the number of a point or a part from 1, and behind that, if need be, the sequence number of a trigger's answer".into(),
             Self::Magic => "Begin the frame with the bytes 50 53 52 51".into(),
             Self::Version { found, order } => {
                 let other = match order {

@@ -8,10 +8,10 @@
 //! | 0 | 4 | `PSRQ` |
 //! | 4 | 2 | version, 1 |
 //! | 6 | 2 | length, 20; or 24 with a sequence number |
-//! | 8 | 2 | 1 trigger, 2 status, 3 last, 4 path |
+//! | 8 | 2 | 1 trigger, 2 status, 3 last, 4 path, 5 part |
 //! | 10 | 2 | reserved, 0 |
-//! | 12 | 4 | path: number of the point from 1, or 0 |
-//! | 16 | 4 | only in a frame of 24 bytes: sequence number of the inspection whose path is wanted, or 0 |
+//! | 12 | 4 | path and part: number of the point or part from 1, or 0 |
+//! | 16 | 4 | only in a frame of 24 bytes: sequence number of the inspection whose path or part is wanted, or 0 |
 //! | 16 or 20 | 4 | checksum |
 //!
 //! | answer: from | bytes | |
@@ -38,7 +38,7 @@
 //! | 200 | 52 | message, cut off |
 //! | 252 | 4 | checksum |
 
-use super::{ByteOrder, Parsed, bad_request::BadRequest, line::path_request};
+use super::{ByteOrder, Parsed, bad_request::BadRequest};
 use crate::answer::{Answer, Request};
 use files::crc32;
 use robot::Convention;
@@ -48,7 +48,7 @@ pub(super) const VERSION: u16 = 1;
 /// Length of a request, bytes.
 pub const REQUEST_BYTES: usize = 20;
 /// Length of a request that names an inspection, bytes.
-pub(super) const PATH_REQUEST_BYTES: usize = REQUEST_BYTES + 4;
+pub(super) const NAMING_REQUEST_BYTES: usize = REQUEST_BYTES + 4;
 /// Length of an answer, bytes.
 pub const ANSWER_BYTES: usize = 256;
 /// Maximum number of a pose's reals.
@@ -84,7 +84,7 @@ fn length_in(begin: &[u8], order: ByteOrder) -> Result<usize, BadRequest> {
     }
     let found = u16_of(begin, 6, order);
     match usize::from(found) {
-        num_bytes @ (REQUEST_BYTES | PATH_REQUEST_BYTES) => Ok(num_bytes),
+        num_bytes @ (REQUEST_BYTES | NAMING_REQUEST_BYTES) => Ok(num_bytes),
         _ => Err(BadRequest::Length { found }),
     }
 }
@@ -96,18 +96,17 @@ fn request_in(frame: &[u8], order: ByteOrder) -> Result<Request, BadRequest> {
     if found != expected {
         return Err(BadRequest::Checksum { found, expected });
     }
-    let sequence = if frame.len() == PATH_REQUEST_BYTES {
+    let sequence = if frame.len() == NAMING_REQUEST_BYTES {
         u32_of(frame, 16, order)
     } else {
         0
     };
-    match u16_of(frame, 8, order) {
-        1 => Ok(Request::Trigger),
-        2 => Ok(Request::Status),
-        3 => Ok(Request::Last),
-        4 => Ok(path_request(u32_of(frame, 12, order), sequence)),
-        other => Err(BadRequest::unknown(other.to_string().as_bytes())),
-    }
+    let code = u16_of(frame, 8, order);
+    let request = Request::find(|(_, known)| known == code);
+    let request = request.ok_or_else(|| BadRequest::unknown(code.to_string().as_bytes()))?;
+    // Others ignore the numbers.
+    let numbered = request.numbered(u32_of(frame, 12, order), sequence);
+    Ok(numbered.unwrap_or(request))
 }
 
 /// Converts a number's bytes from little-endian to this order, or back.
@@ -202,17 +201,17 @@ pub fn request(request: Request, order: ByteOrder) -> Vec<u8> {
         bytes: REQUEST_MAGIC.to_vec(),
         order,
     };
-    let (point, sequence) = match request {
-        Request::Path { point, sequence } => (point, sequence),
-        _ => (0, None),
+    let [number, sequence] = request.numbers();
+    let num_bytes = match sequence {
+        0 => REQUEST_BYTES,
+        _ => NAMING_REQUEST_BYTES,
     };
-    let num_bytes = sequence.map_or(REQUEST_BYTES, |_| PATH_REQUEST_BYTES);
     frame.short(VERSION);
     frame.short(num_bytes as u16);
     frame.short(request.name().1);
     frame.zeros(2);
-    frame.long(point);
-    if let Some(sequence) = sequence {
+    frame.long(number);
+    if sequence > 0 {
         frame.long(sequence);
     }
     let checksum = crc32(&frame.bytes);
@@ -248,16 +247,16 @@ mod tests {
                 Request::Trigger,
                 Request::Status,
                 Request::Last,
-                path_request(0, 0),
-                path_request(70_000, 0),
-                path_request(70_000, 16_777_215),
+                Request::path(0, 0),
+                Request::path(70_000, 0),
+                Request::path(70_000, 16_777_215),
+                Request::part(2, 0),
+                Request::part(8, 16_777_215),
             ] {
                 let frame = request(wanted, order);
-                let num_bytes = match wanted {
-                    Request::Path {
-                        sequence: Some(_), ..
-                    } => 24,
-                    _ => 20,
+                let num_bytes = match wanted.numbers() {
+                    [_, 0] => 20,
+                    _ => 24,
                 };
                 assert_eq!(frame.len(), num_bytes);
                 assert_eq!(parse(&frame, order), Parsed::read(num_bytes, Ok(wanted)));
@@ -279,7 +278,7 @@ mod tests {
             read.expect_err("refused").reason()
         };
         for order in ORDERS {
-            let whole = request(path_request(3, 0), order);
+            let whole = request(Request::path(3, 0), order);
             let other = ORDERS[usize::from(order == ByteOrder::Little)];
             assert_eq!(reason(&whole, other), "version");
             // Each byte counts.
@@ -319,7 +318,7 @@ mod tests {
     fn an_answer_has_its_fields_where_the_guide_says() {
         let pose = from_euler_zyx([0.4, -0.2, 1.3, 1.2005, -0.4, 1.9]);
         let answer = Answer {
-            request: Some(path_request(2, 0)),
+            request: Some(Request::path(2, 0)),
             verdict: VerdictCode::Accepted,
             point: 2,
             points: 9,

@@ -14,7 +14,7 @@ use super::{
     ascii::name_of,
     bad_request::BadRequest,
     is_filler,
-    line::{named, path_request},
+    line::{named, of_name},
     plain,
 };
 use crate::answer::{Answer, Request};
@@ -58,12 +58,12 @@ fn request(bytes: &[u8]) -> Result<Request, BadRequest> {
         .and_then(|text| text.strip_suffix("</Robot>"))
         .ok_or_else(wrong)?;
     let word = content_of(inner, "Request").ok_or_else(wrong)?;
-    // EKI sends every element with every request; only a path request uses the numbers.
-    let path = path_request(0, 0);
-    let is_path = word.eq_ignore_ascii_case(name_of(path));
+    // EKI sends every element with every request, also with those that take no numbers.
+    let request = of_name(word.as_bytes());
+    let takes_numbers = request.is_some_and(|request| request.numbered(0, 0).is_some());
     let number = |tag| {
         let number = content_of(inner, tag).map(str::as_bytes);
-        number.filter(|number| is_path && !number.is_empty())
+        number.filter(|number| takes_numbers && !number.is_empty())
     };
     let (point, sequence) = (number("Point"), number("Sequence"));
     named(word.as_bytes(), point, sequence).ok_or_else(|| BadRequest::unknown(word.as_bytes()))?
@@ -138,21 +138,24 @@ mod tests {
             ),
             (
                 "<Robot><Point>4</Point><Request>PATH</Request></Robot>",
-                path_request(4, 0),
+                Request::path(4, 0),
             ),
             (
                 "<Robot><Request>PATH</Request><Point>4</Point><Sequence>41</Sequence></Robot>",
-                path_request(4, 41),
+                Request::path(4, 41),
             ),
             (
                 "<Robot><Request>PATH</Request><Point>4</Point><Sequence>0</Sequence></Robot>",
-                path_request(4, 0),
+                Request::path(4, 0),
             ),
             (
                 "<Robot><Request>LAST</Request><Point>0</Point><Sequence>0</Sequence></Robot>",
                 Request::Last,
             ),
-            ("<Robot><Request>PATH</Request></Robot>", path_request(0, 0)),
+            (
+                "<Robot><Request>PATH</Request></Robot>",
+                Request::path(0, 0),
+            ),
             ("<Robot><Request>LAST</Request></Robot>", Request::Last),
             (
                 "\r\n<?xml version=\"1.0\"?>\r\n<Robot>\r\n  <Request> STATUS </Request>\r\n  <Point>7</Point>\r\n</Robot>",

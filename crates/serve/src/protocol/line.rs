@@ -1,4 +1,5 @@
-//! A request as a line of text: `TRIGGER`, `STATUS`, `LAST`, `PATH`, `PATH 3` or, of the inspection number 41, `PATH 3 41`.
+//! A request as a line of text: `TRIGGER`, `STATUS`, `LAST`, `PATH`, `PATH 3` or, of the inspection number 41, `PATH 3 41`;
+//! `PART` likewise.
 //!
 //! A line ends with LF, CR or both. Case does not matter. Empty lines, and blanks and zeros around a request, are ignored.
 
@@ -26,44 +27,36 @@ fn request(line: &[u8]) -> Result<Request, BadRequest> {
     let mut words = line
         .split(|&byte| is_filler(byte) || byte == b';')
         .filter(|word| !word.is_empty());
-    let (word, point, sequence) = (words.next().unwrap_or_default(), words.next(), words.next());
+    let (word, number, sequence) = (words.next().unwrap_or_default(), words.next(), words.next());
     if words.next().is_some() {
         return Err(BadRequest::unknown(line));
     }
-    named(word, point, sequence).ok_or_else(|| BadRequest::unknown(line))?
+    named(word, number, sequence).ok_or_else(|| BadRequest::unknown(line))?
 }
 
 /// Finds a request by its word and the numbers after it; `None` if the word is no request or takes no numbers.
 pub(super) fn named(
     word: &[u8],
-    point: Option<&[u8]>,
+    number: Option<&[u8]>,
     sequence: Option<&[u8]>,
 ) -> Option<Result<Request, BadRequest>> {
-    let word = std::str::from_utf8(word).ok()?;
-    let request = Request::of_name(word)?;
-    if point.is_none() && sequence.is_none() {
+    let request = of_name(word)?;
+    if number.is_none() && sequence.is_none() {
         return Some(Ok(request));
     }
-    if !matches!(request, Request::Path { .. }) {
-        return None;
+    match (number_in(number), number_in(sequence)) {
+        (Ok(number), Ok(sequence)) => request.numbered(number, sequence).map(Ok),
+        (Err(why), _) | (_, Err(why)) => request.numbered(0, 0).map(|_| Err(why)),
     }
-    let path = number(point).and_then(|point| {
-        let sequence = number(sequence)?;
-        Ok(path_request(point, sequence))
-    });
-    Some(path)
 }
 
-/// A request for a point of a path; the sequence number 0 stands for the client's own last trigger.
-pub(super) fn path_request(point: u32, sequence: u32) -> Request {
-    Request::Path {
-        point,
-        sequence: (sequence > 0).then_some(sequence),
-    }
+/// Finds a request by its word, ignoring case; its numbers are 0.
+pub(super) fn of_name(word: &[u8]) -> Option<Request> {
+    Request::find(|(name, _)| name.as_bytes().eq_ignore_ascii_case(word))
 }
 
 /// Reads a number; 0 if there is none.
-fn number(text: Option<&[u8]>) -> Result<u32, BadRequest> {
+fn number_in(text: Option<&[u8]>) -> Result<u32, BadRequest> {
     let Some(text) = text else {
         return Ok(0);
     };
@@ -90,12 +83,14 @@ mod tests {
             ("TRIGGER\n", Request::Trigger),
             ("status\r", Request::Status),
             ("Last\n", Request::Last),
-            ("PATH\n", path_request(0, 0)),
-            ("PATH 12\n", path_request(12, 0)),
-            ("PATH 12 41\n", path_request(12, 41)),
-            ("path;0;41\n", path_request(0, 41)),
-            ("PATH 12 0\n", path_request(12, 0)),
-            ("PATH;7\n", path_request(7, 0)),
+            ("PATH\n", Request::path(0, 0)),
+            ("PATH 12\n", Request::path(12, 0)),
+            ("PATH 12 41\n", Request::path(12, 41)),
+            ("path;0;41\n", Request::path(0, 41)),
+            ("PATH 12 0\n", Request::path(12, 0)),
+            ("PATH;7\n", Request::path(7, 0)),
+            ("PART\n", Request::part(0, 0)),
+            ("part 2 41\n", Request::part(2, 41)),
             ("\r\n \0\0TRIGGER \0\n", Request::Trigger),
         ] {
             assert_eq!(only(text), Ok(request), "{text:?}");
@@ -123,9 +118,11 @@ mod tests {
             ("START\n", "unknown_request"),
             ("TRIGGER 1\n", "unknown_request"),
             ("PATH 1 2 3\n", "unknown_request"),
+            ("PART 1 2 3\n", "unknown_request"),
             ("LAST 1 2\n", "unknown_request"),
             ("PATH -1\n", "no_point"),
             ("PATH 1 x\n", "no_point"),
+            ("PART x\n", "no_point"),
             ("PATH 99999999999\n", "no_point"),
             ("GET / HTTP/1.1\r", "unknown_request"),
             ("\u{e4}\u{1b}[2J\n", "unknown_request"),

@@ -24,7 +24,7 @@ use inspection::{
 use records::history::Traceability;
 use robot::{Convention, RobotFrame};
 use serve::{
-    ANSWER_BYTES, Asked, ByteOrder, CameraStatus, Found, Inspector, ListenAddress, Listener,
+    ANSWER_BYTES, Asked, ByteOrder, CameraStatus, FrameParts, Inspector, ListenAddress, Listener,
     PoseKind, Protocol, Request, Server, ServerSettings, binary_request, parse_address,
 };
 use simulate::{CellSetup, PartKind, Side, frame};
@@ -74,7 +74,7 @@ impl Inspections {
         *lock(&self.frame) = Arc::new(frame);
     }
 
-    pub(super) fn inspect(&self) -> Found {
+    pub(super) fn inspect(&self) -> FrameParts {
         let frame = Arc::clone(&lock(&self.frame));
         let captured = Instant::now();
         let scene = Arc::new(scene_from_frame(&frame));
@@ -91,7 +91,7 @@ impl Inspections {
         };
         let mut found = self.finder.found(&inspected, captured);
         found.report = inspected.line(&Traceability::default());
-        found
+        found.into()
     }
 }
 
@@ -103,7 +103,7 @@ struct ServedInspections {
 }
 
 impl Inspector for ServedInspections {
-    fn inspect(&mut self, _asked: &Asked) -> Found {
+    fn inspect(&mut self, _asked: &Asked) -> FrameParts {
         self.num_inspected.fetch_add(1, Ordering::SeqCst);
         self.inspections.inspect()
     }

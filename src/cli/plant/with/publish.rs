@@ -122,8 +122,10 @@ impl Publisher {
 
     /// Publishes an inspection.
     pub(crate) fn publish(&mut self, found: Found) {
-        let record = self.recorder.record(found, self.camera.clone());
-        self.link.inspected(record);
+        let records = self.recorder.record(found.into(), self.camera.clone());
+        for record in records {
+            self.link.inspected(record);
+        }
     }
 
     /// Publishes that something could not be read.

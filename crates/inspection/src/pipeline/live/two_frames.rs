@@ -18,14 +18,18 @@ pub fn refuse_moving(inspection: &mut Inspection) {
     reject(inspection, |part| Some(Rejection::NotSteady { part }));
 }
 
-/// Refuses an accepted part unless `again`, the inspection of a later frame, accepts it in the same place. `middle` is the
-/// middle of the part, part space, metres.
+/// Refuses an accepted part unless `again`, the inspections of the parts of a later frame, at least one, accept it in the same
+/// place. `middle` is the middle of the part, part space, metres.
 pub fn refuse_unless_again(
     inspection: &mut Inspection,
-    again: &Inspection,
+    again: &[Inspection],
     middle: Option<Point3<f64>>,
 ) {
-    let is_near = is_near(inspection, again, middle.unwrap_or_else(Point3::origin));
+    let middle = middle.unwrap_or_else(Point3::origin);
+    let Some(again) = same_part(inspection, again, middle).or(again.first()) else {
+        return;
+    };
+    let is_near = is_near(inspection, again, middle);
     reject(inspection, |part| match &again.verdict {
         Verdict::Part {
             part: other,
@@ -41,6 +45,27 @@ pub fn refuse_unless_again(
         // It has left, or something is in front of it.
         _ => Some(Rejection::NotSteady { part }),
     });
+}
+
+/// The inspection of the same part, of equal ones that of the nearest.
+fn same_part<'a>(
+    inspection: &Inspection,
+    again: &'a [Inspection],
+    middle: Point3<f64>,
+) -> Option<&'a Inspection> {
+    let position = |of: &Inspection| {
+        let pose = of.found_pose()?.camera_from_part();
+        Some((pose * middle).coords)
+    };
+    let distance = |other: &Inspection| {
+        let apart = position(inspection)
+            .zip(position(other))
+            .map(|(a, b)| (a - b).norm());
+        apart.unwrap_or(f64::INFINITY)
+    };
+    let name = inspection.verdict.guess();
+    let same = again.iter().filter(|other| other.verdict.guess() == name);
+    same.min_by(|a, b| distance(a).total_cmp(&distance(b)))
 }
 
 fn reject(inspection: &mut Inspection, why: impl FnOnce(String) -> Option<Rejection>) {
@@ -86,6 +111,8 @@ fn is_near(a: &Inspection, b: &Inspection, middle: Point3<f64>) -> Option<bool> 
 
 #[cfg(test)]
 mod tests {
+    use std::slice;
+
     use super::*;
     use crate::{
         fixtures::shipped_library,
@@ -134,13 +161,14 @@ mod tests {
             for (k, earlier) in still.iter().enumerate() {
                 for later in &still[k + 1..] {
                     let mut inspection = earlier.clone();
-                    refuse_unless_again(&mut inspection, later, middle);
+                    refuse_unless_again(&mut inspection, slice::from_ref(later), middle);
                     assert_eq!(rejection(&inspection), None, "{kind} at {noise}");
                 }
             }
             for x in [0.012, -0.03, 0.2] {
                 let mut inspection = first.clone();
-                refuse_unless_again(&mut inspection, &seen(&library, &part, x, 101).0, middle);
+                let again = seen(&library, &part, x, 101).0;
+                refuse_unless_again(&mut inspection, &[again], middle);
                 let why = rejection(&inspection);
                 assert!(
                     matches!(why, Some(Rejection::NotSteady { .. })),
@@ -151,13 +179,39 @@ mod tests {
     }
 
     #[test]
+    fn of_several_parts_each_is_compared_with_itself_in_whatever_order_they_come() {
+        let library = shipped_library();
+        let fender = HangingPart::new(PartKind::Fender, 3);
+        let (here, middle) = seen(&library, &fender, 0.0, 1);
+        let again = |x| seen(&library, &fender, x, 2).0;
+        let (grille, _) = seen(&library, &HangingPart::new(PartKind::Grille, 4), 0.0, 2);
+        let after = |later: &[Inspection]| {
+            let mut inspection = here.clone();
+            refuse_unless_again(&mut inspection, later, middle);
+            rejection(&inspection).cloned()
+        };
+        // An equal part 300 mm beside it, and another one.
+        assert_eq!(after(&[grille.clone(), again(0.3), again(0.0)]), None);
+        let gone = after(&[grille.clone(), again(0.3)]);
+        assert!(
+            matches!(gone, Some(Rejection::NotSteady { .. })),
+            "{gone:?}"
+        );
+        let other = after(&[grille]);
+        assert!(
+            matches!(other, Some(Rejection::Undecided { .. })),
+            "{other:?}"
+        );
+    }
+
+    #[test]
     fn what_the_later_frame_refuses_is_refused_for_its_reason() {
         let part = HangingPart::new(PartKind::Fender, 3);
         let (first, middle) = seen(&shipped_library(), &part, 0.0, 1);
         let after = |change: &dyn Fn(&mut Inspection)| {
             let (mut inspection, mut again) = (first.clone(), first.clone());
             change(&mut again);
-            refuse_unless_again(&mut inspection, &again, middle);
+            refuse_unless_again(&mut inspection, &[again], middle);
             rejection(&inspection).cloned()
         };
         assert_eq!(after(&|_| ()), None);

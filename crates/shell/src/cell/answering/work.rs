@@ -36,13 +36,12 @@ use records::{
 };
 use robot::RobotFrame;
 use serve::{
-    Answer, Asked, CameraState, ClientEvent, Found, InspectionRecord, Inspector, ListenAddress,
-    Listener, PoseKind, Problem, ServeError, Server, ServerHandle, ServerSettings, VerdictCode,
+    Answer, Asked, CameraState, ClientEvent, Found, FrameParts, InspectionRecord, Inspector,
+    ListenAddress, Listener, PoseKind, Problem, ServeError, Server, ServerHandle, ServerSettings,
+    VerdictCode,
 };
 use stages::scene::{EmptyCell, SceneCloud};
-use station::{
-    Answered, Answering, Camera, Inspected, NewFrame, NoFrame, NumberedPart, PartFinder,
-};
+use station::{Answered, Answering, Camera, NewFrame, NoFrame, NumberedPart, PartFinder};
 use ui::{
     language::text,
     task::{TaskContext, TaskError},
@@ -176,7 +175,7 @@ pub(super) fn answer(
         handle: server.handle(),
         rows: TriggerRows::new(writer, Arc::clone(&parts)),
         last: None,
-        part: None,
+        told: None,
         status: AnsweringStatus {
             at: server.addresses().first().copied().unwrap_or(listener.at),
             num_clients: 0,
@@ -240,8 +239,8 @@ struct AnsweringSession<'a> {
     rows: TriggerRows,
     /// The inspection whose answer is on its way.
     last: Option<AnsweredFrame>,
-    /// The part of the last answer.
-    part: Option<AnsweredPart>,
+    /// The parts of the last answer.
+    told: Option<AnsweredParts>,
     status: AnsweringStatus,
     sent: Option<AnsweringStatus>,
 }
@@ -257,27 +256,30 @@ struct AnsweredFrame {
     part: Receiver<HungId>,
 }
 
-/// A part that a robot was told about.
-struct AnsweredPart {
-    name: String,
-    /// Which part it is as far as was known when its frame came, then also as Live saw it.
+/// The parts of a frame that a robot was told about.
+struct AnsweredParts {
+    names: Vec<String>,
+    /// Which part hangs there as far as was known when its frame came, then also as Live saw it.
     hung: Vec<HungId>,
     /// Tells what Live saw.
     hung_reports: Receiver<HungId>,
 }
 
-impl AnsweredPart {
-    /// What it really is, if a person has reported it as wrong.
-    fn reported_as(&mut self, parts: &Mutex<FollowedParts>) -> Option<Truth> {
+impl AnsweredParts {
+    /// What each of them really is, if a person has reported it as wrong.
+    fn reported_as(&mut self, parts: &Mutex<FollowedParts>) -> Vec<Option<Truth>> {
         self.hung.extend(self.hung_reports.try_recv().ok());
         let parts = lock(parts);
-        let mut hung = self.hung.iter();
-        hung.find_map(|hung| parts.reported_as(hung, &self.name))
+        let reported_as = |name: &String| {
+            let mut hung = self.hung.iter();
+            hung.find_map(|hung| parts.reported_as(hung, name))
+        };
+        self.names.iter().map(reported_as).collect()
     }
 }
 
 impl Inspector for AnsweringSession<'_> {
-    fn inspect(&mut self, asked: &Asked) -> Found {
+    fn inspect(&mut self, asked: &Asked) -> FrameParts {
         self.status.last = Some(LastAnswer {
             at: asked.by_clock,
             answer: Answer::default(),
@@ -286,10 +288,10 @@ impl Inspector for AnsweringSession<'_> {
         let is_ending = || self.is_ending();
         let captured = match self.camera.frame_after(asked, FRAME_TIMEOUT, is_ending) {
             Ok(captured) => captured,
-            Err(why) => return Found::error((&why).into()),
+            Err(why) => return Found::error((&why).into()).into(),
         };
         let Some(spec) = &inputs.followed else {
-            return Found::error((&NoFrame::Ended).into());
+            return Found::error((&NoFrame::Ended).into()).into();
         };
         let source = spec.to_string();
         // At once: by the end of the inspection another part may hang there.
@@ -317,21 +319,21 @@ impl Inspector for AnsweringSession<'_> {
         let scene_of = |captured| self.scene_of(captured, &inputs);
         let mut answered = match answering.answer(captured, subject, &trace, scene_of) {
             Ok(answered) => answered,
-            Err(why) => return Found::error((&why).into()),
+            Err(why) => return Found::error((&why).into()).into(),
         };
         let mut found = answered.found.clone();
-        let mut answered_part = AnsweredPart {
-            name: found.part.clone(),
+        let mut told = AnsweredParts {
+            names: found.iter().map(|part| part.part.clone()).collect(),
             hung,
             hung_reports,
         };
-        if found.verdict == VerdictCode::Accepted
-            && let Some(actual) = answered_part.reported_as(self.parts)
-        {
-            found.refuse(Problem::reported_wrong());
-            answered.subject.reported_as = Some(actual.name().to_owned());
+        for (part, actual) in found.iter_mut().zip(told.reported_as(self.parts)) {
+            if let Some(actual) = actual.filter(|_| part.verdict == VerdictCode::Accepted) {
+                part.refuse(Problem::reported_wrong());
+                answered.subject.reported_as = Some(actual.name().to_owned());
+            }
         }
-        self.part = Some(answered_part);
+        self.told = Some(told);
         self.last = Some(AnsweredFrame {
             origin,
             answered,
@@ -344,8 +346,9 @@ impl Inspector for AnsweringSession<'_> {
     }
 
     fn recorded(&mut self, record: InspectionRecord) {
-        if let Some(last) = &mut self.status.last {
-            last.answer = record.answer();
+        let answer = record.answer();
+        if let Some(last) = self.status.last.as_mut().filter(|_| answer.index <= 1) {
+            last.answer = answer;
         }
     }
 
@@ -364,9 +367,10 @@ impl Inspector for AnsweringSession<'_> {
         let inputs = self.follow();
         self.rows.update(inputs.followed.is_some());
         let parts = self.parts;
-        let is_reported = |part: &mut AnsweredPart| part.reported_as(parts).is_some();
-        if self.part.take_if(is_reported).is_some() {
-            // Or LAST and PATH would still give its pose.
+        let is_reported =
+            |told: &mut AnsweredParts| told.reported_as(parts).iter().any(Option::is_some);
+        if self.told.take_if(is_reported).is_some() {
+            // Or LAST, PATH and PART would still give its pose.
             self.handle.refuse_last(&Problem::reported_wrong());
         }
         let loaded = self.library_cache.get();
@@ -466,23 +470,21 @@ impl AnsweringSession<'_> {
             trace,
             part,
         } = last;
-        let Answered {
-            subject,
-            scene,
-            inspection,
-            ..
-        } = &answered;
-        let inspected = Inspected {
-            subject,
-            scene,
-            inspection,
-            recipe: &recipe,
-            robot: Some(&self.finder.robot),
-            is_forced: false,
-        };
-        let picture = segmentation_picture(scene, &inspection.segmentation);
-        let entry = entry_of(&inspected, &origin, &library, trace, picture.as_ref());
-        self.rows.add(entry, part);
+        let parts = answered.parts(&recipe, &self.finder.robot);
+        // Live follows one part: of several, it is not known which.
+        let mut part = Some(part).filter(|_| parts.len() == 1);
+        for inspected in &parts {
+            let picture = segmentation_picture(inspected.scene, &inspected.inspection.segmentation);
+            let entry = entry_of(
+                inspected,
+                &origin,
+                &library,
+                trace.clone(),
+                picture.as_ref(),
+            );
+            let part = part.take().unwrap_or_else(|| mpsc::channel().1);
+            self.rows.add(entry, part);
+        }
         self.tell_dropped();
     }
 
