@@ -18,6 +18,7 @@ use super::{
     LibraryChoice, Outcome,
     calibrate::CalibrationChoice,
     console::{Advised as _, Console, advised_error},
+    expect::ExpectChoice,
     follow::{follow, parse_source},
     input::{EmptyCellChoice, ImportChoice, Scenes, open_ahead, scene_of},
     output::{Columns, OutputFormat},
@@ -42,6 +43,7 @@ Examples:
   partsight inspect misread.pcd --report why/
   partsight inspect scan.ply --units mm --up z
   partsight inspect door.pcd --empty-cell cell.pcd
+  partsight inspect rack.pcd --expect fender,front_door
   partsight inspect door.pcd --matcher paper --pose icp-ga
   partsight inspect door.pcd --json --calibration cell.toml
   partsight inspect last-week/*.png --json --calibration cell.toml --force
@@ -92,6 +94,8 @@ pub(super) struct InspectArgs {
     library: LibraryChoice,
     #[command(flatten)]
     recipe: RecipeChoice,
+    #[command(flatten)]
+    expect: ExpectChoice,
     #[command(flatten)]
     empty_cell: EmptyCellChoice,
     #[command(flatten)]
@@ -169,6 +173,7 @@ fn inspect(
     let trace = args.trace.of_parts(num_parts)?;
     let database = args.history_to.chosen(console)?;
     let (place, load) = (args.library).load_placed(&recipe.reference_params(), console)?;
+    let recipe = recipe.expecting(args.expect.of(&load.library)?);
     let robot = args.calibration.frame(console)?;
     if args.program.is_forced() && robot.is_none() {
         return Err(advised_error(

@@ -11,6 +11,7 @@ mod cell;
 mod console;
 mod enrol;
 mod evaluate;
+mod expect;
 mod first_look;
 mod follow;
 mod history;

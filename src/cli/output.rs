@@ -56,6 +56,27 @@ impl OutputFormat {
                 Self::Rows(columns) => columns.inspected(&shown, part, library, console),
             }
         }
+        self.expected(parts, console);
+    }
+
+    /// Shows whether the parts of a scene are those that are expected.
+    fn expected(&self, parts: &[Inspected<'_>], console: &mut Console) {
+        let verdicts: Vec<&Verdict> = parts.iter().map(|part| &part.inspection.verdict).collect();
+        let Some(expected) = parts.first().map(|part| &part.recipe.expected) else {
+            return;
+        };
+        let missing = expected.missing(&verdicts);
+        match self {
+            Self::Card if expected.is_empty() => {}
+            Self::Card if !missing.is_empty() => console.entry("missing", &missing.join(", ")),
+            Self::Card if expected.is_met(&verdicts) => console.entry("parts", &"as expected"),
+            Self::Rows(columns) => {
+                for name in missing {
+                    columns.row("", name, "missing", "", console);
+                }
+            }
+            Self::Card | Self::Json => {}
+        }
     }
 }
 

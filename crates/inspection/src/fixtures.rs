@@ -161,8 +161,20 @@ pub fn rejections() -> Vec<Rejection> {
         freedom,
     }));
     all.extend(rejections_of_frames(&part));
+    all.extend(rejections_of_others(&part));
     all.extend(pose_errors().into_iter().map(Rejection::NoPose));
     all
+}
+
+/// Those of parts that are not expected.
+fn rejections_of_others(part: &str) -> [Rejection; 2] {
+    [
+        Rejection::WrongPart {
+            part: part.into(),
+            expected: "Grille".into(),
+        },
+        Rejection::NotExpected { part: part.into() },
+    ]
 }
 
 /// Those that several frames give.

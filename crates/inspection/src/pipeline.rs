@@ -2,6 +2,7 @@
 //!
 //! The window, the command line and the tests are three callers of [`run`].
 
+mod expected;
 mod hypothesis;
 pub mod live;
 mod mirror;
@@ -38,13 +39,8 @@ use stages::{
     stand_off::StandOffParams,
 };
 
-use self::{
-    hypothesis::try_hypotheses,
-    surface::{InspectionInputs, inspect_surface},
-    unsound::refuse_unsound,
-    watch::StageClock,
-};
 pub use self::{
+    expected::Expected,
     mirror::{MirrorTally, OnlyMirrored},
     named_recipe::{
         AS_IN_THE_PAPER, BUILT_IN, BUILT_IN_RECIPES, MAX_NOTES, NamedRecipe, RecipeBlock,
@@ -56,6 +52,12 @@ pub use self::{
     rejection::{Rejection, Unrecognisable, is_like},
     verdict::{AcceptParams, Verdict},
     watch::{Cancelled, ProgressObserver, Stage, Timings},
+};
+use self::{
+    hypothesis::try_hypotheses,
+    surface::{InspectionInputs, inspect_surface},
+    unsound::refuse_unsound,
+    watch::StageClock,
 };
 pub use stages::scan::Unwatched;
 
@@ -85,6 +87,9 @@ pub struct Recipe {
     pub stand_off: StandOffParams,
     /// How the pose is estimated.
     pub pose: PoseChoice,
+    /// What should hang there. It differs from frame to frame, and is neither part of the identity nor of a recipe's file.
+    #[serde(skip)]
+    pub expected: Expected,
 }
 
 impl Recipe {
@@ -96,6 +101,11 @@ impl Recipe {
             contour: self.contour.clone(),
             signature: self.signature.clone(),
         }
+    }
+
+    /// The maximum number of accepted parts: [`SegmentParams::max_parts`], or more if more are expected.
+    pub fn max_parts(&self) -> usize {
+        self.segment.max_parts.max(self.expected.parts().len())
     }
 
     /// Returns eight hexadecimal digits that depend on all parameters: the CRC-32 of the recipe as JSON, in the order
@@ -156,6 +166,20 @@ pub fn run(
     recipe: &Recipe,
     watch: &dyn ProgressObserver,
 ) -> Result<Inspection, Cancelled> {
+    let mut inspection = likeliest(scene, library, recipe, watch)?;
+    recipe
+        .expected
+        .refuse_others(&mut [&mut inspection.verdict]);
+    Ok(inspection)
+}
+
+/// Inspects the likeliest part, whatever is expected.
+fn likeliest(
+    scene: &SceneCloud,
+    library: &Library,
+    recipe: &Recipe,
+    watch: &dyn ProgressObserver,
+) -> Result<Inspection, Cancelled> {
     inspect(scene, library, recipe, watch, || {
         Some(segment(scene, &recipe.segment))
     })
@@ -164,7 +188,8 @@ pub fn run(
 
 /// Inspects a surface after the other of a scene, until nothing of a part's size is left that is neither background nor
 /// explained. Returns an inspection for each, those of accepted parts first, from left to right in the picture. At most
-/// [`SegmentParams::max_parts`] are accepted; of one, the inspection is that of [`run`].
+/// [`Recipe::max_parts`] are accepted; of one, the inspection is that of [`run`]. If parts are expected, it also looks on
+/// behind one that is not.
 ///
 /// What an accepted part explains are the readings at its reference in its pose, and no other part has them.
 pub fn run_all(
@@ -173,13 +198,17 @@ pub fn run_all(
     recipe: &Recipe,
     watch: &dyn ProgressObserver,
 ) -> Result<Vec<Inspection>, Cancelled> {
-    let mut found = vec![run(scene, library, recipe, watch)?];
+    let mut found = vec![likeliest(scene, library, recipe, watch)?];
     let mut known = Vec::new();
-    let max_parts = recipe.segment.max_parts;
+    let max_parts = recipe.max_parts();
+    let expected = &recipe.expected;
     // One other thing may hang between two parts. Of one part, the surface that was inspected is the likeliest.
-    for _ in 1..(2 * max_parts).saturating_sub(1) {
+    let max_surfaces = 2 * max_parts - usize::from(expected.is_empty());
+    for _ in 1..max_surfaces {
         let num_accepted = found.iter().filter(|i| i.verdict.is_accepted()).count();
-        let last = found.last().filter(|_| num_accepted < max_parts);
+        let verdicts: Vec<&Verdict> = found.iter().map(|one| &one.verdict).collect();
+        let is_complete = num_accepted >= max_parts && expected.missing(&verdicts).is_empty();
+        let last = found.last().filter(|_| !is_complete);
         let Some(last) = last else { break };
         known.extend(explained(last, scene, library));
         let next = inspect(scene, library, recipe, watch, || {
@@ -189,15 +218,14 @@ pub fn run_all(
         let Some(next) = next else { break };
         found.push(next);
     }
-    if found.len() > 1 {
-        found.sort_by(|a, b| {
-            let rank = |inspection: &Inspection| {
-                (!inspection.verdict.is_accepted(), inspection.direction())
-            };
-            let ((a, left), (b, right)) = (rank(a), rank(b));
-            a.cmp(&b).then(left.total_cmp(&right))
-        });
-    }
+    let mut verdicts: Vec<&mut Verdict> = found.iter_mut().map(|one| &mut one.verdict).collect();
+    expected.refuse_others(&mut verdicts);
+    found.sort_by(|a, b| {
+        let rank =
+            |inspection: &Inspection| (!inspection.verdict.is_accepted(), inspection.direction());
+        let ((a, left), (b, right)) = (rank(a), rank(b));
+        a.cmp(&b).then(left.total_cmp(&right))
+    });
     Ok(found)
 }
 

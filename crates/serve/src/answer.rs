@@ -13,12 +13,16 @@ use geometry::{
     error::Advice,
     rigid::{RigidTransform, row_major},
 };
+use stages::segment::MAX_PARTS;
 
 /// A client's request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Request {
     /// Capture a frame from now on, and inspect it.
-    Trigger,
+    Trigger {
+        /// Numbers of the parts that should hang there, then zeros; all zero if nothing is expected.
+        expected: ExpectedNumbers,
+    },
     /// Send the camera's state, and the last verdict without its numbers.
     Status,
     /// Send the last inspection again.
@@ -39,11 +43,19 @@ pub enum Request {
     },
 }
 
+/// Numbers of the parts that are expected in a frame; 0 stands for none.
+pub type ExpectedNumbers = [u32; MAX_PARTS];
+
 impl Request {
+    /// A trigger that expects nothing.
+    pub const TRIGGER: Self = Self::Trigger {
+        expected: [0; MAX_PARTS],
+    };
+
     /// The word in text protocols, and the code in binary frames.
     pub(super) fn name(self) -> (&'static str, u16) {
         match self {
-            Self::Trigger => ("TRIGGER", 1),
+            Self::Trigger { .. } => ("TRIGGER", 1),
             Self::Status => ("STATUS", 2),
             Self::Last => ("LAST", 3),
             Self::Path { .. } => ("PATH", 4),
@@ -54,7 +66,7 @@ impl Request {
     /// Finds a request whose name, in a text or in a frame, fulfils `is_it`; its numbers are 0.
     pub(super) fn find(is_it: impl Fn((&str, u16)) -> bool) -> Option<Self> {
         let (path, part) = (Self::path(0, 0), Self::part(0, 0));
-        let mut all = [Self::Trigger, Self::Status, Self::Last, path, part].into_iter();
+        let mut all = [Self::TRIGGER, Self::Status, Self::Last, path, part].into_iter();
         all.find(|request| is_it(request.name()))
     }
 
@@ -74,18 +86,26 @@ impl Request {
         }
     }
 
-    /// The request with these numbers; `None` if it takes none.
-    pub(super) fn numbered(self, number: u32, sequence: u32) -> Option<Self> {
-        match self {
-            Self::Path { .. } => Some(Self::path(number, sequence)),
-            Self::Part { .. } => Some(Self::part(number, sequence)),
-            Self::Trigger | Self::Status | Self::Last => None,
+    /// The request with these numbers; `None` if it does not take as many.
+    pub(super) fn numbered(self, numbers: &[u32]) -> Option<Self> {
+        match (self, numbers) {
+            (Self::Trigger { .. }, _) => {
+                let mut expected = ExpectedNumbers::default();
+                expected.get_mut(..numbers.len())?.copy_from_slice(numbers);
+                Some(Self::Trigger { expected })
+            }
+            (_, []) => Some(self),
+            (Self::Path { .. }, [point]) => Some(Self::path(*point, 0)),
+            (Self::Path { .. }, [point, sequence]) => Some(Self::path(*point, *sequence)),
+            (Self::Part { .. }, [index]) => Some(Self::part(*index, 0)),
+            (Self::Part { .. }, [index, sequence]) => Some(Self::part(*index, *sequence)),
+            _ => None,
         }
     }
 
-    /// Its numbers, 0 where it has none: of a point or of a part, and the sequence number.
-    pub(super) fn numbers(self) -> [u32; 2] {
-        match self {
+    /// Its numbers, without zeros at their end.
+    pub(super) fn numbers(self) -> Vec<u32> {
+        let mut numbers = match self {
             Self::Path {
                 point: number,
                 sequence,
@@ -93,9 +113,12 @@ impl Request {
             | Self::Part {
                 index: number,
                 sequence,
-            } => [number, sequence.unwrap_or(0)],
-            Self::Trigger | Self::Status | Self::Last => [0, 0],
-        }
+            } => vec![number, sequence.unwrap_or(0)],
+            Self::Trigger { expected } => expected.to_vec(),
+            Self::Status | Self::Last => Vec::new(),
+        };
+        while numbers.pop_if(|number| *number == 0).is_some() {}
+        numbers
     }
 }
 
@@ -372,11 +395,11 @@ impl FrameParts {
         self.iter().nth(index)
     }
 
-    /// Number of parts; 0 if nothing recognisable hangs there.
+    /// Number of parts, missing ones included; 0 if nothing recognisable hangs there, and nothing is expected.
     pub(super) fn num_parts(&self) -> u32 {
-        let has_part = |found: &&Found| {
-            let verdict = found.verdict;
-            matches!(verdict, VerdictCode::Accepted | VerdictCode::Refused)
+        let has_part = |found: &&Found| match found.verdict {
+            VerdictCode::Accepted | VerdictCode::Refused => true,
+            _ => !found.part.is_empty(),
         };
         u32::try_from(self.iter().filter(has_part).count()).unwrap_or(u32::MAX)
     }
@@ -569,7 +592,7 @@ impl Answer {
         if answer.verdict == VerdictCode::Accepted {
             let num_points = u32::try_from(found.path.len()).unwrap_or(u32::MAX);
             match request {
-                Request::Trigger | Request::Last => {
+                Request::Trigger { .. } | Request::Last => {
                     (answer.pose, answer.points) = (found.pose, num_points);
                 }
                 Request::Status | Request::Path { point: 0, .. } => answer.points = num_points,
@@ -698,7 +721,7 @@ mod tests {
     }
 
     const ALL: [Request; 8] = [
-        Request::Trigger,
+        Request::TRIGGER,
         Request::Status,
         Request::Last,
         path(0),

@@ -8,7 +8,7 @@ use std::{
 use serde_json::{Map, Value};
 
 use super::{
-    answer::{Answer, LibraryStatus, PathStep, Problem, Request, VerdictCode},
+    answer::{Answer, ExpectedNumbers, LibraryStatus, PathStep, Problem, Request, VerdictCode},
     server::{
         ClientNews, ClientSlot, Job, ServerSettings, Shared, answer_to, inspection_of, triggered,
     },
@@ -71,13 +71,18 @@ impl ServerHandle {
 
     /// Inspects a frame, and answers about each of its parts, or what there is instead of one. It blocks as
     /// [`answer`](Self::answer) does.
-    pub fn trigger(&self, is_withdrawn: impl Fn() -> bool + Send + 'static) -> Vec<Answer> {
-        let inspected = triggered(&self.jobs, Box::new(is_withdrawn));
+    pub fn trigger(
+        &self,
+        expected: ExpectedNumbers,
+        is_withdrawn: impl Fn() -> bool + Send + 'static,
+    ) -> Vec<Answer> {
+        let request = Request::Trigger { expected };
+        let inspected = triggered(expected, &self.jobs, Box::new(is_withdrawn));
         let at = self.shared.situation();
         match inspected {
-            Ok(inspected) => inspected.answers(Request::Trigger, &at),
+            Ok(inspected) => inspected.answers(request, &at),
             Err((verdict, problem)) => vec![Answer {
-                request: Some(Request::Trigger),
+                request: Some(request),
                 ..Answer::turned_away(verdict, problem, &at)
             }],
         }

@@ -20,8 +20,8 @@ use thiserror::Error;
 
 use super::{
     answer::{
-        Answer, CameraStatus, Found, FrameParts, Inspected, LibraryStatus, Problem, Request,
-        Situation, VerdictCode, judged,
+        Answer, CameraStatus, ExpectedNumbers, Found, FrameParts, Inspected, LibraryStatus,
+        Problem, Request, Situation, VerdictCode, judged,
     },
     client::Client,
     handle::ServerHandle,
@@ -49,21 +49,24 @@ pub(super) const WRITE_TIMEOUT: Duration = Duration::from_secs(5);
 /// Short, because the answer to a refused client fits into the socket's empty send buffer.
 const TURN_AWAY_TIMEOUT: Duration = Duration::from_millis(100);
 
-/// When a trigger came.
+/// When a trigger came, and what it expects.
 #[derive(Clone, Copy, Debug)]
 pub struct Asked {
     /// By the monotonic clock.
     pub at: Instant,
     /// By the wall clock, for comparison with file times.
     pub by_clock: Timestamp,
+    /// Numbers of the parts that should hang there, and zeros.
+    pub expected: ExpectedNumbers,
 }
 
 impl Asked {
-    /// Returns the present time on both clocks.
+    /// Returns the present time on both clocks, and no expectation.
     pub fn now() -> Self {
         Self {
             at: Instant::now(),
             by_clock: geometry::clock::now(),
+            expected: ExpectedNumbers::default(),
         }
     }
 }
@@ -523,8 +526,8 @@ pub(super) fn answer_to(
     is_withdrawn: impl Fn() -> bool + Send + 'static,
 ) -> Answer {
     let inspected = match request {
-        Request::Trigger => {
-            let triggered = triggered(jobs, Box::new(is_withdrawn));
+        Request::Trigger { expected } => {
+            let triggered = triggered(expected, jobs, Box::new(is_withdrawn));
             *own = triggered.as_ref().ok().map(Arc::clone);
             triggered.map(|inspected| (inspected, 0))
         }
@@ -567,12 +570,16 @@ pub(super) fn inspection_of(
 
 /// Requests an inspection of a frame captured from now on, and waits for it. An error is a verdict with its reason.
 pub(super) fn triggered(
+    expected: ExpectedNumbers,
     jobs: &SyncSender<Job>,
     is_withdrawn: Box<dyn Fn() -> bool + Send>,
 ) -> Result<Arc<Inspected>, (VerdictCode, Problem)> {
     let (reply, inspected) = mpsc::sync_channel(1);
     let job = Job {
-        asked: Asked::now(),
+        asked: Asked {
+            expected,
+            ..Asked::now()
+        },
         is_withdrawn,
         reply,
     };

@@ -1,8 +1,13 @@
 //! The answer to a trigger: a frame is inspected, checked for motion, and converted for robots.
 
-use std::{sync::Arc, time::Duration};
+use std::{
+    sync::Arc,
+    time::{Duration, Instant},
+};
 
-use super::{Camera, Inspected, NoFrame, PartFinder, Subject, motion::time_of};
+use super::{
+    Camera, Inspected, NoFrame, PartFinder, Subject, inspected::verdicts_of, motion::time_of,
+};
 use capture::Captured;
 use inspection::{
     library::Library,
@@ -10,7 +15,7 @@ use inspection::{
 };
 use records::history::Traceability;
 use robot::RobotFrame;
-use serve::FrameParts;
+use serve::{ExpectedNumbers, Found, FrameParts, VerdictCode};
 use stages::scene::SceneCloud;
 
 /// What triggers are answered with.
@@ -23,6 +28,8 @@ pub struct Answering<'a> {
     pub library: &'a Library,
     /// The recipe.
     pub recipe: &'a NamedRecipe,
+    /// Numbers of the parts that should hang there, and zeros; all zero to expect what the recipe does.
+    pub expected: ExpectedNumbers,
     /// How long a later frame is waited for.
     pub at_most: Duration,
     /// Returns true once the service is ending.
@@ -38,18 +45,17 @@ pub struct Answered {
     pub found: FrameParts,
     /// The scene that was inspected.
     pub scene: Arc<SceneCloud>,
-    /// The results of all stages for each part, in the order of `found`.
+    /// The results of all stages for each part, in the order of `found`, which has the missing parts behind them.
     pub inspections: Vec<Inspection>,
+    /// The recipe, with what was expected.
+    pub recipe: NamedRecipe,
 }
 
 impl Answered {
     /// The parts, to be shown and recorded. `robot` is the frame of the numbers that were sent.
-    pub fn parts<'a>(
-        &'a self,
-        recipe: &'a NamedRecipe,
-        robot: &'a RobotFrame,
-    ) -> Vec<Inspected<'a>> {
-        parts_of(&self.subject, &self.scene, &self.inspections, recipe, robot)
+    pub fn parts<'a>(&'a self, robot: &'a RobotFrame) -> Vec<Inspected<'a>> {
+        let (subject, scene) = (&self.subject, &self.scene);
+        parts_of(subject, scene, &self.inspections, &self.recipe, robot)
     }
 }
 
@@ -81,8 +87,10 @@ impl Answering<'_> {
         trace: &Traceability,
         mut scene_of: impl FnMut(Captured) -> Arc<SceneCloud>,
     ) -> Result<Answered, NoFrame> {
+        let expected = self.finder.expected(&self.expected, self.library)?;
+        let recipe = self.recipe.expecting(expected);
         let inspected = |scene: &SceneCloud| {
-            run_all(scene, self.library, self.recipe, &Unwatched).expect("not cancelled")
+            run_all(scene, self.library, &recipe, &Unwatched).expect("not cancelled")
         };
         let middle_of = |part: &Inspection| part.best_reference(self.library)?.middle();
         let (captured_at, at) = (self.camera.captured_at(&captured), time_of(&captured));
@@ -98,21 +106,39 @@ impl Answering<'_> {
         )?;
         subject.is_motion_unchecked |= !is_checked;
         let robot = &self.finder.robot;
-        let parts = parts_of(&subject, &scene, &inspections, self.recipe, robot);
-        let mut found = parts
-            .iter()
-            .map(|part| self.finder.found(part, captured_at));
-        let mut found = FrameParts {
-            first: found.next().expect("an inspection has a verdict"),
-            others: found.collect(),
-        };
+        let parts = parts_of(&subject, &scene, &inspections, &recipe, robot);
+        let mut found = self.found(&parts, captured_at);
         found.first.report = Inspected::line_of_all(&parts, trace);
         Ok(Answered {
             subject,
             found,
             scene,
             inspections,
+            recipe,
         })
+    }
+}
+
+impl Answering<'_> {
+    /// The results for the parts of a frame of this time, and for the expected ones that are missing.
+    fn found(&self, parts: &[Inspected<'_>], captured_at: Instant) -> FrameParts {
+        let expected = &parts[0].recipe.expected;
+        let all = parts.iter();
+        let mut all: Vec<Found> = all
+            .map(|part| self.finder.found(part, captured_at))
+            .collect();
+        let missing = expected.missing(&verdicts_of(parts)).into_iter();
+        let missing = missing.map(|name| self.finder.missing(name, self.library, &all[0]));
+        let missing: Vec<Found> = missing.collect();
+        if !missing.is_empty() {
+            // Where nothing can be recognised, this is what is missing.
+            all.retain(|found| found.verdict != VerdictCode::NoPart);
+        }
+        let mut all = all.into_iter().chain(missing);
+        FrameParts {
+            first: all.next().expect("an inspection has a verdict"),
+            others: all.collect(),
+        }
     }
 }
 
@@ -125,29 +151,33 @@ mod tests {
     use capture::SourceSpec;
     use geometry::rigid::RigidTransform;
     use inspection::fixtures::shipped_library;
-    use serve::{Answer, Asked, PoseKind, VerdictCode};
+    use serve::{Answer, Asked, PoseKind};
     use stages::scene::scene_from_image;
 
     /// Long enough for a busy machine; normally what is waited for comes at once.
     const PATIENCE: Duration = Duration::from_mins(10);
 
-    #[test]
-    fn a_trigger_is_answered_from_the_inspection_that_its_line_tells_of() {
-        let (library, recipe) = (shipped_library(), NamedRecipe::default());
+    /// Numbers the parts of a library from 1.
+    fn finder(library: &Library) -> PartFinder {
         let parts = (1..).zip(&library.references);
-        let finder = PartFinder {
-            parts: parts
-                .map(|(number, _)| NumberedPart {
-                    number,
-                    ..NumberedPart::default()
-                })
-                .collect(),
+        let parts = parts.map(|(number, _)| NumberedPart {
+            number,
+            ..NumberedPart::default()
+        });
+        PartFinder {
+            parts: parts.collect(),
             robot: RobotFrame {
                 robot_from_camera: RigidTransform::translation(1.0, 2.0, 3.0),
                 name: "cell 1".into(),
             },
             kind: PoseKind::RobotFromPart,
-        };
+        }
+    }
+
+    #[test]
+    fn a_trigger_is_answered_from_the_inspection_that_its_line_tells_of() {
+        let (library, recipe) = (shipped_library(), NamedRecipe::default());
+        let finder = finder(&library);
         let source: SourceSpec = "simulated:fender".parse().expect("a source");
         let camera = Camera::start(&source).expect("started");
         let frame = camera.frame_after(&Asked::now(), PATIENCE, || false);
@@ -158,6 +188,7 @@ mod tests {
             finder: &finder,
             library: &library,
             recipe: &recipe,
+            expected: ExpectedNumbers::default(),
             at_most: PATIENCE,
             is_ending: &|| false,
         };
@@ -186,6 +217,66 @@ mod tests {
         assert_eq!(line["robot"]["calibration"], "cell 1");
         let cancelled = answering_at_the_end(&answering);
         assert_eq!(cancelled.reason(), "stopping");
+    }
+
+    #[test]
+    fn a_part_that_is_not_expected_is_refused_and_what_is_missing_is_said() {
+        let (library, recipe) = (shipped_library(), NamedRecipe::default());
+        let finder = finder(&library);
+        let source: SourceSpec = "simulated:fender".parse().expect("a source");
+        let camera = Camera::start(&source).expect("started");
+        let number_of = |name: &str| {
+            let mut numbered = finder.parts.iter().zip(&library.references);
+            let part = numbered.find(|(_, reference)| reference.name == name);
+            part.expect("enrolled").0.number
+        };
+        let answered = |numbers: &[u32]| {
+            let frame = camera.frame_after(&Asked::now(), PATIENCE, || false);
+            let frame = frame.expect("a frame");
+            let subject = Subject::of_capture(&frame, &source, 0);
+            let mut expected = ExpectedNumbers::default();
+            expected[..numbers.len()].copy_from_slice(numbers);
+            let answering = Answering {
+                camera: &camera,
+                finder: &finder,
+                library: &library,
+                recipe: &recipe,
+                expected,
+                at_most: PATIENCE,
+                is_ending: &|| false,
+            };
+            let trace = Traceability::default();
+            let answered = answering.answer(frame, subject, &trace, |captured| {
+                Arc::new(scene_from_image(captured.image))
+            });
+            answered.map(|answered| answered.found)
+        };
+        let shown = |found: &FrameParts| -> Vec<(VerdictCode, String, String)> {
+            let parts = found.iter().map(|part| {
+                assert_eq!(part.pose.is_some(), part.verdict == VerdictCode::Accepted);
+                let reason = part.problem.reason.clone();
+                (part.verdict, part.part.clone(), reason)
+            });
+            parts.collect()
+        };
+        let (fender, grille) = (number_of("fender"), number_of("grille"));
+        let part = |verdict, name: &str, reason: &str| (verdict, name.into(), reason.into());
+        let accepted = part(VerdictCode::Accepted, "fender", "");
+        let found = answered(&[fender]).expect("inspected");
+        assert_eq!(shown(&found), std::slice::from_ref(&accepted));
+        let line: Value = serde_json::from_str(&found.first.report).expect("JSON");
+        assert_eq!(line["as_expected"], true);
+        let found = answered(&[grille, fender]).expect("inspected");
+        let missing = part(VerdictCode::NoPart, "grille", "missing");
+        assert_eq!(shown(&found), [accepted, missing]);
+        assert_eq!(found.others[0].number, grille);
+        let line: Value = serde_json::from_str(&found.first.report).expect("JSON");
+        assert_eq!(line["missing"], serde_json::json!(["grille"]));
+        let found = answered(&[grille]).expect("inspected");
+        let wrong = part(VerdictCode::Refused, "fender", "wrong_part");
+        assert_eq!(shown(&found), [wrong]);
+        let unknown = answered(&[99]).expect_err("no such part");
+        assert_eq!(unknown.reason(), "unknown_number");
     }
 
     /// An accepted part that cannot be looked for again, because the service ends, is not answered.

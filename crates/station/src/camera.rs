@@ -169,6 +169,12 @@ pub enum NoFrame {
         /// Lower bound of the difference between the clocks.
         ahead: Duration,
     },
+    /// A part is expected by a number that no part has.
+    #[error("no part has the number {number}")]
+    UnknownNumber {
+        /// The number.
+        number: u32,
+    },
     /// The service is ending.
     #[error(transparent)]
     Unanswered(#[from] Unanswered),
@@ -184,6 +190,7 @@ impl NoFrame {
             Self::Late { .. } => "no_frame",
             Self::Unreadable { .. } => "unreadable",
             Self::ClockAhead { .. } => "clock_ahead",
+            Self::UnknownNumber { .. } => "unknown_number",
             Self::Unanswered(why) => why.reason(),
         }
     }
@@ -207,6 +214,9 @@ impl Advice for NoFrame {
             Self::Late { .. } => {
                 "Check that the camera delivers frames; a slow one needs a longer --frame-timeout"
                     .into()
+            }
+            Self::UnknownNumber { .. } => {
+                "TRIGGER with numbers that partsight library list shows".into()
             }
             Self::Unanswered(why) => why.advice(),
         }

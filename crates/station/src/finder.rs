@@ -2,17 +2,17 @@
 
 use std::time::Instant;
 
-use super::Inspected;
+use super::{Inspected, NoFrame};
 use geometry::rigid::RigidTransform;
 use inspection::{
-    library::SprayPath,
-    pipeline::{Inspection, Recipe, Refusal, Rejection, Verdict},
+    library::{Library, SprayPath},
+    pipeline::{Expected, Inspection, Recipe, Refusal, Rejection, Verdict},
 };
 use robot::{
     RobotFrame,
     spray::{BandStatus, OffThePart, carry},
 };
-use serve::{Answer, Found, PathStep, PoseKind, Problem, VerdictCode};
+use serve::{Answer, ExpectedNumbers, Found, PathStep, PoseKind, Problem, VerdictCode};
 
 /// Data about a reference of the library that a client gets besides its name.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -105,6 +105,39 @@ impl PartFinder {
             }
         }
         found
+    }
+
+    /// The parts with these numbers, by name; zeros stand for none.
+    pub(super) fn expected(
+        &self,
+        numbers: &ExpectedNumbers,
+        library: &Library,
+    ) -> Result<Expected, NoFrame> {
+        let numbers = numbers.iter().filter(|number| **number > 0);
+        let names = numbers.map(|&number| {
+            let mut numbered = self.parts.iter().zip(&library.references);
+            let part = numbered.find(|(part, _)| part.number == number);
+            let (_, reference) = part.ok_or(NoFrame::UnknownNumber { number })?;
+            Ok(reference.name.clone())
+        });
+        Ok(Expected::new(names.collect::<Result<_, NoFrame>>()?))
+    }
+
+    /// The result for a part that is expected, and does not hang there.
+    pub(super) fn missing(&self, name: &str, library: &Library, like: &Found) -> Found {
+        let mut numbered = self.parts.iter().zip(&library.references);
+        let part = numbered.find(|(_, reference)| reference.name == name);
+        let what = format!("{name} is expected, and does not hang there");
+        let advice = "Hang it there, or correct what is expected";
+        Found {
+            verdict: VerdictCode::NoPart,
+            captured: like.captured,
+            part: name.to_owned(),
+            number: part.map_or(0, |(part, _)| part.number),
+            marks: like.marks & Answer::SIMULATED,
+            problem: Problem::new("missing", &what, advice),
+            ..Found::default()
+        }
     }
 
     fn carried(

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use capture::{Captured, SourceSpec};
 use files::written_at;
 use geometry::rigid::row_major;
-use inspection::pipeline::{Inspection, NamedRecipe};
+use inspection::pipeline::{Inspection, NamedRecipe, Verdict};
 use records::{
     history::{HungId, InspectionContext, NewEntry, SceneTitle, Traceability},
     report::{CaptureLine, InspectionLine, ScanLine},
@@ -232,11 +232,13 @@ impl<'a> Inspected<'a> {
     pub fn line_of_all(parts: &[Self], trace: &Traceability) -> String {
         let first = &parts[0];
         let line = first.inspection_line(trace);
-        if first.recipe.segment.max_parts == 1 {
+        if first.recipe.max_parts() == 1 && first.recipe.expected.is_empty() {
             return line.to_json();
         }
         let all = parts.iter().map(|part| part.inspection_line(trace));
-        line.with_parts(all).to_json()
+        line.with_parts(all)
+            .expecting(&first.recipe.expected, &verdicts_of(parts))
+            .to_json()
     }
 
     fn inspection_line<'b>(&self, trace: &'b Traceability) -> InspectionLine<'b>
@@ -321,6 +323,11 @@ impl<'a> Inspected<'a> {
             None => entry,
         }
     }
+}
+
+/// The verdicts on the parts of a frame.
+pub(super) fn verdicts_of<'a>(parts: &[Inspected<'a>]) -> Vec<&'a Verdict> {
+    parts.iter().map(|part| &part.inspection.verdict).collect()
 }
 
 #[cfg(test)]

@@ -33,7 +33,7 @@ impl From<f64> for Value {
 }
 
 /// Variables that hold the name of a part.
-const PART_VARIABLES: [&str; 3] = ["part", "other", "nearest"];
+const PART_VARIABLES: [&str; 4] = ["part", "other", "nearest", "expected"];
 
 /// A message of the library's catalogue with the values of its variables.
 #[derive(Clone, Debug, Default, PartialEq)]

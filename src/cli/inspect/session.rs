@@ -22,7 +22,8 @@ use geometry::error::{Advice, guarded};
 use inspection::{
     library::Library,
     pipeline::{
-        self, Inspection, MirrorTally, NamedRecipe, Unwatched, live::refuse_moving, run_all,
+        self, Inspection, MirrorTally, NamedRecipe, Unwatched, Verdict, live::refuse_moving,
+        run_all,
     },
 };
 use records::{
@@ -178,8 +179,14 @@ impl InspectSession {
             return Ok(before.max(self.show_settled(&last, console)?));
         }
         let line = self.show(&frame, console);
-        let mut all = iter::once(&frame.inspection).chain(&frame.others);
-        let outcome = Outcome::accepted_if(all.all(|part| part.verdict.is_accepted()));
+        let all = iter::once(&frame.inspection).chain(&frame.others);
+        let verdicts: Vec<&Verdict> = all.map(|part| &part.verdict).collect();
+        let expected = &self.recipe.expected;
+        let outcome = Outcome::accepted_if(if expected.is_empty() {
+            verdicts.iter().all(|verdict| verdict.is_accepted())
+        } else {
+            expected.is_met(&verdicts)
+        });
         let pictures = self.pictures(&frame);
         // After the verdict is shown, which must not wait for it, and before the exports, any of which may fail.
         for part in iter::once(&frame.inspection).chain(&frame.others) {
@@ -314,7 +321,7 @@ impl InspectSession {
             .iter()
             .filter(|one| one.inspection.verdict.is_accepted());
         let num_unchecked = accepted.filter(|_| subject.is_motion_unchecked).count();
-        let line = if subject.capture.is_none() && self.recipe.segment.max_parts > 1 {
+        let line = if subject.capture.is_none() {
             Inspected::line_of_all(&parts, &self.trace)
         } else {
             parts[0].line(&self.trace)

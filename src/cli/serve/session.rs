@@ -78,6 +78,7 @@ impl Inspector for ServeSession<'_> {
             finder: &self.finder,
             library: &self.library,
             recipe: &self.recipe,
+            expected: asked.expected,
             at_most: self.frame_timeout,
             is_ending: &is_ending,
         };
@@ -145,7 +146,7 @@ impl ServeSession<'_> {
             self.console.note(&"Simulated: no camera is read.");
         }
         self.num_inspected += 1;
-        let parts = answered.parts(&self.recipe, &self.finder.robot);
+        let parts = answered.parts(&self.finder.robot);
         let (name, line) = (&subject.scene, &found.first.report);
         self.format
             .inspected(name, line, &parts, &self.library, self.console);

@@ -5,7 +5,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use partsight::serve::{CameraState, CameraStatus, Found, Problem, ServerSettings};
+use partsight::serve::{CameraState, CameraStatus, Found, FrameParts, Problem, ServerSettings};
 use serde_json::{Value, json};
 
 use super::{Service, accepted, client::Reply, http_settings, patient, refused, schema, tokens};
@@ -293,6 +293,87 @@ fn assert_described(reply: &Reply, method: &str, path: &str, document: &Value) {
     if let Err(why) = schema::check(&value, schema, document) {
         panic!("{method} {path}, {}: {why}\n{value}", reply.status);
     }
+}
+
+#[test]
+fn all_parts_of_a_frame_come_with_the_first_and_only_the_accepted_ones_have_poses() {
+    let service = Service::start(|number| {
+        let line = json!({
+            "pose": [1], "robot": [1],
+            "parts": [{ "part": "fender", "pose": [1], "robot": [1] }, { "part": "hood", "pose": [2], "robot": [2] }],
+        });
+        FrameParts {
+            first: Found {
+                report: line.to_string(),
+                ..accepted(number)
+            },
+            others: vec![refused(2)],
+        }
+    });
+    let mut client = service.client();
+    for reply in [
+        client.trigger(),
+        client.get("/v1/last"),
+        client.get("/v1/report"),
+    ] {
+        let answer = reply.json();
+        assert_known(&answer, "accepted", 1);
+        assert_eq!([&answer["index"], &answer["num_parts"]], [1, 2]);
+        let parts = answer["parts"].as_array().expect("parts");
+        assert_eq!(parts.len(), 2);
+        assert_known(&parts[0], "accepted", 1);
+        assert_eq!(parts[0]["pose"], answer["pose"]);
+        assert_known(&parts[1], "refused", 2);
+        assert_eq!([&parts[1]["index"], &parts[1]["num_parts"]], [2, 2]);
+        assert_eq!(parts[1]["pose"], Value::Null);
+        if let Some(report) = answer.get("report") {
+            assert!(report["pose"].is_array() && report["parts"][0]["pose"].is_array());
+            let refused = &report["parts"][1];
+            assert_eq!(refused["part"], "hood");
+            assert!(
+                refused.get("pose").is_none() && refused.get("robot").is_none(),
+                "{report}"
+            );
+        }
+    }
+    let path = |sequence: u32| format!("/v1/path?sequence={sequence}");
+    let accepted = client.get(&path(1)).json();
+    assert!(!accepted["path"].as_array().expect("points").is_empty());
+    let refused = client.get(&path(2)).json();
+    assert_known(&refused, "refused", 2);
+    assert_eq!(refused["path"], json!([]));
+    assert_eq!(client.get(&path(3)).status, 404);
+    assert_eq!(client.trigger().json()["sequence"], 3);
+}
+
+#[test]
+fn a_trigger_may_say_what_is_expected_and_a_body_that_says_something_else_is_refused() {
+    let service = Service::start(accepted);
+    let mut client = service.client();
+    let number = |reply: Reply| reply.json()["number"].as_u64().expect("a number");
+    let plain = number(client.trigger());
+    assert_eq!(number(client.trigger_with("")), plain);
+    assert_eq!(number(client.trigger_with("{}")), plain);
+    assert_eq!(number(client.trigger_with("{\"expected\": []}")), plain);
+    assert_eq!(
+        number(client.trigger_with("{\"expected\": [3, 5]}")),
+        plain + 8
+    );
+    let num_before = service.num_inspected();
+    for body in [
+        "{\"expected\": 3}",
+        "{\"expected\": [0]}",
+        "{\"expected\": [-1]}",
+        "{\"expected\": [1, 2, 3, 4, 5, 6, 7, 8, 9]}",
+        "{\"expect\": [3]}",
+        "expected=3",
+        "[3]",
+    ] {
+        let refused = client.trigger_with(body);
+        assert_eq!(refused.status, 400, "{body}");
+        assert_eq!(refused.json()["problem"]["reason"], "bad_body", "{body}");
+    }
+    assert_eq!(service.num_inspected(), num_before);
 }
 
 #[test]

@@ -78,6 +78,16 @@ impl<S: Read + Write> Client<S> {
         self.ask("POST", "/v1/trigger")
     }
 
+    /// Triggers with this body.
+    pub(crate) fn trigger_with(&mut self, body: &str) -> Reply {
+        let before = self.fields.clone();
+        self.fields += &format!("Content-Length: {}\r\n", body.len());
+        self.begin("POST", "/v1/trigger");
+        self.fields = before;
+        self.send(body.as_bytes()).expect("sent");
+        self.reply().expect("an answer")
+    }
+
     pub(crate) fn ask(&mut self, method: &str, path: &str) -> Reply {
         self.begin(method, path);
         self.reply().expect("an answer")

@@ -60,7 +60,7 @@ pub(super) fn try_hypotheses(
             Hypothesis::OtherSurface | Hypothesis::MirrorImage => true,
             Hypothesis::Piece => looks_whole && !inspection.verdict.is_likeness(),
             Hypothesis::PartOnStand => !inspection.verdict.is_likeness(),
-            Hypothesis::OneOfSeveral => inputs.recipe.segment.max_parts > 1,
+            Hypothesis::OneOfSeveral => inputs.recipe.max_parts() > 1,
         };
         if is_plausible {
             hypothesis.attempt(inspection, &likeliest, inputs)?;

@@ -23,7 +23,7 @@ use std::{
 use serde::{Deserialize, Serialize};
 
 use super::{
-    PoseChoice, Recipe,
+    Expected, PoseChoice, Recipe,
     parameters::{Parameters, Setting, changed},
     recipe_error::RecipeError,
 };
@@ -92,6 +92,18 @@ pub struct NamedRecipe {
     pub label: RecipeLabel,
     /// The parameters.
     pub parameters: Arc<Recipe>,
+}
+
+impl NamedRecipe {
+    /// The same recipe that expects these parts; if there are none, those that it expects now.
+    #[must_use]
+    pub fn expecting(&self, expected: Expected) -> Self {
+        let mut recipe = self.clone();
+        if !expected.is_empty() {
+            Arc::make_mut(&mut recipe.parameters).expected = expected;
+        }
+        recipe
+    }
 }
 
 impl Deref for NamedRecipe {

@@ -152,6 +152,18 @@ pub enum Rejection {
         /// Least lead.
         threshold: f64,
     },
+    /// It hangs in place of another part.
+    WrongPart {
+        /// What hangs there.
+        part: String,
+        /// What should hang there.
+        expected: String,
+    },
+    /// It hangs beside all the parts that are expected.
+    NotExpected {
+        /// What hangs there.
+        part: String,
+    },
     /// The paper's matcher ran alone, without a pose.
     Unconfirmed {
         /// Best match.

@@ -1,7 +1,7 @@
 //! The verdict on a scene, and how it follows from the evidence.
 
 use super::{
-    Inspection, Recipe,
+    Expected, Inspection, Recipe,
     refusal::Refusal,
     rejection::{Rejection, Unrecognisable, is_like},
 };
@@ -199,9 +199,7 @@ pub(super) fn verdict(
         return Verdict::NoPart(Unrecognisable::EmptyLibrary);
     };
     let accept = &recipe.accept;
-    let next = ranking.runner_up();
-    // For a mirror image, the part that it mirrors comes first, even if another one scores higher.
-    let margin = lead(best.score, next.map_or(0.0, |n| n.score)).max(0.0);
+    let (margin, next) = margin(best, ranking, &recipe.expected);
     let unlike = best.evidence.map_or(0.0, |e| model_deviation(&e, accept));
     let other_model = best.evidence.filter(|_| unlike > 1.0);
     let found = pose.and_then(|pose| pose.as_ref().ok());
@@ -270,6 +268,33 @@ pub(super) fn verdict(
             || best
                 .evidence
                 .is_some_and(|evidence| may_be_another_model(&evidence, accept)),
+    }
+}
+
+/// The least lead over a part of another name, 0..1, and that part.
+///
+/// A part that is not expected is compared with an expected one more closely. Only then: where nothing is expected, a part
+/// of which a twin is enrolled is refused rather than taken for its twin once in a hundred times.
+fn margin<'a>(
+    best: &ConfirmedMatch,
+    ranking: &'a ConfirmedRanking,
+    expected: &Expected,
+) -> (f64, Option<&'a ConfirmedMatch>) {
+    let others = ranking.by_part().skip(1).map(|other| {
+        let closer = match (&best.evidence, &other.evidence) {
+            (Some(own), Some(others)) if expected.prefers(&best.part, &other.part) => {
+                own.lead_over(others)
+            }
+            _ => None,
+        };
+        let lead = lead(best.score, other.score);
+        (closer.map_or(lead, |closer| closer.max(lead)), other)
+    });
+    let rival = others.min_by(|(a, _), (b, _)| a.total_cmp(b));
+    // For a mirror image, the part that it mirrors comes first, even if another one scores higher.
+    match rival {
+        Some((lead, rival)) => (lead.max(0.0), Some(rival)),
+        None => (lead(best.score, 0.0).max(0.0), None),
     }
 }
 

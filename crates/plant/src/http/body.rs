@@ -1,12 +1,37 @@
 //! Bodies of the answers. Compatible changes only add fields.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use geometry::rigid::row_major;
 use robot::{Convention, RobotPose};
-use serve::{Answer, CameraState, LibraryStatus, PathStep, Problem, VerdictCode};
+use serve::{Answer, CameraState, ExpectedNumbers, LibraryStatus, PathStep, Problem, VerdictCode};
+
+/// What a trigger may say of its frame.
+#[derive(Debug, Default, JsonSchema, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct TriggerBody {
+    /// The numbers of the parts that should hang there, up to 8; a number that is given twice stands for two such parts.
+    #[serde(default)]
+    expected: Vec<u32>,
+}
+
+impl TriggerBody {
+    /// Reads a body; an empty one expects nothing. `None` if it is something else.
+    pub(super) fn expected_in(body: &[u8]) -> Option<ExpectedNumbers> {
+        let read = |body| serde_json::from_slice::<Self>(body).ok();
+        let Self { expected } = match body.trim_ascii() {
+            [] => Self::default(),
+            body => read(body)?,
+        };
+        let mut numbers = ExpectedNumbers::default();
+        numbers
+            .get_mut(..expected.len())?
+            .copy_from_slice(&expected);
+        (!expected.contains(&0)).then_some(numbers)
+    }
+}
 
 /// An answer about the last inspection, or why there is none.
 #[derive(Debug, JsonSchema, Serialize)]

@@ -15,7 +15,7 @@ use std::{
 
 use axum::{
     Router,
-    body::{Body, HttpBody as _, to_bytes},
+    body::{Body, Bytes, HttpBody as _, to_bytes},
     http::Request,
     response::Response,
 };
@@ -178,23 +178,24 @@ impl Service {
             }
             state.is_known.store(true, Ordering::SeqCst);
         }
-        if let Err(refusal) = self.read_over(body).await {
-            return api.refuse(refusal);
-        }
-        let request = Request::from_parts(head, Body::empty());
+        let body = match self.read(body).await {
+            Ok(body) => body,
+            Err(refusal) => return api.refuse(refusal),
+        };
+        let request = Request::from_parts(head, Body::from(body));
         let Ok(response) = self.router.call(request).await;
         response
     }
 
-    /// Reads and discards the body, which no request needs, to get to the next request.
-    async fn read_over(&self, body: Incoming) -> Result<(), Refusal> {
+    /// Reads the body, also of a request that needs none, to get to the next request.
+    async fn read(&self, body: Incoming) -> Result<Bytes, Refusal> {
         if body.size_hint().lower() > MAX_BODY_BYTES as u64 {
             return Err(Refusal::TooLong);
         }
         let limit = self.api.server.settings().request_timeout;
         let read = timeout(limit, to_bytes(Body::new(body), MAX_BODY_BYTES)).await;
         match read {
-            Ok(Ok(_)) => Ok(()),
+            Ok(Ok(body)) => Ok(body),
             Ok(Err(_)) => Err(Refusal::TooLong),
             Err(_) => Err(Refusal::Incomplete {
                 seconds: limit.as_secs(),

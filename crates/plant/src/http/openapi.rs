@@ -5,7 +5,7 @@ use schemars::{JsonSchema, generate::SchemaSettings};
 use serde_json::{Map, Value, json};
 
 use super::{
-    body::{AnswerBody, FrameBody, HealthBody, PathBody, ReportBody, StatusBody},
+    body::{AnswerBody, FrameBody, HealthBody, PathBody, ReportBody, StatusBody, TriggerBody},
     metrics,
 };
 
@@ -17,6 +17,7 @@ pub(super) fn document(has_tokens: bool) -> Value {
     settings.definitions_path = "/components/schemas".into();
     let mut generator = settings.into_generator();
     let answer = schema_of::<AnswerBody>(&mut generator);
+    let body = schema_of::<TriggerBody>(&mut generator);
     let frame = schema_of::<FrameBody>(&mut generator);
     let status = schema_of::<StatusBody>(&mut generator);
     let path = schema_of::<PathBody>(&mut generator);
@@ -41,12 +42,17 @@ pub(super) fn document(has_tokens: bool) -> Value {
     ];
     let get = |summary: &str, media: &str, schema: &Value| json!({ "get": operation(summary, media, schema, &refused) });
     let text = json!({ "type": "string" });
-    let trigger = operation(
+    let mut trigger = operation(
         "Take a frame that is captured from now on, and inspect it",
         JSON,
         &frame,
-        &[&refused[..], &[StatusCode::SERVICE_UNAVAILABLE]].concat(),
+        &[
+            &refused[..],
+            &[StatusCode::BAD_REQUEST, StatusCode::SERVICE_UNAVAILABLE],
+        ]
+        .concat(),
     );
+    trigger["requestBody"] = json!({ "content": { JSON: { "schema": body } } });
     let mut path = operation(
         "The inspection with this sequence number, with every point of the part's spray path",
         JSON,

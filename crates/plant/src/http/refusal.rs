@@ -5,7 +5,7 @@ use thiserror::Error;
 
 use geometry::error::Advice;
 
-/// Maximum size of a body, bytes. No request needs one.
+/// Maximum size of a body, bytes. That of a trigger has some fifty.
 pub(super) const MAX_BODY_BYTES: usize = 1024;
 
 /// Why a request is refused.
@@ -19,6 +19,8 @@ pub(super) enum Refusal {
     NoSuchPath,
     #[error("the path does not support this method")]
     WrongMethod,
+    #[error("the body does not say which parts are expected")]
+    BadBody,
     #[error("the request does not say whose path is wanted")]
     NoSequence,
     #[error("the request was not complete after {seconds} s")]
@@ -35,6 +37,7 @@ impl Refusal {
             Self::WebPage => "web_page",
             Self::NoSuchPath => "unknown_request",
             Self::WrongMethod => "wrong_method",
+            Self::BadBody => "bad_body",
             Self::NoSequence => "no_trigger",
             Self::Incomplete { .. } => "incomplete",
             Self::TooLong => "too_long",
@@ -47,7 +50,7 @@ impl Refusal {
             Self::WebPage => StatusCode::FORBIDDEN,
             Self::NoSuchPath => StatusCode::NOT_FOUND,
             Self::WrongMethod => StatusCode::METHOD_NOT_ALLOWED,
-            Self::NoSequence => StatusCode::BAD_REQUEST,
+            Self::BadBody | Self::NoSequence => StatusCode::BAD_REQUEST,
             Self::Incomplete { .. } => StatusCode::REQUEST_TIMEOUT,
             Self::TooLong => StatusCode::PAYLOAD_TOO_LARGE,
         }
@@ -69,7 +72,10 @@ impl Advice for Refusal {
                 "Give the sequence number of your trigger's answer: GET /v1/path?sequence=41".into()
             }
             Self::Incomplete { .. } => "Send the complete request, with its body".into(),
-            Self::TooLong => "Send no body".into(),
+            Self::BadBody => {
+                "Send no body, or the numbers of up to 8 expected parts: {\"expected\": [3, 5]}".into()
+            }
+            Self::TooLong => "Send no body; with a trigger, one of up to 1024 bytes".into(),
         }
     }
 }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use axum::{
     Router,
+    body::Bytes,
     extract::State,
     http::{
         HeaderValue, StatusCode, Uri,
@@ -17,7 +18,7 @@ use tokio::task::spawn_blocking;
 
 use super::{
     access::Tokens,
-    body::{AnswerBody, FrameBody, HealthBody, PathBody, ReportBody, StatusBody},
+    body::{AnswerBody, FrameBody, HealthBody, PathBody, ReportBody, StatusBody, TriggerBody},
     metrics, openapi,
     refusal::Refusal,
 };
@@ -101,7 +102,10 @@ pub(super) fn router(api: Arc<Api>) -> Router {
         .with_state(api)
 }
 
-async fn trigger(State(api): State<Arc<Api>>) -> Response {
+async fn trigger(State(api): State<Arc<Api>>, body: Bytes) -> Response {
+    let Some(expected) = TriggerBody::expected_in(&body) else {
+        return api.refuse(Refusal::BadBody);
+    };
     let Some(slot) = api.server.slot() else {
         return api.answered(|api| api.triggered(&[api.server.full()]));
     };
@@ -111,7 +115,8 @@ async fn trigger(State(api): State<Arc<Api>>) -> Response {
     let waiting = Arc::downgrade(&waits);
     let work = spawn_blocking(move || {
         let is_withdrawn = move || waiting.strong_count() == 0;
-        let response = api.answered(|api| api.triggered(&api.server.trigger(is_withdrawn)));
+        let response =
+            api.answered(|api| api.triggered(&api.server.trigger(expected, is_withdrawn)));
         drop(slot);
         response
     });

@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use crate::history::Traceability;
 use geometry::rigid::row_major;
-use inspection::pipeline::{Inspection, NamedRecipe, RecipeBlock, Timings, Verdict};
+use inspection::pipeline::{Expected, Inspection, NamedRecipe, RecipeBlock, Timings, Verdict};
 use robot::RobotFrame;
 
 /// Version of the JSON lines.
@@ -26,6 +26,9 @@ pub struct InspectionLine<'a> {
     /// Every part of a frame in which several may hang, from left to right, then what else hangs there.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     parts: Vec<PartLine<'a>>,
+    /// What should hang there, if something is expected.
+    #[serde(flatten)]
+    expected: Option<ExpectedLine<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     recipe: Option<RecipeBlock>,
     /// Set for several frames inspected together.
@@ -67,6 +70,15 @@ struct PartLine<'a> {
     /// Why a robot may not act on the pose although the cell is calibrated and the part was accepted.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     robot_doubts: Vec<&'static str>,
+}
+
+/// Additional fields for a frame of which is known what should hang there.
+#[derive(Clone, Debug, Serialize)]
+struct ExpectedLine<'a> {
+    expected: &'a [String],
+    /// Expected parts that nothing hangs in place of.
+    missing: Vec<&'a str>,
+    as_expected: bool,
 }
 
 /// Additional fields for several frames that were inspected together.
@@ -286,6 +298,20 @@ impl<'a> InspectionLine<'a> {
     pub fn with_parts(self, parts: impl Iterator<Item = Self>) -> Self {
         Self {
             parts: parts.map(|line| line.first).collect(),
+            ..self
+        }
+    }
+
+    /// Adds what should hang there, if something is expected, and whether it does, by the verdicts on the frame.
+    #[must_use]
+    pub fn expecting(self, expected: &'a Expected, found: &[&Verdict]) -> Self {
+        let line = (!expected.is_empty()).then(|| ExpectedLine {
+            expected: expected.parts(),
+            missing: expected.missing(found),
+            as_expected: expected.is_met(found),
+        });
+        Self {
+            expected: line,
             ..self
         }
     }

@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use super::{
     ByteOrder,
-    binary::{NAMING_REQUEST_BYTES, REQUEST_BYTES, VERSION},
+    binary::{MAX_REQUEST_BYTES, REQUEST_BYTES, VERSION},
     plain,
 };
 use geometry::error::Advice;
@@ -31,9 +31,9 @@ pub enum BadRequest {
         /// The text found, in printable characters.
         found: String,
     },
-    /// The text after `PATH` or `PART` is not a number.
-    #[error("not the number of a point, a part or an inspection: {found:?}")]
-    NoPoint {
+    /// The text after the word of a request is not a number.
+    #[error("not a number of a point, a part or an inspection: {found:?}")]
+    NoNumber {
         /// The text found, in printable characters.
         found: String,
     },
@@ -50,7 +50,7 @@ pub enum BadRequest {
     },
     /// The frame's length field is not the length of a request.
     #[error(
-        "the frame gives its length as {found} bytes, expected {REQUEST_BYTES} or {NAMING_REQUEST_BYTES}"
+        "the frame gives its length as {found} bytes, expected {REQUEST_BYTES} to {MAX_REQUEST_BYTES}, in steps of 4"
     )]
     Length {
         /// The length found.
@@ -81,9 +81,9 @@ impl BadRequest {
         Self::Unknown { found }
     }
 
-    pub(super) fn no_point(found: &[u8]) -> Self {
+    pub(super) fn no_number(found: &[u8]) -> Self {
         let found = shown(found);
-        Self::NoPoint { found }
+        Self::NoNumber { found }
     }
 
     pub(super) fn not_xml(found: &[u8]) -> Self {
@@ -97,7 +97,7 @@ impl BadRequest {
             Self::TooLong { .. } => "too_long",
             Self::Incomplete { .. } => "incomplete",
             Self::Unknown { .. } => "unknown_request",
-            Self::NoPoint { .. } => "no_point",
+            Self::NoNumber { .. } => "no_point",
             Self::Magic => "magic",
             Self::Version { .. } => "version",
             Self::Length { .. } => "length",
@@ -118,7 +118,7 @@ impl Advice for BadRequest {
                 "Send TRIGGER, STATUS, LAST, PATH or PART, in the protocol of this port".into()
             }
             Self::Incomplete { .. } => "Send the complete request, with its terminator".into(),
-            Self::NoPoint { .. } => "Send PATH or PART, or behind it the number of a point or a part from 1, and behind that, if need be, the sequence number of a trigger's answer".into(),
+            Self::NoNumber { .. } => "Send PATH or PART alone, or with the number of a point or a part from 1 and, if need be, the sequence number of a trigger's answer; TRIGGER alone, or with the numbers of the expected parts".into(),
             Self::Magic => "Begin the frame with the bytes 50 53 52 51".into(),
             Self::Version { found, order } => {
                 let other = match order {

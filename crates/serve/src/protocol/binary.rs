@@ -7,12 +7,12 @@
 //! | --- | --- | --- |
 //! | 0 | 4 | `PSRQ` |
 //! | 4 | 2 | version, 1 |
-//! | 6 | 2 | length, 20; or 24 with a sequence number |
+//! | 6 | 2 | length: 20, and 4 for each further number |
 //! | 8 | 2 | 1 trigger, 2 status, 3 last, 4 path, 5 part |
-//! | 10 | 2 | reserved, 0 |
-//! | 12 | 4 | path and part: number of the point or part from 1, or 0 |
-//! | 16 | 4 | only in a frame of 24 bytes: sequence number of the inspection whose path or part is wanted, or 0 |
-//! | 16 or 20 | 4 | checksum |
+//! | 10 | 2 | trigger: how many parts are expected, 0 to 8; otherwise 0 |
+//! | 12 | 4 | path and part: number of the point or part from 1, or 0; trigger: number of the first expected part |
+//! | 16 | 4 | path and part: sequence number of the inspection whose path or part is wanted, or 0, or left out; trigger: number of the second expected part, and so on |
+//! | last | 4 | checksum |
 //!
 //! | answer: from | bytes | |
 //! | --- | --- | --- |
@@ -42,13 +42,16 @@ use super::{ByteOrder, Parsed, bad_request::BadRequest};
 use crate::answer::{Answer, Request};
 use files::crc32;
 use robot::Convention;
+use stages::segment::MAX_PARTS;
 
 /// Version of the frames.
 pub(super) const VERSION: u16 = 1;
 /// Length of a request, bytes.
 pub const REQUEST_BYTES: usize = 20;
-/// Length of a request that names an inspection, bytes.
-pub(super) const NAMING_REQUEST_BYTES: usize = REQUEST_BYTES + 4;
+/// Length of a request with as many numbers as possible, bytes.
+pub(super) const MAX_REQUEST_BYTES: usize = NUMBERS_AT + 4 * MAX_PARTS + CHECKSUM_BYTES;
+/// Where the numbers of a request begin.
+const NUMBERS_AT: usize = 12;
 /// Length of an answer, bytes.
 pub const ANSWER_BYTES: usize = 256;
 /// Maximum number of a pose's reals.
@@ -84,7 +87,9 @@ fn length_in(begin: &[u8], order: ByteOrder) -> Result<usize, BadRequest> {
     }
     let found = u16_of(begin, 6, order);
     match usize::from(found) {
-        num_bytes @ (REQUEST_BYTES | NAMING_REQUEST_BYTES) => Ok(num_bytes),
+        num_bytes @ REQUEST_BYTES..=MAX_REQUEST_BYTES if num_bytes.is_multiple_of(4) => {
+            Ok(num_bytes)
+        }
         _ => Err(BadRequest::Length { found }),
     }
 }
@@ -96,17 +101,24 @@ fn request_in(frame: &[u8], order: ByteOrder) -> Result<Request, BadRequest> {
     if found != expected {
         return Err(BadRequest::Checksum { found, expected });
     }
-    let sequence = if frame.len() == NAMING_REQUEST_BYTES {
-        u32_of(frame, 16, order)
-    } else {
-        0
-    };
     let code = u16_of(frame, 8, order);
     let request = Request::find(|(_, known)| known == code);
     let request = request.ok_or_else(|| BadRequest::unknown(code.to_string().as_bytes()))?;
-    // Others ignore the numbers.
-    let numbered = request.numbered(u32_of(frame, 12, order), sequence);
-    Ok(numbered.unwrap_or(request))
+    let found = u16_of(frame, 6, order);
+    let wrong_length = || BadRequest::Length { found };
+    let num_numbers = match request {
+        Request::Trigger { .. } => usize::from(u16_of(frame, 10, order)),
+        Request::Path { .. } | Request::Part { .. } => (end - NUMBERS_AT) / 4,
+        // They ignore the numbers.
+        Request::Status | Request::Last => 0,
+    };
+    let numbers = frame[NUMBERS_AT..end].chunks_exact(4);
+    if num_numbers > numbers.len() {
+        return Err(wrong_length());
+    }
+    let numbers = numbers.take(num_numbers);
+    let numbers: Vec<u32> = numbers.map(|bytes| u32_of(bytes, 0, order)).collect();
+    request.numbered(&numbers).ok_or_else(wrong_length)
 }
 
 /// Converts a number's bytes from little-endian to this order, or back.
@@ -201,18 +213,19 @@ pub fn request(request: Request, order: ByteOrder) -> Vec<u8> {
         bytes: REQUEST_MAGIC.to_vec(),
         order,
     };
-    let [number, sequence] = request.numbers();
-    let num_bytes = match sequence {
-        0 => REQUEST_BYTES,
-        _ => NAMING_REQUEST_BYTES,
+    let mut numbers = request.numbers();
+    let num_expected = match request {
+        Request::Trigger { .. } => numbers.len(),
+        _ => 0,
     };
+    numbers.resize(numbers.len().max(1), 0);
+    let num_bytes = NUMBERS_AT + 4 * numbers.len() + CHECKSUM_BYTES;
     frame.short(VERSION);
     frame.short(num_bytes as u16);
     frame.short(request.name().1);
-    frame.zeros(2);
-    frame.long(number);
-    if sequence > 0 {
-        frame.long(sequence);
+    frame.short(num_expected as u16);
+    for number in numbers {
+        frame.long(number);
     }
     let checksum = crc32(&frame.bytes);
     frame.long(checksum);
@@ -240,11 +253,42 @@ mod tests {
         }
     }
 
+    fn expecting(numbers: &[u32]) -> Request {
+        Request::TRIGGER.numbered(numbers).expect("not too many")
+    }
+
+    /// The bytes with the right checksum at their end, little-endian.
+    fn sealed(mut frame: Vec<u8>) -> Vec<u8> {
+        let checksum = crc32(&frame);
+        frame.extend(checksum.to_le_bytes());
+        frame
+    }
+
+    #[test]
+    fn numbers_that_a_trigger_does_not_announce_are_ignored_and_those_that_it_lacks_are_an_error() {
+        let little = ByteOrder::Little;
+        // A robot that sends the numbers of its last request for a path again.
+        let mut frame = request(Request::path(7, 41), little);
+        frame.truncate(20);
+        frame[8] = 1;
+        let read = |frame: Vec<u8>| parse(&sealed(frame), little).request.expect("whole");
+        assert_eq!(read(frame.clone()), Ok(Request::TRIGGER));
+        frame[10] = 2;
+        assert_eq!(read(frame.clone()), Ok(expecting(&[7, 41])));
+        frame[10] = 3;
+        assert_eq!(read(frame.clone()).expect_err("too few").reason(), "length");
+        // A path has no third number.
+        let mut long = frame[..20].to_vec();
+        (long[6], long[8], long[10]) = (28, 4, 0);
+        long.extend([0; 4]);
+        assert_eq!(read(long).expect_err("too many").reason(), "length");
+    }
+
     #[test]
     fn requests_come_back_in_either_byte_order() {
         for order in ORDERS {
             for wanted in [
-                Request::Trigger,
+                Request::TRIGGER,
                 Request::Status,
                 Request::Last,
                 Request::path(0, 0),
@@ -252,11 +296,14 @@ mod tests {
                 Request::path(70_000, 16_777_215),
                 Request::part(2, 0),
                 Request::part(8, 16_777_215),
+                expecting(&[3]),
+                expecting(&[1, 2, 3, 4, 5, 6, 7, 16_777_215]),
             ] {
                 let frame = request(wanted, order);
-                let num_bytes = match wanted.numbers() {
-                    [_, 0] => 20,
-                    _ => 24,
+                let num_bytes = match wanted.numbers().len() {
+                    0 | 1 => 20,
+                    2 => 24,
+                    _ => 48,
                 };
                 assert_eq!(frame.len(), num_bytes);
                 assert_eq!(parse(&frame, order), Parsed::read(num_bytes, Ok(wanted)));
@@ -266,7 +313,7 @@ mod tests {
         }
         // As in the guide.
         assert_eq!(
-            request(Request::Trigger, ByteOrder::Little)[..16],
+            request(Request::TRIGGER, ByteOrder::Little)[..16],
             *b"PSRQ\x01\x00\x14\x00\x01\x00\x00\x00\x00\x00\x00\x00"
         );
     }

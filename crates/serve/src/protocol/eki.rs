@@ -14,7 +14,7 @@ use super::{
     ascii::name_of,
     bad_request::BadRequest,
     is_filler,
-    line::{named, of_name},
+    line::{named, of_name, words_of},
     plain,
 };
 use crate::answer::{Answer, Request};
@@ -58,15 +58,22 @@ fn request(bytes: &[u8]) -> Result<Request, BadRequest> {
         .and_then(|text| text.strip_suffix("</Robot>"))
         .ok_or_else(wrong)?;
     let word = content_of(inner, "Request").ok_or_else(wrong)?;
-    // EKI sends every element with every request, also with those that take no numbers.
-    let request = of_name(word.as_bytes());
-    let takes_numbers = request.is_some_and(|request| request.numbered(0, 0).is_some());
-    let number = |tag| {
-        let number = content_of(inner, tag).map(str::as_bytes);
-        number.filter(|number| takes_numbers && !number.is_empty())
+    // EKI sends every element with every request, also with those that do not take it.
+    let of = |tag| content_of(inner, tag).unwrap_or_default().as_bytes();
+    let filled = |tag| Some(of(tag)).filter(|number| !number.is_empty());
+    let request = of_name(word.as_bytes()).ok_or_else(|| BadRequest::unknown(word.as_bytes()))?;
+    let numbers: Vec<&[u8]> = match request {
+        Request::Trigger { .. } => words_of(of("Expected")).collect(),
+        Request::Path { .. } | Request::Part { .. } => {
+            match (filled("Point"), filled("Sequence")) {
+                (point, None) => point.into_iter().collect(),
+                (point, Some(sequence)) => vec![point.unwrap_or(b"0"), sequence],
+            }
+        }
+        Request::Status | Request::Last => Vec::new(),
     };
-    let (point, sequence) = (number("Point"), number("Sequence"));
-    named(word.as_bytes(), point, sequence).ok_or_else(|| BadRequest::unknown(word.as_bytes()))?
+    let numbered = named(word.as_bytes(), numbers.into_iter());
+    numbered.ok_or_else(|| BadRequest::unknown(bytes))?
 }
 
 /// Returns the trimmed text between an element's tags.
@@ -134,7 +141,7 @@ mod tests {
         for (text, request) in [
             (
                 "<Robot><Request>TRIGGER</Request><Point>0</Point></Robot>",
-                Request::Trigger,
+                Request::TRIGGER,
             ),
             (
                 "<Robot><Point>4</Point><Request>PATH</Request></Robot>",

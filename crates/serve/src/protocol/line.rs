@@ -1,5 +1,5 @@
-//! A request as a line of text: `TRIGGER`, `STATUS`, `LAST`, `PATH`, `PATH 3` or, of the inspection number 41, `PATH 3 41`;
-//! `PART` likewise.
+//! A request as a line of text: `TRIGGER` or, if the parts number 3 and 5 are expected, `TRIGGER 3 5`; `STATUS`, `LAST`,
+//! `PATH`, `PATH 3` or, of the inspection number 41, `PATH 3 41`; `PART` likewise.
 //!
 //! A line ends with LF, CR or both. Case does not matter. Empty lines, and blanks and zeros around a request, are ignored.
 
@@ -7,7 +7,7 @@ use super::{Parsed, bad_request::BadRequest, is_filler};
 use crate::answer::Request;
 
 /// Maximum length of a line, bytes; every request is shorter.
-const MAX_LINE: usize = 64;
+const MAX_LINE: usize = 128;
 
 pub(super) fn parse(bytes: &[u8]) -> Parsed {
     let start = bytes.iter().position(|&byte| !is_filler(byte));
@@ -24,29 +24,30 @@ pub(super) fn parse(bytes: &[u8]) -> Parsed {
 }
 
 fn request(line: &[u8]) -> Result<Request, BadRequest> {
-    let mut words = line
-        .split(|&byte| is_filler(byte) || byte == b';')
-        .filter(|word| !word.is_empty());
-    let (word, number, sequence) = (words.next().unwrap_or_default(), words.next(), words.next());
-    if words.next().is_some() {
-        return Err(BadRequest::unknown(line));
-    }
-    named(word, number, sequence).ok_or_else(|| BadRequest::unknown(line))?
+    let mut words = words_of(line);
+    let word = words.next().unwrap_or_default();
+    named(word, words).ok_or_else(|| BadRequest::unknown(line))?
 }
 
-/// Finds a request by its word and the numbers after it; `None` if the word is no request or takes no numbers.
-pub(super) fn named(
+/// Splits a text at blanks and semicolons.
+pub(super) fn words_of(text: &[u8]) -> impl Iterator<Item = &[u8]> {
+    let words = text.split(|&byte| is_filler(byte) || byte == b';');
+    words.filter(|word| !word.is_empty())
+}
+
+/// Finds a request by its word and the numbers after it; `None` if the word is no request, or does not take as many numbers.
+pub(super) fn named<'a>(
     word: &[u8],
-    number: Option<&[u8]>,
-    sequence: Option<&[u8]>,
+    numbers: impl Iterator<Item = &'a [u8]>,
 ) -> Option<Result<Request, BadRequest>> {
     let request = of_name(word)?;
-    if number.is_none() && sequence.is_none() {
-        return Some(Ok(request));
-    }
-    match (number_in(number), number_in(sequence)) {
-        (Ok(number), Ok(sequence)) => request.numbered(number, sequence).map(Ok),
-        (Err(why), _) | (_, Err(why)) => request.numbered(0, 0).map(|_| Err(why)),
+    let numbers: Vec<&[u8]> = numbers.collect();
+    // As many as it takes, whatever they are.
+    request.numbered(&vec![0; numbers.len()])?;
+    let numbers: Result<Vec<u32>, BadRequest> = numbers.into_iter().map(number_in).collect();
+    match numbers {
+        Ok(numbers) => request.numbered(&numbers).map(Ok),
+        Err(why) => Some(Err(why)),
     }
 }
 
@@ -55,14 +56,10 @@ pub(super) fn of_name(word: &[u8]) -> Option<Request> {
     Request::find(|(name, _)| name.as_bytes().eq_ignore_ascii_case(word))
 }
 
-/// Reads a number; 0 if there is none.
-fn number_in(text: Option<&[u8]>) -> Result<u32, BadRequest> {
-    let Some(text) = text else {
-        return Ok(0);
-    };
+fn number_in(text: &[u8]) -> Result<u32, BadRequest> {
     let number = std::str::from_utf8(text).ok();
     let number = number.and_then(|text| text.parse().ok());
-    number.ok_or_else(|| BadRequest::no_point(text))
+    number.ok_or_else(|| BadRequest::no_number(text))
 }
 
 #[cfg(test)]
@@ -77,10 +74,19 @@ mod tests {
             .unwrap_or_else(|| panic!("{text:?} is whole"))
     }
 
+    fn expecting(numbers: &[u32]) -> Request {
+        Request::TRIGGER.numbered(numbers).expect("not too many")
+    }
+
     #[test]
     fn every_request_is_read_with_any_end_and_in_any_case() {
         for (text, request) in [
-            ("TRIGGER\n", Request::Trigger),
+            ("TRIGGER\n", Request::TRIGGER),
+            ("TRIGGER 3 5\n", expecting(&[3, 5])),
+            (
+                "trigger;1;2;3;4;5;6;7;16777215\n",
+                expecting(&[1, 2, 3, 4, 5, 6, 7, 16_777_215]),
+            ),
             ("status\r", Request::Status),
             ("Last\n", Request::Last),
             ("PATH\n", Request::path(0, 0)),
@@ -91,7 +97,7 @@ mod tests {
             ("PATH;7\n", Request::path(7, 0)),
             ("PART\n", Request::part(0, 0)),
             ("part 2 41\n", Request::part(2, 41)),
-            ("\r\n \0\0TRIGGER \0\n", Request::Trigger),
+            ("\r\n \0\0TRIGGER \0\n", Request::TRIGGER),
         ] {
             assert_eq!(only(text), Ok(request), "{text:?}");
         }
@@ -105,7 +111,7 @@ mod tests {
         let second = parse(&text[7..]);
         assert_eq!(
             (second.used, second.request),
-            (9, Some(Ok(Request::Trigger)))
+            (9, Some(Ok(Request::TRIGGER)))
         );
         // The second half of the line ending.
         assert_eq!(parse(&text[16..]), Parsed::skipped(1));
@@ -116,7 +122,9 @@ mod tests {
     fn anything_else_is_refused_by_name() {
         for (text, reason) in [
             ("START\n", "unknown_request"),
-            ("TRIGGER 1\n", "unknown_request"),
+            ("TRIGGER 1 2 3 4 5 6 7 8 9\n", "unknown_request"),
+            ("TRIGGER x\n", "no_point"),
+            ("STATUS 1\n", "unknown_request"),
             ("PATH 1 2 3\n", "unknown_request"),
             ("PART 1 2 3\n", "unknown_request"),
             ("LAST 1 2\n", "unknown_request"),

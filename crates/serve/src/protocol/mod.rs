@@ -169,7 +169,7 @@ mod tests {
     /// An answer without a pose whose other fields are as awkward as possible.
     pub(super) fn refused() -> Answer {
         Answer {
-            request: Some(Request::Trigger),
+            request: Some(Request::TRIGGER),
             verdict: VerdictCode::Refused,
             sequence: 41,
             boot: 1_234_567,

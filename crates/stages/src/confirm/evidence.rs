@@ -249,6 +249,8 @@ const LEAST_EDGE: f64 = 0.15;
 const MAX_BEYOND: f64 = 0.6;
 /// Share of the outline that may be cut in the shape of a whole part.
 const MOST_CUT: f64 = 0.1;
+/// Weights of the differences of two references: missing share, relief, shift and median shift of the outline in metres.
+const TWIN_WEIGHTS: [f64; 4] = [629.0, 2657.0, 510.0, 501.0];
 /// What a perfect fit of a part that is hardly seen scores.
 const HARDLY_SEEN: f64 = 0.4;
 
@@ -288,6 +290,30 @@ impl Evidence {
             self.outline_m / 0.01,
             (1.0 - self.shape) / 0.1,
         ]
+    }
+
+    /// How much more probable this reference is than another one for the same part, -1..1: the difference of their
+    /// probabilities, given that one of the two is right. `None` unless the outlines of both were compared to the end.
+    ///
+    /// The scores of two good fits say little about which is the better one; their differences do. Fitted to 705 simulated
+    /// frames of a part of one of four car models, all enrolled, whose scores were too close: hung askew, behind a plank, with
+    /// three times a Kinect's noise, and in a booth. Fitted to either half, a lead of 0.6 in the other half was right 597
+    /// times and wrong 7 times.
+    pub fn lead_over(&self, other: &Self) -> Option<f64> {
+        let figures = |of: &Self| {
+            Some([
+                of.missing,
+                of.relief_m,
+                of.outline_shift_m?,
+                of.outline_median_m?,
+            ])
+        };
+        let pairs = figures(other)?.into_iter().zip(figures(self)?);
+        let weighted = pairs.zip(TWIN_WEIGHTS);
+        let log_odds: f64 = weighted
+            .map(|((theirs, own), weight)| weight * (theirs - own))
+            .sum();
+        Some((log_odds / 2.0).tanh())
     }
 
     /// True if enough of the part would be in sight to tell it from something else.

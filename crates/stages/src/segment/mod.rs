@@ -34,6 +34,9 @@ pub use self::{
 use crate::scene::SceneCloud;
 use geometry::{plane::Plane, units::Metres};
 
+/// Maximum number of parts in a frame: of more, too little is in the picture.
+pub const MAX_PARTS: usize = 8;
+
 /// Parameters of [`segment`]. The defaults suit a Kinect-like camera.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
@@ -56,7 +59,7 @@ pub struct SegmentParams {
     pub link_distance: Metres,
     /// Minimum area of a part as seen from the camera, square metres, 0.001..1.
     pub min_part_area: f64,
-    /// Maximum number of parts in a frame, 1..8.
+    /// Maximum number of parts that are accepted in a frame, 1..=[`MAX_PARTS`].
     pub max_parts: usize,
     /// Seed of the random samples, 0..999 999.
     pub seed: u64,

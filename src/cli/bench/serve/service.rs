@@ -136,7 +136,7 @@ impl ServedProtocol {
         let (framing, [status, trigger]) = match at.protocol {
             Protocol::Ascii | Protocol::UrScript => (Framing::Line, lines()),
             Protocol::Binary(order) => {
-                let frames = [Request::Status, Request::Trigger];
+                let frames = [Request::Status, Request::TRIGGER];
                 let frames = frames.map(|request| binary_request(request, order));
                 (Framing::Bytes(ANSWER_BYTES), frames)
             }

@@ -58,7 +58,7 @@ pub const PARAMETERS: &[Parameter] = &[
     number!("segment.link_distance", "Link distance", Segmentation, Front, Millimetres, [5.0, 100.0], 1,
         |r| r.segment.link_distance.0, |r, v| r.segment.link_distance = Metres(v),
         "Neighbouring points further apart than this (plus the noise) are not connected. Raising it joins what hangs close to the part, lowering it tears the part."),
-    number!("segment.max_parts", "Parts at most", Segmentation, Hidden, None, [1.0, 8.0], 0,
+    number!("segment.max_parts", "Parts at most", Segmentation, Hidden, None, [1.0, stages::segment::MAX_PARTS as f64], 0,
         |r| r.segment.max_parts as f64, |r, v| r.segment.max_parts = v.round() as usize,
         "How many parts may hang in a file that `inspect` reads; elsewhere the likeliest is inspected. Raising it costs the time of an inspection for each further surface."),
     number!("segment.min_part_area", "Least part area", Segmentation, Fold, SquareCentimetres, [10.0, 10_000.0], 0,

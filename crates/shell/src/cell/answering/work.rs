@@ -249,7 +249,6 @@ struct AnsweringSession<'a> {
 struct AnsweredFrame {
     origin: Origin,
     answered: Answered,
-    recipe: Arc<NamedRecipe>,
     library: Arc<LibraryView>,
     trace: Traceability,
     /// Tells which part it is.
@@ -312,6 +311,7 @@ impl Inspector for AnsweringSession<'_> {
             finder: &self.finder,
             library: &fitted.expect("not cancelled"),
             recipe,
+            expected: asked.expected,
             at_most: FRAME_TIMEOUT,
             is_ending: &|| self.is_ending(),
         };
@@ -337,7 +337,6 @@ impl Inspector for AnsweringSession<'_> {
         self.last = Some(AnsweredFrame {
             origin,
             answered,
-            recipe: Arc::clone(recipe),
             library: Arc::clone(&loaded.shown),
             trace,
             part,
@@ -465,12 +464,11 @@ impl AnsweringSession<'_> {
         let AnsweredFrame {
             origin,
             answered,
-            recipe,
             library,
             trace,
             part,
         } = last;
-        let parts = answered.parts(&recipe, &self.finder.robot);
+        let parts = answered.parts(&self.finder.robot);
         // Live follows one part: of several, it is not known which.
         let mut part = Some(part).filter(|_| parts.len() == 1);
         for inspected in &parts {
