@@ -212,8 +212,10 @@ pub fn run_all(
         let Some(last) = last else { break };
         known.extend(explained(last, scene, library));
         let next = inspect(scene, library, recipe, watch, || {
+            let areas = found.iter().map(Inspection::area);
+            let largest = areas.fold(0.0, f64::max);
             let first = &found[0].segmentation;
-            first.without(scene, &known, &recipe.segment)
+            first.without(scene, &known, largest, &recipe.segment)
         })?;
         let Some(next) = next else { break };
         found.push(next);
@@ -361,6 +363,19 @@ impl Inspection {
         }
         let part = self.segmentation.part.as_ref();
         part.is_ok_and(|part| part.touches_edge)
+    }
+
+    /// Area that the inspection explains, square metres: what of an accepted part is seen, or the surface.
+    fn area(&self) -> f64 {
+        let evidence = self.ranking.entries.first().and_then(|e| e.evidence);
+        let accepted = evidence.filter(|_| self.verdict.is_accepted());
+        let part = self.segmentation.part.as_ref().ok();
+        let surface = || {
+            part.and_then(|part| part.surface)
+                .map(|surface| surface.area)
+        };
+        let area = accepted.map(|evidence| evidence.seen_m2).or_else(surface);
+        area.unwrap_or(0.0)
     }
 
     /// Direction of the part in the picture: the mean of x/z of its readings, camera space, negative on the left.

@@ -1,5 +1,7 @@
 //! Explanations of a scene whose likeliest surface is no enrolled part, tried one after the other.
 
+use std::iter;
+
 use super::{
     Inspection, PoseChoice, Recipe,
     mirror::check_mirror_image,
@@ -37,10 +39,12 @@ const HYPOTHESES: [Hypothesis; 5] = [
     Hypothesis::OneOfSeveral,
 ];
 
+/// Where a smaller share of a surface lies off the best reference, it is one part that is not accepted for another reason.
+const MIN_OFF_OF_SEVERAL: f64 = 0.05;
 /// Maximum number of other surfaces that are tried.
 const MAX_OTHER_SURFACES: usize = 3;
 /// A surface replaces the one before only above this score; below it neither is an enrolled part.
-const MIN_REPLACING_SCORE: f64 = 0.1;
+pub(super) const MIN_REPLACING_SCORE: f64 = 0.1;
 
 /// Tries the hypotheses on an inspection of the likeliest surface, and keeps what is most likely an enrolled part.
 pub(super) fn try_hypotheses(
@@ -55,12 +59,13 @@ pub(super) fn try_hypotheses(
     };
     let evidence = inspection.ranking.entries.first().and_then(|e| e.evidence);
     let looks_whole = evidence.is_some_and(|evidence| evidence.cut < CUT_SHARE);
+    let has_more = evidence.is_none_or(|evidence| evidence.off > MIN_OFF_OF_SEVERAL);
     for hypothesis in HYPOTHESES {
         let is_plausible = match hypothesis {
             Hypothesis::OtherSurface | Hypothesis::MirrorImage => true,
             Hypothesis::Piece => looks_whole && !inspection.verdict.is_likeness(),
             Hypothesis::PartOnStand => !inspection.verdict.is_likeness(),
-            Hypothesis::OneOfSeveral => inputs.recipe.max_parts() > 1,
+            Hypothesis::OneOfSeveral => has_more && inputs.recipe.max_parts() > 1,
         };
         if is_plausible {
             hypothesis.attempt(inspection, &likeliest, inputs)?;
@@ -98,7 +103,8 @@ impl Hypothesis {
                     let known = &inspection.segmentation;
                     other_segments(scene, known, &recipe.segment, MAX_OTHER_SURFACES)
                 })?;
-                try_surfaces(inspection, others.into_iter().map(Ok), inputs)
+                let others = others.into_iter().map(Ok);
+                try_surfaces(inspection, others, MIN_REPLACING_SCORE, inputs)
             }
             Self::MirrorImage => check_mirror_image(inspection, inputs),
             Self::Piece => {
@@ -106,7 +112,7 @@ impl Hypothesis {
                     is_piece: true,
                     ..likeliest.clone()
                 };
-                try_surface(inspection, piece, inputs)
+                try_surface(inspection, piece, MIN_REPLACING_SCORE, inputs)
             }
             Self::PartOnStand => {
                 let mut num_before = 0;
@@ -124,12 +130,15 @@ impl Hypothesis {
                         num_before = bare.indices.len();
                         is_new.then_some(Ok(bare))
                     });
-                try_surfaces(inspection, bare, inputs)
+                try_surfaces(inspection, bare, MIN_REPLACING_SCORE, inputs)
             }
             Self::OneOfSeveral => {
-                let parts =
+                let mut pieces =
                     clock.time(Stage::Segment, || split(scene, likeliest, &recipe.segment))?;
-                try_surfaces(inspection, parts.into_iter().map(Ok), inputs)
+                let next = || clock.time(Stage::Segment, || pieces.next()).transpose();
+                // A piece that is no part is less than the surface it was cut from.
+                let least = recipe.accept.unknown_below;
+                try_surfaces(inspection, iter::from_fn(next), least, inputs)
             }
         }
     }
@@ -139,10 +148,11 @@ impl Hypothesis {
 fn try_surfaces(
     inspection: &mut Inspection,
     surfaces: impl Iterator<Item = Result<SegmentedPart, Cancelled>>,
+    least: f64,
     inputs: &InspectionInputs<'_>,
 ) -> Result<(), Cancelled> {
     for surface in surfaces {
-        try_surface(inspection, surface?, inputs)?;
+        try_surface(inspection, surface?, least, inputs)?;
         if inspection.verdict.is_accepted() {
             break;
         }
@@ -150,13 +160,14 @@ fn try_surfaces(
     Ok(())
 }
 
-/// Inspects a surface, and keeps it if it is more likely an enrolled part than the present one.
+/// Inspects a surface, and keeps it if it is more likely an enrolled part than the present one and scores more than `least`.
 pub(super) fn try_surface(
     inspection: &mut Inspection,
     surface: SegmentedPart,
+    least: f64,
     inputs: &InspectionInputs<'_>,
 ) -> Result<(), Cancelled> {
-    let min_score = inspection.best_score().max(MIN_REPLACING_SCORE);
+    let min_score = inspection.best_score().max(least);
     let found = inspect_surface(&surface, inputs, min_score)?;
     if found.best_score() > min_score {
         inspection.segmentation.take(surface);

@@ -12,7 +12,7 @@ use nalgebra::{Point3, Vector3};
 
 use super::{
     Inspection, Recipe,
-    hypothesis::try_surface,
+    hypothesis::{MIN_REPLACING_SCORE, try_surface},
     rejection::Rejection,
     surface::{InspectionInputs, SurfaceResult, inspect_surface},
     verdict::{Verdict, model_deviation, verdict},
@@ -113,7 +113,7 @@ fn search_again(
             recipe: &recipe,
             ..*inputs
         };
-        try_surface(inspection, part.clone(), &again)?;
+        try_surface(inspection, part.clone(), MIN_REPLACING_SCORE, &again)?;
         if inspection.verdict.is_accepted() {
             break;
         }

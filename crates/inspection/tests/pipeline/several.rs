@@ -8,7 +8,10 @@ use inspection::{
     pipeline::{Inspection, Recipe, Unwatched, run, run_all},
 };
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
-use simulate::{CellSetup, ObjectKind, PartKind, PartPose, Side, SimulatedObject, frame};
+use simulate::{
+    CellSetup, ObjectKind, PartKind, PartPose, RackKind, RackSetup, Side, SimulatedObject, frame,
+    rack_frame,
+};
 use stages::scene::{SceneCloud, scene_from_frame};
 
 use super::standard;
@@ -187,5 +190,55 @@ fn what_is_no_part_comes_last_and_is_never_accepted() {
         assert!(!other.verdict.is_accepted(), "{object:?}");
         let surface = other.segmentation.part.as_ref().expect("a surface").surface;
         assert!(surface.expect("of a picture").area > 0.02, "{object:?}");
+    }
+}
+
+/// A simulated rack: its scene, and what hangs there from left to right.
+fn rack(kind: RackKind, num_places: usize, seed: u64) -> (SceneCloud, Vec<Hung>) {
+    let setup = RackSetup::drawn(kind, num_places, 0, seed).expect("so many places");
+    let rack = rack_frame(&setup).expect("a plain cell");
+    let parts = rack.truth.parts.iter().map(|part| Hung {
+        subject: part.subject,
+        camera_from_model: part.camera_from_part,
+    });
+    (scene_from_frame(&rack.frame), parts.collect())
+}
+
+#[test]
+fn parts_that_touch_are_told_apart() {
+    let library = standard();
+    // Two and three of them that are one surface for the segmentation, along necks of different widths.
+    for (num, seed) in [(2, 8), (2, 13), (3, 2), (3, 5), (3, 12)] {
+        let (scene, parts) = rack(RackKind::Touching, num, seed);
+        let joined = run(&scene, &library, &Recipe::default(), &Unwatched).expect("not cancelled");
+        assert!(!joined.verdict.is_accepted(), "{num}, {seed}");
+        let found = all_in(&scene, &library, num);
+        assert_eq!(found.len(), num, "{seed}");
+        for (inspection, expected) in found.iter().zip(&parts) {
+            check(inspection, expected);
+        }
+    }
+}
+
+#[test]
+fn a_right_part_beside_a_left_one_is_not_accepted() {
+    let library = standard();
+    for seed in 1..=6 {
+        let (scene, parts) = rack(RackKind::Mirrored, 2, seed);
+        let is_left = |part: &&Hung| {
+            let SimulatedObject::Part { side, .. } = part.subject else {
+                panic!("no part")
+            };
+            side == Side::Left
+        };
+        let left = parts.iter().find(is_left).expect("a left part");
+        let found = all_in(&scene, &library, 2);
+        assert_eq!(found.len(), 2, "{seed}");
+        check(&found[0], left);
+        let right = &found[1].verdict;
+        assert!(
+            right.is_unknown() && !right.is_accepted(),
+            "{seed}: {right:?}"
+        );
     }
 }

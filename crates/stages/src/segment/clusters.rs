@@ -57,6 +57,16 @@ pub(super) fn connect(
         .into_iter()
         .filter(|indices| indices.len() >= MIN_CLUSTER_POINTS)
         .collect();
+    members_of(scene, labels, groups, link)
+}
+
+/// Returns groups of points, each given by ascending indices, as surfaces, largest area first.
+pub(super) fn members_of(
+    scene: &SceneCloud,
+    labels: &[PointLabel],
+    groups: Vec<Vec<u32>>,
+    link: Link,
+) -> Vec<Members> {
     let group_of = groups_of_points(labels, &groups);
     let borders = borders_of(scene, &group_of, groups.len() + 1, link);
     let mut members: Vec<Members> = groups
@@ -72,7 +82,7 @@ pub(super) fn connect(
 }
 
 #[derive(Clone, Copy)]
-struct Link {
+pub(super) struct Link {
     base: f32,
     /// Side of a pixel at 1 m.
     pixel: f32,
@@ -80,7 +90,7 @@ struct Link {
 }
 
 impl Link {
-    fn new(scene: &SceneCloud, noise_at_1m: Metres, params: &SegmentParams) -> Self {
+    pub(super) fn new(scene: &SceneCloud, noise_at_1m: Metres, params: &SegmentParams) -> Self {
         Self {
             base: params.link_distance.0 as f32,
             pixel: scene
@@ -91,7 +101,7 @@ impl Link {
         }
     }
 
-    fn joins(self, a: &Point3<f32>, b: &Point3<f32>) -> bool {
+    pub(super) fn joins(self, a: &Point3<f32>, b: &Point3<f32>) -> bool {
         let reach = self.base + (self.pixel + self.noise * a.z) * a.z;
         (a - b).norm_squared() < reach * reach
     }

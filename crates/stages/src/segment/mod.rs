@@ -15,6 +15,7 @@
 
 mod clusters;
 mod empty_cell;
+mod necks;
 mod noise;
 mod part;
 mod planes;

@@ -3,7 +3,10 @@
 use nalgebra::Point3;
 
 use super::{
-    Cluster, MIN_POINTS, NoPart, PointLabel, SegmentParams, Segmentation, clusters, label_readings,
+    Cluster, MIN_POINTS, NoPart, PointLabel, SegmentParams, Segmentation,
+    clusters::{self, Link},
+    label_readings,
+    necks::{HALF_WIDTHS, Silhouette},
     noise_of_picture,
     stand::{Bars, remove_stand},
     strip,
@@ -210,50 +213,58 @@ pub fn other_segments(
     params: &SegmentParams,
     limit: usize,
 ) -> Vec<SegmentedPart> {
+    let largest = segmentation.clusters.first().map_or(0.0, |c| c.area);
+    let least = least_area(largest, params);
     let part = segmentation.part.as_ref().ok();
     let taken = part.and_then(SegmentedPart::first_of_surface);
-    let least = segmentation.least_area(params);
-    let is_candidate =
-        |cluster: &Cluster| cluster.area >= least && cluster.num_points >= MIN_POINTS;
-    let candidates = segmentation.clusters.iter().filter(|c| is_candidate(c));
-    if taken.is_some() && candidates.count() < 2 {
+    let is_candidate = |cluster: &&Cluster| is_of_a_size(cluster, least);
+    if taken.is_some() && segmentation.clusters.iter().filter(is_candidate).count() < 2 {
         return Vec::new();
     }
-    let surfaces = segmentation.clusters.iter().zip(&segmentation.surfaces);
-    let mut others: Vec<(&Cluster, &Vec<u32>)> = surfaces
-        .filter(|(cluster, indices)| is_candidate(cluster) && indices.first() != taken)
-        // The camera looks at the part, not at what is behind other things.
-        .filter(|(cluster, _)| cluster.in_front >= IN_FRONT)
-        .collect();
-    others.sort_by(|a, b| part_prior(b.0).total_cmp(&part_prior(a.0)));
+    let others = segmentation.likely_surfaces(least);
     others
         .into_iter()
+        .filter(|(_, indices)| indices.first() != taken)
         .take(limit)
-        .map(|(cluster, members)| {
-            SegmentedPart::of_surface(
-                scene,
-                members.clone(),
-                *cluster,
-                segmentation.noise_at_1m,
-                Bars::OffSurface,
-            )
-        })
+        .map(|surface| segmentation.part_of(scene, surface))
         .collect()
 }
 
+fn is_of_a_size(cluster: &Cluster, least_area: f64) -> bool {
+    cluster.area >= least_area && cluster.num_points >= MIN_POINTS
+}
+
+/// Minimum area of another surface to be a part, square metres, where the largest one has this area.
+fn least_area(largest: f64, params: &SegmentParams) -> f64 {
+    params.min_part_area.max(LEAST_SHARE * largest)
+}
+
 impl Segmentation {
-    /// Minimum area of another surface to be a part, square metres.
-    fn least_area(&self, params: &SegmentParams) -> f64 {
-        let largest = self.clusters.first().map_or(0.0, |c| c.area);
-        params.min_part_area.max(LEAST_SHARE * largest)
+    /// The surfaces that may be a part and have at least this area, square metres; the likeliest first.
+    fn likely_surfaces(&self, least_area: f64) -> Vec<(&Cluster, &Vec<u32>)> {
+        let surfaces = self.clusters.iter().zip(&self.surfaces);
+        let mut likely: Vec<(&Cluster, &Vec<u32>)> = surfaces
+            .filter(|(cluster, _)| is_of_a_size(cluster, least_area))
+            // The camera looks at the part, not at what is behind other things.
+            .filter(|(cluster, _)| cluster.in_front >= IN_FRONT)
+            .collect();
+        likely.sort_by(|a, b| part_prior(b.0).total_cmp(&part_prior(a.0)));
+        likely
+    }
+
+    fn part_of(&self, scene: &SceneCloud, surface: (&Cluster, &Vec<u32>)) -> SegmentedPart {
+        let (cluster, members) = (*surface.0, surface.1.clone());
+        SegmentedPart::of_surface(scene, members, cluster, self.noise_at_1m, Bars::OffSurface)
     }
 
     /// Returns the segmentation of what is left of a scene without the points at these indices, which are known to belong to
-    /// something else. Its part is the likeliest surface left; `None` if there is none of a part's size.
+    /// something else, the largest of area `largest`, square metres. Its part is the likeliest surface left that is no strip of
+    /// background; `None` if there is none of a part's size.
     pub fn without(
         &self,
         scene: &SceneCloud,
         known: &[u32],
+        largest: f64,
         params: &SegmentParams,
     ) -> Option<Self> {
         let mut labels = self.labels.clone();
@@ -267,10 +278,14 @@ impl Segmentation {
             unknown[i as usize] = PointLabel::NoReading;
         }
         let left = clusters::connect(scene, &unknown, self.noise_at_1m, params);
-        let least = self.least_area(params);
+        let least = least_area(largest, params);
         let (clusters, surfaces) = left
             .into_iter()
             .filter(|members| members.cluster.area >= least)
+            .filter(|members| {
+                let (planes, noise) = (&self.planes, self.noise_at_1m);
+                !strip::is_strip(scene, members, &unknown, planes, noise, params)
+            })
             .map(|members| (members.cluster, members.indices))
             .unzip();
         let mut left = Self {
@@ -286,7 +301,8 @@ impl Segmentation {
                 knows_cell: scene.empty_cell.is_some(),
             }),
         };
-        let part = other_segments(scene, &left, params, 1).pop()?;
+        let likeliest = *left.likely_surfaces(least).first()?;
+        let part = left.part_of(scene, likeliest);
         left.take(part);
         Some(left)
     }
@@ -313,46 +329,60 @@ pub fn without_bars(scene: &SceneCloud, part: &SegmentedPart, bars: Bars) -> Opt
     (num_taken > least && bare.indices.len() >= MIN_POINTS).then_some(bare)
 }
 
-/// Link distance and noise at which a surface is split, as shares of those at which it was connected. With a quarter of the
-/// noise, two neighbouring readings of one sheet are still joined two times in three, which keeps the sheet in one piece.
-const SPLIT_LINK_SHARE: f64 = 0.5;
-const SPLIT_NOISE_SHARE: f64 = 0.25;
+/// Pieces of a surface that have this share of their points in common are the same.
+const SAME_PIECE_SHARE: f64 = 0.97;
 
-/// Splits a surface where its readings are less close than a single sheet's, largest piece first; empty if it is one sheet.
-/// Pieces smaller than a part are left out.
+/// Splits a surface where it is narrow or joined only across pixels without a reading: at the narrowest places first, then
+/// at wider ones, too. Gives each piece once, of each split the largest first; none if the surface stays in one piece,
+/// or without a picture. Pieces smaller than a part are left out.
 pub fn split(
     scene: &SceneCloud,
     part: &SegmentedPart,
     params: &SegmentParams,
-) -> Vec<SegmentedPart> {
-    let mut labels = vec![PointLabel::NoReading; scene.cloud.points.len()];
-    for &i in part.indices.iter().chain(&part.stand) {
-        labels[i as usize] = PointLabel::Rest;
-    }
-    let close = SegmentParams {
-        link_distance: Metres(SPLIT_LINK_SHARE * params.link_distance.0),
-        ..params.clone()
-    };
-    let noise = Metres(SPLIT_NOISE_SHARE * part.noise_at_1m.0);
-    let mut pieces = clusters::connect(scene, &labels, noise, &close);
-    pieces.retain(|piece| {
-        piece.cluster.area >= params.min_part_area && piece.indices.len() >= MIN_POINTS
+) -> impl Iterator<Item = SegmentedPart> {
+    let noise = part.noise_at_1m;
+    let link = Link::new(scene, noise, params);
+    let mut surface = [&part.indices[..], &part.stand].concat();
+    surface.sort_unstable();
+    let picture = scene
+        .cloud
+        .grid
+        .map(|grid| Silhouette::new(scene, grid, surface, link));
+    let no_other = vec![PointLabel::NoReading; scene.cloud.points.len()];
+    let min_area = params.min_part_area;
+    let mut known: Vec<Vec<u32>> = Vec::new();
+    let splits = picture.into_iter().flat_map(|picture| {
+        HALF_WIDTHS
+            .into_iter()
+            .map(move |half_width| picture.cut(half_width))
     });
-    if pieces.len() < 2 {
-        return Vec::new();
-    }
-    pieces
-        .into_iter()
-        .map(|piece| {
-            SegmentedPart::of_surface(
-                scene,
-                piece.indices,
-                piece.cluster,
-                part.noise_at_1m,
-                Bars::OffSurface,
-            )
+    splits.flat_map(move |pieces| {
+        let mut pieces = clusters::members_of(scene, &no_other, pieces, link);
+        pieces.retain(|piece| piece.cluster.area >= min_area && piece.indices.len() >= MIN_POINTS);
+        if pieces.len() < 2 {
+            pieces.clear();
+        }
+        pieces.retain(|piece| {
+            let is_new = !known
+                .iter()
+                .any(|known| is_same_piece(known, &piece.indices));
+            if is_new {
+                known.push(piece.indices.clone());
+            }
+            is_new
+        });
+        pieces.into_iter().map(move |piece| {
+            SegmentedPart::of_surface(scene, piece.indices, piece.cluster, noise, Bars::OffSurface)
         })
-        .collect()
+    })
+}
+
+/// True if two pieces, given by ascending indices, are nearly the same.
+fn is_same_piece(a: &[u32], b: &[u32]) -> bool {
+    let (small, large) = if a.len() < b.len() { (a, b) } else { (b, a) };
+    let least = SAME_PIECE_SHARE * large.len() as f64;
+    let is_common = |i: &&u32| large.binary_search(i).is_ok();
+    small.len() as f64 >= least && small.iter().filter(is_common).count() as f64 >= least
 }
 
 /// Rates how likely a surface is the part: the more of the view it fills, the more likely, since the camera looks at the

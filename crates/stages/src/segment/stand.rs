@@ -75,7 +75,6 @@ struct Mask {
     /// Column and row of the first cell.
     first: [usize; 2],
     width: usize,
-    height: usize,
     /// True where the surface is.
     is_set: Vec<bool>,
     /// True where the camera cannot see, so that the surface may continue.
@@ -117,7 +116,6 @@ impl Mask {
             camera,
             first,
             width,
-            height,
             is_set: vec![false; num],
             is_beyond: vec![false; num],
             depth: vec![mean; num],
@@ -196,7 +194,7 @@ impl Mask {
         let is_off = |i: usize| self.is_set[i] && !body[i];
         let off: Vec<bool> = (0..body.len()).map(is_off).collect();
         let body_core: Vec<bool> = core.iter().zip(&body).map(|(a, b)| *a && *b).collect();
-        let from_core = self.distances(&body_core);
+        let from_core = distances(&body_core, self.width);
         let mut stand = vec![false; body.len()];
         for bar in self.components(&off) {
             let reach = bar.iter().map(|&i| from_core[i] * self.size(i));
@@ -238,10 +236,13 @@ impl Mask {
     /// Returns the cells of the core, which is wider than a tube, and the cells of the surface around them.
     fn opened(&self, filled: &[bool], half_width: f32) -> (Vec<bool>, Vec<bool>) {
         let is_gap = |i: usize| !filled[i] && !self.is_beyond[i];
-        let from_gap = self.distances(&(0..filled.len()).map(is_gap).collect::<Vec<_>>());
+        let from_gap = distances(
+            &(0..filled.len()).map(is_gap).collect::<Vec<_>>(),
+            self.width,
+        );
         let is_core = |i: usize| filled[i] && from_gap[i] * self.size(i) > half_width;
         let core: Vec<bool> = (0..filled.len()).map(is_core).collect();
-        let from_core = self.distances(&core);
+        let from_core = distances(&core, self.width);
         // One cell more than the radius, because distances are measured between cell centres.
         let is_left =
             |i: usize| self.is_set[i] && (from_core[i] - 1.0) * self.size(i) <= half_width;
@@ -251,44 +252,12 @@ impl Mask {
 
     /// Returns the surface with its narrow gaps filled.
     fn closed(&self) -> Vec<bool> {
-        let from_set = self.distances(&self.is_set);
+        let from_set = distances(&self.is_set, self.width);
         let is_far = |i: usize| from_set[i] * self.size(i) > CLOSED;
         let far: Vec<bool> = (0..from_set.len()).map(is_far).collect();
-        let from_far = self.distances(&far);
+        let from_far = distances(&far, self.width);
         let is_filled = |i: usize| self.is_set[i] || from_far[i] * self.size(i) > CLOSED;
         (0..from_far.len()).map(is_filled).collect()
-    }
-
-    /// Returns the distance of each cell to the nearest true one, in cells: chamfer 3-4 (G. Borgefors, "Distance
-    /// transformations in digital images", Computer Vision, Graphics, and Image Processing 34(3), 1986).
-    fn distances(&self, to: &[bool]) -> Vec<f32> {
-        // The smallest type: it takes the fewest instructions.
-        let mut third: Vec<i16> = to.iter().map(|is| if *is { 0 } else { i16::MAX }).collect();
-        let width = self.width;
-        for row in 1..self.height {
-            let (above, from_row) = third.split_at_mut(row * width);
-            let row = &mut from_row[..width];
-            lower_to_neighbours(row, &above[above.len() - width..]);
-            let mut left = row[0];
-            for at in &mut row[1..width - 1] {
-                left = left.saturating_add(3).min(*at);
-                *at = left;
-            }
-        }
-        for row in (0..self.height - 1).rev() {
-            let (to_row, below) = third.split_at_mut((row + 1) * width);
-            let row = &mut to_row[row * width..];
-            lower_to_neighbours(row, &below[..width]);
-            let mut right = row[width - 1];
-            for at in row[1..width - 1].iter_mut().rev() {
-                right = right.saturating_add(3).min(*at);
-                *at = right;
-            }
-        }
-        third
-            .into_iter()
-            .map(|third| f32::from(third) / 3.0)
-            .collect()
     }
 
     /// The way to each neighbour of a cell.
@@ -350,6 +319,38 @@ impl Mask {
         }
         found
     }
+}
+
+/// Returns the distance of each cell to the nearest true one, in cells: chamfer 3-4 (G. Borgefors, "Distance
+/// transformations in digital images", Computer Vision, Graphics, and Image Processing 34(3), 1986).
+pub(super) fn distances(to: &[bool], width: usize) -> Vec<f32> {
+    // The smallest type: it takes the fewest instructions.
+    let mut third: Vec<i16> = to.iter().map(|is| if *is { 0 } else { i16::MAX }).collect();
+    let height = to.len() / width;
+    for row in 1..height {
+        let (above, from_row) = third.split_at_mut(row * width);
+        let row = &mut from_row[..width];
+        lower_to_neighbours(row, &above[above.len() - width..]);
+        let mut left = row[0];
+        for at in &mut row[1..width - 1] {
+            left = left.saturating_add(3).min(*at);
+            *at = left;
+        }
+    }
+    for row in (0..height - 1).rev() {
+        let (to_row, below) = third.split_at_mut((row + 1) * width);
+        let row = &mut to_row[row * width..];
+        lower_to_neighbours(row, &below[..width]);
+        let mut right = row[width - 1];
+        for at in row[1..width - 1].iter_mut().rev() {
+            right = right.saturating_add(3).min(*at);
+            *at = right;
+        }
+    }
+    third
+        .into_iter()
+        .map(|third| f32::from(third) / 3.0)
+        .collect()
 }
 
 /// Lowers the distances of a row, in thirds of a cell, to what those of the row beside it allow. The outermost cells are margin
