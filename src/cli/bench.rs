@@ -46,6 +46,7 @@ Examples:
   partsight bench recognition --json recognition.json
   partsight bench recognition --suite placed --poses 50
   partsight bench recognition --only-ours --set accept.min_score=0.95
+  partsight bench recognition --suite rack --poses 50 --only-ours
   partsight bench recognition --suite hard --poses 20 --seed 3000000 --only-ours --pictures why/
   partsight bench calibration
   partsight bench table1 --csv table1.csv
@@ -71,7 +72,7 @@ pub(super) struct BenchArgs {
     /// What to measure
     #[arg(value_enum, default_value_t = Bench::Speed)]
     bench: Bench,
-    /// Poses of each part, or of what else hangs there
+    /// Poses of each part, or of what else hangs there; or racks of each kind
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=10_000))]
     poses: Option<u64>,
     /// Seed of the first frame. Parameters are chosen on frames from 3000000 on, and measured on those from 9000000 on

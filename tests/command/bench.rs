@@ -100,6 +100,33 @@ fn recognition_is_measured_beside_the_other_systems_and_its_worst_confusions_are
 }
 
 #[test]
+fn racks_are_measured_part_by_part() {
+    let place = Workplace::new();
+    let racks = ["bench", "recognition", "--suite", "rack", "--poses", "1"];
+    let ran = place.accepted(&[&racks[..], &["--only-ours", "--json", "r.json"]].concat());
+    let text = fs::read_to_string(place.path("r.json")).expect("written");
+    let file: Value = serde_json::from_str(&text).expect("JSON");
+    let suites = file["suites"].as_array().expect("a list");
+    let figures = file["racks"].as_array().expect("a list");
+    assert_eq!((suites.len(), figures.len()), (8, 8));
+    for (suite, figures) in suites.iter().zip(figures) {
+        let name = suite["suite"].as_str().expect("a name");
+        assert_eq!(figures["suite"], name);
+        assert!(ran.out.contains(name), "{name}: {}", ran.out);
+        // The first rack has two places.
+        let cases = suite["cases"].as_array().expect("a list");
+        let on_rack = |case: &&Value| case.get("surplus").is_none();
+        let num_hung = if name == "rack_empty" { 1 } else { 2 };
+        assert_eq!(cases.iter().filter(on_rack).count(), num_hung, "{name}");
+        let num_parts = cases.iter().filter(|case| case["expected"].is_string());
+        assert_eq!(figures["num_parts"], num_parts.count(), "{name}");
+        let one_of_two = ["rack_mirrored", "rack_foreign"].contains(&name);
+        assert_eq!(figures["num_unknown"], usize::from(one_of_two), "{name}");
+    }
+    assert!(ran.out.contains("accepted twice"), "{}", ran.out);
+}
+
+#[test]
 fn whole_inspections_are_timed_by_set_and_compared_with_an_earlier_run() {
     let place = Workplace::new();
     let one = ["bench", "speed", "--poses", "1"];

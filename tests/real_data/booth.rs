@@ -63,16 +63,34 @@ const MASKS: [(&str, &[[i32; 2]]); 8] = [
 ];
 
 #[derive(serde::Deserialize)]
-struct Truth {
+pub(super) struct Truth {
     reference: BTreeMap<String, String>,
-    frames: BTreeMap<String, FrameTruth>,
+    pub(super) frames: BTreeMap<String, FrameTruth>,
 }
 
 #[derive(serde::Deserialize)]
-struct FrameTruth {
-    part: String,
+pub(super) struct FrameTruth {
+    pub(super) part: String,
     world_from_camera: [f64; 16],
     seen_of_reference: f64,
+}
+
+impl Truth {
+    pub(super) fn read(booth: &Path) -> Self {
+        let truth = std::fs::read(booth.join("truth.json")).expect("the robot's poses");
+        serde_json::from_slice(&truth).expect("the robot's poses")
+    }
+
+    /// The reference frame of a frame's series.
+    fn reference(&self, file: &str) -> &str {
+        &self.reference[&file[..file.find('_').expect("a series")]]
+    }
+
+    /// The true pose of the part that was enrolled from the reference frame, off by a few millimetres and about 0.3 degrees.
+    pub(super) fn camera_from_part(&self, file: &str) -> RigidTransform {
+        let reference = &self.frames[self.reference(file)];
+        self.frames[file].world_from_camera().inverse() * reference.world_from_camera()
+    }
 }
 
 impl FrameTruth {
@@ -130,7 +148,7 @@ fn about(name: &str) -> PartDescription {
 }
 
 /// The shipped parts, and the fender and the door of the booth, each enrolled from its reference frame.
-fn library(booth: &Path, truth: &Truth) -> Library {
+pub(super) fn library(booth: &Path, truth: &Truth) -> Library {
     let mut library = shipped_library();
     for file in truth.reference.values() {
         let about = about(&format!("booth_{}", truth.frames[file].part));
@@ -239,8 +257,7 @@ fn a_list_of_points_is_accepted_in_spite_of_stray_points_and_copies() {
 fn parts_of_a_booth_are_named_and_placed_where_the_robot_says() {
     let Some(data) = data_folder() else { return };
     let booth = data.join("booth");
-    let truth = std::fs::read(booth.join("truth.json")).expect("the robot's poses");
-    let truth: Truth = serde_json::from_slice(&truth).expect("the robot's poses");
+    let truth = Truth::read(&booth);
     let library = library(&booth, &truth);
     let (mut num_named, mut num_accepted, mut num_approximate) = (0, 0, 0);
     for (file, frame) in &truth.frames {
@@ -254,22 +271,19 @@ fn parts_of_a_booth_are_named_and_placed_where_the_robot_says() {
         let expected = format!("booth_{}", frame.part);
         let is_named =
             matches!(&inspection.verdict, Verdict::Part { part, .. } if *part == expected);
-        let reference = &truth.reference[&file[..file.find('_').expect("a series")]];
         if inspection.verdict.is_accepted() {
             assert!(is_named, "{file} is accepted as {:?}", inspection.verdict);
-            let camera_from_part =
-                frame.world_from_camera().inverse() * truth.frames[reference].world_from_camera();
+            let camera_from_part = truth.camera_from_part(file);
             let pose = inspection.pose.and_then(Result::ok).expect("a pose");
             let middle = Point3::new(0.0, 0.0, 1.2);
             let off = pose_error(&pose.camera_from_part(), &camera_from_part, &middle);
             let (turn, shift) = (off.rotation.degrees(), off.shift.mm());
-            // The robot's poses are off by a few millimetres and about 0.3 degrees.
             assert!(
                 turn < 1.0 && shift < 10.0,
                 "{file}: {turn:.2}°, {shift:.1} mm"
             );
         }
-        if frame.seen_of_reference >= 0.4 && file != reference {
+        if frame.seen_of_reference >= 0.4 && file != truth.reference(file) {
             num_named += usize::from(is_named);
             let is_accepted = is_named && inspection.verdict.is_accepted();
             num_accepted += usize::from(is_accepted);
@@ -346,8 +360,7 @@ fn a_part_whose_pose_is_ambiguous_is_accepted_by_no_pose_method() {
 fn most_parts_accepted_with_a_camera_5_percent_wrong_are_warned_of_and_none_with_a_right_one() {
     let Some(data) = data_folder() else { return };
     let booth = data.join("booth");
-    let truth = std::fs::read(booth.join("truth.json")).expect("the robot's poses");
-    let truth: Truth = serde_json::from_slice(&truth).expect("the robot's poses");
+    let truth = Truth::read(&booth);
     let library = library(&booth, &truth);
     let inspected = |file: &str, depth: f64, focal: f64| {
         let Ok(FileContent::Depth(mut frame)) = open(&booth.join(file)) else {
@@ -390,8 +403,7 @@ fn most_parts_accepted_with_a_camera_5_percent_wrong_are_warned_of_and_none_with
 fn a_camera_that_moves_before_a_part_is_never_told_as_a_part_that_moved() {
     let Some(data) = data_folder() else { return };
     let booth = data.join("booth");
-    let truth = std::fs::read(booth.join("truth.json")).expect("the robot's poses");
-    let truth: Truth = serde_json::from_slice(&truth).expect("the robot's poses");
+    let truth = Truth::read(&booth);
     let at = jiff::Timestamp::UNIX_EPOCH;
     let views: Vec<_> = truth
         .frames

@@ -6,6 +6,7 @@
 #![allow(clippy::disallowed_methods, reason = "tests change files")]
 
 mod booth;
+mod composed;
 mod files;
 mod hand_eye;
 #[cfg(unix)]

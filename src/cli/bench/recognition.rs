@@ -14,16 +14,15 @@ use crate::cli::{
 };
 use bench::{
     suites::{
-        MEASURING_SEED, NearestMistake, Suite, SuiteCase, SuiteFigures, SuiteFrame, SuiteLibraries,
-        SuiteResult, run_suite,
+        InspectedFrame, MEASURING_SEED, NearestMistake, RackFigures, Suite, SuiteCase,
+        SuiteFigures, SuiteFrame, SuiteLibraries, SuiteResult, run_suite,
     },
     systems::Systems,
 };
 use inspection::{
     library::EnrolParams,
-    pipeline::{Inspection, Recipe, RecipeBlock, parameters::changed_settings},
+    pipeline::{Recipe, RecipeBlock, parameters::changed_settings},
 };
-use stages::scene::SceneCloud;
 
 /// The suites by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -54,6 +53,8 @@ pub(super) enum SuiteChoice {
     OtherMakes,
     /// The same with three times the noise
     NoisyMakes,
+    /// Racks of 2 to 5 places: enrolled parts apart, on a bar, touching, overlapping, two equal ones, left and right of one kind, with an unknown object, with an empty place
+    Rack,
 }
 
 impl SuiteChoice {
@@ -72,6 +73,10 @@ impl SuiteChoice {
             Self::BoothUnknown => Suite::BoothUnknown,
             Self::OtherMakes => Suite::OtherMakes,
             Self::NoisyMakes => Suite::NoisyMakes,
+            Self::Rack => {
+                let racks = Suite::ALL.into_iter();
+                return racks.filter(|suite| suite.rack().is_some()).collect();
+            }
         };
         vec![one]
     }
@@ -94,6 +99,8 @@ struct RecognitionFile<'a> {
     changed: Vec<String>,
     suites: &'a [SuiteResult],
     figures: &'a [SuiteFigures],
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    racks: Vec<RackFigures>,
     closest: &'a [NearestMistake],
     #[serde(skip_serializing_if = "Option::is_none")]
     table1: Option<&'a SystemsTable>,
@@ -110,19 +117,17 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     };
     let mut shown = Vec::new();
     let mut pictures = args.pictures.as_deref().map(Pictures::make).transpose()?;
-    let results = frames.inspect_with(
-        &libraries,
-        &recipe,
-        console,
-        |suite, case, scene, inspection| {
-            if let Some(pictures) = &mut pictures {
+    let results = frames.inspect_with(&libraries, &recipe, console, |suite, frame| {
+        let scene = &frame.scene;
+        for (case, inspection) in &frame.cases {
+            if let Some((pictures, inspection)) = pictures.as_mut().zip(inspection.as_ref()) {
                 pictures.keep(suite, case, scene, inspection, libraries.of(suite));
             }
             if let Some(systems) = systems.as_ref().filter(|_| suite.is_for_all_systems()) {
                 shown.extend(systems.recognise(suite, case, scene, &recipe));
             }
-        },
-    );
+        }
+    });
     if let Some(pictures) = pictures {
         pictures.write()?;
         if let Some(folder) = &args.pictures {
@@ -143,6 +148,8 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     show(&results, console);
     let figures: Vec<SuiteFigures> = results.iter().map(SuiteFigures::of).collect();
     show_figures(&figures, console);
+    let racks: Vec<RackFigures> = results.iter().filter_map(RackFigures::of).collect();
+    show_racks(&racks, console);
     show_closest(&closest, console);
     let table1 = systems.map(|systems| SystemsTable::of(&systems, &shown));
     if let Some(table1) = table1.as_ref().filter(|_| !shown.is_empty()) {
@@ -158,6 +165,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
             changed,
             suites: &results,
             figures: &figures,
+            racks,
             closest: &closest,
             table1: table1.as_ref(),
         };
@@ -206,29 +214,35 @@ impl Frames {
             first_seed,
             ..
         } = self;
-        format!("{num_poses} poses of each subject, seeds from {first_seed}")
+        let is_rack = |(suite, _): &(Suite, _)| suite.rack().is_some();
+        let racks = if self.suites.iter().any(is_rack) {
+            " or racks of each kind"
+        } else {
+            ""
+        };
+        format!("{num_poses} poses of each subject{racks}, seeds from {first_seed}")
     }
 
     /// Inspects the frames one after the other on this thread.
     pub(super) fn inspect(&self, console: &mut Console) -> anyhow::Result<Vec<SuiteResult>> {
         let libraries = SuiteLibraries::enrol(&EnrolParams::default()).advised()?;
-        Ok(self.inspect_with(&libraries, &Recipe::default(), console, |_, _, _, _| {}))
+        Ok(self.inspect_with(&libraries, &Recipe::default(), console, |_, _| {}))
     }
 
-    /// As [`inspect`](Self::inspect) with these libraries and this recipe; calls `after_each` with every result.
+    /// As [`inspect`](Self::inspect) with these libraries and this recipe; calls `after_each` with every frame.
     fn inspect_with(
         &self,
         libraries: &SuiteLibraries,
         recipe: &Recipe,
         console: &mut Console,
-        mut after_each: impl FnMut(Suite, &SuiteCase, &SceneCloud, &Inspection),
+        mut after_each: impl FnMut(Suite, &InspectedFrame),
     ) -> Vec<SuiteResult> {
         console.start_progress(self.suites.iter().map(|(_, frames)| frames.len()).sum());
         let mut results: Vec<SuiteResult> = Vec::new();
         for (suite, frames) in &self.suites {
             let library = libraries.of(*suite);
-            let done = |case: &SuiteCase, scene: &SceneCloud, inspection: &Inspection| {
-                after_each(*suite, case, scene, inspection);
+            let done = |frame: &InspectedFrame| {
+                after_each(*suite, frame);
                 console.done();
             };
             results.push(run_suite(*suite, frames, library, recipe, done));
@@ -241,7 +255,7 @@ impl Frames {
 fn show(results: &[SuiteResult], console: &mut Console) {
     let mut table = Table::new(&[
         "suite",
-        "frames",
+        "cases",
         "right",
         "right and accepted",
         "false accepts",
@@ -348,6 +362,49 @@ fn show_figures(figures: &[SuiteFigures], console: &mut Console) {
             ms(f.p95_ms),
             ms(f.max_ms),
         ]);
+    }
+    console.table(&table);
+}
+
+/// Shows what only racks are counted for.
+fn show_racks(racks: &[RackFigures], console: &mut Console) {
+    if racks.is_empty() {
+        return;
+    }
+    console.line(&"");
+    console.line(
+        &"Racks: each part and object is a case, and so is each inspection of nothing that hangs there, or of something again.",
+    );
+    console.line(&"");
+    let mut table = Table::new(&[
+        "suite",
+        "frames",
+        "enrolled parts",
+        "not inspected",
+        "accepted twice",
+        "accepted where nothing hangs",
+        "not enrolled",
+        "told as unknown or mirrored",
+        "not inspected",
+        "refused of nothing or again",
+        "median time",
+    ]);
+    for f in racks {
+        let ms = f.median_ms.map(|ms| format!("{ms:.1} ms"));
+        let nums = [
+            f.num_frames,
+            f.num_parts,
+            f.num_parts_missed,
+            f.num_accepted_again,
+            f.num_nothing_accepted,
+            f.num_unknown,
+            f.num_unknown_told,
+            f.num_unknown_missed,
+            f.num_surplus_refused,
+        ];
+        let name = [f.suite.name().to_owned()].into_iter();
+        let nums = nums.into_iter().map(|num| num.to_string());
+        table.row(name.chain(nums).chain(ms));
     }
     console.table(&table);
 }

@@ -27,7 +27,6 @@ use crate::cli::{
 };
 use bench::suites::{MEASURING_SEED, Suite};
 use geometry::statistics::quantile;
-use simulate::frame_of_mesh;
 
 /// Default number of poses per part; each frame is triggered once in every protocol.
 const NUM_POSES: u64 = 25;
@@ -140,8 +139,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     }
     let mut direct = Vec::with_capacity(frames.len());
     for frame in &frames {
-        let shot = frame_of_mesh(&frame.setup, &frame.setup.subject.mesh());
-        inspections.show(shot.frame);
+        inspections.show(simulate::frame(frame.cell()).frame);
         // The first inspection of a frame is slower than later ones, so it is not timed.
         inspections.inspect();
         direct.push(timed(|| drop(inspections.inspect())));

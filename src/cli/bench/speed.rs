@@ -45,12 +45,16 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     let (sets, words) = if is_simulated {
         let frames = Frames::of(args, &[Suite::Placed], NUM_POSES);
         let results = frames.inspect(console)?.into_iter().map(|result| {
-            let timings: Vec<Timings> = result.cases.iter().map(|case| case.timings).collect();
+            let timings: Vec<Timings> = result
+                .cases
+                .iter()
+                .filter_map(|case| case.timings)
+                .collect();
             (result.suite.name(), timings)
         });
         let sets: Vec<_> = results.collect();
         let num: usize = sets.iter().map(|set| set.1.len()).sum();
-        let words = format!("Simulated: {num} frames, {}", frames.words());
+        let words = format!("Simulated: {num} inspections, {}", frames.words());
         (sets, words)
     } else {
         let timings = inspect_files(args, console)?;

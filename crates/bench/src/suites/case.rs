@@ -1,18 +1,17 @@
-//! Result of one frame of a suite.
+//! Result of one frame of a suite, or of one thing on a rack.
 
 use nalgebra::{Point3, Vector3};
 use serde::Serialize;
 
-use super::{SuiteFrame, enrolment_pose};
+use super::{SuiteShot, SuiteThing, enrolment_pose};
 use geometry::rigid::pose_error;
-use inspection::pipeline::{Inspection, Timings};
-use simulate::{FrameTruth, SurfaceLabel};
+use inspection::pipeline::{Inspection, Timings, Verdict};
 use stages::{
     confirm::{ConfirmedMatch, Evidence},
     segment::{PointLabel, Segmentation},
 };
 
-/// Result of one frame.
+/// Result of one frame. Of a rack, everything that hangs there is a case, and so is every [surplus](Surplus) inspection.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SuiteCase {
     /// Name of what hung in the cell.
@@ -23,6 +22,9 @@ pub struct SuiteCase {
     pub seed: u64,
     /// The best guess; `None` if nothing was recognised.
     pub found: Option<String>,
+    /// Of a rack, why the inspection is one too many.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub surplus: Option<Surplus>,
     /// Score of the best guess.
     pub score: f64,
     /// Margin of the best guess.
@@ -42,13 +44,23 @@ pub struct SuiteCase {
     pub part_iou: Option<f64>,
     /// Bounds of the pose, if the part was named correctly and its pose has any.
     pub bounds: Option<PoseBounds>,
-    /// Time of the whole inspection, milliseconds.
-    pub total_ms: f64,
+    /// Time of the whole inspection, milliseconds; `None` for something on a rack that was not inspected.
+    pub total_ms: Option<f64>,
     /// Time of each stage.
     #[serde(skip)]
-    pub timings: Timings,
+    pub timings: Option<Timings>,
     /// The best few examined references of the ranking.
     pub contenders: Vec<ReferenceCase>,
+}
+
+/// Why an inspection is one more than hangs on a rack. It must not be accepted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Surplus {
+    /// It is of something of which another one is too.
+    Again,
+    /// It is of nothing that hangs there.
+    Nothing,
 }
 
 /// Bounds of a pose and its true error, both at the centroid of the visible points of the part.
@@ -88,31 +100,37 @@ pub struct ReferenceCase {
 const NUM_CONTENDERS: usize = 3;
 
 impl SuiteCase {
-    pub(super) fn of(frame: &SuiteFrame, truth: &FrameTruth, inspection: &Inspection) -> Self {
-        let verdict = &inspection.verdict;
-        let [score, margin] = verdict.score().unwrap_or_default();
+    /// Creates the case of a thing; without an inspection if it was not inspected.
+    pub(super) fn of(
+        shot: &SuiteShot,
+        thing: &SuiteThing,
+        inspection: Option<&Inspection>,
+    ) -> Self {
+        let verdict = inspection.map(|inspection| &inspection.verdict);
+        let [score, margin] = verdict.and_then(Verdict::score).unwrap_or_default();
+        let timings = inspection.map(|inspection| inspection.timings);
+        let entries = inspection.map_or(&[][..], |inspection| &inspection.ranking.entries);
         Self {
-            subject: frame.subject(),
-            expected: frame.expected.clone(),
-            seed: frame.setup.seed,
-            found: verdict.guess().map(str::to_owned),
+            subject: thing.name.clone(),
+            expected: thing.expected.clone(),
+            seed: shot.seed,
+            found: verdict.and_then(Verdict::guess).map(str::to_owned),
+            surplus: None,
             score,
             margin,
-            accepted: verdict.is_accepted(),
-            is_unknown: verdict.is_unknown(),
-            reason: verdict.complaint().map(|[why, _]| why),
-            is_approximate: verdict.is_approximate(),
-            visible_share: truth.visible_share,
-            part_iou: part_iou(truth, &inspection.segmentation),
-            bounds: bounds(frame, truth, inspection),
-            timings: inspection.timings,
-            total_ms: inspection.timings.total.as_secs_f64() * 1e3,
-            contenders: inspection
-                .ranking
-                .entries
+            accepted: verdict.is_some_and(Verdict::is_accepted),
+            is_unknown: verdict.is_some_and(Verdict::is_unknown),
+            reason: verdict.and_then(Verdict::complaint).map(|[why, _]| why),
+            is_approximate: verdict.is_some_and(Verdict::is_approximate),
+            visible_share: thing.truth.as_ref().map_or(0.0, |t| t.visible_share),
+            part_iou: inspection.and_then(|i| part_iou(shot, thing, &i.segmentation)),
+            bounds: inspection.and_then(|i| bounds(thing, i)),
+            timings,
+            total_ms: timings.map(|timings| timings.total.as_secs_f64() * 1e3),
+            contenders: entries
                 .iter()
                 .take(NUM_CONTENDERS)
-                .filter_map(|entry| contender(frame, truth, entry))
+                .filter_map(|entry| contender(thing, entry))
                 .collect(),
         }
     }
@@ -143,10 +161,11 @@ impl SuiteCase {
     }
 }
 
-fn part_iou(truth: &FrameTruth, segmentation: &Segmentation) -> Option<f64> {
+fn part_iou(shot: &SuiteShot, thing: &SuiteThing, segmentation: &Segmentation) -> Option<f64> {
+    thing.truth.as_ref()?;
     let (mut num_both, mut num_true, mut num_taken) = (0_usize, 0_usize, 0_usize);
-    for (is, taken_for) in truth.labels.iter().zip(&segmentation.labels) {
-        let is_part = *is == SurfaceLabel::Part && *taken_for != PointLabel::NoReading;
+    for (is, taken_for) in shot.labels.iter().zip(&segmentation.labels) {
+        let is_part = *is == thing.label && *taken_for != PointLabel::NoReading;
         let is_taken = *taken_for == PointLabel::Part;
         num_true += usize::from(is_part);
         num_taken += usize::from(is_taken);
@@ -156,16 +175,20 @@ fn part_iou(truth: &FrameTruth, segmentation: &Segmentation) -> Option<f64> {
     (num_true > 0).then(|| num_both as f64 / num_either as f64)
 }
 
-fn bounds(frame: &SuiteFrame, truth: &FrameTruth, inspection: &Inspection) -> Option<PoseBounds> {
+fn bounds(thing: &SuiteThing, inspection: &Inspection) -> Option<PoseBounds> {
     let first = inspection.ranking.entries.first()?;
     let pose = inspection.found_pose()?;
     let found = pose.bounds()?;
     let middle = middle_of_seen(inspection)?;
-    if frame.expected.as_ref() != Some(&first.part) {
+    if thing.expected.as_ref() != Some(&first.part) {
         return None;
     }
-    let reference_from_camera = (truth.camera_from_part * enrolment_pose().inverse()).inverse();
-    let off = pose_error(&pose.target_from_source, &reference_from_camera, &middle);
+    let camera_from_reference = thing.camera_from_reference()?;
+    let off = pose_error(
+        &pose.target_from_source,
+        &camera_from_reference.inverse(),
+        &middle,
+    );
     Some(PoseBounds {
         turn_bound: found.turn.degrees(),
         shift_bound: found.shift.mm(),
@@ -181,19 +204,16 @@ pub(crate) fn middle_of_seen(inspection: &Inspection) -> Option<Point3<f64>> {
     Some(Point3::from(sum / seen.len().max(1) as f64))
 }
 
-fn contender(
-    frame: &SuiteFrame,
-    truth: &FrameTruth,
-    entry: &ConfirmedMatch,
-) -> Option<ReferenceCase> {
-    let is_there = frame.expected.as_ref() == Some(&entry.part);
-    let pose_off = entry.pose.as_ref().filter(|_| is_there).map(|pose| {
-        // Reference space is camera space at enrolment.
-        let camera_from_part = truth.camera_from_part * enrolment_pose().inverse();
-        let middle = enrolment_pose() * Point3::origin();
-        let off = pose_error(&pose.camera_from_part(), &camera_from_part, &middle);
-        [off.rotation.degrees(), off.shift.mm()]
-    });
+fn contender(thing: &SuiteThing, entry: &ConfirmedMatch) -> Option<ReferenceCase> {
+    let is_there = thing.expected.as_ref() == Some(&entry.part);
+    let pose = entry.pose.as_ref().filter(|_| is_there);
+    let pose_off = pose
+        .zip(thing.camera_from_reference())
+        .map(|(pose, truth)| {
+            let middle = enrolment_pose() * Point3::origin();
+            let off = pose_error(&pose.camera_from_part(), &truth, &middle);
+            [off.rotation.degrees(), off.shift.mm()]
+        });
     Some(ReferenceCase {
         part: entry.part.clone(),
         score: entry.score,

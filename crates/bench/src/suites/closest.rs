@@ -89,7 +89,6 @@ impl NearestMistake {
 mod tests {
     use super::*;
     use crate::suites::{ReferenceCase, TUNING_SEED};
-    use inspection::pipeline::Timings;
     use stages::confirm::Evidence;
 
     fn case(scores: &[(&str, f64)], accepted: bool) -> SuiteCase {
@@ -120,6 +119,7 @@ mod tests {
             expected: Some("fender".into()),
             seed: TUNING_SEED,
             found: scores.first().map(|s| s.0.to_owned()),
+            surplus: None,
             score: scores.first().map_or(0.0, |s| s.1),
             margin: 0.0,
             accepted,
@@ -129,8 +129,8 @@ mod tests {
             visible_share: 1.0,
             part_iou: None,
             bounds: None,
-            total_ms: 0.0,
-            timings: Timings::default(),
+            total_ms: None,
+            timings: None,
             contenders: scores.iter().map(contender).collect(),
         }
     }

@@ -8,22 +8,26 @@ mod closest;
 mod cut;
 mod figures;
 mod libraries;
+mod rack;
 mod run;
 
 use serde::Serialize;
 
 pub(super) use self::{case::middle_of_seen, cut::pushed_out_of_the_picture};
 pub use self::{
-    case::{PoseBounds, ReferenceCase, SuiteCase},
+    case::{PoseBounds, ReferenceCase, SuiteCase, Surplus},
     closest::NearestMistake,
     figures::SuiteFigures,
     libraries::SuiteLibraries,
-    run::{ConfusionEntry, SuiteResult, run_suite},
+    rack::RackFigures,
+    run::{ConfusionEntry, InspectedFrame, SuiteResult, run_suite},
 };
+use geometry::{depth_frame::DepthFrame, rigid::RigidTransform};
 pub use inspection::library::{enrol_part, enrol_standard_parts, enrolled_name, enrolment_pose};
 use simulate::{
-    CellSetup, Clutter, FIRST_OTHER_MAKE, ObjectKind, PartKind, PartPose, PoseRange, SensorNoise,
-    Side, SimulatedObject, Stand,
+    CellSetup, Clutter, FIRST_OTHER_MAKE, FrameTruth, ObjectKind, PartKind, PartPose, PoseRange,
+    RackKind, RackSetup, SensorNoise, Side, SimulatedObject, Stand, SurfaceLabel, frame,
+    rack_frame,
 };
 
 /// First seed of the frames for tuning parameters.
@@ -34,6 +38,8 @@ pub const MEASURING_SEED: u64 = 9_000_000;
 const PUSHED_OUT: std::ops::Range<f64> = 0.10..0.25;
 /// Seeds reserved per suite: more than any run needs.
 const SEEDS_PER_SUITE: u64 = 100_000;
+/// Numbers of places of racks, one after the other.
+const NUM_PLACES: [usize; 4] = [2, 3, 4, 5];
 
 /// A set of frames.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -65,11 +71,27 @@ pub enum Suite {
     OtherMakes,
     /// The same with three times the noise.
     NoisyMakes,
+    /// Racks of 2 to 5 places with different enrolled parts, [apart](RackKind::Apart).
+    RackApart,
+    /// Such racks under a bar, every part on hooks.
+    RackOnBar,
+    /// Racks of [touching](RackKind::Touching) parts.
+    RackTouching,
+    /// Racks of [overlapping](RackKind::Overlapping) parts.
+    RackOverlapping,
+    /// Racks with two [equal](RackKind::Equal) parts.
+    RackEqual,
+    /// Racks with left and right of one kind, [of which](RackKind::Mirrored) only the left one is enrolled.
+    RackMirrored,
+    /// Racks with an object that is not enrolled ([foreign](RackKind::Foreign)).
+    RackForeign,
+    /// Racks with an [empty](RackKind::Empty) place.
+    RackEmpty,
 }
 
 impl Suite {
     /// All suites.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 20] = [
         Self::Standard,
         Self::Placed,
         Self::OtherModels,
@@ -82,6 +104,14 @@ impl Suite {
         Self::BoothUnknown,
         Self::OtherMakes,
         Self::NoisyMakes,
+        Self::RackApart,
+        Self::RackOnBar,
+        Self::RackTouching,
+        Self::RackOverlapping,
+        Self::RackEqual,
+        Self::RackMirrored,
+        Self::RackForeign,
+        Self::RackEmpty,
     ];
 
     /// Returns the name used in files and on the command line.
@@ -99,6 +129,14 @@ impl Suite {
             Self::BoothUnknown => "booth_unknown",
             Self::OtherMakes => "other_makes",
             Self::NoisyMakes => "noisy_makes",
+            Self::RackApart => "rack_apart",
+            Self::RackOnBar => "rack_on_bar",
+            Self::RackTouching => "rack_touching",
+            Self::RackOverlapping => "rack_overlapping",
+            Self::RackEqual => "rack_equal",
+            Self::RackMirrored => "rack_mirrored",
+            Self::RackForeign => "rack_foreign",
+            Self::RackEmpty => "rack_empty",
         }
     }
 
@@ -111,10 +149,35 @@ impl Suite {
         )
     }
 
-    /// Returns the frames, `num_poses` per subject.
+    /// Returns the kind of the racks and what they hang on; `None` if a frame shows one part.
+    pub fn rack(self) -> Option<(RackKind, Stand)> {
+        let kind = match self {
+            Self::RackApart => RackKind::Apart,
+            Self::RackOnBar => return Some((RackKind::Apart, Stand::Post)),
+            Self::RackTouching => RackKind::Touching,
+            Self::RackOverlapping => RackKind::Overlapping,
+            Self::RackEqual => RackKind::Equal,
+            Self::RackMirrored => RackKind::Mirrored,
+            Self::RackForeign => RackKind::Foreign,
+            Self::RackEmpty => RackKind::Empty,
+            _ => return None,
+        };
+        Some((kind, Stand::None))
+    }
+
+    /// Returns the frames: `num_poses` per subject, or as many racks.
     pub fn frames(self, num_poses: u64, first_seed: u64) -> Vec<SuiteFrame> {
-        let subjects = self.subjects();
         let first_seed = first_seed + self as u64 * SEEDS_PER_SUITE;
+        if let Some((kind, stand)) = self.rack() {
+            let numbers = NUM_PLACES.into_iter().cycle().zip(first_seed..);
+            let racks = numbers.take(num_poses as usize).map(|(num_places, seed)| {
+                let mut rack = RackSetup::drawn(kind, num_places, 0, seed).expect("2 to 5 places");
+                rack.cell.stand = stand;
+                SuiteFrame::Rack(rack)
+            });
+            return racks.collect();
+        }
+        let subjects = self.subjects();
         (0..num_poses)
             .flat_map(|pose| {
                 let first = first_seed + pose * subjects.len() as u64;
@@ -123,7 +186,7 @@ impl Suite {
                     .zip(first..)
                     .map(move |(subject, seed)| (pose, *subject, seed))
             })
-            .map(|(pose, subject, seed)| self.frame(subject, pose, seed))
+            .map(|(pose, subject, seed)| SuiteFrame::Cell(self.setup(subject, pose, seed)))
             .collect()
     }
 
@@ -152,13 +215,20 @@ impl Suite {
             Self::BothSides => sided()
                 .flat_map(|kind| Side::ALL.map(|side| part(kind, side)))
                 .collect(),
+            Self::RackApart
+            | Self::RackOnBar
+            | Self::RackTouching
+            | Self::RackOverlapping
+            | Self::RackEqual
+            | Self::RackMirrored
+            | Self::RackForeign
+            | Self::RackEmpty => Vec::new(),
         }
     }
 
-    fn frame(self, subject: SimulatedObject, pose: u64, seed: u64) -> SuiteFrame {
+    fn setup(self, subject: SimulatedObject, pose: u64, seed: u64) -> CellSetup {
         let mut setup = CellSetup::new(subject, seed);
         match self {
-            Self::Placed | Self::Unknown | Self::Mirrored | Self::BothSides => {}
             Self::Booth | Self::BoothUnknown => setup = CellSetup::booth(subject, seed),
             Self::Standard => setup.pose = PartPose::Drawn(PoseRange::facing()),
             Self::Floor => {
@@ -207,40 +277,107 @@ impl Suite {
                     setup.stand = Stand::Post;
                 }
             }
+            _ => {}
         }
-        SuiteFrame {
-            expected: self.expected(subject),
-            setup,
-        }
+        setup
     }
 
+    /// Returns the enrolled name of what hangs there; `None` if it may not be accepted.
     fn expected(self, subject: SimulatedObject) -> Option<String> {
-        match (self, subject) {
-            (Self::Mirrored, _) | (_, SimulatedObject::Object(_) | SimulatedObject::Nothing) => {
-                None
+        let is_enrolled = match subject {
+            SimulatedObject::Part { kind, side, .. } => {
+                side == Side::Left || !kind.is_sided() || self == Self::BothSides
             }
-            (_, SimulatedObject::Part { kind, side, .. }) => Some(enrolled_name(kind, side)),
-        }
+            SimulatedObject::Object(_) | SimulatedObject::Nothing => false,
+        };
+        is_enrolled.then(|| name_of(subject))
     }
 }
 
-/// One frame of a suite.
+/// Returns the name of what hangs there.
+fn name_of(subject: SimulatedObject) -> String {
+    match subject {
+        SimulatedObject::Part { kind, side, .. } => enrolled_name(kind, side),
+        SimulatedObject::Object(kind) => kind.name().to_owned(),
+        SimulatedObject::Nothing => "nothing".to_owned(),
+    }
+}
+
+/// One frame of a suite, as the setup of its simulated cell.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SuiteFrame {
-    /// Setup of the simulated cell.
-    pub setup: CellSetup,
-    /// The enrolled name of the part; `None` if nothing may be accepted.
-    pub expected: Option<String>,
+pub enum SuiteFrame {
+    /// One part or object, or none.
+    Cell(CellSetup),
+    /// Several side by side.
+    Rack(RackSetup),
 }
 
 impl SuiteFrame {
-    /// Returns the name of what hangs in the cell.
-    pub fn subject(&self) -> String {
-        match self.setup.subject {
-            SimulatedObject::Part { kind, side, .. } => enrolled_name(kind, side),
-            SimulatedObject::Object(kind) => kind.name().to_owned(),
-            SimulatedObject::Nothing => "nothing".to_owned(),
+    /// Returns the cell; that of a rack has no subject.
+    pub fn cell(&self) -> &CellSetup {
+        match self {
+            Self::Cell(cell) => cell,
+            Self::Rack(rack) => &rack.cell,
         }
+    }
+
+    /// Takes the frame.
+    fn shot(&self, suite: Suite) -> SuiteShot {
+        let (frame, truths, labels) = match self {
+            Self::Cell(cell) => {
+                let mut shot = frame(cell);
+                let labels = std::mem::take(&mut shot.truth.labels);
+                (shot.frame, vec![shot.truth], labels)
+            }
+            Self::Rack(rack) => {
+                let shot = rack_frame(rack).expect("a rack that can be drawn");
+                (shot.frame, shot.truth.parts, shot.truth.labels)
+            }
+        };
+        let things = (0..).zip(truths).map(|(number, truth)| SuiteThing {
+            name: name_of(truth.subject),
+            expected: suite.expected(truth.subject),
+            label: match self {
+                Self::Cell(_) => SurfaceLabel::Part,
+                Self::Rack(_) => SurfaceLabel::RackPart(number),
+            },
+            truth: Some(truth),
+        });
+        SuiteShot {
+            frame,
+            seed: self.cell().seed,
+            things: things.collect(),
+            labels,
+        }
+    }
+}
+
+/// A frame with its truth.
+struct SuiteShot {
+    frame: DepthFrame,
+    seed: u64,
+    /// What hangs there, from left to right; one thing of the name `nothing` in an empty cell.
+    things: Vec<SuiteThing>,
+    /// The surface that each pixel shows.
+    labels: Vec<SurfaceLabel>,
+}
+
+/// What a case is about.
+struct SuiteThing {
+    name: String,
+    /// The enrolled name; `None` if nothing may be accepted.
+    expected: Option<String>,
+    /// The label of the pixels that show it.
+    label: SurfaceLabel,
+    /// `None` if there is no such thing.
+    truth: Option<FrameTruth>,
+}
+
+impl SuiteThing {
+    /// Returns the true pose of its reference, whose coordinates are those of the camera at enrolment.
+    fn camera_from_reference(&self) -> Option<RigidTransform> {
+        let truth = self.truth.as_ref()?;
+        Some(truth.camera_from_part * enrolment_pose().inverse())
     }
 }
 
@@ -254,7 +391,7 @@ mod tests {
             .into_iter()
             .flat_map(|first| Suite::ALL.map(|suite| suite.frames(5, first)))
             .flatten()
-            .map(|frame| frame.setup.seed)
+            .map(|frame| frame.cell().seed)
             .collect();
         let num = seeds.len();
         seeds.sort_unstable();
@@ -270,7 +407,7 @@ mod tests {
             .chain(of(Suite::OtherMakes))
             .chain(of(Suite::NoisyMakes))
         {
-            let SimulatedObject::Part { model_seed, .. } = frame.setup.subject else {
+            let SimulatedObject::Part { model_seed, .. } = frame.cell().subject else {
                 panic!("a part");
             };
             assert_ne!(model_seed, 0);

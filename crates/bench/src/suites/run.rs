@@ -2,13 +2,12 @@
 
 use serde::Serialize;
 
-use super::{Suite, SuiteCase, SuiteFrame};
+use super::{Suite, SuiteCase, SuiteFrame, rack::rack_cases};
 use geometry::{parallel::on_one_core, statistics::quantile};
 use inspection::{
     library::Library,
-    pipeline::{Inspection, Recipe, Unwatched, run},
+    pipeline::{Inspection, Recipe, Unwatched, run, run_all},
 };
-use simulate::frame_of_mesh;
 use stages::scene::{SceneCloud, scene_from_frame};
 
 /// Results of a suite.
@@ -16,7 +15,7 @@ use stages::scene::{SceneCloud, scene_from_frame};
 pub struct SuiteResult {
     /// The suite.
     pub suite: Suite,
-    /// One case per frame.
+    /// One case per frame; of a rack, one per thing that hangs there and per surplus inspection.
     pub cases: Vec<SuiteCase>,
 }
 
@@ -33,7 +32,7 @@ impl SuiteResult {
 
     /// Returns a quantile (0..1) of the time of an inspection, milliseconds.
     pub fn ms_quantile(&self, share: f64) -> Option<f64> {
-        quantile(self.cases.iter().map(|case| case.total_ms), share)
+        quantile(self.cases.iter().filter_map(|case| case.total_ms), share)
     }
 
     /// Returns a quantile (0..1) of the pose errors: degrees and millimetres, each on its own.
@@ -88,23 +87,48 @@ pub struct ConfusionEntry {
     pub first_seed: u64,
 }
 
-/// Inspects the frames of a suite on one core, and calls `after_each` with every frame's case, scene and inspection.
+/// A frame that was inspected.
+#[derive(Debug)]
+pub struct InspectedFrame {
+    /// What the camera saw.
+    pub scene: SceneCloud,
+    /// Its cases, each with its inspection; without one if the thing was not inspected.
+    pub cases: Vec<(SuiteCase, Option<Inspection>)>,
+}
+
+/// Inspects the frames of a suite on one core, and calls `after_each` with each. On a rack, as many parts may be accepted as it
+/// has places.
 pub fn run_suite(
     suite: Suite,
     frames: &[SuiteFrame],
     library: &Library,
     recipe: &Recipe,
-    mut after_each: impl FnMut(&SuiteCase, &SceneCloud, &Inspection),
+    mut after_each: impl FnMut(&InspectedFrame),
 ) -> SuiteResult {
     let mut cases = Vec::with_capacity(frames.len());
     for frame in frames {
-        let shot = frame_of_mesh(&frame.setup, &frame.setup.subject.mesh());
+        let shot = frame.shot(suite);
         let scene = scene_from_frame(&shot.frame);
-        let inspection = on_one_core(|| run(&scene, library, recipe, &Unwatched));
-        let inspection = inspection.expect("not cancelled");
-        let case = SuiteCase::of(frame, &shot.truth, &inspection);
-        after_each(&case, &scene, &inspection);
-        cases.push(case);
+        let inspected = match frame {
+            SuiteFrame::Cell(_) => {
+                let inspection = on_one_core(|| run(&scene, library, recipe, &Unwatched));
+                let inspection = inspection.expect("not cancelled");
+                let case = SuiteCase::of(&shot, &shot.things[0], Some(&inspection));
+                vec![(case, Some(inspection))]
+            }
+            SuiteFrame::Rack(rack) => {
+                let mut recipe = recipe.clone();
+                recipe.segment.max_parts = rack.places.len();
+                let found = on_one_core(|| run_all(&scene, library, &recipe, &Unwatched));
+                rack_cases(&shot, found.expect("not cancelled"))
+            }
+        };
+        let inspected = InspectedFrame {
+            scene,
+            cases: inspected,
+        };
+        after_each(&inspected);
+        cases.extend(inspected.cases.into_iter().map(|(case, _)| case));
     }
     SuiteResult { suite, cases }
 }

@@ -222,8 +222,9 @@ mod tests {
         let frames = suite.frames(1, TUNING_SEED);
         let mut cases = Vec::new();
         let library = libraries.of(suite);
-        run_suite(suite, &frames, library, &recipe, |case, scene, _| {
-            cases.extend(systems.recognise(suite, case, scene, &recipe));
+        run_suite(suite, &frames, library, &recipe, |frame| {
+            let (case, _) = &frame.cases[0];
+            cases.extend(systems.recognise(suite, case, &frame.scene, &recipe));
         });
         assert_eq!(cases.len(), 8);
         let preparations = systems.preparations();
