@@ -4,14 +4,18 @@ use std::{collections::BTreeMap, sync::Arc};
 
 use numpy::{PyArray1, PyArray2, PyArrayDyn, PyArrayMethods as _, ndarray::IxDyn};
 use partsight::{
-    PointLabel, PoseEstimate, RigidTransform, SceneCloud, history::Traceability,
-    pipeline::NamedRecipe, report::InspectionLine, run,
+    PointLabel, PoseEstimate, RigidTransform, SceneCloud,
+    history::Traceability,
+    pipeline::{Cancelled, Expected, NamedRecipe, run_all},
+    report::InspectionLine,
+    run,
 };
 use pyo3::{exceptions::PyKeyboardInterrupt, prelude::*};
 use station::{Doubt, Inspected, Subject};
 
 use crate::{
     arrays::{matrix_of, points_of, shape_of},
+    error::advised,
     interrupt::SignalWatch,
     library::Library,
     recipe::Recipe,
@@ -42,28 +46,73 @@ pub(crate) fn inspect(
     recipe: Option<&Recipe>,
 ) -> PyResult<Inspection> {
     let recipe = library.recipe_or(recipe)?;
+    let found = interruptible(py, |watch| {
+        run(&scene.capture, &library.loaded().library, recipe, watch)
+    })?;
+    Ok(Inspection::new(scene, library, recipe, found))
+}
+
+/// Inspects a scene in which several parts may hang: every part, accepted ones first, from left to right in the picture, and
+/// whatever else is neither background nor part.
+///
+/// The recipe's `segment.max_parts` says how many may hang there; `expected` has the names of those that should. A part that
+/// is not expected is refused as `wrong_part` or `not_expected`. Otherwise as `inspect`, whose result is the first of a
+/// single part.
+#[pyfunction]
+#[pyo3(signature = (scene, library, recipe = None, *, expected = Vec::new()))]
+pub(crate) fn inspect_all(
+    py: Python<'_>,
+    scene: &Scene,
+    library: &Library,
+    recipe: Option<&Recipe>,
+    expected: Vec<String>,
+) -> PyResult<Vec<Inspection>> {
     let loaded = library.loaded();
-    let cloud = &scene.capture;
-    let found = py.detach(|| {
+    let expected = Expected::new(expected, &loaded.library).map_err(advised)?;
+    let recipe = library.recipe_or(recipe)?.expecting(expected);
+    let found = interruptible(py, |watch| {
+        run_all(&scene.capture, &loaded.library, &recipe, watch)
+    })?;
+    let found = found.into_iter();
+    Ok(found
+        .map(|found| Inspection::new(scene, library, &recipe, found))
+        .collect())
+}
+
+/// Inspects without the interpreter's lock, until Ctrl-C.
+fn interruptible<T: Send>(
+    py: Python<'_>,
+    inspect: impl FnOnce(&SignalWatch) -> Result<T, Cancelled> + Send,
+) -> PyResult<T> {
+    py.detach(|| {
         let watch = SignalWatch::new();
-        run(cloud, &loaded.library, recipe, &watch).map_err(|cancelled| {
+        inspect(&watch).map_err(|cancelled| {
             let raised = watch.into_raised();
             raised.unwrap_or_else(|| PyKeyboardInterrupt::new_err(cancelled.to_string()))
         })
-    })?;
-    let named = found
-        .verdict
-        .guess()
-        .filter(|_| !found.verdict.is_unknown());
-    let best = found.ranking.entries.first();
-    let part = best.and_then(|best| loaded.parts.get(best.reference));
-    Ok(Inspection {
-        subject: scene.subject(),
-        scene: scene.capture.clone(),
-        recipe: recipe.clone(),
-        is_part_simulated: named.and(part).is_some_and(|part| part.simulated),
-        found,
     })
+}
+
+impl Inspection {
+    fn new(
+        scene: &Scene,
+        library: &Library,
+        recipe: &NamedRecipe,
+        found: partsight::Inspection,
+    ) -> Self {
+        let verdict = &found.verdict;
+        let named = verdict.guess().filter(|_| !verdict.is_unknown());
+        let best = found.ranking.entries.first();
+        let loaded = library.loaded();
+        let part = best.and_then(|best| loaded.parts.get(best.reference));
+        Self {
+            subject: scene.subject(),
+            scene: scene.capture.clone(),
+            recipe: recipe.clone(),
+            is_part_simulated: named.and(part).is_some_and(|part| part.simulated),
+            found,
+        }
+    }
 }
 
 #[pymethods]

@@ -28,7 +28,7 @@ mod _partsight {
         alignment::{Alignment, align, read_points},
         error::PartsightError,
         evaluation::{KeptCases, evaluation_report, judge_cases},
-        inspection::{Inspection, Pose, inspect},
+        inspection::{Inspection, Pose, inspect, inspect_all},
         library::Library,
         recipe::Recipe,
         scene::{Scene, SimulatedFrame, simulate_frame},

@@ -67,6 +67,29 @@ def test_a_simulated_file_gives_the_programs_line(library: partsight.Library, tm
         np.testing.assert_array_equal(simulated.scene().points, partsight.read_points(path))
 
 
+def test_a_rack_gives_the_programs_parts(library: partsight.Library, tmp_path: Path) -> None:
+    path, truth = tmp_path / "rack.png", tmp_path / "truth.json"
+    rack: list[str | Path] = ["--rack", "3", "--seed", "2", "--out", path, "--truth", truth]
+    subprocess.run([program(), "simulate", *rack], check=True, capture_output=True)
+    hung = [part["subject"]["part"]["kind"] for part in json.loads(truth.read_text())["parts"]]
+    parts = CHECKOUT / "reference_parts"
+    options: list[str | Path] = ["--json", "--library", parts, "--recipe", "built-in", "--expect", ",".join(hung)]
+    ran = subprocess.run([program(), "inspect", path, *options], capture_output=True, text=True, check=True)
+    line = json.loads(ran.stdout)
+    assert line["as_expected"] and line["missing"] == []
+    found = partsight.inspect_all(partsight.Scene.open(path), library, expected=hung)
+    assert [part.part for part in found] == hung
+    for part, expected in zip(found, line["parts"], strict=True):
+        own = json.loads(part.to_json())
+        assert {name: own[name] for name in expected if name != "timings_ms"} == {
+            name: value for name, value in expected.items() if name != "timings_ms"
+        }
+    wrong = partsight.inspect_all(partsight.Scene.open(path), library, expected=["grille"])
+    assert not wrong[0].accepted and not any(part.accepted for part in wrong)
+    with pytest.raises(partsight.PartsightError, match="hood is expected, but not enrolled"):
+        partsight.inspect_all(partsight.Scene.open(path), library, expected=["hood"])
+
+
 def test_real_captures_give_the_programs_line(library: partsight.Library) -> None:
     for path in real_frames():
         check(path, library)

@@ -2,9 +2,8 @@
 
 use clap::Args;
 
-use super::console::advised_error;
+use super::console::Advised as _;
 use inspection::{library::Library, pipeline::Expected};
-use stages::segment::MAX_PARTS;
 
 /// What should hang there.
 #[derive(Clone, Debug, Default, Args)]
@@ -18,20 +17,6 @@ pub(super) struct ExpectChoice {
 impl ExpectChoice {
     /// Returns what is expected of these enrolled parts.
     pub(super) fn of(&self, library: &Library) -> anyhow::Result<Expected> {
-        if self.expect.len() > MAX_PARTS {
-            return Err(advised_error(
-                format!("{} parts are expected", self.expect.len()),
-                format!("Expect up to {MAX_PARTS} parts in a frame"),
-            ));
-        }
-        for name in &self.expect {
-            if !library.references.iter().any(|part| part.name == *name) {
-                return Err(advised_error(
-                    format!("{name} is expected, but not enrolled"),
-                    "Give names that partsight library list shows, separated by commas",
-                ));
-            }
-        }
-        Ok(Expected::new(self.expect.clone()))
+        Expected::new(self.expect.clone(), library).advised()
     }
 }

@@ -40,7 +40,7 @@ use stages::{
 };
 
 pub use self::{
-    expected::Expected,
+    expected::{Expected, ExpectedError},
     mirror::{MirrorTally, OnlyMirrored},
     named_recipe::{
         AS_IN_THE_PAPER, BUILT_IN, BUILT_IN_RECIPES, MAX_NOTES, NamedRecipe, RecipeBlock,

@@ -120,7 +120,8 @@ impl PartFinder {
             let (_, reference) = part.ok_or(NoFrame::UnknownNumber { number })?;
             Ok(reference.name.clone())
         });
-        Ok(Expected::new(names.collect::<Result<_, NoFrame>>()?))
+        let names = names.collect::<Result<_, NoFrame>>()?;
+        Ok(Expected::new(names, library).expect("up to eight names of references"))
     }
 
     /// The result for a part that is expected, and does not hang there.

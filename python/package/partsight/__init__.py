@@ -17,6 +17,7 @@ from ._partsight import (
     SimulatedFrame,
     align,
     inspect,
+    inspect_all,
     read_points,
     simulate_frame,
 )
@@ -43,6 +44,7 @@ __all__ = [
     "SimulatedFrame",
     "align",
     "inspect",
+    "inspect_all",
     "read_points",
     "simulate_frame",
 ]

@@ -186,6 +186,13 @@ class Alignment:
     def advice(self) -> str | None: ...
 
 def inspect(scene: Scene, library: Library, recipe: Recipe | None = None) -> Inspection: ...
+def inspect_all(
+    scene: Scene,
+    library: Library,
+    recipe: Recipe | None = None,
+    *,
+    expected: Sequence[str] = (),
+) -> list[Inspection]: ...
 def judge_cases(rows: Sequence[Mapping[str, Any]], library: Library, recipe: Recipe | None = None) -> list[dict[str, Any]]: ...
 def evaluation_report(
     results: Sequence[Mapping[str, Any]],

@@ -81,7 +81,7 @@ impl<S: Read + Write> Client<S> {
     /// Triggers with this body.
     pub(crate) fn trigger_with(&mut self, body: &str) -> Reply {
         let before = self.fields.clone();
-        self.fields += &format!("Content-Length: {}\r\n", body.len());
+        self.fields = format!("{before}Content-Length: {}\r\n", body.len());
         self.begin("POST", "/v1/trigger");
         self.fields = before;
         self.send(body.as_bytes()).expect("sent");

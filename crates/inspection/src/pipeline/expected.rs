@@ -1,8 +1,11 @@
 //! What should hang before the camera, and how what hangs there differs from it.
 
 use serde::{Deserialize, Serialize};
+use thiserror::Error;
 
 use super::{Rejection, Unrecognisable, Verdict};
+use crate::library::Library;
+use geometry::error::Advice;
 use stages::segment::MAX_PARTS;
 
 /// The parts that should hang there, by name; a name that is given twice stands for two such parts. Empty if nothing is
@@ -14,11 +17,46 @@ use stages::segment::MAX_PARTS;
 #[serde(transparent)]
 pub struct Expected(Vec<String>);
 
+/// Why parts cannot be expected.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum ExpectedError {
+    /// More than a frame can show.
+    #[error("{found} parts are expected, and a frame can show {MAX_PARTS}")]
+    TooMany {
+        /// Their number.
+        found: usize,
+    },
+    /// The library has no such part.
+    #[error("{name} is expected, but not enrolled")]
+    NotEnrolled {
+        /// The name.
+        name: String,
+    },
+}
+
+impl Advice for ExpectedError {
+    fn advice(&self) -> String {
+        match self {
+            Self::TooMany { .. } => format!("Expect up to {MAX_PARTS} parts"),
+            Self::NotEnrolled { .. } => {
+                "Give names of parts of the library; partsight library list shows them".into()
+            }
+        }
+    }
+}
+
 impl Expected {
-    /// Expects these parts. Beyond [`MAX_PARTS`] they are left out.
-    pub fn new(mut parts: Vec<String>) -> Self {
-        parts.truncate(MAX_PARTS);
-        Self(parts)
+    /// Expects these parts of a library, up to [`MAX_PARTS`].
+    pub fn new(parts: Vec<String>, library: &Library) -> Result<Self, ExpectedError> {
+        let found = parts.len();
+        if found > MAX_PARTS {
+            return Err(ExpectedError::TooMany { found });
+        }
+        let is_enrolled = |name: &String| library.references.iter().any(|part| part.name == *name);
+        match parts.iter().find(|name| !is_enrolled(name)) {
+            Some(name) => Err(ExpectedError::NotEnrolled { name: name.clone() }),
+            None => Ok(Self(parts)),
+        }
     }
 
     /// The names, as they were given.
@@ -158,7 +196,7 @@ mod tests {
 
     /// What the expectation makes of a frame: what is wrong with each part, what is missing, and whether it is as expected.
     fn judged(expected: &[&str], mut verdicts: Vec<Verdict>) -> (Vec<String>, Vec<String>, bool) {
-        let expected = Expected::new(expected.iter().map(|&name| name.to_owned()).collect());
+        let expected = Expected(expected.iter().map(|&name| name.to_owned()).collect());
         expected.refuse_others(&mut verdicts.iter_mut().collect::<Vec<_>>());
         let seen: Vec<&Verdict> = verdicts.iter().collect();
         let wrong = verdicts.iter().map(|verdict| match verdict.rejected() {
