@@ -588,6 +588,7 @@ fn several(frame: u32) -> FrameParts {
         2 => all(8).collect(),
         3 => vec![Found {
             verdict: VerdictCode::NoPart,
+            part: String::new(),
             ..refused(0)
         }],
         _ => vec![accepted(1000 * frame + 1), refused(2)],
@@ -640,6 +641,7 @@ fn every_protocol_gives_the_parts_of_a_frame_one_by_one_and_a_trigger_the_first(
             }
             let beyond = robot.ask_point("PART", num_parts + 1);
             assert_eq!((beyond.verdict, beyond.numbers.len()), (7, 0));
+            assert_eq!(beyond.sequence, next_sequence);
             if robot.protocol != "urscript" {
                 assert_eq!(beyond.reason, "no_such_part");
             }
