@@ -104,9 +104,118 @@ fn several_parts_are_listed_from_left_to_right_each_with_its_row_in_the_history(
     let listed = place.run(&["history", "list", "--history", "history", "--json"]);
     assert_eq!(listed.lines().len(), 2, "{}", listed.out);
 
+    // Each row is inspected again as the part that it is of.
+    place.accepted(&["history", "keep", "all", "--history", "history"]);
+    place.accepted(&[&inspect[..], &several, &["--history", "history"]].concat());
+    for (number, part) in [("3", "front_door"), ("4", "trunk_lid")] {
+        let again = [
+            "history",
+            "show",
+            number,
+            "--again",
+            "--json",
+            "--history",
+            "history",
+        ];
+        let again = &place
+            .accepted(&[&again[..], &["--library", "parts"]].concat())
+            .lines()[0];
+        assert_eq!(again["nearest"], part, "{again}");
+        assert_eq!(again["again"]["nearest"], part, "{again}");
+        assert_eq!(again["again"]["pose_shift_m"], 0.0, "{again}");
+    }
+
     // By default, one.
     let one = &place.run(&[&inspect[..], &["--json"]].concat()).lines()[0];
     assert!(one.get("parts").is_none(), "{one}");
+}
+
+#[test]
+fn a_wrong_part_a_missing_one_and_one_too_many_are_told_by_what_is_expected() {
+    let place = Workplace::new();
+    for part in ["front_door", "trunk_lid", "grille"] {
+        place.with_part(part);
+    }
+    two_parts(&place, "both.png");
+    let expecting = |names: &str, options: &[&str]| {
+        let inspect = [
+            "inspect",
+            "both.png",
+            "--library",
+            "parts",
+            "--expect",
+            names,
+        ];
+        place.run(&[&inspect[..], options].concat())
+    };
+    let json = |names: &str, code: i32| {
+        let ran = expecting(names, &["--json", "--history", "history"]);
+        assert_eq!(ran.code, code, "{names}: {}", ran.err);
+        ran.lines().remove(0)
+    };
+    let reasons = |line: &Value| -> Vec<[String; 2]> {
+        let parts = line["parts"].as_array().expect("a list").iter();
+        let text = |value: &Value| value.as_str().unwrap_or_default().to_owned();
+        parts
+            .map(|part| [text(&part["part"]), text(&part["reason_kind"])])
+            .collect()
+    };
+    let both = json("trunk_lid,front_door", 0);
+    assert_eq!(both["as_expected"], true);
+    assert_eq!(both["missing"], Value::Array(vec![]));
+    assert_eq!(reasons(&both), [["front_door", ""], ["trunk_lid", ""]]);
+    let wrong = json("front_door,grille", 1);
+    assert_eq!(wrong["as_expected"], false);
+    assert_eq!(
+        reasons(&wrong),
+        [["front_door", ""], ["trunk_lid", "wrong_part"]]
+    );
+    let missing = json("front_door,trunk_lid,grille", 1);
+    assert_eq!(missing["missing"], serde_json::json!(["grille"]));
+    // It looks on beside a part that is not expected.
+    let surplus = json("trunk_lid", 1);
+    assert_eq!(
+        reasons(&surplus),
+        [["trunk_lid", ""], ["front_door", "not_expected"]]
+    );
+
+    let card = expecting("front_door,trunk_lid", &["--no-history"]).out;
+    assert!(card.contains("as expected"), "{card}");
+    let card = expecting("front_door,trunk_lid,grille", &["--no-history"]).out;
+    assert!(
+        card.contains("missing") && card.contains("grille"),
+        "{card}"
+    );
+    let card = expecting("front_door,grille", &["--no-history"]).out;
+    assert!(
+        card.contains("wrong part: trunk_lid hangs there instead of grille"),
+        "{card}"
+    );
+    let unknown = expecting("front_door,bonnet", &["--no-history"]);
+    assert_eq!(unknown.code, 2);
+    assert!(
+        unknown.err.contains("bonnet is expected, but not enrolled")
+            && unknown.err.contains("library list"),
+        "{}",
+        unknown.err
+    );
+    // The history knows what was expected of a frame.
+    place.accepted(&["history", "keep", "all", "--history", "history"]);
+    json("front_door,grille", 1);
+    let listed = place.run(&["history", "list", "--history", "history", "--json"]);
+    let newest = &listed.lines()[0];
+    let again = [
+        "history",
+        "show",
+        &newest["number"].to_string(),
+        "--again",
+        "--json",
+    ];
+    let options = ["--history", "history", "--library", "parts"];
+    let again = &place.accepted(&[&again[..], &options].concat()).lines()[0];
+    assert_eq!(again["again"]["same"], true, "{again}");
+    assert_eq!(again["again"]["changed"], Value::Array(vec![]), "{again}");
+    assert_eq!(again["verdict"], "not_accepted", "{again}");
 }
 
 #[test]

@@ -444,6 +444,16 @@ mod tests {
     }
 
     #[test]
+    fn what_is_expected_is_no_part_of_the_recipes_identity() {
+        let expecting = Recipe {
+            expected: serde_json::from_str("[\"fender\"]").expect("names"),
+            ..Recipe::default()
+        };
+        assert_eq!(expecting.identity(), Recipe::default().identity());
+        assert_eq!(expecting.max_parts(), 1);
+    }
+
+    #[test]
     fn a_recipe_that_was_saved_and_read_again_keeps_its_identity() {
         let recipe = Recipe::default();
         let json = serde_json::to_string(&recipe).expect("JSON");

@@ -237,7 +237,7 @@ impl<'a> Inspected<'a> {
         }
         let all = parts.iter().map(|part| part.inspection_line(trace));
         line.with_parts(all)
-            .expecting(&first.recipe.expected, &verdicts_of(parts))
+            .expecting(&first.recipe.expected, Some(&verdicts_of(parts)))
             .to_json()
     }
 
@@ -257,6 +257,7 @@ impl<'a> Inspected<'a> {
             .by(recipe)
             .traced(trace)
             .in_robot(robot, inspection)
+            .expecting(&recipe.expected, None)
             .reported_as(subject.reported_as.as_deref());
         if self.robot.is_some() && is_accepted {
             line = line.doubted(self.doubts().iter().map(Doubt::kind).collect());

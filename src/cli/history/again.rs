@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::ShowArgs;
 use crate::cli::console::{Advised as _, Console, Table, advised_error};
 use geometry::units::{Metres, Radians};
-use inspection::pipeline::{self, Unwatched, scan::run_scan};
+use inspection::pipeline::{Unwatched, run_all, scan::run_scan};
 use records::history::{Differences, History, InspectionSummary, ParameterChange, Record};
 use stages::{
     reference::Reference,
@@ -29,8 +29,19 @@ pub(super) fn run(
     let recipe = asked.recipe.recipe()?;
     let load = (asked.library).load_some(&recipe.reference_params(), console)?;
     let library = &load.library;
+    let before = InspectionSummary::from(record);
     let inspection = match shots {
-        None => pipeline::run(&scene, library, &recipe, &Unwatched)?,
+        None => {
+            // What was expected of the frame, and how many parts it may show, is not the recipe's of today.
+            let mut of_frame = (*recipe.parameters).clone();
+            of_frame.expected = record.detail.expected();
+            if let Some(then) = &before.parameters {
+                let max_parts = &mut of_frame.segment.max_parts;
+                *max_parts = (*max_parts).max(then.segment.max_parts);
+            }
+            let mut found = run_all(&scene, library, &of_frame, &Unwatched)?;
+            found.swap_remove(before.index_in(&found))
+        }
         Some(shots) => {
             let params = ScanParams {
                 segment: recipe.segment.clone(),
@@ -43,7 +54,7 @@ pub(super) fn run(
     let best = inspection.best_reference(library);
     let now = InspectionSummary::of(&inspection, &recipe.parameters, &load.identity());
     Ok(Differences::between(
-        InspectionSummary::from(record),
+        before,
         now,
         best.and_then(Reference::middle),
     ))

@@ -157,7 +157,7 @@ impl From<&NamedRecipe> for RecipeBlock {
         let RecipeLabel { name, is_changed } = recipe.label.clone();
         Self {
             identity: recipe.identity(),
-            is_default: **recipe == Recipe::default(),
+            is_default: recipe.identity() == Recipe::default().identity(),
             name,
             is_changed,
         }

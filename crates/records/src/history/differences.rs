@@ -62,6 +62,31 @@ impl InspectionSummary {
     }
 }
 
+impl InspectionSummary {
+    /// The index of the inspection of this part among those of a frame that was inspected again, at least one: of the parts of
+    /// its name, or else of all, the nearest.
+    pub fn index_in(&self, found: &[Inspection]) -> usize {
+        let distance = |inspection: &Inspection| {
+            let pose = inspection.found_pose().map(PoseEstimate::camera_from_part);
+            let both = pose.zip(self.camera_from_part);
+            both.map_or(f64::INFINITY, |(now, before)| {
+                (now.translation.vector - before.translation.vector).norm()
+            })
+        };
+        let rank = |inspection: &Inspection| {
+            let is_named = inspection.reference().is_some()
+                && inspection.ranking.entries.first().map(|best| &best.part)
+                    == self.nearest.as_ref();
+            (!is_named, distance(inspection))
+        };
+        let nearest = found.iter().enumerate().min_by(|(_, a), (_, b)| {
+            let ((a, near), (b, far)) = (rank(a), rank(b));
+            a.cmp(&b).then(near.total_cmp(&far))
+        });
+        nearest.map_or(0, |(index, _)| index)
+    }
+}
+
 /// Bounds of a pose, unless it is unconstrained.
 fn bounds_of(pose: &PoseEstimate) -> Option<PoseDelta> {
     let bounds = pose.bounds()?;

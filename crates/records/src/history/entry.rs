@@ -17,7 +17,9 @@ use geometry::{
 };
 use inspection::{
     library::Truth,
-    pipeline::{Inspection, NamedRecipe, Recipe, RecipeLabel, Refusal, RefusalKind, Verdict},
+    pipeline::{
+        Expected, Inspection, NamedRecipe, Recipe, RecipeLabel, Refusal, RefusalKind, Verdict,
+    },
 };
 use stages::{pose::PoseEstimate, scan::Shot, scene::SceneCloud};
 use texts::{Described as _, Language, Message};
@@ -405,12 +407,24 @@ pub(super) fn png_of(picture: &RgbImage) -> Vec<u8> {
 }
 
 impl InspectionDetail {
-    /// Returns the recipe, if this program can read it.
+    /// Returns the recipe with what was expected, if this program can read it.
     pub fn named_recipe(&self) -> Option<NamedRecipe> {
-        Some(NamedRecipe {
+        let recipe = NamedRecipe {
             label: self.recipe_label.clone(),
             parameters: Arc::clone(self.recipe.as_ref()?),
-        })
+        };
+        Some(recipe.expecting(self.expected()))
+    }
+
+    /// Returns what was expected in the frame.
+    pub fn expected(&self) -> Expected {
+        #[derive(serde::Deserialize)]
+        struct Expecting {
+            #[serde(default)]
+            expected: Expected,
+        }
+        let line = serde_json::from_str::<Expecting>(&self.line);
+        line.map_or_else(|_| Expected::default(), |line| line.expected)
     }
 
     /// Returns how far off the pose may be; `None` if the line has no bounds or the pose is unconstrained.

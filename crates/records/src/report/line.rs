@@ -76,6 +76,13 @@ struct PartLine<'a> {
 #[derive(Clone, Debug, Serialize)]
 struct ExpectedLine<'a> {
     expected: &'a [String],
+    #[serde(flatten)]
+    of_frame: Option<FrameLine<'a>>,
+}
+
+/// What all parts of the frame show of it.
+#[derive(Clone, Debug, Serialize)]
+struct FrameLine<'a> {
     /// Expected parts that nothing hangs in place of.
     missing: Vec<&'a str>,
     as_expected: bool,
@@ -302,16 +309,18 @@ impl<'a> InspectionLine<'a> {
         }
     }
 
-    /// Adds what should hang there, if something is expected, and whether it does, by the verdicts on the frame.
+    /// Adds what should hang there, if something is expected, and whether it does, by the verdicts on all parts of the frame.
     #[must_use]
-    pub fn expecting(self, expected: &'a Expected, found: &[&Verdict]) -> Self {
-        let line = (!expected.is_empty()).then(|| ExpectedLine {
-            expected: expected.parts(),
+    pub fn expecting(self, expected: &'a Expected, found: Option<&[&Verdict]>) -> Self {
+        let of_frame = found.map(|found| FrameLine {
             missing: expected.missing(found),
             as_expected: expected.is_met(found),
         });
         Self {
-            expected: line,
+            expected: (!expected.is_empty()).then(|| ExpectedLine {
+                expected: expected.parts(),
+                of_frame,
+            }),
             ..self
         }
     }
