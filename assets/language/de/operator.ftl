@@ -1,6 +1,8 @@
 # The operator's view
 operator-ok = IO
 operator-not-ok = NIO
+operator-parts-ok = { $num } von { $all } IO
+operator-parts-recognised = { $num } von { $all } erkannt
 operator-opening-camera = Kamera wird geöffnet…
 operator-no-camera = Keine Kamera
 operator-no-camera-next = Stecker und Stromversorgung der Kamera prüfen. Bleibt es dabei, die Instandhaltung rufen

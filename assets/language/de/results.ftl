@@ -77,6 +77,7 @@ results-segment-max-planes-help = Höchstzahl der Hintergrundebenen, die entfern
 results-segment-link-distance = Verbindungsabstand
 results-segment-link-distance-help = Benachbarte Punkte mit größerem Abstand (plus Rauschen) gelten als nicht verbunden. Höhere Werte verbinden, was nahe am Teil hängt, niedrigere zerreißen das Teil.
 results-segment-max-parts = Teile höchstens
+results-segment-max-parts-help = Wie viele Teile eines Bildes geprüft werden; Live, Scans und `--source` prüfen das wahrscheinlichste. Höhere Werte kosten für jede weitere Fläche die Zeit einer Prüfung.
 results-segment-min-part-area = Kleinste Teilfläche
 results-segment-min-part-area-help = Kleinere Flächen sind kein Teil. Höhere Werte lehnen kleine Teile ab, niedrigere halten Störobjekte für Teile.
 results-segment-seed = Startwert der Ebenen

@@ -1,6 +1,8 @@
 # The operator's view
 operator-ok = OK
 operator-not-ok = NOK
+operator-parts-ok = { $num } of { $all } OK
+operator-parts-recognised = { $num } of { $all } recognised
 operator-opening-camera = Opening the camera…
 operator-no-camera = No camera
 operator-no-camera-next = Check the plug and the power of the camera. If it persists, call maintenance

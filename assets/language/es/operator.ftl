@@ -1,6 +1,8 @@
 # The operator's view
 operator-ok = OK
 operator-not-ok = NOK
+operator-parts-ok = { $num } de { $all } OK
+operator-parts-recognised = { $num } de { $all } reconocidas
 operator-opening-camera = Abriendo la cámara…
 operator-no-camera = Sin cámara
 operator-no-camera-next = Comprobar el enchufe y la alimentación de la cámara. Si persiste, avisar a mantenimiento

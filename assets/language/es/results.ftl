@@ -77,6 +77,7 @@ results-segment-max-planes-help = Número máximo de planos de fondo que se elim
 results-segment-link-distance = Distancia de unión
 results-segment-link-distance-help = Los puntos vecinos más separados que esto (más el ruido) no están unidos. Aumentarla une lo que cuelga cerca de la pieza; reducirla fragmenta la pieza.
 results-segment-max-parts = Piezas como máximo
+results-segment-max-parts-help = Cuántas piezas de una imagen se inspeccionan; En vivo, los escaneos y `--source` inspeccionan la más probable. Aumentarlo cuesta el tiempo de una inspección por cada superficie más.
 results-segment-min-part-area = Área mínima de pieza
 results-segment-min-part-area-help = Las superficies menores no son piezas. Aumentarla rechaza piezas pequeñas; reducirla toma objetos sueltos por piezas.
 results-segment-seed = Semilla de los planos

@@ -1,6 +1,8 @@
 # The operator's view
 operator-ok = OK
 operator-not-ok = NG
+operator-parts-ok = { $all } 个中 { $num } 个 OK
+operator-parts-recognised = { $all } 个中 { $num } 个已识别
 operator-opening-camera = 正在打开相机…
 operator-no-camera = 无相机
 operator-no-camera-next = 请检查相机的插头和电源。若仍如此，请联系维修人员

@@ -77,6 +77,7 @@ results-segment-max-planes-help = 最多移除的背景平面数：墙面、地�
 results-segment-link-distance = 连接距离
 results-segment-link-distance-help = 相邻点间距超过该值（加噪声）时视为不相连。增大会把靠近零件的物体连在一起，减小会使零件断裂。
 results-segment-max-parts = 零件数上限
+results-segment-max-parts-help = 一帧中检测多少个零件；实时、扫描和 `--source` 只检测可能性最大的一个。提高时，每多一个表面就多一次检测的时间。
 results-segment-min-part-area = 最小零件面积
 results-segment-min-part-area-help = 更小的表面不视为零件。增大会拒绝小零件，减小会把杂物当作零件。
 results-segment-seed = 平面随机种子

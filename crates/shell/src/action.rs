@@ -21,6 +21,8 @@ pub enum Action {
     Capture,
     /// Capture from the simulated cell with this content.
     UseCell(CellChoice),
+    /// Show the part at this index of the frame in front.
+    SelectPart(usize),
     /// Take the scene in front as the empty cell, so that nothing in it is taken for a part from now on.
     TakeEmptyCell,
     /// Discard the empty cell.

@@ -25,6 +25,7 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
             state.session.source = Source::Cell(choice);
             return live::source_changed(state);
         }
+        Action::SelectPart(index) => state.select_part(index),
         Action::TakeEmptyCell => state.take_empty_cell(),
         Action::ForgetEmptyCell => {
             state.session.empty_cell = None;

@@ -82,8 +82,8 @@ pub enum Message {
 pub enum Event {
     /// A scene was inspected.
     Inspected {
-        /// The result.
-        inspected: Arc<Inspected>,
+        /// The parts of the frame, at least one.
+        parts: Vec<Arc<Inspected>>,
         /// Purpose of the inspection.
         purpose: ReinspectionPurpose,
     },

@@ -1,6 +1,6 @@
 //! State shared by the workspaces. They read it; only the shell changes it.
 
-use std::{path::PathBuf, sync::Arc};
+use std::{path::PathBuf, ptr, slice, sync::Arc};
 
 use serde::{Deserialize, Serialize};
 
@@ -135,6 +135,15 @@ impl Session {
         unseen.or_else(|| shown.map(|shown| &shown.inspected))
     }
 
+    /// The latest inspection with the other parts of its frame.
+    pub fn latest_parts(&self) -> &[Arc<Inspected>] {
+        match (&self.live.unseen, &self.shown) {
+            (Some(unseen), _) => slice::from_ref(unseen),
+            (None, Some(shown)) => &shown.parts,
+            (None, None) => &[],
+        }
+    }
+
     /// True if Live inspected the latest result and was switched off or has ended since: the line may have gone on, so another
     /// part may hang there now. Whoever looks at the result still may, so it is not outdated.
     pub(crate) fn is_after_live(&self) -> bool {
@@ -255,14 +264,45 @@ impl Default for Source {
 pub struct Shown {
     /// A number that differs for each result, so that data derived from it can be matched.
     pub generation: u64,
-    /// The result.
+    /// The result; of several parts in a frame, the selected one.
     pub inspected: Arc<Inspected>,
+    /// All parts of the frame with that one, first those that are accepted.
+    pub parts: Vec<Arc<Inspected>>,
     /// True if it comes from the history.
     pub is_past: bool,
     /// The session of following that it belongs to, if it is a frame of a followed source, also when that was inspected again.
     pub session: Option<u64>,
     /// True once the source was changed, lost, followed anew or captured from: another part may hang there now.
     pub is_outdated: bool,
+}
+
+impl Shown {
+    /// A new result of one part.
+    pub fn new(generation: u64, inspected: Arc<Inspected>) -> Self {
+        Self {
+            generation,
+            parts: vec![Arc::clone(&inspected)],
+            inspected,
+            is_past: false,
+            session: None,
+            is_outdated: false,
+        }
+    }
+
+    /// True if this is a part of its frame, selected or not.
+    pub fn includes(&self, inspected: &Inspected) -> bool {
+        let mut parts = self.parts.iter();
+        parts.any(|part| ptr::eq(Arc::as_ptr(part), inspected))
+    }
+
+    /// Index of the selected part in the frame.
+    pub fn selected(&self) -> usize {
+        let place = self
+            .parts
+            .iter()
+            .position(|part| Arc::ptr_eq(part, &self.inspected));
+        place.unwrap_or_default()
+    }
 }
 
 /// The workspaces that the rail lists.

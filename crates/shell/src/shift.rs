@@ -94,19 +94,19 @@ pub struct ShiftParts {
     pub num_not_ok: usize,
     /// The last parts, accepted or not, newest first.
     pub last: Vec<Summary>,
-    /// The latest part with its true label, if it has one; known in both views.
-    pub labelled: Option<(HungId, Truth)>,
+    /// True labels of the latest parts that have one; known in both views.
+    pub labelled: Vec<(HungId, Truth)>,
 }
 
 impl ShiftParts {
     /// What really hung there, if the part was accepted as another one and a person has reported that.
     pub fn reported_as(&self, inspected: &Inspected) -> Option<&Truth> {
-        let (part, truth) = self.labelled.as_ref()?;
+        let (_, truth) = (self.labelled.iter()).find(|(part, _)| part == inspected.hung())?;
         let summary = Summary {
             label: Some(truth.clone()),
             ..inspected.entry.record.summary.clone()
         };
-        (*part == summary.hung && summary.is_wrongly_accepted()).then_some(truth)
+        summary.is_wrongly_accepted().then_some(truth)
     }
 }
 
@@ -117,7 +117,7 @@ struct CountInputs {
     num_events: u64,
     since: Timestamp,
     source: Option<Source>,
-    latest: Option<HungId>,
+    latest: Vec<HungId>,
     role: UserRole,
 }
 
@@ -161,10 +161,10 @@ impl ShiftWatch {
         match self.counting.poll() {
             Some(Ok(parts)) => {
                 let counted = self.counted.as_ref();
-                if let Some(part) = counted.and_then(|counted| counted.latest.as_ref()) {
-                    let label = parts.labelled.as_ref().map(|(_, label)| label);
+                for part in counted.map_or(&[][..], |counted| &counted.latest) {
+                    let label = parts.labelled.iter().find(|(known, _)| known == part);
                     // Whoever answers robots does not wait for the history.
-                    lock(&session.live.parts).label(part, label);
+                    lock(&session.live.parts).label(part, label.map(|(_, label)| label));
                 }
                 session.shift = parts;
             }
@@ -188,8 +188,8 @@ impl ShiftWatch {
         let is_retry = self.retry_at.is_some_and(|at| at <= time);
         let source = self.source.clone();
         let role = session.role;
-        let latest = session.latest(|_| true);
-        let latest = latest.map(|part| part.hung().clone());
+        let latest = session.latest_parts().iter();
+        let latest: Vec<HungId> = latest.map(|part| part.hung().clone()).collect();
         let wanted = Some(CountInputs {
             num_events: history.num_events(),
             since: since.timestamp(),
@@ -203,7 +203,12 @@ impl ShiftWatch {
             let history = Arc::clone(history);
             let former = session.shift.clone();
             let count = move |_: &_| {
-                let labelled = latest.map_or(Ok(None), |hung| label_of(&history, hung));
+                let labelled = latest.iter().filter_map(|hung| {
+                    let row = history.part(hung).transpose()?;
+                    let label = row.map(|row| Some((hung.clone(), row.label?)));
+                    label.transpose()
+                });
+                let labelled: Result<Vec<_>, HistoryError> = labelled.collect();
                 let parts = if role == UserRole::Operator {
                     let followed = source.as_ref().and_then(Source::followed);
                     let followed = followed.map_or_else(String::new, |spec| spec.to_string());
@@ -222,15 +227,6 @@ impl ShiftWatch {
             self.counting.start(text!("shell-counting-parts"), count);
         }
     }
-}
-
-/// Returns a part with its true label, if it has one.
-fn label_of(
-    history: &HistoryBuffer,
-    hung: HungId,
-) -> Result<Option<(HungId, Truth)>, HistoryError> {
-    let label = history.part(&hung)?.and_then(|row| row.label);
-    Ok(label.map(|label| (hung, label)))
 }
 
 /// Counts the parts of a source since a moment: all inspections of a hung part are one part, and an empty cell is none.
@@ -289,13 +285,7 @@ mod tests {
             entry.record.summary.source = followed.to_string();
             history.add(1, entry, Instant::now());
             history.set_label(-1, Some(&Truth::NotEnrolled));
-            state.session.shown = Some(Shown {
-                generation: 1,
-                inspected: Arc::clone(&inspected),
-                is_past: false,
-                session: None,
-                is_outdated: false,
-            });
+            state.session.shown = Some(Shown::new(1, Arc::clone(&inspected)));
             state.shift_watch.update(&mut state.session, &history, &ctx);
             assert!(state.shift_watch.counting.run_waiting());
             state.shift_watch.update(&mut state.session, &history, &ctx);

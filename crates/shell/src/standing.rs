@@ -1,6 +1,6 @@
 //! Whether a robot may act on a result: everything that shows, copies or writes one asks here.
 
-use std::ptr;
+use std::{ptr, sync::Arc};
 
 use super::session::Session;
 use crate::{inspection::inspected::Inspected, source::live::SourceState};
@@ -29,15 +29,17 @@ pub fn past_mark(past: &Summary) -> Mark {
 impl Session {
     /// Why another part may hang before the source now, or this one elsewhere; `None` if it hangs there as captured.
     pub fn currency(&self, inspected: &Inspected) -> Option<Doubt> {
-        let is_it = |other: &Inspected| ptr::eq(other, inspected);
         let shown = self.shown.as_ref();
-        let shown = shown.filter(|shown| is_it(&shown.inspected));
+        let shown = shown.filter(|shown| shown.includes(inspected));
         let is_past = shown.is_some_and(|shown| shown.is_past);
         let status = self.live.status.as_ref().filter(|_| self.is_live());
         if !is_past && status.is_some_and(|status| matches!(status.source, SourceState::Lost(_))) {
             return Some(Doubt::SourceLost);
         }
-        let is_newest = self.latest(|_| true).is_some_and(|newest| is_it(newest));
+        let is_newest = match &self.live.unseen {
+            Some(unseen) => ptr::eq(Arc::as_ptr(unseen), inspected),
+            None => shown.is_some(),
+        };
         let is_left_behind = self.inspecting.is_some() || self.failed.is_some();
         if !is_newest
             || is_left_behind

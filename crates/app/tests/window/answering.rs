@@ -743,8 +743,8 @@ fn report(harness: &mut WindowHarness, truth: &Truth) {
         });
     applied.expect("the window has this workspace");
     wait_until(harness, |state| {
-        let labelled = state.session.shift.labelled.as_ref();
-        labelled.is_some_and(|(_, label)| label == truth)
+        let mut labelled = state.session.shift.labelled.iter();
+        labelled.any(|(_, label)| label == truth)
     });
 }
 

@@ -41,7 +41,7 @@ use shell::{
 use inspection::fixtures::copy_library;
 
 use super::{
-    enrol, live, paint, robot,
+    enrol, live, paint, rack, robot,
     set_up::{SMALL, USUAL, WindowHarness, act, act_in, plain_options, press, settle},
     shots::ScanFolder,
 };
@@ -170,7 +170,9 @@ fn compare_as_it_is(harness: &mut WindowHarness, name: &str) {
         rect.min.x = rect.min.x.min(rect.max.x - 64.0);
         paint_over(&mut picture, rect);
     }
-    if harness.state().state().session.is_live() {
+    let session = &harness.state().state().session;
+    let shown = session.shown.as_ref();
+    if session.is_live() || shown.is_some_and(|shown| shown.parts.len() > 1) {
         // The times in the strip are real, too; other tests replace them by fixed ones.
         for cell in harness.query_all_by_label_contains("Enlarge ") {
             paint_over(&mut picture, time_of_stage(cell.rect()));
@@ -246,6 +248,24 @@ fn the_operators_view_looks_as_it_did() {
         act(&mut harness, Action::Role(RoleAction::Switch));
         compare(&mut harness, name);
     }
+}
+
+#[test]
+fn several_parts_look_as_they_did() {
+    if !draws_in_software() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open_drawn(USUAL);
+    rack::open_rack(&mut harness, folder.path());
+    compare(&mut harness, "rack");
+    let mut harness = open_drawn(SMALL);
+    act(&mut harness, Action::SwitchTheme);
+    rack::open_rack(&mut harness, folder.path());
+    harness.get_by_label_contains("2 Radiator support").click();
+    compare(&mut harness, "rack_small_light");
+    act(&mut harness, Action::Role(RoleAction::Switch));
+    compare(&mut harness, "rack_operator_small_light");
 }
 
 #[test]

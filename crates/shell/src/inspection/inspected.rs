@@ -1,6 +1,7 @@
 //! Inspects a scene or a scan and prepares what the panels draw, in a task.
 
 use std::{
+    collections::HashSet,
     sync::Arc,
     time::{Instant, SystemTime},
 };
@@ -24,8 +25,9 @@ use geometry::{cloud::PointCloud, rigid::RigidTransform};
 use inspection::{
     library::Library,
     pipeline::{
-        self, Inspection, NamedRecipe, ProgressObserver, Recipe, Verdict,
+        self, Cancelled, Inspection, NamedRecipe, ProgressObserver, Recipe, Verdict,
         live::{LiveVerdict, MotionState},
+        run_all,
         scan::{ScanInspection, run_scan, unseen_points},
     },
 };
@@ -166,6 +168,17 @@ impl Inspected {
         self.as_recorded(&self.subject, robot).line(trace)
     }
 
+    /// Number of readings of the same scene that both take for the part.
+    pub(crate) fn num_shared(&self, other: &Self) -> usize {
+        let [Ok(own), Ok(others)] = [self, other].map(|one| &one.inspection.segmentation.part)
+        else {
+            return 0;
+        };
+        let own: HashSet<u32> = own.indices.iter().copied().collect();
+        let others = others.indices.iter();
+        others.filter(|index| own.contains(index)).count()
+    }
+
     /// Title of the part that the verdict names, whichever of its references was found; `None` without a part.
     pub fn part_title(&self) -> Option<&str> {
         let Verdict::Part { part, .. } = &self.inspection.verdict else {
@@ -217,12 +230,35 @@ pub struct LiveFrameContext {
     pub standing: LiveVerdict,
 }
 
-/// Takes the scene and inspects it.
+/// Takes the scene and inspects its likeliest part.
 pub fn inspect(
     request: &InspectRequest,
     library_cache: &LibraryCache,
     watch: &dyn ProgressObserver,
 ) -> Result<Inspected, TaskError> {
+    let mut one = inspect_by(request, library_cache, watch, |scene, library| {
+        Ok(vec![pipeline::run(scene, library, &request.recipe, watch)?])
+    })?;
+    Ok(one.remove(0))
+}
+
+/// Takes the scene and inspects all its parts, in the order of [`run_all`]; at least one.
+pub fn inspect_all(
+    request: &InspectRequest,
+    library_cache: &LibraryCache,
+    watch: &dyn ProgressObserver,
+) -> Result<Vec<Inspected>, TaskError> {
+    inspect_by(request, library_cache, watch, |scene, library| {
+        run_all(scene, library, &request.recipe, watch)
+    })
+}
+
+fn inspect_by(
+    request: &InspectRequest,
+    library_cache: &LibraryCache,
+    watch: &dyn ProgressObserver,
+    inspect: impl FnOnce(&SceneCloud, &Library) -> Result<Vec<Inspection>, Cancelled>,
+) -> Result<Vec<Inspected>, TaskError> {
     let loaded = library_cache.get();
     if watch.is_cancelled() {
         return Err(TaskError::Cancelled);
@@ -237,18 +273,22 @@ pub fn inspect(
     } = taken?;
     let fitted = loaded.fitting(&request.recipe, watch);
     let fitted = fitted.ok_or(TaskError::Cancelled)?;
-    let found = FinishedInspection {
-        inspection: pipeline::run(&scene, &fitted, &request.recipe, watch)?,
-        scene,
-        origin,
-        warnings,
-        recipe: Arc::clone(&request.recipe),
-        followed: None,
-        scan: None,
-        source: request.source.in_words(),
-        robot: library_cache.robot(),
+    let prepared = |inspection| {
+        let found = FinishedInspection {
+            inspection,
+            scene: Arc::clone(&scene),
+            origin: origin.clone(),
+            warnings: warnings.clone(),
+            recipe: Arc::clone(&request.recipe),
+            followed: None,
+            scan: None,
+            source: request.source.in_words(),
+            robot: library_cache.robot(),
+        };
+        found.prepared(&fitted, &loaded.shown)
     };
-    Ok(found.prepared(&fitted, &loaded.shown))
+    let found = inspect(&scene, &fitted)?;
+    Ok(found.into_iter().map(prepared).collect())
 }
 
 /// Puts the shots of a scan together and inspects them; the inner error says why they cannot be put together.

@@ -37,6 +37,14 @@ impl UnitSystem {
         }
     }
 
+    /// Formats an area given in square metres.
+    pub fn area(self, square_metres: f64) -> String {
+        match self {
+            Self::MillimetresDegrees => format!("{} cm²", minus(square_metres * 1e4, 0)),
+            Self::MetresRadians => format!("{} m²", minus(square_metres, 2)),
+        }
+    }
+
     /// Factor from metres, unit symbol and decimals for lengths on an axis.
     pub fn length_axis(self) -> (f64, &'static str, usize) {
         match self {

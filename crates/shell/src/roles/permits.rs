@@ -53,6 +53,7 @@ pub(super) fn needs_engineer(action: &Action, has_pin: bool) -> bool {
         Action::Live(_)
         | Action::Capture
         | Action::CancelInspection
+        | Action::SelectPart(_)
         | Action::Make(
             Effect::CancelTask(_) | Effect::EngineerIn(_) | Effect::Tell(_) | Effect::Close,
         )

@@ -13,7 +13,7 @@ use crate::{
     action::Effect,
     inspection::{
         fuse::Steps,
-        inspected::{InspectJob, Inspected, inspect, inspect_scan},
+        inspected::{InspectJob, Inspected, inspect_all, inspect_scan},
         library_cache::{LibraryCache, LibraryView},
         scan_choice::ScanOrder,
         seen_before::seen_before,
@@ -27,7 +27,7 @@ use crate::{
 };
 use capture::SourceSpec;
 use geometry::error::lock;
-use records::history::{HungId, StoredVerdict, Traceability};
+use records::history::{HistoryBuffer, HungId, StoredVerdict, Summary, Traceability};
 use stages::scene::EmptyCell;
 use ui::{
     language::text,
@@ -57,8 +57,8 @@ pub struct Inspector {
 /// Result of a run.
 #[derive(Debug)]
 enum InspectorResult {
-    /// A scene with everything found in it.
-    Inspected(Arc<Inspected>),
+    /// The parts of a scene.
+    Inspected(Vec<Arc<Inspected>>),
     /// The poses of these shots were not found: the user has to choose their file.
     PosesWanted(Box<ScanOrder>, UserError),
     /// The library now in use, and the folder that was chosen for it, if any.
@@ -277,9 +277,8 @@ impl State {
             } else {
                 purpose
             };
-            let inspected = &shown.inspected;
-            let part = PartAtHand::Known(inspected.hung().clone(), inspected.trace().clone());
-            let job = self.session.inspect_job(inspected.again());
+            let part = PartAtHand::InFront(shown.parts.clone());
+            let job = self.session.inspect_job(shown.inspected.again());
             self.inspect_part(title.to_owned(), job, purpose, part);
         }
     }
@@ -349,17 +348,26 @@ impl State {
         inspector.library_cache.clone()
     }
 
+    /// Shows another part of the frame in front.
+    pub(crate) fn select_part(&mut self, index: usize) {
+        if let Some(shown) = &mut self.session.shown
+            && index != shown.selected()
+            && let Some(part) = shown.parts.get(index)
+        {
+            self.generation += 1;
+            shown.generation = self.generation;
+            shown.inspected = Arc::clone(part);
+        }
+    }
+
     /// Shows a past inspection that is still in memory.
     pub fn show_past(&mut self, inspected: Arc<Inspected>) {
         self.tell_what_ends_live(text!("live-ended-past"));
         self.generation += 1;
         self.session.live.unseen = None;
         self.session.shown = Some(Shown {
-            generation: self.generation,
-            inspected,
             is_past: true,
-            session: None,
-            is_outdated: false,
+            ..Shown::new(self.generation, inspected)
         });
         self.session.workspace = WorkspaceKind::Inspect;
         self.session.failed = None;
@@ -371,10 +379,10 @@ impl State {
         let Some(shown) = &self.session.shown else {
             return;
         };
-        let inspection = &shown.inspected.inspection;
-        let stands_there = inspection.segmentation.part.is_ok();
+        let stands_there = shown.inspected.inspection.segmentation.part.is_ok();
+        let mut parts = shown.parts.iter();
         let cell = match EmptyCell::of(&shown.inspected.scene) {
-            _ if inspection.verdict.is_accepted() => {
+            _ if parts.any(|part| part.inspection.verdict.is_accepted()) => {
                 let hangs_there = Notice::look(
                     text!("shell-cell-not-empty"),
                     text!("shell-cell-not-empty-advice"),
@@ -404,8 +412,10 @@ enum PartAtHand {
     /// The one that hangs before the source, as Live saw it last. One without a verdict that counts, or a new one, takes the
     /// current serial number.
     Followed(Arc<Mutex<FollowedParts>>, CurrentTrace),
-    /// This one, which still hangs there or is in the history.
+    /// This one, which is in the history.
     Known(HungId, Traceability),
+    /// Those in front, inspected again.
+    InFront(Vec<Arc<Inspected>>),
     /// A new one with this traceability.
     Past(Traceability),
     /// The one inspected before if the file is the same, else a new one, which takes the current serial number.
@@ -419,12 +429,12 @@ fn run(
     library_cache: &LibraryCache,
     context: &TaskContext<InspectorResult>,
 ) -> Result<InspectorResult, TaskError> {
-    let mut inspected = match job {
-        InspectJob::Scene(request) => inspect(request, library_cache, context)?,
+    let parts = match job {
+        InspectJob::Scene(request) => inspect_all(request, library_cache, context)?,
         InspectJob::Scan(request) => {
             let report = |done, total| context.progress(done, total);
             match inspect_scan(request, library_cache, &Steps::new(context, &report))? {
-                Ok(inspected) => inspected,
+                Ok(inspected) => vec![inspected],
                 Err(error) if error.wants_poses() => {
                     let order = Box::new(request.order.clone());
                     return Ok(InspectorResult::PosesWanted(order, UserError::of(&error)));
@@ -433,26 +443,99 @@ fn run(
             }
         }
     };
-    let seen = match part {
-        PartAtHand::MaybeSeen(_) => seen_before(&inspected, library_cache.history()),
-        _ => None,
-    };
-    let summary = &inspected.entry.record.summary;
-    let shows_part = summary.verdict != StoredVerdict::NoPart;
-    let (hung, trace) = match part {
-        PartAtHand::Followed(parts, current) => {
-            lock(&parts).of_capture(&summary.source, shows_part, &current)
+    let parts = part.assigned(parts, library_cache.history());
+    Ok(InspectorResult::Inspected(
+        parts.into_iter().map(Arc::new).collect(),
+    ))
+}
+
+impl PartAtHand {
+    /// Gives every part of a frame its hung part. Of a frame in which a part from the history hung beside others, it leaves
+    /// that one.
+    fn assigned(self, mut parts: Vec<Inspected>, history: &HistoryBuffer) -> Vec<Inspected> {
+        let mut summaries = parts.iter().map(|part| &part.entry.record.summary);
+        let shows_any = summaries.any(|summary| summary.verdict != StoredVerdict::NoPart);
+        match self {
+            Self::Followed(followed, current) => match &mut parts[..] {
+                [one] => {
+                    let source = &one.entry.record.summary.source;
+                    let (hung, trace) = lock(&followed).of_capture(source, shows_any, &current);
+                    one.set_part(hung, trace);
+                }
+                // Live does not tell several parts apart.
+                _ => all_new(&mut parts, &current.take(shows_any)),
+            },
+            Self::Known(hung, trace) => {
+                let row = history.part(&hung).ok().flatten();
+                let mut known = parts.remove(row.map_or(0, |row| most_like(&row, &parts)));
+                known.set_part(hung, trace);
+                return vec![known];
+            }
+            Self::InFront(mut former) => {
+                let is_one = parts.len() == 1 && former.len() == 1;
+                let order = former[0].trace().clone();
+                for part in &mut parts {
+                    let shared = former.iter().map(|former| former.num_shared(part));
+                    let most = shared.enumerate().max_by_key(|(_, num)| *num);
+                    match most.filter(|(_, num)| is_one || *num > 0) {
+                        Some((index, _)) => {
+                            let former = former.remove(index);
+                            part.set_part(former.hung().clone(), former.trace().clone());
+                        }
+                        // The serial number is that of another part.
+                        None => part.set_part(
+                            part.hung().clone(),
+                            Traceability {
+                                serial: String::new(),
+                                ..order.clone()
+                            },
+                        ),
+                    }
+                }
+            }
+            Self::Past(trace) => all_new(&mut parts, &trace),
+            Self::MaybeSeen(current) => {
+                // With a serial number it is another part.
+                let is_seen = !current.has_complete_serial();
+                let mut taken = Vec::new();
+                let mut trace = None;
+                for part in &mut parts {
+                    let seen = is_seen
+                        .then(|| seen_before(part, &taken, history))
+                        .flatten();
+                    let (hung, trace) = if let Some(seen) = seen {
+                        (seen.hung, seen.trace)
+                    } else {
+                        let trace = trace.get_or_insert_with(|| current.take(shows_any));
+                        (part.hung().clone(), trace.clone())
+                    };
+                    taken.push(hung.clone());
+                    part.set_part(hung, trace);
+                }
+            }
         }
-        PartAtHand::Known(hung, trace) => (hung, trace),
-        PartAtHand::Past(trace) => (summary.hung.clone(), trace),
-        // With a serial number it is another part.
-        PartAtHand::MaybeSeen(current) => match seen.filter(|_| !current.has_complete_serial()) {
-            Some(seen) => (seen.hung, seen.trace),
-            None => (summary.hung.clone(), current.take(shows_part)),
-        },
+        parts
+    }
+}
+
+/// Makes each a new part with this traceability.
+fn all_new(parts: &mut [Inspected], trace: &Traceability) {
+    for part in parts {
+        part.set_part(part.hung().clone(), trace.clone());
+    }
+}
+
+/// Index of the part that a row of the history most likely is of.
+fn most_like(row: &Summary, parts: &[Inspected]) -> usize {
+    let difference = |part: &Inspected| {
+        let now = &part.entry.record.summary;
+        let scores = now.score.zip(row.score);
+        let score = scores.map_or(1.0, |([now, _], [then, _])| (now - then).abs());
+        f64::from(u8::from(now.title != row.title)) + score
     };
-    inspected.set_part(hung, trace);
-    Ok(InspectorResult::Inspected(Arc::new(inspected)))
+    let all = parts.iter().map(difference).enumerate();
+    let nearest = all.min_by(|(_, a), (_, b)| a.total_cmp(b));
+    nearest.map_or(0, |(index, _)| index)
 }
 
 /// A notice of what ended Live.
@@ -474,8 +557,8 @@ pub fn update(state: &mut State) -> Option<Event> {
     }
     match event? {
         Ok(result) => match result {
-            InspectorResult::Inspected(inspected) => {
-                let event = show(state, inspected);
+            InspectorResult::Inspected(parts) => {
+                let event = show(state, parts);
                 if std::mem::take(&mut state.inspector.has_ended_live) {
                     notify(state, live_ended(text!("live-ended")));
                 }
@@ -515,18 +598,27 @@ pub fn update(state: &mut State) -> Option<Event> {
 pub fn show_made(state: &mut State, inspected: Arc<Inspected>) -> Event {
     state.inspector.purpose = ReinspectionPurpose::New;
     state.cancel_inspection();
-    show(state, inspected)
+    show(state, vec![inspected])
 }
 
-fn show(state: &mut State, mut inspected: Arc<Inspected>) -> Event {
+fn show(state: &mut State, mut parts: Vec<Arc<Inspected>>) -> Event {
     state.inspector.former_source = None;
-    // Inspected again, a scene is no newer than it was.
-    if let Some(former) = &state.session.shown
-        && Arc::ptr_eq(&former.inspected.scene, &inspected.scene)
-        && let Some(again) = Arc::get_mut(&mut inspected)
-    {
-        again.set_captured_at(former.inspected.captured_at);
+    let mut selected = 0;
+    if let Some(former) = &state.session.shown {
+        let former = &former.inspected;
+        for (index, part) in parts.iter_mut().enumerate() {
+            if part.hung() == former.hung() {
+                selected = index;
+            }
+            // Inspected again, a scene is no newer than it was.
+            if Arc::ptr_eq(&former.scene, &part.scene)
+                && let Some(again) = Arc::get_mut(part)
+            {
+                again.set_captured_at(former.captured_at);
+            }
+        }
     }
+    let inspected = Arc::clone(&parts[selected]);
     if let ReinspectionPurpose::New | ReinspectionPurpose::Past = state.inspector.purpose {
         remove_notices(state, NoticeTopic::Scene);
         remove_notices(state, NoticeTopic::Following);
@@ -578,12 +670,13 @@ fn show(state: &mut State, mut inspected: Arc<Inspected>) -> Event {
     let session = same_scene.and_then(|former| former.session);
     state.session.shown = Some(Shown {
         generation: state.generation,
-        inspected: Arc::clone(&inspected),
+        inspected,
+        parts: parts.clone(),
         is_past,
         session,
         is_outdated,
     });
-    Event::Inspected { inspected, purpose }
+    Event::Inspected { parts, purpose }
 }
 
 /// Maximum number of recent files.

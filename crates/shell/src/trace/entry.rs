@@ -214,13 +214,7 @@ mod tests {
             .as_ref()
             .map_or(1, |shown| shown.generation + 1);
         Session {
-            shown: Some(Shown {
-                generation,
-                inspected: Arc::new(inspected_cell(choice, 1)),
-                is_past: false,
-                session: None,
-                is_outdated: false,
-            }),
+            shown: Some(Shown::new(generation, Arc::new(inspected_cell(choice, 1)))),
             ..session
         }
     }
@@ -349,8 +343,10 @@ mod tests {
         let mut session = showing(session, CellChoice::InTurn);
         let trace = session.trace.take(true);
         let shown = session.shown.as_mut().expect("shown");
+        shown.parts.clear();
         let inspected = Arc::get_mut(&mut shown.inspected).expect("not shared");
         inspected.entry.record.summary.trace = trace;
+        shown.parts = vec![Arc::clone(&shown.inspected)];
         session.enter_scanned("A-002", 1.0);
         let shown = session.shown.as_ref().expect("shown");
         assert_eq!(session.trace.of_part(&shown.inspected).serial, "A-002");

@@ -118,6 +118,23 @@ impl PointSet {
         self
     }
 
+    /// Makes the view turn about the parts of these sets of the same frame, too.
+    #[must_use]
+    pub fn focused_on<'a>(mut self, others: impl Iterator<Item = &'a Self>) -> Self {
+        let others = others.filter_map(|set| set.focus);
+        self.focus = self
+            .focus
+            .into_iter()
+            .chain(others)
+            .reduce(PointBounds::union);
+        self
+    }
+
+    /// The box around the part, in the set's own frame; `None` without a part.
+    pub fn focus(&self) -> Option<PointBounds> {
+        self.focus
+    }
+
     /// Positions in the set's own frame, metres.
     pub fn positions(&self) -> &[[f32; 3]] {
         &self.positions

@@ -194,17 +194,18 @@ impl HistoryState {
     /// Handles an event of the shell.
     pub fn on_event(&mut self, event: &Event, cx: &mut ShellContext<'_>) {
         match event {
-            Event::Inspected { inspected, purpose } => match purpose {
+            Event::Inspected { parts, purpose } => match purpose {
                 ReinspectionPurpose::New => {
                     // Select the newest: a person coming here from another workspace looks for it.
                     if cx.session.workspace != WorkspaceKind::History {
                         self.select_newest();
                     }
-                    let entry = inspected.entry.clone();
-                    self.keep(entry, Some(inspected));
+                    for part in parts {
+                        self.keep(part.entry.clone(), Some(part));
+                    }
                 }
                 ReinspectionPurpose::Repeated | ReinspectionPurpose::Shots => {}
-                ReinspectionPurpose::Past => self.remade(inspected, cx),
+                ReinspectionPurpose::Past => self.remade(&parts[0], cx),
             },
             Event::Left(entry) => self.keep((**entry).clone(), None),
             Event::TracedLate(hung, change) => {

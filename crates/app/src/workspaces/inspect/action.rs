@@ -22,6 +22,10 @@ pub enum InspectAction {
     Colour(Colouring),
     /// Enlarge a stage to fill the middle; `None` shows the view again.
     Enlarge(Option<StagePanel>),
+    /// Show the part at this index of the frame.
+    SelectPart(usize),
+    /// Show the part that many places further in the frame, in a circle.
+    NextPart(isize),
     /// Compare contour and signature with the part at this index of the ranking.
     Candidate(usize),
     /// Show, copy and write poses in this convention.

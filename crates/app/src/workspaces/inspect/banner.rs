@@ -1,11 +1,14 @@
 //! What the operator's banner says: which part, OK or not, and what to do next.
 
+use std::sync::Arc;
+
 use egui::Color32;
 
 use super::{
+    frame_parts::numbered,
     headline::{Headline, HeadlineState},
     hold::{Hold, inspect_current},
-    operator_words::{in_short, next_step},
+    operator_words::{in_short, next_step, why_not},
 };
 use capture::SourceSpec;
 use inspection::pipeline::{Unrecognisable, Verdict};
@@ -16,7 +19,6 @@ use shell::{
     source::live::SourceState,
 };
 use station::Doubt;
-use texts::Described as _;
 use ui::{
     language::{library_text, text},
     theme::Theme,
@@ -156,16 +158,14 @@ impl Banner {
             return Self::without_current(session);
         };
         let inspected = &shown.inspected;
-        let result = Self::of_result(inspected, session);
         let mut verdict = Self {
-            caution: caution(inspected, result.tone),
             is_current: true,
-            ..result
+            ..Self::of_parts(&shown.parts, session)
         };
         let serial = session.trace.of_part(inspected).serial;
         // While the next part swings in, a frame may still belong to the one before.
         let is_part = inspected.entry.record.summary.verdict != StoredVerdict::NoPart;
-        if is_part && !inspected.is_open() && !serial.is_empty() {
+        if shown.parts.len() == 1 && is_part && !inspected.is_open() && !serial.is_empty() {
             verdict.reason = format!("{} · {serial}", verdict.reason);
         }
         if shown.is_past {
@@ -232,6 +232,54 @@ impl Banner {
         Self::new(Tone::Problem, title, text!("operator-lost"), next)
     }
 
+    /// The banner of all parts of a frame: of several, how many are accepted, and what is to be done about the first that is
+    /// not, or that no robot may act on.
+    fn of_parts(parts: &[Arc<Inspected>], session: &Session) -> Self {
+        let mut all: Vec<Self> = parts
+            .iter()
+            .map(|part| {
+                let result = Self::of_result(part, session);
+                Self {
+                    caution: caution(part, result.tone),
+                    ..result
+                }
+            })
+            .collect();
+        let num = |tone| all.iter().filter(|part| part.tone == tone).count();
+        let (num_ok, num_recognised) = (num(Tone::Ok), num(Tone::Recognised));
+        let (num_accepted, num_parts) = (num_ok + num_recognised, parts.len());
+        let is_to_do = |part: &Self| match part.tone {
+            Tone::Ok => false,
+            Tone::Recognised => num_accepted == num_parts,
+            Tone::NotOk | Tone::Open | Tone::Problem => true,
+        };
+        let index = (all.iter().position(is_to_do))
+            .or_else(|| all.iter().position(|part| !part.caution.is_empty()))
+            .unwrap_or_default();
+        let mut first = all.swap_remove(index);
+        if num_parts == 1 {
+            return first;
+        }
+        let name = numbered(index, &first.title);
+        if num_accepted < num_parts {
+            first.tone = Tone::NotOk;
+            first.reason = format!("{name}: {}", first.reason);
+        }
+        if !first.caution.is_empty() {
+            first.caution = format!("{name}: {}", first.caution);
+        }
+        first.title = if num_recognised == 0 {
+            text!("operator-parts-ok", num = num_ok, all = num_parts)
+        } else {
+            text!(
+                "operator-parts-recognised",
+                num = num_accepted,
+                all = num_parts
+            )
+        };
+        first
+    }
+
     fn of_result(inspected: &Inspected, session: &Session) -> Self {
         let Headline {
             title,
@@ -240,7 +288,6 @@ impl Banner {
             complaint,
             ..
         } = Headline::of(inspected, session);
-        let inspection = &inspected.inspection;
         if actual.is_some() {
             let next = text!("operator-reported-wrong-next");
             return Self::new(Tone::NotOk, title, text!("operator-reported-wrong"), next);
@@ -263,35 +310,20 @@ impl Banner {
         if state == HeadlineState::Open {
             return Self::new(Tone::Open, title, sentence(&reason), advice);
         }
-        let nearest = inspection.verdict.guess().map_or_else(
-            || text!("operator-an-enrolled-part"),
-            |part| inspected.library.title_of(part).to_owned(),
-        );
-        match &inspection.verdict {
-            Verdict::NoPart(why @ Unrecognisable::EmptyLibrary) => Self::new(
+        let Some(why) = why_not(inspected) else {
+            return Self::new(Tone::NotOk, title, sentence(&reason), advice);
+        };
+        let (tone, title, next) = match &inspected.inspection.verdict {
+            Verdict::NoPart(Unrecognisable::EmptyLibrary) => (
                 Tone::Problem,
                 text!("operator-no-parts"),
-                in_short(&why.message()),
                 text!("operator-ask-to-enrol"),
             ),
             // An empty cell is not a bad part.
-            Verdict::NoPart(why) => {
-                let why = why.message();
-                let next = next_step(&why, session);
-                Self::new(Tone::Open, title, in_short(&why), next)
-            }
-            Verdict::Part {
-                rejected: Some(why),
-                ..
-            } => {
-                let why = why.message().with("nearest", nearest.as_str());
-                let next = next_step(&why, session);
-                Self::new(Tone::NotOk, title, in_short(&why), next)
-            }
-            Verdict::Part { rejected: None, .. } => {
-                Self::new(Tone::NotOk, title, sentence(&reason), advice)
-            }
-        }
+            Verdict::NoPart(_) => (Tone::Open, title, next_step(&why, session)),
+            Verdict::Part { .. } => (Tone::NotOk, title, next_step(&why, session)),
+        };
+        Self::new(tone, title, in_short(&why), next)
     }
 }
 
@@ -321,8 +353,6 @@ fn is_folder(source: &Source) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use std::sync::Arc;
-
     use super::*;
     use geometry::rigid::RigidTransform;
     use inspection::pipeline::{
@@ -343,11 +373,8 @@ mod tests {
     fn showing(inspected: Inspected, is_past: bool) -> Session {
         Session {
             shown: Some(Shown {
-                generation: 1,
-                inspected: Arc::new(inspected),
                 is_past,
-                session: None,
-                is_outdated: false,
+                ..Shown::new(1, Arc::new(inspected))
             }),
             robot: Some(Arc::new(RobotFrame {
                 robot_from_camera: RigidTransform::identity(),
@@ -416,6 +443,60 @@ mod tests {
         // It may show what hung there days ago.
         let next = banner(file, false).next;
         assert!(next.starts_with("From a file"), "{next}");
+    }
+
+    #[test]
+    fn several_parts_are_ok_only_together() {
+        let banner = |changes: &[fn(&mut Inspected)]| {
+            let parts = changes.iter().map(|change| {
+                let mut part = inspected_cell(CellChoice::InTurn, 1);
+                part.set_origin(camera());
+                change(&mut part);
+                Arc::new(part)
+            });
+            let parts: Vec<_> = parts.collect();
+            let first = inspected_cell(CellChoice::InTurn, 1);
+            let mut session = showing(first, false);
+            if let Some(shown) = &mut session.shown {
+                shown.inspected = Arc::clone(&parts[0]);
+                shown.parts = parts;
+            }
+            Banner::of(&session)
+        };
+        let good: fn(&mut Inspected) = |_| ();
+        let refused: fn(&mut Inspected) = |part| {
+            if let Verdict::Part { rejected, part, .. } = &mut part.inspection.verdict {
+                *rejected = Some(Rejection::NotSteady { part: part.clone() });
+            }
+        };
+        let approximate: fn(&mut Inspected) = |part| {
+            if let Verdict::Part { is_approximate, .. } = &mut part.inspection.verdict {
+                *is_approximate = true;
+            }
+        };
+        let simulated: fn(&mut Inspected) = |part| {
+            *part = inspected_cell(CellChoice::InTurn, 1);
+        };
+        let all = banner(&[good, good]);
+        assert_eq!((all.tone, &*all.title), (Tone::Ok, "2 of 2 OK"));
+        assert_eq!((&*all.next, &*all.caution), ("Start the robot", ""));
+        let some = banner(&[good, refused, good]);
+        assert_eq!((some.tone, &*some.title), (Tone::NotOk, "2 of 3 OK"));
+        let reason = "2 · Front door, left: It is not hanging still yet";
+        assert_eq!(some.reason, reason);
+        let doubtful = banner(&[good, approximate]);
+        assert_eq!(doubtful.tone, Tone::Ok);
+        assert_eq!(
+            doubtful.caution,
+            "2 · Front door, left: Maybe another model"
+        );
+        assert_eq!(doubtful.next, "Check the part, then start the robot");
+        let held = banner(&[good, simulated]);
+        assert_eq!(
+            (held.tone, &*held.title),
+            (Tone::Recognised, "2 of 2 recognised")
+        );
+        assert!(held.reason.contains("Simulated"), "{}", held.reason);
     }
 
     #[test]

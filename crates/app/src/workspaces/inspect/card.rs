@@ -7,6 +7,7 @@ use egui::{
 
 use super::{
     action::{InspectAction, InspectFile},
+    frame_parts,
     headline::{self, Headline, HeadlineState},
     hold::{self, Hold},
     robot_numbers, stand_off,
@@ -74,6 +75,7 @@ pub(super) fn ui(
     ui.spacing_mut().scroll = ScrollStyle::thin();
     // The bar is beside the figures, not over them.
     ui.spacing_mut().scroll.floating_allocated_width = space::SMALL;
+    frame_parts::ui(ui, session, actions);
     // Keep the verdict visible when the rest is scrolled.
     let headline = Headline::of(inspected, session);
     headline::ui(ui, &headline);
@@ -212,14 +214,7 @@ fn score(ui: &mut Ui, inspected: &Inspected, headline: &Headline) {
     let bar = Rect::from_min_max(rect.min + vec2(0.0, 2.0), rect.max - vec2(0.0, 2.0));
     painter.rect_filled(bar, ROUNDING, theme.track);
     let width = bar.width() * score.clamp(0.0, 1.0) as f32;
-    let fill = match headline.state {
-        HeadlineState::Go => theme.accepted,
-        HeadlineState::Recognised if headline.actual.is_none() => theme.text,
-        HeadlineState::Open => theme.warning,
-        HeadlineState::Recognised | HeadlineState::NoPart | HeadlineState::Refused => {
-            theme.rejected
-        }
-    };
+    let (.., fill) = headline.verdict(theme);
     painter.rect_filled(
         Rect::from_min_size(bar.min, vec2(width, bar.height())),
         ROUNDING,

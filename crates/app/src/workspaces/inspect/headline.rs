@@ -1,6 +1,6 @@
 //! The headline of the verdict card: which part, accepted or not, and why.
 
-use egui::{FontId, RichText, Ui};
+use egui::{Color32, FontId, RichText, Ui};
 
 use super::hold::Hold;
 use inspection::pipeline::{Rejection, Verdict, is_like, live::MotionState};
@@ -54,6 +54,27 @@ pub(super) struct Headline {
 }
 
 impl Headline {
+    /// True if it is accepted, and nobody has reported that as wrong.
+    pub(super) fn is_accepted(&self) -> bool {
+        self.state.is_accepted() && self.actual.is_none()
+    }
+
+    /// Sign, word and colour of the verdict.
+    pub(super) fn verdict(&self, theme: &Theme) -> (Mark, String, Color32) {
+        if self.actual.is_some() {
+            let word = text!("operator-reported-wrong");
+            return (Mark::Bad, word, theme.rejected);
+        }
+        match self.state {
+            HeadlineState::Go => (Mark::Good, accepted_or_not(true), theme.accepted),
+            HeadlineState::Recognised => (Mark::Known, text!("inspect-recognised"), theme.text),
+            HeadlineState::Open => (Mark::Look, text!("inspect-not-accepted-yet"), theme.warning),
+            HeadlineState::NoPart | HeadlineState::Refused => {
+                (Mark::Bad, accepted_or_not(false), theme.rejected)
+            }
+        }
+    }
+
     pub(super) fn of(inspected: &Inspected, session: &Session) -> Self {
         let verdict = Self::of_verdict(inspected, session);
         let actual = session.shift.reported_as(inspected);
@@ -201,19 +222,7 @@ pub(super) fn ui(ui: &mut Ui, headline: &Headline) {
         &font::far_names(),
         2,
     )));
-    let (sign, word, colour) = if headline.actual.is_some() {
-        let word = text!("operator-reported-wrong");
-        (Mark::Bad, word, theme.rejected)
-    } else {
-        match headline.state {
-            HeadlineState::Go => (Mark::Good, accepted_or_not(true), theme.accepted),
-            HeadlineState::Recognised => (Mark::Known, text!("inspect-recognised"), theme.text),
-            HeadlineState::Open => (Mark::Look, text!("inspect-not-accepted-yet"), theme.warning),
-            HeadlineState::NoPart | HeadlineState::Refused => {
-                (Mark::Bad, accepted_or_not(false), theme.rejected)
-            }
-        }
-    };
+    let (sign, word, colour) = headline.verdict(theme);
     if headline.state != HeadlineState::NoPart {
         ui.horizontal(|ui| {
             line_mark(ui, 32.0, 14.0, sign);
@@ -264,7 +273,7 @@ mod tests {
         let found = inspected_cell(CellChoice::InTurn, 1);
         let mut session = Session::default();
         assert_eq!(Headline::of(&found, &session).actual, None);
-        session.shift.labelled = Some((found.hung().clone(), Truth::NotEnrolled));
+        session.shift.labelled = vec![(found.hung().clone(), Truth::NotEnrolled)];
         let headline = Headline::of(&found, &session);
         assert_eq!(headline.actual.as_deref(), Some("Not enrolled"));
         let ctx = egui::Context::default();

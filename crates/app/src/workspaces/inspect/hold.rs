@@ -210,13 +210,7 @@ mod tests {
         inspected.set_captured_at(SystemTime::now() - hour);
         let session = Session {
             source: Source::File("door.pcd".into()),
-            shown: Some(Shown {
-                generation: 1,
-                inspected: Arc::new(inspected),
-                is_past: false,
-                session: None,
-                is_outdated: false,
-            }),
+            shown: Some(Shown::new(1, Arc::new(inspected))),
             ..Session::default()
         };
         let inspected = &session.shown.as_ref().expect("shown").inspected;

@@ -4,6 +4,7 @@ mod action;
 mod banner;
 mod card;
 mod controls;
+mod frame_parts;
 mod headline;
 mod hold;
 mod operator;
@@ -52,7 +53,7 @@ const CARD: [f32; 2] = [340.0, 300.0];
 const STRIP: [f32; 2] = [196.0, 164.0];
 
 /// The shortcuts of this workspace.
-const SHORTCUTS: [Shortcut<InspectAction>; 6] = [
+const SHORTCUTS: [Shortcut<InspectAction>; 8] = [
     Shortcut {
         modifiers: Modifiers::COMMAND.plus(Modifiers::SHIFT),
         key: Key::Z,
@@ -94,6 +95,20 @@ const SHORTCUTS: [Shortcut<InspectAction>; 6] = [
         keys: || keys("Ctrl Shift C"),
         does: || text!("inspect-does-copy"),
         action: || InspectAction::CopyPose,
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::Comma,
+        keys: || keys(","),
+        does: || text!("inspect-does-previous-part"),
+        action: || InspectAction::NextPart(-1),
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::Period,
+        keys: || keys("."),
+        does: || text!("inspect-does-next-part"),
+        action: || InspectAction::NextPart(1),
     },
 ];
 
@@ -247,12 +262,16 @@ impl Workspace for InspectWorkspace {
                 self.make(ui.ctx(), shown);
                 self.view.frame_part(shown);
             }
-            operator::ui(ui, session, |ui| {
+            let mut actions = Vec::new();
+            operator::ui(ui, session, &mut actions, |ui| {
                 if let Some(shown) = &session.shown {
                     self.view.plain_ui(ui, session, &shown.inspected);
                 }
             });
             self.hand_over_picture(ui, cx);
+            for action in actions {
+                self.state.apply(action, cx);
+            }
             return;
         }
         let Some(shown) = &session.shown else {

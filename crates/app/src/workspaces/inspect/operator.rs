@@ -8,8 +8,9 @@ use egui::{
 };
 
 use super::{
+    action::InspectAction,
     banner::{Banner, Tone},
-    hold,
+    frame_parts, hold,
 };
 use records::history::StoredVerdict;
 use shell::{
@@ -43,7 +44,12 @@ const SIGN: f32 = 24.0;
 const LONG: usize = 60;
 
 /// Draws the operator's view; `picture` draws the part once there is an inspection.
-pub(super) fn ui(ui: &mut Ui, session: &Session, picture: impl FnOnce(&mut Ui)) {
+pub(super) fn ui(
+    ui: &mut Ui,
+    session: &Session,
+    actions: &mut Vec<InspectAction>,
+    picture: impl FnOnce(&mut Ui),
+) {
     let theme = Theme::of(ui);
     let banner = Banner::of(session);
     let size = ui.available_size();
@@ -68,6 +74,19 @@ pub(super) fn ui(ui: &mut Ui, session: &Session, picture: impl FnOnce(&mut Ui)) 
                 .inner_margin(Margin::symmetric(24, COLUMN_MARGIN[is_low])),
         )
         .show(ui, |ui| column(ui, &banner, session));
+    // The parts of an earlier frame no longer count.
+    let shown = session.shown.as_ref().filter(|_| banner.is_current);
+    if let Some(shown) = shown.filter(|shown| shown.parts.len() > 1) {
+        let fonts = [font::far_list(), font::body()];
+        let margin = space::MEDIUM;
+        Panel::bottom("parts of the frame")
+            .exact_size(frame_parts::height(ui, shown, &fonts) + 2.0 * margin)
+            .resizable(false)
+            .frame(Frame::new().fill(theme.panel).inner_margin(margin))
+            .show(ui, |ui| {
+                frame_parts::list(ui, session, shown, &fonts, actions);
+            });
+    }
     CentralPanel::default().frame(Frame::new()).show(ui, |ui| {
         let rect = ui.max_rect();
         if session.shown.is_none() {

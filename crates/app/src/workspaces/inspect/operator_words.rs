@@ -1,8 +1,21 @@
 //! A verdict in the operator's words: why a part is not accepted, and what an operator can do about it.
 
-use shell::session::Session;
-use texts::Message;
+use inspection::pipeline::Verdict;
+use shell::{inspection::inspected::Inspected, session::Session};
+use texts::{Described as _, Message};
 use ui::language::{Language, text};
+
+/// Returns why a part is not accepted, or there is none, with the titles of the parts; `None` if it is accepted.
+pub(super) fn why_not(inspected: &Inspected) -> Option<Message> {
+    let title_of = |name: &str| inspected.library.title_of(name).to_owned();
+    match &inspected.inspection.verdict {
+        Verdict::NoPart(why) => Some(why.message()),
+        Verdict::Part { part, rejected, .. } => {
+            let why = rejected.as_ref()?.message().with("nearest", part.as_str());
+            Some(why.with_titles(title_of))
+        }
+    }
+}
 
 /// States why a part is not accepted, or there is none, without figures, which are for the engineer.
 pub(super) fn in_short(why: &Message) -> String {
@@ -43,7 +56,6 @@ mod tests {
     use inspection::pipeline::Unrecognisable;
     use shell::session::Source;
     use stages::segment::NoPart;
-    use texts::Described as _;
 
     #[test]
     fn the_advice_fits_the_source() {

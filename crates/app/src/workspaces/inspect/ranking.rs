@@ -188,9 +188,9 @@ mod tests {
         let mut inspected = inspected_cell(CellChoice::InTurn, 1);
         // Simulated, and not calibrated.
         assert_eq!(fill(&inspected, &session), theme.text);
-        session.shift.labelled = Some((inspected.hung().clone(), Truth::NotEnrolled));
+        session.shift.labelled = vec![(inspected.hung().clone(), Truth::NotEnrolled)];
         assert_eq!(fill(&inspected, &session), theme.rejected);
-        session.shift.labelled = None;
+        session.shift.labelled = Vec::new();
         if let Verdict::Part { rejected, part, .. } = &mut inspected.inspection.verdict {
             *rejected = Some(Rejection::NotSteady { part: part.clone() });
         }

@@ -169,13 +169,7 @@ mod tests {
             ..Session::default()
         };
         let show = |session: &mut Session, inspected| {
-            session.shown = Some(Shown {
-                generation: 1,
-                inspected: Arc::new(inspected),
-                is_past: false,
-                session: None,
-                is_outdated: false,
-            });
+            session.shown = Some(Shown::new(1, Arc::new(inspected)));
         };
         show(&mut session, inspected_cell(CellChoice::InTurn, 1));
         let shown =
@@ -211,9 +205,9 @@ mod tests {
         }
         // A part that a person has reported as wrong has no pose for a robot.
         let part = inspected.hung().clone();
-        session.shift.labelled = Some((part, inspection::library::Truth::NotEnrolled));
+        session.shift.labelled = vec![(part, inspection::library::Truth::NotEnrolled)];
         assert!(numbered(&session, &inspected).is_none());
-        session.shift.labelled = None;
+        session.shift.labelled = Vec::new();
         // Nor has one that is not accepted.
         let mut refused = inspected_cell(CellChoice::InTurn, 1);
         if let Verdict::Part { rejected, part, .. } = &mut refused.inspection.verdict {

@@ -179,6 +179,14 @@ impl InspectState {
             InspectAction::Colour(colouring) => self.colouring = Some(colouring),
             InspectAction::Enlarge(panel) => self.enlarged = panel,
             InspectAction::Candidate(place) => self.candidate = place,
+            InspectAction::SelectPart(index) => cx.send(Message::Act(Action::SelectPart(index))),
+            InspectAction::NextPart(by) => {
+                if let Some(shown) = &cx.session.shown {
+                    let index = shown.selected() as isize + by;
+                    let index = index.rem_euclid(shown.parts.len() as isize);
+                    cx.send(Message::Act(Action::SelectPart(index as usize)));
+                }
+            }
             InspectAction::UseConvention(convention) => {
                 cx.send(Message::Act(Action::UseConvention(convention)));
             }
@@ -249,8 +257,8 @@ impl InspectState {
     /// Handles an event of the shell.
     pub fn on_event(&mut self, event: &Event, cx: &mut ShellContext<'_>) {
         match event {
-            Event::Inspected { inspected, purpose } => {
-                self.settle_shots(inspected, *purpose, cx);
+            Event::Inspected { parts, purpose } => {
+                self.settle_shots(&parts[0], *purpose, cx);
             }
             Event::PosesWanted(order) => {
                 self.shots.ask_for_poses(order.clone());
@@ -514,13 +522,7 @@ mod tests {
         state.apply(InspectAction::CopyPose, &mut shell.context());
         assert!(shell.messages.is_empty(), "nothing is shown");
         let found = inspected_cell(CellChoice::InTurn, 1);
-        shell.session.shown = Some(Shown {
-            generation: 1,
-            inspected: Arc::new(found),
-            is_past: false,
-            session: None,
-            is_outdated: false,
-        });
+        shell.session.shown = Some(Shown::new(1, Arc::new(found)));
         state.apply(InspectAction::CopyPose, &mut shell.context());
         assert_eq!(shell.notices(), ["Not calibrated: the robot gets no pose"]);
         shell.messages.clear();

@@ -134,7 +134,7 @@ const STATES: [State; 22] = [
         });
     }),
     ("reported as wrong", May::Wait, |session, inspected| {
-        session.shift.labelled = Some((inspected.hung().clone(), Truth::NotEnrolled));
+        session.shift.labelled = vec![(inspected.hung().clone(), Truth::NotEnrolled)];
     }),
     ("simulated", May::Rehearse, |_, inspected| {
         inspected.set_origin(Origin::Simulated {
@@ -267,15 +267,16 @@ fn shell_in(change: fn(&mut Session, &mut Inspected), is_ambiguous: bool) -> Tes
     session.source = Source::Camera(Box::new("kinect".parse().expect("a source")));
     // In place of the result, which the change may still alter.
     let place = PLACE.get_or_init(|| Arc::new(inspected_cell(CellChoice::Empty, 1)));
-    session.shown = Some(Shown {
-        generation: 1,
-        inspected: Arc::clone(place),
-        is_past: false,
-        session: None,
-        is_outdated: false,
-    });
+    session.shown = Some(Shown::new(1, Arc::clone(place)));
     change(session, &mut inspected);
-    mark(session, |shown| shown.inspected = Arc::new(inspected));
+    mark(session, |shown| {
+        *shown = Shown {
+            is_past: shown.is_past,
+            session: shown.session,
+            is_outdated: shown.is_outdated,
+            ..Shown::new(shown.generation, Arc::new(inspected))
+        }
+    });
     shell
 }
 

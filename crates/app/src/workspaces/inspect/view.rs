@@ -1,12 +1,14 @@
 //! The scene in three dimensions, the part coloured by its deviation from the reference.
 
-use std::collections::BTreeSet;
+use std::{collections::BTreeSet, sync::Arc};
 
 use egui::{Key, Modifiers, Painter, Rect, Ui, UiBuilder, Vec2, pos2, vec2};
 
 use super::{
     action::InspectAction,
     controls,
+    frame_parts::numbered,
+    headline::Headline,
     state::{InspectState, ViewPart},
 };
 use crate::shots::{Overlay, POINT_SIZE};
@@ -68,6 +70,8 @@ pub(super) struct SceneView {
     pub(super) has_focus: bool,
     caption: String,
     origin: Option<String>,
+    /// The first part of the frame shown.
+    first_part: Option<Arc<Inspected>>,
     /// The followed source whose frame is shown.
     session: Option<u64>,
     /// The part that was framed last for the operator, and whether its verdict counted by then.
@@ -96,6 +100,7 @@ impl SceneView {
             has_focus: false,
             caption: String::new(),
             origin: None,
+            first_part: None,
             session: None,
             framed: None,
             looked_at: None,
@@ -109,13 +114,20 @@ impl SceneView {
     pub(super) fn show(&mut self, shown: &Shown) {
         let inspected = &shown.inspected;
         let figures = &inspected.figures;
-        self.scene.points = vec![inspected.view.points.clone()];
+        let parts = shown.parts.iter().map(|part| &part.view.points);
+        self.scene.points = vec![inspected.view.points.clone().focused_on(parts)];
         self.placed = None;
         // While a source is followed, keep the view that a person has chosen.
         let wants_more = shown.session.is_some() && self.session == shown.session;
         // The same scan with other shots is still at the same place.
         let space = inspected.scan.as_ref().and_then(|scan| scan.fused.space());
-        if !(wants_more || space.is_some() && space == self.space) {
+        // Another part of the same frame.
+        let is_same = self
+            .first_part
+            .as_ref()
+            .is_some_and(|first| shown.includes(first));
+        self.first_part = shown.parts.first().map(Arc::clone);
+        if !(wants_more || is_same || space.is_some() && space == self.space) {
             self.camera.request_fit(FitRequest::Focus);
         }
         self.space = space;
@@ -184,7 +196,8 @@ impl SceneView {
     /// frame of it. Live does not know at once that another part has come: until a verdict counts, a part that is cut off by the
     /// view is framed, too.
     pub(super) fn frame_part(&mut self, shown: &Shown) {
-        let inspected = &shown.inspected;
+        // Whichever of its parts is selected, the frame is the same.
+        let inspected = &shown.parts[0];
         let is_new = self.looked_at.replace(shown.generation) != Some(shown.generation);
         if self.is_to_be_framed(inspected) || is_new && inspected.is_open() && self.is_cut_off() {
             ViewDirection::From(StandardView::Front).apply(&mut self.camera);
@@ -342,6 +355,17 @@ impl SceneView {
                 }
             }
         }
+        let shown = session.shown.as_ref().filter(|shown| shown.parts.len() > 1);
+        for (index, part) in shown
+            .iter()
+            .flat_map(|shown| shown.parts.iter().enumerate())
+        {
+            let title = Headline::of(part, session).title;
+            labels.extend(part.view.points.focus().map(|part| TextLabel {
+                at: part.centre(),
+                text: numbered(index, &title),
+            }));
+        }
         self.scene.lines = lines;
         self.scene.labels = labels;
         self.scene.points.truncate(1);
@@ -427,8 +451,6 @@ fn path_label(spray: &SprayFigure) -> String {
 
 #[cfg(test)]
 mod tests {
-    use std::sync::Arc;
-
     use super::*;
     use inspection::pipeline::live::{LiveVerdict, MotionState};
     use shell::inspection::{
@@ -491,11 +513,8 @@ mod tests {
             // Live does not know yet that another part has come.
             inspected.entry.record.summary.hung = hung.clone();
             Shown {
-                generation,
-                inspected: Arc::new(inspected),
-                is_past: false,
                 session: Some(1),
-                is_outdated: false,
+                ..Shown::new(generation, Arc::new(inspected))
             }
         };
         let mut view = view();
@@ -523,12 +542,11 @@ mod tests {
 
     #[test]
     fn the_operator_sees_the_part_as_the_camera_does_wherever_the_engineer_looked_from() {
-        let [part, next] = [1, 2].map(|generation| Shown {
-            generation,
-            inspected: Arc::new(inspected_cell(CellChoice::InTurn, generation)),
-            is_past: false,
-            session: None,
-            is_outdated: false,
+        let [part, next] = [1, 2].map(|generation| {
+            Shown::new(
+                generation,
+                Arc::new(inspected_cell(CellChoice::InTurn, generation)),
+            )
         });
         let mut view = view();
         let is_from_front = |view: &SceneView| view.camera.forward() == glam::Vec3::Z;

@@ -299,7 +299,8 @@ fn take_record(state: &mut State, record: LiveRecord) -> Option<Event> {
                 show(state, Arc::clone(&inspected));
             }
             let purpose = ReinspectionPurpose::New;
-            Some(Event::Inspected { inspected, purpose })
+            let parts = vec![inspected];
+            Some(Event::Inspected { parts, purpose })
         }
         LiveRecord::Left(entry) => Some(Event::Left(entry)),
         LiveRecord::Skipped {
@@ -397,11 +398,8 @@ fn show_latest(state: &mut State, inspected: Arc<Inspected>) {
     state.session.failed = None;
     state.generation += 1;
     state.session.shown = Some(Shown {
-        generation: state.generation,
-        inspected,
-        is_past: false,
         session: Some(state.follower.session),
-        is_outdated: false,
+        ..Shown::new(state.generation, inspected)
     });
 }
 
@@ -525,11 +523,11 @@ mod tests {
             assert!(state.follower.task.run_waiting());
             apply_any(&mut state, Action::Live(action.clone()));
             let events = update(&mut state);
-            let [Event::Inspected { inspected, purpose }] = events.as_slice() else {
+            let [Event::Inspected { parts, purpose }] = events.as_slice() else {
                 panic!("{action:?}: {} events", events.len());
             };
             assert_eq!(*purpose, ReinspectionPurpose::New);
-            let summary = &inspected.entry.record.summary;
+            let summary = &parts[0].entry.record.summary;
             assert_eq!(summary.verdict, StoredVerdict::Accepted);
             assert!(state.session.shown.is_none(), "{action:?}: only recorded");
         }
@@ -711,7 +709,7 @@ mod tests {
         assert!(state.follower.task.run_waiting());
         let events = update(&mut state);
         let mut events = events.iter().filter_map(|event| match event {
-            Event::Inspected { inspected, .. } => Some(inspected),
+            Event::Inspected { parts, .. } => parts.first(),
             _ => None,
         });
         let again = events.next().expect("inspected");

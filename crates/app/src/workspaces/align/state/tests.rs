@@ -150,13 +150,7 @@ fn a_scene_is_aligned_to_the_reference_that_it_was_recognised_by() {
     let mut inspected = inspected_cell(choice, 3);
     // As if the fender had a second reference of this name, and that was found.
     inspected.inspection.ranking.entries[0].enrolled_as = "grille".into();
-    bench.shell.session.shown = Some(Shown {
-        generation: 1,
-        inspected: Arc::new(inspected),
-        is_past: false,
-        session: None,
-        is_outdated: false,
-    });
+    bench.shell.session.shown = Some(Shown::new(1, Arc::new(inspected)));
     bench.act(AlignAction::Choose(Pairing::Scene));
     assert_eq!(bench.align.part.as_deref(), Some("grille"));
 }

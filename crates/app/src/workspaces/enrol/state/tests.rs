@@ -682,13 +682,10 @@ fn without_its_scene_a_draft_is_no_reference_of_another_part_any_more() {
 #[test]
 fn what_is_saved_is_inspected_only_if_nothing_newer_was_captured() {
     let inspected = |generation| {
-        Some(Shown {
+        Some(Shown::new(
             generation,
-            inspected: Arc::new(inspected_cell(CellChoice::InTurn, generation)),
-            is_past: false,
-            session: None,
-            is_outdated: false,
-        })
+            Arc::new(inspected_cell(CellChoice::InTurn, generation)),
+        ))
     };
     // In Inspect, in Enrol, nowhere.
     for step in 0..3 {

@@ -73,8 +73,8 @@ impl Bench {
     }
 
     fn inspected(&mut self, inspected: &Arc<Inspected>, purpose: ReinspectionPurpose) {
-        let inspected = Arc::clone(inspected);
-        let event = Event::Inspected { inspected, purpose };
+        let parts = vec![Arc::clone(inspected)];
+        let event = Event::Inspected { parts, purpose };
         self.history.on_event(&event, &mut self.shell.context());
     }
 }

@@ -112,13 +112,10 @@ impl Bench {
 
     /// Shows an inspection of this part in Inspect.
     fn recognise(&mut self, kind: PartKind) {
-        self.shell.session.shown = Some(Shown {
-            generation: 1,
-            inspected: Arc::new(inspected_cell(CellChoice::Part(kind, Side::Left), 1)),
-            is_past: false,
-            session: None,
-            is_outdated: false,
-        });
+        self.shell.session.shown = Some(Shown::new(
+            1,
+            Arc::new(inspected_cell(CellChoice::Part(kind, Side::Left), 1)),
+        ));
         self.settle();
     }
 
@@ -404,13 +401,7 @@ fn the_reference_that_was_recognised_is_painted_and_never_another_part() {
     let choice = CellChoice::Part(PartKind::Fender, Side::Left);
     let mut inspected = inspected_cell(choice, 1);
     "fender_b".clone_into(&mut inspected.inspection.ranking.entries[0].enrolled_as);
-    bench.shell.session.shown = Some(Shown {
-        generation: 1,
-        inspected: Arc::new(inspected),
-        is_past: false,
-        session: None,
-        is_outdated: false,
-    });
+    bench.shell.session.shown = Some(Shown::new(1, Arc::new(inspected)));
     bench.reload();
     assert_eq!(bench.planned().part.as_str(), "fender_b");
     let name = |name: &str| PartName::new(name).expect("a name");

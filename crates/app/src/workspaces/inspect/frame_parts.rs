@@ -1,0 +1,186 @@
+//! The parts of a frame, of which one is selected.
+
+use egui::{
+    Align2, FontId, Response, RichText, Role, ScrollArea, Sense, StrokeKind, Ui, WidgetInfo, pos2,
+    text::{LayoutJob, TextWrapping},
+    vec2,
+};
+
+use super::{
+    action::InspectAction,
+    headline::Headline,
+    operator_words::{in_short, why_not},
+};
+use inspection::pipeline::Verdict;
+use shell::{
+    inspection::inspected::Inspected,
+    session::{Session, Shown},
+};
+use ui::{
+    language::text,
+    theme::{ROUNDING, Theme, font, space},
+    widgets::{fitted_middle, focus_ring, text_width},
+};
+
+/// Most parts listed at once; the others scroll into view.
+const MOST_ROWS: usize = 4;
+/// Above, below and beside the text of a row, logical pixels.
+const MARGIN: f32 = 5.0;
+
+/// Name of a part of several, as its place in the list.
+pub(super) fn numbered(index: usize, title: &str) -> String {
+    format!("{} · {title}", index + 1)
+}
+
+/// Draws how many parts are accepted and the list of them, unless there is only one.
+pub(super) fn ui(ui: &mut Ui, session: &Session, actions: &mut Vec<InspectAction>) {
+    let Some(shown) = session.shown.as_ref().filter(|shown| shown.parts.len() > 1) else {
+        return;
+    };
+    let headlines = shown.parts.iter().map(|part| Headline::of(part, session));
+    let num = headlines.filter(Headline::is_accepted).count();
+    let of_all = text!("inspect-parts-accepted", num = num, all = shown.parts.len());
+    ui.label(RichText::new(of_all).font(font::heading()));
+    list(
+        ui,
+        session,
+        shown,
+        &[font::body_strong(), font::small()],
+        actions,
+    );
+    ui.add_space(space::MEDIUM);
+}
+
+/// Height of the list, with titles and lines below in these fonts.
+pub(super) fn height(ui: &Ui, shown: &Shown, fonts: &[FontId; 2]) -> f32 {
+    let rows = shown.parts.len().min(MOST_ROWS) as f32;
+    rows * (row_height(ui, fonts) + ui.spacing().item_spacing.y)
+}
+
+fn row_height(ui: &Ui, fonts: &[FontId; 2]) -> f32 {
+    let lines = fonts
+        .iter()
+        .map(|font| ui.ctx().fonts_mut(|fonts| fonts.row_height(font)));
+    (lines.sum::<f32>() + 2.0 * MARGIN).max(space::TARGET)
+}
+
+/// Draws the list with titles and lines below in these fonts.
+pub(super) fn list(
+    ui: &mut Ui,
+    session: &Session,
+    shown: &Shown,
+    fonts: &[FontId; 2],
+    actions: &mut Vec<InspectAction>,
+) {
+    let height = height(ui, shown, fonts);
+    ScrollArea::vertical()
+        .id_salt("parts of the frame")
+        .max_height(height)
+        .show(ui, |ui| {
+            for (index, part) in shown.parts.iter().enumerate() {
+                let is_selected = index == shown.selected();
+                let row = PartRow::of(index, part, session);
+                if row.ui(ui, is_selected, fonts).clicked() {
+                    actions.push(InspectAction::SelectPart(index));
+                }
+            }
+        });
+}
+
+/// A part in the list.
+struct PartRow {
+    number: String,
+    headline: Headline,
+    /// Its score or size, and why it is not accepted.
+    below: String,
+}
+
+impl PartRow {
+    fn of(index: usize, part: &Inspected, session: &Session) -> Self {
+        let inspection = &part.inspection;
+        let figure = match &inspection.verdict {
+            Verdict::Part { score, .. } if !inspection.verdict.is_unknown() => {
+                Some(format!("{score:.2}"))
+            }
+            _ => {
+                let surface = inspection.segmentation.part.as_ref().ok();
+                let surface = surface.and_then(|part| part.surface);
+                surface.map(|surface| session.units.area(surface.area))
+            }
+        };
+        // Figures are for the engineer.
+        let figure = figure.filter(|_| !session.is_operator_view());
+        let why = why_not(part).map(|why| in_short(&why));
+        let below: Vec<String> = figure.into_iter().chain(why).collect();
+        Self {
+            number: (index + 1).to_string(),
+            headline: Headline::of(part, session),
+            below: below.join(" · "),
+        }
+    }
+
+    fn ui(&self, ui: &mut Ui, is_selected: bool, fonts: &[FontId; 2]) -> Response {
+        let theme = Theme::of(ui);
+        let [title_font, below_font] = fonts;
+        let size = vec2(ui.available_width(), row_height(ui, fonts));
+        let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+        let (_, word, colour) = self.headline.verdict(theme);
+        let name = format!("{} {}: {word}", self.number, self.headline.title);
+        response.widget_info(|| {
+            WidgetInfo::selected(Role::Button, ui.is_enabled(), is_selected, &name)
+        });
+        let fill = if response.hovered() {
+            theme.control_hovered
+        } else if is_selected {
+            theme.control
+        } else {
+            theme.panel
+        };
+        let edge = if is_selected {
+            theme.accent
+        } else {
+            theme.edge
+        };
+        let painter = ui.painter_at(rect);
+        painter.rect(rect, ROUNDING, fill, (1.0, edge), StrokeKind::Inside);
+        focus_ring(ui, rect, &response);
+        let radius = title_font.size * 0.8;
+        let disc = pos2(rect.left() + 2.0 * MARGIN + radius, rect.center().y);
+        painter.circle_filled(disc, radius, colour);
+        painter.text(
+            disc,
+            Align2::CENTER_CENTER,
+            &self.number,
+            title_font.clone(),
+            theme.panel,
+        );
+        let (left, right) = (disc.x + radius + 2.0 * MARGIN, rect.right() - 2.0 * MARGIN);
+        let word_width = text_width(&painter, &word, below_font);
+        let room = right - left - word_width - space::SMALL;
+        let title = fitted_middle(&painter, &self.headline.title, title_font, room);
+        let (at, anchor) = if self.below.is_empty() {
+            (pos2(left, rect.center().y), Align2::LEFT_CENTER)
+        } else {
+            (pos2(left, rect.top() + MARGIN), Align2::LEFT_TOP)
+        };
+        let title = painter.text(at, anchor, title, title_font.clone(), theme.text);
+        painter.text(
+            pos2(right, title.center().y),
+            Align2::RIGHT_CENTER,
+            word,
+            below_font.clone(),
+            colour,
+        );
+        let mut job =
+            LayoutJob::simple_singleline(self.below.clone(), below_font.clone(), theme.weak_text);
+        job.wrap = TextWrapping::truncate_at_width(right - left);
+        let below = painter.layout_job(job);
+        let is_cut = below.elided;
+        painter.galley(pos2(left, title.bottom()), below, theme.weak_text);
+        if is_cut {
+            response.on_hover_text(&self.below)
+        } else {
+            response
+        }
+    }
+}
