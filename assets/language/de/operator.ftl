@@ -30,7 +30,6 @@ operator-start-robot = Roboter starten
 operator-recognised = Erkannt, Pose bekannt
 operator-reported-wrong = Als falsch gemeldet
 operator-reported-wrong-next = Roboter nicht starten: Den Einrichter rufen
-operator-an-enrolled-part = ein eingelerntes Teil
 operator-next = Nächster Schritt
 operator-last-parts = Letzte Teile dieser Schicht
 operator-none-yet = Noch keine

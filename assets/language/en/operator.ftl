@@ -30,7 +30,6 @@ operator-start-robot = Start the robot
 operator-recognised = Recognised, and its pose is known
 operator-reported-wrong = Reported as wrong
 operator-reported-wrong-next = Do not start the robot: tell the engineer
-operator-an-enrolled-part = an enrolled part
 operator-next = Next
 operator-last-parts = Last parts of this shift
 operator-none-yet = None yet

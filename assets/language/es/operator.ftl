@@ -30,7 +30,6 @@ operator-start-robot = Arrancar el robot
 operator-recognised = Reconocida, con pose conocida
 operator-reported-wrong = Notificada como errónea
 operator-reported-wrong-next = No arrancar el robot: avisar al técnico
-operator-an-enrolled-part = una pieza registrada
 operator-next = Siguiente paso
 operator-last-parts = Últimas piezas de este turno
 operator-none-yet = Ninguna todavía

@@ -30,7 +30,6 @@ operator-start-robot = 启动机器人
 operator-recognised = 已识别，位姿已知
 operator-reported-wrong = 已报告为误识别
 operator-reported-wrong-next = 请勿启动机器人：请联系工程师
-operator-an-enrolled-part = 某个已注册零件
 operator-next = 下一步
 operator-last-parts = 本班最近的零件
 operator-none-yet = 暂无

@@ -8,13 +8,14 @@ use ui::language::{Language, text};
 /// Returns why a part is not accepted, or there is none, with the titles of the parts; `None` if it is accepted.
 pub(super) fn why_not(inspected: &Inspected) -> Option<Message> {
     let title_of = |name: &str| inspected.library.title_of(name).to_owned();
-    match &inspected.inspection.verdict {
-        Verdict::NoPart(why) => Some(why.message()),
-        Verdict::Part { part, rejected, .. } => {
-            let why = rejected.as_ref()?.message().with("nearest", part.as_str());
-            Some(why.with_titles(title_of))
-        }
+    let verdict = &inspected.inspection.verdict;
+    if let Verdict::NoPart(why) = verdict {
+        return Some(why.message());
     }
+    // Of a mirror image, the part that it is the image of.
+    let nearest = verdict.guess().unwrap_or_default();
+    let why = verdict.rejected()?.message().with("nearest", nearest);
+    Some(why.with_titles(title_of))
 }
 
 /// States why a part is not accepted, or there is none, without figures, which are for the engineer.
