@@ -59,16 +59,16 @@ pub(crate) fn inspect(
 /// is not expected is refused as `wrong_part` or `not_expected`. Otherwise as `inspect`, whose result is the first of a
 /// single part.
 #[pyfunction]
-#[pyo3(signature = (scene, library, recipe = None, *, expected = Vec::new()))]
+#[pyo3(signature = (scene, library, recipe = None, *, expected = None))]
 pub(crate) fn inspect_all(
     py: Python<'_>,
     scene: &Scene,
     library: &Library,
     recipe: Option<&Recipe>,
-    expected: Vec<String>,
+    expected: Option<Vec<String>>,
 ) -> PyResult<Vec<Inspection>> {
     let loaded = library.loaded();
-    let expected = Expected::new(expected, &loaded.library).map_err(advised)?;
+    let expected = Expected::new(expected.unwrap_or_default(), &loaded.library).map_err(advised)?;
     let recipe = library.recipe_or(recipe)?.expecting(expected);
     let found = interruptible(py, |watch| {
         run_all(&scene.capture, &loaded.library, &recipe, watch)

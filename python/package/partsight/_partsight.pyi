@@ -18,6 +18,7 @@ __all__ = [
     "align",
     "evaluation_report",
     "inspect",
+    "inspect_all",
     "judge_cases",
     "read_points",
     "simulate_frame",
@@ -191,7 +192,7 @@ def inspect_all(
     library: Library,
     recipe: Recipe | None = None,
     *,
-    expected: Sequence[str] = (),
+    expected: Sequence[str] | None = None,
 ) -> list[Inspection]: ...
 def judge_cases(rows: Sequence[Mapping[str, Any]], library: Library, recipe: Recipe | None = None) -> list[dict[str, Any]]: ...
 def evaluation_report(

@@ -52,6 +52,9 @@ pub(super) fn document(has_tokens: bool) -> Value {
         ]
         .concat(),
     );
+    let without = StatusCode::SERVICE_UNAVAILABLE;
+    let why = without.canonical_reason().unwrap_or_default();
+    trigger["responses"][without.as_str()] = described(why, JSON, &frame);
     trigger["requestBody"] = json!({ "content": { JSON: { "schema": body } } });
     let mut path = operation(
         "The inspection with this sequence number, with every point of the part's spray path",
