@@ -26,21 +26,14 @@ pub(super) fn run(
             "Keep more frames from now on: partsight history keep all",
         ));
     };
-    let recipe = asked.recipe.recipe()?;
+    let recipe = record.detail.again_with(&asked.recipe.recipe()?);
     let load = (asked.library).load_some(&recipe.reference_params(), console)?;
     let library = &load.library;
     let before = InspectionSummary::from(record);
     let inspection = match shots {
         None => {
-            // What was expected of the frame, and how many parts it may show, is not the recipe's of today.
-            let mut of_frame = (*recipe.parameters).clone();
-            of_frame.expected = record.detail.expected();
-            if let Some(then) = &before.parameters {
-                let max_parts = &mut of_frame.segment.max_parts;
-                *max_parts = (*max_parts).max(then.segment.max_parts);
-            }
-            let mut found = run_all(&scene, library, &of_frame, &Unwatched)?;
-            found.swap_remove(before.index_in(&found))
+            let mut found = run_all(&scene, library, &recipe, &Unwatched)?;
+            found.swap_remove(before.index_in(found.iter()))
         }
         Some(shots) => {
             let params = ScanParams {

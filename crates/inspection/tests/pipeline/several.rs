@@ -195,7 +195,7 @@ fn what_is_no_part_comes_last_and_is_never_accepted() {
 
 /// A simulated rack: its scene, and what hangs there from left to right.
 fn rack(kind: RackKind, num_places: usize, seed: u64) -> (SceneCloud, Vec<Hung>) {
-    let setup = RackSetup::drawn(kind, num_places, 0, seed).expect("so many places");
+    let setup = RackSetup::drawn(kind, num_places, 0, seed).expect("two to five places");
     let rack = rack_frame(&setup).expect("a plain cell");
     let parts = rack.truth.parts.iter().map(|part| Hung {
         subject: part.subject,

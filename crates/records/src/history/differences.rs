@@ -63,9 +63,9 @@ impl InspectionSummary {
 }
 
 impl InspectionSummary {
-    /// The index of the inspection of this part among those of a frame that was inspected again, at least one: of the parts of
-    /// its name, or else of all, the nearest.
-    pub fn index_in(&self, found: &[Inspection]) -> usize {
+    /// The index of the inspection of this part among those of a frame that was inspected again: of the parts of its name, or
+    /// else of all, the nearest; 0 if there are none.
+    pub fn index_in<'a>(&self, found: impl Iterator<Item = &'a Inspection>) -> usize {
         let distance = |inspection: &Inspection| {
             let pose = inspection.found_pose().map(PoseEstimate::camera_from_part);
             let both = pose.zip(self.camera_from_part);
@@ -79,7 +79,7 @@ impl InspectionSummary {
                     == self.nearest.as_ref();
             (!is_named, distance(inspection))
         };
-        let nearest = found.iter().enumerate().min_by(|(_, a), (_, b)| {
+        let nearest = found.enumerate().min_by(|(_, a), (_, b)| {
             let ((a, near), (b, far)) = (rank(a), rank(b));
             a.cmp(&b).then(near.total_cmp(&far))
         });
@@ -232,6 +232,13 @@ impl Differences {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use inspection::{
+        fixtures::shipped_library,
+        pipeline::{Unwatched, run},
+    };
+    use simulate::{PartKind, Side};
+    use stages::fixtures::facing_part;
+
     use geometry::{
         rigid::from_euler_zyx,
         units::{Metres, Radians},
@@ -250,6 +257,28 @@ mod tests {
             library: "b".into(),
             program: "0.1.0".into(),
         }
+    }
+
+    #[test]
+    fn of_equal_parts_in_a_frame_the_nearest_is_the_one_that_it_was() {
+        let library = shipped_library();
+        let seen = |kind, seed| {
+            let scene = facing_part(kind, Side::Left, seed);
+            run(&scene, &library, &Recipe::default(), &Unwatched).expect("not cancelled")
+        };
+        let [here, there] = [5, 6].map(|seed| seen(PartKind::Fender, seed));
+        let other = seen(PartKind::Grille, 5);
+        let recipe = Arc::default();
+        for (of, order, expected) in [
+            (&here, [&there, &here, &other], 1),
+            (&there, [&other, &there, &here], 1),
+            (&other, [&here, &there, &other], 2),
+        ] {
+            let summary = InspectionSummary::of(of, &recipe, "");
+            assert_eq!(summary.index_in(order.into_iter()), expected);
+        }
+        let none = InspectionSummary::of(&here, &recipe, "");
+        assert_eq!(none.index_in(std::iter::empty()), 0);
     }
 
     #[test]

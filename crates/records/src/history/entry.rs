@@ -416,6 +416,19 @@ impl InspectionDetail {
         Some(recipe.expecting(self.expected()))
     }
 
+    /// Returns this recipe as the frame is inspected again with it: it expects what was expected then, and looks for as many
+    /// parts at least.
+    pub fn again_with(&self, recipe: &NamedRecipe) -> NamedRecipe {
+        let mut again = recipe.clone();
+        let parameters = Arc::make_mut(&mut again.parameters);
+        parameters.expected = self.expected();
+        if let Some(then) = &self.recipe {
+            let max_parts = &mut parameters.segment.max_parts;
+            *max_parts = (*max_parts).max(then.segment.max_parts);
+        }
+        again
+    }
+
     /// Returns what was expected in the frame.
     pub fn expected(&self) -> Expected {
         #[derive(serde::Deserialize)]

@@ -27,7 +27,7 @@ use crate::{
 };
 use capture::SourceSpec;
 use geometry::error::lock;
-use records::history::{HistoryBuffer, HungId, StoredVerdict, Summary, Traceability};
+use records::history::{HistoryBuffer, HungId, InspectionSummary, StoredVerdict, Traceability};
 use stages::scene::EmptyCell;
 use ui::{
     language::text,
@@ -467,7 +467,12 @@ impl PartAtHand {
             },
             Self::Known(hung, trace) => {
                 let row = history.part(&hung).ok().flatten();
-                let mut known = parts.remove(row.map_or(0, |row| most_like(&row, &parts)));
+                let record = row.and_then(|row| history.row(row.number).ok().flatten());
+                let index = record.map_or(0, |record| {
+                    let found = parts.iter().map(|part| &part.inspection);
+                    InspectionSummary::from(&record).index_in(found)
+                });
+                let mut known = parts.remove(index);
                 known.set_part(hung, trace);
                 return vec![known];
             }
@@ -523,19 +528,6 @@ fn all_new(parts: &mut [Inspected], trace: &Traceability) {
     for part in parts {
         part.set_part(part.hung().clone(), trace.clone());
     }
-}
-
-/// Index of the part that a row of the history most likely is of.
-fn most_like(row: &Summary, parts: &[Inspected]) -> usize {
-    let difference = |part: &Inspected| {
-        let now = &part.entry.record.summary;
-        let scores = now.score.zip(row.score);
-        let score = scores.map_or(1.0, |([now, _], [then, _])| (now - then).abs());
-        f64::from(u8::from(now.title != row.title)) + score
-    };
-    let all = parts.iter().map(difference).enumerate();
-    let nearest = all.min_by(|(_, a), (_, b)| a.total_cmp(b));
-    nearest.map_or(0, |(index, _)| index)
 }
 
 /// A notice of what ended Live.

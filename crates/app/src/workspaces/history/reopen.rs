@@ -63,7 +63,7 @@ impl HistoryState {
         let (title, recipe) = match purpose {
             RemakeFor::Compare => (
                 text!("history-inspecting-again", scene = &scene),
-                Some(Arc::clone(&cx.session.recipe)),
+                Some(Arc::new(past.record.detail.again_with(&cx.session.recipe))),
             ),
             RemakeFor::Open => (
                 text!("history-opening", scene = &scene),

@@ -54,7 +54,7 @@ pub(super) struct Headline {
 }
 
 impl Headline {
-    /// True if it is accepted, and nobody has reported that as wrong.
+    /// True if the part is accepted, and nobody has reported it as wrong.
     pub(super) fn is_accepted(&self) -> bool {
         self.state.is_accepted() && self.actual.is_none()
     }

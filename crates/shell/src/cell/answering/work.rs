@@ -175,7 +175,7 @@ pub(super) fn answer(
         handle: server.handle(),
         rows: TriggerRows::new(writer, Arc::clone(&parts)),
         last: None,
-        told: None,
+        answered_parts: None,
         status: AnsweringStatus {
             at: server.addresses().first().copied().unwrap_or(listener.at),
             num_clients: 0,
@@ -240,7 +240,7 @@ struct AnsweringSession<'a> {
     /// The inspection whose answer is on its way.
     last: Option<AnsweredFrame>,
     /// The parts of the last answer.
-    told: Option<AnsweredParts>,
+    answered_parts: Option<AnsweredParts>,
     status: AnsweringStatus,
     sent: Option<AnsweringStatus>,
 }
@@ -255,7 +255,7 @@ struct AnsweredFrame {
     part: Receiver<HungId>,
 }
 
-/// The parts of a frame that a robot was told about.
+/// The parts of the frame that was answered last.
 struct AnsweredParts {
     names: Vec<String>,
     /// Which part hangs there as far as was known when its frame came, then also as Live saw it.
@@ -322,18 +322,18 @@ impl Inspector for AnsweringSession<'_> {
             Err(why) => return Found::error((&why).into()).into(),
         };
         let mut found = answered.found.clone();
-        let mut told = AnsweredParts {
+        let mut answered_parts = AnsweredParts {
             names: found.iter().map(|part| part.part.clone()).collect(),
             hung,
             hung_reports,
         };
-        for (part, actual) in found.iter_mut().zip(told.reported_as(self.parts)) {
+        for (part, actual) in found.iter_mut().zip(answered_parts.reported_as(self.parts)) {
             if let Some(actual) = actual.filter(|_| part.verdict == VerdictCode::Accepted) {
                 part.refuse(Problem::reported_wrong());
                 answered.subject.reported_as = Some(actual.name().to_owned());
             }
         }
-        self.told = Some(told);
+        self.answered_parts = Some(answered_parts);
         self.last = Some(AnsweredFrame {
             origin,
             answered,
@@ -366,9 +366,13 @@ impl Inspector for AnsweringSession<'_> {
         let inputs = self.follow();
         self.rows.update(inputs.followed.is_some());
         let parts = self.parts;
-        let is_reported =
-            |told: &mut AnsweredParts| told.reported_as(parts).iter().any(Option::is_some);
-        if self.told.take_if(is_reported).is_some() {
+        let is_reported = |parts_of_frame: &mut AnsweredParts| {
+            parts_of_frame
+                .reported_as(parts)
+                .iter()
+                .any(Option::is_some)
+        };
+        if self.answered_parts.take_if(is_reported).is_some() {
             // Or LAST, PATH and PART would still give its pose.
             self.handle.refuse_last(&Problem::reported_wrong());
         }
