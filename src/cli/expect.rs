@@ -1,6 +1,6 @@
 //! What should hang there, as command line options.
 
-use clap::Args;
+use clap::{Args, builder::NonEmptyStringValueParser};
 
 use super::console::Advised as _;
 use inspection::{library::Library, pipeline::Expected};
@@ -10,7 +10,7 @@ use inspection::{library::Library, pipeline::Expected};
 pub(super) struct ExpectChoice {
     /// The parts that should hang there, by name, such as fender,grille; a name that is given twice stands for two such
     /// parts. Another part is refused, and what is missing is said
-    #[arg(long, value_name = "PART,...", value_delimiter = ',')]
+    #[arg(long, value_name = "PART,...", value_delimiter = ',', value_parser = NonEmptyStringValueParser::new())]
     expect: Vec<String>,
 }
 
