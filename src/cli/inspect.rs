@@ -23,6 +23,7 @@ use super::{
     input::{EmptyCellChoice, ImportChoice, Scenes, open_ahead, scene_of},
     output::{Columns, OutputFormat},
     plant::{ChosenPublisher, HistoryToChoice, PublishArgs},
+    rack::RackFileChoice,
     recipe::RecipeChoice,
     record::{HistoryChoice, HistoryRecorder},
     scan::PosesChoice,
@@ -44,6 +45,7 @@ Examples:
   partsight inspect scan.ply --units mm --up z
   partsight inspect door.pcd --empty-cell cell.pcd
   partsight inspect rack.pcd --expect fender,front_door
+  partsight inspect rack.pcd --rack rack_a.toml
   partsight inspect door.pcd --matcher paper --pose icp-ga
   partsight inspect door.pcd --json --calibration cell.toml
   partsight inspect last-week/*.png --json --calibration cell.toml --force
@@ -78,7 +80,7 @@ pub(super) struct InspectArgs {
     files: Vec<PathBuf>,
     /// Instead of files: several frames of one part, each with the pose of its camera, for one verdict and one pose; a
     /// folder, a recording or files
-    #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with_all = ["files", "source", "empty_cell", "report"])]
+    #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with_all = ["files", "source", "empty_cell", "rack", "report"])]
     scan: Vec<PathBuf>,
     #[command(flatten)]
     import: ImportChoice,
@@ -96,6 +98,8 @@ pub(super) struct InspectArgs {
     recipe: RecipeChoice,
     #[command(flatten)]
     expect: ExpectChoice,
+    #[command(flatten)]
+    rack: RackFileChoice,
     #[command(flatten)]
     empty_cell: EmptyCellChoice,
     #[command(flatten)]
@@ -175,6 +179,7 @@ fn inspect(
     let (place, load) = (args.library).load_placed(&recipe.reference_params(), console)?;
     let recipe = recipe.expecting(args.expect.of(&load.library)?);
     let robot = args.calibration.frame(console)?;
+    let recipe = args.rack.before(recipe, &load.library, robot.as_ref())?;
     if args.program.is_forced() && robot.is_none() {
         return Err(advised_error(
             "--force needs to know where the camera sits in the robot's cell",

@@ -24,6 +24,7 @@ mod output;
 mod path;
 mod plant;
 mod program;
+mod rack;
 mod recipe;
 mod recipes;
 mod record;
@@ -100,6 +101,7 @@ enum Command {
     Align(align::AlignArgs),
     Calibrate(calibrate::CalibrateArgs),
     Cell(cell::CellArgs),
+    Rack(rack::RackArgs),
     Serve(serve::ServeArgs),
     Simulate(simulate::SimulateArgs),
     Bench(bench::BenchArgs),
@@ -180,6 +182,7 @@ fn run_here(cli: Cli) -> Outcome {
         Some(Command::Align(args)) => align::run(&args, &mut console),
         Some(Command::Calibrate(args)) => calibrate::run(&args, &mut console),
         Some(Command::Cell(args)) => cell::run(&args, &mut console),
+        Some(Command::Rack(args)) => rack::run(&args, &mut console),
         Some(Command::Serve(args)) => serve::run(&args, &mut console),
         Some(Command::Simulate(args)) => simulate::run(&args, &mut console),
         Some(Command::Bench(args)) => bench::run(&args, &mut console),

@@ -56,6 +56,14 @@ impl OutputFormat {
                 Self::Rows(columns) => columns.inspected(&shown, part, library, console),
             }
         }
+        if matches!(self, Self::Card) {
+            let inspections = parts.iter().map(|part| part.inspection);
+            for place in
+                (parts.first()).map_or(Vec::new(), |part| part.recipe.empty_places(inspections))
+            {
+                console.entry(place, &"empty");
+            }
+        }
         self.expected(parts, console);
     }
 

@@ -23,6 +23,7 @@ use super::{
     numbers::NumbersChoice,
     output::{Columns, OutputFormat},
     plant::{ChosenServices, HistoryToChoice, HttpArgs, MqttChoice, TakeArgs, taken_version},
+    rack::RackFileChoice,
     recipe::RecipeChoice,
     record::{HistoryChoice, HistoryRecorder},
     trace::TraceChoice,
@@ -86,6 +87,8 @@ pub(super) struct ServeArgs {
     take: TakeArgs,
     #[command(flatten)]
     recipe: RecipeChoice,
+    #[command(flatten)]
+    rack: RackFileChoice,
     #[command(flatten)]
     empty_cell: EmptyCellChoice,
     #[command(flatten)]
@@ -171,6 +174,7 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
             "Make one with partsight calibrate, or name one with --calibration",
         ));
     };
+    let recipe = (args.rack).before(recipe, &load.library, Some(&robot))?;
     let parts = args.numbers.parts(&place, &load, console)?;
     let empty_cell = args.empty_cell.open(console)?;
     let camera = Arc::new(Camera::start(&args.source).advised()?);

@@ -172,6 +172,13 @@ pub(super) fn show_card(
         let text = "what was found reaches the picture's edge: some of it may be missing";
         line("edge", text.to_owned());
     }
+    if let Some(place) = &inspection.place {
+        line("place", place.clone());
+    }
+    if inspection.leaves_volume {
+        let text = "what was found goes on outside the work volume: some of it may be missing";
+        line("volume", text.to_owned());
+    }
     line(
         "time",
         format!("{:.1} ms", inspection.timings.total.as_secs_f64() * 1000.0),

@@ -12,6 +12,7 @@ pub mod mesh;
 pub mod nearest;
 pub mod nearest_field;
 pub mod normals;
+pub mod oriented_box;
 pub mod parallel;
 pub mod pinhole_fit;
 pub mod plane;

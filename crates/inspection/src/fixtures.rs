@@ -4,7 +4,7 @@
 
 use std::{fs, path::Path};
 
-use geometry::units::Metres;
+use geometry::units::{Metres, Radians};
 use stages::{
     contour::ContourError,
     fixtures::{FREEDOMS, pose_errors},
@@ -166,14 +166,29 @@ pub fn rejections() -> Vec<Rejection> {
     all
 }
 
-/// Those of parts that are not expected.
-fn rejections_of_others(part: &str) -> [Rejection; 2] {
+/// Those of parts that are not expected, or hang where or as they may not.
+fn rejections_of_others(part: &str) -> [Rejection; 5] {
     [
         Rejection::WrongPart {
             part: part.into(),
             expected: "Grille".into(),
         },
         Rejection::NotExpected { part: part.into() },
+        Rejection::WrongPlace {
+            part: part.into(),
+            place: "left hook".into(),
+        },
+        Rejection::BesidePlaces {
+            part: part.into(),
+            place: "left hook".into(),
+            distance: Metres(0.12),
+        },
+        Rejection::Turned {
+            part: part.into(),
+            place: "left hook".into(),
+            turn: Radians(3.1),
+            limit: Radians(0.35),
+        },
     ]
 }
 

@@ -6,3 +6,4 @@
 pub mod fixtures;
 pub mod library;
 pub mod pipeline;
+pub mod rack;

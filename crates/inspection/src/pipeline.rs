@@ -6,6 +6,7 @@ mod expected;
 mod hypothesis;
 pub mod live;
 mod mirror;
+mod misplaced;
 mod named_recipe;
 pub mod parameters;
 mod recipe_error;
@@ -31,10 +32,11 @@ use stages::{
     contour::{Contour, ContourParams},
     pose::{PoseError, PoseEstimate, PoseMethod, icp::IcpParams, icp_ga::IcpGaParams},
     project::{PlaneImage, ProjectParams},
+    rack::Rack,
     rank::{Query, RankParams},
     reference::{Reference, ReferenceParams},
     scene::SceneCloud,
-    segment::{NoPart, PointLabel, SegmentParams, Segmentation, segment},
+    segment::{NoPart, PointLabel, SegmentParams, Segmentation, segment_in},
     signature::{FanSignature, SignatureParams},
     stand_off::StandOffParams,
 };
@@ -87,6 +89,9 @@ pub struct Recipe {
     pub stand_off: StandOffParams,
     /// How the pose is estimated.
     pub pose: PoseChoice,
+    /// Where parts may hang. It depends on where the camera is, and is not part of a recipe's file.
+    #[serde(skip_serializing_if = "Rack::is_empty")]
+    pub rack: Rack,
     /// What should hang there. It differs from frame to frame, and is neither part of the identity nor of a recipe's file.
     #[serde(skip)]
     pub expected: Expected,
@@ -103,9 +108,21 @@ impl Recipe {
         }
     }
 
-    /// The maximum number of accepted parts: [`SegmentParams::max_parts`], or more if more are expected.
+    /// The maximum number of accepted parts: [`SegmentParams::max_parts`], or more if more are expected, or the rack has more
+    /// places.
     pub fn max_parts(&self) -> usize {
-        self.segment.max_parts.max(self.expected.parts().len())
+        let known = [self.expected.parts().len(), self.rack.places.len()];
+        known.into_iter().fold(self.segment.max_parts, usize::max)
+    }
+
+    /// Names of the rack's places at which nothing of a frame hangs.
+    pub fn empty_places<'a>(
+        &self,
+        found: impl Iterator<Item = &'a Inspection> + Clone,
+    ) -> Vec<&str> {
+        let names = self.rack.places.iter().map(|place| &*place.name);
+        let hangs_at = |name: &str| found.clone().any(|one| one.place.as_deref() == Some(name));
+        names.filter(|name| !hangs_at(name)).collect()
     }
 
     /// Returns eight hexadecimal digits that depend on all parameters: the CRC-32 of the recipe as JSON, in the order
@@ -151,6 +168,10 @@ pub struct Inspection {
     pub pose: Option<Result<PoseEstimate, PoseError>>,
     /// The verdict.
     pub verdict: Verdict,
+    /// Name of the rack's place where the part, or what is unknown, hangs; `None` if that is none.
+    pub place: Option<String>,
+    /// True if the part continues outside the work volume.
+    pub leaves_volume: bool,
     /// How long each stage took.
     pub timings: Timings,
 }
@@ -181,13 +202,14 @@ fn likeliest(
     watch: &dyn ProgressObserver,
 ) -> Result<Inspection, Cancelled> {
     inspect(scene, library, recipe, watch, || {
-        Some(segment(scene, &recipe.segment))
+        Some(segment_in(scene, &recipe.rack, &recipe.segment))
     })
     .map(|inspection| inspection.expect("a scene has a segmentation"))
 }
 
 /// Inspects a surface after the other of a scene, until nothing of a part's size is left that is neither background nor
-/// explained. Returns an inspection for each, those of accepted parts first, from left to right in the picture. At most
+/// explained. Returns an inspection for each, those of accepted parts first, in the order of the rack's places, and from left
+/// to right in the picture. At most
 /// [`Recipe::max_parts`] are accepted; of one, the inspection is that of [`run`]. If parts are expected, it also looks on
 /// behind one that is not.
 ///
@@ -222,11 +244,15 @@ pub fn run_all(
     }
     let mut verdicts: Vec<&mut Verdict> = found.iter_mut().map(|one| &mut one.verdict).collect();
     expected.refuse_others(&mut verdicts);
+    let place = |one: &Inspection| {
+        let mut places = recipe.rack.places.iter();
+        let index = places.position(|place| Some(&place.name) == one.place.as_ref());
+        index.unwrap_or(recipe.rack.places.len())
+    };
     found.sort_by(|a, b| {
-        let rank =
-            |inspection: &Inspection| (!inspection.verdict.is_accepted(), inspection.direction());
-        let ((a, left), (b, right)) = (rank(a), rank(b));
-        a.cmp(&b).then(left.total_cmp(&right))
+        let rank = |one: &Inspection| (!one.verdict.is_accepted(), place(one));
+        let from_left = a.direction().total_cmp(&b.direction());
+        rank(a).cmp(&rank(b)).then(from_left)
     });
     Ok(found)
 }
@@ -285,6 +311,7 @@ fn inspect(
     })?;
     if let Some(inspection) = &mut inspection {
         refuse_unsound(inspection, scene);
+        inspection.hang_in(&recipe.rack, scene, library);
     }
     Ok(inspection)
 }
@@ -302,6 +329,7 @@ fn inspect_part(
         library,
         recipe,
         clock,
+        rack: &recipe.rack,
     };
     let Some(segmentation) = clock.time(Stage::Segment, segment)? else {
         return Ok(None);
@@ -331,6 +359,8 @@ impl Inspection {
             ranking: ConfirmedRanking::default(),
             pose: None,
             verdict: Verdict::NoPart(why),
+            place: None,
+            leaves_volume: false,
             timings: Timings::default(),
         }
     }

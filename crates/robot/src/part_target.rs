@@ -17,6 +17,7 @@ use inspection::{
 use stages::{
     confirm::{ConfirmParams, Scene, by_hidden_sides},
     pose::OffScale,
+    rack::Rack,
     rank::Query,
     scene::SceneCloud,
 };
@@ -117,5 +118,6 @@ fn surface_of<'a>(inspection: &'a Inspection, scene: &'a SceneCloud) -> Option<S
             contour: inspection.contour.as_ref()?,
             signature: inspection.signature.as_ref()?,
         },
+        rack: Rack::ANYWHERE,
     })
 }

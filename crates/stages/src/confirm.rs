@@ -39,6 +39,7 @@ use crate::{
         scale::scale,
         uncertainty::uncertainty,
     },
+    rack::Rack,
     rank::{MatchEntry, MatchRanking, Query},
     reference::Reference,
     scene::SceneCloud,
@@ -77,6 +78,8 @@ pub struct Scene<'a> {
     pub part: &'a SegmentedPart,
     /// Their image, contour and signature.
     pub query: Query<'a>,
+    /// Where parts may hang: of two poses that fit alike, one that is allowed there is found.
+    pub rack: &'a Rack,
 }
 
 /// Steps below a twentieth of a millimetre at the last scale say nothing: the bounds of a pose are a millimetre and more.
@@ -224,8 +227,7 @@ pub fn confirm(
         candidate.scale = seen.scale(reference, candidate);
         // Rival poses matter only for a candidate that may be accepted.
         if candidate.evidence.score() > SURE {
-            let turned = seen.score_turned(reference, &candidate.refined.target_from_source);
-            candidate.rival = candidate.rival.max(turned);
+            seen.weigh_turned(reference, candidate);
         }
     }
     // Those that were not looked at stay behind those that were.

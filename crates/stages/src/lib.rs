@@ -21,6 +21,7 @@ pub mod fixtures;
 pub mod locate;
 pub mod pose;
 pub mod project;
+pub mod rack;
 pub mod rank;
 mod reduce;
 pub mod reference;

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use capture::{Captured, SourceSpec};
 use files::written_at;
 use geometry::rigid::row_major;
-use inspection::pipeline::{Inspection, NamedRecipe, Verdict};
+use inspection::pipeline::{Inspection, NamedRecipe, Recipe, Verdict};
 use records::{
     history::{HungId, InspectionContext, NewEntry, SceneTitle, Traceability},
     report::{CaptureLine, InspectionLine, ScanLine},
@@ -232,12 +232,15 @@ impl<'a> Inspected<'a> {
     pub fn line_of_all(parts: &[Self], trace: &Traceability) -> String {
         let first = &parts[0];
         let line = first.inspection_line(trace);
-        if first.recipe.max_parts() == 1 && first.recipe.expected.is_empty() {
+        let Recipe { expected, rack, .. } = &**first.recipe;
+        if first.recipe.max_parts() == 1 && expected.is_empty() && rack.is_empty() {
             return line.to_json();
         }
         let all = parts.iter().map(|part| part.inspection_line(trace));
+        let inspections = parts.iter().map(|part| part.inspection);
         line.with_parts(all)
-            .expecting(&first.recipe.expected, Some(&verdicts_of(parts)))
+            .with_empty_places(first.recipe.empty_places(inspections))
+            .expecting(expected, Some(&verdicts_of(parts)))
             .to_json()
     }
 

@@ -18,6 +18,7 @@ use stages::{
         vfh::{ViewHistogram, describe_vfh, describe_views, nearest_reference},
     },
     project::project,
+    rack::Rack,
     rank::{Matcher, Query, rank},
     reference::{Coverage, Reference, ReferenceError, ReferenceParams},
     scene::SceneCloud,
@@ -144,7 +145,13 @@ fn by_outline(
     let Some(scene) = confirm_in else {
         return ranking.entries.first().map(|entry| entry.reference);
     };
-    let scene = Scene { scene, part, query };
+    let rack = Rack::ANYWHERE;
+    let scene = Scene {
+        scene,
+        part,
+        query,
+        rack,
+    };
     let (confirmed, _) = confirm(&scene, references, &ranking, &recipe.confirm, 0.0);
     confirmed.entries.first().map(|entry| entry.reference)
 }

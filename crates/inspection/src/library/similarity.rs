@@ -29,6 +29,7 @@ use stages::{
     contour::find_contour,
     pose::{PoseMethod, align_to, closest::Correspondence, refine::Search},
     project::project,
+    rack::Rack,
     rank::{MatchRanking, Query, RankParams, rank},
     reference::{Coverage, Reference, ReferenceParams, ViewCut},
     scene::SceneCloud,
@@ -200,7 +201,14 @@ fn captured_scores(
         signature,
     };
     let ranking = rank(&query, others, &RankParams::default());
-    Some(confirmed(&Scene { scene, part, query }, others, &ranking))
+    let rack = Rack::ANYWHERE;
+    let scene = Scene {
+        scene,
+        part,
+        query,
+        rack,
+    };
+    Some(confirmed(&scene, others, &ranking))
 }
 
 /// Returns the scores of a part without its scene, and those of its mirror image.
@@ -258,6 +266,7 @@ fn scores(reference: &Reference, coverage: Coverage, others: &[Reference]) -> Ve
             ..SegmentedPart::whole(&reference.cloud)
         },
         query,
+        rack: Rack::ANYWHERE,
     };
     let mut scores = confirmed(&scene, others, &ranking);
     for (pair, other) in scores.iter_mut().zip(others) {

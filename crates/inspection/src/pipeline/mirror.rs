@@ -29,6 +29,7 @@ use stages::{
         quality::{Tolerance, measure_fit},
         refine::{AlignmentSource, Level, Search, refine},
     },
+    rack::Rack,
     reference::Reference,
     segment::SegmentedPart,
 };
@@ -69,7 +70,11 @@ pub(super) fn check_mirror_image(
             .unknown_below
             .max(inspection.best_score() + MIN_MIRROR_LEAD)
     };
-    let mirrored = InspectionInputs { scene, ..*inputs };
+    let mirrored = InspectionInputs {
+        scene,
+        rack: Rack::ANYWHERE,
+        ..*inputs
+    };
     let found = inspect_surface(&part.mirrored(scene), &mirrored, least)?;
     if !is_other_model && fits_either_way(&found, inputs, least) {
         let part = part.clone();
@@ -377,6 +382,7 @@ mod tests {
                 library: &library,
                 recipe: &recipe,
                 clock: &StageClock::start(&Unwatched),
+                rack: Rack::ANYWHERE,
             };
             check_mirror_image(&mut inspection, &inputs).expect("not cancelled");
             assert!(inspection.verdict.is_mirrored());
@@ -411,6 +417,7 @@ mod tests {
             library: &library,
             recipe: &recipe,
             clock: &StageClock::start(&Unwatched),
+            rack: Rack::ANYWHERE,
         };
         check_mirror_image(&mut missed, &inputs).expect("not cancelled");
         assert!(!missed.verdict.is_mirrored(), "{:?}", missed.verdict);

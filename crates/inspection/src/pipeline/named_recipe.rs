@@ -29,7 +29,7 @@ use super::{
 };
 use crate::library::PartName;
 use files::{read_text, toml_problem, write_text};
-use stages::{pose::PoseMethod, rank::Matcher};
+use stages::{pose::PoseMethod, rack::Rack, rank::Matcher};
 
 /// Name of the built-in recipe, in which every parameter is at its default.
 pub const BUILT_IN: &str = "built-in";
@@ -95,6 +95,16 @@ pub struct NamedRecipe {
 }
 
 impl NamedRecipe {
+    /// The same recipe before this rack, in camera space.
+    #[must_use]
+    pub fn in_rack(&self, rack: Rack) -> Self {
+        let mut recipe = self.clone();
+        if recipe.rack != rack {
+            Arc::make_mut(&mut recipe.parameters).rack = rack;
+        }
+        recipe
+    }
+
     /// The same recipe that expects these parts; if there are none, those that it expects now.
     #[must_use]
     pub fn expecting(&self, expected: Expected) -> Self {

@@ -4,7 +4,10 @@
 //! units. The texts of a kind are in `language/*/refusal.ftl` of the crate `texts`, with the fields as variables.
 
 use super::unsound::CAMERA_RANGE;
-use geometry::{error::Fault, units::Metres};
+use geometry::{
+    error::Fault,
+    units::{Metres, Radians},
+};
 use stages::{
     contour::ContourError,
     pose::{FreeMotion, OffScale, PoseError},
@@ -163,6 +166,36 @@ pub enum Rejection {
     NotExpected {
         /// What hangs there.
         part: String,
+    },
+    /// It may not hang at the place where it hangs.
+    WrongPlace {
+        /// What hangs there.
+        part: String,
+        /// The place.
+        place: String,
+    },
+    /// It hangs at no place of the rack.
+    BesidePlaces {
+        /// What hangs there.
+        part: String,
+        /// The nearest place.
+        place: String,
+        /// Distance of its middle from there.
+        #[serde(rename = "distance_m")]
+        distance: Metres,
+    },
+    /// It hangs at its place otherwise than it may.
+    Turned {
+        /// What hangs there.
+        part: String,
+        /// The place.
+        place: String,
+        /// Turn from the nearest orientation that it may have.
+        #[serde(rename = "turn_rad")]
+        turn: Radians,
+        /// Largest turn that is allowed.
+        #[serde(rename = "limit_rad")]
+        limit: Radians,
     },
     /// The paper's matcher ran alone, without a pose.
     Unconfirmed {

@@ -33,6 +33,7 @@ use stages::{
         quality::{LEAST_FACING, NUM_LOOKED_FOR, VisibilityCounts},
         refine::AlignmentSource,
     },
+    rack::Rack,
     rank::Query,
     reference::Reference,
     scan::{
@@ -72,7 +73,7 @@ const EDGE_MAX_DISTANCE_M: f32 = 0.015;
 /// First entries of a frame's ranking whose poses the joint fit starts from.
 const NUM_START_ENTRIES: usize = 6;
 
-/// Recognises the part of a scan from all its frames together.
+/// Recognises the part of a scan from all its frames together. The rack is ignored: it is known in the space of one camera.
 pub fn run_scan(
     scan: &Scan,
     library: &Library,
@@ -81,9 +82,13 @@ pub fn run_scan(
 ) -> Result<ScanInspection, Cancelled> {
     let part = scan.cloud.part().cloud.points;
     let tree = KdTree::new(&part);
+    let anywhere = &Recipe {
+        rack: Rack::default(),
+        ..recipe.clone()
+    };
     let (mut frames, mut of_first) = (Vec::new(), None);
     for (number, shot) in scan.used() {
-        let inspection = run(&shot.scene, library, recipe, watch)?;
+        let inspection = run(&shot.scene, library, anywhere, watch)?;
         frames.push(FrameFinding {
             number,
             ranking: inspection.ranking.clone(),
@@ -225,6 +230,7 @@ fn edges_on_part(shot: &ScannedShot, inspection: &Inspection, tree: &KdTree) -> 
         scene: &shot.scene,
         part,
         query,
+        rack: Rack::ANYWHERE,
     });
     let in_base = own
         .points

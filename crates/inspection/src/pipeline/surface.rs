@@ -13,6 +13,7 @@ use stages::{
     locate::{Located, locate},
     pose::{AlignParams, PoseError, PoseEstimate, PoseMethod},
     project::{PlaneImage, project},
+    rack::Rack,
     rank::{Matcher, Query, place, rank},
     scene::SceneCloud,
     segment::SegmentedPart,
@@ -26,6 +27,8 @@ pub(super) struct InspectionInputs<'a> {
     pub(super) library: &'a Library,
     pub(super) recipe: &'a Recipe,
     pub(super) clock: &'a StageClock<'a>,
+    /// Where parts may hang in the scene.
+    pub(super) rack: &'a Rack,
 }
 
 /// Results of the stages after segmentation, for one surface.
@@ -91,6 +94,7 @@ fn recognise(
         library,
         recipe,
         clock,
+        rack,
     } = *inputs;
     let plane = match clock.time(Stage::Project, || project(part, &recipe.project))? {
         Ok(plane) => inspection.plane.insert(plane),
@@ -124,7 +128,12 @@ fn recognise(
                 icp: recipe.icp.clone(),
                 icp_ga: recipe.icp_ga.clone(),
             };
-            let scene = Scene { scene, part, query };
+            let scene = Scene {
+                scene,
+                part,
+                query,
+                rack,
+            };
             let located = clock.time(Stage::Pose, || {
                 locate(&scene, reference, &params, &is_cancelled)
             })?;
@@ -152,7 +161,12 @@ fn recognise(
                 params.num_references = 1;
                 first.placements = place(&query, &references[first.reference], &recipe.rank);
             }
-            let scene = Scene { scene, part, query };
+            let scene = Scene {
+                scene,
+                part,
+                query,
+                rack,
+            };
             let (ranking, pose) = clock.time(Stage::Pose, || {
                 confirm(&scene, references, &ranking, &params, least_score)
             })?;

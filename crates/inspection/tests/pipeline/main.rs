@@ -3,6 +3,7 @@
 #![allow(clippy::disallowed_methods, reason = "tests change files")]
 
 mod cameras;
+mod rack;
 mod several;
 
 use std::cell::Cell;
@@ -662,32 +663,40 @@ fn a_second_reference_of_the_same_part_takes_nothing_from_its_margin() {
     assert!((margin(&library) - alone).abs() < 1e-9);
 }
 
+/// An object 1.5 m in front of the camera, turned about its axis.
+fn turned_object(object: ObjectKind, turn: f64, seed: u64) -> SceneCloud {
+    let mut setup = CellSetup::new(SimulatedObject::Object(object), seed);
+    setup.pose = PartPose::Fixed(Isometry3::from_parts(
+        Vector3::new(0.0, 0.0, 1.5).into(),
+        UnitQuaternion::from_axis_angle(&Vector3::z_axis(), turn),
+    ));
+    scene_of(&setup)
+}
+
+/// A library of this object alone, as it is seen without a turn.
+fn of_object(object: ObjectKind) -> Library {
+    let about = PartDescription {
+        name: PartName::new(object.name()).expect("a name"),
+        title: String::new(),
+        notes: String::new(),
+        from: String::new(),
+        at: jiff::Timestamp::UNIX_EPOCH,
+        simulated: true,
+    };
+    let seen = turned_object(object, 0.0, 1);
+    let enrolled = enrol_surface(&seen, 1, &about, &EnrolParams::default());
+    Library {
+        references: vec![enrolled.expect("a part").reference],
+    }
+}
+
 #[test]
 fn a_part_that_looks_the_same_after_a_turn_has_an_ambiguous_pose_in_every_view() {
     for object in [ObjectKind::Box, ObjectKind::Wheel] {
-        let seen = |turn: f64, seed| {
-            let mut setup = CellSetup::new(SimulatedObject::Object(object), seed);
-            setup.pose = PartPose::Fixed(Isometry3::from_parts(
-                Vector3::new(0.0, 0.0, 1.5).into(),
-                UnitQuaternion::from_axis_angle(&Vector3::z_axis(), turn),
-            ));
-            scene_of(&setup)
-        };
-        let about = PartDescription {
-            name: PartName::new(object.name()).expect("a name"),
-            title: String::new(),
-            notes: String::new(),
-            from: String::new(),
-            at: jiff::Timestamp::UNIX_EPOCH,
-            simulated: true,
-        };
-        let enrolled = enrol_surface(&seen(0.0, 1), 1, &about, &EnrolParams::default());
-        let library = Library {
-            references: vec![enrolled.expect("a part").reference],
-        };
+        let library = of_object(object);
         let mut num_accepted = 0;
         for (seed, turn) in [0.0, 0.09, 1.57, 2.5, 3.1, 4.0].into_iter().enumerate() {
-            let scene = seen(turn, 2 + seed as u64);
+            let scene = turned_object(object, turn, 2 + seed as u64);
             let inspection = inspected(&scene, &library, &Recipe::default());
             if inspection.verdict.is_accepted() {
                 num_accepted += 1;

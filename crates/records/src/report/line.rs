@@ -23,9 +23,12 @@ pub struct InspectionLine<'a> {
     simulated: Option<bool>,
     #[serde(flatten)]
     first: PartLine<'a>,
-    /// Every part of a frame in which several may hang, from left to right, then what else hangs there.
+    /// Every part of a frame in which several may hang, by place and from left to right, then what else hangs there.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     parts: Vec<PartLine<'a>>,
+    /// Names of the rack's places at which nothing hangs.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    empty_places: Vec<&'a str>,
     /// What should hang there, if something is expected.
     #[serde(flatten)]
     expected: Option<ExpectedLine<'a>>,
@@ -61,6 +64,12 @@ struct PartLine<'a> {
     reason_kind: Option<String>,
     /// True if the surface taken for the part reaches the picture's edge: some of the part may be missing.
     touches_edge: bool,
+    /// True if it goes on outside the work volume: some of the part may be missing.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    leaves_volume: bool,
+    /// Name of the rack's place where it hangs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    place: Option<&'a str>,
     pose: Option<PoseLine<'a>>,
     /// The same pose for the robot, if the cell is calibrated and a robot may act on it.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -325,6 +334,15 @@ impl<'a> InspectionLine<'a> {
         }
     }
 
+    /// Adds the places of the rack at which nothing hangs.
+    #[must_use]
+    pub fn with_empty_places(self, empty_places: Vec<&'a str>) -> Self {
+        Self {
+            empty_places,
+            ..self
+        }
+    }
+
     /// Creates the line of an inspection of this scene.
     pub fn of(scene: &'a str, inspection: &'a Inspection) -> Self {
         let ranking = inspection.ranking.by_part().map(|entry| RankLine {
@@ -363,6 +381,8 @@ impl<'a> InspectionLine<'a> {
                 reason: verdict.complaint().map(|[why, _]| why),
                 reason_kind: verdict.refusal().map(|why| why.kind().to_string()),
                 touches_edge: inspection.touches_edge(),
+                leaves_volume: inspection.leaves_volume,
+                place: inspection.place.as_deref(),
                 pose,
                 ranking: ranking.collect(),
                 timings_ms: Some(TimingsLine::of(&inspection.timings)),

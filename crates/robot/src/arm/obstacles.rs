@@ -35,7 +35,8 @@ use files::{file_name, read_text};
 use geometry::{
     cloud::PointCloud,
     nearest::{KdTree, median_spacing},
-    rigid::{RigidTransform, from_euler_zyx},
+    oriented_box::{MAX_COORDINATE_MM, OrientedBox},
+    rigid::RigidTransform,
     segment::Segment,
 };
 
@@ -45,10 +46,6 @@ const MAX_BYTES: u64 = 1 << 20;
 const MAX_BOXES: usize = 200;
 /// Most letters of a box's name.
 const MAX_NAME: usize = 60;
-/// Limit for coordinates and sizes, millimetres; no cell is larger.
-const MAX_COORDINATE_MM: f64 = 100_000.0;
-/// Minimum length of a box's longest side, millimetres: a smaller one was probably given in metres.
-const MIN_SIDE_MM: f64 = 10.0;
 
 /// A body of gun or arm.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -119,6 +116,8 @@ pub struct Obstacles {
 #[derive(Clone, Debug)]
 struct CellBox {
     name: String,
+    region: OrientedBox,
+    /// Its inverse transform and half its sides, which every test needs.
     box_from_robot: RigidTransform,
     half: Vector3<f64>,
 }
@@ -213,14 +212,7 @@ impl Obstacles {
 
     /// The corners of each box; two are joined by an edge if their indices differ in one bit.
     pub fn boxes(&self) -> impl Iterator<Item = [Point3<f64>; 8]> {
-        self.boxes.iter().map(|one| {
-            let robot_from_box = one.box_from_robot.inverse();
-            std::array::from_fn(|i| {
-                let sides = [0, 1, 2].map(|axis| if (i >> axis) & 1 == 0 { -1.0 } else { 1.0 });
-                let corner = Vector3::from(sides).component_mul(&one.half);
-                robot_from_box * Point3::from(corner)
-            })
-        })
+        self.boxes.iter().map(|one| one.region.corners())
     }
 
     /// All pairs of these bodies and obstacles of the cell that are too near.
@@ -316,32 +308,12 @@ impl BoxText {
         if !is_name || name.chars().count() > MAX_NAME {
             return Err(format!("its name has not 1 to {MAX_NAME} letters"));
         }
-        let wrong = |what: &str, values: [f64; 3]| Err(format!("{what} of {name} is {values:?}"));
-        if !self.centre_mm.iter().all(|x| x.abs() <= MAX_COORDINATE_MM) {
-            return wrong("centre_mm", self.centre_mm);
-        }
-        if !self
-            .size_mm
-            .iter()
-            .all(|x| *x > 0.0 && *x <= MAX_COORDINATE_MM)
-        {
-            return wrong("size_mm", self.size_mm);
-        }
-        if self.size_mm.iter().all(|x| *x < MIN_SIDE_MM) {
-            return Err(format!(
-                "no side of {name} is {MIN_SIDE_MM} mm or longer: its size_mm is {:?}",
-                self.size_mm
-            ));
-        }
-        if !self.angles_deg.iter().all(|x| x.abs() <= 360.0) {
-            return wrong("angles_deg", self.angles_deg);
-        }
-        let [x, y, z] = self.centre_mm.map(|x| x / 1000.0);
-        let [rx, ry, rz] = self.angles_deg.map(f64::to_radians);
+        let region = OrientedBox::of_file(name, self.centre_mm, self.size_mm, self.angles_deg)?;
         Ok(CellBox {
             name: name.to_owned(),
-            box_from_robot: from_euler_zyx([rx, ry, rz, x, y, z]).inverse(),
-            half: Vector3::from(self.size_mm) / 2000.0,
+            region,
+            box_from_robot: region.box_from_frame(),
+            half: region.half(),
         })
     }
 }

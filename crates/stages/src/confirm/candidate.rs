@@ -70,6 +70,19 @@ impl ReferenceCandidate {
     }
 }
 
+/// A pose whose odds are this many times those of another one may still be the wrong one of the two.
+const MAX_ODDS_OF_RIVALS: f64 = 4.0;
+
+impl ReferenceCandidate {
+    fn is_nearly_as_likely_as(&self, other: &Self) -> bool {
+        let odds = |one: &Self| {
+            let score = one.evidence.score();
+            score / (1.0 - score).max(f64::EPSILON)
+        };
+        odds(self) * MAX_ODDS_OF_RIVALS >= odds(other)
+    }
+}
+
 /// A pose of one reference on its way from coarse to fine.
 pub(super) struct PoseTrial {
     view: usize,
@@ -261,23 +274,27 @@ impl PreparedScene<'_> {
             .collect();
         finer.sort_by(|a, b| a.cost.total_cmp(&b.cost));
         // For a whole part the cost is enough.
-        let num_weighed = match piece {
-            Some(_) => finer.len(),
-            None => 1,
-        };
+        let may_be_another = piece.is_some() || !self.scene.rack.places.is_empty();
+        let num_weighed = if may_be_another { finer.len() } else { 1 };
         let mut weighed: Vec<ReferenceCandidate> = finer
             .iter()
             .take(num_weighed)
             .filter_map(|trial| self.weighed(reference, trial))
             .collect();
-        weighed.sort_by(|a, b| b.evidence.score().total_cmp(&a.evidence.score()));
+        if piece.is_some() {
+            weighed.sort_by(|a, b| b.evidence.score().total_cmp(&a.evidence.score()));
+        }
+        self.put_allowed_first(reference, &mut weighed);
         let mut weighed = weighed.into_iter();
         let mut best = weighed.next()?;
         let pose = best.refined.target_from_source;
-        let is_other =
-            |pose_of_other: &RigidTransform| self.is_apart(&pose, pose_of_other, POSE_APART);
+        let is_other = |pose_of_other: &RigidTransform| {
+            self.is_apart(&pose, pose_of_other, POSE_APART)
+                && self.competes(reference, pose_of_other, &pose)
+        };
+        // Of a whole part the runner-up says more.
         best.rival = weighed
-            .find(|other| is_other(&other.refined.target_from_source))
+            .find(|other| piece.is_some() && is_other(&other.refined.target_from_source))
             .map_or(0.0, |other| other.evidence.score());
         let other = finer
             .iter()
@@ -289,18 +306,61 @@ impl PreparedScene<'_> {
         Some(best)
     }
 
-    /// The best score after half a turn about a principal axis of the reference; 0 if every turn leads back to the same pose. A piece
-    /// of a nearly symmetric part may fit both ways.
-    pub(super) fn score_turned(&self, reference: &Reference, pose: &RigidTransform) -> f64 {
-        let Some(piece) = self.piece_for(reference) else {
-            return 0.0;
+    /// True if a pose may be the right one in place of `best`: the rack allows it, or does not allow either.
+    pub(super) fn competes(
+        &self,
+        reference: &Reference,
+        other: &RigidTransform,
+        best: &RigidTransform,
+    ) -> bool {
+        let rack = self.scene.rack;
+        rack.allows_turn(reference, other) || !rack.allows_turn(reference, best)
+    }
+
+    /// Moves the first pose that the rack allows to the front, if it is about as likely as the first of all.
+    fn put_allowed_first(&self, reference: &Reference, weighed: &mut [ReferenceCandidate]) {
+        let Some(first) = weighed.first() else { return };
+        let is_likely = |other: &ReferenceCandidate| other.is_nearly_as_likely_as(first);
+        let is_allowed = |one: &ReferenceCandidate| {
+            let pose = &one.refined.target_from_source;
+            self.scene.rack.allows_turn(reference, pose)
         };
+        let mut allowed = weighed.iter();
+        if let Some(index) = allowed.position(|one| is_likely(one) && is_allowed(one)) {
+            weighed[..=index].rotate_right(1);
+        }
+    }
+
+    /// Weighs the best pose after half a turn about a principal axis of the reference: a piece of a nearly symmetric part may
+    /// fit both ways. If the rack allows only the turned one and it is about as likely, it replaces the candidate's.
+    pub(super) fn weigh_turned(&self, reference: &Reference, candidate: &mut ReferenceCandidate) {
+        let pose = candidate.refined.target_from_source;
+        let Some(turned) = self.turned(reference, &pose) else {
+            return;
+        };
+        let pose_of_turned = turned.refined.target_from_source;
+        if !self.competes(reference, &pose_of_turned, &pose) {
+            return;
+        }
+        let is_preferred = !self.competes(reference, &pose, &pose_of_turned);
+        if is_preferred
+            && turned.is_nearly_as_likely_as(candidate)
+            && let Some(finished) = self.finished(reference, &turned)
+        {
+            *candidate = finished;
+            return;
+        }
+        candidate.rival = candidate.rival.max(turned.evidence.score());
+    }
+
+    /// The likeliest pose after half a turn about a principal axis of the reference; `None` of a whole part, and if every turn
+    /// leads back to the same pose.
+    fn turned(&self, reference: &Reference, pose: &RigidTransform) -> Option<ReferenceCandidate> {
+        let piece = self.piece_for(reference)?;
         let points = sample_evenly(&reference.cloud.points, NUM_FOR_AXES);
-        let Some(principal) = principal_axes(points.map(|p| (p.cast::<f64>(), 1.0))) else {
-            return 0.0;
-        };
+        let principal = principal_axes(points.map(|p| (p.cast::<f64>(), 1.0)))?;
         let mean = Translation3::from(principal.mean);
-        let scores = self.in_parallel(3, |axis| {
+        let turned = self.in_parallel(3, |axis| {
             let axis = Unit::new_normalize(principal.axes.column(axis).into_owned());
             let turn = UnitQuaternion::from_axis_angle(&axis, std::f64::consts::PI);
             let start = mean * turn * mean.inverse() * pose;
@@ -312,10 +372,10 @@ impl PreparedScene<'_> {
             let trial = self.attempt(reference, view, &start, levels, Some(piece))?;
             let trial = self.finer(reference, &trial, &SECOND, Some(piece))?;
             let is_other = self.is_apart(pose, &trial.refined.target_from_source, POSE_APART);
-            let weighed = self.weighed(reference, &trial).filter(|_| is_other)?;
-            Some(weighed.evidence.score())
+            self.weighed(reference, &trial).filter(|_| is_other)
         });
-        scores.into_iter().flatten().fold(0.0, f64::max)
+        let turned = turned.into_iter().flatten();
+        turned.max_by(|a, b| a.evidence.score().total_cmp(&b.evidence.score()))
     }
 
     fn finer(

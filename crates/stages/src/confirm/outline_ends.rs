@@ -170,6 +170,7 @@ mod tests {
         contour::{ContourParams, find_contour},
         fixtures::scene_of,
         project::{ProjectParams, project},
+        rack::Rack,
         rank::Query,
         segment::{SegmentParams, segment},
         signature::{SignatureParams, describe},
@@ -198,6 +199,7 @@ mod tests {
             scene: &scene,
             part: &part,
             query,
+            rack: Rack::ANYWHERE,
         };
         outline_of(&scene).cut_share
     }

@@ -7,6 +7,7 @@ use rand_pcg::Pcg64;
 use super::{
     ConfirmParams, Scene, THIRD,
     candidate::ReferenceCandidate,
+    evidence::facing_view,
     local_normal::LocalNormals,
     outline_ends::{Outline, outline_of},
     outline_shift::{edges_of_part, outline_shift},
@@ -145,6 +146,18 @@ impl<'a> PreparedScene<'a> {
         candidate: &ReferenceCandidate,
     ) -> Option<ReferenceCandidate> {
         let mut candidate = candidate.clone();
+        let start = candidate.refined.target_from_source;
+        let allowed = reference.turned_onto_itself(&start);
+        let allowed = allowed.into_iter().find(|turned| {
+            self.scene.rack.allows_turn(reference, turned)
+                && !self.competes(reference, &start, turned)
+        });
+        if let Some(turned) = allowed {
+            // What was weighed against the pose that is not allowed.
+            (candidate.rival, candidate.runner_up) = (0.0, None);
+            candidate.view = facing_view(reference, &turned);
+            candidate.refined.target_from_source = turned;
+        }
         let target = reference.target(candidate.view)?;
         let start = candidate.refined.target_from_source;
         candidate
@@ -155,9 +168,10 @@ impl<'a> PreparedScene<'a> {
         candidate.uncertainty = Some(uncertainty(source, &closest, &target, pose, &THIRD[2], 1));
         (candidate.fit, candidate.evidence) =
             self.evaluate(reference, candidate.view, pose, &closest, NUM_LOOKED_FOR);
-        if let Some(turn) = reference.own_turn() {
+        let mut turned = reference.turned_onto_itself(pose).into_iter();
+        if let Some(turned) = turned.find(|turned| self.competes(reference, turned, pose)) {
             candidate.runner_up = Some(RunnerUp {
-                target_from_source: turn * pose,
+                target_from_source: turned,
                 ratio: 1.0,
             });
         }

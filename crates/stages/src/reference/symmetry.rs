@@ -68,6 +68,17 @@ impl Reference {
         })
     }
 
+    /// The other poses at which a reference looks the same as at this one, part space from another; none without a turn of its
+    /// own.
+    pub(crate) fn turned_onto_itself(&self, pose: &RigidTransform) -> Vec<RigidTransform> {
+        let Some(turn) = self.own_turn() else {
+            return Vec::new();
+        };
+        let fold = (std::f64::consts::TAU / turn.rotation.angle()).round() as usize;
+        let turned = std::iter::successors(Some(turn * pose), |turned| Some(turn * turned));
+        turned.take(fold.saturating_sub(1)).collect()
+    }
+
     /// Share of its points that lie on it after a motion and face the same way there, 0..1.
     fn share_on_itself(&self, motion: &RigidTransform, search: Search) -> Option<f64> {
         let back = (0..self.views.len()).find(|view| !self.are_of_one_side(0, *view));

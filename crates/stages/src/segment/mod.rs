@@ -32,7 +32,7 @@ pub use self::{
     part::{BackgroundSign, SegmentedPart, other_segments, pieces, split, without_bars},
     stand::Bars,
 };
-use crate::scene::SceneCloud;
+use crate::{rack::Rack, scene::SceneCloud};
 use geometry::{plane::Plane, units::Metres};
 
 /// Maximum number of parts in a frame: of more, too little is in the picture.
@@ -87,7 +87,8 @@ impl Default for SegmentParams {
 pub enum PointLabel {
     /// No reading here.
     NoReading,
-    /// On or behind the background plane of this index; the number of planes stands for the empty cell.
+    /// On or behind the background plane of this index; the number of planes stands for the empty cell, and for what lies
+    /// outside the work volume.
     Background(u8),
     /// Neither background nor part.
     Rest,
@@ -152,6 +153,11 @@ const MIN_POINTS: usize = 200;
 
 /// Finds the background planes and the part in front of them.
 pub fn segment(scene: &SceneCloud, params: &SegmentParams) -> Segmentation {
+    segment_in(scene, Rack::ANYWHERE, params)
+}
+
+/// As [`segment`], of what lies in the work volume of a rack.
+pub fn segment_in(scene: &SceneCloud, rack: &Rack, params: &SegmentParams) -> Segmentation {
     // Counting to the minimum is enough.
     let found = scene.cloud.finite().take(MIN_POINTS).count();
     if found < MIN_POINTS {
@@ -180,6 +186,14 @@ pub fn segment(scene: &SceneCloud, params: &SegmentParams) -> Segmentation {
     if let Some(cell) = empty_cell {
         let label = PointLabel::Background(planes.len() as u8);
         cell.mark(points, &mut labels, label, noise_at_1m, params);
+    }
+    if !rack.volume.is_empty() {
+        let is_inside = rack.volume_test();
+        for (point, label) in points.iter().zip(&mut labels) {
+            if *label == PointLabel::Rest && !is_inside(point) {
+                *label = PointLabel::Background(planes.len() as u8);
+            }
+        }
     }
     let found = clusters::connect(scene, &labels, noise_at_1m, params);
     let part = part::select_part(scene, &found, &mut labels, &planes, noise_at_1m, params)

@@ -8,6 +8,7 @@ use geometry::rigid::RigidTransform;
 use stages::{
     confirm::{ConfirmParams, Scene, confirm},
     pose::FreeMotion,
+    rack::Rack,
     rank::{Query, RankParams, rank},
     reference::{Coverage, Reference, seen_around},
     scene::SceneCloud,
@@ -37,6 +38,7 @@ pub(super) fn pose_warning(reference: &Reference, coverage: Coverage) -> Option<
         scene: &SceneCloud::default(),
         part: &SegmentedPart::whole(&seen),
         query,
+        rack: Rack::ANYWHERE,
     };
     let (confirmed, pose) = confirm(&scene, references, &ranking, &ConfirmParams::default(), 0.0);
     let (found, pose) = (confirmed.entries.first()?, pose.ok()?);

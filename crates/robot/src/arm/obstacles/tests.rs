@@ -1,5 +1,5 @@
 use super::*;
-use geometry::error::Advice as _;
+use geometry::{error::Advice as _, rigid::from_euler_zyx};
 
 fn capsule(body: Body, from: [f64; 3], to: [f64; 3], radius: f64) -> Capsule {
     Capsule {

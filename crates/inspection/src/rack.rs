@@ -1,0 +1,463 @@
+//! Rack files: where parts may hang.
+//!
+//! ```toml
+//! schema_version = 1
+//! name = "rack A"
+//! frame = "camera"                       # or "base": the robot's base frame, which takes a calibration
+//!
+//! [[volume]]                             # nothing outside these boxes is looked at; without them, everything is
+//! centre_mm = [0, 100, 2200]
+//! size_mm = [2400, 1800, 900]
+//! angles_deg = [0, 0, 0]                 # about x, y and z of the frame, R = Rz·Ry·Rx; 0 without them
+//!
+//! [[place]]                              # without places, parts may hang anywhere in the volume
+//! name = "left hook"
+//! centre_mm = [-600, 0, 2200]            # where the middle of the part may be
+//! size_mm = [300, 300, 300]
+//! max_turn_deg = 20
+//! parts = [                              # without them, each part may hang there, in any orientation
+//!     { name = "fender", angles_deg = [180, 0, 5] },
+//!     { name = "grille" },               # in any orientation
+//! ]
+//! ```
+
+use std::path::{Path, PathBuf};
+
+use nalgebra::Point3;
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::{library::Library, pipeline::Inspection};
+use files::{FileError, parse_versioned, read_text, toml_problem, visible, write_text};
+use geometry::{
+    error::Advice,
+    oriented_box::OrientedBox,
+    rigid::RigidTransform,
+    units::{Metres, Radians},
+};
+pub use stages::rack::{Place, PlacedPart, Rack};
+use stages::segment::MAX_PARTS;
+
+/// Version of the file format.
+const SCHEMA: u32 = 1;
+/// Maximum size of a file, bytes.
+const MAX_BYTES: u64 = 1 << 18;
+/// Maximum number of boxes of the work volume.
+pub const MAX_BOXES: usize = 20;
+/// Maximum length of a name, characters.
+pub const MAX_NAME: usize = 40;
+/// Largest turn that a place can allow.
+pub const MAX_TURN: Radians = Radians(std::f64::consts::PI);
+/// Side of a new place: parts on hooks sway and shift by a few centimetres.
+const NEW_PLACE_SIDE: Metres = Metres(0.3);
+/// Turn that a new place allows.
+const NEW_PLACE_TURN: Radians = Radians(20.0_f64.to_radians());
+/// Room that a new work volume leaves around a part on each side.
+const VOLUME_MARGIN: Metres = Metres(0.15);
+
+/// A rack, as its file has it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RackFile {
+    /// Its name; may be empty.
+    pub name: String,
+    /// The frame of all its coordinates.
+    pub frame: RackFrame,
+    /// Work volume and places, in that frame.
+    pub rack: Rack,
+}
+
+/// The frame of a rack's coordinates.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RackFrame {
+    /// Camera space: the rack stands still before a fixed camera.
+    #[default]
+    Camera,
+    /// The robot's base frame.
+    Base,
+}
+
+/// Why a rack cannot be read, written or used.
+#[derive(Debug, Error)]
+pub enum RackError {
+    /// The file cannot be read or written.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// Something in the file is wrong.
+    #[error("{} is not a rack: {reason}", path.display())]
+    Garbled {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        reason: String,
+    },
+    /// A place is for a part that the library does not have.
+    #[error("{place} of the rack is for {part}, which is not enrolled")]
+    NotEnrolled {
+        /// The place.
+        place: String,
+        /// The part.
+        part: String,
+    },
+    /// Its coordinates are in the base frame, and the camera's position there is not known.
+    #[error("the rack is given in the robot's base frame, and the cell is not calibrated")]
+    NotCalibrated,
+}
+
+impl Advice for RackError {
+    fn advice(&self) -> String {
+        match self {
+            Self::File(error) => error.advice(),
+            Self::Garbled { .. } => "Correct the file; docs/guide/racks.md shows one".into(),
+            Self::NotEnrolled { .. } => {
+                "Enrol the part, or correct its name in the rack file; partsight library list shows the names"
+                    .into()
+            }
+            Self::NotCalibrated => {
+                "Name a calibration with --calibration, or set one in the window; or give the rack in camera space"
+                    .into()
+            }
+        }
+    }
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Written {
+    schema_version: u32,
+    #[serde(default)]
+    name: String,
+    #[serde(default)]
+    frame: RackFrame,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    volume: Vec<WrittenBox>,
+    #[serde(default, rename = "place", skip_serializing_if = "Vec::is_empty")]
+    places: Vec<WrittenPlace>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WrittenBox {
+    centre_mm: [f64; 3],
+    size_mm: [f64; 3],
+    #[serde(default, skip_serializing_if = "are_zero")]
+    angles_deg: [f64; 3],
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WrittenPlace {
+    name: String,
+    centre_mm: [f64; 3],
+    size_mm: [f64; 3],
+    #[serde(default, skip_serializing_if = "are_zero")]
+    angles_deg: [f64; 3],
+    #[serde(default = "new_place_turn_deg")]
+    max_turn_deg: f64,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    parts: Vec<WrittenPart>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WrittenPart {
+    name: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    angles_deg: Option<[f64; 3]>,
+}
+
+fn are_zero(numbers: &[f64; 3]) -> bool {
+    *numbers == [0.0; 3]
+}
+
+fn new_place_turn_deg() -> f64 {
+    written_deg(NEW_PLACE_TURN.0)
+}
+
+impl RackFile {
+    /// Reads a file.
+    pub fn read(path: &Path) -> Result<Self, RackError> {
+        Self::parse(path, &read_text(path, MAX_BYTES)?)
+    }
+
+    /// Parses a rack from text; errors name `path` as its file.
+    pub fn parse(path: &Path, text: &str) -> Result<Self, RackError> {
+        let garbled = |reason| RackError::Garbled {
+            path: path.to_owned(),
+            reason,
+        };
+        let newer = |version| garbled(format!("it has version {version}, newer than this program"));
+        let bad = |error: toml::de::Error| garbled(toml_problem(&error));
+        let written: Written = parse_versioned(text, SCHEMA, newer, bad)?;
+        let file = Self::of_written(written).map_err(garbled)?;
+        file.check().map_err(garbled)?;
+        Ok(file)
+    }
+
+    fn of_written(written: Written) -> Result<Self, String> {
+        let volume = (1..).zip(written.volume).map(|(number, one)| {
+            let name = format!("volume {number}");
+            OrientedBox::of_file(&name, one.centre_mm, one.size_mm, one.angles_deg)
+        });
+        let places = written.places.into_iter().map(WrittenPlace::read);
+        Ok(Self {
+            rack: Rack {
+                volume: volume.collect::<Result<_, _>>()?,
+                places: places.collect::<Result<_, _>>()?,
+            },
+            name: written.name,
+            frame: written.frame,
+        })
+    }
+
+    /// Returns what is wrong with names and numbers of boxes and places.
+    pub fn check(&self) -> Result<(), String> {
+        let Rack { volume, places } = &self.rack;
+        if volume.len() > MAX_BOXES {
+            let found = volume.len();
+            return Err(format!(
+                "{found} boxes of volume, expected at most {MAX_BOXES}"
+            ));
+        }
+        if places.len() > MAX_PARTS {
+            let found = places.len();
+            return Err(format!("{found} places, expected at most {MAX_PARTS}"));
+        }
+        if self.rack.is_empty() {
+            return Err("neither a volume nor a place".into());
+        }
+        if !self.name.is_empty() && !is_name(&self.name) {
+            return Err(format!(
+                "its name has not 1 to {MAX_NAME} characters that can be shown"
+            ));
+        }
+        for (index, place) in places.iter().enumerate() {
+            let name = &place.name;
+            if !is_name(name) {
+                return Err(format!(
+                    "a place's name has not 1 to {MAX_NAME} characters that can be shown"
+                ));
+            }
+            let others = &places[..index];
+            if others.iter().any(|other| other.name == *name) {
+                return Err(format!("two places are called {name}"));
+            }
+            let centre = |one: &Place| Point3::from(one.region.centre_m);
+            let within = |one: &Place, other: &Place| other.region.distance(&centre(one)) <= 0.0;
+            let overlapping =
+                (others.iter()).find(|other| within(place, other) || within(other, place));
+            if let Some(other) = overlapping {
+                return Err(format!("{name} and {} overlap", other.name));
+            }
+            if !(place.max_turn.0 > 0.0 && place.max_turn <= MAX_TURN) {
+                let found = place.max_turn.degrees();
+                return Err(format!("max_turn_deg of {name} is {found}"));
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns an error if the library lacks a part of a place.
+    pub fn check_parts(&self, library: &Library) -> Result<(), RackError> {
+        let is_enrolled = |name: &str| {
+            let mut references = library.references.iter();
+            references.any(|one| one.name == name || one.enrolled_as == name)
+        };
+        let parts = self.rack.places.iter().flat_map(|place| {
+            let parts = place.parts.iter();
+            parts.map(move |part| (&place.name, &part.name))
+        });
+        match parts.into_iter().find(|(_, part)| !is_enrolled(part)) {
+            Some((place, part)) => Err(RackError::NotEnrolled {
+                place: place.clone(),
+                part: part.clone(),
+            }),
+            None => Ok(()),
+        }
+    }
+
+    /// The contents of the file as text.
+    pub fn text(&self) -> String {
+        let written = Written {
+            schema_version: SCHEMA,
+            name: self.name.clone(),
+            frame: self.frame,
+            volume: self.rack.volume.iter().map(WrittenBox::of).collect(),
+            places: self.rack.places.iter().map(WrittenPlace::of).collect(),
+        };
+        let text = toml::to_string(&written).expect("names and numbers have a TOML form");
+        format!("# A rack of Partsight: where parts may hang. Millimetres and degrees.\n{text}")
+    }
+
+    /// Writes the file atomically, and returns the rack as the file holds it.
+    pub fn write(&self, path: &Path) -> Result<Self, RackError> {
+        let text = self.text();
+        let as_read = Self::parse(path, &text)?;
+        write_text(path, &text)?;
+        Ok(as_read)
+    }
+
+    /// The rack in camera space. `base_from_camera` is where the camera is, if that is known.
+    pub fn in_camera(&self, base_from_camera: Option<&RigidTransform>) -> Result<Rack, RackError> {
+        let frame_from_camera = self.frame_from_camera(base_from_camera)?;
+        Ok(self.rack.moved(&frame_from_camera.inverse()))
+    }
+
+    fn frame_from_camera(
+        &self,
+        base_from_camera: Option<&RigidTransform>,
+    ) -> Result<RigidTransform, RackError> {
+        match self.frame {
+            RackFrame::Camera => Ok(RigidTransform::identity()),
+            RackFrame::Base => base_from_camera.copied().ok_or(RackError::NotCalibrated),
+        }
+    }
+
+    /// Adds a place, or replaces the one of this name, where the part of an inspection may hang as it hangs there; returns
+    /// false if no part was found.
+    pub fn take_place(
+        &mut self,
+        name: &str,
+        inspection: &Inspection,
+        library: &Library,
+        base_from_camera: Option<&RigidTransform>,
+    ) -> Result<bool, RackError> {
+        let frame_from_camera = self.frame_from_camera(base_from_camera)?;
+        let found = inspection
+            .found_pose()
+            .zip(inspection.best_reference(library));
+        let found = found.filter(|_| inspection.verdict.is_named());
+        let Some((pose, reference)) = found else {
+            return Ok(false);
+        };
+        let frame_from_part = frame_from_camera * pose.camera_from_part();
+        let Some(middle) = reference.middle() else {
+            return Ok(false);
+        };
+        let part = PlacedPart {
+            name: reference.enrolled_as.clone(),
+            angles_rad: Some(frame_from_part.rotation.euler_angles().into()),
+        };
+        let places = &mut self.rack.places;
+        match places.iter_mut().find(|place| place.name == name) {
+            Some(place) => {
+                place.region.centre_m = (frame_from_part * middle).coords.into();
+                place.parts.retain(|other| other.name != part.name);
+                place.parts.push(part);
+            }
+            None => places.push(Place {
+                name: name.to_owned(),
+                region: OrientedBox {
+                    centre_m: (frame_from_part * middle).coords.into(),
+                    size_m: [NEW_PLACE_SIDE.0; 3],
+                    angles_rad: [0.0; 3],
+                },
+                max_turn: NEW_PLACE_TURN,
+                parts: vec![part],
+            }),
+        }
+        Ok(true)
+    }
+
+    /// Adds a box around the segmented part of an inspection to the work volume; returns false if there is none.
+    pub fn take_volume(
+        &mut self,
+        inspection: &Inspection,
+        base_from_camera: Option<&RigidTransform>,
+    ) -> Result<bool, RackError> {
+        let frame_from_camera = self.frame_from_camera(base_from_camera)?;
+        let Ok(part) = &inspection.segmentation.part else {
+            return Ok(false);
+        };
+        let points = part.cloud.points.iter();
+        let mut points = points.map(|p| (frame_from_camera * p.cast::<f64>()).coords);
+        let Some(first) = points.next() else {
+            return Ok(false);
+        };
+        let (low, high) = points.fold((first, first), |(low, high), p| (low.inf(&p), high.sup(&p)));
+        self.rack.volume.push(OrientedBox {
+            centre_m: ((low + high) / 2.0).into(),
+            size_m: (high - low).add_scalar(2.0 * VOLUME_MARGIN.0).into(),
+            angles_rad: [0.0; 3],
+        });
+        Ok(true)
+    }
+}
+
+fn is_name(name: &str) -> bool {
+    let is_seen = !name.trim().is_empty() && visible(name) == name;
+    is_seen && name.chars().count() <= MAX_NAME
+}
+
+/// Rounds to what a file holds: hundredths of a millimetre.
+fn written_mm(metres: f64) -> f64 {
+    (metres * 1e5).round() / 100.0
+}
+
+/// Rounds to what a file holds: thousandths of a degree.
+fn written_deg(radians: f64) -> f64 {
+    (radians.to_degrees() * 1e3).round() / 1e3
+}
+
+impl WrittenBox {
+    fn of(region: &OrientedBox) -> Self {
+        Self {
+            centre_mm: region.centre_m.map(written_mm),
+            size_mm: region.size_m.map(written_mm),
+            angles_deg: region.angles_rad.map(written_deg),
+        }
+    }
+}
+
+impl WrittenPlace {
+    fn of(place: &Place) -> Self {
+        let WrittenBox {
+            centre_mm,
+            size_mm,
+            angles_deg,
+        } = WrittenBox::of(&place.region);
+        let parts = place.parts.iter().map(|part| WrittenPart {
+            name: part.name.clone(),
+            angles_deg: part.angles_rad.map(|angles| angles.map(written_deg)),
+        });
+        Self {
+            name: place.name.clone(),
+            centre_mm,
+            size_mm,
+            angles_deg,
+            max_turn_deg: written_deg(place.max_turn.0),
+            parts: parts.collect(),
+        }
+    }
+
+    fn read(self) -> Result<Place, String> {
+        let Self {
+            name,
+            centre_mm,
+            size_mm,
+            angles_deg,
+            max_turn_deg,
+            parts,
+        } = self;
+        let parts = parts.into_iter().map(|part| {
+            let angles = part.angles_deg;
+            if angles.is_some_and(|angles| !angles.iter().all(|x| x.abs() <= 360.0)) {
+                let found = angles.unwrap_or_default();
+                return Err(format!("angles_deg of {} is {found:?}", part.name));
+            }
+            Ok(PlacedPart {
+                name: part.name,
+                angles_rad: angles.map(|angles| angles.map(f64::to_radians)),
+            })
+        });
+        Ok(Place {
+            region: OrientedBox::of_file(&name, centre_mm, size_mm, angles_deg)?,
+            max_turn: Radians::from_degrees(max_turn_deg),
+            parts: parts.collect::<Result<_, _>>()?,
+            name,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests;
