@@ -17,7 +17,7 @@ use inspection::{
     rack::{RackError, RackFile, RackFrame},
 };
 use robot::RobotFrame;
-use stages::segment::MAX_PARTS;
+use stages::{reference::Reference, segment::MAX_PARTS};
 
 /// Where parts may hang.
 #[derive(Clone, Debug, Default, Args)]
@@ -40,10 +40,16 @@ impl RackFileChoice {
             return Ok(recipe);
         };
         let file = RackFile::read(path).advised()?;
-        file.check_parts(library).advised()?;
+        file.check_parts(|name| is_enrolled(library, name))
+            .advised()?;
         let base_from_camera = robot.map(|robot| &robot.robot_from_camera);
         Ok(recipe.in_rack(file.in_camera(base_from_camera).advised()?))
     }
+}
+
+fn is_enrolled(library: &Library, name: &str) -> bool {
+    let mut references = library.references.iter();
+    references.any(|one| one.name == name || one.enrolled_as == name)
 }
 
 /// Say where parts may hang: the work volume, and the places of a rack
@@ -157,7 +163,8 @@ fn add(args: &AddArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     for (number, part) in (1..).zip(&found) {
         let numbered = args.each.then(|| number.to_string());
         if let Some(place) = args.place.as_deref().or(numbered.as_deref()) {
-            let taken = file.take_place(place.trim(), part, &load.library, camera);
+            let middle = (part.best_reference(&load.library)).and_then(Reference::middle);
+            let taken = file.take_place(place.trim(), part, middle, camera);
             if !taken.advised()? {
                 return Err(advised_error(
                     format!("{name}: the part has no pose"),
@@ -178,7 +185,7 @@ fn show(args: &ShowArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     let file = RackFile::read(&args.rack).advised()?;
     show_file(&file, &args.rack, console);
     let load = (args.library).load_some(&NamedRecipe::default().reference_params(), console)?;
-    match file.check_parts(&load.library) {
+    match file.check_parts(|name| is_enrolled(&load.library, name)) {
         Ok(()) => Ok(Outcome::Accepted),
         Err(error @ RackError::NotEnrolled { .. }) => {
             console.warn(&error, &error);

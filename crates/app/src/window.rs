@@ -34,7 +34,7 @@ use shell::{
     },
     message::{Event, Message},
     notice::{Notice, NoticeTopic},
-    path_entry,
+    path_entry, rack,
     roles::{self, RoleAction},
     session::{Source, ThemeChoice, UserRole, WorkspaceKind},
     settings,
@@ -507,6 +507,7 @@ impl Window {
         let view_has_focus = hosted.is_some_and(Workspace::has_key_focus);
         let keys = hosted.map_or_else(Vec::new, Workspace::key_bindings);
         live::set_up(&ctx, &self.state, &mut actions);
+        rack::window(&ctx, &self.state, &mut actions);
         roles::dialog(&ctx, &self.state, &mut actions);
         closing::dialog(&ctx, &self.state, &mut actions);
         let of_robot = self.robot.ui(&ctx, &self.state.session);

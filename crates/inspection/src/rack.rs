@@ -27,7 +27,7 @@ use nalgebra::Point3;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::{library::Library, pipeline::Inspection};
+use crate::pipeline::Inspection;
 use files::{FileError, parse_versioned, read_text, toml_problem, visible, write_text};
 use geometry::{
     error::Advice,
@@ -56,7 +56,8 @@ const NEW_PLACE_TURN: Radians = Radians(20.0_f64.to_radians());
 const VOLUME_MARGIN: Metres = Metres(0.15);
 
 /// A rack, as its file has it.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Written", into = "Written")]
 pub struct RackFile {
     /// Its name; may be empty.
     pub name: String,
@@ -189,27 +190,45 @@ impl RackFile {
         let newer = |version| garbled(format!("it has version {version}, newer than this program"));
         let bad = |error: toml::de::Error| garbled(toml_problem(&error));
         let written: Written = parse_versioned(text, SCHEMA, newer, bad)?;
-        let file = Self::of_written(written).map_err(garbled)?;
-        file.check().map_err(garbled)?;
-        Ok(file)
+        Self::try_from(written).map_err(garbled)
     }
+}
 
-    fn of_written(written: Written) -> Result<Self, String> {
+impl TryFrom<Written> for RackFile {
+    type Error = String;
+
+    fn try_from(written: Written) -> Result<Self, String> {
         let volume = (1..).zip(written.volume).map(|(number, one)| {
             let name = format!("volume {number}");
             OrientedBox::of_file(&name, one.centre_mm, one.size_mm, one.angles_deg)
         });
         let places = written.places.into_iter().map(WrittenPlace::read);
-        Ok(Self {
+        let file = Self {
             rack: Rack {
                 volume: volume.collect::<Result<_, _>>()?,
                 places: places.collect::<Result<_, _>>()?,
             },
             name: written.name,
             frame: written.frame,
-        })
+        };
+        file.check()?;
+        Ok(file)
     }
+}
 
+impl From<RackFile> for Written {
+    fn from(file: RackFile) -> Self {
+        Self {
+            schema_version: SCHEMA,
+            name: file.name,
+            frame: file.frame,
+            volume: file.rack.volume.iter().map(WrittenBox::of).collect(),
+            places: file.rack.places.iter().map(WrittenPlace::of).collect(),
+        }
+    }
+}
+
+impl RackFile {
     /// Returns what is wrong with names and numbers of boxes and places.
     pub fn check(&self) -> Result<(), String> {
         let Rack { volume, places } = &self.rack;
@@ -257,12 +276,8 @@ impl RackFile {
         Ok(())
     }
 
-    /// Returns an error if the library lacks a part of a place.
-    pub fn check_parts(&self, library: &Library) -> Result<(), RackError> {
-        let is_enrolled = |name: &str| {
-            let mut references = library.references.iter();
-            references.any(|one| one.name == name || one.enrolled_as == name)
-        };
+    /// Returns an error if a part of a place is not enrolled under that name.
+    pub fn check_parts(&self, is_enrolled: impl Fn(&str) -> bool) -> Result<(), RackError> {
         let parts = self.rack.places.iter().flat_map(|place| {
             let parts = place.parts.iter();
             parts.map(move |part| (&place.name, &part.name))
@@ -278,14 +293,8 @@ impl RackFile {
 
     /// The contents of the file as text.
     pub fn text(&self) -> String {
-        let written = Written {
-            schema_version: SCHEMA,
-            name: self.name.clone(),
-            frame: self.frame,
-            volume: self.rack.volume.iter().map(WrittenBox::of).collect(),
-            places: self.rack.places.iter().map(WrittenPlace::of).collect(),
-        };
-        let text = toml::to_string(&written).expect("names and numbers have a TOML form");
+        let text = toml::to_string(&Written::from(self.clone()))
+            .expect("names and numbers have a TOML form");
         format!("# A rack of Partsight: where parts may hang. Millimetres and degrees.\n{text}")
     }
 
@@ -313,29 +322,24 @@ impl RackFile {
         }
     }
 
-    /// Adds a place, or replaces the one of this name, where the part of an inspection may hang as it hangs there; returns
-    /// false if no part was found.
+    /// Adds a place, or changes the one of this name, so that the part of an inspection may hang there as it does; `middle` is
+    /// that of its reference. Returns false if no part was found.
     pub fn take_place(
         &mut self,
         name: &str,
         inspection: &Inspection,
-        library: &Library,
+        middle: Option<Point3<f64>>,
         base_from_camera: Option<&RigidTransform>,
     ) -> Result<bool, RackError> {
         let frame_from_camera = self.frame_from_camera(base_from_camera)?;
-        let found = inspection
-            .found_pose()
-            .zip(inspection.best_reference(library));
-        let found = found.filter(|_| inspection.verdict.is_named());
-        let Some((pose, reference)) = found else {
+        let named = (inspection.reference()).filter(|_| inspection.verdict.is_named());
+        let found = named.zip(inspection.found_pose()).zip(middle);
+        let Some(((reference, pose), middle)) = found else {
             return Ok(false);
         };
         let frame_from_part = frame_from_camera * pose.camera_from_part();
-        let Some(middle) = reference.middle() else {
-            return Ok(false);
-        };
         let part = PlacedPart {
-            name: reference.enrolled_as.clone(),
+            name: reference.to_owned(),
             angles_rad: Some(frame_from_part.rotation.euler_angles().into()),
         };
         let places = &mut self.rack.places;

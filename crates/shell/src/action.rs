@@ -7,6 +7,7 @@ use crate::{
     inspection::source::{CellChoice, SceneOrScan},
     message::Event,
     notice::Notice,
+    rack::RackAction,
     roles::RoleAction,
     session::WorkspaceKind,
     source::live::LiveAction,
@@ -67,6 +68,8 @@ pub enum Action {
     UseConvention(Convention),
     /// An action on the followed source.
     Live(LiveAction),
+    /// An action on the rack.
+    Rack(RackAction),
     /// An action on the roles.
     Role(RoleAction),
     /// Have this done outside the state, which does not change.
@@ -90,6 +93,10 @@ pub enum DialogRequest {
     Library,
     /// A scene, a whole cloud or a mesh to enrol.
     Part,
+    /// The file of a rack to use.
+    Rack,
+    /// The file to write the rack in use to.
+    SaveRack,
 }
 
 /// Work to be done outside the state.

@@ -7,6 +7,7 @@ use crate::{
     inspection::scan_choice::ScanFiles,
     message::Event,
     notice::Notice,
+    rack::{self, RackAction},
     roles,
     session::{Source, WorkspaceKind},
     source::live::{self, LiveAction},
@@ -85,6 +86,7 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
             return Some(Effect::Close);
         }
         Action::StayOpen => state.closing = Closing::No,
+        Action::Rack(action) => return rack::apply(state, action),
         Action::Role(action) => return roles::apply(state, action),
         Action::Live(action) => return live::apply(state, action),
         Action::Make(effect) => return Some(effect),
@@ -114,6 +116,8 @@ fn chosen(state: &mut State, ask: DialogRequest, path: PathBuf) -> Option<Effect
             });
             live::apply(state, LiveAction::Use(spec))
         }
+        DialogRequest::Rack => rack::apply(state, RackAction::Open(path)),
+        DialogRequest::SaveRack => rack::apply(state, RackAction::Save(path)),
         DialogRequest::RecordTo => live::apply(state, LiveAction::Record(path)),
         DialogRequest::Library => {
             state.open_library(Some(path));

@@ -3,6 +3,7 @@
 //! - [`frame`]: the bars above, below and beside the work, the notices, the keys, and the question before the window closes.
 //! - [`source`]: takes scenes from the source, once or continuously, and inspects them.
 //! - [`cell`]: the robot's cell, its calibration and its check, and the answers to robots.
+//! - [`rack`]: where parts may hang, and the window in which that is edited.
 //! - [`roles`]: the operator's and the engineer's view. [`trace`]: serial numbers and orders, typed or scanned.
 //! - [`inspection`]: a scene, its result and the data drawn for both; no session. [`language`]: the texts of results.
 //!
@@ -22,6 +23,7 @@ pub mod language;
 pub mod message;
 pub mod notice;
 pub mod path_entry;
+pub mod rack;
 pub mod roles;
 pub mod session;
 pub mod settings;

@@ -14,6 +14,7 @@ use crate::{
         source::{CellChoice, SceneOrScan},
         unit_system::UnitSystem,
     },
+    rack::RackInUse,
     source::live::LiveState,
     trace::current_trace::CurrentTrace,
 };
@@ -56,7 +57,9 @@ pub struct Session {
     pub convention: Convention,
     /// The arm and the gun of robot programs.
     pub program: ProgramSetup,
-    /// The robot frame, with the camera's pose in the robot's base, if the cell is calibrated.
+    /// Where parts may hang.
+    pub rack: RackInUse,
+    /// The robot frame, with the camera's pose in the robot's base, if the cell is calibrated; see [`Self::use_robot`].
     pub robot: Option<Arc<RobotFrame>>,
     /// Whether and where robots are answered.
     pub answering: AnswerSetup,
@@ -87,12 +90,27 @@ pub struct Session {
 }
 
 impl Session {
+    /// The recipe in use, before the rack in use.
+    pub fn recipe_in_rack(&self) -> Arc<NamedRecipe> {
+        let rack = self.rack.in_camera();
+        if rack.is_empty() {
+            return Arc::clone(&self.recipe);
+        }
+        Arc::new(self.recipe.in_rack(rack.clone()))
+    }
+
+    /// Uses this frame of the robot from now on.
+    pub fn use_robot(&mut self, robot: Option<Arc<RobotFrame>>) {
+        self.robot = robot;
+        self.rack.follow(self.robot.as_deref());
+    }
+
     /// Makes a job to inspect something with the recipe and the calibration in use.
     pub fn inspect_job(&self, source: SceneOrScan) -> InspectJob {
         match source {
             SceneOrScan::Scene(source) => InspectJob::Scene(InspectRequest {
                 source,
-                recipe: Arc::clone(&self.recipe),
+                recipe: self.recipe_in_rack(),
             }),
             SceneOrScan::Scan(order) => InspectJob::Scan(self.scan_request(order)),
         }

@@ -18,6 +18,7 @@ use super::{
 use crate::{
     cell::{AnswerSetup, program_setup::ProgramSetup},
     inspection::{library_cache::LibraryCache, unit_system::UnitSystem},
+    rack::RackInUse,
     source::live::LiveState,
     trace::current_trace::CurrentTrace,
 };
@@ -88,6 +89,8 @@ pub struct Settings {
     pub answering: AnswerSetup,
     /// Production order and operator; the serial number is not kept.
     pub traceability: Traceability,
+    /// Where parts may hang.
+    pub rack: RackInUse,
 }
 
 impl Default for Settings {
@@ -115,6 +118,7 @@ impl Default for Settings {
             cell: RememberedCell::default(),
             answering: AnswerSetup::default(),
             traceability: Traceability::default(),
+            rack: RackInUse::default(),
         }
     }
 }
@@ -146,6 +150,7 @@ impl Settings {
             cell: state.session.cell.clone(),
             answering: state.session.answering,
             traceability: state.session.trace.remembered(),
+            rack: state.session.rack.clone(),
         }
     }
 
@@ -176,6 +181,7 @@ impl Settings {
             answering: self.answering,
             trace: CurrentTrace::starting(self.traceability),
             shift_starts: self.shifts,
+            rack: self.rack,
             live: LiveState::averaging(self.average),
             ..Session::default()
         };

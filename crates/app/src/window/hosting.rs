@@ -104,7 +104,7 @@ impl Window {
             Message::UseCalibration(cell, robot) => {
                 self.state.session.cell = cell;
                 self.services.library_cache.use_robot(robot.clone());
-                self.state.session.robot = robot;
+                self.state.session.use_robot(robot);
             }
             Message::UseAnswering(setup) => {
                 let session = &mut self.state.session;

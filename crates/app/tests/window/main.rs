@@ -15,6 +15,7 @@ mod live;
 mod operator;
 mod paint;
 mod pictures;
+mod places;
 mod rack;
 pub(crate) mod robot;
 mod roles;

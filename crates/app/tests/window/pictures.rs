@@ -41,7 +41,7 @@ use shell::{
 use inspection::fixtures::copy_library;
 
 use super::{
-    enrol, live, paint, rack, robot,
+    enrol, live, paint, places, rack, robot,
     set_up::{SMALL, USUAL, WindowHarness, act, act_in, plain_options, press, settle},
     shots::ScanFolder,
 };
@@ -266,6 +266,26 @@ fn several_parts_look_as_they_did() {
     compare(&mut harness, "rack_small_light");
     act(&mut harness, Action::Role(RoleAction::Switch));
     compare(&mut harness, "rack_operator_small_light");
+}
+
+#[test]
+fn the_window_of_the_rack_looks_as_it_did() {
+    if !draws_in_software() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    for (size, is_light, name) in [
+        (USUAL, false, "places"),
+        (SMALL, true, "places_small_light"),
+    ] {
+        let mut harness = open_drawn(size);
+        if is_light {
+            act(&mut harness, Action::SwitchTheme);
+        }
+        places::open_place(&mut harness, folder.path());
+        harness.get_by_label_contains("1 · front_door").click();
+        compare(&mut harness, name);
+    }
 }
 
 #[test]

@@ -25,11 +25,15 @@ fn full_rack() -> (SceneCloud, Library, Recipe, Vec<Inspection>) {
     (scene, library, recipe, found)
 }
 
+fn middle_of(one: &Inspection, library: &Library) -> Option<Point3<f64>> {
+    one.best_reference(library)?.middle()
+}
+
 /// A place for each of these parts, from right to left, as they hang.
 fn places_of(found: &[Inspection], library: &Library) -> RackFile {
     let mut file = RackFile::default();
     for (number, one) in (1..).zip(found.iter().rev()) {
-        let taken = file.take_place(&number.to_string(), one, library, None);
+        let taken = file.take_place(&number.to_string(), one, middle_of(one, library), None);
         assert!(taken.expect("camera space"));
     }
     file
@@ -61,7 +65,10 @@ fn parts_at_their_places_are_accepted_in_the_order_of_the_places() {
     for (hung, before) in hung.iter().zip(found.iter().rev()) {
         assert_eq!(hung.verdict.guess(), before.verdict.guess());
         let pose = |one: &Inspection| one.found_pose().map(PoseEstimate::camera_from_part);
-        assert!(pose(hung) == pose(before), "it is found as without the rack");
+        assert!(
+            pose(hung) == pose(before),
+            "it is found as without the rack"
+        );
     }
 }
 
@@ -168,7 +175,12 @@ fn a_rack_in_the_base_frame_is_the_same_in_camera_space() {
         frame: RackFrame::Base,
         ..RackFile::default()
     };
-    let taken = file.take_place("1", &found[0], &library, Some(&base_from_camera));
+    let taken = file.take_place(
+        "1",
+        &found[0],
+        middle_of(&found[0], &library),
+        Some(&base_from_camera),
+    );
     assert!(taken.expect("calibrated"));
     assert!(file.in_camera(None).is_err(), "not calibrated");
     let reference = found[0].best_reference(&library).expect("named");

@@ -416,8 +416,8 @@ impl InspectionDetail {
         Some(recipe.expecting(self.expected()))
     }
 
-    /// Returns this recipe as the frame is inspected again with it: it expects what was expected then, and looks for as many
-    /// parts at least.
+    /// Returns this recipe as the frame is inspected again with it: it expects what was expected then, before the same rack, and
+    /// looks for as many parts at least.
     pub fn again_with(&self, recipe: &NamedRecipe) -> NamedRecipe {
         let mut again = recipe.clone();
         let parameters = Arc::make_mut(&mut again.parameters);
@@ -425,6 +425,7 @@ impl InspectionDetail {
         if let Some(then) = &self.recipe {
             let max_parts = &mut parameters.segment.max_parts;
             *max_parts = (*max_parts).max(then.segment.max_parts);
+            parameters.rack = then.rack.clone();
         }
         again
     }

@@ -17,6 +17,8 @@ pub fn request(ask: DialogRequest) -> FileRequest {
         DialogRequest::RecordTo => (text!("shell-record-to"), FileChoice::FolderToWrite),
         DialogRequest::WatchedFolder => (text!("shell-watched-folder"), FileChoice::Folder),
         DialogRequest::Part => (text!("shell-open-part"), FileChoice::File),
+        DialogRequest::Rack => (text!("rack-open"), FileChoice::File),
+        DialogRequest::SaveRack => (text!("rack-save"), FileChoice::NewFile("rack.toml".into())),
     };
     FileRequest {
         title,
@@ -29,6 +31,9 @@ fn filters(ask: DialogRequest) -> Vec<FileFilter> {
     match ask {
         DialogRequest::Scene => vec![(text!("shell-captured-scenes"), SCENE_ENDINGS), all_files()],
         DialogRequest::Part => vec![points(), all_files()],
+        DialogRequest::Rack | DialogRequest::SaveRack => {
+            vec![(text!("rack-files"), &["toml"]), all_files()]
+        }
         DialogRequest::Scan
         | DialogRequest::Library
         | DialogRequest::Recording

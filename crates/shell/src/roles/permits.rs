@@ -45,6 +45,7 @@ pub(super) fn needs_engineer(action: &Action, has_pin: bool) -> bool {
         ),
         // The robot's controller expects a certain convention.
         Action::UseConvention(_)
+        | Action::Rack(_)
         | Action::TakeEmptyCell
         | Action::ForgetEmptyCell
         | Action::UseFoundLibrary
@@ -74,7 +75,10 @@ pub(super) fn needs_engineer(action: &Action, has_pin: bool) -> bool {
 
 fn asks_for_engineer(ask: DialogRequest, has_pin: bool) -> bool {
     match ask {
-        DialogRequest::Library | DialogRequest::Part => true,
+        DialogRequest::Library
+        | DialogRequest::Part
+        | DialogRequest::Rack
+        | DialogRequest::SaveRack => true,
         DialogRequest::Scene
         | DialogRequest::Scan
         | DialogRequest::Recording

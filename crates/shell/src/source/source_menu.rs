@@ -9,6 +9,7 @@ use crate::{
     action::{Action, DialogRequest},
     frame::top_bar::NARROW,
     inspection::source::{CellChoice, file_name},
+    rack::RackAction,
     session::Source,
     state::State,
 };
@@ -188,6 +189,8 @@ fn others(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
     });
     ui.separator();
     empty_cell(ui, state, actions);
+    ui.separator();
+    rack(ui, state, actions);
     if !state.session.recent.is_empty() {
         ui.separator();
         heading(ui, text!("shell-recent-files"));
@@ -222,6 +225,16 @@ fn cameras(ui: &mut Ui, chosen: Option<&SourceSpec>, actions: &mut Vec<Action>) 
             actions.push(Action::Live(LiveAction::Use(spec)));
             ui.close();
         }
+    }
+}
+
+/// Draws the entry for the window of the rack.
+fn rack(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
+    heading(ui, text!("rack-heading"));
+    let button = Button::selectable(state.rack_editor.is_some(), state.session.rack.title());
+    if ui.add(button).on_hover_text(text!("rack-says")).clicked() {
+        actions.push(Action::Rack(RackAction::Toggle));
+        ui.close();
     }
 }
 

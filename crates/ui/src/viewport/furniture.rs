@@ -43,6 +43,13 @@ pub fn frustum(intrinsics: &Intrinsics, depth: Metres) -> LineSet {
     LineSet::new(lines)
 }
 
+/// Makes the edges of a box from its corners, of which two are joined if their indices differ in one bit.
+pub fn box_edges(corners: [Vec3; 8], role: Role) -> impl Iterator<Item = Line> {
+    let pairs = (0..8).flat_map(|i| [1, 2, 4].map(|bit| [i, i | bit]));
+    let edges = pairs.filter(|[i, k]| i < k);
+    edges.map(move |ends| Line::new(ends.map(|i| corners[i]), role))
+}
+
 /// Makes the spray nozzle as a cone of 24 sides with its tip at `mouth`, pointing along `direction`, and a dashed line for the
 /// stand-off to the surface point `surface`.
 pub fn nozzle(mouth: Vec3, direction: Vec3, surface: Vec3) -> LineSet {

@@ -83,6 +83,9 @@ pub(super) fn ui(
         if inspection.touches_edge() && inspected.scan.is_none() {
             ui.colored_label(theme.warning, text!("inspect-touches-edge"));
         }
+        if inspection.leaves_volume {
+            ui.colored_label(theme.warning, text!("rack-leaves-volume"));
+        }
         as_part(ui, inspected, &headline);
         score(ui, inspected, &headline);
         if let Some(pose) = pose {

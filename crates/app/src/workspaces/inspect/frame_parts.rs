@@ -110,8 +110,10 @@ impl PartRow {
         };
         // Figures are for the engineer.
         let figure = figure.filter(|_| !session.is_operator_view());
+        let place = inspection.place.clone();
+        let place = place.map(|place| text!("rack-place", place = place));
         let why = why_not(part).map(|why| in_short(&why));
-        let below: Vec<String> = figure.into_iter().chain(why).collect();
+        let below: Vec<String> = place.into_iter().chain(figure).chain(why).collect();
         Self {
             number: (index + 1).to_string(),
             headline: Headline::of(part, session),

@@ -12,7 +12,8 @@ use super::{
     state::{InspectState, ViewPart},
 };
 use crate::shots::{Overlay, POINT_SIZE};
-use geometry::{rigid::RigidTransform, units::Metres};
+use geometry::{oriented_box::OrientedBox, rigid::RigidTransform, units::Metres};
+use inspection::rack::Rack;
 use records::history::HungId;
 use shell::{
     inspection::{inspected::Inspected, scene_figure::SprayFigure, unit_system::UnitSystem},
@@ -23,8 +24,9 @@ use ui::{
     theme::{ROUNDING, Theme, font, space},
     user_error::UserError,
     viewport::{
-        Colouring, FitRequest, Legend, StandardView, TextLabel, ViewCamera, ViewColours,
-        ViewDirection, ViewError, ViewScene, ViewShot, ViewStyle, Viewport, ViewportGpu, furniture,
+        Colouring, FitRequest, Legend, Line, LineSet, Role, StandardView, TextLabel, ViewCamera,
+        ViewColours, ViewDirection, ViewError, ViewScene, ViewShot, ViewStyle, Viewport,
+        ViewportGpu, furniture, vec3,
     },
     widgets::grouped,
 };
@@ -55,6 +57,7 @@ struct SceneAnnotation {
     camera_from_robot: Option<RigidTransform>,
     looked_at: Option<usize>,
     has_overlay: bool,
+    rack: Rack,
 }
 
 /// The view of the last result.
@@ -306,6 +309,7 @@ impl SceneView {
             camera_from_robot: robot.map(|robot| robot.robot_from_camera.inverse()),
             looked_at: overlay.and_then(|overlay| overlay.looked_at),
             has_overlay: overlay.is_some(),
+            rack: rack_of(session, inspected).clone(),
         };
         if self.placed.as_ref() == Some(&by) {
             return;
@@ -355,6 +359,11 @@ impl SceneView {
                 }
             }
         }
+        let (boxes, places) = rack_lines(&by.rack);
+        if !boxes.lines().is_empty() {
+            lines.push(boxes);
+        }
+        labels.extend(places);
         let shown = session.shown.as_ref().filter(|shown| shown.parts.len() > 1);
         for (index, part) in shown
             .iter()
@@ -403,6 +412,37 @@ impl SceneView {
             plate(painter, corner, egui::Align2::LEFT_BOTTOM, origin, theme).top()
         }
     }
+}
+
+/// The rack in use, or that of a past inspection; a scan has none.
+fn rack_of<'a>(session: &'a Session, inspected: &'a Inspected) -> &'a Rack {
+    let shown = session.shown.as_ref();
+    if inspected.scan.is_some() {
+        Rack::ANYWHERE
+    } else if shown.is_some_and(|shown| shown.is_past) {
+        &inspected.recipe.rack
+    } else {
+        session.rack.in_camera()
+    }
+}
+
+/// The edges of the work volume and of the places, and the places' names.
+fn rack_lines(rack: &Rack) -> (LineSet, Vec<TextLabel>) {
+    let corners = |region: &OrientedBox| region.corners().map(|corner| vec3(&corner));
+    let volume = rack.volume.iter().flat_map(|region| {
+        let edges = furniture::box_edges(corners(region), Role::Rest);
+        edges.map(|edge| edge.dashed().with_width(1.5))
+    });
+    let places = rack.places.iter().flat_map(|place| {
+        let edges = furniture::box_edges(corners(&place.region), Role::Measure);
+        edges.map(|edge| edge.dashed().with_width(1.5))
+    });
+    let lines: Vec<Line> = volume.chain(places).collect();
+    let labels = rack.places.iter().map(|place| TextLabel {
+        at: corners(&place.region)[0],
+        text: text!("rack-place", place = place.name.clone()),
+    });
+    (LineSet::new(lines), labels.collect())
 }
 
 /// The overlay of a scan's points.

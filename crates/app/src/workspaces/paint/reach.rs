@@ -40,7 +40,7 @@ use ui::{
     language::text,
     task::{TaskContext, TaskError},
     user_error::UserError,
-    viewport::{Line, LineSet, Role},
+    viewport::{Line, LineSet, Role, furniture, vec3},
 };
 
 /// Input of a reach check.
@@ -320,17 +320,11 @@ fn unreached(planned: &Planned, check: &PathCheck) -> Vec<Line> {
 /// The edges of the boxes of the cell, in the part's frame.
 fn outlines(obstacles: &Obstacles, robot_from_part: &RigidTransform) -> Vec<Line> {
     let part_from_robot = robot_from_part.inverse();
-    let edges_of = |corners: [Point3<f64>; 8]| {
-        let corners = corners.map(|corner| {
-            let at = (part_from_robot * corner).cast::<f32>();
-            Vec3::new(at.x, at.y, at.z)
-        });
-        let pairs = (0..8).flat_map(|i| [1, 2, 4].map(|bit| [i, i | bit]));
-        let edges = pairs.filter(|[i, k]| i < k);
-        let lines = edges.map(|ends| Line::new(ends.map(|i| corners[i]), Role::Rest));
-        lines.collect::<Vec<_>>()
-    };
-    obstacles.boxes().flat_map(edges_of).collect()
+    let in_part = |corner: Point3<f64>| vec3(&(part_from_robot * corner));
+    let boxes = obstacles.boxes();
+    boxes
+        .flat_map(|corners| furniture::box_edges(corners.map(in_part), Role::Rest))
+        .collect()
 }
 
 /// Writes the program of a path in the part's standard position.

@@ -94,7 +94,7 @@ impl AnswerInputs {
         let followed = session.is_live().then(|| session.source.followed());
         Self {
             followed: followed.flatten(),
-            recipe: Arc::clone(&session.recipe),
+            recipe: session.recipe_in_rack(),
             empty_cell: session.empty_cell.clone(),
             robot,
             pose: session.answering.pose,

@@ -163,7 +163,7 @@ fn follow_source(state: &mut State) {
     };
     let request = LiveStart {
         spec,
-        recipe: Arc::clone(&state.session.recipe),
+        recipe: state.session.recipe_in_rack(),
         params: state.session.live.params.clone(),
         empty_cell: state.session.empty_cell.clone(),
         record: state.session.live.recording.clone(),

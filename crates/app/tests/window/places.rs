@@ -1,0 +1,99 @@
+//! Where parts may hang: the window of the rack.
+
+use egui_kittest::kittest::Queryable as _;
+use inspection::rack::RackFile;
+use shell::{
+    action::Action,
+    rack::RackAction,
+    session::Shown,
+    settings::{self, Settings},
+};
+
+use super::{
+    rack::open_rack,
+    set_up::{WindowHarness, act, open, settle},
+};
+
+/// Opens the window of the rack before a frame of three things, and makes a place of the door.
+pub(crate) fn open_place(harness: &mut WindowHarness, folder: &std::path::Path) {
+    open_rack(harness, folder);
+    act(harness, Action::Rack(RackAction::Toggle));
+    click(harness, "Add a place for this part");
+}
+
+fn click(harness: &mut WindowHarness, label: &str) {
+    harness.get_by_label(label).click();
+    harness.run_steps(4);
+    settle(harness);
+}
+
+/// The place and the reason of each part.
+fn shown(harness: &WindowHarness) -> Vec<String> {
+    let shown: &Shown = harness
+        .state()
+        .state()
+        .session
+        .shown
+        .as_ref()
+        .expect("a result");
+    let parts = shown.parts.iter().map(|part| {
+        let inspection = &part.inspection;
+        let kind = inspection
+            .verdict
+            .refusal()
+            .map(|why| why.kind().to_string());
+        let place = inspection.place.as_deref().unwrap_or("none");
+        format!("{place} {}", kind.unwrap_or_default())
+    });
+    parts.collect()
+}
+
+fn edit(harness: &mut WindowHarness, file: &RackFile) {
+    let action = RackAction::Edit {
+        file: Box::new(file.clone()),
+        continues: false,
+    };
+    act(harness, Action::Rack(action));
+    harness.run_steps(4);
+    settle(harness);
+}
+
+#[test]
+fn a_place_is_made_of_the_part_in_front_and_a_turned_part_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open();
+    open_place(&mut harness, folder.path());
+    // It is inspected again at once: nothing may hang beside the place.
+    assert_eq!(
+        shown(&harness),
+        ["1 ", "none unknown", "none beside_places"]
+    );
+    let path = folder.path().join("rack.toml");
+    act(&mut harness, Action::Rack(RackAction::Save(path.clone())));
+    let saved = RackFile::read(&path).expect("saved");
+    let mut turned = saved.clone();
+    let angles = turned.rack.places[0].parts[0].angles_rad.as_mut();
+    angles.expect("an orientation")[2] += 0.5;
+    edit(&mut harness, &turned);
+    assert_eq!(
+        shown(&harness),
+        ["1 turned", "none unknown", "none beside_places"]
+    );
+    click(&mut harness, "Undo");
+    assert_eq!(shown(&harness)[0], "1 ");
+    // What is wrong is said, and the rack before it stays in use.
+    let mut wrong = saved.clone();
+    wrong.rack.places[0].parts[0].name = "gril".into();
+    edit(&mut harness, &wrong);
+    harness.get_by_label_contains("which is not enrolled");
+    assert_eq!(shown(&harness)[0], "1 ");
+    // It is kept from one start to the next.
+    let kept = folder.path().join("settings.toml");
+    let state = harness.state().state();
+    settings::save(&kept, &Settings::of(state, None)).expect("saved");
+    let (read, problem) = settings::load(&kept);
+    assert_eq!(problem, None);
+    assert_eq!(read.rack.in_camera(), state.session.rack.in_camera());
+    click(&mut harness, "Use no rack");
+    assert_eq!(shown(&harness), ["none ", "none ", "none unknown"]);
+}

@@ -1,0 +1,326 @@
+//! The window in which the rack is edited: beside the 3-D view, which draws its boxes.
+
+use egui::{
+    CollapsingHeader, Context, DragValue, Grid, RichText, Role, ScrollArea, TextEdit, Ui,
+    WidgetInfo, pos2, vec2,
+};
+
+use super::{RackAction, RackEditor};
+use crate::{
+    action::{Action, DialogRequest},
+    state::State,
+};
+use geometry::{
+    oriented_box::{MAX_COORDINATE_MM, OrientedBox},
+    units::Radians,
+};
+use inspection::rack::{MAX_BOXES, MAX_NAME, MAX_TURN, Place, RackFile, RackFrame};
+use stages::segment::MAX_PARTS;
+use ui::{
+    language::text,
+    theme::{Theme, space},
+    widgets::text_button,
+};
+
+/// Width of the window, logical pixels.
+const WIDTH_PX: f32 = 330.0;
+/// Room that the window leaves above and below, logical pixels.
+const MARGIN_PX: f32 = 420.0;
+
+/// Draws the window while it is open.
+pub fn window(ctx: &Context, state: &State, actions: &mut Vec<Action>) {
+    let Some(editor) = state
+        .rack_editor
+        .as_ref()
+        .filter(|_| !state.session.is_operator_view())
+    else {
+        return;
+    };
+    let mut file = editor.draft.clone();
+    let mut act = |action| actions.push(Action::Rack(action));
+    let mut is_open = true;
+    let mut caused = Vec::new();
+    egui::Window::new(text!("rack-heading"))
+        .id(egui::Id::unique("rack"))
+        .open(&mut is_open)
+        .resizable(false)
+        .default_width(WIDTH_PX)
+        .default_pos(pos2(112.0, 112.0))
+        .show(ctx, |ui| {
+            ui.set_width(WIDTH_PX);
+            top(ui, state, editor, &mut file, &mut caused);
+            ui.separator();
+            let room = (ctx.content_rect().height() - MARGIN_PX).max(120.0);
+            ScrollArea::vertical().max_height(room).show(ui, |ui| {
+                volume(ui, state, &mut file, &mut caused);
+                ui.add_space(space::MEDIUM);
+                places(ui, state, &mut file, &mut caused);
+            });
+            if let Some(problem) = &editor.problem {
+                ui.separator();
+                ui.colored_label(Theme::of(ui).rejected, &problem.what);
+                ui.weak(&problem.advice);
+            }
+        });
+    if file != editor.draft {
+        let continues = ctx.input(|input| input.pointer.is_decidedly_dragging());
+        act(RackAction::Edit {
+            file: Box::new(file),
+            continues,
+        });
+    } else if editor.is_new && !ctx.input(|input| input.pointer.any_down()) {
+        act(RackAction::Inspect);
+    }
+    if !is_open {
+        act(RackAction::Toggle);
+    }
+    actions.extend(caused);
+}
+
+/// Draws name and frame, and the buttons for the whole rack.
+fn top(
+    ui: &mut Ui,
+    state: &State,
+    editor: &RackEditor,
+    file: &mut RackFile,
+    caused: &mut Vec<Action>,
+) {
+    ui.horizontal(|ui| {
+        let label = ui.label(text!("rack-name"));
+        let field = TextEdit::singleline(&mut file.name).char_limit(MAX_NAME);
+        ui.add(field.desired_width(f32::INFINITY))
+            .labelled_by(label.id);
+    });
+    ui.horizontal(|ui| {
+        ui.label(text!("rack-frame"));
+        let is_calibrated = state.session.robot.is_some();
+        for (frame, text) in [
+            (RackFrame::Camera, text!("rack-in-camera")),
+            (RackFrame::Base, text!("rack-in-base")),
+        ] {
+            let can = frame == RackFrame::Camera || is_calibrated;
+            let button = egui::Button::selectable(file.frame == frame, text);
+            let button = ui.add_enabled(can && file.frame != frame, button);
+            if button
+                .on_disabled_hover_text(text!("rack-needs-calibration"))
+                .clicked()
+                && let Some(robot) = &state.session.robot
+            {
+                let base_from_camera = &robot.robot_from_camera;
+                file.rack = match frame {
+                    RackFrame::Base => file.rack.moved(base_from_camera),
+                    RackFrame::Camera => file.rack.moved(&base_from_camera.inverse()),
+                };
+                file.frame = frame;
+            }
+        }
+    });
+    ui.horizontal_wrapped(|ui| {
+        if text_button(ui, &text!("rack-open")).clicked() {
+            caused.push(Action::Ask(DialogRequest::Rack));
+        }
+        let can_save = !file.rack.is_empty() && editor.problem.is_none();
+        ui.add_enabled_ui(can_save, |ui| {
+            if text_button(ui, &text!("rack-save")).clicked() {
+                caused.push(Action::Ask(DialogRequest::SaveRack));
+            }
+        });
+        ui.add_enabled_ui(!editor.past.is_empty(), |ui| {
+            if text_button(ui, &text!("rack-undo")).clicked() {
+                caused.push(Action::Rack(RackAction::Undo));
+            }
+        });
+        ui.add_enabled_ui(!file.rack.is_empty(), |ui| {
+            if text_button(ui, &text!("rack-clear")).clicked() {
+                *file = RackFile::default();
+            }
+        });
+    });
+}
+
+/// Draws the boxes of the work volume.
+fn volume(ui: &mut Ui, state: &State, file: &mut RackFile, caused: &mut Vec<Action>) {
+    ui.strong(text!("rack-volume"));
+    ui.weak(text!("rack-volume-says"));
+    let mut removed = None;
+    for (index, region) in file.rack.volume.iter_mut().enumerate() {
+        let title = text!("rack-box", number = index + 1);
+        CollapsingHeader::new(title)
+            .id_salt(("box", index))
+            .show(ui, |ui| {
+                numbers(ui, region);
+                if text_button(ui, &text!("rack-remove")).clicked() {
+                    removed = Some(index);
+                }
+            });
+    }
+    if let Some(index) = removed {
+        file.rack.volume.remove(index);
+    }
+    let has_part = front(state).is_some() && file.rack.volume.len() < MAX_BOXES;
+    ui.add_enabled_ui(has_part, |ui| {
+        let add = text_button(ui, &text!("rack-add-box"));
+        if add.on_disabled_hover_text(text!("rack-no-part")).clicked() {
+            caused.push(Action::Rack(RackAction::TakeVolume));
+        }
+    });
+}
+
+/// True if a part is in front of which a place or a box can be made.
+fn front(state: &State) -> Option<()> {
+    let shown = state.session.shown.as_ref()?;
+    let inspection = &shown.inspected.inspection;
+    (inspection.verdict.is_named() && inspection.found_pose().is_some()).then_some(())
+}
+
+/// Draws the places.
+fn places(ui: &mut Ui, state: &State, file: &mut RackFile, caused: &mut Vec<Action>) {
+    ui.strong(text!("rack-places"));
+    ui.weak(text!("rack-places-says"));
+    let has_part = front(state).is_some();
+    let mut removed = None;
+    for (index, place) in file.rack.places.iter_mut().enumerate() {
+        let parts: Vec<&str> = place.parts.iter().map(|part| &*part.name).collect();
+        let title = match &parts[..] {
+            [] => place.name.clone(),
+            parts => format!("{} · {}", place.name, parts.join(", ")),
+        };
+        CollapsingHeader::new(title)
+            .id_salt(("place", index))
+            .show(ui, |ui| {
+                place_ui(ui, place);
+                ui.horizontal_wrapped(|ui| {
+                    ui.add_enabled_ui(has_part, |ui| {
+                        let take = text_button(ui, &text!("rack-take-place"));
+                        let take = take.on_hover_text(text!("rack-take-place-says"));
+                        if take.on_disabled_hover_text(text!("rack-no-part")).clicked() {
+                            let name = place.name.clone();
+                            caused.push(Action::Rack(RackAction::TakePlace(name)));
+                        }
+                    });
+                    if text_button(ui, &text!("rack-remove")).clicked() {
+                        removed = Some(index);
+                    }
+                });
+            });
+    }
+    if let Some(index) = removed {
+        file.rack.places.remove(index);
+    }
+    ui.add_enabled_ui(has_part && file.rack.places.len() < MAX_PARTS, |ui| {
+        let add = text_button(ui, &text!("rack-add-place"));
+        if add.on_disabled_hover_text(text!("rack-no-part")).clicked() {
+            let is_free = |number: &usize| {
+                let name = number.to_string();
+                file.rack.places.iter().all(|place| place.name != name)
+            };
+            let number = (1..).find(is_free).unwrap_or_default();
+            caused.push(Action::Rack(RackAction::TakePlace(number.to_string())));
+        }
+    });
+}
+
+fn place_ui(ui: &mut Ui, place: &mut Place) {
+    ui.horizontal(|ui| {
+        let label = ui.label(text!("rack-name"));
+        let field = TextEdit::singleline(&mut place.name).char_limit(MAX_NAME);
+        ui.add(field.desired_width(180.0)).labelled_by(label.id);
+    });
+    numbers(ui, &mut place.region);
+    ui.horizontal(|ui| {
+        let name = text!("rack-max-turn");
+        ui.label(&name);
+        let mut degrees = place.max_turn.degrees();
+        let range = 1.0..=MAX_TURN.degrees();
+        let field = DragValue::new(&mut degrees)
+            .range(range)
+            .speed(0.5)
+            .max_decimals(1);
+        if number(ui, field.suffix("°"), &name) {
+            place.max_turn = Radians::from_degrees(degrees);
+        }
+    });
+    let mut removed = None;
+    for (index, part) in place.parts.iter_mut().enumerate() {
+        ui.horizontal(|ui| {
+            ui.label(&part.name);
+            let mut is_oriented = part.angles_rad.is_some();
+            let checkbox = ui.add_enabled(
+                is_oriented,
+                egui::Checkbox::new(&mut is_oriented, text!("rack-oriented")),
+            );
+            if checkbox
+                .on_hover_text(text!("rack-oriented-says"))
+                .changed()
+            {
+                part.angles_rad = None;
+            }
+            if text_button(ui, &text!("rack-remove")).clicked() {
+                removed = Some(index);
+            }
+        });
+    }
+    if let Some(index) = removed {
+        place.parts.remove(index);
+    }
+    if place.parts.is_empty() {
+        ui.weak(text!("rack-any-part"));
+    }
+}
+
+/// Draws the numbers of a box.
+fn numbers(ui: &mut Ui, region: &mut OrientedBox) {
+    Grid::new("numbers").num_columns(4).show(ui, |ui| {
+        ui.label("");
+        for axis in ["x", "y", "z"] {
+            ui.label(RichText::new(axis).weak());
+        }
+        ui.end_row();
+        let limit = MAX_COORDINATE_MM;
+        let rows = [
+            (
+                text!("rack-centre"),
+                &mut region.centre_m,
+                -limit..=limit,
+                1e3,
+                5.0,
+            ),
+            (
+                text!("rack-size"),
+                &mut region.size_m,
+                10.0..=limit,
+                1e3,
+                5.0,
+            ),
+            (
+                text!("rack-angles"),
+                &mut region.angles_rad,
+                -180.0..=180.0,
+                1.0_f64.to_degrees(),
+                0.5,
+            ),
+        ];
+        for (name, values, range, unit, speed) in rows {
+            ui.label(&name);
+            for (value, axis) in values.iter_mut().zip(["x", "y", "z"]) {
+                let mut shown = *value * unit;
+                let field = DragValue::new(&mut shown)
+                    .range(range.clone())
+                    .clamp_existing_to_range(false)
+                    .speed(speed)
+                    .max_decimals(1);
+                if number(ui, field, &format!("{name} {axis}")) {
+                    *value = shown / unit;
+                }
+            }
+            ui.end_row();
+        }
+    });
+}
+
+/// Draws a number that can be dragged or typed; true if the user changed it.
+fn number(ui: &mut Ui, field: DragValue<'_>, label: &str) -> bool {
+    let response = ui.add_sized(vec2(72.0, space::TARGET), field);
+    response.widget_info(|| WidgetInfo::labeled(Role::SpinButton, true, label));
+    response.changed()
+}
