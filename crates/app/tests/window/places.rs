@@ -94,6 +94,6 @@ fn a_place_is_made_of_the_part_in_front_and_a_turned_part_is_refused() {
     let (read, problem) = settings::load(&kept);
     assert_eq!(problem, None);
     assert_eq!(read.rack.in_camera(), state.session.rack.in_camera());
-    click(&mut harness, "Use no rack");
+    click(&mut harness, "No rack");
     assert_eq!(shown(&harness), ["none ", "none ", "none unknown"]);
 }

@@ -25,7 +25,7 @@ use ui::{
 /// Width of the window, logical pixels.
 const WIDTH_PX: f32 = 330.0;
 /// Room that the window leaves above and below, logical pixels.
-const MARGIN_PX: f32 = 420.0;
+const MARGIN_PX: f32 = 380.0;
 
 /// Draws the window while it is open.
 pub fn window(ctx: &Context, state: &State, actions: &mut Vec<Action>) {
@@ -51,7 +51,10 @@ pub fn window(ctx: &Context, state: &State, actions: &mut Vec<Action>) {
             top(ui, state, editor, &mut file, &mut caused);
             ui.separator();
             let room = (ctx.content_rect().height() - MARGIN_PX).max(120.0);
-            ScrollArea::vertical().max_height(room).show(ui, |ui| {
+            let scrolled = ScrollArea::vertical()
+                .max_height(room)
+                .min_scrolled_height(room);
+            scrolled.show(ui, |ui| {
                 volume(ui, state, &mut file, &mut caused);
                 ui.add_space(space::MEDIUM);
                 places(ui, state, &mut file, &mut caused);
