@@ -68,7 +68,10 @@ pub(crate) fn inspect_all(
     expected: Option<Vec<String>>,
 ) -> PyResult<Vec<Inspection>> {
     let loaded = library.loaded();
-    let expected = Expected::new(expected.unwrap_or_default(), &loaded.library).map_err(advised)?;
+    let expected = Expected::new(expected.unwrap_or_default(), |name| {
+        loaded.library.has_part(name)
+    })
+    .map_err(advised)?;
     let recipe = library.recipe_or(recipe)?.expecting(expected);
     let found = interruptible(py, |watch| {
         run_all(&scene.capture, &loaded.library, &recipe, watch)

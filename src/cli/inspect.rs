@@ -45,6 +45,7 @@ Examples:
   partsight inspect scan.ply --units mm --up z
   partsight inspect door.pcd --empty-cell cell.pcd
   partsight inspect rack.pcd --expect fender,front_door
+  partsight inspect rack.pcd --orders orders.csv --order 4711
   partsight inspect rack.pcd --rack rack_a.toml
   partsight inspect door.pcd --matcher paper --pose icp-ga
   partsight inspect door.pcd --json --calibration cell.toml
@@ -177,7 +178,7 @@ fn inspect(
     let trace = args.trace.of_parts(num_parts)?;
     let database = args.history_to.chosen(console)?;
     let (place, load) = (args.library).load_placed(&recipe.reference_params(), console)?;
-    let recipe = recipe.expecting(args.expect.of(&load.library)?);
+    let recipe = recipe.expecting(args.expect.of(&load.library, &trace)?);
     let robot = args.calibration.frame(console)?;
     let recipe = args.rack.before(recipe, &load.library, robot.as_ref())?;
     if args.program.is_forced() && robot.is_none() {

@@ -18,6 +18,7 @@ use super::{
     LibraryChoice, Outcome,
     calibrate::CalibrationChoice,
     console::{Advised as _, Console, advised_error, with_advice},
+    expect::OrdersChoice,
     input::{EmptyCellChoice, within},
     interrupt::Interrupt,
     numbers::NumbersChoice,
@@ -52,6 +53,7 @@ Requests: TRIGGER inspects a frame captured from then on, LAST repeats that answ
 and PATH the points of the spray path of the part that the same client triggered, for where it hangs.
 A part that moves is refused with the reason moving: the scene must have been still for 0.9 s, and a second frame, 150 ms
 later, must show the part in the same place.
+With --orders and --order, a TRIGGER that names no parts expects those of the order.
 Every answer has a verdict, the age of its frame and a sequence number. Poses are given only for an accepted part whose
 frame is not older than --max-age. Triggers are answered in the order in which they come, each with a frame of its own.
 Poses are in the robot's base frame, so a calibration is needed: partsight calibrate --help
@@ -87,6 +89,8 @@ pub(super) struct ServeArgs {
     take: TakeArgs,
     #[command(flatten)]
     recipe: RecipeChoice,
+    #[command(flatten)]
+    orders: OrdersChoice,
     #[command(flatten)]
     rack: RackFileChoice,
     #[command(flatten)]
@@ -168,6 +172,7 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
     let trace = args.trace.of_parts(None)?;
     let database = args.history_to.chosen(console)?;
     let (place, load) = (args.library).load_placed(&recipe.reference_params(), console)?;
+    let recipe = recipe.expecting(args.orders.of(&load.library, &trace)?);
     let Some(robot) = args.calibration.frame(console)? else {
         return Err(advised_error(
             "poses are given in the robot's base frame, but no calibration says where the camera sits",

@@ -219,6 +219,60 @@ fn a_wrong_part_a_missing_one_and_one_too_many_are_told_by_what_is_expected() {
 }
 
 #[test]
+fn the_table_of_orders_says_what_should_hang_there() {
+    let place = Workplace::new();
+    for part in ["front_door", "trunk_lid", "grille"] {
+        place.with_part(part);
+    }
+    two_parts(&place, "both.png");
+    place.write(
+        "orders.csv",
+        "order;serial;parts\n4711;;\"front_door;trunk_lid\"\n4711;TL-1;front_door|grille\n4712;;bonnet\n",
+    );
+    let inspect = ["inspect", "both.png", "--library", "parts", "--no-history"];
+    let run = |options: &[&str]| place.run(&[&inspect[..], options].concat());
+    let with = |options: &[&str]| run(&[&["--json", "--orders", "orders.csv"], options].concat());
+    let right = with(&["--order", "4711"]);
+    assert_eq!(
+        (right.code, &right.json()["as_expected"]),
+        (0, &Value::Bool(true)),
+        "{}",
+        right.err
+    );
+    let wrong = with(&["--order", "4711", "--serial", "TL-1"]);
+    assert_eq!(wrong.code, 1, "{}", wrong.err);
+    assert_eq!(wrong.json()["parts"][1]["reason_kind"], "wrong_part");
+    for (options, what) in [
+        (
+            &["--order", "471"][..],
+            "order 471 is not in the table of orders",
+        ),
+        (&[], "no order is given"),
+        (
+            &["--order", "4712"],
+            "orders.csv, line 4, column parts: bonnet is expected, but not enrolled",
+        ),
+        (
+            &["--order", "4711", "--expect", "grille"],
+            "cannot be used with",
+        ),
+    ] {
+        let refused = with(options);
+        assert_eq!((refused.code, &*refused.out), (2, ""), "{options:?}");
+        assert!(refused.err.contains(what), "{}", refused.err);
+    }
+    place.write("orders.csv", "order;parts\n4711;\n");
+    let empty = with(&["--order", "4711"]);
+    assert!(
+        empty
+            .err
+            .contains("line 2, column parts: the cell is empty"),
+        "{}",
+        empty.err
+    );
+}
+
+#[test]
 fn one_bad_file_does_not_stop_the_others() {
     let place = Workplace::new();
     place.with_part("fender");

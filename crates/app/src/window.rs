@@ -45,7 +45,7 @@ use shell::{
     },
     state::{Closing, State, remove_notices},
     trace::{
-        entry,
+        entry, expecting,
         scanner::{self, KeyTarget},
     },
     workspace::Workspace,
@@ -432,6 +432,7 @@ impl Window {
         let inspected = inspector::update(&mut self.state);
         let counted = live::update(&mut self.state);
         let traced = entry::update(&self.state.session, ctx);
+        expecting::update(&mut self.state);
         for event in inspected.into_iter().chain(counted).chain(traced) {
             self.tell(&event, ctx);
         }

@@ -11,6 +11,7 @@ use crate::{
     roles::RoleAction,
     session::WorkspaceKind,
     source::live::LiveAction,
+    trace::expecting::ExpectAction,
 };
 use robot::Convention;
 use ui::language::Language;
@@ -66,6 +67,8 @@ pub enum Action {
     StayOpen,
     /// Show, copy and write poses in this convention.
     UseConvention(Convention),
+    /// An action on what is expected.
+    Expect(ExpectAction),
     /// An action on the followed source.
     Live(LiveAction),
     /// An action on the rack.
@@ -97,6 +100,8 @@ pub enum DialogRequest {
     Rack,
     /// The file to write the rack in use to.
     SaveRack,
+    /// The table of orders.
+    Orders,
 }
 
 /// Work to be done outside the state.

@@ -12,6 +12,7 @@ use crate::{
     session::{Source, WorkspaceKind},
     source::live::{self, LiveAction},
     state::{Closing, State, notify},
+    trace::expecting,
 };
 use capture::{Pace, RecordingSpec, SourceSpec, WatchedFrom, WatchedSpec};
 use ui::language::text;
@@ -87,6 +88,7 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         }
         Action::StayOpen => state.closing = Closing::No,
         Action::Rack(action) => return rack::apply(state, action),
+        Action::Expect(action) => expecting::apply(state, action),
         Action::Role(action) => return roles::apply(state, action),
         Action::Live(action) => return live::apply(state, action),
         Action::Make(effect) => return Some(effect),
@@ -121,6 +123,10 @@ fn chosen(state: &mut State, ask: DialogRequest, path: PathBuf) -> Option<Effect
         DialogRequest::RecordTo => live::apply(state, LiveAction::Record(path)),
         DialogRequest::Library => {
             state.open_library(Some(path));
+            None
+        }
+        DialogRequest::Orders => {
+            expecting::use_orders(state, path);
             None
         }
     }

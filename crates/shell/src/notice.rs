@@ -47,6 +47,8 @@ pub enum NoticeTopic {
     Program,
     /// A doubtful serial number: removed once another one is scanned.
     Serial,
+    /// Why it is not known what should hang there: removed once it is.
+    Orders,
     /// Another window is open with the same data folder: shown in both views.
     SecondWindow,
 }
@@ -63,6 +65,7 @@ impl NoticeTopic {
                 | Self::Case
                 | Self::Program
                 | Self::Serial
+                | Self::Orders
         )
     }
 }

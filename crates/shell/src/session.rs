@@ -16,10 +16,10 @@ use crate::{
     },
     rack::RackInUse,
     source::live::LiveState,
-    trace::current_trace::CurrentTrace,
+    trace::{current_trace::CurrentTrace, expecting::Expecting},
 };
 use capture::SourceSpec;
-use inspection::pipeline::NamedRecipe;
+use inspection::pipeline::{Expected, NamedRecipe};
 use records::history::StoredVerdict;
 use robot::{Convention, RobotFrame};
 use stages::scene::EmptyCell;
@@ -79,6 +79,8 @@ pub struct Session {
     pub role: UserRole,
     /// Traceability of the next inspection.
     pub trace: CurrentTrace,
+    /// What should hang before the camera.
+    pub expecting: Expecting,
     /// When shifts start.
     pub shift_starts: ShiftStarts,
     /// The parts of this shift, counted in the operator's view.
@@ -90,13 +92,13 @@ pub struct Session {
 }
 
 impl Session {
-    /// The recipe in use, before the rack in use.
-    pub fn recipe_in_rack(&self) -> Arc<NamedRecipe> {
-        let rack = self.rack.in_camera();
-        if rack.is_empty() {
+    /// The recipe in use, before the rack in use, in which these parts are expected.
+    pub(crate) fn recipe_in_rack(&self, expected: Expected) -> Arc<NamedRecipe> {
+        let rack = self.rack.in_camera().clone();
+        if rack.is_empty() && expected.is_empty() {
             return Arc::clone(&self.recipe);
         }
-        Arc::new(self.recipe.in_rack(rack.clone()))
+        Arc::new(self.recipe.in_rack(rack).expecting(expected))
     }
 
     /// Uses this frame of the robot from now on.
@@ -105,14 +107,17 @@ impl Session {
         self.rack.follow(self.robot.as_deref());
     }
 
-    /// Makes a job to inspect something with the recipe and the calibration in use.
-    pub fn inspect_job(&self, source: SceneOrScan) -> InspectJob {
+    /// Makes a job to inspect something with the recipe and the calibration in use, in which these parts are expected.
+    pub(crate) fn inspect_job(&self, source: SceneOrScan, expected: Expected) -> InspectJob {
         match source {
             SceneOrScan::Scene(source) => InspectJob::Scene(InspectRequest {
                 source,
-                recipe: self.recipe_in_rack(),
+                recipe: self.recipe_in_rack(expected),
             }),
-            SceneOrScan::Scan(order) => InspectJob::Scan(self.scan_request(order)),
+            SceneOrScan::Scan(order) => InspectJob::Scan(ScanRequest {
+                recipe: Arc::new(self.recipe.expecting(expected)),
+                ..self.scan_request(order)
+            }),
         }
     }
 

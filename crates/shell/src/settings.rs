@@ -20,7 +20,7 @@ use crate::{
     inspection::{library_cache::LibraryCache, unit_system::UnitSystem},
     rack::RackInUse,
     source::live::LiveState,
-    trace::current_trace::CurrentTrace,
+    trace::{current_trace::CurrentTrace, expecting::Expecting},
 };
 use files::{advice_on, disk, open_regular, user_settings, write_text};
 use geometry::error::Advice as _;
@@ -91,6 +91,8 @@ pub struct Settings {
     pub traceability: Traceability,
     /// Where parts may hang.
     pub rack: RackInUse,
+    /// The table of orders in use.
+    pub orders: Option<PathBuf>,
 }
 
 impl Default for Settings {
@@ -119,6 +121,7 @@ impl Default for Settings {
             answering: AnswerSetup::default(),
             traceability: Traceability::default(),
             rack: RackInUse::default(),
+            orders: None,
         }
     }
 }
@@ -151,6 +154,7 @@ impl Settings {
             answering: state.session.answering,
             traceability: state.session.trace.remembered(),
             rack: state.session.rack.clone(),
+            orders: state.session.expecting.orders().map(Path::to_owned),
         }
     }
 
@@ -180,6 +184,7 @@ impl Settings {
             cell: self.cell,
             answering: self.answering,
             trace: CurrentTrace::starting(self.traceability),
+            expecting: Expecting::starting(self.orders),
             shift_starts: self.shifts,
             rack: self.rack,
             live: LiveState::averaging(self.average),

@@ -71,8 +71,10 @@ impl Session {
     /// What was inspected, as it stands now: with what a person reported since, and whether the part still hangs there.
     pub fn subject_now(&self, inspected: &Inspected) -> Subject {
         let reported_as = self.shift.reported_as(inspected).map(Truth::name);
+        let is_of_other_order = self.is_of_other_order(inspected);
+        let other_order = || is_of_other_order.then_some(Doubt::OtherOrder);
         Subject {
-            currency: self.currency(inspected),
+            currency: self.currency(inspected).or_else(other_order),
             reported_as: reported_as.map(str::to_owned),
             ..inspected.subject.clone()
         }

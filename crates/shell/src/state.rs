@@ -10,6 +10,7 @@ use super::{
 use crate::{
     inspection::library_cache::LibraryCache,
     source::{inspector::Inspector, live::Follower},
+    trace::expecting::OrdersWatch,
 };
 use ui::task::TaskRunner;
 
@@ -36,6 +37,8 @@ pub struct State {
     pub roles: RoleState,
     /// Counts the parts of this shift.
     pub shift_watch: ShiftWatch,
+    /// Watches the table of orders in use.
+    pub orders_watch: OrdersWatch,
 }
 
 /// Whether the window may close.
@@ -76,6 +79,7 @@ impl State {
             generation: 0,
             roles: RoleState::default(),
             shift_watch: ShiftWatch::new(runner),
+            orders_watch: OrdersWatch::new(runner),
         }
     }
 }

@@ -36,6 +36,8 @@ pub enum Doubt {
     Moving,
     /// Another part may hang there by now.
     Superseded,
+    /// The part's order expects other parts than those that it was inspected for. Only the window knows that.
+    OtherOrder,
     /// No part was accepted.
     NotAccepted,
     /// The part has no pose.
@@ -68,6 +70,7 @@ impl Doubt {
             Self::SourceLost => "source_lost",
             Self::Moving => "moving",
             Self::Superseded => "superseded",
+            Self::OtherOrder => "other_order",
             Self::NotAccepted => "not_accepted",
             Self::NoPose => "no_pose",
             Self::NotCalibrated => "not_calibrated",

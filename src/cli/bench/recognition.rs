@@ -14,8 +14,9 @@ use crate::cli::{
 };
 use bench::{
     suites::{
-        InspectedFrame, MEASURING_SEED, NearestMistake, RackFigures, Suite, SuiteCase,
-        SuiteFigures, SuiteFrame, SuiteLibraries, SuiteResult, run_suite,
+        ExpectationFigures, InspectedFrame, MEASURING_SEED, NearestMistake, RackFigures, Suite,
+        SuiteCase, SuiteFigures, SuiteFrame, SuiteLibraries, SuiteResult, add_expected_racks,
+        run_suite,
     },
     systems::Systems,
 };
@@ -101,6 +102,9 @@ struct RecognitionFile<'a> {
     figures: &'a [SuiteFigures],
     #[serde(skip_serializing_if = "Vec::is_empty")]
     racks: Vec<RackFigures>,
+    /// Racks that were inspected with an expectation.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    expected: Option<&'a [ExpectationFigures; 3]>,
     closest: &'a [NearestMistake],
     #[serde(skip_serializing_if = "Option::is_none")]
     table1: Option<&'a SystemsTable>,
@@ -128,6 +132,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
             }
         }
     });
+    let expected = frames.expected(&libraries, &recipe, console);
     if let Some(pictures) = pictures {
         pictures.write()?;
         if let Some(folder) = &args.pictures {
@@ -150,6 +155,9 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     show_figures(&figures, console);
     let racks: Vec<RackFigures> = results.iter().filter_map(RackFigures::of).collect();
     show_racks(&racks, console);
+    if let Some(expected) = &expected {
+        show_expected(expected, console);
+    }
     show_closest(&closest, console);
     let table1 = systems.map(|systems| SystemsTable::of(&systems, &shown));
     if let Some(table1) = table1.as_ref().filter(|_| !shown.is_empty()) {
@@ -166,6 +174,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
             suites: &results,
             figures: &figures,
             racks,
+            expected: expected.as_ref(),
             closest: &closest,
             table1: table1.as_ref(),
         };
@@ -249,6 +258,30 @@ impl Frames {
         }
         console.end_progress();
         results
+    }
+
+    /// Inspects the racks again, with an expectation; `None` if there are none.
+    fn expected(
+        &self,
+        libraries: &SuiteLibraries,
+        recipe: &Recipe,
+        console: &mut Console,
+    ) -> Option<[ExpectationFigures; 3]> {
+        let racks = (self.suites.iter()).filter(|(suite, _)| suite.rack().is_some());
+        let racks: Vec<_> = racks.collect();
+        if racks.is_empty() {
+            return None;
+        }
+        console.start_progress(racks.iter().map(|(_, frames)| frames.len()).sum());
+        let mut figures = ExpectationFigures::none();
+        for (suite, frames) in racks {
+            let library = libraries.of(*suite);
+            add_expected_racks(*suite, frames, library, recipe, &mut figures, || {
+                console.done();
+            });
+        }
+        console.end_progress();
+        Some(figures)
     }
 }
 
@@ -405,6 +438,37 @@ fn show_racks(racks: &[RackFigures], console: &mut Console) {
         let name = [f.suite.name().to_owned()].into_iter();
         let nums = nums.into_iter().map(|num| num.to_string());
         table.row(name.chain(nums).chain(ms));
+    }
+    console.table(&table);
+}
+
+/// Shows the verdicts on racks that were inspected with an expectation.
+fn show_expected(figures: &[ExpectationFigures], console: &mut Console) {
+    console.line(&"");
+    console.line(
+        &"Racks with an expectation: the right one, one with another part instead of one that hangs there, and one with a part \
+          more. Right is: as expected; the wrong part told, with the expected one; the missing part told.",
+    );
+    console.line(&"");
+    let mut table = Table::new(&[
+        "expected",
+        "frames",
+        "false accepts",
+        "as expected",
+        "right verdict",
+    ]);
+    for f in figures {
+        table.row([
+            f.expectation.name().to_owned(),
+            f.num_frames.to_string(),
+            f.num_wrong_accepted.to_string(),
+            f.num_met.to_string(),
+            format!(
+                "{} ({:.1} %)",
+                f.num_right,
+                100.0 * f.num_right as f64 / f.num_frames.max(1) as f64
+            ),
+        ]);
     }
     console.table(&table);
 }

@@ -4,9 +4,9 @@ use super::InspectArgs;
 use crate::cli::{
     Outcome,
     console::{Advised as _, Console},
+    output::OutputFormat,
     record::HistoryRecorder,
     scan::open_scan,
-    verdict::show_card,
 };
 use inspection::pipeline::{
     Unwatched,
@@ -22,6 +22,7 @@ pub(super) fn inspect(args: &InspectArgs, console: &mut Console) -> anyhow::Resu
     let trace = args.trace.of_parts(Some(1))?;
     let database = args.history_to.chosen(console)?;
     let load = (args.library).load_some(&recipe.reference_params(), console)?;
+    let recipe = recipe.expecting(args.expect.of(&load.library, &trace)?);
     let (scan, captured_at) = open_scan(&args.scan, &args.poses, &recipe.segment, console)?;
     require_two_to_show_part(&scan).advised()?;
     let recording = (!args.no_history)
@@ -56,19 +57,26 @@ pub(super) fn inspect(args: &InspectArgs, console: &mut Console) -> anyhow::Resu
         robot: Some(&robot),
         is_forced: args.program.is_forced(),
     };
-    if args.json {
-        console.line(&inspected.line(&trace));
+    let title = format!(
+        "{}, {used} of {frames} frames, as seen from {}",
+        subject.scene, first.name
+    );
+    let format = if args.json {
+        OutputFormat::Json
     } else {
-        let title = format!(
-            "{}, {used} of {frames} frames, as seen from {}",
-            subject.scene, first.name
-        );
-        show_card(&title, &inspected, &load.library, console);
-    }
+        OutputFormat::Card
+    };
+    let line = Inspected::line_of_all(&[inspected], &trace);
+    format.inspected(&title, &line, &[inspected], &load.library, console);
     // Last, so that the verdict does not wait for it.
     if let Some(mut recording) = recording {
         recording.add(recording.entry(&inspected, HungId::new()), console);
         recording.finish(console);
     }
-    Ok(Outcome::accepted_if(inspection.verdict.is_accepted()))
+    let expected = &recipe.expected;
+    Ok(Outcome::accepted_if(if expected.is_empty() {
+        inspection.verdict.is_accepted()
+    } else {
+        expected.is_met(&[&inspection.verdict])
+    }))
 }

@@ -8,6 +8,7 @@ mod answering;
 mod cell_check;
 mod compare;
 mod enrol;
+mod expecting;
 mod history;
 mod inspect;
 mod language;

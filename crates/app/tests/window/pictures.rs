@@ -41,7 +41,7 @@ use shell::{
 use inspection::fixtures::copy_library;
 
 use super::{
-    enrol, live, paint, places, rack, robot,
+    enrol, expecting, live, paint, places, rack, robot,
     set_up::{SMALL, USUAL, WindowHarness, act, act_in, plain_options, press, settle},
     shots::ScanFolder,
 };
@@ -285,6 +285,27 @@ fn the_window_of_the_rack_looks_as_it_did() {
         places::open_place(&mut harness, folder.path());
         harness.get_by_label_contains("1 · front_door").click();
         compare(&mut harness, name);
+    }
+}
+
+#[test]
+fn a_rack_that_is_not_as_its_order_expects_looks_as_it_did() {
+    if !draws_in_software() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    for (size, is_light, name) in [(USUAL, false, "order"), (SMALL, true, "order_small_light")] {
+        let mut harness = open_drawn(size);
+        if is_light {
+            act(&mut harness, Action::SwitchTheme);
+        }
+        expecting::use_orders(&mut harness, folder.path());
+        expecting::enter_order(&mut harness, "4713");
+        rack::open_rack(&mut harness, folder.path());
+        act(&mut harness, Action::DismissAll);
+        compare(&mut harness, name);
+        act(&mut harness, Action::Role(RoleAction::Switch));
+        compare(&mut harness, &name.replace("order", "order_operator"));
     }
 }
 

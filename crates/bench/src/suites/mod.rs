@@ -6,6 +6,7 @@
 mod case;
 mod closest;
 mod cut;
+mod expectation;
 mod figures;
 mod libraries;
 mod rack;
@@ -17,6 +18,7 @@ pub(super) use self::{case::middle_of_seen, cut::pushed_out_of_the_picture};
 pub use self::{
     case::{PoseBounds, ReferenceCase, SuiteCase, Surplus},
     closest::NearestMistake,
+    expectation::{Expectation, ExpectationFigures, add_expected_racks},
     figures::SuiteFigures,
     libraries::SuiteLibraries,
     rack::RackFigures,

@@ -79,3 +79,10 @@ pub struct Library {
     /// The references, sorted by name.
     pub references: Vec<Reference>,
 }
+
+impl Library {
+    /// True if a part of this name is enrolled.
+    pub fn has_part(&self, name: &str) -> bool {
+        self.references.iter().any(|part| part.name == name)
+    }
+}

@@ -4,7 +4,6 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::{Rejection, Unrecognisable, Verdict};
-use crate::library::Library;
 use geometry::error::Advice;
 use stages::segment::MAX_PARTS;
 
@@ -46,13 +45,15 @@ impl Advice for ExpectedError {
 }
 
 impl Expected {
-    /// Expects these parts of a library, up to [`MAX_PARTS`].
-    pub fn new(parts: Vec<String>, library: &Library) -> Result<Self, ExpectedError> {
+    /// Expects these enrolled parts, up to [`MAX_PARTS`].
+    pub fn new(
+        parts: Vec<String>,
+        is_enrolled: impl Fn(&str) -> bool,
+    ) -> Result<Self, ExpectedError> {
         let found = parts.len();
         if found > MAX_PARTS {
             return Err(ExpectedError::TooMany { found });
         }
-        let is_enrolled = |name: &String| library.references.iter().any(|part| part.name == *name);
         match parts.iter().find(|name| !is_enrolled(name)) {
             Some(name) => Err(ExpectedError::NotEnrolled { name: name.clone() }),
             None => Ok(Self(parts)),

@@ -169,6 +169,9 @@ pub fn run_scan(
     let base_from_part = camera_from_part.map(|pose| base_from_first * pose.camera_from_part());
     inspection.pose = pose;
     refuse_unsound(&mut inspection, &scan.shots[first].scene);
+    recipe
+        .expected
+        .refuse_others(&mut [&mut inspection.verdict]);
     Ok(ScanInspection {
         inspection,
         first,

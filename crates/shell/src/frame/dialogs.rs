@@ -19,6 +19,7 @@ pub fn request(ask: DialogRequest) -> FileRequest {
         DialogRequest::Part => (text!("shell-open-part"), FileChoice::File),
         DialogRequest::Rack => (text!("rack-open"), FileChoice::File),
         DialogRequest::SaveRack => (text!("rack-save"), FileChoice::NewFile("rack.toml".into())),
+        DialogRequest::Orders => (text!("expect-table"), FileChoice::File),
     };
     FileRequest {
         title,
@@ -34,6 +35,7 @@ fn filters(ask: DialogRequest) -> Vec<FileFilter> {
         DialogRequest::Rack | DialogRequest::SaveRack => {
             vec![(text!("rack-files"), &["toml"]), all_files()]
         }
+        DialogRequest::Orders => vec![(text!("shell-csv-files"), &["csv"]), all_files()],
         DialogRequest::Scan
         | DialogRequest::Library
         | DialogRequest::Recording

@@ -5,6 +5,7 @@ use crate::{
     action::{DialogRequest, Effect},
     cell::{CheckAction, RobotAction},
     source::live::LiveAction,
+    trace::expecting::ExpectAction,
 };
 
 /// True for workspaces that cannot change anything verdicts depend on.
@@ -49,9 +50,12 @@ pub(super) fn needs_engineer(action: &Action, has_pin: bool) -> bool {
         | Action::TakeEmptyCell
         | Action::ForgetEmptyCell
         | Action::UseFoundLibrary
+        // Otherwise an order would not be compared with what hangs there.
+        | Action::Expect(ExpectAction::CloseOrders)
         // Verdicts depend on the averaging of depth.
         | Action::Live(LiveAction::Average(_)) => true,
         Action::Live(_)
+        | Action::Expect(ExpectAction::Parts(_))
         | Action::Capture
         | Action::CancelInspection
         | Action::SelectPart(_)
@@ -77,6 +81,7 @@ fn asks_for_engineer(ask: DialogRequest, has_pin: bool) -> bool {
     match ask {
         DialogRequest::Library
         | DialogRequest::Part
+        | DialogRequest::Orders
         | DialogRequest::Rack
         | DialogRequest::SaveRack => true,
         DialogRequest::Scene

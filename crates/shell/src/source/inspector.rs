@@ -23,10 +23,11 @@ use crate::{
     notice::{Notice, NoticeTopic},
     session::{Inspecting, ReinspectionPurpose, Shown, Source, UserRole, WorkspaceKind},
     state::{State, notify, remove_notices},
-    trace::current_trace::CurrentTrace,
+    trace::{current_trace::CurrentTrace, expecting},
 };
 use capture::SourceSpec;
 use geometry::error::lock;
+use inspection::pipeline::Expected;
 use records::history::{HistoryBuffer, HungId, InspectionSummary, StoredVerdict, Traceability};
 use stages::scene::EmptyCell;
 use ui::{
@@ -104,6 +105,9 @@ impl State {
             let (scene, title) = self.next_of(&source);
             return Some(Effect::Take(scene, title));
         }
+        if !expecting::may_inspect(self) {
+            return None;
+        }
         let former = std::mem::replace(&mut self.session.source, source);
         self.inspector.former_source.get_or_insert(former);
         self.capture()
@@ -169,6 +173,9 @@ impl State {
             notify(self, Notice::done(text!("live-inspects-each")));
             return None;
         }
+        if !expecting::may_inspect(self) {
+            return None;
+        }
         let ends_live = self.session.role == UserRole::Operator && self.session.is_live();
         let source = match (source, &self.session.empty_cell) {
             (SceneOrScan::Scene(source), Some(cell)) => {
@@ -177,7 +184,8 @@ impl State {
             }
             (source, _) => source,
         };
-        let job = self.session.inspect_job(source);
+        let expected = self.session.expected().unwrap_or_default();
+        let job = self.session.inspect_job(source, expected);
         self.inspect(title, job);
         if let Some(run) = &mut self.session.inspecting {
             run.is_waiting = self.session.source.is_watched();
@@ -278,7 +286,8 @@ impl State {
                 purpose
             };
             let part = PartAtHand::InFront(shown.parts.clone());
-            let job = self.session.inspect_job(shown.inspected.again());
+            let expected = shown.inspected.recipe.expected.clone();
+            let job = (self.session).inspect_job(shown.inspected.again(), expected);
             self.inspect_part(title.to_owned(), job, purpose, part);
         }
     }
@@ -314,7 +323,7 @@ impl State {
         if let Some(saved) = saved.filter(|saved| !self.is_in_front(saved)) {
             // An enrolled part does not belong to an order.
             let part = PartAtHand::Past(Traceability::default());
-            let job = self.session.inspect_job(saved);
+            let job = self.session.inspect_job(saved, Expected::default());
             self.inspect_part(title, job, purpose, part);
         } else if is_saved || self.inspector.running().is_none() {
             self.inspect_shown(&title, purpose);

@@ -74,6 +74,16 @@ impl CurrentTrace {
         }
     }
 
+    /// The values of the next part, without a serial number that is still being typed.
+    pub(crate) fn of_next(&self) -> Traceability {
+        let entered = lock(&self.0);
+        let mut trace = entered.trace.clone();
+        if !entered.is_complete {
+            trace.serial.clear();
+        }
+        trace
+    }
+
     /// Sets the serial number of the next part.
     pub fn set_serial(&self, serial: &str) {
         let mut entered = lock(&self.0);

@@ -18,7 +18,7 @@ use ui::{
 };
 
 /// Width of the label before a field, logical pixels.
-const LABEL_WIDTH_PX: f32 = 76.0;
+pub(super) const LABEL_WIDTH_PX: f32 = 76.0;
 impl Session {
     /// The part on the screen if it takes the serial number that is entered now; otherwise the number is of the next part.
     fn takes_serial(&self) -> Option<&Inspected> {
@@ -128,6 +128,15 @@ pub fn update(session: &Session, ctx: &Context) -> Vec<Event> {
 
 /// Draws the input fields, and to which part the serial number goes.
 pub fn fields(ui: &mut Ui, session: &Session) {
+    first_fields(ui, session, 3);
+}
+
+/// Draws the input fields that a table of orders asks for: serial number and order.
+pub fn fields_of_order(ui: &mut Ui, session: &Session) {
+    first_fields(ui, session, 2);
+}
+
+fn first_fields(ui: &mut Ui, session: &Session, num: usize) {
     let trace = &session.trace;
     let hint = match session.takes_serial() {
         Some(_) => text!("operator-serial-hint-this"),
@@ -142,7 +151,7 @@ pub fn fields(ui: &mut Ui, session: &Session) {
             &mut trace.operator
         }),
     ];
-    for (index, (name, says, entry)) in entries.into_iter().enumerate() {
+    for (index, (name, says, entry)) in entries.into_iter().enumerate().take(num) {
         let before = std::mem::take(entry(&mut trace.get()));
         let mut text = before.clone();
         let field = ui.horizontal(|ui| {

@@ -1,5 +1,7 @@
-//! Traceability: serial number, production order and operator, typed or scanned.
+//! Traceability: serial number, production order and operator, typed or scanned; and which parts are expected for them.
 
 pub mod current_trace;
 pub mod entry;
+pub mod expect_menu;
+pub mod expecting;
 pub mod scanner;

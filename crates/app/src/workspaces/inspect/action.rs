@@ -6,6 +6,7 @@ use super::state::ViewPart;
 use crate::shots::{ShotsAction, ShotsFile};
 use robot::Convention;
 use shell::{
+    action::Action,
     cell::program_setup::program_files,
     file_dialog::{FileChoice, FileRequest},
     inspection::figures::StagePanel,
@@ -36,6 +37,8 @@ pub enum InspectAction {
     Compare,
     /// Start or stop recording the followed source.
     ToggleRecording,
+    /// An action of the shell.
+    Act(Action),
     /// An action on the shots of the scan shown.
     Shots(ShotsAction),
     /// Ask for a file.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use egui::Color32;
 
 use super::{
+    expectation::FrameExpectation,
     frame_parts::numbered,
     headline::{Headline, HeadlineState},
     hold::{Hold, inspect_current},
@@ -235,19 +236,22 @@ impl Banner {
     /// The banner of all parts of a frame: of several, how many are accepted, and what is to be done about the first that is
     /// not, or that no robot may act on.
     fn of_parts(parts: &[Arc<Inspected>], session: &Session) -> Self {
-        let mut all: Vec<Self> = parts
-            .iter()
-            .map(|part| {
+        let expectation = FrameExpectation::of(parts, session);
+        // What is not enrolled may hang beside the expected parts.
+        let is_known = |part: &Arc<Inspected>| !part.inspection.verdict.is_unknown();
+        let skips_unknown = expectation.is_some() && parts.iter().any(is_known);
+        let counted = parts.iter().enumerate();
+        let counted = counted.filter(|(_, part)| !skips_unknown || is_known(part));
+        let (indices, mut all): (Vec<usize>, Vec<Self>) = counted
+            .map(|(index, part)| {
                 let result = Self::of_result(part, session);
-                Self {
-                    caution: caution(part, result.tone),
-                    ..result
-                }
+                let caution = caution(part, result.tone);
+                (index, Self { caution, ..result })
             })
-            .collect();
+            .unzip();
         let num = |tone| all.iter().filter(|part| part.tone == tone).count();
         let (num_ok, num_recognised) = (num(Tone::Ok), num(Tone::Recognised));
-        let (num_accepted, num_parts) = (num_ok + num_recognised, parts.len());
+        let (num_accepted, num_parts) = (num_ok + num_recognised, all.len());
         let is_to_do = |part: &Self| match part.tone {
             Tone::Ok => false,
             Tone::Recognised => num_accepted == num_parts,
@@ -257,27 +261,53 @@ impl Banner {
             .or_else(|| all.iter().position(|part| !part.caution.is_empty()))
             .unwrap_or_default();
         let mut first = all.swap_remove(index);
-        if num_parts == 1 {
-            return first;
+        if num_parts > 1 {
+            let name = numbered(indices[index], &first.title);
+            if num_accepted < num_parts {
+                first.tone = Tone::NotOk;
+                first.reason = format!("{name}: {}", first.reason);
+            }
+            if !first.caution.is_empty() {
+                first.caution = format!("{name}: {}", first.caution);
+            }
+            first.title = if num_recognised == 0 {
+                text!("operator-parts-ok", num = num_ok, all = num_parts)
+            } else {
+                text!(
+                    "operator-parts-recognised",
+                    num = num_accepted,
+                    all = num_parts
+                )
+            };
         }
-        let name = numbered(index, &first.title);
-        if num_accepted < num_parts {
-            first.tone = Tone::NotOk;
-            first.reason = format!("{name}: {}", first.reason);
+        match &expectation {
+            Some(expectation) => first.expecting(expectation),
+            None => first,
         }
-        if !first.caution.is_empty() {
-            first.caution = format!("{name}: {}", first.caution);
+    }
+
+    /// The banner of a frame in which parts are expected: missing ones are as bad as wrong ones.
+    fn expecting(mut self, expectation: &FrameExpectation) -> Self {
+        let is_empty_cell = self.tone == Tone::Open;
+        let is_accepted = matches!(self.tone, Tone::Ok | Tone::Recognised);
+        if expectation.num_expected > 1 && !is_empty_cell && self.tone != Tone::Problem {
+            self.title.clone_from(&expectation.title);
         }
-        first.title = if num_recognised == 0 {
-            text!("operator-parts-ok", num = num_ok, all = num_parts)
-        } else {
-            text!(
-                "operator-parts-recognised",
-                num = num_accepted,
-                all = num_parts
-            )
-        };
-        first
+        if !expectation.missing.is_empty() && (is_accepted || is_empty_cell) {
+            self.reason.clone_from(&expectation.complaint);
+            self.next = text!("expect-hang-missing");
+            if is_accepted {
+                self.tone = Tone::NotOk;
+                self.caution.clear();
+            }
+        } else if expectation.is_partial && is_accepted {
+            self.tone = Tone::Recognised;
+            self.reason = text!("expect-live-sees-one");
+            self.next = text!("expect-capture-all");
+        } else if expectation.is_met && self.tone == Tone::Ok {
+            self.reason = text!("expect-is-met-and-posed");
+        }
+        self
     }
 
     fn of_result(inspected: &Inspected, session: &Session) -> Self {

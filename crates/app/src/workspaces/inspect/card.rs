@@ -19,6 +19,7 @@ use shell::{
     language::results::{recipe_label, stopped, traced},
     session::{Session, UserRole},
     source::live,
+    trace::{entry, expect_menu},
 };
 use stages::pose::PoseEstimate;
 use ui::{
@@ -50,6 +51,7 @@ pub(super) fn ui(
         let text = RichText::new(text).font(font::body_strong());
         ui.label(text.color(theme.warning));
     }
+    expecting(ui, session, actions);
     if session.is_live() && live::card(ui, session) {
         actions.push(InspectAction::ToggleRecording);
     }
@@ -108,6 +110,16 @@ pub(super) fn ui(
         }
         footer(ui, inspected, session);
     });
+}
+
+/// Draws what is expected of the next part; with a table of orders, also the fields that it depends on.
+pub(super) fn expecting(ui: &mut Ui, session: &Session, actions: &mut Vec<InspectAction>) {
+    if session.expecting.orders().is_some() {
+        entry::fields_of_order(ui, session);
+    }
+    let mut of_shell = Vec::new();
+    expect_menu::ui(ui, session, &mut of_shell);
+    actions.extend(of_shell.into_iter().map(InspectAction::Act));
 }
 
 /// Draws the buttons for what can be done with the result. `copying` is `None` without a pose to copy, and holds why it must not

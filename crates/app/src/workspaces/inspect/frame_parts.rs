@@ -8,6 +8,7 @@ use egui::{
 
 use super::{
     action::InspectAction,
+    expectation::{FrameExpectation, word_of},
     headline::Headline,
     operator_words::{in_short, why_not},
 };
@@ -19,11 +20,13 @@ use shell::{
 use ui::{
     language::text,
     theme::{ROUNDING, Theme, font, space},
-    widgets::{fitted_middle, focus_ring, text_width},
+    widgets::{fitted_middle, focus_ring, text_width, wrapped},
 };
 
-/// Most parts listed at once; the others scroll into view.
-const MOST_ROWS: usize = 4;
+/// Most parts listed at once, and on a card that is low; the others scroll into view.
+const MOST_ROWS: [usize; 2] = [4, 3];
+/// Height of a card that is low, logical pixels.
+const LOW: f32 = 560.0;
 /// Above, below and beside the text of a row, logical pixels.
 const MARGIN: f32 = 5.0;
 
@@ -32,28 +35,58 @@ pub(super) fn numbered(index: usize, title: &str) -> String {
     format!("{} · {title}", index + 1)
 }
 
-/// Draws how many parts are accepted and the list of them, unless there is only one.
+/// Draws how many parts are accepted, or as expected, and the list of them, unless there is only one.
 pub(super) fn ui(ui: &mut Ui, session: &Session, actions: &mut Vec<InspectAction>) {
-    let Some(shown) = session.shown.as_ref().filter(|shown| shown.parts.len() > 1) else {
+    let Some(shown) = session.shown.as_ref() else {
         return;
     };
-    let headlines = shown.parts.iter().map(|part| Headline::of(part, session));
-    let num = headlines.filter(Headline::is_accepted).count();
-    let of_all = text!("inspect-parts-accepted", num = num, all = shown.parts.len());
-    ui.label(RichText::new(of_all).font(font::heading()));
-    list(
-        ui,
-        session,
-        shown,
-        &[font::body_strong(), font::small()],
-        actions,
-    );
+    let rows = rows(shown, session);
+    let expectation = FrameExpectation::of(&shown.parts, session);
+    let is_low = ui.available_height() < LOW;
+    let (heading, font) = match &expectation {
+        Some(expectation) if is_low => (expectation.title.clone(), font::verdict()),
+        Some(expectation) => (expectation.title.clone(), font::title()),
+        None if rows.len() > 1 => {
+            let headlines = shown.parts.iter().map(|part| Headline::of(part, session));
+            let num = headlines.filter(Headline::is_accepted).count();
+            let of_all = text!("inspect-parts-accepted", num = num, all = rows.len());
+            (of_all, font::heading())
+        }
+        None => return,
+    };
+    ui.label(RichText::new(heading).font(font));
+    let complaint = expectation
+        .as_ref()
+        .map(|expectation| &expectation.complaint);
+    if let Some(complaint) = complaint.filter(|complaint| !complaint.is_empty()) {
+        wrapped(ui, complaint, &font::body_strong(), Theme::of(ui).rejected);
+    }
+    if rows.len() > 1 {
+        let fonts = [font::body_strong(), font::small()];
+        // Below it, there must be room for the verdict on the selected part.
+        let most = MOST_ROWS[usize::from(is_low && expectation.is_some())];
+        ui.scope(|ui| {
+            ui.set_max_height(height(ui, rows.len().min(most), &fonts));
+            list(ui, shown.selected(), &rows, &fonts, actions);
+        });
+    }
     ui.add_space(space::MEDIUM);
 }
 
+/// The parts of the frame, then those that are missing.
+pub(super) fn rows(shown: &Shown, session: &Session) -> Vec<PartRow> {
+    let parts = shown.parts.iter().enumerate();
+    let rows = parts.map(|(index, part)| PartRow::of(index, part, session));
+    let expectation = FrameExpectation::of(&shown.parts, session);
+    let missing = expectation.into_iter().flat_map(|all| all.missing);
+    let missing = (shown.parts.len()..).zip(missing);
+    let missing = missing.map(|(index, title)| PartRow::of_missing(index, title));
+    rows.chain(missing).collect()
+}
+
 /// Height of the list, with titles and lines below in these fonts.
-pub(super) fn height(ui: &Ui, shown: &Shown, fonts: &[FontId; 2]) -> f32 {
-    let rows = shown.parts.len().min(MOST_ROWS) as f32;
+pub(super) fn height(ui: &Ui, num_rows: usize, fonts: &[FontId; 2]) -> f32 {
+    let rows = num_rows.min(MOST_ROWS[0]) as f32;
     rows * (row_height(ui, fonts) + ui.spacing().item_spacing.y)
 }
 
@@ -67,20 +100,18 @@ fn row_height(ui: &Ui, fonts: &[FontId; 2]) -> f32 {
 /// Draws the list with titles and lines below in these fonts.
 pub(super) fn list(
     ui: &mut Ui,
-    session: &Session,
-    shown: &Shown,
+    selected: usize,
+    rows: &[PartRow],
     fonts: &[FontId; 2],
     actions: &mut Vec<InspectAction>,
 ) {
-    let height = height(ui, shown, fonts);
+    let height = height(ui, rows.len(), fonts);
     ScrollArea::vertical()
         .id_salt("parts of the frame")
         .max_height(height)
         .show(ui, |ui| {
-            for (index, part) in shown.parts.iter().enumerate() {
-                let is_selected = index == shown.selected();
-                let row = PartRow::of(index, part, session);
-                if row.ui(ui, is_selected, fonts).clicked() {
+            for (index, row) in rows.iter().enumerate() {
+                if row.ui(ui, index == selected, fonts).clicked() && row.headline.is_some() {
                     actions.push(InspectAction::SelectPart(index));
                 }
             }
@@ -88,9 +119,13 @@ pub(super) fn list(
 }
 
 /// A part in the list.
-struct PartRow {
+pub(super) struct PartRow {
     number: String,
-    headline: Headline,
+    title: String,
+    /// `None` for a part that is missing.
+    headline: Option<Headline>,
+    /// Whether it is as expected, if that is known.
+    word: Option<String>,
     /// Its score or size, and why it is not accepted.
     below: String,
 }
@@ -114,10 +149,23 @@ impl PartRow {
         let place = place.map(|place| text!("rack-place", place = place));
         let why = why_not(part).map(|why| in_short(&why));
         let below: Vec<String> = place.into_iter().chain(figure).chain(why).collect();
+        let headline = Headline::of(part, session);
         Self {
             number: (index + 1).to_string(),
-            headline: Headline::of(part, session),
+            title: headline.title.clone(),
+            word: word_of(part).filter(|_| headline.actual.is_none()),
+            headline: Some(headline),
             below: below.join(" · "),
+        }
+    }
+
+    fn of_missing(index: usize, title: String) -> Self {
+        Self {
+            number: (index + 1).to_string(),
+            title,
+            headline: None,
+            word: Some(text!("expect-is-missing")),
+            below: text!("expect-nothing-hangs"),
         }
     }
 
@@ -126,8 +174,15 @@ impl PartRow {
         let [title_font, below_font] = fonts;
         let size = vec2(ui.available_width(), row_height(ui, fonts));
         let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-        let (_, word, colour) = self.headline.verdict(theme);
-        let name = format!("{} {}: {word}", self.number, self.headline.title);
+        let (word, colour) = match &self.headline {
+            Some(headline) => {
+                let (_, word, colour) = headline.verdict(theme);
+                (word, colour)
+            }
+            None => (String::new(), theme.warning),
+        };
+        let word = self.word.clone().unwrap_or(word);
+        let name = format!("{} {}: {word}", self.number, self.title);
         response.widget_info(|| {
             WidgetInfo::selected(Role::Button, ui.is_enabled(), is_selected, &name)
         });
@@ -159,7 +214,7 @@ impl PartRow {
         let (left, right) = (disc.x + radius + 2.0 * MARGIN, rect.right() - 2.0 * MARGIN);
         let word_width = text_width(&painter, &word, below_font);
         let room = right - left - word_width - space::SMALL;
-        let title = fitted_middle(&painter, &self.headline.title, title_font, room);
+        let title = fitted_middle(&painter, &self.title, title_font, room);
         let (at, anchor) = if self.below.is_empty() {
             (pos2(left, rect.center().y), Align2::LEFT_CENTER)
         } else {

@@ -36,7 +36,11 @@ impl Hold {
         let is_of_now = |doubt: &Doubt| {
             matches!(
                 doubt,
-                Doubt::ReportedWrong | Doubt::Moving | Doubt::SourceLost | Doubt::Superseded
+                Doubt::ReportedWrong
+                    | Doubt::Moving
+                    | Doubt::SourceLost
+                    | Doubt::Superseded
+                    | Doubt::OtherOrder
             )
         };
         // Neither a calibration nor another capture helps a part that hangs nowhere.

@@ -4,6 +4,7 @@ mod action;
 mod banner;
 mod card;
 mod controls;
+mod expectation;
 mod frame_parts;
 mod headline;
 mod hold;
@@ -49,6 +50,7 @@ use ui::{
 
 /// Width of the verdict card in a wide and in a narrow window, logical pixels.
 const CARD: [f32; 2] = [340.0, 300.0];
+const CARD_MARGIN: Margin = Margin::symmetric(18, 14);
 /// Height of the stage strip in a high and in a low window, logical pixels.
 const STRIP: [f32; 2] = [196.0, 164.0];
 
@@ -276,7 +278,19 @@ impl Workspace for InspectWorkspace {
         }
         let Some(shown) = &session.shown else {
             ui.painter().rect_filled(ui.max_rect(), 0.0, theme.canvas);
+            let mut actions = Vec::new();
+            if session.expecting.orders().is_some() {
+                // Without an order, there may never be a result.
+                Panel::right("order")
+                    .exact_size(card_width(ui.available_width()))
+                    .resizable(false)
+                    .frame(Frame::new().fill(theme.panel).inner_margin(CARD_MARGIN))
+                    .show(ui, |ui| card::expecting(ui, session, &mut actions));
+            }
             empty(ui, session);
+            for action in actions {
+                self.state.apply(action, cx);
+            }
             return;
         };
         self.make(ui.ctx(), shown);
@@ -285,9 +299,9 @@ impl Workspace for InspectWorkspace {
         let size = ui.available_size();
         let panel = |margin| Frame::new().fill(theme.panel).inner_margin(margin);
         Panel::right("verdict")
-            .exact_size(if size.x > 1100.0 { CARD[0] } else { CARD[1] })
+            .exact_size(card_width(size.x))
             .resizable(false)
-            .frame(panel(Margin::symmetric(18, 14)))
+            .frame(panel(CARD_MARGIN))
             .show(ui, |ui| {
                 let shows_nozzle = self.state.shows_nozzle();
                 card::ui(ui, inspected, session, shows_nozzle, &mut actions);
@@ -356,6 +370,10 @@ impl Workspace for InspectWorkspace {
     }
 }
 
+fn card_width(window: f32) -> f32 {
+    if window > 1100.0 { CARD[0] } else { CARD[1] }
+}
+
 fn strip_height(state: &InspectState, inspected: &Inspected, height: f32) -> f32 {
     let usual = if height > 760.0 { STRIP[0] } else { STRIP[1] };
     match state.shots.strip {
@@ -382,7 +400,7 @@ fn empty(ui: &Ui, session: &Session) {
         Some(run) => format!("{}…", run.title),
         None => format!("{}\n{}", text!("inspect-nothing-yet"), first_step(session)),
     };
-    let rect = ui.max_rect();
+    let rect = ui.available_rect_before_wrap();
     let galley = ui.painter().layout(
         text.clone(),
         font::verdict(),

@@ -18,7 +18,7 @@ use shell::{
     language::results::{recognised_part, stored_verdict},
     session::Session,
     standing::past_mark,
-    trace::entry,
+    trace::{entry, expect_menu},
 };
 use ui::{
     language::{Language, text},
@@ -73,18 +73,19 @@ pub(super) fn ui(
                 .fill(theme.panel)
                 .inner_margin(Margin::symmetric(24, COLUMN_MARGIN[is_low])),
         )
-        .show(ui, |ui| column(ui, &banner, session));
+        .show(ui, |ui| column(ui, &banner, session, actions));
     // The parts of an earlier frame no longer count.
     let shown = session.shown.as_ref().filter(|_| banner.is_current);
-    if let Some(shown) = shown.filter(|shown| shown.parts.len() > 1) {
+    let rows = shown.map(|shown| frame_parts::rows(shown, session));
+    if let Some((shown, rows)) = shown.zip(rows).filter(|(_, rows)| rows.len() > 1) {
         let fonts = [font::far_list(), font::body()];
         let margin = space::MEDIUM;
         Panel::bottom("parts of the frame")
-            .exact_size(frame_parts::height(ui, shown, &fonts) + 2.0 * margin)
+            .exact_size(frame_parts::height(ui, rows.len(), &fonts) + 2.0 * margin)
             .resizable(false)
             .frame(Frame::new().fill(theme.panel).inner_margin(margin))
             .show(ui, |ui| {
-                frame_parts::list(ui, session, shown, &fonts, actions);
+                frame_parts::list(ui, shown.selected(), &rows, &fonts, actions);
             });
     }
     CentralPanel::default().frame(Frame::new()).show(ui, |ui| {
@@ -254,7 +255,7 @@ fn next_ui(ui: &mut Ui, banner: &Banner, room: f32) {
 }
 
 /// Draws what to do next, and the last parts.
-fn column(ui: &mut Ui, banner: &Banner, session: &Session) {
+fn column(ui: &mut Ui, banner: &Banner, session: &Session, actions: &mut Vec<InspectAction>) {
     let theme = Theme::of(ui);
     let shift = &session.shift;
     ui.spacing_mut().interact_size.y = 0.0;
@@ -269,6 +270,13 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session) {
     let top = ui.cursor().top();
     ui.add_space(space::SMALL);
     entry::fields(ui, session);
+    let expects_any = session.expected().is_ok_and(|expected| expected.is_empty());
+    // A caution and the last parts are worth more than a menu that is not in use.
+    if !expects_any || banner.caution.is_empty() {
+        let mut of_shell = Vec::new();
+        expect_menu::ui(ui, session, &mut of_shell);
+        actions.extend(of_shell.into_iter().map(InspectAction::Act));
+    }
     robots_without_answer(ui, session);
     ui.add_space(space::SMALL);
     ui.weak(text!("operator-last-parts"));
@@ -405,7 +413,7 @@ mod tests {
                 screen_rect: Some(Rect::from_min_size(Pos2::ZERO, size)),
                 ..RawInput::default()
             };
-            let output = ctx.run_ui(input, |ui| column(ui, &banner, &session));
+            let output = ctx.run_ui(input, |ui| column(ui, &banner, &session, &mut Vec::new()));
             let texts = output.shapes.iter().filter_map(|drawn| match &drawn.shape {
                 Shape::Text(text) => {
                     let is_whole = drawn.clip_rect.contains_rect(text.visual_bounding_rect());
@@ -449,7 +457,7 @@ mod tests {
         let banner = Banner::new(Tone::Open, "", "", "");
         let output = ctx.run_ui(input, |ui| {
             theme = Some(Theme::of(ui));
-            column(ui, &banner, &session);
+            column(ui, &banner, &session, &mut Vec::new());
         });
         let colour_of = |words: &str| {
             let mut texts = output.shapes.iter().filter_map(|drawn| match &drawn.shape {

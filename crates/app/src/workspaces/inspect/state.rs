@@ -195,6 +195,7 @@ impl InspectState {
             InspectAction::ToggleRecording => {
                 cx.send(Message::Act(Action::Live(LiveAction::ToggleRecording)));
             }
+            InspectAction::Act(action) => cx.send(Message::Act(action)),
             InspectAction::Shots(action) => self.change_shots(action, cx),
             InspectAction::Ask(file) => {
                 let lock = &cx.services.dialogs;

@@ -22,13 +22,13 @@ use crate::{
     },
     session::Session,
     source::live::FollowedParts,
-    trace::current_trace::CurrentTrace,
+    trace::{current_trace::CurrentTrace, expecting::NotKnown},
 };
 use capture::{self, CaptureError, Feed, SourceSpec};
 use geometry::error::{Advice as _, guarded, lock};
 use inspection::{
     library::{GivenNumbers, LibraryPlace, PartNumbers, Truth},
-    pipeline::{NamedRecipe, ProgressObserver as _, Unwatched},
+    pipeline::{Expected, NamedRecipe, ProgressObserver as _, Unwatched},
 };
 use records::{
     history::{HungId, Traceability, Writer},
@@ -83,6 +83,8 @@ pub(super) struct AnswerInputs {
     /// The source, while Live follows one.
     followed: Option<SourceSpec>,
     recipe: Arc<NamedRecipe>,
+    /// What should hang there, unless the trigger says it.
+    expected: Result<Expected, NotKnown>,
     empty_cell: Option<Arc<EmptyCell>>,
     robot: Arc<RobotFrame>,
     pose: PoseKind,
@@ -94,7 +96,8 @@ impl AnswerInputs {
         let followed = session.is_live().then(|| session.source.followed());
         Self {
             followed: followed.flatten(),
-            recipe: session.recipe_in_rack(),
+            recipe: session.recipe_in_rack(Expected::default()),
+            expected: session.expected_now(),
             empty_cell: session.empty_cell.clone(),
             robot,
             pose: session.answering.pose,
@@ -284,6 +287,14 @@ impl Inspector for AnsweringSession<'_> {
             answer: Answer::default(),
         });
         let inputs = self.follow();
+        let is_told = asked.expected.iter().any(|number| *number > 0);
+        let expected = match &inputs.expected {
+            Err(why) if !is_told => {
+                let UserError { what, advice } = why.in_english();
+                return Found::error(Problem::new("not_known", &what, &advice)).into();
+            }
+            expected => expected.clone().unwrap_or_default(),
+        };
         let is_ending = || self.is_ending();
         let captured = match self.camera.frame_after(asked, FRAME_TIMEOUT, is_ending) {
             Ok(captured) => captured,
@@ -304,7 +315,7 @@ impl Inspector for AnsweringSession<'_> {
         let subject = origin.subject(source);
         let loaded = self.library_cache.get();
         self.know(&loaded, &inputs);
-        let recipe = &inputs.recipe;
+        let recipe = &inputs.recipe.expecting(expected);
         let fitted = loaded.fitting(recipe, &Unwatched);
         let answering = Answering {
             camera: &self.camera,

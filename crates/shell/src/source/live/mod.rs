@@ -20,8 +20,8 @@ pub use self::{
 pub(crate) use self::{
     parts::FollowedParts,
     state::{
-        apply, give_way, outdate_shown, restart_consensus, show_unseen, source_changed,
-        tell_if_lost,
+        apply, expect_anew, give_way, outdate_shown, restart_consensus, show_unseen,
+        source_changed, tell_if_lost,
     },
     status::{chip, words},
 };

@@ -20,7 +20,7 @@ use crate::{
     notice::{Notice, NoticeTopic},
     session::{ReinspectionPurpose, Session, Shown, Source, UserRole, WorkspaceKind},
     state::{State, notify, remove_notices},
-    trace::current_trace::CurrentTrace,
+    trace::{current_trace::CurrentTrace, expecting},
 };
 use inspection::pipeline::live::MAX_AVERAGED;
 use records::history::Traceability;
@@ -138,6 +138,9 @@ fn start(state: &mut State) {
         notify(state, notice.about(NoticeTopic::Following));
         return;
     }
+    if !expecting::may_inspect(state) {
+        return;
+    }
     state.follower.session += 1;
     state.follower.again = None;
     state.session.failed = None;
@@ -161,9 +164,10 @@ fn follow_source(state: &mut State) {
     let Some(spec) = state.session.source.followed() else {
         return;
     };
+    let expected = expecting::follow_expected(&mut state.session);
     let request = LiveStart {
         spec,
-        recipe: state.session.recipe_in_rack(),
+        recipe: state.session.recipe_in_rack(expected),
         params: state.session.live.params.clone(),
         empty_cell: state.session.empty_cell.clone(),
         record: state.session.live.recording.clone(),
@@ -192,6 +196,12 @@ pub(crate) fn restart_consensus(state: &mut State) {
     {
         state.follower.again = Some(newest);
     }
+    follow_anew(state);
+}
+
+/// Starts over because other parts are expected from now on. What a folder has delivered was inspected for those before.
+pub(crate) fn expect_anew(state: &mut State) {
+    state.follower.again = None;
     follow_anew(state);
 }
 

@@ -1,0 +1,50 @@
+# 相机前应悬挂的零件
+
+expect-title = 预期
+expect-anything = 任意零件
+expect-parts = { $num } 个零件
+expect-not-known = 未知
+expect-says = 应悬挂哪些零件：其他零件会被拒绝，并显示缺少的零件
+expect-one-more = 增加一个
+expect-one-less = 减少一个
+expect-clear = 任意零件
+expect-orders = 订单表…
+expect-orders-says = 订单表（CSV），列出每个订单应悬挂的零件
+expect-by-orders = 按订单表
+expect-close-orders = 关闭订单表
+expect-table = 订单表
+expect-table-used = 预期零件取自 { $file }
+expect-table-unusable = 无法使用订单表：{ $error }
+expect-watching = 正在监视订单表
+
+## 未知的原因
+
+expect-not-given = 尚未输入订单
+expect-unknown-order = 订单 { $order } 不在订单表中
+expect-unknown-serial = 序列号 { $serial } 不在订单表中
+expect-serial-not-given = 订单 { $order } 的零件因序列号而异
+expect-other-order = 序列号 { $serial } 属于订单 { $other }，而不是 { $order }
+expect-several-orders = 多个订单有序列号 { $serial }
+expect-give-order = 请输入或扫描订单
+expect-give-serial = 请扫描序列号
+expect-check-order = 请核对订单，或请人补充订单表
+expect-check-serial = 请核对序列号，或请人补充订单表
+expect-check-both = 请核对订单和序列号
+
+## 结果
+
+expect-num-met = { $all } 个中 { $num } 个符合预期
+expect-is-met = 符合预期
+expect-is-met-and-posed = 符合预期，位姿已知
+expect-missing = 缺少：{ $parts }
+expect-wrong = 零件错误：{ $part }，应为 { $expected }
+expect-surplus = 非预期零件：{ $part }
+expect-of-order = 订单 { $order }：{ $says }
+expect-hang-missing = 请挂上缺少的零件并重新采集，或更正预期零件
+expect-live-sees-one = 实时模式每帧只检测一个零件
+expect-capture-all = 请按“采集”检测所有零件
+expect-as-expected = 符合预期
+expect-wrong-part = 零件错误
+expect-not-expected = 非预期
+expect-is-missing = 缺少
+expect-nothing-hangs = 未悬挂

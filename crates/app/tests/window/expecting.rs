@@ -1,0 +1,195 @@
+//! What should hang before the camera: chosen in the menu, or by the table of orders.
+
+use std::{fs, path::Path};
+
+use egui::{Key, Role};
+use egui_kittest::kittest::Queryable as _;
+use shell::{
+    action::{Action, DialogRequest},
+    roles::RoleAction,
+    settings::Settings,
+    state::State,
+};
+
+use super::{
+    rack::open_rack,
+    set_up::{SMALL, WindowHarness, act, open, open_with, plain_options, press, wait_until},
+};
+
+const ORDERS: &str = "order;serial;parts
+4711;;front_door|radiator_support
+4711;S-1;front_door|grille
+4712;;front_door|grille
+4713;;front_door|radiator_support|grille
+4714;;bonnet
+";
+
+/// Uses a table of orders.
+pub(crate) fn use_orders(harness: &mut WindowHarness, folder: &Path) {
+    let path = folder.join("orders.csv");
+    fs::write(&path, ORDERS).expect("written");
+    act(harness, Action::Chosen(DialogRequest::Orders, path));
+}
+
+/// Types into the field of the order.
+pub(crate) fn enter_order(harness: &mut WindowHarness, order: &str) {
+    harness
+        .get_by_role_and_label(Role::TextInput, "Order")
+        .click();
+    harness.run_steps(2);
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::A);
+    let field = harness.get_by_role_and_label(Role::TextInput, "Order");
+    field.type_text(order);
+    harness.run_steps(2);
+    harness.key_press(Key::Enter);
+    harness.run_steps(4);
+}
+
+fn notices(harness: &WindowHarness) -> String {
+    let notices = harness.state().state().notices.iter();
+    notices
+        .map(|notice| &*notice.what)
+        .collect::<Vec<_>>()
+        .join("\n")
+}
+
+fn num_shown(state: &State) -> u64 {
+    state
+        .session
+        .shown
+        .as_ref()
+        .map_or(0, |shown| shown.generation)
+}
+
+#[test]
+fn the_order_says_what_should_hang_there_and_without_it_nothing_is_captured() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open_with(SMALL, plain_options());
+    use_orders(&mut harness, folder.path());
+    act(&mut harness, Action::Role(RoleAction::Switch));
+    let before = num_shown(harness.state().state());
+    press(&mut harness, "Capture");
+    open_rack(&mut harness, folder.path());
+    assert!(
+        notices(&harness).contains("No order is entered"),
+        "{}",
+        notices(&harness)
+    );
+    for (order, why) in [
+        ("4710", "Order 4710 is not in the table of orders"),
+        ("4714", "bonnet is expected, but not enrolled"),
+    ] {
+        enter_order(&mut harness, order);
+        harness.get_all_by_label_contains(why).next().expect(why);
+        press(&mut harness, "Capture");
+        assert!(notices(&harness).contains(why), "{}", notices(&harness));
+    }
+    assert_eq!(
+        num_shown(harness.state().state()),
+        before,
+        "nothing was inspected"
+    );
+
+    // The same file again would show the same part, which is of the former order.
+    let hang = |number: &str, harness: &mut WindowHarness| {
+        let folder = folder.path().join(number);
+        fs::create_dir(&folder).expect("made");
+        open_rack(harness, &folder);
+    };
+    enter_order(&mut harness, "4711");
+    harness.get_by_label("Expected: Front door, left · Radiator support");
+    hang("1", &mut harness);
+    assert_eq!(notices(&harness), "");
+    harness.get_by_label("2 of 2 as expected");
+    assert!(harness.query_by_label("NOK").is_none());
+    enter_order(&mut harness, "4712");
+    // What is shown is of the former order.
+    harness.get_by_label("2 of 2 as expected");
+    hang("2", &mut harness);
+    harness.get_by_label("1 of 2 as expected");
+    harness.get_by_label("NOK");
+    harness.get_by_label_contains(
+        "3 · Radiator support: Radiator support hangs there instead of Grille",
+    );
+    harness.get_by_label("3 Radiator support: wrong part");
+    enter_order(&mut harness, "4713");
+    hang("3", &mut harness);
+    harness.get_by_label("2 of 3 as expected");
+    harness.get_by_label("NOK");
+    harness.get_by_label("Order 4713: Missing: Grille");
+    harness.get_by_label("4 Grille: missing");
+
+    // It is read again once it changes.
+    let changed = ORDERS.replace(
+        "4713;;front_door|radiator_support|grille",
+        "4713;;radiator_support|front_door",
+    );
+    fs::write(folder.path().join("orders.csv"), changed).expect("written");
+    wait_until(&mut harness, |state| {
+        let expected = state.session.expected();
+        expected.is_ok_and(|expected| expected.parts().len() == 2)
+    });
+    hang("4", &mut harness);
+    harness.get_by_label("2 of 2 as expected");
+    let remembered = Settings::of(harness.state().state(), None);
+    assert_eq!(remembered.orders, Some(folder.path().join("orders.csv")));
+    // Only the engineer closes it.
+    harness.get_by_label_contains("Expected: ").click();
+    harness.run_steps(4);
+    assert!(harness.query_by_label("Close the table").is_none());
+}
+
+#[test]
+fn a_serial_number_of_other_parts_withdraws_the_verdict() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open();
+    use_orders(&mut harness, folder.path());
+    enter_order(&mut harness, "4711");
+    open_rack(&mut harness, folder.path());
+    harness.get_by_label("2 of 2 as expected");
+    let doubts = |harness: &WindowHarness| {
+        let session = &harness.state().state().session;
+        let shown = session.shown.as_ref().expect("a result");
+        let doubts = session.robot_doubts(&shown.parts[0]);
+        doubts.iter().map(station::Doubt::kind).collect::<Vec<_>>()
+    };
+    assert!(!doubts(&harness).contains(&"other_order"));
+    harness.state().state().session.enter_scanned("S-1", 0.0);
+    harness.run_steps(4);
+    assert_eq!(doubts(&harness)[0], "other_order");
+    harness.get_by_label_contains("Its order expects other parts");
+}
+
+#[test]
+fn parts_are_chosen_with_their_number_and_cleared() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open();
+    let choose = |harness: &mut WindowHarness, labels: &[&str]| {
+        harness.get_by_label_contains("Expected: ").click();
+        harness.run_steps(4);
+        for label in labels {
+            harness.get_by_label(label).click();
+            harness.run_steps(4);
+        }
+        harness.key_press(Key::Escape);
+        harness.run_steps(4);
+    };
+    let more = [
+        "One more: Front door, left",
+        "One more: Front door, left",
+        "One more: Grille",
+    ];
+    choose(&mut harness, &more);
+    harness.get_by_label("Expected: 2 × Front door, left · Grille");
+    choose(&mut harness, &["One less: Front door, left"]);
+    harness.get_by_label("Expected: Front door, left · Grille");
+    open_rack(&mut harness, folder.path());
+    harness.get_by_label("1 of 2 as expected");
+    harness.get_by_label("1 Front door, left: as expected");
+    harness.get_by_label("3 Radiator support: wrong part");
+    harness.get_by_label("Wrong part: Radiator support instead of Grille");
+    choose(&mut harness, &["Any part"]);
+    harness.get_by_label("Expected: Any part");
+    open_rack(&mut harness, folder.path());
+    harness.get_by_label("2 of 3 accepted");
+}

@@ -1,0 +1,157 @@
+//! Racks that are inspected with an expectation: the right one, one with another part, and one with a part more.
+
+use rand::{RngExt as _, SeedableRng as _};
+use rand_pcg::Pcg64;
+use serde::Serialize;
+
+use super::{Suite, SuiteFrame, rack::rack_cases};
+use geometry::parallel::on_one_core;
+use inspection::{
+    library::Library,
+    pipeline::{Expected, Recipe, Rejection, Unwatched, Verdict, run_all},
+};
+use stages::scene::scene_from_frame;
+
+/// How an expectation differs from what hangs on the rack.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Expectation {
+    /// Every enrolled part that hangs there.
+    Right,
+    /// One of them is replaced by another enrolled part.
+    Wrong,
+    /// One more enrolled part than hangs there.
+    Missing,
+}
+
+impl Expectation {
+    /// All of them; the frames of a suite have them in turn.
+    pub const ALL: [Self; 3] = [Self::Right, Self::Wrong, Self::Missing];
+
+    /// Returns the name used in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Right => "right",
+            Self::Wrong => "wrong",
+            Self::Missing => "missing",
+        }
+    }
+}
+
+/// The verdicts on the racks of one kind of expectation.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct ExpectationFigures {
+    /// The expectation.
+    pub expectation: Expectation,
+    /// Number of frames.
+    pub num_frames: usize,
+    /// Number of parts on them that were accepted as another one, or though nothing enrolled hangs there.
+    pub num_wrong_accepted: usize,
+    /// Number of frames that were called as expected.
+    pub num_met: usize,
+    /// Number of frames with the right verdict: as expected; the replaced part is named with the one that is expected
+    /// instead; the absent part is missing.
+    pub num_right: usize,
+}
+
+impl ExpectationFigures {
+    /// Creates the figures of each expectation, without frames.
+    pub fn none() -> [Self; 3] {
+        Expectation::ALL.map(|expectation| Self {
+            expectation,
+            num_frames: 0,
+            num_wrong_accepted: 0,
+            num_met: 0,
+            num_right: 0,
+        })
+    }
+}
+
+/// Inspects the racks of a suite on one core, each with one of the expectations in turn; adds the verdicts to `figures`, and
+/// calls `after_each` after each frame.
+pub fn add_expected_racks(
+    suite: Suite,
+    frames: &[SuiteFrame],
+    library: &Library,
+    recipe: &Recipe,
+    figures: &mut [ExpectationFigures; 3],
+    mut after_each: impl FnMut(),
+) {
+    for (place, frame) in frames.iter().enumerate() {
+        figures[place % 3].add(suite, frame, library, recipe);
+        after_each();
+    }
+}
+
+impl ExpectationFigures {
+    fn add(&mut self, suite: Suite, frame: &SuiteFrame, library: &Library, recipe: &Recipe) {
+        let shot = frame.shot(suite);
+        let hung = shot
+            .things
+            .iter()
+            .filter_map(|thing| thing.expected.clone());
+        let mut names: Vec<String> = hung.collect();
+        let absent = (library.references.iter().map(|reference| &reference.name))
+            .filter(|name| !names.contains(name));
+        let absent: Vec<&String> = absent.collect();
+        let mut random = Pcg64::seed_from_u64(shot.seed);
+        let absent = absent[random.random_range(0..absent.len())].clone();
+        let mut replaced = None;
+        match self.expectation {
+            Expectation::Right => {}
+            Expectation::Wrong => {
+                let place = random.random_range(0..names.len());
+                replaced = Some(std::mem::replace(&mut names[place], absent.clone()));
+            }
+            Expectation::Missing => names.push(absent.clone()),
+        }
+        let mut recipe = recipe.clone();
+        recipe.expected = Expected::new(names, |_| true).expect("up to 6 parts");
+        let scene = scene_from_frame(&shot.frame);
+        let found = on_one_core(|| run_all(&scene, library, &recipe, &Unwatched));
+        let found = found.expect("not cancelled");
+        let verdicts: Vec<&Verdict> = found.iter().map(|one| &one.verdict).collect();
+        let is_met = recipe.expected.is_met(&verdicts);
+        let is_right = match &replaced {
+            None if self.expectation == Expectation::Right => is_met,
+            None => recipe.expected.missing(&verdicts).contains(&&*absent),
+            Some(replaced) => verdicts.iter().any(|verdict| {
+                matches!(verdict.rejected(), Some(Rejection::WrongPart { part, expected })
+                    if part == replaced && *expected == absent)
+            }),
+        };
+        self.num_frames += 1;
+        self.num_met += usize::from(is_met);
+        self.num_right += usize::from(is_right);
+        let cases = rack_cases(&shot, found).into_iter();
+        self.num_wrong_accepted += cases.filter(|(case, _)| case.is_wrong_accepted()).count();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::suites::{SuiteLibraries, TUNING_SEED};
+    use inspection::library::EnrolParams;
+
+    #[test]
+    fn a_right_a_wrong_and_a_missing_part_are_told_apart() {
+        let libraries = SuiteLibraries::enrol(&EnrolParams::default()).expect("eight parts");
+        let suite = Suite::RackApart;
+        let frames = suite.frames(3, TUNING_SEED);
+        let mut figures = ExpectationFigures::none();
+        let (library, recipe) = (libraries.of(suite), Recipe::default());
+        let mut num = 0;
+        add_expected_racks(suite, &frames, library, &recipe, &mut figures, || num += 1);
+        assert_eq!(num, 3);
+        for (figures, is_met) in figures.iter().zip([1, 0, 0]) {
+            let nums = [
+                figures.num_frames,
+                figures.num_wrong_accepted,
+                figures.num_met,
+                figures.num_right,
+            ];
+            assert_eq!(nums, [1, 0, is_met, 1], "{figures:?}");
+        }
+    }
+}

@@ -1,0 +1,431 @@
+//! The table of orders: which parts hang there for which production order and serial number.
+//!
+//! The table is a CSV file, as spreadsheets and planning systems write it. Its first line names the columns, in any order:
+//! `order`, `serial` (may be left out, and its cells may be empty) and `parts`. Further columns are ignored. Cells are
+//! separated by commas, semicolons or tabs, and names of parts within a cell by commas, semicolons or `|`:
+//!
+//! ```csv
+//! order;serial;parts
+//! 4711;;front_door|fender
+//! 4711;TL-0042;front_door
+//! ```
+
+use std::{
+    collections::BTreeMap,
+    path::{Path, PathBuf},
+};
+
+use csv::{ReaderBuilder, StringRecord};
+use thiserror::Error;
+
+use crate::history::Traceability;
+use files::{FileError, read_text};
+use geometry::error::Advice;
+use inspection::pipeline::{Expected, ExpectedError};
+use stages::segment::MAX_PARTS;
+
+/// Maximum size of a table: some 100 000 rows.
+const MAX_BYTES: u64 = 8 << 20;
+/// What may separate cells. Of those in the first line, the first of this list does.
+const SEPARATORS: [char; 3] = [';', '\t', ','];
+/// What may separate the names of parts in a cell.
+const PART_SEPARATORS: [char; 3] = [';', ',', '|'];
+
+/// A column of the table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OrderColumn {
+    /// The production order.
+    Order,
+    /// The serial number of a hung part; empty for the other parts of the order.
+    Serial,
+    /// The parts that should hang there.
+    Parts,
+}
+
+impl OrderColumn {
+    /// Its name in the first line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Order => "order",
+            Self::Serial => "serial",
+            Self::Parts => "parts",
+        }
+    }
+}
+
+/// Why a table cannot be read.
+#[derive(Debug, Error)]
+pub enum OrdersError {
+    /// The file cannot be read.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// A column is missing, or there twice.
+    #[error("{}, line 1: {found} columns are named {}", path.display(), column.name())]
+    Column {
+        /// The file.
+        path: PathBuf,
+        /// The column.
+        column: OrderColumn,
+        /// Their number.
+        found: usize,
+    },
+    /// A cell has no valid content.
+    #[error("{}, line {line}, column {}: {problem}", path.display(), column.name())]
+    Cell {
+        /// The file.
+        path: PathBuf,
+        /// Number of the line in the file, from 1.
+        line: u64,
+        /// The column.
+        column: OrderColumn,
+        /// What is wrong.
+        problem: CellProblem,
+    },
+    /// There is no order below the first line.
+    #[error("{}: the table has no orders", path.display())]
+    NoOrders {
+        /// The file.
+        path: PathBuf,
+    },
+}
+
+/// What is wrong with a cell.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum CellProblem {
+    /// It is empty.
+    #[error("the cell is empty")]
+    Empty,
+    /// No order or serial number is so long, or has line breaks.
+    #[error(
+        "the cell has line breaks, or more than {} characters",
+        Traceability::MAX_LETTERS
+    )]
+    NotOneLine,
+    /// The same order and serial number again.
+    #[error("the order and serial number are those of line {first}")]
+    Again {
+        /// Number of the line that has them too, from 1.
+        first: u64,
+    },
+    /// The parts cannot be expected.
+    #[error("{0}")]
+    Parts(ExpectedError),
+}
+
+impl Advice for OrdersError {
+    fn advice(&self) -> String {
+        match self {
+            Self::File(error @ FileError::Damaged { .. }) => format!(
+                "{}; a spreadsheet saves a table as CSV UTF-8",
+                error.advice()
+            ),
+            Self::File(error) => error.advice(),
+            Self::Column { .. } => {
+                "Name the columns order, serial and parts in the first line; serial may be left out"
+                    .into()
+            }
+            Self::Cell { problem, .. } => problem.advice(),
+            Self::NoOrders { .. } => "Add a row for each order below the first line".into(),
+        }
+    }
+}
+
+impl Advice for CellProblem {
+    fn advice(&self) -> String {
+        match self {
+            Self::Empty => "Fill the cell, or delete the row".into(),
+            Self::NotOneLine => "Shorten it; look for a missing quotation mark before it".into(),
+            Self::Again { .. } => "Put all parts that hang together into one row".into(),
+            Self::Parts(error) => error.advice(),
+        }
+    }
+}
+
+/// Why it is not known what to expect.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum OrderError {
+    /// Neither an order nor a serial number is given.
+    #[error("no order is given")]
+    NotGiven,
+    /// The table does not have the order.
+    #[error("order {order} is not in the table of orders")]
+    UnknownOrder {
+        /// The order.
+        order: String,
+    },
+    /// No row has the serial number, and the order has no row for other serial numbers.
+    #[error("serial number {serial} is not in the table of orders")]
+    UnknownSerial {
+        /// The serial number.
+        serial: String,
+    },
+    /// The order has rows with serial numbers only, and none is given.
+    #[error("order {order} differs by serial number, and none is given")]
+    SerialNotGiven {
+        /// The order.
+        order: String,
+    },
+    /// The serial number is that of another order.
+    #[error("serial number {serial} is of order {other}, not {order}")]
+    OtherOrder {
+        /// The serial number.
+        serial: String,
+        /// The order that is given.
+        order: String,
+        /// The order that has it.
+        other: String,
+    },
+    /// Several orders have the serial number, and no order is given.
+    #[error("several orders have serial number {serial}")]
+    SeveralOrders {
+        /// The serial number.
+        serial: String,
+    },
+    /// The parts of the row cannot be expected.
+    #[error("{}, line {line}, column {}: {source}", path.display(), OrderColumn::Parts.name())]
+    Parts {
+        /// The table.
+        path: PathBuf,
+        /// Number of the line in the file, from 1.
+        line: u64,
+        /// What is wrong.
+        source: ExpectedError,
+    },
+}
+
+impl Advice for OrderError {
+    fn advice(&self) -> String {
+        match self {
+            Self::NotGiven | Self::SeveralOrders { .. } => "Give the order".into(),
+            Self::UnknownOrder { .. } => "Check the order, or add it to the table".into(),
+            Self::UnknownSerial { .. } => "Check the serial number, or add it to the table".into(),
+            Self::SerialNotGiven { .. } => "Give the serial number".into(),
+            Self::OtherOrder { .. } => "Check the order and the serial number".into(),
+            Self::Parts { source, .. } => {
+                format!("{}, or correct the table", source.advice())
+            }
+        }
+    }
+}
+
+/// The table of orders.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Orders {
+    path: PathBuf,
+    /// The rows of each order by serial number; that of the other serial numbers is empty.
+    orders: BTreeMap<String, BTreeMap<String, Row>>,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Row {
+    /// Number of the line in the file, from 1.
+    line: u64,
+    /// Names of the parts, one at least.
+    parts: Vec<String>,
+}
+
+impl Orders {
+    /// Reads a table. A single bad row makes the whole table an error, but for the names of its parts: those count once the
+    /// order is asked for.
+    pub fn read(path: &Path) -> Result<Self, OrdersError> {
+        Self::parse(path, &read_text(path, MAX_BYTES)?)
+    }
+
+    /// Parses a table; errors name `path` as its file.
+    pub fn parse(path: &Path, text: &str) -> Result<Self, OrdersError> {
+        let head = text.lines().next().unwrap_or_default();
+        let mut separators = SEPARATORS.iter();
+        let separator = separators.find(|separator| head.contains(**separator));
+        let mut reader = ReaderBuilder::new()
+            .delimiter(separator.map_or(b',', |separator| *separator as u8))
+            .flexible(true)
+            .has_headers(false)
+            .from_reader(text.as_bytes());
+        let mut rows = reader.records().map_while(Result::ok);
+        let head = rows.next().unwrap_or_default();
+        let place = |column| place_of(path, &head, column);
+        let order = required(path, OrderColumn::Order, place(OrderColumn::Order)?)?;
+        let parts = required(path, OrderColumn::Parts, place(OrderColumn::Parts)?)?;
+        let serial = place(OrderColumn::Serial)?;
+        let mut table = Self {
+            path: path.to_owned(),
+            orders: BTreeMap::new(),
+        };
+        let mut lines = LineCount::default();
+        for row in rows {
+            let line = lines.line_of(&row, text);
+            if row.iter().all(|cell| cell.trim().is_empty()) {
+                continue;
+            }
+            let wrong = |column, problem| OrdersError::Cell {
+                path: path.to_owned(),
+                line,
+                column,
+                problem,
+            };
+            let cell = |place: Option<usize>| place.and_then(|place| row.get(place)).unwrap_or("");
+            let key = |column, place| {
+                let key = cell(place).trim();
+                match Traceability::cleaned(key) {
+                    cleaned if cleaned == key => Ok(cleaned),
+                    _ => Err(wrong(column, CellProblem::NotOneLine)),
+                }
+            };
+            let of_order = key(OrderColumn::Order, Some(order))?;
+            if of_order.is_empty() {
+                return Err(wrong(OrderColumn::Order, CellProblem::Empty));
+            }
+            let of_serial = key(OrderColumn::Serial, serial)?;
+            let names = cell(Some(parts)).split(PART_SEPARATORS).map(str::trim);
+            let names = names.filter(|name| !name.is_empty());
+            let names: Vec<String> = names.map(str::to_owned).collect();
+            let problem = match names.len() {
+                0 => Some(CellProblem::Empty),
+                found if found > MAX_PARTS => {
+                    Some(CellProblem::Parts(ExpectedError::TooMany { found }))
+                }
+                _ => None,
+            };
+            if let Some(problem) = problem {
+                return Err(wrong(OrderColumn::Parts, problem));
+            }
+            let rows = table.orders.entry(of_order).or_default();
+            if let Some(Row { line: first, .. }) = rows.get(&of_serial) {
+                let again = CellProblem::Again { first: *first };
+                return Err(wrong(OrderColumn::Order, again));
+            }
+            rows.insert(of_serial, Row { line, parts: names });
+        }
+        if table.orders.is_empty() {
+            let path = path.to_owned();
+            return Err(OrdersError::NoOrders { path });
+        }
+        Ok(table)
+    }
+
+    /// The file.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The parts that should hang there for an order and a serial number: those of the row with both; else those of the
+    /// order's row without a serial number. Without an order, those of the one row with the serial number.
+    pub fn expected(
+        &self,
+        trace: &Traceability,
+        is_enrolled: impl Fn(&str) -> bool,
+    ) -> Result<Expected, OrderError> {
+        let Row { line, parts } = self.row(trace.order.trim(), trace.serial.trim())?;
+        Expected::new(parts.clone(), is_enrolled).map_err(|source| OrderError::Parts {
+            path: self.path.clone(),
+            line: *line,
+            source,
+        })
+    }
+
+    fn row(&self, order: &str, serial: &str) -> Result<&Row, OrderError> {
+        let unknown_serial = || OrderError::UnknownSerial {
+            serial: serial.to_owned(),
+        };
+        let mut with_serial = (self.orders.iter())
+            .filter_map(|(order, rows)| Some((order, rows.get(serial)?)))
+            .filter(|_| !serial.is_empty());
+        if order.is_empty() {
+            if serial.is_empty() {
+                return Err(OrderError::NotGiven);
+            }
+            let (_, row) = with_serial.next().ok_or_else(unknown_serial)?;
+            return match with_serial.next() {
+                None => Ok(row),
+                Some(_) => Err(OrderError::SeveralOrders {
+                    serial: serial.to_owned(),
+                }),
+            };
+        }
+        let order = order.to_owned();
+        let Some(rows) = self.orders.get(&order) else {
+            return Err(OrderError::UnknownOrder { order });
+        };
+        if let Some(row) = rows.get(serial) {
+            return Ok(row);
+        }
+        if let Some((other, _)) = with_serial.next() {
+            return Err(OrderError::OtherOrder {
+                serial: serial.to_owned(),
+                order,
+                other: other.clone(),
+            });
+        }
+        rows.get("").ok_or_else(|| {
+            if serial.is_empty() {
+                OrderError::SerialNotGiven { order }
+            } else {
+                unknown_serial()
+            }
+        })
+    }
+}
+
+/// Counts the lines of a text up to a row: the parser takes the end of a line, and empty lines, for the beginning of the next
+/// row.
+#[derive(Default)]
+struct LineCount {
+    counted: usize,
+    num_ends: u64,
+}
+
+impl LineCount {
+    /// The number of the line in which a row begins, from 1; of rows in their order.
+    fn line_of(&mut self, row: &StringRecord, text: &str) -> u64 {
+        let at = row.position().map_or(0, csv::Position::byte);
+        let at = usize::try_from(at).unwrap_or(usize::MAX).min(text.len());
+        let text = text.as_bytes();
+        let is_end = |letter: &u8| matches!(letter, b'\r' | b'\n');
+        let begins = at
+            + text[at..]
+                .iter()
+                .take_while(|letter| is_end(letter))
+                .count();
+        let is_new_line = |at: &usize| match text[*at] {
+            b'\n' => true,
+            b'\r' => text.get(at + 1) != Some(&b'\n'),
+            _ => false,
+        };
+        self.num_ends += (self.counted..begins).filter(is_new_line).count() as u64;
+        self.counted = begins;
+        self.num_ends + 1
+    }
+}
+
+/// The place of a column in the first line; `None` if it is missing.
+fn place_of(
+    path: &Path,
+    head: &StringRecord,
+    column: OrderColumn,
+) -> Result<Option<usize>, OrdersError> {
+    let is_it = |(_, cell): &(usize, &str)| cell.trim().eq_ignore_ascii_case(column.name());
+    let places: Vec<usize> = (head.iter().enumerate())
+        .filter(is_it)
+        .map(|(place, _)| place)
+        .collect();
+    match places[..] {
+        [] => Ok(None),
+        [place] => Ok(Some(place)),
+        _ => Err(OrdersError::Column {
+            path: path.to_owned(),
+            column,
+            found: places.len(),
+        }),
+    }
+}
+
+fn required(path: &Path, column: OrderColumn, place: Option<usize>) -> Result<usize, OrdersError> {
+    place.ok_or_else(|| OrdersError::Column {
+        path: path.to_owned(),
+        column,
+        found: 0,
+    })
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,402 @@
+//! What should hang before the camera: parts that the user chose, or those of an order.
+//!
+//! With a table of orders, the order and the serial number that are entered say what to expect of the next part. While that is
+//! not known, nothing is captured. A part keeps what was expected of it; if its order or serial number turns out to be another
+//! one, no robot may act on it. The table is read again once it changes.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    sync::Arc,
+    thread,
+    time::{Duration, SystemTime},
+};
+
+use crate::{
+    inspection::{inspected::Inspected, source::file_name},
+    notice::{Notice, NoticeTopic},
+    session::Session,
+    source::live,
+    state::{State, notify, remove_notices},
+};
+use inspection::{
+    library::{PartMeta, PartName},
+    pipeline::Expected,
+};
+use records::{
+    history::Traceability,
+    orders::{OrderError, Orders},
+};
+use stages::segment::MAX_PARTS;
+use ui::{
+    language::text,
+    task::{Task, TaskContext, TaskError, TaskRunner},
+    user_error::UserError,
+};
+
+/// What should hang before the camera.
+#[derive(Debug, Default)]
+pub struct Expecting {
+    /// Names of the parts that the user chose.
+    chosen: Vec<String>,
+    /// The table in use, instead of them.
+    orders: Option<OrderTable>,
+    /// What Live expects.
+    followed: Expected,
+}
+
+/// A table of orders in use.
+#[derive(Debug)]
+struct OrderTable {
+    path: PathBuf,
+    content: TableContent,
+}
+
+/// The table, or why it cannot be read.
+type TableContent = Result<Arc<Orders>, UserError>;
+
+/// An action on what is expected.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ExpectAction {
+    /// Expect these parts from the next inspection on; none to expect any. With a table of orders, nothing happens.
+    Parts(Vec<String>),
+    /// Close the table of orders, and expect any part.
+    CloseOrders,
+}
+
+impl Expecting {
+    /// Starts with the table of orders in this file.
+    pub fn starting(path: Option<PathBuf>) -> Self {
+        Self {
+            orders: path.map(OrderTable::read),
+            ..Self::default()
+        }
+    }
+
+    /// Names of the parts that the user chose.
+    pub(super) fn chosen(&self) -> &[String] {
+        &self.chosen
+    }
+
+    /// File of the table of orders in use.
+    pub fn orders(&self) -> Option<&Path> {
+        self.orders.as_ref().map(|table| &*table.path)
+    }
+}
+
+impl OrderTable {
+    fn read(path: PathBuf) -> Self {
+        let content = read(&path);
+        Self { path, content }
+    }
+}
+
+fn read(path: &Path) -> TableContent {
+    let read = Orders::read(path).map(Arc::new);
+    read.map_err(|error| {
+        let UserError { what, advice } = UserError::of(&error);
+        let what = text!("expect-table-unusable", error = what);
+        UserError { what, advice }
+    })
+}
+
+/// Why it is not known what should hang there.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NotKnown {
+    /// The table cannot be read.
+    Table(UserError),
+    /// The table does not say it.
+    Order(OrderError),
+}
+
+impl NotKnown {
+    /// For a robot, whose programmer reads it.
+    pub(crate) fn in_english(&self) -> UserError {
+        match self {
+            Self::Table(error) => error.clone(),
+            Self::Order(error) => UserError::of(error),
+        }
+    }
+
+    /// For the user.
+    pub(crate) fn in_words(&self) -> UserError {
+        let error = match self {
+            Self::Table(error) => return error.clone(),
+            Self::Order(error) => error,
+        };
+        let [what, advice] = match error {
+            OrderError::NotGiven => [text!("expect-not-given"), text!("expect-give-order")],
+            OrderError::UnknownOrder { order } => [
+                text!("expect-unknown-order", order = order),
+                text!("expect-check-order"),
+            ],
+            OrderError::UnknownSerial { serial } => [
+                text!("expect-unknown-serial", serial = serial),
+                text!("expect-check-serial"),
+            ],
+            OrderError::SerialNotGiven { order } => [
+                text!("expect-serial-not-given", order = order),
+                text!("expect-give-serial"),
+            ],
+            OrderError::OtherOrder {
+                serial,
+                order,
+                other,
+            } => [
+                text!(
+                    "expect-other-order",
+                    serial = serial,
+                    order = order,
+                    other = other
+                ),
+                text!("expect-check-both"),
+            ],
+            OrderError::SeveralOrders { serial } => [
+                text!("expect-several-orders", serial = serial),
+                text!("expect-give-order"),
+            ],
+            OrderError::Parts { .. } => {
+                let UserError { what, advice } = UserError::of(error);
+                [text!("expect-table-unusable", error = what), advice]
+            }
+        };
+        UserError { what, advice }
+    }
+}
+
+impl Session {
+    /// What should hang there for an order and a serial number.
+    pub(crate) fn expected_of(&self, trace: &Traceability) -> Result<Expected, NotKnown> {
+        // A library that is not loaded yet is not known to lack a part.
+        let library = self.library.as_ref();
+        let is_enrolled = |name: &str| {
+            library.is_none_or(|library| {
+                let mut parts = library.parts.iter();
+                parts.any(|part| part.part_name().as_str() == name)
+            })
+        };
+        let expecting = &self.expecting;
+        let Some(table) = &expecting.orders else {
+            let mut chosen = expecting.chosen.clone();
+            chosen.retain(|name| is_enrolled(name));
+            return Ok(Expected::new(chosen, |_| true).expect("the menu offers no more"));
+        };
+        let orders = table
+            .content
+            .as_ref()
+            .map_err(|e| NotKnown::Table(e.clone()))?;
+        let expected = orders.expected(trace, is_enrolled);
+        expected.map_err(NotKnown::Order)
+    }
+
+    /// What should hang there at the next capture.
+    pub fn expected(&self) -> Result<Expected, NotKnown> {
+        self.expected_of(&self.trace.of_next())
+    }
+
+    /// What should hang there now: with the serial number of the part whose verdict counts, unless another one was entered.
+    pub(crate) fn expected_now(&self) -> Result<Expected, NotKnown> {
+        self.expected_with(self.current_result())
+    }
+
+    fn expected_with(&self, part: Option<&Inspected>) -> Result<Expected, NotKnown> {
+        let mut trace = self.trace.of_next();
+        let of_part = part.map(|part| self.trace.of_part(part));
+        if let Some(of_part) = of_part.filter(|of_part| of_part.order == trace.order)
+            && trace.serial.is_empty()
+        {
+            trace.serial = of_part.serial;
+        }
+        self.expected_of(&trace)
+    }
+
+    /// What Live should expect: its part keeps the serial number that it has taken.
+    fn expected_by_live(&self) -> Result<Expected, NotKnown> {
+        let latest = self.latest(|shown| !shown.is_past);
+        self.expected_with(latest.filter(|_| !self.is_watching()).map(|part| &**part))
+    }
+
+    /// True if the part has another order or serial number by now, and other parts are expected for that than when it was
+    /// inspected.
+    pub(crate) fn is_of_other_order(&self, part: &Inspected) -> bool {
+        let is_past = self.shown.as_ref().is_some_and(|shown| shown.is_past);
+        self.expecting.orders.is_some()
+            && !is_past
+            && self.expected_of(&self.trace.of_part(part)) != Ok(part.recipe.expected.clone())
+    }
+
+    /// Titles of these parts, each once, with their numbers.
+    pub(super) fn titles_of(&self, names: &[String]) -> String {
+        let mut counts: Vec<(&String, usize)> = Vec::new();
+        for name in names {
+            match counts.iter_mut().find(|(known, _)| *known == name) {
+                Some((_, num)) => *num += 1,
+                None => counts.push((name, 1)),
+            }
+        }
+        let titles = counts.into_iter().map(|(name, num)| {
+            let title = self
+                .library
+                .as_ref()
+                .map_or(&**name, |known| known.title_of(name));
+            match num {
+                1 => title.to_owned(),
+                num => format!("{num} × {title}"),
+            }
+        });
+        titles.collect::<Vec<_>>().join(" · ")
+    }
+
+    /// Names of the enrolled parts, each once.
+    pub(super) fn part_names(&self) -> Vec<&PartName> {
+        let parts = self.library.iter().flat_map(|library| &library.parts);
+        let mut names: Vec<&PartName> = parts.map(PartMeta::part_name).collect();
+        names.sort();
+        names.dedup();
+        names
+    }
+}
+
+/// Carries out an action.
+pub(crate) fn apply(state: &mut State, action: ExpectAction) {
+    let expecting = &mut state.session.expecting;
+    match action {
+        ExpectAction::Parts(mut parts) => {
+            if expecting.orders.is_none() {
+                parts.truncate(MAX_PARTS);
+                expecting.chosen = parts;
+            }
+        }
+        ExpectAction::CloseOrders => {
+            expecting.orders = None;
+            remove_notices(state, NoticeTopic::Orders);
+        }
+    }
+}
+
+/// Uses the table of orders in this file from now on, and says why it cannot be used.
+pub(crate) fn use_orders(state: &mut State, path: PathBuf) {
+    let table = OrderTable::read(path);
+    remove_notices(state, NoticeTopic::Orders);
+    match &table.content {
+        Ok(_) => {
+            let what = text!("expect-table-used", file = file_name(&table.path));
+            notify(state, Notice::done(what));
+        }
+        Err(error) => tell(state, error.clone()),
+    }
+    state.session.expecting.chosen.clear();
+    state.session.expecting.orders = Some(table);
+}
+
+fn tell(state: &mut State, error: UserError) {
+    notify(state, Notice::from(error).about(NoticeTopic::Orders));
+}
+
+/// True if it is known what should hang there; otherwise says why nothing is inspected.
+pub(crate) fn may_inspect(state: &mut State) -> bool {
+    match state.session.expected() {
+        Ok(_) => true,
+        Err(error) => {
+            tell(state, error.in_words());
+            false
+        }
+    }
+}
+
+/// What Live is to expect from now on: what it expected before if that is not known.
+pub(crate) fn follow_expected(session: &mut Session) -> Expected {
+    if let Ok(expected) = session.expected_by_live() {
+        session.expecting.followed = expected;
+    }
+    session.expecting.followed.clone()
+}
+
+/// Takes over the table once it has changed. Live starts over once something else is expected.
+pub fn update(state: &mut State) {
+    let expecting = &mut state.session.expecting;
+    if let Some(content) = state.orders_watch.poll(expecting.orders.as_ref())
+        && let Some(table) = &mut expecting.orders
+    {
+        let error = content.as_ref().err().cloned();
+        table.content = content;
+        if let Some(error) = error {
+            tell(state, error);
+        }
+    }
+    let mut notices = state.notices.iter();
+    let is_told = notices.any(|notice| notice.topic == NoticeTopic::Orders);
+    if is_told && state.session.expected().is_ok() {
+        remove_notices(state, NoticeTopic::Orders);
+    }
+    if state.session.is_live() {
+        let expected = state.session.expected_by_live();
+        if expected.is_ok_and(|expected| expected != state.session.expecting.followed) {
+            live::expect_anew(state);
+        }
+    }
+}
+
+/// Time between two looks at whether to end.
+const TURN: Duration = Duration::from_millis(100);
+/// Number of turns between two looks at the file.
+const NUM_TURNS: usize = 10;
+/// Some disks date their files in steps of 2 s: a younger file may have changed again.
+const SETTLED: Duration = Duration::from_secs(3);
+
+/// Watches the file of the table in use.
+#[derive(Debug)]
+pub struct OrdersWatch {
+    task: Task<TableContent>,
+    path: Option<PathBuf>,
+}
+
+impl OrdersWatch {
+    pub(crate) fn new(runner: &TaskRunner) -> Self {
+        Self {
+            task: Task::new("orders-watch", runner),
+            path: None,
+        }
+    }
+
+    /// Watches this table from now on. Returns its content once it has changed.
+    fn poll(&mut self, table: Option<&OrderTable>) -> Option<TableContent> {
+        let path = table.map(|table| &table.path);
+        if self.path.as_ref() != path {
+            self.path = path.cloned();
+            self.task.cancel();
+            if let Some(OrderTable { path, content }) = table {
+                let (path, content) = (path.clone(), content.clone());
+                let watch = move |context: &_| watch(&path, content, context);
+                self.task.start(text!("expect-watching"), watch);
+            }
+        }
+        self.task.poll()?.ok()
+    }
+}
+
+fn watch(
+    path: &Path,
+    mut known: TableContent,
+    context: &TaskContext<TableContent>,
+) -> Result<TableContent, TaskError> {
+    let mut before = None;
+    loop {
+        let found = fs::metadata(path).ok();
+        let now = found.and_then(|found| Some((found.len(), found.modified().ok()?)));
+        let is_settled =
+            |(_, changed): &(u64, SystemTime)| changed.elapsed().is_ok_and(|age| age > SETTLED);
+        if now != before || !now.as_ref().is_some_and(is_settled) {
+            let content = read(path);
+            if content != known {
+                known = content;
+                context.latest(known.clone());
+            }
+        }
+        before = now;
+        for _ in 0..NUM_TURNS {
+            context.check()?;
+            thread::sleep(TURN);
+        }
+    }
+}
