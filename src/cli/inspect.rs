@@ -244,7 +244,7 @@ fn inspect(
     if let Some(suspicion) = one.mirrored.suspicion() {
         console.warn(&suspicion, &suspicion);
     }
-    if let Some(kept) = one.followed.take().and_then(PartFollower::end) {
+    for kept in one.followed.take().map_or_else(Vec::new, PartFollower::end) {
         one.keep(kept, console);
     }
     // Before the publisher, which may wait for the broker.

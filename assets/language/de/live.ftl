@@ -66,4 +66,5 @@ live-no-clutter = Keine
 live-on-floor = Am Boden
 live-plank = Brett davor
 live-line-runs = Linie läuft, ein Teil alle { $seconds } s
+live-racks-run = Linie läuft, drei Teile nebeneinander alle { $seconds } s
 live-nothing = Nichts

@@ -66,4 +66,5 @@ live-no-clutter = None
 live-on-floor = On the floor
 live-plank = A plank in front
 live-line-runs = The line runs, a part every { $seconds } s
+live-racks-run = The line runs, three parts side by side every { $seconds } s
 live-nothing = Nothing

@@ -44,7 +44,8 @@ pub use self::recording::{Recorder, Replay};
 pub use self::simulated::{SimulatedCell, simulated_frame_number};
 pub use self::source::{Captured, DepthSource, Image, NextCapture, SkippedCapture};
 pub use self::spec::{
-    CellScene, GenicamFormat, GenicamSpec, KinectSpec, OpenNiSpec, Pace, RealsenseSpec,
-    RecordingSpec, SimulatedPose, SimulatedSpec, SourceSpec, SpecError, WatchedFrom, WatchedSpec,
+    CellScene, GenicamFormat, GenicamSpec, KinectSpec, NUM_ON_RACK, OpenNiSpec, Pace,
+    RealsenseSpec, RecordingSpec, SimulatedPose, SimulatedSpec, SourceSpec, SpecError, WatchedFrom,
+    WatchedSpec,
 };
 pub use self::watched::WatchedFolder;

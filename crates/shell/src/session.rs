@@ -1,6 +1,6 @@
 //! State shared by the workspaces. They read it; only the shell changes it.
 
-use std::{path::PathBuf, ptr, slice, sync::Arc};
+use std::{path::PathBuf, ptr, sync::Arc};
 
 use serde::{Deserialize, Serialize};
 
@@ -154,16 +154,15 @@ impl Session {
     /// The latest inspection: what Live inspected behind another workspace, else the result in front if it is wanted.
     pub fn latest(&self, is_wanted: impl FnOnce(&Shown) -> bool) -> Option<&Arc<Inspected>> {
         let shown = self.shown.as_ref().filter(|shown| is_wanted(shown));
-        let unseen = self.live.unseen.as_ref();
+        let unseen = self.live.unseen.first();
         unseen.or_else(|| shown.map(|shown| &shown.inspected))
     }
 
     /// The latest inspection with the other parts of its frame.
     pub fn latest_parts(&self) -> &[Arc<Inspected>] {
-        match (&self.live.unseen, &self.shown) {
-            (Some(unseen), _) => slice::from_ref(unseen),
-            (None, Some(shown)) => &shown.parts,
-            (None, None) => &[],
+        match (&self.live.unseen[..], &self.shown) {
+            ([], Some(shown)) => &shown.parts,
+            (unseen, _) => unseen,
         }
     }
 
@@ -172,7 +171,7 @@ impl Session {
     pub(crate) fn is_after_live(&self) -> bool {
         let shown = self.shown.as_ref();
         let is_of_live = shown.is_some_and(|shown| shown.session.is_some());
-        !self.is_live() && (is_of_live || self.live.unseen.is_some())
+        !self.is_live() && (is_of_live || !self.live.unseen.is_empty())
     }
 
     /// The latest result while its verdict counts: not while the part moves or is only looked at, nor for a past inspection,
@@ -302,10 +301,15 @@ pub struct Shown {
 impl Shown {
     /// A new result of one part.
     pub fn new(generation: u64, inspected: Arc<Inspected>) -> Self {
+        Self::of_parts(generation, vec![inspected], 0)
+    }
+
+    /// A new result of the parts of a frame, of which one is selected.
+    pub fn of_parts(generation: u64, parts: Vec<Arc<Inspected>>, selected: usize) -> Self {
         Self {
             generation,
-            parts: vec![Arc::clone(&inspected)],
-            inspected,
+            inspected: Arc::clone(&parts[selected]),
+            parts,
             is_past: false,
             session: None,
             is_outdated: false,

@@ -36,9 +36,11 @@ impl Session {
         if !is_past && status.is_some_and(|status| matches!(status.source, SourceState::Lost(_))) {
             return Some(Doubt::SourceLost);
         }
-        let is_newest = match &self.live.unseen {
-            Some(unseen) => ptr::eq(Arc::as_ptr(unseen), inspected),
-            None => shown.is_some(),
+        let mut unseen = self.live.unseen.iter();
+        let is_newest = if self.live.unseen.is_empty() {
+            shown.is_some()
+        } else {
+            unseen.any(|unseen| ptr::eq(Arc::as_ptr(unseen), inspected))
         };
         let is_left_behind = self.inspecting.is_some() || self.failed.is_some();
         if !is_newest

@@ -41,7 +41,9 @@ pub use clutter::Clutter;
 pub use object::ObjectKind;
 pub use part::{PartKind, PartModel, Side};
 pub use placement::{PoseRange, SampledPose};
-pub use rack::{RackError, RackFrame, RackKind, RackSetup, RackTruth, Spacing, rack_frame};
+pub use rack::{
+    RackError, RackFrame, RackKind, RackSetup, RackTruth, Spacing, StandingRack, rack_frame,
+};
 pub use rasteriser::SurfaceLabel;
 pub use scan::{ScanSetup, SimulatedScan, SimulatedShot};
 pub use sensor::SensorNoise;

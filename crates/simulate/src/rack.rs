@@ -16,10 +16,13 @@ use super::object::ObjectKind;
 use super::part::{PartKind, Side};
 use super::placement::PoseRange;
 use super::rasteriser::{Rendering, SurfaceLabel};
+use super::sensor::{Sensor, SensorNoise};
 use super::shot::{FrameTruth, Unhidden};
 use super::stand::{Stand, rack as bar_with_hooks};
-use geometry::depth_frame::DepthFrame;
+use geometry::depth_frame::{DepthFrame, Intrinsics};
 use geometry::error::Advice;
+use geometry::mesh::TriangleMesh;
+use geometry::rigid::RigidTransform;
 use geometry::units::{Metres, Radians};
 
 /// How far neighbours on a rack are from each other.
@@ -231,36 +234,9 @@ pub struct RackFrame {
 /// # Errors
 /// [`RackError`] if the setup is out of range.
 pub fn rack_frame(setup: &RackSetup) -> Result<RackFrame, RackError> {
-    check_num_places(setup.places.len())?;
-    if setup.cell.surroundings == Surroundings::Booth {
-        return Err(RackError::Booth);
-    }
-    let hung = hang(setup);
-    let mut all = Assembly::default();
-    for part in &hung {
-        all.add(&part.mesh, |p| part.camera_from_part * p);
-    }
-    let all = all.into_mesh();
-    let stand = match setup.cell.stand {
-        Stand::Post => Stand::None,
-        other => other,
-    };
-    let around = CellSetup {
-        pose: PartPose::Fixed(geometry::rigid::RigidTransform::identity()),
-        stand,
-        ..setup.cell
-    };
-    let mut cell = Cell::arrange(&around, &all);
-    if setup.cell.stand == Stand::Post {
-        let parts: Vec<_> = hung.iter().map(Hung::vertices).collect();
-        let floor = cell
-            .planes
-            .iter()
-            .find(|(_, label)| *label == SurfaceLabel::Floor);
-        let bar = floor.map(|(floor, _)| bar_with_hooks(&parts, floor));
-        cell.meshes
-            .extend(bar.map(|bar| (bar.into_mesh(), SurfaceLabel::Stand)));
-    }
+    let hung = checked(setup)?;
+    let all = assembled(&hung);
+    let cell = cell_around(setup, &hung, &all);
     let mut rendering = Rendering::new(setup.cell.intrinsics);
     let mut unhidden = Vec::with_capacity(hung.len());
     for (part, number) in hung.iter().zip(0..) {
@@ -283,6 +259,97 @@ pub fn rack_frame(setup: &RackSetup) -> Result<RackFrame, RackError> {
             labels: rendering.labels,
         },
     })
+}
+
+/// Hangs the parts.
+fn checked(setup: &RackSetup) -> Result<Vec<Hung>, RackError> {
+    check_num_places(setup.places.len())?;
+    if setup.cell.surroundings == Surroundings::Booth {
+        return Err(RackError::Booth);
+    }
+    Ok(hang(setup))
+}
+
+/// All parts as one, in camera space.
+fn assembled(hung: &[Hung]) -> TriangleMesh {
+    let mut all = Assembly::default();
+    for part in hung {
+        all.add(&part.mesh, |p| part.camera_from_part * p);
+    }
+    all.into_mesh()
+}
+
+/// Arranges the cell around the parts, of which `all` is assembled.
+fn cell_around<'a>(setup: &RackSetup, hung: &[Hung], all: &'a TriangleMesh) -> Cell<'a> {
+    let stand = match setup.cell.stand {
+        Stand::Post => Stand::None,
+        other => other,
+    };
+    let around = CellSetup {
+        pose: PartPose::Fixed(RigidTransform::identity()),
+        stand,
+        ..setup.cell
+    };
+    let mut cell = Cell::arrange(&around, all);
+    if setup.cell.stand == Stand::Post {
+        let parts: Vec<_> = hung.iter().map(Hung::vertices).collect();
+        let floor = cell
+            .planes
+            .iter()
+            .find(|(_, label)| *label == SurfaceLabel::Floor);
+        let bar = floor.map(|(floor, _)| bar_with_hooks(&parts, floor));
+        cell.meshes
+            .extend(bar.map(|bar| (bar.into_mesh(), SurfaceLabel::Stand)));
+    }
+    cell
+}
+
+/// A fixed cell for many frames of a rack, of which each part is there or not and may move.
+pub struct StandingRack {
+    hung: Vec<Hung>,
+    intrinsics: Intrinsics,
+    /// Everything but the parts.
+    backdrop: Rendering,
+    sensor: Sensor,
+}
+
+impl StandingRack {
+    /// Hangs the parts, and arranges the cell around them.
+    ///
+    /// # Errors
+    /// [`RackError`] if the setup is out of range.
+    pub fn arrange(setup: &RackSetup) -> Result<Self, RackError> {
+        let hung = checked(setup)?;
+        let all = assembled(&hung);
+        let cell = cell_around(setup, &hung, &all);
+        let mut backdrop = Rendering::new(setup.cell.intrinsics);
+        cell.draw_rest(&mut backdrop);
+        let sensor = cell.sensor;
+        Ok(Self {
+            hung,
+            intrinsics: setup.cell.intrinsics,
+            backdrop,
+            sensor,
+        })
+    }
+
+    /// Takes a frame. `moved` gives how each part, numbered from the left, has moved from its place on the rack, in camera
+    /// space; `None` if it is not there.
+    pub fn frame(
+        &self,
+        moved: impl Fn(usize) -> Option<RigidTransform>,
+        noise: &SensorNoise,
+    ) -> DepthFrame {
+        let mut rendering = Rendering::new(self.intrinsics);
+        for ((number, part), label) in self.hung.iter().enumerate().zip(0..) {
+            if let Some(moved) = moved(number) {
+                let pose = moved * part.camera_from_part;
+                rendering.draw_mesh(&part.mesh, &pose, SurfaceLabel::RackPart(label));
+            }
+        }
+        rendering.draw_behind(&self.backdrop);
+        self.sensor.sense(&rendering, noise)
+    }
 }
 
 #[cfg(test)]

@@ -732,7 +732,7 @@ mod tests {
             let (image, truth) = self.cell.frame(self.number);
             Ok(NextCapture::Captured(Captured {
                 image,
-                truth: Some(Arc::new(truth)),
+                truth: truth.map(Arc::new),
                 ..captured(self.number, Timestamp::UNIX_EPOCH + since)
             }))
         }
@@ -761,7 +761,8 @@ mod tests {
         let watch = opened.motion.as_ref().expect("watched");
         let (mut num_accepted, mut num_moving) = (0, 0);
         // Every half second of one part, which comes in, rests from about 2 to 5.2 s, and leaves.
-        let rest = resting.frame((4.0 * RATE) as u64).1.camera_from_part;
+        let (_, truth) = resting.frame((4.0 * RATE) as u64);
+        let rest = truth.expect("of one part").camera_from_part;
         for trigger in 0..12 {
             let due = Duration::from_millis(500 * trigger);
             let passing = opened.wait(

@@ -1,39 +1,47 @@
-//! The parts that hang before a followed camera one after the other: one inspection of each is recorded and published.
+//! The parts that hang before a followed camera, side by side or one after the other: one inspection of each is recorded and
+//! published.
 
-use std::{slice, sync::Arc, time::Duration};
+use std::{mem, sync::Arc, time::Duration};
 
 use jiff::Timestamp;
 use nalgebra::Point3;
 
 use inspection::pipeline::{
-    AcceptParams, Inspection, Verdict,
+    Inspection, Recipe, Verdict,
     live::{
-        FrameRole, HungFrame, LiveParams, LiveTracker, MotionState, SteadyParams, refuse_moving,
-        refuse_unless_again,
+        FrameRole, HungFrame, LiveParams, LiveTracker, MotionState, SteadyParams, nothing_there,
+        refuse_moving, refuse_unless_again,
     },
 };
-use records::history::{HungId, HungRows, NewEntry};
+use records::history::{HungId, HungSpots, NewEntry};
 use stages::scene::SceneCloud;
 
-/// Follows one camera whose every frame is shown with its own verdict. `E` is what is recorded of a part.
+/// Follows one camera whose every frame is shown with its own verdicts. `E` is what is recorded of a part.
 pub struct PartFollower<E = NewEntry> {
     tracker: LiveTracker,
-    rows: HungRows<E>,
+    spots: HungSpots<E>,
     at: Duration,
-    /// The verdict of the last frame by itself.
-    own: Option<Verdict>,
-    /// Time of the frame whose entry is held for a part that may leave before its verdict counts.
-    held_at: Option<Duration>,
+    /// The verdicts of the last frame by itself.
+    own: Vec<Verdict>,
+    /// The entries held for parts that may leave before their verdicts count.
+    held: Vec<HeldFrame>,
+}
+
+/// The frame whose entry is held for the part at a spot.
+struct HeldFrame {
+    spot: usize,
+    /// Its time, and the index of the part in it.
+    shows: (Duration, usize),
 }
 
 impl<E> Default for PartFollower<E> {
     fn default() -> Self {
         Self {
             tracker: LiveTracker::new(&LiveParams::default()),
-            rows: HungRows::default(),
+            spots: HungSpots::default(),
             at: Duration::ZERO,
-            own: None,
-            held_at: None,
+            own: Vec::new(),
+            held: Vec::new(),
         }
     }
 }
@@ -42,14 +50,16 @@ impl<E> PartFollower<E> {
     /// Takes in a frame, and returns the scene to inspect. Call it for every frame.
     pub fn look(&mut self, scene: Arc<SceneCloud>, taken_at: Timestamp) -> Arc<SceneCloud> {
         self.at = Duration::try_from(taken_at.as_duration()).unwrap_or_default();
-        self.own = None;
+        self.own.clear();
         self.tracker.look(scene, self.at)
     }
 
-    /// Refuses the part of the frame's own inspection if it moves.
-    pub fn refuse_if_moving(&mut self, inspection: &mut Inspection) {
-        self.own = Some(inspection.verdict.clone());
-        self.refuse(inspection);
+    /// Refuses the parts of the frame's own inspection, in the order of [`run_all`](inspection::pipeline::run_all), if they move.
+    pub fn refuse_if_moving(&mut self, found: &mut [Inspection]) {
+        self.own = found.iter().map(|part| part.verdict.clone()).collect();
+        for part in found {
+            self.refuse(part);
+        }
     }
 
     fn refuse(&self, inspection: &mut Inspection) {
@@ -65,89 +75,111 @@ impl<E> PartFollower<E> {
 
     /// Decides about an accepted part of a frame taken `at`, this one or an earlier one, and refuses it unless it hung
     /// still. Returns false if that is not known yet: while the source has just begun, it takes a frame as long after that one
-    /// as [`SteadyParams::settle`]. `last` is the last frame's own inspection, `middle` the middle of the part, part space, metres.
+    /// as [`SteadyParams::settle`]. `last` are the inspections of the last frame by itself, at least one, `middle` the middle of
+    /// the part, part space, metres.
     pub fn settle(
         &self,
         inspection: &mut Inspection,
         at: Duration,
-        last: &Inspection,
+        last: &[Inspection],
         middle: Option<Point3<f64>>,
     ) -> bool {
         match self.tracker.stillness() {
             MotionState::Steady { since, .. } if since <= at => {}
             MotionState::Steady { .. } | MotionState::Moving => refuse_moving(inspection),
             MotionState::Watching if self.at < at + SteadyParams::default().settle => return false,
-            MotionState::Watching => refuse_unless_again(inspection, slice::from_ref(last), middle),
+            MotionState::Watching => refuse_unless_again(inspection, last, middle),
         }
         true
     }
 
     /// Returns what to record now, after [`Self::refuse_if_moving`] for the same frame and [`Self::settle`] for those before
     /// it. The verdict that counts is formed from several frames; for a part that leaves before, the frame that shows it best
-    /// is recorded with its own verdict, see [`Self::settled`]. `middle` is the middle of the named part, part space, metres.
+    /// is recorded with its own verdict, see [`Self::settled`]. `middle` gives the middle of the named part, part space, metres.
     /// `entry` also gets whether the part is known to have hung still.
     pub fn take(
         &mut self,
         scene: &SceneCloud,
-        mut inspection: Inspection,
-        middle: Option<Point3<f64>>,
-        accept: &AcceptParams,
+        mut found: Vec<Inspection>,
+        middle: impl Fn(&Inspection) -> Option<Point3<f64>>,
+        recipe: &Recipe,
         entry: impl Fn(&Inspection, HungId, bool) -> E,
-    ) -> [Option<E>; 2] {
+    ) -> Vec<E> {
         // Frames are counted by their own verdicts.
-        if let Some(own) = self.own.take() {
-            inspection.verdict = own;
+        for (part, own) in found.iter_mut().zip(mem::take(&mut self.own)) {
+            part.verdict = own;
         }
-        let own = inspection.verdict.clone();
-        let verdict = self.tracker.judge(&mut inspection, middle, accept);
-        let (left, role) = self.rows.see(&HungFrame {
-            scene,
-            at: self.at,
-            inspection: &inspection,
-            verdict: &verdict,
-            middle,
-            // Recipe and library do not change between frames.
-            inputs: "",
-        });
-        let id = self.rows.id().clone();
-        let now = match role {
-            FrameRole::Nothing => None,
-            FrameRole::Best => {
-                inspection.verdict = own;
-                self.refuse(&mut inspection);
-                self.rows.hold(entry(&inspection, id, false));
-                self.held_at = Some(self.at);
-                None
+        let at_spots = (self.spots).of_frame(&found, scene, self.tracker.stillness(), recipe);
+        let mut recorded = Vec::new();
+        for (spot, index) in at_spots.into_iter().enumerate() {
+            let shown = index.map(|index| found[index].clone());
+            let mut inspection = shown.unwrap_or_else(nothing_there);
+            let own = inspection.verdict.clone();
+            let middle = middle(&inspection);
+            let verdict = (self.tracker).judge(spot, &mut inspection, middle, &recipe.accept);
+            let (left, role) = self.spots.see(
+                spot,
+                &HungFrame {
+                    scene,
+                    at: self.at,
+                    inspection: &inspection,
+                    verdict: &verdict,
+                    middle,
+                    // Recipe and library do not change between frames.
+                    inputs: "",
+                },
+            );
+            recorded.extend(left);
+            let id = self.spots.at(spot).id().clone();
+            match (role, index) {
+                (FrameRole::Nothing, _) | (FrameRole::Best, None) => {}
+                (FrameRole::Best, Some(index)) => {
+                    inspection.verdict = own;
+                    self.refuse(&mut inspection);
+                    self.spots.at(spot).hold(entry(&inspection, id, false));
+                    self.held.retain(|held| held.spot != spot);
+                    let shows = (self.at, index);
+                    self.held.push(HeldFrame { spot, shows });
+                }
+                (FrameRole::First | FrameRole::Again, _) => {
+                    recorded.push(entry(&inspection, id, true));
+                }
             }
-            FrameRole::First | FrameRole::Again => Some(entry(&inspection, id, true)),
-        };
-        [left, now]
+        }
+        recorded
     }
 
-    /// The verdict of the frame of this time is settled: if that frame is recorded, should its part leave before a verdict
-    /// counts, it is recorded with that verdict.
-    pub fn settled(&mut self, at: Duration, entry: impl FnOnce(HungId) -> E) {
-        if self.held_at == Some(at) && self.rows.is_holding() {
-            self.rows.hold(entry(self.rows.id().clone()));
+    /// The verdicts of the frame of this time are settled: if that frame is recorded, should one of its parts leave before a
+    /// verdict counts, it is recorded with that verdict. `entry` gets the index of the part in the frame.
+    pub fn settled(&mut self, at: Duration, entry: impl Fn(usize, HungId) -> E) {
+        for HeldFrame { spot, shows } in &self.held {
+            let rows = self.spots.at(*spot);
+            if shows.0 == at && rows.is_holding() {
+                rows.hold(entry(shows.1, rows.id().clone()));
+            }
         }
     }
 
     /// Ends the source. Returns what is still to be recorded.
-    pub fn end(mut self) -> Option<E> {
-        self.rows.end()
+    pub fn end(mut self) -> Vec<E> {
+        self.spots.end()
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::slice;
+
     use jiff::SignedDuration;
 
     use super::*;
     use capture::{CellScene, SimulatedCell, SimulatedSpec};
+    use geometry::rigid::RigidTransform;
     use inspection::{
         fixtures::shipped_library,
-        pipeline::{Recipe, Unwatched, run},
+        pipeline::{Unwatched, run, run_all},
     };
+    use simulate::{RackKind, RackSetup, SensorNoise, StandingRack};
     use stages::scene::scene_from_image;
 
     #[test]
@@ -171,7 +203,7 @@ mod tests {
             let scene = followed.look(scene, taken_at);
             // As if every frame by itself were accepted.
             let mut inspection = seen.clone();
-            followed.refuse_if_moving(&mut inspection);
+            followed.refuse_if_moving(slice::from_mut(&mut inspection));
             let is_accepted = inspection.verdict.is_accepted();
             match seconds {
                 // It comes in, and then swings by less and less.
@@ -181,8 +213,8 @@ mod tests {
             }
             let entry =
                 |inspection: &Inspection, _, is_still| (inspection.verdict.is_accepted(), is_still);
-            let entries = followed.take(&scene, inspection, None, &recipe.accept, entry);
-            kept.extend(entries.into_iter().flatten().map(|entry| (seconds, entry)));
+            let entries = followed.take(&scene, vec![inspection], |_| None, &recipe, entry);
+            kept.extend(entries.into_iter().map(|entry| (seconds, entry)));
         }
         // One verdict that counts, formed at rest from frames by their own verdicts.
         let [(seconds, entry)] = kept[..] else {
@@ -210,17 +242,133 @@ mod tests {
             let taken_at = Timestamp::UNIX_EPOCH + SignedDuration::from_secs_f64(seconds);
             let scene = followed.look(scene, taken_at);
             let mut inspection = run(&scene, &library, &recipe, &Unwatched).expect("run");
-            followed.refuse_if_moving(&mut inspection);
+            followed.refuse_if_moving(slice::from_mut(&mut inspection));
             assert!(inspection.verdict.is_accepted());
-            let taken = followed.take(&scene, inspection.clone(), None, &recipe.accept, entry);
-            assert_eq!(taken, [None, None], "too early to tell");
+            let taken = followed.take(&scene, vec![inspection.clone()], |_| None, &recipe, entry);
+            assert_eq!(taken, [], "too early to tell");
             frames.push((followed.at(), inspection));
         }
         // The source ends here: whoever shows the frames refuses them, and one of them is recorded.
         for (at, mut inspection) in frames {
             refuse_moving(&mut inspection);
-            followed.settled(at, |hung| entry(&inspection, hung, false));
+            followed.settled(at, |_, hung| entry(&inspection, hung, false));
         }
-        assert_eq!(followed.end(), Some((false, false)));
+        assert_eq!(followed.end(), [(false, false)]);
+    }
+
+    /// What is recorded of a part, and after how many seconds.
+    type Row = (f64, String, bool, HungId);
+
+    /// Follows frames at ten a second, of which one in `step` is inspected.
+    fn rows_of(
+        max_parts: usize,
+        step: u64,
+        num: u64,
+        mut frame: impl FnMut(u64) -> Arc<SceneCloud>,
+    ) -> Vec<Row> {
+        let (library, mut recipe) = (shipped_library(), Recipe::default());
+        recipe.segment.max_parts = max_parts;
+        let mut followed = PartFollower::default();
+        let mut rows = Vec::new();
+        for number in 0..num {
+            let seconds = number as f64 / 10.0;
+            let taken_at = Timestamp::UNIX_EPOCH + SignedDuration::from_secs_f64(seconds);
+            let scene = followed.look(frame(number), taken_at);
+            if number % step != 0 {
+                continue;
+            }
+            let mut found = run_all(&scene, &library, &recipe, &Unwatched).expect("run");
+            followed.refuse_if_moving(&mut found);
+            let entry = |inspection: &Inspection, hung, _| {
+                let verdict = &inspection.verdict;
+                let name = verdict.guess().unwrap_or_default().to_owned();
+                (seconds, name, verdict.is_accepted(), hung)
+            };
+            let middle = |one: &Inspection| one.best_reference(&library)?.middle();
+            rows.extend(followed.take(&scene, found, middle, &recipe, entry));
+        }
+        rows.extend(followed.end());
+        let mut ids: Vec<&HungId> = rows.iter().map(|(.., hung)| hung).collect();
+        ids.sort();
+        ids.dedup();
+        assert_eq!(ids.len(), rows.len(), "each is another part: {rows:?}");
+        rows
+    }
+
+    /// The accepted names, sorted, that were recorded within these seconds.
+    fn accepted(rows: &[Row], within: std::ops::Range<f64>) -> Vec<&str> {
+        let counted = rows.iter().filter(|row| within.contains(&row.0));
+        let mut names: Vec<&str> = counted
+            .map(|(_, name, is_accepted, _)| {
+                assert!(is_accepted, "{name} is refused: {rows:?}");
+                name.as_str()
+            })
+            .collect();
+        names.sort_unstable();
+        names
+    }
+
+    fn line(scene: CellScene) -> impl FnMut(u64) -> Arc<SceneCloud> {
+        let mut cell = SimulatedCell::new(SimulatedSpec {
+            scene,
+            frames_per_second: 10.0,
+            ..SimulatedSpec::default()
+        });
+        move |number| Arc::new(scene_from_image(cell.frame(number + 1).0))
+    }
+
+    #[test]
+    fn of_racks_that_come_in_and_leave_every_part_is_recorded_once() {
+        for step in [1, 3] {
+            let rows = rows_of(3, step, 160, line(CellScene::Rack { every: 8.0 }));
+            let [first, second] = [accepted(&rows, 0.0..8.5), accepted(&rows, 8.5..16.0)];
+            assert_eq!(
+                (first.len(), second.len(), rows.len()),
+                (3, 3, 6),
+                "{rows:?}"
+            );
+            assert_ne!(first, second);
+        }
+    }
+
+    #[test]
+    fn parts_one_after_the_other_have_the_same_rows_where_several_may_hang() {
+        let [alone, several] = [1, 3]
+            .map(|max_parts| rows_of(max_parts, 3, 116, line(CellScene::Line { every: 6.0 })));
+        let what = |rows: &[Row]| -> Vec<_> {
+            let rows = rows.iter();
+            rows.map(|(at, name, is_accepted, _)| (*at, name.clone(), *is_accepted))
+                .collect()
+        };
+        assert_eq!(what(&alone), what(&several));
+        assert!(alone.len() >= 2, "{alone:?}");
+    }
+
+    #[test]
+    fn a_part_taken_off_and_two_hung_beside_parts_that_stay_are_each_recorded_once() {
+        let setup = RackSetup::drawn(RackKind::Apart, 4, 0, 5).expect("in range");
+        let rack = StandingRack::arrange(&setup).expect("in range");
+        // Part 1 is taken off to the front, hangs there again, and part 3 is hung beside it.
+        let rows = rows_of(4, 3, 130, |number| {
+            let seconds = number as f64 / 10.0;
+            let away = |share: f64| {
+                let shift = RigidTransform::translation(0.0, 1.5 * share, -0.3 * share);
+                (share < 1.0).then_some(shift)
+            };
+            let coming = |at: f64| away((at + 1.0 - seconds).clamp(0.0, 1.0));
+            let moved = |part| match part {
+                1 if seconds < 7.0 => away((seconds - 4.5).clamp(0.0, 1.0)),
+                1 => coming(8.0),
+                3 => coming(8.5),
+                _ => Some(RigidTransform::identity()),
+            };
+            let noise = SensorNoise::kinect(number);
+            let frame = rack.frame(moved, &noise);
+            Arc::new(scene_from_image(capture::Image::Depth(frame)))
+        });
+        let [first, then] = [accepted(&rows, 0.0..7.0), accepted(&rows, 7.0..13.0)];
+        assert_eq!((first.len(), then.len(), rows.len()), (3, 2, 5), "{rows:?}");
+        let again = then.iter().filter(|name| first.contains(*name));
+        assert_eq!(again.count(), 1, "{rows:?}");
     }
 }

@@ -27,14 +27,14 @@ use geometry::{
 };
 use inspection::{
     library::LibraryLoad,
-    pipeline::{self, NamedRecipe, Unwatched},
+    pipeline::{Inspection, NamedRecipe, Unwatched, run_all},
 };
 use records::{
     history::Traceability,
     report::{SizeCurve, curves_picture, write_png},
 };
 use simulate::{CellSetup, PartKind, Side, SimulatedObject, frame};
-use stages::reference::Reference;
+use stages::{reference::Reference, scene::SceneCloud};
 use station::{CameraScenes, Inspected, PartFollower, Subject};
 
 /// Number of lines of the table.
@@ -193,44 +193,49 @@ impl Follower<'_> {
         let scene = Arc::new(self.scenes.next(captured.image));
         let scene = self.followed.look(scene, taken_at);
         let (library, recipe) = (&self.load.library, &self.recipe);
-        let mut inspection = pipeline::run(&scene, library, recipe, &Unwatched)?;
-        self.followed.refuse_if_moving(&mut inspection);
-        self.num_accepted += u64::from(inspection.verdict.is_accepted());
+        let mut found = run_all(&scene, library, recipe, &Unwatched)?;
+        self.followed.refuse_if_moving(&mut found);
+        self.num_accepted += u64::from(found[0].verdict.is_accepted());
         // Nobody prints it here, but making it is part of the work.
-        let inspected = Inspected {
-            subject: &subject,
-            scene: &scene,
-            inspection: &inspection,
-            recipe,
-            robot: None,
-            is_forced: false,
-        };
-        drop(inspected.line(&Traceability::default()));
-        let middle = inspection.best_reference(library);
-        let middle = middle.and_then(Reference::middle);
+        let parts = found.iter();
+        let parts: Vec<_> = parts
+            .map(|part| record(part, &subject, &scene, recipe))
+            .collect();
+        drop(Inspected::line_of_all(&parts, &Traceability::default()));
+        let middle = |part: &Inspection| part.best_reference(library).and_then(Reference::middle);
         let entries = self.followed.take(
             &scene,
-            inspection,
+            found.clone(),
             middle,
-            &recipe.accept,
+            recipe,
             |inspection, hung, _| {
-                let inspected = Inspected {
-                    subject: &subject,
-                    scene: &scene,
-                    inspection,
-                    recipe,
-                    robot: None,
-                    is_forced: false,
-                };
+                let inspected = record(inspection, &subject, &scene, recipe);
                 self.recording.entry(&inspected, hung)
             },
         );
         let latency = arrived.elapsed();
-        for entry in entries.into_iter().flatten() {
+        for entry in entries {
             self.num_in_history += 1;
             self.recording.add(entry, console);
         }
         Ok(latency)
+    }
+}
+
+/// A part as it is recorded.
+fn record<'a>(
+    inspection: &'a Inspection,
+    subject: &'a Subject,
+    scene: &'a Arc<SceneCloud>,
+    recipe: &'a NamedRecipe,
+) -> Inspected<'a> {
+    Inspected {
+        subject,
+        scene,
+        inspection,
+        recipe,
+        robot: None,
+        is_forced: false,
     }
 }
 
@@ -282,7 +287,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
         mut recording,
         ..
     } = follower;
-    if let Some(entry) = followed.end() {
+    for entry in followed.end() {
         recording.add(entry, console);
     }
     recording.finish(console);

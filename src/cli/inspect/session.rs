@@ -3,11 +3,12 @@
 use std::{
     collections::VecDeque,
     fmt::Display,
-    iter,
     path::{Path, PathBuf},
     sync::Arc,
     time::{Duration, Instant},
 };
+
+use nalgebra::Point3;
 
 use super::{program, spray};
 use crate::cli::{
@@ -22,8 +23,7 @@ use geometry::error::{Advice, guarded};
 use inspection::{
     library::Library,
     pipeline::{
-        self, Inspection, MirrorTally, NamedRecipe, Unwatched, Verdict, live::refuse_moving,
-        run_all,
+        Inspection, MirrorTally, NamedRecipe, Unwatched, Verdict, live::refuse_moving, run_all,
     },
 };
 use records::{
@@ -69,9 +69,8 @@ pub(super) struct InspectedFrame {
     path: PathBuf,
     scene: Arc<SceneCloud>,
     subject: Subject,
-    inspection: Inspection,
-    /// What else hangs in a file in which several parts may hang.
-    others: Vec<Inspection>,
+    /// Of its parts, at least one.
+    parts: Vec<Inspection>,
     /// Time of the frame, by the camera.
     at: Duration,
     /// When it was captured, of a source.
@@ -168,28 +167,23 @@ impl InspectSession {
         console: &mut Console,
     ) -> anyhow::Result<Outcome> {
         let frame = self.inspected(opened)?;
-        self.mirrored.add(&frame.inspection.verdict);
+        for part in &frame.parts {
+            self.mirrored.add(&part.verdict);
+        }
         if self.followed.is_some() {
             // Earlier frames first: the part that they show may be recorded now.
-            let before = self.show_settled(&frame.inspection, console)?;
+            let before = self.show_settled(&frame.parts, console)?;
             self.follow(&frame, console);
-            let last = frame.inspection.clone();
+            let last = frame.parts.clone();
             self.waiting.push_back(frame);
             // Paths and programs are only written for files.
             return Ok(before.max(self.show_settled(&last, console)?));
         }
         let line = self.show(&frame, console);
-        let all = iter::once(&frame.inspection).chain(&frame.others);
-        let verdicts: Vec<&Verdict> = all.map(|part| &part.verdict).collect();
-        let expected = &self.recipe.expected;
-        let outcome = Outcome::accepted_if(if expected.is_empty() {
-            verdicts.iter().all(|verdict| verdict.is_accepted())
-        } else {
-            expected.is_met(&verdicts)
-        });
+        let outcome = self.outcome(&frame);
         let pictures = self.pictures(&frame);
         // After the verdict is shown, which must not wait for it, and before the exports, any of which may fail.
-        for part in iter::once(&frame.inspection).chain(&frame.others) {
+        for part in &frame.parts {
             let kept = self.kept(&frame, &frame.subject, part, HungId::new());
             self.keep(kept, console);
         }
@@ -201,6 +195,16 @@ impl InspectSession {
         Ok(written.map_or(outcome, |written| outcome.max(written)))
     }
 
+    fn outcome(&self, frame: &InspectedFrame) -> Outcome {
+        let verdicts: Vec<&Verdict> = frame.parts.iter().map(|part| &part.verdict).collect();
+        let expected = &self.recipe.expected;
+        Outcome::accepted_if(if expected.is_empty() {
+            verdicts.iter().all(|verdict| verdict.is_accepted())
+        } else {
+            expected.is_met(&verdicts)
+        })
+    }
+
     /// Inspects a frame beyond those asked for, which only shows whether the parts of earlier ones hang still.
     pub(super) fn check_waiting(
         &mut self,
@@ -208,7 +212,7 @@ impl InspectSession {
         console: &mut Console,
     ) -> anyhow::Result<Outcome> {
         let frame = self.inspected(opened)?;
-        self.show_settled(&frame.inspection, console)
+        self.show_settled(&frame.parts, console)
     }
 
     fn inspected(&mut self, opened: Opened<'_>) -> anyhow::Result<InspectedFrame> {
@@ -222,41 +226,37 @@ impl InspectSession {
         if let (Some(followed), Some(capture)) = (&mut self.followed, &subject.capture) {
             scene = followed.look(scene, capture.taken_at);
         }
-        let (inspection, others) = if subject.capture.is_none() {
-            let mut all = run_all(&scene, &self.library, &self.recipe, &Unwatched)?;
-            (all.remove(0), all)
-        } else {
-            let mut one = pipeline::run(&scene, &self.library, &self.recipe, &Unwatched)?;
-            if let Some(followed) = &mut self.followed {
-                followed.refuse_if_moving(&mut one);
-            }
-            (one, Vec::new())
-        };
+        let mut parts = run_all(&scene, &self.library, &self.recipe, &Unwatched)?;
+        if let Some(followed) = &mut self.followed {
+            followed.refuse_if_moving(&mut parts);
+        }
         Ok(InspectedFrame {
             path: path.to_owned(),
             scene,
             subject,
-            inspection,
-            others,
+            parts,
             at: (self.followed.as_ref()).map_or(Duration::ZERO, PartFollower::at),
             captured,
         })
     }
 
-    /// Shows the frames whose verdict counts now that the last frame had this inspection.
+    /// Shows the frames whose verdicts count now that the last frame had these inspections.
     fn show_settled(
         &mut self,
-        last: &Inspection,
+        last: &[Inspection],
         console: &mut Console,
     ) -> anyhow::Result<Outcome> {
         let mut outcome = Outcome::Accepted;
         while let Some(frame) = self.waiting.front_mut() {
-            let middle = frame.inspection.best_reference(&self.library);
-            let middle = middle.and_then(Reference::middle);
-            let is_settled = !frame.inspection.verdict.is_accepted()
-                || (self.followed.as_ref()).is_none_or(|followed| {
-                    followed.settle(&mut frame.inspection, frame.at, last, middle)
-                });
+            let mut accepted = frame
+                .parts
+                .iter_mut()
+                .filter(|part| part.verdict.is_accepted());
+            let is_settled = accepted.all(|part| {
+                let middle = middle_of(part, &self.library);
+                (self.followed.as_ref())
+                    .is_none_or(|followed| followed.settle(part, frame.at, last, middle))
+            });
             if !is_settled {
                 break;
             }
@@ -277,7 +277,7 @@ impl InspectSession {
             if is_replayed {
                 frame.subject.is_motion_unchecked = true;
             } else {
-                refuse_moving(&mut frame.inspection);
+                frame.parts.iter_mut().for_each(refuse_moving);
             }
             outcome = outcome.max(self.show_first(console)?);
         }
@@ -291,8 +291,8 @@ impl InspectSession {
             return Ok(Outcome::Accepted);
         };
         if let Some(mut followed) = self.followed.take() {
-            followed.settled(frame.at, |hung| {
-                self.kept(&frame, &frame.subject, &frame.inspection, hung)
+            followed.settled(frame.at, |index, hung| {
+                self.kept(&frame, &frame.subject, &frame.parts[index], hung)
             });
             self.followed = Some(followed);
         }
@@ -301,7 +301,7 @@ impl InspectSession {
             let pictures = self.pictures(&frame);
             self.write_report(&frame.path, &line, pictures)?;
         }
-        Ok(Outcome::accepted_if(frame.inspection.verdict.is_accepted()))
+        Ok(self.outcome(&frame))
     }
 
     /// Shows an inspection, and returns its line of JSON.
@@ -313,19 +313,15 @@ impl InspectSession {
             OutputFormat::Card => marked_simulated(&subject.scene, file_says_simulated),
             _ => subject.scene.clone(),
         };
-        let parts: Vec<Inspected<'_>> = iter::once(&frame.inspection)
-            .chain(&frame.others)
+        let parts = frame.parts.iter();
+        let parts: Vec<Inspected<'_>> = parts
             .map(|part| self.record(frame, subject, part))
             .collect();
         let accepted = parts
             .iter()
             .filter(|one| one.inspection.verdict.is_accepted());
         let num_unchecked = accepted.filter(|_| subject.is_motion_unchecked).count();
-        let line = if subject.capture.is_none() {
-            Inspected::line_of_all(&parts, &self.trace)
-        } else {
-            parts[0].line(&self.trace)
-        };
+        let line = Inspected::line_of_all(&parts, &self.trace);
         (self.format).inspected(&shown, &line, &parts, &self.library, console);
         self.num_unchecked += num_unchecked;
         line
@@ -349,7 +345,7 @@ impl InspectSession {
     }
 
     fn pictures(&self, frame: &InspectedFrame) -> Option<Vec<Picture>> {
-        (self.report.as_ref()).map(|_| stage_pictures(&frame.scene, &frame.inspection))
+        (self.report.as_ref()).map(|_| stage_pictures(&frame.scene, &frame.parts[0]))
     }
 
     /// Returns what to store and publish of an inspection.
@@ -369,7 +365,7 @@ impl InspectSession {
         }
     }
 
-    /// Stores and publishes what the frames of a followed source show, up to this one, of a part that hung there.
+    /// Stores and publishes what the frames of a followed source show, up to this one, of parts that hung there.
     fn follow(&mut self, frame: &InspectedFrame, console: &Console) {
         if self.recording.is_none() && self.publisher.is_none() {
             return;
@@ -377,13 +373,11 @@ impl InspectSession {
         let Some(mut followed) = self.followed.take() else {
             return;
         };
-        let middle = frame.inspection.best_reference(&self.library);
-        let middle = middle.and_then(Reference::middle);
         let kept = followed.take(
             &frame.scene,
-            frame.inspection.clone(),
-            middle,
-            &self.recipe.accept,
+            frame.parts.clone(),
+            |part| middle_of(part, &self.library),
+            &self.recipe,
             |inspection, hung, is_still| {
                 let subject = Subject {
                     is_motion_unchecked: !is_still,
@@ -393,7 +387,7 @@ impl InspectSession {
             },
         );
         self.followed = Some(followed);
-        for kept in kept.into_iter().flatten() {
+        for kept in kept {
             self.keep(kept, console);
         }
     }
@@ -405,14 +399,17 @@ impl InspectSession {
         console: &Console,
     ) -> anyhow::Result<Option<Outcome>> {
         let is_wanted = self.spray.is_some() || self.program.is_some();
-        if is_wanted && frame.others.iter().any(|part| part.verdict.is_accepted()) {
+        let [first, others @ ..] = &frame.parts[..] else {
+            return Ok(None);
+        };
+        if is_wanted && others.iter().any(|part| part.verdict.is_accepted()) {
             console.advise(
                 &"error: several parts hang there, and a robot's file is that of one",
                 &"Leave segment.max_parts at 1, and let one part hang there",
             );
             return Ok(Some(Outcome::CouldNotRun));
         }
-        let seen = self.record(frame, &frame.subject, &frame.inspection);
+        let seen = self.record(frame, &frame.subject, first);
         Ok(match (&self.spray, &self.program, &self.robot) {
             (Some(spray), _, Some(robot)) => {
                 Some(spray.write(&seen, &self.library, robot, console)?)
@@ -446,6 +443,12 @@ impl InspectSession {
             publisher.publish(found);
         }
     }
+}
+
+/// Middle of the named part, part space, metres.
+fn middle_of(inspection: &Inspection, library: &Library) -> Option<Point3<f64>> {
+    let reference = inspection.best_reference(library);
+    reference.and_then(Reference::middle)
 }
 
 #[cfg(test)]

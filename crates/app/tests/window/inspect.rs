@@ -14,7 +14,7 @@ use shell::{
     inspection::{
         camera::Camera,
         figures::StagePanel,
-        inspected::{InspectRequest, inspect},
+        inspected::{InspectRequest, inspect_all},
         library_cache::LibraryCache,
         source::{CellChoice, SceneSource},
         unit_system::UnitSystem,
@@ -259,7 +259,8 @@ fn the_figures_of_a_pose_are_shown_only_with_the_name_of_their_part() {
             Some(::inspection::fixtures::SHIPPED_PARTS.into()),
             Camera::default(),
         );
-        let mut found = inspect(&request, &library_cache, &Unwatched).expect("inspected");
+        let found = inspect_all(&request, &library_cache, &Unwatched);
+        let mut found = found.expect("inspected").remove(0);
         let unknown = Rejection::Unknown {
             nearest: "front_door".into(),
             score,

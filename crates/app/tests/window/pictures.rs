@@ -30,7 +30,7 @@ use shell::{
     cell::{RobotAction, RobotPage},
     inspection::{
         camera::Camera,
-        inspected::{InspectRequest, Inspected, inspect},
+        inspected::{InspectRequest, Inspected, inspect_all},
         library_cache::LibraryCache,
         source::{CellChoice, SceneSource},
     },
@@ -81,7 +81,8 @@ fn inspected_by(library_cache: &LibraryCache) -> Inspected {
         source: SceneSource::Cell { choice, number: 1 },
         recipe: Arc::default(),
     };
-    let mut found = inspect(&request, library_cache, &Unwatched).expect("inspected");
+    let found = inspect_all(&request, library_cache, &Unwatched);
+    let mut found = found.expect("inspected").remove(0);
     let ms = Duration::from_millis;
     found.inspection.timings = Timings {
         segment: ms(3),

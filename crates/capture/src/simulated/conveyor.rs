@@ -9,7 +9,9 @@ const ARRIVAL_S: f64 = 1.2;
 /// Time in which a part leaves, seconds.
 const DEPARTURE_S: f64 = 0.8;
 /// Distance from which parts come in, metres: outside the picture, even for the longest part at the farthest position.
-const START_DISTANCE_M: f64 = 2.5;
+pub(super) const PART_START_DISTANCE_M: f64 = 2.5;
+/// Distance from which racks come in, metres: outside the picture, even for the widest one.
+pub(super) const RACK_START_DISTANCE_M: f64 = 4.0;
 /// Height of the hook from which a part swings, above the part's middle, metres.
 const HOOK_HEIGHT_M: f64 = 0.8;
 /// Amplitude of the swing when the part stops, radians. After 1.5 s less than 0.1 mm remains of it.
@@ -42,12 +44,16 @@ impl ConveyorState {
         }
     }
 
-    /// The present pose of the part that rests at `rest_pose`.
-    pub(super) fn camera_from_part(&self, rest_pose: &RigidTransform) -> RigidTransform {
+    /// The present pose of the part or rack that rests at `rest_pose` and comes from this distance, metres.
+    pub(super) fn camera_from_part(
+        &self,
+        rest_pose: &RigidTransform,
+        start_distance_m: f64,
+    ) -> RigidTransform {
         let coming = (1.0 - self.since / ARRIVAL_S).max(0.0);
         let leaving = (1.0 - self.left / DEPARTURE_S).max(0.0);
         // Decelerates when coming, accelerates when leaving; the line runs to the left.
-        let aside = START_DISTANCE_M * (coming.powi(3) - leaving.powi(3));
+        let aside = start_distance_m * (coming.powi(3) - leaving.powi(3));
         let settling = (self.since - ARRIVAL_S).max(0.0);
         let angle = SWING_AMPLITUDE_RAD
             * (-settling / SWING_DECAY_S).exp()
@@ -71,10 +77,13 @@ mod tests {
     fn a_part_comes_in_from_outside_hangs_still_and_leaves_without_a_jump() {
         let rest_pose = RigidTransform::translation(0.1, -0.05, 1.3);
         let every = 6.0;
-        let at = |seconds: f64| ConveyorState::at(seconds, every).camera_from_part(&rest_pose);
+        let at = |seconds: f64| {
+            let state = ConveyorState::at(seconds, every);
+            state.camera_from_part(&rest_pose, PART_START_DISTANCE_M)
+        };
         let x = |seconds: f64| at(seconds).translation.x - rest_pose.translation.x;
-        assert!((x(0.0) - START_DISTANCE_M).abs() < 1e-9);
-        assert!((x(every - 1e-9) + START_DISTANCE_M).abs() < 1e-6);
+        assert!((x(0.0) - PART_START_DISTANCE_M).abs() < 1e-9);
+        assert!((x(every - 1e-9) + PART_START_DISTANCE_M).abs() < 1e-6);
         let mut still = 0;
         for k in 0..(every * 100.0) as usize - 1 {
             let (here, next) = (at(k as f64 / 100.0), at((k + 1) as f64 / 100.0));

@@ -11,22 +11,23 @@ use std::{
     time::{Duration, Instant},
 };
 
-use self::conveyor::ConveyorState;
+use self::conveyor::{ConveyorState, PART_START_DISTANCE_M, RACK_START_DISTANCE_M};
 use super::{
     error::CaptureError,
     source::{Captured, DepthSource, Image, NextCapture},
-    spec::{CellScene, SimulatedSpec},
+    spec::{CellScene, NUM_ON_RACK, SimulatedSpec},
 };
+use geometry::rigid::RigidTransform;
 use simulate::{
-    CellSetup, FrameTruth, PartKind, PartPose, SensorNoise, SimulatedFrame, SimulatedObject,
-    StandingCell,
+    CellSetup, FrameTruth, PartKind, PartPose, RackKind, RackSetup, SensorNoise, SimulatedFrame,
+    SimulatedObject, StandingCell, StandingRack,
 };
 
 /// The simulated cell as a camera.
 pub struct SimulatedCell {
     spec: SimulatedSpec,
-    /// The present cell, and the number of the part for which it was arranged.
-    cell: Option<(u64, StandingCell)>,
+    /// The present cell, and the number of the part or rack for which it was arranged.
+    cell: Option<(u64, ArrangedCell)>,
     /// When the first frame was due.
     started: Option<Instant>,
     /// Number of the last frame, from 1; 0 before the first.
@@ -44,30 +45,44 @@ impl SimulatedCell {
         }
     }
 
-    /// Returns the frame with this number, from 1: always the same for the same settings. The truth has no labels.
-    pub fn frame(&mut self, number: u64) -> (Image, FrameTruth) {
+    /// Returns the frame with this number, from 1: always the same for the same settings. The truth has no labels; there is none
+    /// of a rack, which shows several parts.
+    pub fn frame(&mut self, number: u64) -> (Image, Option<FrameTruth>) {
         let seconds = number.saturating_sub(1) as f64 / self.spec.frames_per_second;
         let moment = match self.spec.scene {
-            CellScene::Line { every } => Some(ConveyorState::at(seconds, every)),
+            CellScene::Line { every } | CellScene::Rack { every } => {
+                Some(ConveyorState::at(seconds, every))
+            }
             CellScene::Part(_) | CellScene::Object(_) | CellScene::Empty => None,
         };
         let visit = moment.map_or(0, |moment| moment.visit);
         let cell = match self.cell.take() {
             Some((arranged, cell)) if arranged == visit => cell,
-            _ => arranged(&self.spec, visit),
+            _ => ArrangedCell::arrange(&self.spec, visit),
         };
-        let rest_pose = cell.rest_pose();
-        let camera_from_part = moment.map_or(rest_pose, |now| now.camera_from_part(&rest_pose));
         let noise = SensorNoise {
             multiplier: self.spec.noise,
             seed: mixed(self.spec.seed, number),
         };
-        let SimulatedFrame { frame, truth } = cell.frame(&camera_from_part, &noise);
-        self.cell = Some((visit, cell));
-        let truth = FrameTruth {
-            labels: Vec::new(),
-            ..truth
+        let placed = |rest_pose: &RigidTransform, from_m| {
+            moment.map_or(*rest_pose, |now| now.camera_from_part(rest_pose, from_m))
         };
+        let (frame, truth) = match &cell {
+            ArrangedCell::One(cell) => {
+                let camera_from_part = placed(&cell.rest_pose(), PART_START_DISTANCE_M);
+                let SimulatedFrame { frame, truth } = cell.frame(&camera_from_part, &noise);
+                let truth = FrameTruth {
+                    labels: Vec::new(),
+                    ..truth
+                };
+                (frame, Some(truth))
+            }
+            ArrangedCell::Rack(rack) => {
+                let moved = placed(&RigidTransform::identity(), RACK_START_DISTANCE_M);
+                (rack.frame(|_| Some(moved), &noise), None)
+            }
+        };
+        self.cell = Some((visit, cell));
         (Image::Depth(frame), truth)
     }
 
@@ -83,36 +98,55 @@ impl SimulatedCell {
     }
 }
 
-/// Arranges the cell with part number `visit` of the line.
-fn arranged(spec: &SimulatedSpec, visit: u64) -> StandingCell {
-    let part = |kind| SimulatedObject::Part {
-        kind,
-        side: spec.side,
-        model_seed: spec.model,
-    };
-    let subject = match spec.scene {
-        CellScene::Line { .. } => {
-            // Begin with a front door, as everywhere the program shows one part.
-            let first = PartKind::FrontDoor as u64;
-            part(PartKind::ALL[((first + visit) % PartKind::ALL.len() as u64) as usize])
-        }
-        CellScene::Part(kind) => part(kind),
-        CellScene::Object(kind) => SimulatedObject::Object(kind),
-        CellScene::Empty => SimulatedObject::Nothing,
-    };
-    let mesh = subject.mesh();
-    let mut setup = CellSetup::new(subject, spec.seed);
-    setup.clutter = spec.clutter;
-    setup.pose = match spec.pose.placement() {
-        // Wall and floor follow from the cell's seed, so keep it; each part hangs differently.
-        Ok(range) => {
-            let seed = spec.seed.wrapping_add(visit);
-            let placed = range.draw(&mesh, &setup.intrinsics, seed);
-            PartPose::Fixed(placed.camera_from_part)
-        }
-        Err(pose) => PartPose::Fixed(pose),
-    };
-    StandingCell::arrange(&setup, mesh)
+/// The cell with everything in it at rest.
+enum ArrangedCell {
+    One(StandingCell),
+    Rack(StandingRack),
+}
+
+impl ArrangedCell {
+    /// Arranges the cell with part or rack number `visit` of the line.
+    fn arrange(spec: &SimulatedSpec, visit: u64) -> Self {
+        let part = |kind| SimulatedObject::Part {
+            kind,
+            side: spec.side,
+            model_seed: spec.model,
+        };
+        let subject = match spec.scene {
+            CellScene::Rack { .. } => return Self::rack(spec, visit),
+            CellScene::Line { .. } => {
+                // Begin with a front door, as everywhere the program shows one part.
+                let first = PartKind::FrontDoor as u64;
+                part(PartKind::ALL[((first + visit) % PartKind::ALL.len() as u64) as usize])
+            }
+            CellScene::Part(kind) => part(kind),
+            CellScene::Object(kind) => SimulatedObject::Object(kind),
+            CellScene::Empty => SimulatedObject::Nothing,
+        };
+        let mesh = subject.mesh();
+        let mut setup = CellSetup::new(subject, spec.seed);
+        setup.clutter = spec.clutter;
+        setup.pose = match spec.pose.placement() {
+            // Wall and floor follow from the cell's seed, so keep it; each part hangs differently.
+            Ok(range) => {
+                let seed = spec.seed.wrapping_add(visit);
+                let placed = range.draw(&mesh, &setup.intrinsics, seed);
+                PartPose::Fixed(placed.camera_from_part)
+            }
+            Err(pose) => PartPose::Fixed(pose),
+        };
+        Self::One(StandingCell::arrange(&setup, mesh))
+    }
+
+    /// Wall and floor change with each rack: they stand behind and below its parts.
+    fn rack(spec: &SimulatedSpec, visit: u64) -> Self {
+        let seed = spec.seed.wrapping_add(visit);
+        let drawn = RackSetup::drawn(RackKind::Apart, NUM_ON_RACK, spec.model, seed);
+        let mut setup = drawn.expect("a rack has 2 to 5 places");
+        setup.cell.clutter = spec.clutter;
+        let rack = StandingRack::arrange(&setup);
+        Self::Rack(rack.expect("a rack in a plain cell"))
+    }
 }
 
 /// A well-mixed seed for each frame and each seed of the cell (the finaliser of G. Steele, D. Lea and C. Flood, "Fast
@@ -151,7 +185,7 @@ impl DepthSource for SimulatedCell {
         let (image, truth) = self.frame(number);
         let name = format!("{FRAME}{number}");
         Ok(NextCapture::Captured(Captured {
-            truth: Some(Arc::new(truth)),
+            truth: truth.map(Arc::new),
             ..Captured::now(number, name, image)
         }))
     }

@@ -8,8 +8,8 @@ fn cell(text: &str) -> SimulatedCell {
     }
 }
 
-fn kind_of(truth: &FrameTruth) -> Option<PartKind> {
-    truth.part()
+fn kind_of(truth: Option<&FrameTruth>) -> Option<PartKind> {
+    truth.expect("of one part").part()
 }
 
 #[test]
@@ -36,12 +36,16 @@ fn the_line_shows_every_part_in_turn_and_the_empty_cell_between_them() {
     let mut line = cell("simulated,noise=0,fps=1,every=4:line");
     let mut seen = std::collections::BTreeSet::new();
     for visit in 0..8 {
-        assert_eq!(kind_of(&line.frame(4 * visit + 1).1), None, "visit {visit}");
+        assert_eq!(
+            kind_of(line.frame(4 * visit + 1).1.as_ref()),
+            None,
+            "visit {visit}"
+        );
         let (_, truth) = line.frame(4 * visit + 4);
-        assert!(truth.fully_visible, "visit {visit}");
-        seen.insert(kind_of(&truth).expect("a part"));
+        assert!(truth.as_ref().is_some_and(|truth| truth.fully_visible));
+        seen.insert(kind_of(truth.as_ref()).expect("a part"));
         if visit == 0 {
-            assert_eq!(kind_of(&truth), Some(PartKind::FrontDoor));
+            assert_eq!(kind_of(truth.as_ref()), Some(PartKind::FrontDoor));
         }
     }
     assert_eq!(seen.len(), 8);
@@ -51,7 +55,7 @@ fn the_line_shows_every_part_in_turn_and_the_empty_cell_between_them() {
 fn what_was_asked_for_hangs_there() {
     let (_, right) = cell("simulated,side=right:fender").frame(1);
     assert_eq!(
-        right.subject,
+        right.expect("of one part").subject,
         SimulatedObject::Part {
             kind: PartKind::Fender,
             side: simulate::Side::Right,
@@ -59,10 +63,11 @@ fn what_was_asked_for_hangs_there() {
         }
     );
     let (_, fixed) = cell("simulated,pose=0 0 15deg 0.1 0 1.2:grille").frame(3);
+    let fixed = fixed.expect("of one part");
     assert!((fixed.camera_from_part.translation.z - 1.2).abs() < 1e-12);
     assert!((fixed.camera_from_part.rotation.angle().to_degrees() - 15.0).abs() < 1e-9);
     let (_, empty) = cell("simulated:empty").frame(1);
-    assert_eq!(empty.subject, SimulatedObject::Nothing);
+    assert_eq!(kind_of(empty.as_ref()), None);
     let (Image::Depth(clear), _) = cell("simulated,noise=0:hood").frame(1) else {
         panic!("a depth image")
     };
@@ -91,4 +96,29 @@ fn frames_that_could_not_be_taken_in_time_are_left_out() {
         cell.due(start + Duration::from_millis(1150)),
         (11, Duration::ZERO)
     );
+}
+
+#[test]
+fn racks_come_in_from_outside_hang_still_and_leave() {
+    let mut line = cell("simulated,noise=0,fps=10,every=6:rack");
+    let mut depths = |seconds: f64| {
+        let (Image::Depth(image), truth) = line.frame((10.0 * seconds) as u64 + 1) else {
+            panic!("a depth image")
+        };
+        assert!(truth.is_none(), "of one part");
+        image.depth
+    };
+    let (empty, here, later) = (depths(0.0), depths(3.0), depths(5.0));
+    let differing = |a: &[u16], b: &[u16]| {
+        a.iter()
+            .zip(b)
+            .filter(|(a, b)| a.abs_diff(**b) > 20)
+            .count()
+    };
+    assert!(
+        differing(&here, &later) < 100,
+        "less than 0.1 mm of the swing remains"
+    );
+    assert!(differing(&empty, &here) > 20_000);
+    assert!(differing(&depths(6.0), &depths(9.0)) > 20_000);
 }

@@ -29,7 +29,7 @@ use serde::{Deserialize, Serialize};
 pub use self::genicam::{GenicamFormat, GenicamSpec};
 use self::options::{Options, escaped};
 pub use self::realsense::RealsenseSpec;
-pub use self::simulated::{CellScene, SimulatedPose, SimulatedSpec};
+pub use self::simulated::{CellScene, NUM_ON_RACK, SimulatedPose, SimulatedSpec};
 use super::recording::is_sequence;
 use geometry::error::Advice;
 
@@ -471,6 +471,8 @@ mod tests {
             "simulated:empty",
             "simulated:hood",
             "simulated,every=6:line",
+            "simulated:rack",
+            "simulated,every=12:rack",
             "simulated,side=right,model=3,pose=hard,noise=0.5,clutter=in-front,seed=9,fps=12:front_door",
             "simulated,pose=0 0 15deg 0 0 1.2:grille",
             "recording:captures/monday",

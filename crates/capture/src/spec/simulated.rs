@@ -52,6 +52,12 @@ pub enum CellScene {
         /// Seconds from one part to the next; 4 to 3600.
         every: f64,
     },
+    /// A conveyor line with racks of [`NUM_ON_RACK`] different parts, which swing in one after the other, hang still, and swing
+    /// out. The parts are of the left side, and the racks hang with care.
+    Rack {
+        /// Seconds from one rack to the next; 4 to 3600.
+        every: f64,
+    },
     /// One part, hanging still.
     Part(PartKind),
     /// An object that is not an enrolled part, hanging still.
@@ -60,7 +66,9 @@ pub enum CellScene {
     Empty,
 }
 
-/// Default time from one part of the line to the next, seconds.
+/// Parts on each rack of the line.
+pub const NUM_ON_RACK: usize = 3;
+/// Default time from one part or rack of the line to the next, seconds.
 const DEFAULT_INTERVAL_S: f64 = 8.0;
 /// Frame rate of a Kinect.
 const DEFAULT_FPS: f64 = 30.0;
@@ -131,6 +139,7 @@ const CLUTTER: [(&str, Clutter); 3] = [
 ];
 
 const LINE: &str = "line";
+const RACK: &str = "rack";
 const EMPTY: &str = "empty";
 
 impl CellScene {
@@ -138,6 +147,7 @@ impl CellScene {
     pub fn name(self) -> &'static str {
         match self {
             Self::Line { .. } => LINE,
+            Self::Rack { .. } => RACK,
             Self::Part(kind) => kind.name(),
             Self::Object(kind) => kind.name(),
             Self::Empty => EMPTY,
@@ -145,10 +155,10 @@ impl CellScene {
     }
 
     fn read(what: Option<&str>, every: Option<f64>) -> Option<Self> {
+        let every = every.unwrap_or(DEFAULT_INTERVAL_S);
         Some(match what {
-            None | Some(LINE) => Self::Line {
-                every: every.unwrap_or(DEFAULT_INTERVAL_S),
-            },
+            None | Some(LINE) => Self::Line { every },
+            Some(RACK) => Self::Rack { every },
             Some(EMPTY) => Self::Empty,
             Some(name) => match PartKind::from_name(name) {
                 Some(kind) => Self::Part(kind),
@@ -165,6 +175,7 @@ impl SimulatedSpec {
     pub fn title(&self) -> String {
         let hung = match self.scene {
             CellScene::Line { .. } => "the line runs".into(),
+            CellScene::Rack { .. } => "the line runs, with racks".into(),
             CellScene::Part(kind) if kind.is_sided() => {
                 format!("{}, {}", kind.title(), self.side.name())
             }
@@ -256,9 +267,12 @@ impl SimulatedSpec {
         if self.frames_per_second.to_bits() != default.frames_per_second.to_bits() {
             write!(f, ",fps={}", self.frames_per_second)?;
         }
+        let is_default = |every: f64| every.to_bits() == DEFAULT_INTERVAL_S.to_bits();
         match self.scene {
-            CellScene::Line { every } if every.to_bits() == DEFAULT_INTERVAL_S.to_bits() => Ok(()),
-            CellScene::Line { every } => write!(f, ",every={every}:{LINE}"),
+            CellScene::Line { every } if is_default(every) => Ok(()),
+            CellScene::Line { every } | CellScene::Rack { every } if !is_default(every) => {
+                write!(f, ",every={every}:{}", self.scene.name())
+            }
             scene => write!(f, ":{}", scene.name()),
         }
     }
@@ -268,7 +282,7 @@ impl SimulatedSpec {
 fn hung_names() -> String {
     let parts = PartKind::ALL.map(PartKind::name);
     let objects = ObjectKind::ALL.map(ObjectKind::name);
-    [&[LINE, EMPTY], &parts[..], &objects[..]]
+    [&[LINE, RACK, EMPTY], &parts[..], &objects[..]]
         .concat()
         .join(", ")
 }

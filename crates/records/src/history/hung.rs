@@ -34,7 +34,7 @@ impl fmt::Display for HungId {
     }
 }
 
-/// Selects the inspections to write while a source is followed: one for each hung part.
+/// Selects the inspections to write of the parts that hang at one spot while a source is followed: one for each.
 #[derive(Debug)]
 pub struct HungRows<E = NewEntry> {
     parts: HungParts,
@@ -103,6 +103,15 @@ impl<E> HungRows<E> {
         } else {
             HungId::new()
         }
+    }
+
+    /// True while nothing hangs there.
+    pub(super) fn is_empty(&self) -> bool {
+        self.parts.is_empty()
+    }
+
+    pub(super) fn parts(&self) -> &HungParts {
+        &self.parts
     }
 
     /// Keeps the frame that shows the part best, until its verdict counts or it leaves.

@@ -24,6 +24,7 @@ mod event;
 mod filter;
 mod frames;
 mod hung;
+mod hung_spots;
 mod open;
 mod outcomes;
 mod retention;
@@ -55,6 +56,7 @@ pub use self::{
         write_as as write_frame,
     },
     hung::{HungId, HungRows},
+    hung_spots::{HungSpots, SpotIds},
     open::{FILE, OnlyRead, OpenedHistory, SetAside, users_folder},
     outcomes::PartOutcome,
     retention::{ACCEPTED_KEPT, KeepFrames, PruneResult, Retention, Usage},

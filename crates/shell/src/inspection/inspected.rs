@@ -25,7 +25,7 @@ use geometry::{cloud::PointCloud, rigid::RigidTransform};
 use inspection::{
     library::Library,
     pipeline::{
-        self, Cancelled, Inspection, NamedRecipe, ProgressObserver, Recipe, Verdict,
+        Inspection, NamedRecipe, ProgressObserver, Recipe, Verdict,
         live::{LiveVerdict, MotionState},
         run_all,
         scan::{ScanInspection, run_scan, unseen_points},
@@ -230,34 +230,11 @@ pub struct LiveFrameContext {
     pub standing: LiveVerdict,
 }
 
-/// Takes the scene and inspects its likeliest part.
-pub fn inspect(
-    request: &InspectRequest,
-    library_cache: &LibraryCache,
-    watch: &dyn ProgressObserver,
-) -> Result<Inspected, TaskError> {
-    let mut one = inspect_by(request, library_cache, watch, |scene, library| {
-        Ok(vec![pipeline::run(scene, library, &request.recipe, watch)?])
-    })?;
-    Ok(one.remove(0))
-}
-
 /// Takes the scene and inspects all its parts, in the order of [`run_all`]; at least one.
 pub fn inspect_all(
     request: &InspectRequest,
     library_cache: &LibraryCache,
     watch: &dyn ProgressObserver,
-) -> Result<Vec<Inspected>, TaskError> {
-    inspect_by(request, library_cache, watch, |scene, library| {
-        run_all(scene, library, &request.recipe, watch)
-    })
-}
-
-fn inspect_by(
-    request: &InspectRequest,
-    library_cache: &LibraryCache,
-    watch: &dyn ProgressObserver,
-    inspect: impl FnOnce(&SceneCloud, &Library) -> Result<Vec<Inspection>, Cancelled>,
 ) -> Result<Vec<Inspected>, TaskError> {
     let loaded = library_cache.get();
     if watch.is_cancelled() {
@@ -287,7 +264,7 @@ fn inspect_by(
         };
         found.prepared(&fitted, &loaded.shown)
     };
-    let found = inspect(&scene, &fitted)?;
+    let found = run_all(&scene, &fitted, &request.recipe, watch)?;
     Ok(found.into_iter().map(prepared).collect())
 }
 
@@ -537,8 +514,12 @@ pub fn inspected_cell(choice: super::source::CellChoice, number: u64) -> Inspect
         source: SceneSource::Cell { choice, number },
         recipe: Arc::default(),
     };
-    let inspected = inspect(&request, &LibraryCache::default(), &pipeline::Unwatched);
-    inspected.expect("inspected")
+    let parts = inspect_all(
+        &request,
+        &LibraryCache::default(),
+        &::inspection::pipeline::Unwatched,
+    );
+    parts.expect("inspected").remove(0)
 }
 
 #[cfg(test)]
@@ -561,8 +542,8 @@ mod tests {
             },
             recipe: Arc::default(),
         };
-        let inspected = inspect(&request, &library_cache, &pipeline::Unwatched);
-        let mut inspected = inspected.expect("inspected");
+        let parts = inspect_all(&request, &library_cache, &::inspection::pipeline::Unwatched);
+        let mut inspected = parts.expect("inspected").remove(0);
         let trace = Traceability {
             serial: "4711".into(),
             ..Traceability::default()

@@ -317,7 +317,7 @@ mod tests {
 
     use super::*;
     use crate::inspection::{
-        inspected::{InspectRequest, inspect, inspected_cell},
+        inspected::{InspectRequest, inspect_all, inspected_cell},
         library_cache::LibraryCache,
         source::{CellChoice, SceneSource},
     };
@@ -348,7 +348,8 @@ mod tests {
                 recipe: Arc::default(),
             };
             let library = LibraryCache::default();
-            let inspected = inspect(&request, &library, &Unwatched).expect("inspected");
+            let inspected = inspect_all(&request, &library, &Unwatched).expect("inspected");
+            let inspected = &inspected[0];
             assert_eq!(inspected.entry.record.summary.source, source);
             let subject = &inspected.subject;
             let report = report_of(

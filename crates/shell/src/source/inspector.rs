@@ -373,7 +373,7 @@ impl State {
     pub fn show_past(&mut self, inspected: Arc<Inspected>) {
         self.tell_what_ends_live(text!("live-ended-past"));
         self.generation += 1;
-        self.session.live.unseen = None;
+        self.session.live.unseen.clear();
         self.session.shown = Some(Shown {
             is_past: true,
             ..Shown::new(self.generation, inspected)
@@ -418,7 +418,7 @@ impl State {
 /// Which hung part an inspection belongs to.
 #[derive(Debug)]
 enum PartAtHand {
-    /// The one that hangs before the source, as Live saw it last. One without a verdict that counts, or a new one, takes the
+    /// Those that hang before the source, as Live saw them last. One without a verdict that counts, or a new one, takes the
     /// current serial number.
     Followed(Arc<Mutex<FollowedParts>>, CurrentTrace),
     /// This one, which is in the history.
@@ -465,15 +465,9 @@ impl PartAtHand {
         let mut summaries = parts.iter().map(|part| &part.entry.record.summary);
         let shows_any = summaries.any(|summary| summary.verdict != StoredVerdict::NoPart);
         match self {
-            Self::Followed(followed, current) => match &mut parts[..] {
-                [one] => {
-                    let source = &one.entry.record.summary.source;
-                    let (hung, trace) = lock(&followed).of_capture(source, shows_any, &current);
-                    one.set_part(hung, trace);
-                }
-                // Live does not tell several parts apart.
-                _ => all_new(&mut parts, &current.take(shows_any)),
-            },
+            Self::Followed(followed, current) => {
+                lock(&followed).assign_capture(&mut parts, &current);
+            }
             Self::Known(hung, trace) => {
                 let row = history.part(&hung).ok().flatten();
                 let record = row.and_then(|row| history.row(row.number).ok().flatten());
@@ -485,28 +479,7 @@ impl PartAtHand {
                 known.set_part(hung, trace);
                 return vec![known];
             }
-            Self::InFront(mut former) => {
-                let is_one = parts.len() == 1 && former.len() == 1;
-                let order = former[0].trace().clone();
-                for part in &mut parts {
-                    let shared = former.iter().map(|former| former.num_shared(part));
-                    let most = shared.enumerate().max_by_key(|(_, num)| *num);
-                    match most.filter(|(_, num)| is_one || *num > 0) {
-                        Some((index, _)) => {
-                            let former = former.remove(index);
-                            part.set_part(former.hung().clone(), former.trace().clone());
-                        }
-                        // The serial number is that of another part.
-                        None => part.set_part(
-                            part.hung().clone(),
-                            Traceability {
-                                serial: String::new(),
-                                ..order.clone()
-                            },
-                        ),
-                    }
-                }
-            }
+            Self::InFront(former) => assign_as_before(&mut parts, former),
             Self::Past(trace) => all_new(&mut parts, &trace),
             Self::MaybeSeen(current) => {
                 // With a serial number it is another part.
@@ -529,6 +502,30 @@ impl PartAtHand {
             }
         }
         parts
+    }
+}
+
+/// Gives the parts of a frame that is inspected again the hung parts that they were before.
+pub(super) fn assign_as_before(parts: &mut [Inspected], mut former: Vec<Arc<Inspected>>) {
+    let is_one = parts.len() == 1 && former.len() == 1;
+    let order = former[0].trace().clone();
+    for part in parts {
+        let shared = former.iter().map(|former| former.num_shared(part));
+        let most = shared.enumerate().max_by_key(|(_, num)| *num);
+        match most.filter(|(_, num)| is_one || *num > 0) {
+            Some((index, _)) => {
+                let former = former.remove(index);
+                part.set_part(former.hung().clone(), former.trace().clone());
+            }
+            // The serial number is that of another part.
+            None => part.set_part(
+                part.hung().clone(),
+                Traceability {
+                    serial: String::new(),
+                    ..order.clone()
+                },
+            ),
+        }
     }
 }
 
@@ -654,7 +651,7 @@ fn show(state: &mut State, mut parts: Vec<Arc<Inspected>>) -> Event {
     let purpose = state.inspector.purpose;
     state.generation += 1;
     state.session.failed = None;
-    state.session.live.unseen = None;
+    state.session.live.unseen.clear();
     // A result from the history stays past and an outdated one outdated, with whatever recipe or library it is inspected again.
     let former = state.session.shown.as_ref();
     let marks = |former: &Shown| (former.is_past, former.is_outdated);

@@ -352,3 +352,29 @@ fn what_is_out_of_range_is_refused_with_advice() {
     booth.cell.surroundings = Surroundings::Booth;
     assert_eq!(rack_frame(&booth), Err(RackError::Booth));
 }
+
+#[test]
+fn a_standing_rack_gives_the_same_frame_as_drawing_all_of_it_and_any_part_may_be_away() {
+    let mut setup = drawn(RackKind::Apart, 3, 2);
+    setup.cell.clutter = Clutter::OnFloor;
+    let rack = StandingRack::arrange(&setup).expect("in range");
+    let noise = &setup.cell.noise;
+    let all = rack.frame(|_| Some(RigidTransform::identity()), noise);
+    let RackFrame { frame, truth } = taken(&setup);
+    assert!(all == frame);
+    let without = rack.frame(|part| (part != 1).then(RigidTransform::identity), noise);
+    let shows = |part: u8| {
+        truth
+            .labels
+            .iter()
+            .map(move |l| *l == SurfaceLabel::RackPart(part))
+    };
+    let readings = |part: u8, frame: &DepthFrame| {
+        let depths = frame.depth.iter().zip(shows(part));
+        let depths = depths.filter(|(depth, shown)| *shown && **depth > 0);
+        depths.map(|(depth, _)| f64::from(*depth)).sum::<f64>()
+    };
+    // The camera looks at what is farther away.
+    assert!(readings(1, &without) > 1.05 * readings(1, &frame));
+    assert!((readings(0, &without) / readings(0, &frame) - 1.0).abs() < 0.01);
+}

@@ -253,7 +253,7 @@ impl EnrolState {
     fn is_newest(&self, draft: &Draft, session: &Session) -> bool {
         let is_last = draft.number == self.num_drafts && !self.is_taking_another();
         let is_same_in_front = draft.in_front.ptr_eq(&scene_in_front(session));
-        is_last && is_same_in_front && session.live.unseen.is_none()
+        is_last && is_same_in_front && session.live.unseen.is_empty()
     }
 
     /// Puts the step of a failed change back, so that it can be undone or redone later.

@@ -234,7 +234,7 @@ impl Banner {
     }
 
     /// The banner of all parts of a frame: of several, how many are accepted, and what is to be done about the first that is
-    /// not, or that no robot may act on.
+    /// not, or that no robot may act on. In Live, the first one without a verdict that counts keeps the others waiting.
     fn of_parts(parts: &[Arc<Inspected>], session: &Session) -> Self {
         let expectation = FrameExpectation::of(parts, session);
         // What is not enrolled may hang beside the expected parts.
@@ -249,6 +249,9 @@ impl Banner {
                 (index, Self { caution, ..result })
             })
             .unzip();
+        if let Some(index) = indices.iter().position(|index| parts[*index].is_open()) {
+            return all.swap_remove(index);
+        }
         let num = |tone| all.iter().filter(|part| part.tone == tone).count();
         let (num_ok, num_recognised) = (num(Tone::Ok), num(Tone::Recognised));
         let (num_accepted, num_parts) = (num_ok + num_recognised, all.len());
@@ -514,6 +517,16 @@ mod tests {
         assert_eq!((some.tone, &*some.title), (Tone::NotOk, "2 of 3 OK"));
         let reason = "2 · Front door, left: It is not hanging still yet";
         assert_eq!(some.reason, reason);
+        // In Live, there is no count before every verdict counts.
+        let moving: fn(&mut Inspected) = |part| {
+            part.followed = Some(LiveFrameContext {
+                stillness: MotionState::Moving,
+                standing: LiveVerdict::Open,
+            });
+        };
+        let waiting = banner(&[good, moving]);
+        assert_eq!((waiting.tone, waiting.is_current), (Tone::Open, true));
+        assert!(!waiting.title.contains("OK"), "{waiting:?}");
         let doubtful = banner(&[good, approximate]);
         assert_eq!(doubtful.tone, Tone::Ok);
         assert_eq!(

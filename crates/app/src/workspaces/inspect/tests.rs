@@ -112,7 +112,7 @@ const STATES: [State; 22] = [
     ("a newer part is unseen", May::Wait, |session, inspected| {
         follow(session, inspected, STEADY);
         let newer = inspected_cell(CellChoice::InTurn, 2);
-        session.live.unseen = Some(Arc::new(newer));
+        session.live.unseen = vec![Arc::new(newer)];
     }),
     ("past", May::Wait, |session, _| {
         mark(session, |shown| shown.is_past = true);

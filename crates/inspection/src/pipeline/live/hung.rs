@@ -9,10 +9,12 @@
 //! Known limits: once a verdict counts, a part that is exchanged for another between two frames is taken for the
 //! same, unless the frames are seconds apart and another part is accepted. Captures seconds apart cannot show whether a
 //! part hangs still: if two in a row have the same name, they count as one part.
+//!
+//! This is about one spot; where several parts may hang, each has its own, see [`spots_of`](super::spots_of).
 
 use std::time::Duration;
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 
 use super::{ConsensusParams, ConsensusVerdict, LiveVerdict};
 use crate::pipeline::{Inspection, Verdict};
@@ -20,7 +22,7 @@ use geometry::{
     cloud::Grid,
     rigid::{RigidTransform, pose_error},
 };
-use stages::scene::SceneCloud;
+use stages::{scene::SceneCloud, segment::SegmentedPart};
 
 /// An inspected frame and the live verdict after it.
 #[derive(Clone, Copy, Debug)]
@@ -85,6 +87,9 @@ enum HungState {
         is_named: bool,
         /// The name that the last frame gave it.
         last: String,
+        /// Where that frame showed it.
+        surface: Surface,
+        seen_at: Duration,
     },
     Counted(Box<CountedPart>),
 }
@@ -98,10 +103,30 @@ struct CountedPart {
     camera_from_part: Option<RigidTransform>,
     /// Something moved since the last verdict.
     has_scene_moved: bool,
-    /// Some of its points: index in the picture, and depth, metres.
-    surface: Vec<(u32, f32)>,
+    /// Where it hangs.
+    surface: Surface,
     grid: Option<Grid>,
     has_left: bool,
+}
+
+/// What a frame showed of a part.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Surface {
+    num_readings: usize,
+    /// Some of the readings: index in the picture, and depth, metres.
+    points: Vec<(u32, f32)>,
+    /// Mean of those, camera space, metres.
+    pub(super) middle: Point3<f32>,
+}
+
+/// Whether and where a part is at a spot.
+pub(super) enum Presence<'a> {
+    /// None is.
+    Empty,
+    /// One was seen there and may have gone on.
+    Passing(&'a Surface),
+    /// It hangs exactly there, even if something hides it.
+    Hanging(&'a Surface),
 }
 
 /// After a longer gap between frames, it is unknown what hangs there.
@@ -132,12 +157,46 @@ impl HungParts {
         self.departures
     }
 
+    /// True while nothing is known to hang there, or to have just left.
+    pub fn is_empty(&self) -> bool {
+        matches!(self.state, HungState::Empty)
+    }
+
+    /// True if one was seen there and may have gone on: its verdict does not count yet, or it has left its place.
+    pub fn is_passing(&self) -> bool {
+        match &self.state {
+            HungState::Empty => false,
+            HungState::Unsettled { .. } => true,
+            HungState::Counted(part) => part.has_left,
+        }
+    }
+
     /// True while a part hangs there, whether its verdict counts or not.
     pub fn is_hanging(&self) -> bool {
         match &self.state {
             HungState::Empty => false,
             HungState::Unsettled { .. } => true,
             HungState::Counted(part) => !part.has_left,
+        }
+    }
+
+    /// Whether and where a part is when the camera sees this scene, if nothing has moved since then; without a time, something
+    /// may move.
+    pub(super) fn presence(
+        &self,
+        scene: &SceneCloud,
+        still_since: Option<Duration>,
+    ) -> Presence<'_> {
+        match &self.state {
+            HungState::Empty => Presence::Empty,
+            HungState::Unsettled {
+                surface, seen_at, ..
+            } if still_since.is_some_and(|since| since <= *seen_at) => Presence::Hanging(surface),
+            HungState::Unsettled { surface, .. } => Presence::Passing(surface),
+            HungState::Counted(part) if part.has_left || part.is_looked_through(scene, false) => {
+                Presence::Passing(&part.surface)
+            }
+            HungState::Counted(part) => Presence::Hanging(&part.surface),
         }
     }
 
@@ -174,7 +233,8 @@ impl HungParts {
             }
             (_, Some((name, score))) => {
                 self.absent = None;
-                self.observe_unsettled(name, score, !frame.inspection.verdict.is_unknown())
+                let is_named = !frame.inspection.verdict.is_unknown();
+                self.observe_unsettled(frame, name, score, is_named)
             }
         };
         if let HungState::Counted(part) = &mut self.state {
@@ -221,8 +281,14 @@ impl HungParts {
     }
 
     /// Handles a frame that shows a part while no verdict counts.
-    fn observe_unsettled(&mut self, name: &str, score: f64, is_named: bool) -> FrameRole {
-        let known = match &mut self.state {
+    fn observe_unsettled(
+        &mut self,
+        frame: &HungFrame<'_>,
+        name: &str,
+        score: f64,
+        is_named: bool,
+    ) -> FrameRole {
+        let known = match &self.state {
             // It moves away, or something hides it.
             HungState::Counted(_) => return FrameRole::Nothing,
             HungState::Empty => {
@@ -232,23 +298,24 @@ impl HungParts {
             HungState::Unsettled {
                 best_score,
                 is_named,
-                last,
-            } => {
-                name.clone_into(last);
-                Some((*is_named, *best_score))
-            }
+                ..
+            } => Some((*is_named, *best_score)),
         };
         // A frame that looks like an enrolled part is better than one that looks like none, whatever their scores.
         let is_best = known.is_none_or(|known| (is_named, score) > known);
+        let (is_named, best_score) = known.filter(|_| !is_best).unwrap_or((is_named, score));
+        self.state = HungState::Unsettled {
+            best_score,
+            is_named,
+            last: name.to_owned(),
+            surface: Surface::of(frame),
+            seen_at: frame.at,
+        };
         if is_best {
-            self.state = HungState::Unsettled {
-                best_score: score,
-                is_named,
-                last: name.to_owned(),
-            };
-            return FrameRole::Best;
+            FrameRole::Best
+        } else {
+            FrameRole::Nothing
         }
-        FrameRole::Nothing
     }
 
     /// Handles a frame after which a verdict on a part counts.
@@ -306,20 +373,12 @@ impl CountedPart {
         verdicts: Vec<(String, bool)>,
         camera_from_part: Option<RigidTransform>,
     ) -> Self {
-        let indices = match &frame.inspection.segmentation.part {
-            Ok(part) => part.indices.as_slice(),
-            Err(_) => &[],
-        };
-        let points = indices
-            .iter()
-            .step_by((indices.len() / NUM_TRACKED_POINTS).max(1));
-        let depth = |i: &u32| Some((*i, frame.scene.cloud.points.get(*i as usize)?.z));
         Self {
             verdicts,
             inputs: frame.inputs.to_owned(),
             camera_from_part,
             has_scene_moved: false,
-            surface: points.filter_map(depth).collect(),
+            surface: Surface::of(frame),
             grid: frame.scene.cloud.grid,
             has_left: false,
         }
@@ -344,7 +403,7 @@ impl CountedPart {
             return true;
         }
         let (mut num_behind, mut num_there) = (0_u32, 0_u32);
-        for (place, depth) in &self.surface {
+        for (place, depth) in &self.surface.points {
             let now = scene
                 .cloud
                 .points
@@ -353,9 +412,43 @@ impl CountedPart {
             num_behind += u32::from(now > depth + BEHIND_MIN_DISTANCE_M);
             num_there += u32::from((now - depth).abs() <= BEHIND_MIN_DISTANCE_M);
         }
-        let share = |num: u32| f64::from(num) / self.surface.len().max(1) as f64;
+        let share = |num: u32| f64::from(num) / self.surface.points.len().max(1) as f64;
         share(num_behind) > LEFT_MIN_SEEN_THROUGH_SHARE
             || (is_empty && share(num_there) < PRESENT_MIN_SHARE)
+    }
+}
+
+impl Surface {
+    fn of(frame: &HungFrame<'_>) -> Self {
+        let indices = match &frame.inspection.segmentation.part {
+            Ok(part) => part.indices.as_slice(),
+            Err(_) => &[],
+        };
+        let readings = &frame.scene.cloud.points;
+        let seen = indices
+            .iter()
+            .step_by((indices.len() / NUM_TRACKED_POINTS).max(1))
+            .filter_map(|i| Some((*i, readings.get(*i as usize)?)));
+        let (mut points, mut sum) = (Vec::new(), Vector3::zeros());
+        for (i, point) in seen {
+            points.push((i, point.z));
+            sum += point.coords;
+        }
+        Self {
+            num_readings: indices.len(),
+            middle: Point3::from(sum / points.len().max(1) as f32),
+            points,
+        }
+    }
+
+    /// Readings that both have, of those that either has, 0..1.
+    pub(super) fn overlap(&self, part: &SegmentedPart) -> f64 {
+        let is_shared = |(i, _): &&(u32, f32)| part.indices.binary_search(i).is_ok();
+        let num_shared = self.points.iter().filter(is_shared).count();
+        let share = num_shared as f64 / self.points.len().max(1) as f64;
+        let shared = share * self.num_readings as f64;
+        let all = (self.num_readings + part.indices.len()) as f64 - shared;
+        shared / all.max(1.0)
     }
 }
 

@@ -1,8 +1,8 @@
 //! Live: one verdict from many frames of one camera.
 //!
 //! ```text
-//! frame ─► MotionDetector ─► DepthAverage ─► pipeline::run ─► Consensus ─► LiveVerdict ─► HungParts
-//!          does it move?      less noise      each frame      one verdict of many         one inspection per part
+//! frame ─► MotionDetector ─► DepthAverage ─► pipeline::run_all ─► spots_of ─► Consensus ─► LiveVerdict ─► HungParts
+//!          does it move?      less noise      each frame          each part    one verdict of many         one inspection per part
 //! ```
 //!
 //! A verdict on a part that swings or is just being hung is useless to a robot. So every frame is inspected, but no
@@ -12,6 +12,7 @@ mod average;
 mod consensus;
 mod hung;
 mod mean_pose;
+mod spots;
 mod steady;
 mod two_frames;
 
@@ -24,6 +25,7 @@ pub use self::{
     consensus::{Consensus, ConsensusParams, ConsensusVerdict},
     hung::{FrameRole, HungFrame, HungParts, Left},
     mean_pose::{MeanPose, PoseTolerance, mean_pose},
+    spots::{nothing_there, spots_of},
     steady::{MotionDetector, MotionState, SteadyParams},
     two_frames::{refuse_moving, refuse_unless_again},
 };
@@ -84,7 +86,9 @@ impl LiveVerdict {
 pub struct LiveTracker {
     steady: MotionDetector,
     average: DepthAverage,
-    consensus: Consensus,
+    consensus_params: ConsensusParams,
+    /// That of each spot where a part may hang.
+    consensus: Vec<Consensus>,
     last_at: Duration,
     /// The camera's field of view, as far as the frames showed it.
     field_of_view: Option<Arc<FieldOfView>>,
@@ -96,7 +100,8 @@ impl LiveTracker {
         Self {
             steady: MotionDetector::new(params.steady.clone()),
             average: DepthAverage::over(params.average),
-            consensus: Consensus::new(params.consensus.clone()),
+            consensus_params: params.consensus.clone(),
+            consensus: Vec::new(),
             last_at: Duration::ZERO,
             field_of_view: None,
         }
@@ -140,23 +145,29 @@ impl LiveTracker {
         }
     }
 
-    /// Takes in the inspection of the scene last returned by [`look`](Self::look), and overwrites its verdict: with
-    /// the verdict and mean pose of all frames, or with the reason why its own verdict does not count. `middle` is
-    /// the middle of the named part, part space, metres.
+    /// Takes in what the scene last returned by [`look`](Self::look) shows at a spot, see [`spots_of`], and overwrites its
+    /// verdict: with the verdict and mean pose of all frames, or with the reason why its own verdict does not count. `middle`
+    /// is the middle of the named part, part space, metres.
     pub fn judge(
         &mut self,
+        spot: usize,
         inspection: &mut Inspection,
         middle: Option<Point3<f64>>,
         accept: &AcceptParams,
     ) -> LiveVerdict {
-        self.consensus.add(self.last_at, inspection, middle);
+        while self.consensus.len() <= spot {
+            self.consensus
+                .push(Consensus::new(self.consensus_params.clone()));
+        }
+        let consensus = &mut self.consensus[spot];
+        consensus.add(self.last_at, inspection, middle);
         let standing = match self.steady.stillness() {
             MotionState::Watching | MotionState::Moving => LiveVerdict::Open,
             MotionState::Steady { since, .. } => {
-                if let Some(agreed) = self.consensus.agreed(since, accept) {
+                if let Some(agreed) = consensus.agreed(since, accept) {
                     LiveVerdict::Counted(Box::new(unless_out_of_line(agreed, inspection)))
                 } else {
-                    let (num_frames, needed) = self.consensus.gathered(since);
+                    let (num_frames, needed) = consensus.gathered(since);
                     LiveVerdict::Gathering { num_frames, needed }
                 }
             }

@@ -43,7 +43,7 @@ fn a_part_is_accepted_once_it_hangs_still_and_no_longer_when_it_moves() {
             }
             let mut inspection = run(&scene, &library, &recipe, &Unwatched).expect("not cancelled");
             let own = inspection.verdict.is_accepted();
-            let standing = watch.judge(&mut inspection, None, &recipe.accept);
+            let standing = watch.judge(0, &mut inspection, None, &recipe.accept);
             Some((number, own, standing, inspection.verdict))
         });
         states.flatten().collect::<Vec<_>>()

@@ -60,7 +60,7 @@ pub const PARAMETERS: &[Parameter] = &[
         "Neighbouring points further apart than this (plus the noise) are not connected. Raising it joins what hangs close to the part, lowering it tears the part."),
     number!("segment.max_parts", "Parts at most", Segmentation, Fold, None, [1.0, stages::segment::MAX_PARTS as f64], 0,
         |r| r.segment.max_parts as f64, |r, v| r.segment.max_parts = v.round() as usize,
-        "How many parts of a frame are inspected; Live, scans and `--source` inspect the likeliest. Raising it costs the time of an inspection for each further surface."),
+        "How many parts of a frame are inspected; scans inspect the likeliest. Raising it costs the time of an inspection for each further surface."),
     number!("segment.min_part_area", "Least part area", Segmentation, Fold, SquareCentimetres, [10.0, 10_000.0], 0,
         |r| r.segment.min_part_area, |r, v| r.segment.min_part_area = v,
         "Smaller surfaces are no part. Raising it refuses small parts, lowering it takes clutter for parts."),

@@ -1,4 +1,4 @@
-//! What goes into the history of triggers: an inspection of the part that hangs before the source, beside the one that
+//! What goes into the history of triggers: an inspection of each part that hangs before the source, beside the one that
 //! Live writes of it.
 
 use std::sync::{
@@ -8,9 +8,11 @@ use std::sync::{
 
 use crate::source::live::FollowedParts;
 use geometry::error::lock;
-use records::history::{HungId, NewEntry, Writer};
+use inspection::pipeline::{Inspection, NamedRecipe};
+use records::history::{NewEntry, SpotIds, Writer};
+use stages::scene::SceneCloud;
 
-/// Inspections that wait for Live at most, 4 MB each; usually one does, for as long as Live needs for a frame.
+/// Frames that wait for Live at most, about 10 MB each; usually one does, for as long as Live needs for a frame.
 const MAX_WAITING: usize = 4;
 /// First number of these inspections for the history, beyond those of the window's own inspections.
 const FIRST_TICKET: u64 = 1 << 63;
@@ -20,13 +22,23 @@ const FIRST_TICKET: u64 = 1 << 63;
 pub(super) struct TriggerRows {
     writer: Writer,
     parts: Arc<Mutex<FollowedParts>>,
-    waiting: Vec<WaitingRow>,
+    waiting: Vec<WaitingFrame>,
     num_written: u64,
 }
 
-struct WaitingRow {
-    entry: NewEntry,
-    part: Receiver<HungId>,
+/// A frame that was inspected for a trigger.
+pub(super) struct AnsweredScene {
+    pub(super) scene: Arc<SceneCloud>,
+    /// Its parts, at least one.
+    pub(super) inspections: Vec<Inspection>,
+    pub(super) recipe: NamedRecipe,
+}
+
+struct WaitingFrame {
+    /// One for each part.
+    entries: Vec<NewEntry>,
+    frame: AnsweredScene,
+    parts: Receiver<SpotIds>,
 }
 
 impl TriggerRows {
@@ -39,9 +51,18 @@ impl TriggerRows {
         }
     }
 
-    /// Adds an inspection, with the answer of [`FollowedParts::part_of_frame`] about its frame.
-    pub(super) fn add(&mut self, entry: NewEntry, part: Receiver<HungId>) {
-        self.waiting.push(WaitingRow { entry, part });
+    /// Adds the entries of the parts of a frame, with the answer of [`FollowedParts::parts_of_frame`] about it.
+    pub(super) fn add(
+        &mut self,
+        entries: Vec<NewEntry>,
+        frame: AnsweredScene,
+        parts: Receiver<SpotIds>,
+    ) {
+        self.waiting.push(WaitingFrame {
+            entries,
+            frame,
+            parts,
+        });
         self.write(MAX_WAITING);
     }
 
@@ -50,26 +71,39 @@ impl TriggerRows {
         self.write(if is_followed { MAX_WAITING } else { 0 });
     }
 
-    /// Passes on all inspections except the newest ones whose part is not known yet, up to `max_waiting`.
+    /// Passes on all inspections except the newest frames whose parts are not known yet, up to `max_waiting`.
     fn write(&mut self, max_waiting: usize) {
         let waiting = std::mem::take(&mut self.waiting);
         let num_over = waiting.len().saturating_sub(max_waiting);
-        for (place, WaitingRow { mut entry, part }) in waiting.into_iter().enumerate() {
-            let summary = &mut entry.record.summary;
-            match part.try_recv() {
-                Ok(hung) => summary.hung = hung,
+        for (place, mut waiting) in waiting.into_iter().enumerate() {
+            let ids = match waiting.parts.try_recv() {
+                Ok(ids) => Some(ids),
                 Err(TryRecvError::Empty) if place >= num_over => {
-                    self.waiting.push(WaitingRow { entry, part });
+                    self.waiting.push(waiting);
                     continue;
                 }
                 Err(TryRecvError::Empty) => {
-                    summary.hung = lock(&self.parts).part_now(&summary.source, false);
+                    let source = &waiting.entries[0].record.summary.source;
+                    lock(&self.parts).ids_now(source, false)
                 }
-                // Live follows another source by now: it keeps its own.
-                Err(TryRecvError::Disconnected) => {}
+                // Live follows another source by now: each keeps its own.
+                Err(TryRecvError::Disconnected) => None,
+            };
+            if let Some(ids) = ids {
+                let AnsweredScene {
+                    scene,
+                    inspections,
+                    recipe,
+                } = &waiting.frame;
+                let hung = ids.of(inspections, scene, recipe);
+                for (entry, hung) in waiting.entries.iter_mut().zip(hung) {
+                    entry.record.summary.hung = hung;
+                }
             }
-            self.writer.add(FIRST_TICKET + self.num_written, entry);
-            self.num_written += 1;
+            for entry in waiting.entries {
+                self.writer.add(FIRST_TICKET + self.num_written, entry);
+                self.num_written += 1;
+            }
         }
     }
 
@@ -90,10 +124,19 @@ mod tests {
     use std::sync::mpsc::channel;
 
     use super::*;
+    use inspection::pipeline::live::nothing_there;
     use records::{
         fixtures::history_entry,
-        history::{Filter, HistoryBuffer, StoredVerdict},
+        history::{Filter, HistoryBuffer, HungId, HungSpots, StoredVerdict},
     };
+
+    fn frame() -> AnsweredScene {
+        AnsweredScene {
+            scene: Arc::default(),
+            inspections: vec![nothing_there()],
+            recipe: NamedRecipe::default(),
+        }
+    }
 
     fn entry(seconds: i64) -> NewEntry {
         history_entry(seconds, StoredVerdict::Accepted, "fender")
@@ -111,12 +154,13 @@ mod tests {
         let writer = Writer::start(Arc::clone(&history), || ()).expect("a thread");
         let mut rows = TriggerRows::new(writer, Arc::default());
         let (tell, part) = channel();
-        rows.add(entry(1), part);
+        rows.add(vec![entry(1)], frame(), part);
         rows.update(true);
         rows.writer.finish();
         assert!(written(&history).is_empty());
-        let first = HungId::new();
-        tell.send(first.clone()).expect("waited for");
+        let ids = HungSpots::<NewEntry>::default().ids(None);
+        let first = ids.all().next().expect("a spot").clone();
+        tell.send(ids).expect("waited for");
         rows.update(true);
         rows.writer.finish();
         assert_eq!(written(&history), std::slice::from_ref(&first));
@@ -124,12 +168,12 @@ mod tests {
         // Live follows another source.
         let (tell, part) = channel();
         drop(tell);
-        rows.add(entry(2), part);
+        rows.add(vec![entry(2)], frame(), part);
         rows.writer.finish();
         assert_eq!(written(&history).len(), 2);
         // It follows none any more, before it has told.
         let (_told_late, part) = channel();
-        rows.add(entry(3), part);
+        rows.add(vec![entry(3)], frame(), part);
         rows.update(false);
         rows.writer.finish();
         assert_eq!(written(&history).len(), 3);
@@ -137,7 +181,7 @@ mod tests {
         // It is slow: what was waited for longest waits no more.
         let (_tells, parts): (Vec<_>, Vec<_>) = (0..=MAX_WAITING).map(|_| channel()).unzip();
         for (seconds, part) in (4..).zip(parts) {
-            rows.add(entry(seconds), part);
+            rows.add(vec![entry(seconds)], frame(), part);
         }
         rows.writer.finish();
         assert_eq!(written(&history).len(), 4);

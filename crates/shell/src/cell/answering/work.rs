@@ -13,7 +13,7 @@ use std::{
 
 use jiff::Timestamp;
 
-use super::rows::TriggerRows;
+use super::rows::{AnsweredScene, TriggerRows};
 use crate::{
     inspection::{
         inspected::entry_of,
@@ -31,7 +31,7 @@ use inspection::{
     pipeline::{Expected, NamedRecipe, ProgressObserver as _, Unwatched},
 };
 use records::{
-    history::{HungId, Traceability, Writer},
+    history::{HungId, SpotIds, Traceability, Writer},
     report::segmentation_picture,
 };
 use robot::RobotFrame;
@@ -254,23 +254,25 @@ struct AnsweredFrame {
     answered: Answered,
     library: Arc<LibraryView>,
     trace: Traceability,
-    /// Tells which part it is.
-    part: Receiver<HungId>,
+    /// Tells which parts they are.
+    part: Receiver<SpotIds>,
 }
 
 /// The parts of the frame that was answered last.
 struct AnsweredParts {
     names: Vec<String>,
-    /// Which part hangs there as far as was known when its frame came, then also as Live saw it.
+    /// Which parts hang there as far as was known when its frame came, then also as Live saw it.
     hung: Vec<HungId>,
     /// Tells what Live saw.
-    hung_reports: Receiver<HungId>,
+    hung_reports: Receiver<SpotIds>,
 }
 
 impl AnsweredParts {
     /// What each of them really is, if a person has reported it as wrong.
     fn reported_as(&mut self, parts: &Mutex<FollowedParts>) -> Vec<Option<Truth>> {
-        self.hung.extend(self.hung_reports.try_recv().ok());
+        let reports = self.hung_reports.try_recv().ok();
+        let reported = reports.iter().flat_map(SpotIds::all);
+        self.hung.extend(reported.cloned());
         let parts = lock(parts);
         let reported_as = |name: &String| {
             let mut hung = self.hung.iter();
@@ -306,9 +308,9 @@ impl Inspector for AnsweringSession<'_> {
         let source = spec.to_string();
         // At once: by the end of the inspection another part may hang there.
         let mut parts = lock(self.parts);
-        let hung = vec![parts.part_now(&source, true)];
+        let hung = parts.ids_now(&source, true);
         let [part, hung_reports] =
-            [(); 2].map(|()| parts.part_of_frame(source.clone(), captured.arrived));
+            [(); 2].map(|()| parts.parts_of_frame(source.clone(), captured.arrived));
         drop(parts);
         let num_dropped = self.camera.feed_status().num_dropped;
         let origin = Origin::of_capture(&captured, spec, num_dropped);
@@ -335,7 +337,7 @@ impl Inspector for AnsweringSession<'_> {
         let mut found = answered.found.clone();
         let mut answered_parts = AnsweredParts {
             names: found.iter().map(|part| part.part.clone()).collect(),
-            hung,
+            hung: hung.iter().flat_map(SpotIds::all).cloned().collect(),
             hung_reports,
         };
         for (part, actual) in found.iter_mut().zip(answered_parts.reported_as(self.parts)) {
@@ -484,20 +486,29 @@ impl AnsweringSession<'_> {
             part,
         } = last;
         let parts = answered.parts(&self.finder.robot);
-        // Live follows one part: of several, it is not known which.
-        let mut part = Some(part).filter(|_| parts.len() == 1);
-        for inspected in &parts {
+        let entry = |inspected: &station::Inspected<'_>| {
             let picture = segmentation_picture(inspected.scene, &inspected.inspection.segmentation);
-            let entry = entry_of(
+            entry_of(
                 inspected,
                 &origin,
                 &library,
                 trace.clone(),
                 picture.as_ref(),
-            );
-            let part = part.take().unwrap_or_else(|| mpsc::channel().1);
-            self.rows.add(entry, part);
-        }
+            )
+        };
+        let entries = parts.iter().map(entry).collect();
+        let Answered {
+            scene,
+            inspections,
+            recipe,
+            ..
+        } = answered;
+        let frame = AnsweredScene {
+            scene,
+            inspections,
+            recipe,
+        };
+        self.rows.add(entries, frame, part);
         self.tell_dropped();
     }
 

@@ -25,8 +25,8 @@ pub struct LiveState {
     pub setup: Option<SimulatedSpec>,
     /// The parts that hang before it.
     pub(crate) parts: Arc<Mutex<FollowedParts>>,
-    /// The latest inspection, if another workspace was in front and nothing newer has been shown since.
-    pub unseen: Option<Arc<Inspected>>,
+    /// The parts of the latest frame, if another workspace was in front and nothing newer has been shown since.
+    pub unseen: Vec<Arc<Inspected>>,
 }
 
 /// Actions on the followed source.

@@ -2,6 +2,7 @@
 //! told which part that frame shows.
 
 use std::{
+    collections::VecDeque,
     mem,
     sync::{
         Arc,
@@ -12,18 +13,19 @@ use std::{
 
 use crate::{inspection::inspected::Inspected, trace::current_trace::CurrentTrace};
 use capture::SourceSpec;
-use inspection::library::Truth;
-use records::history::{HungId, HungRows, TraceChange, Traceability};
+use inspection::{library::Truth, pipeline::Inspection};
+use records::history::{HungId, HungSpots, SpotIds, StoredVerdict, TraceChange, Traceability};
+use stages::segment::MAX_PARTS;
 
-/// The parts before a source, one after the other.
+/// The parts before a source, side by side or one after the other.
 #[derive(Debug, Default)]
 pub(crate) struct FollowedParts {
     source: String,
-    pub(super) rows: HungRows<Arc<Inspected>>,
-    /// The part whose verdict counted last, and its traceability.
-    pub(super) counted: Option<(HungId, Traceability)>,
-    /// The last part with a true label.
-    labelled: Option<(HungId, Truth)>,
+    pub(super) spots: HungSpots<Arc<Inspected>>,
+    /// The parts whose verdicts counted last, the newest first, and their traceability.
+    counted: VecDeque<(HungId, Traceability)>,
+    /// The last parts with a true label, the newest first.
+    labelled: VecDeque<(HungId, Truth)>,
     /// Frames whose part is asked for, until Live has seen one as new.
     asked: Vec<AskedFrame>,
 }
@@ -32,28 +34,31 @@ pub(crate) struct FollowedParts {
 struct AskedFrame {
     source: String,
     arrived: Instant,
-    tell: Sender<HungId>,
+    tell: Sender<SpotIds>,
 }
 
+/// Parts that are remembered after their verdict: more than hang there at the same time.
+const MAX_REMEMBERED: usize = 2 * MAX_PARTS;
+
 impl FollowedParts {
-    /// Starts over if this is not the same source as before. Returns the inspection of the part that hangs before the
-    /// former source, if its verdict does not count yet.
-    pub(super) fn begin(&mut self, source: &SourceSpec) -> Option<Arc<Inspected>> {
+    /// Starts over if this is not the same source as before. Returns the inspections of the parts that hang before the
+    /// former source and whose verdicts do not count yet.
+    pub(super) fn begin(&mut self, source: &SourceSpec) -> Vec<Arc<Inspected>> {
         let source = source.to_string();
         if self.source == source {
-            return None;
+            return Vec::new();
         }
         // Live sees none of the former source's frames any more.
-        let part = self.rows.id_of_frame(false);
+        let ids = self.spots.ids(Some(false));
         self.asked.retain(|frame| {
             let is_former = frame.source == self.source;
             if is_former {
                 // The receiver may be gone.
-                let _ = frame.tell.send(part.clone());
+                let _ = frame.tell.send(ids.clone());
             }
             !is_former
         });
-        let left = self.rows.take_best();
+        let left = self.spots.take_best();
         *self = Self {
             source,
             // They may be of this source: whoever asks may be faster than Live.
@@ -63,111 +68,127 @@ impl FollowedParts {
         left
     }
 
-    /// Asks which part a frame of this source shows. The answer comes once Live has seen that frame or a later one, or goes
+    /// Asks which parts a frame of this source shows. The answer comes once Live has seen that frame or a later one, or goes
     /// on to another source; none comes, and the sender is dropped, if Live follows another source already.
-    pub(crate) fn part_of_frame(&mut self, source: String, arrived: Instant) -> Receiver<HungId> {
-        let (tell, part) = channel();
+    pub(crate) fn parts_of_frame(&mut self, source: String, arrived: Instant) -> Receiver<SpotIds> {
+        let (tell, parts) = channel();
         self.asked.push(AskedFrame {
             source,
             arrived,
             tell,
         });
-        part
+        parts
     }
 
-    /// The part that a frame of this source shows as far as is known now, without waiting for Live; a new one if Live follows
+    /// The parts that a frame of this source may show as far as is known now, without waiting for Live; `None` if Live follows
     /// another source.
-    pub(crate) fn part_now(&self, source: &str, shows_part: bool) -> HungId {
-        if self.source == source {
-            self.rows.id_of_frame(shows_part)
-        } else {
-            HungId::new()
-        }
+    pub(crate) fn ids_now(&self, source: &str, shows_part: bool) -> Option<SpotIds> {
+        (self.source == source).then(|| self.spots.ids(Some(shows_part)))
     }
 
-    /// The traceability of the part that hangs there, if its verdict has counted.
-    pub(super) fn trace_of_hanging(&self) -> Option<&Traceability> {
-        let hanging = self.rows.id_of_frame(false);
-        let (part, trace) = self.counted.as_ref()?;
-        (*part == hanging).then_some(trace)
+    /// The verdict of a part counts, with this traceability.
+    pub(super) fn counts(&mut self, part: HungId, trace: Traceability) {
+        self.counted.push_front((part, trace));
+        self.counted.truncate(MAX_REMEMBERED);
+    }
+
+    /// The traceability of a part, if its verdict has counted.
+    pub(super) fn trace_of(&self, part: &HungId) -> Option<&Traceability> {
+        let mut counted = self.counted.iter();
+        let (_, trace) = counted.find(|(counted, _)| counted == part)?;
+        Some(trace)
+    }
+
+    /// The traceability of the part that hangs at a spot, if its verdict has counted.
+    pub(super) fn trace_of_hanging(&mut self, spot: usize) -> Option<&Traceability> {
+        let hanging = self.spots.at(spot).id_of_frame(false);
+        self.trace_of(&hanging)
     }
 
     /// The traceability of this part changed after its verdict.
     pub(crate) fn traced(&mut self, part: &HungId, change: &TraceChange) {
-        if let Some((counted, known)) = &mut self.counted
-            && *counted == *part
-        {
+        let mut counted = self.counted.iter_mut();
+        if let Some((_, known)) = counted.find(|(counted, _)| counted == part) {
             *known = mem::take(known).changed(change);
         }
     }
 
     /// Takes over the true label of a part, or that it has none.
     pub(crate) fn label(&mut self, part: &HungId, label: Option<&Truth>) {
-        match label {
-            Some(label) => self.labelled = Some((part.clone(), label.clone())),
-            None => {
-                self.labelled.take_if(|(known, _)| known == part);
-            }
+        self.labelled.retain(|(known, _)| known != part);
+        if let Some(label) = label {
+            self.labelled.push_front((part.clone(), label.clone()));
+            self.labelled.truncate(MAX_REMEMBERED);
         }
     }
 
     /// What this part really is, if a person has reported that it is none of this name.
     pub(crate) fn reported_as(&self, part: &HungId, name: &str) -> Option<Truth> {
-        let (known, label) = self.labelled.as_ref()?;
-        let is_wrong = known == part && label.part() != Some(name);
-        is_wrong.then(|| label.clone())
+        let mut labelled = self.labelled.iter();
+        let (_, label) = labelled.find(|(known, _)| known == part)?;
+        (label.part() != Some(name)).then(|| label.clone())
     }
 
-    /// The part that a capture of this source shows, which is taken in place of Live, and the traceability of that
-    /// inspection. A part whose verdict has counted keeps its own serial number: the waiting one is of the next part.
-    pub(crate) fn of_capture(
-        &self,
-        source: &str,
-        shows_part: bool,
-        current: &CurrentTrace,
-    ) -> (HungId, Traceability) {
-        let part = self.part_now(source, shows_part);
-        let trace = match &self.counted {
-            Some((counted, trace))
-                if *counted == part && (!trace.serial.is_empty() || current.is_late_of(&part)) =>
-            {
-                trace.clone()
-            }
-            _ => current.take(shows_part),
+    /// Gives the inspections of a capture, which is taken in place of Live, their parts and the traceability of those. A part
+    /// whose verdict has counted keeps its own serial number: the waiting one is of the next part.
+    pub(crate) fn assign_capture(&mut self, found: &mut [Inspected], current: &CurrentTrace) {
+        let first = &found[0];
+        let hung = if self.source == first.entry.record.summary.source {
+            let inspections: Vec<&Inspection> = found.iter().map(|one| &one.inspection).collect();
+            (self.spots).ids_of(&inspections, &first.scene, &first.recipe)
+        } else {
+            found.iter().map(|one| one.hung().clone()).collect()
         };
-        (part, trace)
+        let summaries = found.iter().map(|one| &one.entry.record.summary);
+        let shows_any = summaries
+            .into_iter()
+            .any(|one| one.verdict != StoredVerdict::NoPart);
+        let mut taken = None;
+        for (one, hung) in found.iter_mut().zip(hung) {
+            let known = self.trace_of(&hung);
+            let known = known.filter(|trace| !trace.serial.is_empty() || current.is_late_of(&hung));
+            let trace = match known {
+                Some(trace) => trace.clone(),
+                None => taken.get_or_insert_with(|| current.take(shows_any)).clone(),
+            };
+            one.set_part(hung, trace);
+        }
     }
 
-    /// Live has seen a frame that came then, after [`HungRows::see`].
-    pub(super) fn seen(&mut self, arrived: Instant, shows_part: bool) {
-        let part = self.rows.id_of_frame(shows_part);
-        self.answer(arrived, |_| Some(part.clone()));
+    /// Live has seen a frame that came then, after [`HungSpots::see`] of all its parts.
+    pub(super) fn seen(&mut self, arrived: Instant) {
+        let ids = self.spots.ids(None);
+        self.answer(arrived, |_| Some(ids.clone()));
     }
 
-    /// Live has inspected a capture that stands for itself, under this id.
-    pub(super) fn seen_alone(&mut self, arrived: Instant, id: &HungId) {
+    /// Live has inspected a capture that stands for itself, with these parts.
+    pub(super) fn seen_alone(&mut self, arrived: Instant, parts: &[Arc<Inspected>]) {
+        let found = parts.iter().map(|part| (&part.inspection, part.hung()));
+        let found: Vec<_> = found.collect();
+        let ids = SpotIds::of_frame(&parts[0].scene, &found);
         self.answer(arrived, |frame| {
-            (frame.arrived == arrived).then(|| id.clone())
+            (frame.arrived == arrived).then(|| ids.clone())
         });
     }
 
-    /// The source has ended: the inspection of a part that still hangs there without a verdict that counts.
-    pub(super) fn end(&mut self) -> Option<Arc<Inspected>> {
-        self.seen(Instant::now(), false);
-        self.rows.end()
+    /// The source has ended: the inspections of parts that still hang there without a verdict that counts.
+    pub(super) fn end(&mut self) -> Vec<Arc<Inspected>> {
+        let ids = self.spots.ids(Some(false));
+        self.answer(Instant::now(), |_| Some(ids.clone()));
+        self.spots.end()
     }
 
     /// Answers for all frames that came until then.
-    fn answer(&mut self, until: Instant, part_of: impl Fn(&AskedFrame) -> Option<HungId>) {
+    fn answer(&mut self, until: Instant, ids_of: impl Fn(&AskedFrame) -> Option<SpotIds>) {
         let source = &self.source;
         self.asked.retain(|frame| {
             let is_due = frame.arrived <= until;
             if is_due
                 && frame.source == *source
-                && let Some(part) = part_of(frame)
+                && let Some(ids) = ids_of(frame)
             {
                 // The receiver may be gone.
-                let _ = frame.tell.send(part);
+                let _ = frame.tell.send(ids);
             }
             !is_due
         });
@@ -179,9 +200,45 @@ mod tests {
     use std::{sync::mpsc::TryRecvError, time::Duration};
 
     use super::*;
+    use crate::inspection::{
+        inspected::{InspectRequest, inspect_all, inspected_cell},
+        library_cache::LibraryCache,
+        source::{CellChoice, Origin, SceneSource},
+    };
+    use geometry::rigid::RigidTransform;
+    use inspection::pipeline::{
+        NamedRecipe, Recipe, Unwatched,
+        live::{FrameRole, HungFrame, LiveVerdict, MotionState},
+    };
+    use simulate::{RackKind, RackSetup, SensorNoise, StandingRack};
+    use stages::scene::{SceneCloud, scene_from_frame};
+
+    /// A frame after which no verdict counts.
+    fn frame_of<'a>(scene: &'a SceneCloud, inspection: &'a Inspection) -> HungFrame<'a> {
+        HungFrame {
+            scene,
+            at: Duration::from_secs(1),
+            inspection,
+            verdict: &LiveVerdict::Open,
+            middle: None,
+            inputs: "",
+        }
+    }
 
     fn sources() -> [SourceSpec; 2] {
         ["simulated", "simulated:empty"].map(|text| text.parse().expect("a source"))
+    }
+
+    /// The only part that was told.
+    fn told(part: &Receiver<SpotIds>) -> Result<HungId, TryRecvError> {
+        let ids = part.try_recv()?;
+        let all: Vec<&HungId> = ids.all().collect();
+        assert_eq!(all.len(), 1);
+        Ok(all[0].clone())
+    }
+
+    fn next_part(parts: &mut FollowedParts) -> HungId {
+        parts.spots.at(0).id_of_frame(true)
     }
 
     #[test]
@@ -191,22 +248,24 @@ mod tests {
         let later = begun + Duration::from_secs(1);
         let mut parts = FollowedParts::default();
         // Before Live has seen anything.
-        let part = parts.part_of_frame(one.to_string(), later);
-        let of_other = parts.part_of_frame(other.to_string(), later);
-        assert!(parts.begin(&one).is_none());
-        parts.seen(begun, true);
-        assert_eq!(part.try_recv(), Err(TryRecvError::Empty));
-        parts.seen(later, true);
-        assert_eq!(part.try_recv(), Ok(parts.rows.id_of_frame(true)));
-        assert_eq!(of_other.try_recv(), Err(TryRecvError::Disconnected));
+        let part = parts.parts_of_frame(one.to_string(), later);
+        let of_other = parts.parts_of_frame(other.to_string(), later);
+        assert!(parts.begin(&one).is_empty());
+        let seen = inspected_cell(CellChoice::InTurn, 1);
+        parts.spots.see(0, &frame_of(&seen.scene, &seen.inspection));
+        parts.seen(begun);
+        assert_eq!(told(&part), Err(TryRecvError::Empty));
+        parts.seen(later);
+        assert_eq!(told(&part), Ok(next_part(&mut parts)));
+        assert_eq!(told(&of_other), Err(TryRecvError::Disconnected));
 
         // Live goes on to another source before it has seen a frame as new, and whoever asks is still at the one before.
-        let last = parts.part_of_frame(one.to_string(), later);
-        assert!(parts.begin(&other).is_none());
-        last.try_recv().expect("told at the change");
-        let late = parts.part_of_frame(one.to_string(), later);
-        parts.seen(later, true);
-        assert_eq!(late.try_recv(), Err(TryRecvError::Disconnected));
+        let last = parts.parts_of_frame(one.to_string(), later);
+        assert!(parts.begin(&other).is_empty());
+        told(&last).expect("told at the change");
+        let late = parts.parts_of_frame(one.to_string(), later);
+        parts.seen(later);
+        assert_eq!(told(&late), Err(TryRecvError::Disconnected));
     }
 
     #[test]
@@ -216,27 +275,31 @@ mod tests {
         let second = first + Duration::from_secs(1);
         let mut parts = FollowedParts::default();
         let [of_first, of_second] =
-            [first, second].map(|arrived| parts.part_of_frame(one.to_string(), arrived));
-        let id = HungId::new();
-        assert!(parts.begin(&one).is_none());
-        parts.seen_alone(first, &id);
-        assert_eq!(of_first.try_recv(), Ok(id));
-        assert_eq!(of_second.try_recv(), Err(TryRecvError::Empty));
+            [first, second].map(|arrived| parts.parts_of_frame(one.to_string(), arrived));
+        let inspected = || Arc::new(inspected_cell(CellChoice::InTurn, 1));
+        let capture = inspected();
+        assert!(parts.begin(&one).is_empty());
+        parts.seen_alone(first, &[Arc::clone(&capture)]);
+        assert_eq!(told(&of_first), Ok(capture.hung().clone()));
+        assert_eq!(told(&of_second), Err(TryRecvError::Empty));
         // One that Live could not inspect.
         let after = second + Duration::from_secs(1);
-        parts.seen_alone(after, &HungId::new());
-        assert_eq!(of_second.try_recv(), Err(TryRecvError::Disconnected));
+        parts.seen_alone(after, &[inspected()]);
+        assert_eq!(told(&of_second), Err(TryRecvError::Disconnected));
     }
 
     #[test]
     fn without_waiting_an_inspection_is_of_no_part_before_another_source() {
         let [one, other] = sources();
         let mut parts = FollowedParts::default();
-        let part = parts.part_of_frame(one.to_string(), Instant::now());
-        assert!(parts.begin(&one).is_none() && parts.end().is_none());
-        part.try_recv().expect("told at the end");
-        let now = [&one, &other, &one].map(|source| parts.part_now(&source.to_string(), false));
-        assert_ne!(now[0], now[1]);
+        let part = parts.parts_of_frame(one.to_string(), Instant::now());
+        assert!(parts.begin(&one).is_empty() && parts.end().is_empty());
+        told(&part).expect("told at the end");
+        let now = [&one, &other, &one].map(|source| {
+            let ids = parts.ids_now(&source.to_string(), false);
+            ids.and_then(|ids| ids.all().next().cloned())
+        });
+        assert!(now[1].is_none());
         assert_ne!(now[0], now[2], "nothing hangs there");
     }
 
@@ -265,27 +328,88 @@ mod tests {
     fn a_capture_in_place_of_live_takes_the_serial_number_unless_its_part_has_one() {
         let [one, other] = sources();
         let mut parts = FollowedParts::default();
-        assert!(parts.begin(&one).is_none());
+        assert!(parts.begin(&one).is_empty());
         let current = CurrentTrace::default();
-        let capture = |parts: &FollowedParts, source: &SourceSpec| {
+        let capture = |parts: &mut FollowedParts, source: &SourceSpec| {
             current.set_serial("4712");
-            let (part, trace) = parts.of_capture(&source.to_string(), true, &current);
-            (part, trace.serial, current.get().serial)
+            let mut found = [inspected_cell(CellChoice::InTurn, 1)];
+            found[0].entry.record.summary.source = source.to_string();
+            parts.assign_capture(&mut found, &current);
+            let serial = found[0].trace().serial.clone();
+            (found[0].hung().clone(), serial, current.get().serial)
         };
-        let (part, taken, left) = capture(&parts, &one);
-        assert_eq!(
-            (part, &*taken, &*left),
-            (parts.rows.id_of_frame(true), "4712", "")
-        );
+        let (part, taken, left) = capture(&mut parts, &one);
+        assert_eq!((part, &*taken, &*left), (next_part(&mut parts), "4712", ""));
         let its_own = Traceability {
             serial: "4711".into(),
             ..Traceability::default()
         };
-        parts.counted = Some((parts.rows.id_of_frame(true), its_own));
-        let (_, taken, left) = capture(&parts, &one);
+        let next = next_part(&mut parts);
+        parts.counts(next.clone(), its_own);
+        let (_, taken, left) = capture(&mut parts, &one);
         assert_eq!((&*taken, &*left), ("4711", "4712"));
-        let (part, taken, left) = capture(&parts, &other);
-        assert_ne!(part, parts.rows.id_of_frame(true));
+        let (part, taken, left) = capture(&mut parts, &other);
+        assert_ne!(part, next);
         assert_eq!((&*taken, &*left), ("4712", ""));
+    }
+
+    #[test]
+    fn a_capture_of_several_parts_is_of_the_parts_that_live_saw() {
+        let setup = RackSetup::drawn(RackKind::Apart, 3, 0, 1).expect("in range");
+        let rack = StandingRack::arrange(&setup).expect("in range");
+        let mut recipe = Recipe::default();
+        recipe.segment.max_parts = 3;
+        let recipe = Arc::new(NamedRecipe::from(recipe));
+        let taken = |seed, away: Option<usize>| {
+            let here = |part| (Some(part) != away).then(RigidTransform::identity);
+            let frame = rack.frame(here, &SensorNoise::kinect(seed));
+            let request = InspectRequest {
+                source: SceneSource::AtHand(
+                    Arc::new(scene_from_frame(&frame)),
+                    Origin::File {
+                        path: "rack.png".into(),
+                        is_simulated: true,
+                    },
+                ),
+                recipe: Arc::clone(&recipe),
+            };
+            let parts = inspect_all(&request, &LibraryCache::default(), &Unwatched);
+            let mut parts = parts.expect("inspected");
+            for part in &mut parts {
+                part.entry.record.summary.source = "rack".into();
+            }
+            parts
+        };
+        let mut parts = FollowedParts {
+            source: "rack".into(),
+            ..FollowedParts::default()
+        };
+        // Live sees two of them.
+        let seen = taken(1, Some(1));
+        let found: Vec<Inspection> = seen.iter().map(|one| one.inspection.clone()).collect();
+        let scene = &seen[0].scene;
+        let at_spots = (parts.spots).of_frame(&found, scene, MotionState::Watching, &recipe);
+        assert_eq!(at_spots, [Some(0), Some(1)]);
+        for (spot, inspection) in found.iter().enumerate() {
+            let frame = frame_of(scene, inspection);
+            assert_eq!(parts.spots.see(spot, &frame).1, FrameRole::Best);
+        }
+        let [left, right] = [0, 1].map(|spot| parts.spots.at(spot).id().clone());
+        assert_ne!(left, right);
+        // The capture has one more, between them.
+        let mut capture = taken(2, None);
+        parts.assign_capture(&mut capture, &CurrentTrace::default());
+        let hung: Vec<&HungId> = capture.iter().map(Inspected::hung).collect();
+        let names: Vec<_> = capture.iter().map(Inspected::part_title).collect();
+        assert_eq!(hung.len(), 3, "{names:?}");
+        assert_eq!([hung[0], hung[2]], [&left, &right], "{names:?}");
+        assert!(![&left, &right].contains(&hung[1]));
+        // Live sees that one next, and whoever asks about a frame is told the same.
+        let ids = parts.spots.ids(Some(true));
+        assert!(ids.all().any(|id| id == hung[1]));
+        let again = taken(3, None);
+        let found: Vec<Inspection> = again.iter().map(|one| one.inspection.clone()).collect();
+        let ids = ids.of(&found, &again[0].scene, &recipe);
+        assert_eq!(ids.iter().collect::<Vec<_>>(), hung);
     }
 }

@@ -20,7 +20,7 @@ fn noises() -> [(String, f64); 3] {
         (text!("live-three-times"), 3.0),
     ]
 }
-/// Seconds that each part of the line hangs there.
+/// Seconds that each part or rack of the line hangs there.
 const EVERY: f64 = 8.0;
 /// Largest number of a car model that can be chosen.
 const MAX_MODEL: u64 = 999;
@@ -131,11 +131,12 @@ fn choice<T: PartialEq>(ui: &mut Ui, value: &mut T, this: T, text: String) {
 
 /// Returns everything that can hang in the cell; the line keeps its pace if it is running.
 fn scenes(now: CellScene) -> impl Iterator<Item = CellScene> {
-    let line = match now {
-        CellScene::Line { .. } => now,
-        _ => CellScene::Line { every: EVERY },
+    let every = match now {
+        CellScene::Line { every } | CellScene::Rack { every } => every,
+        _ => EVERY,
     };
-    std::iter::once(line)
+    [CellScene::Line { every }, CellScene::Rack { every }]
+        .into_iter()
         .chain(PartKind::ALL.into_iter().map(CellScene::Part))
         .chain(ObjectKind::ALL.into_iter().map(CellScene::Object))
         .chain([CellScene::Empty])
@@ -144,6 +145,7 @@ fn scenes(now: CellScene) -> impl Iterator<Item = CellScene> {
 fn scene_title(scene: CellScene) -> String {
     match scene {
         CellScene::Line { every } => text!("live-line-runs", seconds = format!("{every:.0}")),
+        CellScene::Rack { every } => text!("live-racks-run", seconds = format!("{every:.0}")),
         CellScene::Part(kind) => kind.title().to_owned(),
         CellScene::Object(kind) => text!("shell-not-enrolled", what = object(kind)),
         CellScene::Empty => text!("live-nothing"),

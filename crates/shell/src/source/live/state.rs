@@ -1,6 +1,7 @@
 //! State of the followed source in the window, and the actions on it.
 
 use std::{
+    mem,
     sync::{
         Arc,
         mpsc::{Receiver, SyncSender, sync_channel},
@@ -44,8 +45,8 @@ pub struct Follower {
     run: u64,
     /// The notice shown while the source is lost.
     lost: Option<Notice>,
-    /// The newest capture of a watched folder, to be inspected again.
-    again: Option<Arc<Inspected>>,
+    /// The parts of the newest capture of a watched folder, to be inspected again.
+    again: Vec<Arc<Inspected>>,
 }
 
 impl Follower {
@@ -60,7 +61,7 @@ impl Follower {
             session: 0,
             run: 0,
             lost: None,
-            again: None,
+            again: Vec::new(),
         }
     }
 
@@ -142,7 +143,7 @@ fn start(state: &mut State) {
         return;
     }
     state.follower.session += 1;
-    state.follower.again = None;
+    state.follower.again.clear();
     state.session.failed = None;
     remove_notices(state, NoticeTopic::Following);
     remove_notices(state, NoticeTopic::LiveEnded);
@@ -191,24 +192,22 @@ pub(crate) fn restart_consensus(state: &mut State) {
         return;
     }
     // A camera shows its part again; a folder does not.
-    if state.session.is_watching()
-        && let Some(newest) = newest(&state.session)
-    {
-        state.follower.again = Some(newest);
+    if state.session.is_watching() && is_newest_current(&state.session) {
+        state.follower.again = state.session.latest_parts().to_vec();
     }
     follow_anew(state);
 }
 
 /// Starts over because other parts are expected from now on. What a folder has delivered was inspected for those before.
 pub(crate) fn expect_anew(state: &mut State) {
-    state.follower.again = None;
+    state.follower.again = Vec::new();
     follow_anew(state);
 }
 
-/// The inspection of the newest capture, unless that has no result or may no longer hang there.
-fn newest(session: &Session) -> Option<Arc<Inspected>> {
+/// True if the newest capture has a result, and may still hang there.
+fn is_newest_current(session: &Session) -> bool {
     let newest = session.latest(|shown| !shown.is_past && !shown.is_outdated);
-    newest.filter(|_| session.failed.is_none()).cloned()
+    session.failed.is_none() && newest.is_some()
 }
 
 /// Stops following, if a source is followed, and closes the camera, because something else comes to the front.
@@ -299,17 +298,20 @@ pub fn update(state: &mut State) -> Vec<Event> {
 /// Shows a verdict that counts, or that there is none; returns the event by which an inspection is recorded.
 fn take_record(state: &mut State, record: LiveRecord) -> Option<Event> {
     match record {
-        LiveRecord::Counts { inspected, run } => {
+        LiveRecord::Counts {
+            counted,
+            parts,
+            run,
+        } => {
             remove_notices(state, NoticeTopic::Scene);
-            for warning in &inspected.warnings {
-                notify(state, Notice::of_scene(&inspected.origin, warning));
+            for warning in &parts[0].warnings {
+                notify(state, Notice::of_scene(&parts[0].origin, warning));
             }
             if run == state.follower.run {
-                state.follower.again = None;
-                show(state, Arc::clone(&inspected));
+                state.follower.again.clear();
+                show(state, parts);
             }
-            let purpose = ReinspectionPurpose::New;
-            let parts = vec![inspected];
+            let (parts, purpose) = (counted, ReinspectionPurpose::New);
             Some(Event::Inspected { parts, purpose })
         }
         LiveRecord::Left(entry) => Some(Event::Left(entry)),
@@ -322,8 +324,8 @@ fn take_record(state: &mut State, record: LiveRecord) -> Option<Event> {
             // In a watched folder it was the capture of another part, which has no verdict now. The notice stays until it is
             // dismissed: the next capture may come before anybody has looked.
             if run == state.follower.run && state.session.is_watching() {
-                state.follower.again = None;
-                state.session.live.unseen = None;
+                state.follower.again.clear();
+                state.session.live.unseen.clear();
                 state.session.failed = Some(if is_fault {
                     UserError {
                         what: library_text("short-fault"),
@@ -349,15 +351,13 @@ fn receive(state: &mut State, answer: LiveAnswer) {
             watch_source(state, &received.status.source);
             // The window may have missed the loss itself.
             let is_lost = matches!(received.status.source, SourceState::Lost(_));
-            if is_lost || (received.inspected.is_none() && received.status.num_inspected > 0) {
+            if is_lost || (received.parts.is_empty() && received.status.num_inspected > 0) {
                 outdate_shown(state);
             }
             state.session.live.status = Some(received.status);
             // Every capture of a folder is recorded, and a record may be of a later one that has no verdict.
-            if let Some(inspected) = received.inspected
-                && !state.session.is_watching()
-            {
-                show(state, inspected);
+            if !received.parts.is_empty() && !state.session.is_watching() {
+                show(state, received.parts);
             }
         }
         LiveAnswer::NotRecorded(error) => {
@@ -377,45 +377,48 @@ fn receive(state: &mut State, answer: LiveAnswer) {
     }
 }
 
-/// Shows the latest inspection, at once if Inspect is in front: other workspaces keep what they show.
-fn show(state: &mut State, inspected: Arc<Inspected>) {
-    let is_shown = state
-        .session
-        .shown
-        .as_ref()
-        .is_some_and(|shown| Arc::ptr_eq(&shown.inspected, &inspected));
+/// Shows the parts of the latest frame, at once if Inspect is in front: other workspaces keep what they show.
+fn show(state: &mut State, parts: Vec<Arc<Inspected>>) {
+    let shown = state.session.shown.as_ref();
+    let is_shown = shown.is_some_and(|shown| shown.includes(&parts[0]));
     if is_shown || !state.session.is_live() {
         return;
     }
     if state.session.workspace == WorkspaceKind::Inspect {
-        show_latest(state, inspected);
+        show_latest(state, parts);
     } else {
         state.session.failed = None;
-        state.session.live.unseen = Some(inspected);
+        state.session.live.unseen = parts;
     }
 }
 
 /// Inspect comes to the front: shows what was inspected meanwhile, unless something newer is shown.
 pub(crate) fn show_unseen(state: &mut State) {
-    if let Some(inspected) = state.session.live.unseen.take() {
-        show_latest(state, inspected);
+    let unseen = mem::take(&mut state.session.live.unseen);
+    if !unseen.is_empty() {
+        show_latest(state, unseen);
     }
 }
 
-fn show_latest(state: &mut State, inspected: Arc<Inspected>) {
-    state.session.live.unseen = None;
-    state.use_library(&inspected.library);
+fn show_latest(state: &mut State, parts: Vec<Arc<Inspected>>) {
+    state.session.live.unseen.clear();
+    state.use_library(&parts[0].library);
     state.session.failed = None;
     state.generation += 1;
+    // The selected part stays selected.
+    let former = state.session.shown.as_ref();
+    let is_selected =
+        |part: &Arc<Inspected>| former.is_some_and(|former| former.inspected.hung() == part.hung());
+    let selected = parts.iter().position(is_selected).unwrap_or_default();
     state.session.shown = Some(Shown {
         session: Some(state.follower.session),
-        ..Shown::new(state.generation, inspected)
+        ..Shown::of_parts(state.generation, parts, selected)
     });
 }
 
 /// What was inspected so far is of another source, or from before the source was lost, followed anew or captured from.
 pub(crate) fn outdate_shown(state: &mut State) {
-    state.session.live.unseen = None;
+    state.session.live.unseen.clear();
     if let Some(shown) = &mut state.session.shown {
         shown.is_outdated = true;
     }
@@ -483,14 +486,16 @@ mod tests {
         CaptureError, CaptureWarning, Captured, DepthSource, Image, NextCapture, SourceSpec,
     };
     use files::FileWarning;
-    use geometry::rigid::RigidTransform;
-    use inspection::pipeline::live::LiveVerdict;
-    use records::history::StoredVerdict;
-    use simulate::{PartKind, SensorNoise, Side, fixtures::HangingPart};
+    use geometry::{depth_frame::DepthFrame, rigid::RigidTransform};
+    use inspection::pipeline::{Recipe, live::LiveVerdict};
+    use records::history::{HungId, StoredVerdict};
+    use simulate::{
+        PartKind, RackKind, RackSetup, SensorNoise, Side, StandingRack, fixtures::HangingPart,
+    };
 
-    /// A camera before which a fender hangs still, for a few seconds of its clock.
+    /// A camera before which something hangs still, for a few seconds of its clock.
     struct Hanging {
-        fender: HangingPart,
+        frame: Box<dyn Fn(SensorNoise) -> DepthFrame + Send>,
         number: u64,
     }
 
@@ -515,7 +520,7 @@ mod tests {
                 name: format!("short frame {}", self.number),
                 taken_at: Timestamp::UNIX_EPOCH + at,
                 arrived: Instant::now(),
-                image: Image::Depth(self.fender.frame(noise, &RigidTransform::identity())),
+                image: Image::Depth((self.frame)(noise)),
                 is_simulated: true,
                 truth: None,
                 robot_from_flange: None,
@@ -543,11 +548,56 @@ mod tests {
         }
     }
 
+    #[test]
+    fn live_records_every_part_of_a_rack_once_and_shows_all_of_them() {
+        let setup = RackSetup::drawn(RackKind::Apart, 3, 0, 1).expect("in range");
+        let mut state = before("recording,pace=step:short", move || {
+            let rack = StandingRack::arrange(&setup).expect("in range");
+            Box::new(move |noise| rack.frame(|_| Some(RigidTransform::identity()), &noise))
+        });
+        let mut recipe = Recipe::default();
+        recipe.segment.max_parts = 3;
+        state.session.recipe = Arc::new(recipe.into());
+        state.session.trace.set_serial("4711");
+        toggle(&mut state);
+        assert!(state.follower.task.run_waiting());
+        let events = update(&mut state);
+        let parts: Vec<&Arc<Inspected>> = events
+            .iter()
+            .flat_map(|event| match event {
+                Event::Inspected { parts, .. } => parts.as_slice(),
+                other => panic!("{other:?}"),
+            })
+            .collect();
+        let summaries = parts.iter().map(|part| &part.entry.record.summary);
+        let accepted = summaries.filter(|one| one.verdict == StoredVerdict::Accepted);
+        assert_eq!((accepted.count(), parts.len()), (3, 3));
+        let serials = parts.iter().map(|part| part.trace().serial.as_str());
+        assert_eq!(serials.collect::<Vec<_>>(), ["4711", "", ""]);
+        let shown = state.session.shown.as_ref().expect("shown");
+        let hung = |part: &Arc<Inspected>| part.hung().clone();
+        let shown: Vec<HungId> = shown.parts.iter().map(hung).collect();
+        let recorded: Vec<HungId> = parts.into_iter().map(hung).collect();
+        assert_eq!(shown, recorded);
+        assert!(recorded[0] != recorded[1] && recorded[1] != recorded[2]);
+    }
+
     /// A fender hangs before the camera of this source.
     fn in_front_of(spec: &str) -> State {
-        let camera = Camera::opened_by(|_| {
+        before(spec, || {
+            let fender = HangingPart::new(PartKind::Fender, 3);
+            Box::new(move |noise| fender.frame(noise, &RigidTransform::identity()))
+        })
+    }
+
+    /// The camera of this source takes these frames.
+    fn before(
+        spec: &str,
+        frame: impl Fn() -> Box<dyn Fn(SensorNoise) -> DepthFrame + Send> + Send + Sync + 'static,
+    ) -> State {
+        let camera = Camera::opened_by(move |_| {
             Ok(Box::new(Hanging {
-                fender: HangingPart::new(PartKind::Fender, 3),
+                frame: frame(),
                 number: 0,
             }))
         });
@@ -625,8 +675,8 @@ mod tests {
                 warnings,
                 ..inspected_cell(CellChoice::InTurn, 1)
             });
-            let run = state.follower.run;
-            take_record(&mut state, LiveRecord::Counts { inspected, run });
+            let record = counts_of(&state, &inspected);
+            take_record(&mut state, record);
             let mut notices = state.notices.clone();
             notices.retain(|notice| notice.topic == NoticeTopic::Scene);
             assert_eq!(notices.len(), num, "{notices:?}");
@@ -649,11 +699,17 @@ mod tests {
     /// A capture that was inspected.
     fn counts(state: &State, number: u64) -> (Arc<Inspected>, LiveRecord) {
         let inspected = Arc::new(inspected_cell(CellChoice::InTurn, number));
-        let record = LiveRecord::Counts {
-            inspected: Arc::clone(&inspected),
-            run: state.follower.run,
-        };
+        let record = counts_of(state, &inspected);
         (inspected, record)
+    }
+
+    fn counts_of(state: &State, inspected: &Arc<Inspected>) -> LiveRecord {
+        let parts = vec![Arc::clone(inspected)];
+        LiveRecord::Counts {
+            counted: parts.clone(),
+            parts,
+            run: state.follower.run,
+        }
     }
 
     /// The records that a job has sent, and then the status with its last inspection, as the window reads them.
@@ -664,7 +720,7 @@ mod tests {
         update(state);
         let received = LiveStatusUpdate {
             status: running(),
-            inspected: Some(Arc::clone(inspected)),
+            parts: vec![Arc::clone(inspected)],
         };
         receive(state, LiveAnswer::Stands(Box::new(received)));
     }
@@ -870,7 +926,7 @@ mod tests {
         apply_any(&mut state, Action::GoTo(WorkspaceKind::History));
         assert!(state.follower.task.run_waiting());
         update(&mut state);
-        assert!(!state.session.is_live() && state.session.live.unseen.is_some());
+        assert!(!state.session.is_live() && !state.session.live.unseen.is_empty());
         assert!(state.session.current_result().is_none());
         apply_any(&mut state, Action::GoTo(WorkspaceKind::Inspect));
         assert!(state.session.shown.is_some() && state.session.current_result().is_none());
@@ -988,8 +1044,8 @@ mod tests {
                 source,
                 ..running()
             };
-            let inspected = None;
-            let received = LiveStatusUpdate { status, inspected };
+            let parts = Vec::new();
+            let received = LiveStatusUpdate { status, parts };
             receive(&mut state, LiveAnswer::Stands(Box::new(received)));
             let shown = state.session.shown.as_ref().expect("kept");
             assert!(shown.is_outdated);

@@ -7,24 +7,35 @@ use std::{
     time::{Duration, Instant},
 };
 
+use nalgebra::Point3;
+
 use super::parts::FollowedParts;
 use crate::{
     inspection::{
-        inspected::{FinishedInspection, InspectRequest, Inspected, LiveFrameContext, inspect},
+        inspected::{FinishedInspection, InspectRequest, Inspected, LiveFrameContext, inspect_all},
         library_cache::LibraryCache,
         recording::Recorded,
         source::{Captured as SceneOrigin, Origin, SceneSource},
     },
+    source::inspector::assign_as_before,
     trace::current_trace::CurrentTrace,
 };
 use capture::{Captured, Feed, FeedItem, FeedState, FrameRate, SourceSpec};
 use geometry::error::{Fault, guarded, lock};
-use inspection::pipeline::{
-    self, NamedRecipe, ProgressObserver, Verdict,
-    live::{FrameRole, HungFrame, LiveParams, LiveTracker, LiveVerdict, MotionState},
+use inspection::{
+    library::Library,
+    pipeline::{
+        self, Inspection, NamedRecipe, ProgressObserver, Verdict,
+        live::{
+            FrameRole, HungFrame, LiveParams, LiveTracker, LiveVerdict, MotionState, nothing_there,
+        },
+    },
 };
-use records::history::{NewEntry, StoredVerdict, Traceability};
-use stages::{reference::Reference, scene::EmptyCell};
+use records::history::{NewEntry, Traceability};
+use stages::{
+    reference::Reference,
+    scene::{EmptyCell, SceneCloud},
+};
 use ui::{
     task::{TaskContext, TaskError},
     user_error::UserError,
@@ -51,13 +62,13 @@ pub(super) struct LiveStart {
     pub(super) recorder: SyncSender<LiveRecord>,
     /// Number of the run, for [`LiveRecord`].
     pub(super) run: u64,
-    /// The newest capture, if it is to be inspected again before the next ones.
-    pub(super) again: Option<Arc<Inspected>>,
+    /// The parts of the newest capture, if it is to be inspected again before the next ones.
+    pub(super) again: Vec<Arc<Inspected>>,
 }
 
 impl LiveStart {
-    /// Records a part that left before its verdict counted.
-    fn record_left(&self, left: Option<Arc<Inspected>>) {
+    /// Records parts that left before their verdicts counted.
+    fn record_left(&self, left: Vec<Arc<Inspected>>) {
         record_left(left, &self.recorder, || self.trace.take(true));
     }
 }
@@ -66,10 +77,12 @@ impl LiveStart {
 /// recorded even if its job was replaced meanwhile.
 #[derive(Debug)]
 pub(super) enum LiveRecord {
-    /// A verdict that counts and was not reported before.
+    /// Verdicts that count and were not reported before.
     Counts {
-        /// The inspection that it stands on.
-        inspected: Arc<Inspected>,
+        /// The inspections that they stand on.
+        counted: Vec<Arc<Inspected>>,
+        /// All parts of their frame.
+        parts: Vec<Arc<Inspected>>,
         /// The run that it belongs to.
         run: u64,
     },
@@ -96,13 +109,13 @@ fn send(recorder: &SyncSender<LiveRecord>, record: LiveRecord) {
     let _ = recorder.send(record);
 }
 
-/// Records a part whose verdict did not count, with this traceability.
+/// Records parts whose verdicts did not count, each with the next traceability.
 fn record_left(
-    left: Option<Arc<Inspected>>,
+    left: Vec<Arc<Inspected>>,
     recorder: &SyncSender<LiveRecord>,
-    trace: impl FnOnce() -> Traceability,
+    trace: impl Fn() -> Traceability,
 ) {
-    if let Some(left) = left {
+    for left in left {
         let entry = left.entry_of(trace());
         send(recorder, LiveRecord::Left(Box::new(entry)));
     }
@@ -121,13 +134,13 @@ pub enum LiveAnswer {
     Rests,
 }
 
-/// The status, with the inspection to show.
+/// The status, with the inspections to show.
 #[derive(Clone, Debug)]
 pub struct LiveStatusUpdate {
     /// Status in figures.
     pub status: LiveStatus,
-    /// The last frame whose inspection was prepared for the panels; `None` if there is none since the source was lost.
-    pub inspected: Option<Arc<Inspected>>,
+    /// The parts of the last frame that was prepared for the panels; none if there is no such frame since the source was lost.
+    pub parts: Vec<Arc<Inspected>>,
 }
 
 /// Status of following a source, in figures.
@@ -137,7 +150,7 @@ pub struct LiveStatus {
     pub source: SourceState,
     /// Whether the scene moves; `None` for a source whose captures are independent.
     pub stillness: Option<MotionState>,
-    /// The verdict so far.
+    /// The verdict so far, of the first part.
     pub standing: LiveVerdict,
     /// Frames per second that arrive, and that are inspected.
     pub rates: [Option<f64>; 2],
@@ -185,23 +198,23 @@ pub(super) fn follow(
     let left = match &followed {
         Ok(_) => lock(&request.parts).end(),
         // The part may still hang there when the source is followed again.
-        Err(TaskError::Failed(_)) => lock(&request.parts).rows.take_best(),
+        Err(TaskError::Failed(_)) => lock(&request.parts).spots.take_best(),
         // The next job goes on with the part.
-        Err(TaskError::Cancelled) => None,
+        Err(TaskError::Cancelled) => Vec::new(),
     };
     request.record_left(left);
     followed
 }
 
-/// Ends the recording and closes the camera. A part that hangs there without a verdict that counts is recorded with this
+/// Ends the recording and closes the camera. Parts that hang there without a verdict that counts are recorded with this
 /// traceability.
 pub(super) fn rest(
     library_cache: &LibraryCache,
     parts: &Mutex<FollowedParts>,
     recorder: &SyncSender<LiveRecord>,
-    trace: impl FnOnce() -> Traceability,
+    trace: impl Fn() -> Traceability,
 ) -> LiveAnswer {
-    let left = lock(parts).rows.take_best();
+    let left = lock(parts).spots.take_best();
     record_left(left, recorder, trace);
     library_cache.recording().end();
     library_cache.camera().rest();
@@ -225,8 +238,59 @@ struct LiveSession<'a> {
     num_inspected: u64,
     /// Frames that the source had dropped before the start.
     dropped_before: u64,
-    inspected: Option<Arc<Inspected>>,
+    /// The parts of the last frame to be shown.
+    parts: Vec<Arc<Inspected>>,
     sent: Option<LiveStatus>,
+}
+
+/// An inspected frame.
+struct SeenFrame<'a> {
+    scene: &'a SceneCloud,
+    /// The camera's time.
+    at: Duration,
+    /// Identifies the recipe and the library.
+    inputs: &'a str,
+}
+
+impl<'a> SeenFrame<'a> {
+    fn of(&self, part: &'a SeenPart) -> HungFrame<'a> {
+        HungFrame {
+            scene: self.scene,
+            at: self.at,
+            inspection: &part.inspection,
+            verdict: &part.standing,
+            middle: part.middle,
+            inputs: self.inputs,
+        }
+    }
+}
+
+/// What a frame shows at a spot.
+struct SeenPart {
+    inspection: Inspection,
+    /// Middle of the named part, part space, metres.
+    middle: Option<Point3<f64>>,
+    /// Where it is; `None` of an independent capture, and for what is no part of its own.
+    spot: Option<usize>,
+    standing: LiveVerdict,
+    role: FrameRole,
+}
+
+impl SeenPart {
+    fn new(inspection: Inspection, library: &Library) -> Self {
+        let best = inspection.best_reference(library);
+        Self {
+            middle: best.and_then(Reference::middle),
+            inspection,
+            spot: None,
+            standing: LiveVerdict::Open,
+            role: FrameRole::Nothing,
+        }
+    }
+
+    fn shows_part(&self) -> bool {
+        matches!(self.inspection.verdict, Verdict::Part { .. })
+    }
 }
 
 /// Passes cancellation on but no stages: frames come too fast to read them.
@@ -260,17 +324,17 @@ impl<'a> LiveSession<'a> {
             standing: LiveVerdict::Open,
             num_inspected: 0,
             dropped_before: 0,
-            inspected: None,
+            parts: Vec::new(),
             sent: None,
         }
     }
 
     fn follow(mut self, feed: &Feed) -> Result<LiveAnswer, TaskError> {
         self.dropped_before = feed.status().num_dropped;
-        if let Some(before) = &self.request.again {
-            match guarded(|| self.inspect_again(before)) {
+        if let Some(first) = self.request.again.first() {
+            match guarded(|| self.inspect_again(first)) {
                 Ok(inspected) => inspected?,
-                Err(fault) => self.fails_at(before.origin.title(), &fault),
+                Err(fault) => self.fails_at(first.origin.title(), &fault),
             }
             self.publish_status(feed);
         }
@@ -334,7 +398,7 @@ impl<'a> LiveSession<'a> {
         self.sent = None;
     }
 
-    /// Inspects a capture again, as another inspection of its part.
+    /// Inspects a capture again, as another inspection of its parts.
     fn inspect_again(&mut self, before: &Inspected) -> Result<(), TaskError> {
         let mut scene = Arc::clone(&before.scene);
         let cell = &self.request.empty_cell;
@@ -346,12 +410,15 @@ impl<'a> LiveSession<'a> {
             recipe: Arc::clone(&self.request.recipe),
         };
         let watching = SilentContext(self.context);
-        let mut inspected = inspect(&request, self.library_cache, &watching)?;
-        inspected.set_captured_at(before.captured_at);
-        inspected.entry.record.summary.source = self.request.spec.to_string();
-        inspected.set_part(before.hung().clone(), before.trace().clone());
+        let mut parts = inspect_all(&request, self.library_cache, &watching)?;
+        for part in &mut parts {
+            part.set_captured_at(before.captured_at);
+            part.entry.record.summary.source = self.request.spec.to_string();
+        }
+        assign_as_before(&mut parts, self.request.again.clone());
         self.num_inspected += 1;
-        self.record_counted(Arc::new(inspected));
+        let parts: Vec<Arc<Inspected>> = parts.into_iter().map(Arc::new).collect();
+        self.show(parts.clone(), parts);
         Ok(())
     }
 
@@ -375,122 +442,171 @@ impl<'a> LiveSession<'a> {
         if let Some(watch) = &mut self.watch {
             scene = watch.look(scene, at);
         }
-        let mut inspection = pipeline::run(&scene, &fitted, recipe, &watching)?;
-        let best = inspection.best_reference(&fitted);
-        let middle = best.and_then(Reference::middle);
+        let found = pipeline::run_all(&scene, &fitted, recipe, &watching)?;
         let inputs = format!("{} {}", self.recipe_identity, loaded.shown.identity);
-        let mut followed = None;
-        // If captures are independent, each is a hung part of its own.
-        let mut role = FrameRole::First;
-        if let Some(watch) = &mut self.watch {
-            self.standing = watch.judge(&mut inspection, middle, &recipe.accept);
-            self.stillness = Some(watch.stillness());
-            followed = Some(LiveFrameContext {
-                stillness: watch.stillness(),
-                standing: self.standing.clone(),
-            });
-            let frame = HungFrame {
-                scene: &scene,
-                at,
-                inspection: &inspection,
-                verdict: &self.standing,
-                middle,
-                inputs: &inputs,
-            };
-            role = lock(&self.request.parts).rows.role_of(&frame);
-            if role == FrameRole::Nothing {
-                self.see(&frame, arrived);
-            }
-        }
+        let frame = SeenFrame {
+            scene: &scene,
+            at,
+            inputs: &inputs,
+        };
+        let parts = self.judged(found, &frame, &fitted);
+        let is_news = parts.iter().any(|part| part.role != FrameRole::Nothing);
         self.num_inspected += 1;
         self.rate.came(Instant::now());
         self.latencies.push_front(arrived.elapsed());
         self.latencies.truncate(NUM_LATENCIES);
 
-        if role == FrameRole::Nothing && !self.context.is_latest_read() {
+        if !is_news && !self.context.is_latest_read() {
             // The window has not even shown the previous one.
+            self.seen(arrived);
             return Ok(());
         }
-        let found = FinishedInspection {
-            scan: None,
-            scene,
-            origin,
-            warnings,
-            recipe: Arc::clone(recipe),
-            inspection,
-            followed,
-            source: self.request.spec.to_string(),
-            robot: self.library_cache.robot(),
-        };
-        let inspected = found.prepared(&fitted, &loaded.shown);
-        if self.watch.is_some() && role != FrameRole::Nothing {
-            // Not before: after a panic on the way here, the next frame shall be recorded in place of this one.
-            let frame = HungFrame {
-                scene: &inspected.scene,
-                at,
-                inspection: &inspected.inspection,
-                verdict: &self.standing,
-                middle,
-                inputs: &inputs,
+        let mut shown = Vec::with_capacity(parts.len());
+        for part in &parts {
+            let found = FinishedInspection {
+                scan: None,
+                scene: Arc::clone(&scene),
+                origin: origin.clone(),
+                warnings: warnings.clone(),
+                recipe: Arc::clone(recipe),
+                inspection: part.inspection.clone(),
+                followed: self.watch.as_ref().map(|watch| LiveFrameContext {
+                    stillness: watch.stillness(),
+                    standing: part.standing.clone(),
+                }),
+                source: self.request.spec.to_string(),
+                robot: self.library_cache.robot(),
             };
-            self.see(&frame, arrived);
+            shown.push(found.prepared(&fitted, &loaded.shown));
         }
-        self.keep(inspected, role, arrived);
+        // Not before: after a panic on the way here, the next frame shall be recorded in place of this one.
+        for part in parts.iter().filter(|part| part.role != FrameRole::Nothing) {
+            self.see(part, &frame);
+        }
+        self.seen(arrived);
+        self.keep(shown, &parts, arrived);
         Ok(())
     }
 
-    /// Takes in a frame, and records the part that left before it.
-    fn see(&self, frame: &HungFrame<'_>, arrived: Instant) {
-        let shows_part = matches!(frame.inspection.verdict, Verdict::Part { .. });
-        let mut parts = lock(&self.request.parts);
-        let (left, _) = parts.rows.see(frame);
-        parts.seen(arrived, shows_part);
-        // Recording may wait for the window.
-        drop(parts);
-        self.request.record_left(left);
-    }
-
-    /// Keeps the inspection of a frame to be shown, and records it if it is the first or another one of its part.
-    fn keep(&mut self, mut inspected: Inspected, role: FrameRole, arrived: Instant) {
-        // What a trigger found out about the part before lies below.
-        inspected.entry.stands_for_part = matches!(role, FrameRole::First | FrameRole::Best);
-        let mut parts = lock(&self.request.parts);
-        let hung = match self.watch {
-            Some(_) => parts.rows.id().clone(),
-            None => inspected.hung().clone(),
+    /// Judges the parts of a frame. What has no role is taken in at once.
+    fn judged(
+        &mut self,
+        found: Vec<Inspection>,
+        frame: &SeenFrame<'_>,
+        library: &Library,
+    ) -> Vec<SeenPart> {
+        let recipe = &self.request.recipe;
+        let Some(watch) = &mut self.watch else {
+            // Captures are independent, and what each shows are hung parts of their own.
+            let alone = |inspection| SeenPart {
+                role: FrameRole::First,
+                ..SeenPart::new(inspection, library)
+            };
+            return found.into_iter().map(alone).collect();
         };
-        let trace = match role {
-            FrameRole::First => {
-                let is_part = inspected.entry.record.summary.verdict != StoredVerdict::NoPart;
-                let trace = self.request.trace.take(is_part);
-                parts.counted = Some((hung.clone(), trace.clone()));
-                Some(trace)
+        let mut followed = lock(&self.request.parts);
+        let at_spots = (followed.spots).of_frame(&found, frame.scene, watch.stillness(), recipe);
+        let new = |inspection| SeenPart::new(inspection, library);
+        let mut parts: Vec<SeenPart> = found.into_iter().map(new).collect();
+        let mut absent = Vec::new();
+        for (spot, index) in at_spots.into_iter().enumerate() {
+            let part = match index {
+                Some(index) => &mut parts[index],
+                None => {
+                    absent.push(new(nothing_there()));
+                    absent.last_mut().expect("just added")
+                }
+            };
+            part.spot = Some(spot);
+            part.standing = watch.judge(spot, &mut part.inspection, part.middle, &recipe.accept);
+            part.role = followed.spots.role_of(spot, &frame.of(part));
+        }
+        drop(followed);
+        self.standing = parts
+            .first()
+            .map_or(LiveVerdict::Open, |part| part.standing.clone());
+        self.stillness = Some(watch.stillness());
+        for part in parts.iter().chain(&absent) {
+            if part.role == FrameRole::Nothing {
+                self.see(part, frame);
             }
-            FrameRole::Again => parts.counted.as_ref().map(|(_, trace)| trace.clone()),
-            FrameRole::Nothing => parts.trace_of_hanging().cloned(),
-            FrameRole::Best => None,
-        };
-        inspected.set_part(hung, trace.unwrap_or_default());
-        let inspected = Arc::new(inspected);
-        if self.watch.is_none() {
-            parts.seen_alone(arrived, inspected.hung());
-        } else if role == FrameRole::Best {
-            parts.rows.hold(Arc::clone(&inspected));
         }
-        drop(parts);
-        if matches!(role, FrameRole::First | FrameRole::Again) {
-            self.record_counted(inspected);
-        } else {
-            self.inspected = Some(inspected);
+        parts
+    }
+
+    /// Takes in a part of a frame, and records the part that left before it.
+    fn see(&self, part: &SeenPart, frame: &SeenFrame<'_>) {
+        let Some(spot) = part.spot else { return };
+        let (left, _) = lock(&self.request.parts).spots.see(spot, &frame.of(part));
+        // Recording may wait for the window.
+        self.request.record_left(left.into_iter().collect());
+    }
+
+    /// Every part of a frame is taken in.
+    fn seen(&self, arrived: Instant) {
+        if self.watch.is_some() {
+            lock(&self.request.parts).seen(arrived);
         }
     }
 
-    /// Keeps an inspection to be shown, and records it.
-    fn record_counted(&mut self, inspected: Arc<Inspected>) {
-        self.inspected = Some(Arc::clone(&inspected));
-        let run = self.request.run;
-        let record = LiveRecord::Counts { inspected, run };
-        send(&self.request.recorder, record);
+    /// Keeps the inspections of a frame to be shown, and records those that are the first or further ones of their parts.
+    fn keep(&mut self, mut shown: Vec<Inspected>, parts: &[SeenPart], arrived: Instant) {
+        let mut followed = lock(&self.request.parts);
+        let mut of_capture = None;
+        for (inspected, part) in shown.iter_mut().zip(parts) {
+            // What a trigger found out about the part before lies below.
+            inspected.entry.stands_for_part =
+                matches!(part.role, FrameRole::First | FrameRole::Best);
+            let hung = match part.spot {
+                Some(spot) => followed.spots.at(spot).id().clone(),
+                None => inspected.hung().clone(),
+            };
+            let trace = match (part.role, part.spot) {
+                (FrameRole::First, Some(_)) => Some(self.request.trace.take(part.shows_part())),
+                (FrameRole::First, None) => {
+                    let shows_any = parts.iter().any(SeenPart::shows_part);
+                    let take = || self.request.trace.take(shows_any);
+                    Some(of_capture.get_or_insert_with(take).clone())
+                }
+                (FrameRole::Again, _) => followed.trace_of(&hung).cloned(),
+                (FrameRole::Nothing, Some(spot)) => followed.trace_of_hanging(spot).cloned(),
+                (FrameRole::Nothing, None) | (FrameRole::Best, _) => None,
+            };
+            if let (FrameRole::First, Some(trace)) = (part.role, &trace) {
+                followed.counts(hung.clone(), trace.clone());
+            }
+            inspected.set_part(hung, trace.unwrap_or_default());
+        }
+        let shown: Vec<Arc<Inspected>> = shown.into_iter().map(Arc::new).collect();
+        if self.watch.is_none() {
+            followed.seen_alone(arrived, &shown);
+        }
+        let mut counted = Vec::new();
+        for (inspected, part) in shown.iter().zip(parts) {
+            match (part.role, part.spot) {
+                (FrameRole::First | FrameRole::Again, _) => counted.push(Arc::clone(inspected)),
+                (FrameRole::Best, Some(spot)) => {
+                    followed.spots.at(spot).hold(Arc::clone(inspected));
+                }
+                (FrameRole::Best, None) | (FrameRole::Nothing, _) => {}
+            }
+        }
+        drop(followed);
+        self.show(shown, counted);
+    }
+
+    /// Keeps the parts of a frame to be shown, and records those that count.
+    fn show(&mut self, parts: Vec<Arc<Inspected>>, counted: Vec<Arc<Inspected>>) {
+        self.parts.clone_from(&parts);
+        if !counted.is_empty() {
+            let run = self.request.run;
+            let record = LiveRecord::Counts {
+                counted,
+                parts,
+                run,
+            };
+            send(&self.request.recorder, record);
+        }
     }
 
     /// Publishes the status if another frame was inspected or the state of the source has changed.
@@ -504,7 +620,7 @@ impl<'a> LiveSession<'a> {
         if matches!(source, SourceState::Lost(_)) {
             // After the source returns, a part must be seen hanging still again, and a folder needs a new capture.
             self.standing = LiveVerdict::Open;
-            self.inspected = None;
+            self.parts.clear();
         }
         let mut latencies: Vec<Duration> = self.latencies.iter().copied().collect();
         latencies.sort_unstable();
@@ -526,7 +642,7 @@ impl<'a> LiveSession<'a> {
             self.sent = Some(status.clone());
             let update = LiveStatusUpdate {
                 status,
-                inspected: self.inspected.clone(),
+                parts: self.parts.clone(),
             };
             self.context.latest(LiveAnswer::Stands(Box::new(update)));
         }
