@@ -57,10 +57,7 @@ impl OutputFormat {
             }
         }
         if matches!(self, Self::Card) {
-            let inspections = parts.iter().map(|part| part.inspection);
-            for place in
-                (parts.first()).map_or(Vec::new(), |part| part.recipe.empty_places(inspections))
-            {
+            for place in Inspected::empty_places(parts) {
                 console.entry(place, &"empty");
             }
         }

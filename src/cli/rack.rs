@@ -74,7 +74,7 @@ pub(super) struct RackArgs {
 #[derive(Debug, Subcommand)]
 enum RackCommand {
     /// Add a place, or a box of the work volume, from a part that hangs there; makes the file if there is none
-    Add(AddArgs),
+    Add(Box<AddArgs>),
     /// Check a file, and show its boxes, places and parts
     Show(ShowArgs),
 }

@@ -116,12 +116,9 @@ impl Recipe {
     }
 
     /// Names of the rack's places at which nothing of a frame hangs.
-    pub fn empty_places<'a>(
-        &self,
-        found: impl Iterator<Item = &'a Inspection> + Clone,
-    ) -> Vec<&str> {
+    pub fn empty_places(&self, found: &[&Inspection]) -> Vec<&str> {
         let names = self.rack.places.iter().map(|place| &*place.name);
-        let hangs_at = |name: &str| found.clone().any(|one| one.place.as_deref() == Some(name));
+        let hangs_at = |name: &str| found.iter().any(|one| one.place.as_deref() == Some(name));
         names.filter(|name| !hangs_at(name)).collect()
     }
 

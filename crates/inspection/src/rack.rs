@@ -168,7 +168,9 @@ struct WrittenPart {
 }
 
 fn are_zero(numbers: &[f64; 3]) -> bool {
-    *numbers == [0.0; 3]
+    numbers
+        .iter()
+        .all(|number| number.abs() < f64::MIN_POSITIVE)
 }
 
 fn new_place_turn_deg() -> f64 {

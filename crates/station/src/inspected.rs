@@ -237,11 +237,17 @@ impl<'a> Inspected<'a> {
             return line.to_json();
         }
         let all = parts.iter().map(|part| part.inspection_line(trace));
-        let inspections = parts.iter().map(|part| part.inspection);
         line.with_parts(all)
-            .with_empty_places(first.recipe.empty_places(inspections))
+            .with_empty_places(Self::empty_places(parts))
             .expecting(expected, Some(&verdicts_of(parts)))
             .to_json()
+    }
+
+    /// Names of the rack's places at which none of the parts of a frame hangs.
+    pub fn empty_places(parts: &[Self]) -> Vec<&'a str> {
+        let inspections: Vec<&Inspection> = parts.iter().map(|part| part.inspection).collect();
+        let recipe = parts.first().map(|part| part.recipe);
+        recipe.map_or_else(Vec::new, |recipe| recipe.empty_places(&inspections))
     }
 
     fn inspection_line<'b>(&self, trace: &'b Traceability) -> InspectionLine<'b>

@@ -46,7 +46,9 @@ fn shown(found: &[Inspection], recipe: &Recipe) -> String {
         let kind = one.verdict.refusal().map(|why| format!(" {}", why.kind()));
         format!("{place}{}", kind.unwrap_or_default())
     });
-    let empty = recipe.empty_places(found.iter()).into_iter();
+    let empty = recipe
+        .empty_places(&found.iter().collect::<Vec<_>>())
+        .into_iter();
     let empty = empty.map(|place| format!("{place} empty"));
     parts.chain(empty).collect::<Vec<_>>().join(", ")
 }

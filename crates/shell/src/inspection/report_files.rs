@@ -353,7 +353,7 @@ mod tests {
             assert_eq!(inspected.entry.record.summary.source, source);
             let subject = &inspected.subject;
             let report = report_of(
-                &inspected,
+                inspected,
                 subject,
                 inspected.trace(),
                 None,

@@ -203,22 +203,20 @@ fn set(state: &mut State, editor: &mut RackEditor) {
     } else {
         editor.draft.check()
     };
-    let used = match checked {
-        Err(what) => Err(UserError {
-            what,
-            advice: text!("rack-not-used"),
-        }),
-        Ok(()) => {
-            let library = state.session.library.as_ref();
-            let known = library.map_or(Ok(()), |library| {
-                let is_enrolled =
-                    |name: &str| library.parts.iter().any(|part| part.name.as_str() == name);
-                editor.draft.check_parts(is_enrolled)
-            });
-            let used = known.and_then(|()| state.session.use_rack(editor.draft.clone()));
-            used.map_err(|error| UserError::of(&error))
-        }
+    let wrong = |what| UserError {
+        what,
+        advice: text!("rack-not-used"),
     };
+    let library = state.session.library.clone();
+    let is_enrolled = |name: &str| {
+        let parts = library.iter().flat_map(|library| &library.parts);
+        library.is_none() || parts.into_iter().any(|part| part.name.as_str() == name)
+    };
+    let used = checked.map_err(wrong).and_then(|()| {
+        let known = editor.draft.check_parts(is_enrolled);
+        let used = known.and_then(|()| state.session.use_rack(editor.draft.clone()));
+        used.map_err(|error| UserError::of(&error))
+    });
     editor.is_new |= used.is_ok();
     editor.problem = used.err();
 }

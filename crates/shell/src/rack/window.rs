@@ -217,7 +217,7 @@ fn places(ui: &mut Ui, state: &State, file: &mut RackFile, caused: &mut Vec<Acti
                 let name = number.to_string();
                 file.rack.places.iter().all(|place| place.name != name)
             };
-            let number = (1..).find(is_free).unwrap_or_default();
+            let number = (1..=MAX_PARTS).find(is_free).unwrap_or_default();
             caused.push(Action::Rack(RackAction::TakePlace(number.to_string())));
         }
     });

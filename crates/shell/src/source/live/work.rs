@@ -510,12 +510,11 @@ impl<'a> LiveSession<'a> {
         let mut parts: Vec<SeenPart> = found.into_iter().map(new).collect();
         let mut absent = Vec::new();
         for (spot, index) in at_spots.into_iter().enumerate() {
-            let part = match index {
-                Some(index) => &mut parts[index],
-                None => {
-                    absent.push(new(nothing_there()));
-                    absent.last_mut().expect("just added")
-                }
+            let part = if let Some(index) = index {
+                &mut parts[index]
+            } else {
+                absent.push(new(nothing_there()));
+                absent.last_mut().expect("just added")
             };
             part.spot = Some(spot);
             part.standing = watch.judge(spot, &mut part.inspection, part.middle, &recipe.accept);
