@@ -58,7 +58,7 @@ impl OutputFormat {
         }
         if matches!(self, Self::Card) {
             for place in Inspected::empty_places(parts) {
-                console.entry(place, &"empty");
+                console.entry("place", &format_args!("{place}: empty"));
             }
         }
         self.expected(parts, console);

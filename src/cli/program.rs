@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Arg, ArgMatches, Args, Command, FromArgMatches, error::ErrorKind};
+use nalgebra::Point3;
 
 use super::{
     Outcome,
@@ -24,7 +25,7 @@ use robot::{
 use stages::reference::{Coverage, Reference};
 use station::{
     Inspected,
-    robot_file::{RobotFile, RobotFileContent},
+    robot_file::{RobotFile, RobotFileContent, file_of_part},
 };
 
 /// Tool, gun and arm of a program; the command names its file `program`.
@@ -180,6 +181,7 @@ pub(super) fn language_help() -> String {
 }
 
 /// A program to write.
+#[derive(Clone)]
 pub(super) struct ProgramFile {
     file: PathBuf,
     language: &'static RobotLanguage,
@@ -199,6 +201,8 @@ pub(super) struct ProgramSubject<'a> {
     pub(super) path: &'a SprayPath,
     /// The capture; `None` for the standard position.
     pub(super) capture: Option<Inspected<'a>>,
+    /// What else hangs there, see [`RobotFile::beside`].
+    pub(super) beside: &'a [&'a [Point3<f32>]],
     pub(super) camera_from_part: RigidTransform,
     pub(super) is_simulated: bool,
 }
@@ -249,6 +253,14 @@ impl ProgramOptions {
 }
 
 impl ProgramFile {
+    /// The program of one of several parts.
+    pub(super) fn of_part(&self, number: usize) -> Self {
+        Self {
+            file: file_of_part(&self.file, number),
+            ..self.clone()
+        }
+    }
+
     /// Writes the program of a carried path, unless there are doubts and `--force` is not set.
     pub(super) fn write(
         &self,
@@ -273,6 +285,7 @@ impl ProgramFile {
             path: Some(subject.path),
             off: off_the_part(subject.path, subject.reference),
             capture: subject.capture,
+            beside: subject.beside,
             camera_from_part: subject.camera_from_part,
             is_stored: true,
             is_simulated: subject.is_simulated,

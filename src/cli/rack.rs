@@ -11,10 +11,11 @@ use super::{
     input::{EmptyCellChoice, before, open_scene, warn_of},
     recipe::RecipeChoice,
 };
+use geometry::units::counted;
 use inspection::{
     library::Library,
     pipeline::{NamedRecipe, Recipe, Unwatched, run as inspect, run_all},
-    rack::{RackError, RackFile, RackFrame},
+    rack::{RackError, RackFile, RackFrame, ambiguity},
 };
 use robot::RobotFrame;
 use stages::{reference::Reference, segment::MAX_PARTS};
@@ -63,7 +64,7 @@ Examples:
   partsight inspect next.pcd --rack rack_a.toml
 
 The file is text (docs/guide/racks.md). Nothing outside its boxes of volume is looked at; a part that hangs at none of its
-places, at the place of another or turned otherwise than allowed is not accepted. Of two poses of a symmetric part, the
+places, at the place of another or in an orientation that is not allowed is not accepted. Of two poses of a symmetric part, the
 allowed one is found. Coordinates are in the camera's frame or, with --base, in the robot's base frame, which takes a
 calibration.")]
 pub(super) struct RackArgs {
@@ -159,11 +160,29 @@ fn add(args: &AddArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     if let Some([why, advice]) = found[0].verdict.complaint() {
         return Err(advised_error(format!("{name}: {why}"), advice));
     }
+    let num_found = found.len();
     found.retain(|part| part.verdict.is_accepted());
+    if found.len() < num_found {
+        let num = num_found - found.len();
+        console.note(&format_args!(
+            "{} not accepted, and no place was made of it",
+            counted(
+                num,
+                "thing that hangs there was",
+                "things that hang there were"
+            )
+        ));
+    }
     for (number, part) in (1..).zip(&found) {
         let numbered = args.each.then(|| number.to_string());
         if let Some(place) = args.place.as_deref().or(numbered.as_deref()) {
             let middle = (part.best_reference(&load.library)).and_then(Reference::middle);
+            if let Some(warning) = ambiguity(part) {
+                console.advise(
+                    &format_args!("warning: {name}: {warning}"),
+                    &"Check that a robot can follow the part's path in this pose; if not, turn angles_deg in the file by half a turn",
+                );
+            }
             let taken = file.take_place(place.trim(), part, middle, camera);
             if !taken.advised()? {
                 return Err(advised_error(
@@ -175,6 +194,12 @@ fn add(args: &AddArgs, console: &mut Console) -> anyhow::Result<Outcome> {
         if args.volume {
             file.take_volume(part, camera).advised()?;
         }
+    }
+    if let Err(what) = file.check() {
+        return Err(advised_error(
+            format!("the rack would not be valid: {what}"),
+            "Hang the part elsewhere, or remove the other place from the file",
+        ));
     }
     let file = file.write(&args.rack).advised()?;
     show_file(&file, &args.rack, console);

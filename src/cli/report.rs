@@ -16,6 +16,7 @@ use super::{
     console::{Advised as _, Console, Table},
     input::{EmptyCellChoice, OpenedScene, Scenes, before, open_ahead, parse_convention, warn_of},
     plant,
+    rack::RackFileChoice,
     recipe::RecipeChoice,
     trace::TraceChoice,
 };
@@ -72,6 +73,8 @@ pub(super) struct ReportArgs {
     library: LibraryChoice,
     #[command(flatten)]
     recipe: RecipeChoice,
+    #[command(flatten)]
+    rack: RackFileChoice,
     #[command(flatten)]
     empty_cell: EmptyCellChoice,
     #[command(flatten)]
@@ -147,12 +150,14 @@ fn report(args: &ReportArgs, scenes: Scenes<'_>, console: &mut Console) -> anyho
     let empty_cell = args.empty_cell.open(console)?;
     let trace = args.trace.of_parts(Some(args.files.len()))?;
     let out = args.out.as_deref().unwrap_or(Path::new("."));
+    let robot = args.calibration.frame(console)?;
+    let recipe = (args.rack).before(recipe, &load.library, robot.as_ref())?;
     let mut one = Reporter {
         recipe,
         library_identity: load.identity(),
         load,
         empty_cell,
-        robot: args.calibration.frame(console)?,
+        robot,
         folder: ReportFolder::make(out).advised()?,
         trace,
         args,

@@ -86,6 +86,43 @@ fn an_accepted_part_is_painted_by_a_program_of_each_controller() {
 }
 
 #[test]
+fn each_of_several_parts_has_a_path_of_its_own_and_none_of_an_earlier_frame_stays() {
+    let shop = shop();
+    let rack = [
+        "simulate",
+        "--rack",
+        "3",
+        "--rack-kind",
+        "apart",
+        "--seed",
+        "4",
+    ];
+    shop.coded(0, &[&rack[..], &["--out", "rack.png"]].concat());
+    let inspect = ["inspect", "rack.png", "--spray", "out.csv", "--json"];
+    let several = ["--set", "segment.max_parts=3"];
+    let line = shop.coded(0, &[&inspect[..], &several].concat()).json();
+    let parts = line["parts"].as_array().expect("parts");
+    assert_eq!(parts.len(), 3);
+    for (number, part) in (1..).zip(parts) {
+        let text = shop.read(&format!("out_{number}.csv"));
+        assert!(
+            text.contains(part["part"].as_str().expect("a name")),
+            "{text}"
+        );
+    }
+    assert!(!shop.path("out.csv").exists());
+    // The next frame shows one part.
+    shop.coded(0, &["inspect", "door.pcd", "--spray", "out.csv"]);
+    assert!(shop.path("out.csv").exists());
+    for number in 1..=3 {
+        assert!(
+            !shop.path(&format!("out_{number}.csv")).exists(),
+            "{number}"
+        );
+    }
+}
+
+#[test]
 fn what_cannot_be_inspected_leaves_no_earlier_program_or_path() {
     let shop = shop();
     store_path(&shop);

@@ -149,6 +149,13 @@ paint-num-collisions =
         [one] { $count } Punkt
        *[other] { $count } Punkte
     }
+paint-near-other-part =
+    { $body ->
+        [gun] Pistole zu nah an einem anderen Teil
+        [wrist] Handgelenk zu nah an einem anderen Teil
+        [forearm] Unterarm zu nah an einem anderen Teil
+       *[upper-arm] Oberarm zu nah an einem anderen Teil
+    }
 paint-near-part =
     { $body ->
         [gun] Pistole zu nah am Teil

@@ -149,6 +149,13 @@ paint-num-collisions =
         [one] { $count } point
        *[other] { $count } points
     }
+paint-near-other-part =
+    { $body ->
+        [gun] gun too near to another part
+        [wrist] wrist too near to another part
+        [forearm] forearm too near to another part
+       *[upper-arm] upper arm too near to another part
+    }
 paint-near-part =
     { $body ->
         [gun] gun too near to the part

@@ -149,6 +149,13 @@ paint-num-collisions =
         [one] { $count } punto
        *[other] { $count } puntos
     }
+paint-near-other-part =
+    { $body ->
+        [gun] pistola demasiado cerca de otra pieza
+        [wrist] muñeca demasiado cerca de otra pieza
+        [forearm] antebrazo demasiado cerca de otra pieza
+       *[upper-arm] brazo superior demasiado cerca de otra pieza
+    }
 paint-near-part =
     { $body ->
         [gun] pistola demasiado cerca de la pieza

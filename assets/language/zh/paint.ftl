@@ -148,6 +148,13 @@ paint-num-collisions =
         [0] 无
        *[other] { $count } 个点
     }
+paint-near-other-part =
+    { $body ->
+        [gun] 喷枪离另一零件太近
+        [wrist] 手腕离另一零件太近
+        [forearm] 前臂离另一零件太近
+       *[upper-arm] 上臂离另一零件太近
+    }
 paint-near-part =
     { $body ->
         [gun] 喷枪离零件太近

@@ -36,7 +36,7 @@ use stages::{
     rank::{Query, RankParams},
     reference::{Reference, ReferenceParams},
     scene::SceneCloud,
-    segment::{NoPart, PointLabel, SegmentParams, Segmentation, segment_in},
+    segment::{MAX_PARTS, NoPart, PointLabel, SegmentParams, Segmentation, segment_in},
     signature::{FanSignature, SignatureParams},
     stand_off::StandOffParams,
 };
@@ -221,8 +221,13 @@ pub fn run_all(
     let mut known = Vec::new();
     let max_parts = recipe.max_parts();
     let expected = &recipe.expected;
-    // One other thing may hang between two parts. Of one part, the surface that was inspected is the likeliest.
-    let max_surfaces = 2 * max_parts - usize::from(expected.is_empty());
+    // One other thing may hang between two parts. Of one part, the surface that was inspected is the likeliest. Beside the
+    // places of a rack may hang as much as a frame can show.
+    let max_surfaces = if recipe.rack.places.is_empty() {
+        2 * max_parts - usize::from(expected.is_empty())
+    } else {
+        max_parts + MAX_PARTS
+    };
     for _ in 1..max_surfaces {
         let num_accepted = found.iter().filter(|i| i.verdict.is_accepted()).count();
         let verdicts: Vec<&Verdict> = found.iter().map(|one| &one.verdict).collect();
@@ -260,8 +265,8 @@ const EXPLAINED_DISTANCE_M: f64 = 0.015;
 /// Number of standard deviations of noise by which readings of a part lie off its reference.
 const EXPLAINED_DEVIATIONS: f64 = 3.0;
 
-/// Indices of the readings that an inspection explains: those at the placed reference of an accepted part; otherwise the
-/// surface that was inspected. What was taken for the stand of an accepted part may be another part.
+/// Indices of the readings that an inspection explains: those at the placed reference of an accepted part, or of one that only
+/// the rack refuses; otherwise the surface that was inspected. What was taken for the stand of an accepted part may be another part.
 fn explained(inspection: &Inspection, scene: &SceneCloud, library: &Library) -> Vec<u32> {
     let Ok(part) = &inspection.segmentation.part else {
         return Vec::new();
@@ -269,7 +274,9 @@ fn explained(inspection: &Inspection, scene: &SceneCloud, library: &Library) -> 
     let placed = inspection
         .found_pose()
         .zip(inspection.best_reference(library));
-    let Some((pose, reference)) = placed.filter(|_| inspection.verdict.is_accepted()) else {
+    let verdict = &inspection.verdict;
+    let is_sure = verdict.is_accepted() || verdict.rejected().is_some_and(Rejection::is_by_rack);
+    let Some((pose, reference)) = placed.filter(|_| is_sure) else {
         return part.indices.iter().chain(&part.stand).copied().collect();
     };
     let field = reference.field();
@@ -300,17 +307,19 @@ fn inspect(
 ) -> Result<Option<Inspection>, Cancelled> {
     let ran = match &scene.fault {
         Some(fault) => Err(fault.clone()),
-        None => guarded(|| inspect_part(scene, library, recipe, watch, segment)),
+        None => guarded(|| {
+            let mut inspection = inspect_part(scene, library, recipe, watch, segment)?;
+            if let Some(inspection) = &mut inspection {
+                refuse_unsound(inspection, scene);
+                inspection.hang_in(&recipe.rack, scene, library);
+            }
+            Ok(inspection)
+        }),
     };
-    let mut inspection = ran.unwrap_or_else(|fault| {
+    ran.unwrap_or_else(|fault| {
         let num_points = scene.cloud.points.len();
         Ok(Some(Inspection::broken_off(fault, num_points)))
-    })?;
-    if let Some(inspection) = &mut inspection {
-        refuse_unsound(inspection, scene);
-        inspection.hang_in(&recipe.rack, scene, library);
-    }
-    Ok(inspection)
+    })
 }
 
 fn inspect_part(
@@ -405,10 +414,15 @@ impl Inspection {
         area.unwrap_or(0.0)
     }
 
+    /// The readings of the part, camera space, metres; `None` if there is no part.
+    pub fn readings(&self) -> Option<&[Point3<f32>]> {
+        let part = self.segmentation.part.as_ref().ok();
+        part.map(|part| &*part.cloud.points)
+    }
+
     /// Direction of the part in the picture: the mean of x/z of its readings, camera space, negative on the left.
     fn direction(&self) -> f64 {
-        let part = self.segmentation.part.as_ref();
-        let points = part.map_or(&[][..], |part| &part.cloud.points);
+        let points = self.readings().unwrap_or_default();
         let sum: f64 = points.iter().map(|p| f64::from(p.x / p.z)).sum();
         sum / points.len().max(1) as f64
     }

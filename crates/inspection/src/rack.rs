@@ -27,7 +27,7 @@ use nalgebra::Point3;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::pipeline::Inspection;
+use crate::pipeline::{Inspection, Rejection};
 use files::{FileError, parse_versioned, read_text, toml_problem, visible, write_text};
 use geometry::{
     error::Advice,
@@ -93,7 +93,7 @@ pub enum RackError {
         reason: String,
     },
     /// A place is for a part that the library does not have.
-    #[error("{place} of the rack is for {part}, which is not enrolled")]
+    #[error("place \"{place}\" of the rack is for {part}, which is not enrolled")]
     NotEnrolled {
         /// The place.
         place: String,
@@ -249,30 +249,32 @@ impl RackFile {
         }
         if !self.name.is_empty() && !is_name(&self.name) {
             return Err(format!(
-                "its name has not 1 to {MAX_NAME} characters that can be shown"
+                "its name must have 1 to {MAX_NAME} printable characters"
             ));
         }
         for (index, place) in places.iter().enumerate() {
             let name = &place.name;
             if !is_name(name) {
                 return Err(format!(
-                    "a place's name has not 1 to {MAX_NAME} characters that can be shown"
+                    "a place's name must have 1 to {MAX_NAME} printable characters"
                 ));
             }
             let others = &places[..index];
             if others.iter().any(|other| other.name == *name) {
-                return Err(format!("two places are called {name}"));
+                return Err(format!("two places are called \"{name}\""));
             }
             let centre = |one: &Place| Point3::from(one.region.centre_m);
             let within = |one: &Place, other: &Place| other.region.distance(&centre(one)) <= 0.0;
             let overlapping =
                 (others.iter()).find(|other| within(place, other) || within(other, place));
             if let Some(other) = overlapping {
-                return Err(format!("{name} and {} overlap", other.name));
+                return Err(format!("places \"{name}\" and \"{}\" overlap", other.name));
             }
             if !(place.max_turn.0 > 0.0 && place.max_turn <= MAX_TURN) {
                 let found = place.max_turn.degrees();
-                return Err(format!("max_turn_deg of {name} is {found}"));
+                return Err(format!(
+                    "max_turn_deg of place \"{name}\" is {found}, expected more than 0, up to 180"
+                ));
             }
         }
         Ok(())
@@ -325,7 +327,7 @@ impl RackFile {
     }
 
     /// Adds a place, or changes the one of this name, so that the part of an inspection may hang there as it does; `middle` is
-    /// that of its reference. Returns false if no part was found.
+    /// that of its reference. Returns false if no place can be made of it, see [`may_be_taken`].
     pub fn take_place(
         &mut self,
         name: &str,
@@ -334,7 +336,7 @@ impl RackFile {
         base_from_camera: Option<&RigidTransform>,
     ) -> Result<bool, RackError> {
         let frame_from_camera = self.frame_from_camera(base_from_camera)?;
-        let named = (inspection.reference()).filter(|_| inspection.verdict.is_named());
+        let named = (inspection.reference()).filter(|_| may_be_taken(inspection));
         let found = named.zip(inspection.found_pose()).zip(middle);
         let Some(((reference, pose), middle)) = found else {
             return Ok(false);
@@ -388,6 +390,22 @@ impl RackFile {
         });
         Ok(true)
     }
+}
+
+/// True if a place can be made of the part of an inspection: it is accepted, or only another rack speaks against it.
+pub fn may_be_taken(inspection: &Inspection) -> bool {
+    let verdict = &inspection.verdict;
+    verdict.is_accepted() || verdict.rejected().is_some_and(Rejection::is_by_rack)
+}
+
+/// The warning before a place is made of this part, if another pose fits as well: the one that was found becomes the one that
+/// is allowed.
+pub fn ambiguity(inspection: &Inspection) -> Option<String> {
+    let pose = inspection.found_pose()?;
+    let part = inspection.verdict.guess()?;
+    pose.is_ambiguous().then(|| {
+        format!("another pose of {part} fits as well: from now on, only the one that was found is allowed at this place")
+    })
 }
 
 fn is_name(name: &str) -> bool {
@@ -457,7 +475,12 @@ impl WrittenPlace {
             })
         });
         Ok(Place {
-            region: OrientedBox::of_file(&name, centre_mm, size_mm, angles_deg)?,
+            region: OrientedBox::of_file(
+                &format!("place \"{name}\""),
+                centre_mm,
+                size_mm,
+                angles_deg,
+            )?,
             max_turn: Radians::from_degrees(max_turn_deg),
             parts: parts.collect::<Result<_, _>>()?,
             name,

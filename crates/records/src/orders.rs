@@ -233,7 +233,14 @@ impl Orders {
 
     /// Parses a table; errors name `path` as its file.
     pub fn parse(path: &Path, text: &str) -> Result<Self, OrdersError> {
-        let head = text.lines().next().unwrap_or_default();
+        // The hint that Excel reads its separator from. Empty lines are skipped, and the numbers of the others stay.
+        let first = text.lines().next().unwrap_or_default();
+        let text = if first.to_ascii_lowercase().starts_with("sep=") {
+            &text[first.len()..]
+        } else {
+            text
+        };
+        let head = text.trim_start().lines().next().unwrap_or_default();
         let mut separators = SEPARATORS.iter();
         let separator = separators.find(|separator| head.contains(**separator));
         let mut reader = ReaderBuilder::new()

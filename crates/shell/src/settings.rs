@@ -328,6 +328,11 @@ fn read(path: &Path) -> Result<ReadSettings, BadSettings> {
     }
     let is_sensible = |size: &[f32; 2]| size.iter().all(|side| SIDES.contains(side));
     settings.window = settings.window.filter(is_sensible);
+    if bad_keys.iter().any(|key| key == "rack") {
+        // Without the rack, parts would be accepted wherever they hang.
+        settings.live = false;
+        settings.answering.is_on = false;
+    }
     let replaced = settings.program.replace_unusable().into_iter();
     bad_keys.extend(replaced.map(|key| format!("program.{key}")));
     Ok(ReadSettings { settings, bad_keys })

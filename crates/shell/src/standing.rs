@@ -42,7 +42,10 @@ impl Session {
         } else {
             unseen.any(|unseen| ptr::eq(Arc::as_ptr(unseen), inspected))
         };
-        let is_left_behind = self.inspecting.is_some() || self.failed.is_some();
+        // The rack was changed since, or moved with another calibration.
+        let is_of_other_rack =
+            inspected.scan.is_none() && inspected.recipe.rack != *self.rack.in_camera();
+        let is_left_behind = self.inspecting.is_some() || self.failed.is_some() || is_of_other_rack;
         if !is_newest
             || is_left_behind
             || shown.is_some_and(|shown| shown.is_past || shown.is_outdated)

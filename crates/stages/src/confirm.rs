@@ -222,13 +222,17 @@ pub fn confirm(
         }
         sort_by_score(&mut tried);
     }
-    if let Some((first, candidate)) = tried.first_mut().and_then(Tried::finished) {
-        let reference = &references[first];
-        candidate.scale = seen.scale(reference, candidate);
+    if let Some(first) = tried.first_mut()
+        && let Some((index, candidate)) = first.finished()
+    {
+        let reference = &references[index];
         // Rival poses matter only for a candidate that may be accepted.
         if candidate.evidence.score() > SURE {
             seen.weigh_turned(reference, candidate);
         }
+        candidate.scale = seen.scale(reference, candidate);
+        // It stays the first, because the others are not refined to the end.
+        first.score = candidate.evidence.score();
     }
     // Those that were not looked at stay behind those that were.
     let others = others.iter().map(|entry| ConfirmedMatch {

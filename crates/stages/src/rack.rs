@@ -12,7 +12,7 @@ use geometry::{oriented_box::OrientedBox, rigid::RigidTransform, units::Radians}
 pub struct Rack {
     /// Readings outside all of these boxes are background; empty if parts may hang anywhere.
     pub volume: Vec<OrientedBox>,
-    /// The places; empty if they are not known. None begins within another.
+    /// The places; empty if they are not known. The centre of none lies in another.
     pub places: Vec<Place>,
 }
 

@@ -4,7 +4,12 @@
 //! never remains, a file with doubts is only written if that is forced, and it contains each of them, as well as what
 //! was not checked.
 
-use std::path::Path;
+use std::{
+    iter,
+    path::{Path, PathBuf},
+};
+
+use nalgebra::Point3;
 
 use super::{Doubt, Inspected};
 use files::FileError;
@@ -20,7 +25,7 @@ use robot::{
     },
     spray::{BandStatus, CarriedPath, OffThePart, SprayExport, remove_previous_export},
 };
-use stages::{reference::Coverage, stand_off::StandOffParams};
+use stages::{reference::Coverage, segment::MAX_PARTS, stand_off::StandOffParams};
 
 /// A path to be written for a robot.
 #[derive(Clone, Debug)]
@@ -47,6 +52,8 @@ pub struct RobotFile<'a> {
     pub off: Option<OffThePart>,
     /// The inspection that found the part; none for its standard position.
     pub capture: Option<Inspected<'a>>,
+    /// What else hangs in the capture, which the arm must not run into: the readings of each, camera space, metres.
+    pub beside: &'a [&'a [Point3<f32>]],
     /// The part's pose.
     pub camera_from_part: RigidTransform,
     /// True for the part's stored path, false for the default point of a part without one.
@@ -73,7 +80,7 @@ pub enum RobotFileContent<'a> {
         language: &'static RobotLanguage,
         /// Tool, gun and moves.
         settings: &'a ProgramSettings,
-        /// The arm whose reach is checked, without the part among its obstacles; none to check no reach.
+        /// The arm whose reach is checked, without parts among its obstacles; none to check no reach.
         arm: Option<&'a PlacedArm>,
     },
 }
@@ -192,6 +199,24 @@ pub fn remove_previous(file: &Path) -> Result<(), FileError> {
     Ok(())
 }
 
+/// As [`remove_previous`], and the files of several parts too.
+pub fn remove_previous_of_parts(file: &Path) -> Result<(), FileError> {
+    let of_parts = (1..=MAX_PARTS).map(|number| file_of_part(file, number));
+    iter::once(file.to_owned())
+        .chain(of_parts)
+        .try_for_each(|file| remove_previous(&file))
+}
+
+/// The file of one of several parts of a frame, such as `paint_2.src`; the first has number 1.
+pub fn file_of_part(file: &Path, number: usize) -> PathBuf {
+    let stem = file.file_stem().unwrap_or_default().to_string_lossy();
+    let mut name = format!("{stem}_{number}");
+    if let Some(ending) = file.extension() {
+        name = format!("{name}.{}", ending.to_string_lossy());
+    }
+    file.with_file_name(name)
+}
+
 impl RobotFile<'_> {
     /// Removes an earlier file of that name, collects the doubts, and writes the file if there are none or if it is
     /// forced.
@@ -226,7 +251,7 @@ impl RobotFile<'_> {
         })
     }
 
-    /// The arm with the part among its obstacles, and which points it reaches; `None` without an arm.
+    /// The arm with all parts among its obstacles, and which points it reaches; `None` without an arm.
     fn reach(&self) -> Result<Option<(PlacedArm, PathCheck)>, ArmError> {
         let RobotFileContent::Program {
             settings,
@@ -240,6 +265,10 @@ impl RobotFile<'_> {
         let arm = arm
             .clone()
             .with_part(&self.part_cloud.points, &robot_from_part);
+        let robot_from_camera = &self.frame.robot_from_camera;
+        let arm = (self.beside.iter()).fold(arm, |arm, points| {
+            arm.with_other_part(points, robot_from_camera)
+        });
         let film = self
             .path
             .and_then(|path| FilmRoom::of_path(path, self.part_cloud, self.coverage, self.side));
@@ -469,6 +498,7 @@ mod tests {
                     robot: Some(&self.frame),
                     is_forced: false,
                 }),
+                beside: &[],
                 camera_from_part: self
                     .inspection
                     .found_pose()

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use nalgebra::Point3;
 
 use super::spray::check_placed_part;
 use crate::cli::{
@@ -14,7 +15,7 @@ use crate::cli::{
 use geometry::units::any_of;
 use inspection::library::{Library, LibraryLoad, LibraryPlace, PartMeta};
 use robot::{RobotFrame, program::RobotLanguage, spray::carry};
-use station::{Inspected, robot_file::remove_previous};
+use station::{Inspected, robot_file::remove_previous_of_parts};
 
 /// Whether and how a program is written.
 #[derive(Debug, Args)]
@@ -31,7 +32,7 @@ pub(super) struct ProgramChoice {
 fn program_help() -> String {
     let endings = RobotLanguage::ENDINGS.map(|ending| format!(".{ending}"));
     format!(
-        "Write the part's stored spray path as a program for the robot's controller, named like the file: {}. Needs a calibration and one file. Nothing is written if a robot must not act on the result, for instance because the capture is older than 10 minutes, if the path does not aim at the part, if --arm does not reach every point, or if the program would leave a worse film than planned",
+        "Write the part's stored spray path as a program for the robot's controller, named like the file: {}. Needs a calibration and one file. If several parts are accepted, each has a program of its own, as in paint_1.src. Nothing is written if a robot must not act on the result, for instance because the capture is older than 10 minutes, if the path does not aim at the part, if --arm does not reach every point, or if the program would leave a worse film than planned",
         any_of(&endings)
     )
 }
@@ -58,7 +59,7 @@ impl ProgramChoice {
     /// Removes the program of an earlier capture: whatever this capture yields, no robot may run it.
     pub(super) fn remove_previous(&self) -> anyhow::Result<()> {
         if let Some(file) = &self.program {
-            remove_previous(file).advised()?;
+            remove_previous_of_parts(file).advised()?;
         }
         Ok(())
     }
@@ -84,10 +85,13 @@ impl ProgramChoice {
 }
 
 impl CapturedProgram {
-    /// Carries the path and writes the program, unless there is a reason against it.
+    /// Carries the path and writes the program, unless there is a reason against it. `beside` is what else hangs there, and
+    /// `number` that of one of several parts, each of which has a file of its own.
     pub(super) fn write(
         &self,
         seen: &Inspected<'_>,
+        beside: &[&[Point3<f32>]],
+        number: Option<usize>,
         library: &Library,
         frame: &RobotFrame,
         console: &Console,
@@ -125,9 +129,14 @@ impl CapturedProgram {
             side: meta.side,
             path: &path,
             capture: Some(*seen),
+            beside,
             camera_from_part,
             is_simulated: meta.simulated || seen.subject.is_simulated,
         };
-        self.file.write(&carried, &subject, frame, console)
+        let file = match number {
+            Some(number) => &self.file.of_part(number),
+            None => &self.file,
+        };
+        file.write(&carried, &subject, frame, console)
     }
 }

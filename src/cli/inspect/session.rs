@@ -392,33 +392,34 @@ impl InspectSession {
         }
     }
 
-    /// Writes the path of a part for a robot; `None` if no such file is wanted.
+    /// Writes the path of each accepted part for a robot, or says why there is none for the first; `None` if no such file is
+    /// wanted.
     fn write_robot_file(
         &self,
         frame: &InspectedFrame,
         console: &Console,
     ) -> anyhow::Result<Option<Outcome>> {
-        let is_wanted = self.spray.is_some() || self.program.is_some();
-        let [first, others @ ..] = &frame.parts[..] else {
+        let (Some(robot), true) = (&self.robot, self.spray.is_some() || self.program.is_some())
+        else {
             return Ok(None);
         };
-        if is_wanted && others.iter().any(|part| part.verdict.is_accepted()) {
-            console.advise(
-                &"error: several parts hang there, and a robot's file is that of one",
-                &"Leave segment.max_parts at 1, and let one part hang there",
-            );
-            return Ok(Some(Outcome::CouldNotRun));
+        let accepted = frame.parts.iter().filter(|part| part.verdict.is_accepted());
+        let num_files = accepted.count().max(1);
+        let mut outcome = Outcome::Accepted;
+        // Accepted ones come first.
+        for (index, part) in frame.parts.iter().enumerate().take(num_files) {
+            let number = (num_files > 1).then_some(index + 1);
+            let others = (frame.parts.iter().enumerate()).filter(|(other, _)| *other != index);
+            let beside: Vec<_> = others.filter_map(|(_, part)| part.readings()).collect();
+            let (seen, library) = (self.record(frame, &frame.subject, part), &self.library);
+            if let Some(spray) = &self.spray {
+                outcome = outcome.max(spray.write(&seen, number, library, robot, console)?);
+            } else if let Some(program) = &self.program {
+                let written = program.write(&seen, &beside, number, library, robot, console)?;
+                outcome = outcome.max(written);
+            }
         }
-        let seen = self.record(frame, &frame.subject, first);
-        Ok(match (&self.spray, &self.program, &self.robot) {
-            (Some(spray), _, Some(robot)) => {
-                Some(spray.write(&seen, &self.library, robot, console)?)
-            }
-            (_, Some(program), Some(robot)) => {
-                Some(program.write(&seen, &self.library, robot, console)?)
-            }
-            _ => None,
-        })
+        Ok(Some(outcome))
     }
 
     /// Writes line and pictures of an inspection, if there is a folder for them.

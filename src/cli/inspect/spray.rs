@@ -17,14 +17,15 @@ use robot::{
 };
 use station::{
     Inspected,
-    robot_file::{RobotFile, RobotFileContent, remove_previous},
+    robot_file::{RobotFile, RobotFileContent, file_of_part, remove_previous_of_parts},
 };
 
 /// Whether and how the spray path is written.
 #[derive(Debug, Args)]
 pub(super) struct SprayChoice {
     /// Write the part's stored spray path, moved to where the part hangs now, in the robot's base frame: .csv or .json.
-    /// Needs a calibration and one file. Nothing is written if a robot must not act on the result, for instance because the
+    /// Needs a calibration and one file. If several parts are accepted, each has a file of its own, as in path_1.csv.
+    /// Nothing is written if a robot must not act on the result, for instance because the
     /// capture is older than 10 minutes, or if the path does not aim at the part
     #[arg(long, value_name = "FILE")]
     spray: Option<PathBuf>,
@@ -52,7 +53,7 @@ impl SprayChoice {
     /// Removes the path of an earlier capture: whatever this capture yields, it must not be mistaken for its own.
     pub(super) fn remove_previous(&self) -> anyhow::Result<()> {
         if let Some(file) = &self.spray {
-            remove_previous(file).advised()?;
+            remove_previous_of_parts(file).advised()?;
         }
         Ok(())
     }
@@ -108,10 +109,12 @@ pub(super) fn check_placed_part(
 }
 
 impl SprayFile {
-    /// Carries the path and writes it, unless there is a reason against it.
+    /// Carries the path and writes it, unless there is a reason against it. `number` is that of one of several parts, each of
+    /// which has a file of its own.
     pub(super) fn write(
         &self,
         seen: &Inspected<'_>,
+        number: Option<usize>,
         library: &Library,
         frame: &RobotFrame,
         console: &Console,
@@ -145,8 +148,9 @@ impl SprayFile {
         };
         let camera_from_part = pose.camera_from_part();
         let carried = carry(&path, &camera_from_part, &part.cloud, params);
+        let of_part = number.map(|number| file_of_part(&self.file, number));
         let file = RobotFile {
-            file: &self.file,
+            file: of_part.as_ref().unwrap_or(&self.file),
             content: RobotFileContent::Poses {
                 convention: self.convention,
                 params,
@@ -160,6 +164,7 @@ impl SprayFile {
             path: Some(&path),
             off: off_the_part(&path, reference),
             capture: Some(*seen),
+            beside: &[],
             camera_from_part,
             is_stored,
             is_simulated: meta.simulated || seen.subject.is_simulated,

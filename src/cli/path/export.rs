@@ -70,6 +70,7 @@ pub(super) fn run(
         side: part.meta.side,
         path: &path,
         capture: None,
+        beside: &[],
         camera_from_part: standard,
         is_simulated: part.meta.simulated,
     };

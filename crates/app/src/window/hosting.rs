@@ -104,7 +104,12 @@ impl Window {
             Message::UseCalibration(cell, robot) => {
                 self.state.session.cell = cell;
                 self.services.library_cache.use_robot(robot.clone());
+                let before = self.state.session.rack.clone();
                 self.state.session.use_robot(robot);
+                let is_moved = self.state.session.rack.in_camera() != before.in_camera();
+                if is_moved && self.state.session.shown.is_some() {
+                    self.state.inspect_again();
+                }
             }
             Message::UseAnswering(setup) => {
                 let session = &mut self.state.session;

@@ -12,6 +12,22 @@ const CONTINUED_M: f32 = 0.02;
 /// Minimum number of readings at which the part continues outside the work volume.
 const MIN_CONTINUED: usize = 20;
 
+/// True if the part may be refused only because some of it was cut off.
+fn is_of_shape(rejected: &Rejection) -> bool {
+    matches!(
+        rejected,
+        Rejection::LowScore { .. }
+            | Rejection::Piece { .. }
+            | Rejection::HardlySeen { .. }
+            | Rejection::AnotherModel { .. }
+            | Rejection::AnotherMake { .. }
+            | Rejection::AmbiguousPose { .. }
+            | Rejection::Unconstrained { .. }
+            | Rejection::Uncertain { .. }
+            | Rejection::OffScale { .. }
+    )
+}
+
 impl Inspection {
     /// Notes where in the rack the part hangs, and refuses it if it may not hang like this.
     pub(super) fn hang_in(&mut self, rack: &Rack, scene: &SceneCloud, library: &Library) {
@@ -19,6 +35,16 @@ impl Inspection {
             return;
         }
         self.leaves_volume = self.continues_outside(rack, scene);
+        if let Verdict::Part {
+            part,
+            rejected: Some(rejected),
+            ..
+        } = &mut self.verdict
+            && self.leaves_volume
+            && is_of_shape(rejected)
+        {
+            *rejected = Rejection::CutByVolume { part: part.clone() };
+        }
         let reference = self.best_reference(library);
         let pose = self.found_pose().filter(|_| self.verdict.is_named());
         let (Some(reference), Some(pose)) = (reference, pose) else {
@@ -35,7 +61,8 @@ impl Inspection {
         let (part, name) = (reference.name.clone(), place.name.clone());
         let turn = place.turn(reference, &camera_from_part);
         let rejection = match turn {
-            _ if distance > 0.0 => Some(Rejection::BesidePlaces {
+            // A distance that is no number is none either.
+            _ if !(distance <= 0.0) => Some(Rejection::BesidePlaces {
                 part,
                 place: name.clone(),
                 distance: Metres(distance),
@@ -69,7 +96,7 @@ impl Inspection {
 
     /// The mean of the part's readings.
     fn centroid(&self) -> Option<Point3<f64>> {
-        let points = &self.segmentation.part.as_ref().ok()?.cloud.points;
+        let points = self.readings()?;
         let sum: Vector3<f64> = points.iter().map(|p| p.coords.cast()).sum();
         (!points.is_empty()).then(|| (sum / points.len() as f64).into())
     }

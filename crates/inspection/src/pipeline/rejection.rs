@@ -197,6 +197,11 @@ pub enum Rejection {
         #[serde(rename = "limit_rad")]
         limit: Radians,
     },
+    /// It is refused for its shape, and goes on outside the work volume, where nothing is looked at.
+    CutByVolume {
+        /// Best match.
+        part: String,
+    },
     /// The paper's matcher ran alone, without a pose.
     Unconfirmed {
         /// Best match.
@@ -284,6 +289,16 @@ pub enum Unrecognisable {
     /// The signature could not be computed.
     #[serde(untagged)]
     Signature(#[from] SignatureError),
+}
+
+impl Rejection {
+    /// True if only the rack speaks against the part.
+    pub fn is_by_rack(&self) -> bool {
+        matches!(
+            self,
+            Self::WrongPlace { .. } | Self::BesidePlaces { .. } | Self::Turned { .. }
+        )
+    }
 }
 
 impl Described for Rejection {

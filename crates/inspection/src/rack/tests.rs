@@ -89,15 +89,15 @@ fn a_file_that_is_no_rack_is_refused_with_what_is_wrong_and_what_to_do() {
         (&with(&place(&"n".repeat(41), 0.0, "")), "a place's name"),
         (
             &with(&place("a", 0.0, "max_turn_deg = 0")),
-            "max_turn_deg of a",
+            "max_turn_deg of place \"a\"",
         ),
         (
             &with(&place("a", 0.0, "max_turn_deg = nan")),
-            "max_turn_deg of a",
+            "max_turn_deg of place \"a\"",
         ),
         (
             &with(&place("a", 0.0, "max_turn_deg = 181")),
-            "max_turn_deg of a",
+            "max_turn_deg of place \"a\"",
         ),
         (
             &with(&place(
@@ -109,11 +109,11 @@ fn a_file_that_is_no_rack_is_refused_with_what_is_wrong_and_what_to_do() {
         ),
         (
             &with(&(place("a", 0.0, "") + &place("a", 900.0, ""))),
-            "two places are called a",
+            "two places are called \"a\"",
         ),
         (
             &with(&(place("a", 0.0, "") + &place("b", 100.0, ""))),
-            "b and a overlap",
+            "places \"b\" and \"a\" overlap",
         ),
     ] {
         let error = parsed(text).expect_err(text);

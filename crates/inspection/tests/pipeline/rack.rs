@@ -104,6 +104,24 @@ fn a_part_that_hangs_where_or_as_it_may_not_is_refused() {
 }
 
 #[test]
+fn the_part_of_a_single_place_is_found_beside_others() {
+    let (scene, library, mut recipe, found) = full_rack();
+    recipe.segment.max_parts = 1;
+    let rack = places_of(&found, &library).rack;
+    for place in rack.places {
+        let name = place.name.clone();
+        recipe.rack.places = vec![place];
+        let hung = run_all(&scene, &library, &recipe, &Unwatched).expect("not cancelled");
+        let shown = shown(&hung, &recipe);
+        assert!(
+            shown.starts_with(&name) && !shown.contains("empty"),
+            "{shown}"
+        );
+        assert!(hung[0].verdict.is_accepted(), "{shown}");
+    }
+}
+
+#[test]
 fn nothing_outside_the_work_volume_is_looked_at() {
     let (scene, library, mut recipe, found) = full_rack();
     for one in &found {
@@ -120,6 +138,10 @@ fn nothing_outside_the_work_volume_is_looked_at() {
         region.centre_m[0] += region.size_m[0] / 2.0;
         let cut = run(&scene, &library, &recipe, &Unwatched).expect("not cancelled");
         assert!(cut.leaves_volume, "{:?}", one.verdict.guess());
+        let kind = cut.verdict.refusal().map(|why| why.kind().to_string());
+        // What is inside may suffice.
+        let kind = kind.unwrap_or_default();
+        assert!(["", "cut_by_volume", "unknown"].contains(&&*kind), "{kind}");
     }
 }
 

@@ -18,6 +18,10 @@ pub struct HungSpots<E = NewEntry> {
     spots: Vec<Spot<E>>,
     /// The last frame shows something somewhere.
     shows_part: bool,
+    /// True if something moves in the last frame.
+    is_moving: bool,
+    /// Names of the parts that had a verdict that counts and left their spots since something has moved.
+    leaving: Vec<String>,
 }
 
 #[derive(Debug)]
@@ -27,6 +31,10 @@ struct Spot<E> {
     was_accepted: bool,
     /// The last frame shows something there.
     is_seen: bool,
+    /// The name of the part there once its verdict counts.
+    counted: Option<String>,
+    /// What is held for it shows a part on its way out, whose verdict counted at another spot.
+    is_leaving: bool,
 }
 
 /// The part at every spot at a moment, to tell which parts a frame shows that was inspected beside those of [`HungSpots::see`].
@@ -75,6 +83,8 @@ impl<E> Default for Spot<E> {
             rows: HungRows::default(),
             was_accepted: false,
             is_seen: false,
+            counted: None,
+            is_leaving: false,
         }
     }
 }
@@ -84,6 +94,8 @@ impl<E> Default for HungSpots<E> {
         Self {
             spots: vec![Spot::default()],
             shows_part: false,
+            is_moving: false,
+            leaving: Vec::new(),
         }
     }
 }
@@ -104,8 +116,17 @@ impl<E> HungSpots<E> {
         let assigned = self.assign(&found, scene, stillness, recipe);
         let index_at = |spot| assigned.iter().position(|assigned| *assigned == Some(spot));
         let at_spots = (0..self.spots.len()).map(index_at).collect();
+        self.is_moving = stillness == MotionState::Moving;
+        if !self.is_moving {
+            self.leaving.clear();
+        }
         for (spot, index) in self.spots.iter_mut().zip(&at_spots) {
             let index: &Option<usize> = index;
+            if self.is_moving && index.is_none() {
+                self.leaving.extend(spot.counted.take());
+            }
+            // What hangs still is no part on its way out.
+            spot.is_leaving &= self.is_moving || index.is_none();
             let is_accepted = index.is_some_and(|index| found[index].verdict.is_accepted());
             spot.was_accepted = is_accepted || (spot.was_accepted && !spot.rows.is_empty());
         }
@@ -145,8 +166,22 @@ impl<E> HungSpots<E> {
             // It may come into sight again among what moves there.
             return (None, FrameRole::Nothing);
         }
+        let was_leaving = shown.is_leaving;
         let (left, role) = shown.rows.see(frame);
-        (left.filter(|_| is_part), role)
+        let name = frame.inspection.verdict.guess();
+        match role {
+            FrameRole::Best => {
+                let has_left = |name: &str| self.leaving.iter().any(|left| left == name);
+                shown.is_leaving = self.is_moving && name.is_some_and(has_left);
+                shown.counted = None;
+            }
+            FrameRole::First | FrameRole::Again => {
+                shown.is_leaving = false;
+                shown.counted = name.map(str::to_owned);
+            }
+            FrameRole::Nothing => {}
+        }
+        (left.filter(|_| is_part && !was_leaving), role)
     }
 
     fn is_part(&self, spot: usize) -> bool {
@@ -199,7 +234,9 @@ impl<E> HungSpots<E> {
         let mut best = Vec::new();
         for spot in 0..self.spots.len() {
             let is_part = self.is_part(spot);
-            best.extend(self.at(spot).take_best().filter(|_| is_part));
+            let is_leaving = self.spots[spot].is_leaving;
+            let held = self.at(spot).take_best();
+            best.extend(held.filter(|_| is_part && !is_leaving));
         }
         best
     }

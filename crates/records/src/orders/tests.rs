@@ -53,6 +53,17 @@ fn the_same_table_is_read_however_a_spreadsheet_writes_it() {
 }
 
 #[test]
+fn lines_are_counted_from_the_hint_of_the_separator() {
+    let error = error_of("sep=;\norder;parts\n4711;fender\n4712;\n");
+    assert!(error.contains("line 4"), "{error}");
+    let orders = parse(&format!("sep=;\r\n{}", TABLE.replace("r;f", "r|f"))).expect("a table");
+    assert_eq!(
+        expected(&orders, "4711", ""),
+        Ok(vec!["front_door".into(), "fender".into()])
+    );
+}
+
+#[test]
 fn the_row_of_the_serial_number_comes_before_that_of_the_order() {
     let orders = parse(
         "order,serial,parts\n4711,,fender\n4711,S1,grille\n4712,S2,fender|fender\n4713,S2,grille\n4714,,bonnet\n",

@@ -118,6 +118,19 @@ impl PlacedArm {
         self.flange_from_nozzle.translation.vector.norm() / 2.0
     }
 
+    /// Adds what else hangs there as an obstacle; its points are in the camera's frame.
+    #[must_use]
+    pub fn with_other_part(
+        self,
+        points: &[Point3<f32>],
+        robot_from_camera: &RigidTransform,
+    ) -> Self {
+        Self {
+            obstacles: (self.obstacles).with_other_part(points, robot_from_camera),
+            ..self
+        }
+    }
+
     /// Adds a part as an obstacle; its points are in the part's frame.
     #[must_use]
     pub fn with_part(self, points: &[Point3<f32>], robot_from_part: &RigidTransform) -> Self {

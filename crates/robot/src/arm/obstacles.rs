@@ -77,6 +77,8 @@ impl Body {
 pub enum Obstacle {
     /// The part to be painted.
     Part,
+    /// Another part that hangs there.
+    OtherPart,
     /// The floor of the cell.
     Floor,
     /// A box of the cell, by name.
@@ -111,6 +113,7 @@ pub struct Obstacles {
     /// Name of the file of boxes and floor.
     file: Option<String>,
     part: Option<Arc<PartPoints>>,
+    others: Vec<Arc<PartPoints>>,
 }
 
 #[derive(Clone, Debug)]
@@ -159,6 +162,7 @@ impl Default for Obstacles {
             floor: None,
             file: None,
             part: None,
+            others: Vec::new(),
         }
     }
 }
@@ -210,6 +214,18 @@ impl Obstacles {
         }
     }
 
+    /// Adds what else hangs there, by its points in the camera's frame; points that are not finite are ignored.
+    #[must_use]
+    pub fn with_other_part(
+        mut self,
+        points: &[Point3<f32>],
+        robot_from_camera: &RigidTransform,
+    ) -> Self {
+        let other = PartPoints::new(points, robot_from_camera);
+        self.others.extend(other.map(Arc::new));
+        self
+    }
+
     /// The corners of each box; two are joined by an edge if their indices differ in one bit.
     pub fn boxes(&self) -> impl Iterator<Item = [Point3<f64>; 8]> {
         self.boxes.iter().map(|one| one.region.corners())
@@ -220,11 +236,13 @@ impl Obstacles {
         bodies.iter().flat_map(move |capsule| {
             let Capsule { body, axis, radius } = *capsule;
             let within = radius + self.clearance;
-            let part = self.part.iter().filter_map(move |part| {
+            let part = self.part.iter().map(|part| (part, Obstacle::Part));
+            let others = self.others.iter().map(|part| (part, Obstacle::OtherPart));
+            let parts = part.chain(others).filter_map(move |(part, obstacle)| {
                 let distance = part.distance(&axis, within)?;
-                Some((distance - within, body, Obstacle::Part))
+                Some((distance - within, body, obstacle))
             });
-            part.chain(self.pairs_besides_part(*capsule))
+            parts.chain(self.pairs_besides_part(*capsule))
         })
     }
 
@@ -233,8 +251,8 @@ impl Obstacles {
     pub(super) fn are_hit_by(&self, bodies: &[Capsule]) -> bool {
         bodies.iter().any(|capsule| {
             let within = capsule.radius + self.clearance;
-            let part = self.part.as_ref();
-            part.is_some_and(|part| part.is_near(&capsule.axis, within))
+            let mut parts = self.part.iter().chain(&self.others);
+            parts.any(|part| part.is_near(&capsule.axis, within))
                 || self.pairs_besides_part(*capsule).next().is_some()
         })
     }

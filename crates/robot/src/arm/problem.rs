@@ -98,6 +98,9 @@ impl PointProblem {
                 let body = body.name();
                 match obstacle {
                     Obstacle::Part => format!("the {body} is too near to the part"),
+                    Obstacle::OtherPart => {
+                        format!("the {body} is too near to another part that hangs there")
+                    }
                     Obstacle::Floor => format!("the {body} is too near to the floor"),
                     Obstacle::Box(name) => format!("the {body} is too near to the box {name}"),
                     Obstacle::UpperArm => format!("the {body} is too near to the upper arm"),

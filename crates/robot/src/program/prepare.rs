@@ -176,11 +176,20 @@ mod tests {
                 .as_deref(),
             Some(wanted)
         );
-        let wanted = PointProblem::Collision {
-            body: Body::Gun,
-            obstacle: Obstacle::Part,
+        let wanted = |obstacle| {
+            let body = Body::Gun;
+            Some(PointProblem::Collision { body, obstacle })
         };
-        assert_eq!(through.points[2].problem, Some(wanted));
+        assert_eq!(through.points[2].problem, wanted(Obstacle::Part));
+        // The same plate as another part that hangs there.
+        let beside = arm
+            .clone()
+            .with_other_part(&plate, &Translation3::new(1.55, 0.0, 1.2).into());
+        let mut settings = ProgramSettings::default();
+        settings.params.max_tilt = Radians(0.0);
+        let checked_beside = check_reach(&beside, &line(1.2), &frame, &settings, None);
+        let problem = checked_beside.expect("checked").points[2].problem.clone();
+        assert_eq!(problem, wanted(Obstacle::OtherPart));
         // A bolt at the program's start, 300 mm behind the first point.
         let bolt: Vec<Point3<f32>> = (-1_i16..=1)
             .map(|i| Point3::new(0.0, 0.01 * f32::from(i) - 0.1, -0.02))

@@ -3,13 +3,16 @@
 use std::{
     io::{self, Cursor},
     path::{Path, PathBuf},
+    sync::Arc,
 };
 
 use image::{DynamicImage, ImageFormat};
+use nalgebra::Point3;
 
 use super::{inspected::Inspected, source::Origin};
 use crate::language::robot::{convention_title, not_checked};
 use files::{file_name, write_atomically};
+use inspection::pipeline::Inspection;
 use records::{
     history::Traceability,
     report::{
@@ -78,11 +81,12 @@ impl ProgramTarget {
 }
 
 /// Writes the spray path of an inspection for the robot, as CSV or JSON like `partsight inspect --spray`, or as a program for
-/// its controller like `--program`. `subject` is what was inspected as it stands now. First removes an earlier file of that
-/// name; writes nothing if there are doubts.
+/// its controller like `--program`. `others` are the other parts of the frame, and `subject` is what was inspected as it stands
+/// now. First removes an earlier file of that name; writes nothing if there are doubts.
 pub fn spray_path(
     path: &Path,
     inspected: &Inspected,
+    others: &[Arc<Inspected>],
     subject: &Subject,
     robot: &RobotFrame,
     convention: Convention,
@@ -111,6 +115,8 @@ pub fn spray_path(
             params: &inspected.recipe.stand_off,
         },
     };
+    let others = others.iter().map(|other| &other.inspection);
+    let beside: Vec<&[Point3<f32>]> = others.filter_map(Inspection::readings).collect();
     robot_file(&RobotFile {
         file: path,
         content,
@@ -123,6 +129,7 @@ pub fn spray_path(
         path: stored.map(|stored| &stored.path),
         off: inspected.off_the_part,
         capture: Some(inspected.as_recorded(subject, Some(robot))),
+        beside: &beside,
         camera_from_part: pose.camera_from_part(),
         is_stored: true,
         is_simulated: inspected.origin.is_simulated() || part.simulated,

@@ -11,11 +11,10 @@ use crate::{
     action::Effect,
     inspection::inspected::Inspected,
     notice::Notice,
-    session::{ReinspectionPurpose, Session},
-    source::live,
+    session::Session,
     state::{State, notify},
 };
-use geometry::rigid::RigidTransform;
+use geometry::rigid::{RigidTransform, from_row_major, row_major};
 use inspection::rack::{Rack, RackError, RackFile};
 use robot::RobotFrame;
 use ui::{language::text, user_error::UserError};
@@ -25,12 +24,53 @@ const MAX_UNDO: usize = 50;
 
 /// The rack in use.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[serde(try_from = "KeptRack", into = "KeptRack")]
 pub struct RackInUse {
     /// Its file; `None` if parts may hang anywhere.
     file: Option<RackFile>,
+    /// Where the camera was when that was last known.
+    base_from_camera: Option<RigidTransform>,
     /// Its boxes and places in camera space.
     in_camera: Rack,
+}
+
+/// The rack in use, as the settings keep it.
+#[derive(Serialize, Deserialize)]
+struct KeptRack {
+    #[serde(default)]
+    file: Option<RackFile>,
+    /// Row by row.
+    #[serde(default)]
+    base_from_camera: Option<[f64; 16]>,
+}
+
+/// Tolerance of a kept transform: it was written by this program.
+const KEPT_TOLERANCE: f64 = 1e-6;
+
+impl TryFrom<KeptRack> for RackInUse {
+    type Error = String;
+
+    fn try_from(kept: KeptRack) -> Result<Self, String> {
+        let read = |m: [f64; 16]| from_row_major(&m, KEPT_TOLERANCE).ok_or("no transform");
+        let base_from_camera = kept.base_from_camera.map(read).transpose()?;
+        let in_camera = kept.file.as_ref();
+        let in_camera = in_camera.map(|file| file.in_camera(base_from_camera.as_ref()));
+        let in_camera = in_camera.transpose().map_err(|error| error.to_string())?;
+        Ok(Self {
+            file: kept.file,
+            base_from_camera,
+            in_camera: in_camera.unwrap_or_default(),
+        })
+    }
+}
+
+impl From<RackInUse> for KeptRack {
+    fn from(rack: RackInUse) -> Self {
+        Self {
+            file: rack.file,
+            base_from_camera: rack.base_from_camera.as_ref().map(row_major),
+        }
+    }
 }
 
 impl RackInUse {
@@ -53,6 +93,7 @@ impl RackInUse {
         let moved = self.file.as_ref();
         let moved = moved.and_then(|file| file.in_camera(camera(robot)).ok());
         if let Some(moved) = moved {
+            self.base_from_camera = camera(robot).copied();
             self.in_camera = moved;
         }
     }
@@ -72,6 +113,7 @@ impl Session {
         let in_camera = file.in_camera(camera(self.robot.as_deref()))?;
         self.rack = RackInUse {
             file: Some(file),
+            base_from_camera: camera(self.robot.as_deref()).copied(),
             in_camera,
         };
         Ok(())
@@ -89,6 +131,17 @@ pub struct RackEditor {
     problem: Option<UserError>,
     /// True if nothing was inspected with the draft yet.
     is_new: bool,
+    /// True while a number is being dragged: all its changes are undone at once.
+    is_dragged: bool,
+}
+
+impl RackEditor {
+    fn of(session: &Session) -> Self {
+        Self {
+            draft: session.rack.file.clone().unwrap_or_default(),
+            ..Self::default()
+        }
+    }
 }
 
 /// An action on the rack.
@@ -120,16 +173,16 @@ pub enum RackAction {
 /// Carries out an action on the rack.
 pub fn apply(state: &mut State, action: RackAction) -> Option<Effect> {
     if let RackAction::Toggle = action {
-        state.rack_editor = match state.rack_editor.take() {
-            Some(_) => None,
-            None => Some(RackEditor {
-                draft: state.session.rack.file.clone().unwrap_or_default(),
-                ..RackEditor::default()
-            }),
-        };
+        match state.rack_editor.take() {
+            Some(editor) if editor.is_new => state.inspect_again(),
+            Some(_) => {}
+            None => state.rack_editor = Some(RackEditor::of(&state.session)),
+        }
         return None;
     }
-    let mut editor = state.rack_editor.take().unwrap_or_default();
+    // A file may be chosen after the window was closed.
+    let open = state.rack_editor.take();
+    let mut editor = open.unwrap_or_else(|| RackEditor::of(&state.session));
     let robot = state.session.robot.clone();
     let changed = match action {
         RackAction::Toggle => Ok(None),
@@ -144,7 +197,8 @@ pub fn apply(state: &mut State, action: RackAction) -> Option<Effect> {
             None
         }),
         RackAction::Edit { file, continues } => {
-            if continues {
+            let was_dragged = std::mem::replace(&mut editor.is_dragged, continues);
+            if was_dragged && continues {
                 editor.draft = *file;
                 set(state, &mut editor);
                 Ok(None)
@@ -153,16 +207,10 @@ pub fn apply(state: &mut State, action: RackAction) -> Option<Effect> {
             }
         }
         RackAction::Inspect => {
-            editor.is_new = false;
-            if state.session.is_live() {
-                live::restart_consensus(state);
-            } else if state
-                .session
-                .shown
-                .as_ref()
-                .is_some_and(|shown| !shown.is_past)
-            {
-                state.inspect_shown(&text!("rack-heading"), ReinspectionPurpose::Repeated);
+            (editor.is_new, editor.is_dragged) = (false, false);
+            let shown = state.session.shown.as_ref();
+            if state.session.is_live() || shown.is_some_and(|shown| !shown.is_past) {
+                state.inspect_again();
             }
             Ok(None)
         }
@@ -210,7 +258,8 @@ fn set(state: &mut State, editor: &mut RackEditor) {
     let library = state.session.library.clone();
     let is_enrolled = |name: &str| {
         let parts = library.iter().flat_map(|library| &library.parts);
-        library.is_none() || parts.into_iter().any(|part| part.name.as_str() == name)
+        let mut names = parts.flat_map(|part| [part.name.as_str(), part.part_name().as_str()]);
+        library.is_none() || names.any(|other| other == name)
     };
     let used = checked.map_err(wrong).and_then(|()| {
         let known = editor.draft.check_parts(is_enrolled);

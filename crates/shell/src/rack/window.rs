@@ -14,7 +14,7 @@ use geometry::{
     oriented_box::{MAX_COORDINATE_MM, OrientedBox},
     units::Radians,
 };
-use inspection::rack::{MAX_BOXES, MAX_NAME, MAX_TURN, Place, RackFile, RackFrame};
+use inspection::rack::{MAX_BOXES, MAX_NAME, MAX_TURN, Place, RackFile, RackFrame, may_be_taken};
 use stages::segment::MAX_PARTS;
 use ui::{
     language::text,
@@ -160,7 +160,7 @@ fn volume(ui: &mut Ui, state: &State, file: &mut RackFile, caused: &mut Vec<Acti
     if let Some(index) = removed {
         file.rack.volume.remove(index);
     }
-    let has_part = front(state).is_some() && file.rack.volume.len() < MAX_BOXES;
+    let has_part = has_part(state) && file.rack.volume.len() < MAX_BOXES;
     ui.add_enabled_ui(has_part, |ui| {
         let add = text_button(ui, &text!("rack-add-box"));
         if add.on_disabled_hover_text(text!("rack-no-part")).clicked() {
@@ -170,17 +170,16 @@ fn volume(ui: &mut Ui, state: &State, file: &mut RackFile, caused: &mut Vec<Acti
 }
 
 /// True if a part is in front of which a place or a box can be made.
-fn front(state: &State) -> Option<()> {
-    let shown = state.session.shown.as_ref()?;
-    let inspection = &shown.inspected.inspection;
-    (inspection.verdict.is_named() && inspection.found_pose().is_some()).then_some(())
+fn has_part(state: &State) -> bool {
+    let shown = state.session.shown.as_ref();
+    shown.is_some_and(|shown| may_be_taken(&shown.inspected.inspection))
 }
 
 /// Draws the places.
 fn places(ui: &mut Ui, state: &State, file: &mut RackFile, caused: &mut Vec<Action>) {
     ui.strong(text!("rack-places"));
     ui.weak(text!("rack-places-says"));
-    let has_part = front(state).is_some();
+    let has_part = has_part(state);
     let mut removed = None;
     for (index, place) in file.rack.places.iter_mut().enumerate() {
         let parts: Vec<&str> = place.parts.iter().map(|part| &*part.name).collect();

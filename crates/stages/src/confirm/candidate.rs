@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{
     pose::{
-        PoseEstimate, PoseMethod, RunnerUp, ScaleEstimate, Uncertainty,
+        AMBIGUOUS_BELOW, PoseEstimate, PoseMethod, RunnerUp, ScaleEstimate, Uncertainty,
         closest::Correspondence,
         quality::FitQuality,
         refine::{Level, Refined, Search, cost, refine},
@@ -70,7 +70,8 @@ impl ReferenceCandidate {
     }
 }
 
-/// A pose whose odds are this many times those of another one may still be the wrong one of the two.
+/// A pose of a piece whose odds are this many times those of another one may still be the wrong one: of two that differ by less,
+/// the default recipe accepts neither.
 const MAX_ODDS_OF_RIVALS: f64 = 4.0;
 
 impl ReferenceCandidate {
@@ -284,7 +285,7 @@ impl PreparedScene<'_> {
         if piece.is_some() {
             weighed.sort_by(|a, b| b.evidence.score().total_cmp(&a.evidence.score()));
         }
-        self.put_allowed_first(reference, &mut weighed);
+        self.put_allowed_first(reference, &mut weighed, piece.is_some());
         let mut weighed = weighed.into_iter();
         let mut best = weighed.next()?;
         let pose = best.refined.target_from_source;
@@ -317,10 +318,21 @@ impl PreparedScene<'_> {
         rack.allows_turn(reference, other) || !rack.allows_turn(reference, best)
     }
 
-    /// Moves the first pose that the rack allows to the front, if it is about as likely as the first of all.
-    fn put_allowed_first(&self, reference: &Reference, weighed: &mut [ReferenceCandidate]) {
+    /// Moves the first pose that the rack allows to the front, unless the readings alone tell it from the first of all.
+    fn put_allowed_first(
+        &self,
+        reference: &Reference,
+        weighed: &mut [ReferenceCandidate],
+        is_piece: bool,
+    ) {
         let Some(first) = weighed.first() else { return };
-        let is_likely = |other: &ReferenceCandidate| other.is_nearly_as_likely_as(first);
+        let is_likely = |other: &ReferenceCandidate| {
+            if is_piece {
+                other.is_nearly_as_likely_as(first)
+            } else {
+                other.cost < AMBIGUOUS_BELOW * first.cost
+            }
+        };
         let is_allowed = |one: &ReferenceCandidate| {
             let pose = &one.refined.target_from_source;
             self.scene.rack.allows_turn(reference, pose)
@@ -339,9 +351,6 @@ impl PreparedScene<'_> {
             return;
         };
         let pose_of_turned = turned.refined.target_from_source;
-        if !self.competes(reference, &pose_of_turned, &pose) {
-            return;
-        }
         let is_preferred = !self.competes(reference, &pose, &pose_of_turned);
         if is_preferred
             && turned.is_nearly_as_likely_as(candidate)
@@ -353,8 +362,8 @@ impl PreparedScene<'_> {
         candidate.rival = candidate.rival.max(turned.evidence.score());
     }
 
-    /// The likeliest pose after half a turn about a principal axis of the reference; `None` of a whole part, and if every turn
-    /// leads back to the same pose.
+    /// The likeliest pose that competes after half a turn about a principal axis of the reference; `None` of a whole part, and if
+    /// every turn leads back to the same pose.
     fn turned(&self, reference: &Reference, pose: &RigidTransform) -> Option<ReferenceCandidate> {
         let piece = self.piece_for(reference)?;
         let points = sample_evenly(&reference.cloud.points, NUM_FOR_AXES);
@@ -371,7 +380,9 @@ impl PreparedScene<'_> {
             let levels = &FIRST_OF_A_PIECE;
             let trial = self.attempt(reference, view, &start, levels, Some(piece))?;
             let trial = self.finer(reference, &trial, &SECOND, Some(piece))?;
-            let is_other = self.is_apart(pose, &trial.refined.target_from_source, POSE_APART);
+            let other = &trial.refined.target_from_source;
+            let is_other =
+                self.is_apart(pose, other, POSE_APART) && self.competes(reference, other, pose);
             self.weighed(reference, &trial).filter(|_| is_other)
         });
         let turned = turned.into_iter().flatten();

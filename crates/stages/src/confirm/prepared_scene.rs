@@ -153,8 +153,9 @@ impl<'a> PreparedScene<'a> {
                 && !self.competes(reference, &start, turned)
         });
         if let Some(turned) = allowed {
-            // What was weighed against the pose that is not allowed.
-            (candidate.rival, candidate.runner_up) = (0.0, None);
+            let runner_up = &mut candidate.runner_up;
+            runner_up
+                .take_if(|other| !self.competes(reference, &other.target_from_source, &turned));
             candidate.view = facing_view(reference, &turned);
             candidate.refined.target_from_source = turned;
         }

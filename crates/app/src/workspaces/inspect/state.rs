@@ -373,6 +373,9 @@ impl InspectState {
             return;
         };
         let inspected = Arc::clone(&shown.inspected);
+        let others = shown.parts.iter();
+        let others = others.filter(|part| !Arc::ptr_eq(part, &inspected));
+        let others: Vec<Arc<Inspected>> = others.map(Arc::clone).collect();
         if inspected.spray.is_none() {
             return;
         }
@@ -390,8 +393,9 @@ impl InspectState {
                 }
             };
             let target = setup.target();
-            let written =
-                report_files::spray_path(&path, &inspected, &subject, &robot, convention, target)?;
+            let written = report_files::spray_path(
+                &path, &inspected, &others, &subject, &robot, convention, target,
+            )?;
             Ok(Notice::of_robot_file(written))
         });
     }

@@ -117,6 +117,7 @@ fn reason(problem: &PointProblem) -> String {
             };
             match obstacle {
                 Obstacle::Part => text!("paint-near-part", body = body),
+                Obstacle::OtherPart => text!("paint-near-other-part", body = body),
                 Obstacle::Floor => text!("paint-near-floor", body = body),
                 Obstacle::Box(name) => text!("paint-near-box", body = body, name = name),
                 Obstacle::UpperArm => text!("paint-near-upper-arm", body = body),
@@ -351,6 +352,7 @@ pub(super) fn write_program(
         path: Some(&planned.path),
         off: path.off,
         capture: None,
+        beside: &[],
         camera_from_part: RigidTransform::identity(),
         is_stored: true,
         is_simulated: path.is_simulated,
