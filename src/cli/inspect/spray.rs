@@ -24,7 +24,7 @@ use station::{
 #[derive(Debug, Args)]
 pub(super) struct SprayChoice {
     /// Write the part's stored spray path, moved to where the part hangs now, in the robot's base frame: .csv or .json.
-    /// Needs a calibration and one file. If several parts are accepted, each has a file of its own, as in path_1.csv.
+    /// Needs a calibration and one file. If several parts are accepted, each has a file of its own, as in `path_1.csv`.
     /// Nothing is written if a robot must not act on the result, for instance because the
     /// capture is older than 10 minutes, or if the path does not aim at the part
     #[arg(long, value_name = "FILE")]
