@@ -104,7 +104,7 @@ fn each_of_several_parts_has_a_path_of_its_own_and_none_of_an_earlier_frame_stay
     let parts = line["parts"].as_array().expect("parts");
     assert_eq!(parts.len(), 3);
     for (number, part) in (1..).zip(parts) {
-        let text = shop.read(&format!("out_{number}.csv"));
+        let text = shop.read(format!("out_{number}.csv"));
         assert!(
             text.contains(part["part"].as_str().expect("a name")),
             "{text}"
@@ -116,7 +116,7 @@ fn each_of_several_parts_has_a_path_of_its_own_and_none_of_an_earlier_frame_stay
     assert!(shop.path("out.csv").exists());
     for number in 1..=3 {
         assert!(
-            !shop.path(&format!("out_{number}.csv")).exists(),
+            !shop.path(format!("out_{number}.csv")).exists(),
             "{number}"
         );
     }
