@@ -115,10 +115,7 @@ fn each_of_several_parts_has_a_path_of_its_own_and_none_of_an_earlier_frame_stay
     shop.coded(0, &["inspect", "door.pcd", "--spray", "out.csv"]);
     assert!(shop.path("out.csv").exists());
     for number in 1..=3 {
-        assert!(
-            !shop.path(format!("out_{number}.csv")).exists(),
-            "{number}"
-        );
+        assert!(!shop.path(format!("out_{number}.csv")).exists(), "{number}");
     }
 }
 

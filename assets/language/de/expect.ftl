@@ -37,15 +37,12 @@ expect-check-both = Auftrag und Seriennummer prüfen
 ## Das Ergebnis
 
 expect-num-met = { $num } von { $all } wie erwartet
-expect-is-met = Wie erwartet
 expect-is-met-and-posed = Wie erwartet, und seine Lage ist bekannt
 expect-missing = Es fehlt: { $parts }
 expect-wrong = Falsches Teil: { $part } statt { $expected }
 expect-surplus = Nicht erwartet: { $part }
 expect-of-order = Auftrag { $order }: { $says }
 expect-hang-missing = Die fehlenden Teile aufhängen und neu aufnehmen, oder die Erwartung berichtigen
-expect-live-sees-one = Live prüft ein Teil je Bild
-expect-capture-all = Aufnehmen drücken, um alle Teile zu prüfen
 expect-as-expected = wie erwartet
 expect-wrong-part = falsches Teil
 expect-not-expected = nicht erwartet

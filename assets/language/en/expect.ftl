@@ -37,17 +37,14 @@ expect-check-both = Check the order and the serial number
 ## The verdict
 
 expect-num-met = { $num } of { $all } as expected
-expect-is-met = As expected
 expect-is-met-and-posed = As expected, and its pose is known
 expect-missing = Missing: { $parts }
 expect-wrong = Wrong part: { $part } instead of { $expected }
 expect-surplus = Not expected: { $part }
 expect-of-order = Order { $order }: { $says }
-expect-hang-missing = Hang the missing parts there and capture again, or correct what is expected
-expect-live-sees-one = Live inspects one part of a frame
-expect-capture-all = Press Capture to inspect all parts
+expect-hang-missing = Hang up the missing parts and capture again
 expect-as-expected = as expected
 expect-wrong-part = wrong part
 expect-not-expected = not expected
 expect-is-missing = missing
-expect-nothing-hangs = Does not hang there
+expect-nothing-hangs = Nothing hangs there

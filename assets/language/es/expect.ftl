@@ -37,15 +37,12 @@ expect-check-both = Comprobar la orden y el número de serie
 ## El resultado
 
 expect-num-met = { $num } de { $all } según lo esperado
-expect-is-met = Según lo esperado
 expect-is-met-and-posed = Según lo esperado, y su pose es conocida
 expect-missing = Falta: { $parts }
 expect-wrong = Pieza equivocada: { $part } en lugar de { $expected }
 expect-surplus = No esperada: { $part }
 expect-of-order = Orden { $order }: { $says }
 expect-hang-missing = Colgar las piezas que faltan y capturar de nuevo, o corregir lo esperado
-expect-live-sees-one = En vivo inspecciona una pieza por imagen
-expect-capture-all = Pulsar Capturar para inspeccionar todas las piezas
 expect-as-expected = esperada
 expect-wrong-part = equivocada
 expect-not-expected = no esperada

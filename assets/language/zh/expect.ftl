@@ -34,15 +34,12 @@ expect-check-both = 请核对订单和序列号
 ## 结果
 
 expect-num-met = { $all } 个中 { $num } 个符合预期
-expect-is-met = 符合预期
 expect-is-met-and-posed = 符合预期，位姿已知
 expect-missing = 缺少：{ $parts }
 expect-wrong = 零件错误：{ $part }，应为 { $expected }
 expect-surplus = 非预期零件：{ $part }
 expect-of-order = 订单 { $order }：{ $says }
 expect-hang-missing = 请挂上缺少的零件并重新采集，或更正预期零件
-expect-live-sees-one = 实时模式每帧只检测一个零件
-expect-capture-all = 请按“采集”检测所有零件
 expect-as-expected = 符合预期
 expect-wrong-part = 零件错误
 expect-not-expected = 非预期

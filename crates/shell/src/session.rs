@@ -22,7 +22,7 @@ use capture::SourceSpec;
 use inspection::pipeline::{Expected, NamedRecipe};
 use records::history::StoredVerdict;
 use robot::{Convention, RobotFrame};
-use stages::scene::EmptyCell;
+use stages::{rack::Rack, scene::EmptyCell};
 use station::Doubt;
 pub use ui::theme::ThemeChoice;
 use ui::{
@@ -92,13 +92,12 @@ pub struct Session {
 }
 
 impl Session {
-    /// The recipe in use, before the rack in use, in which these parts are expected.
-    pub(crate) fn recipe_in_rack(&self, expected: Expected) -> Arc<NamedRecipe> {
-        let rack = self.rack.in_camera().clone();
+    /// The recipe in use, before this rack, in which these parts are expected.
+    pub(crate) fn recipe_in_rack(&self, rack: &Rack, expected: Expected) -> Arc<NamedRecipe> {
         if rack.is_empty() && expected.is_empty() {
             return Arc::clone(&self.recipe);
         }
-        Arc::new(self.recipe.in_rack(rack).expecting(expected))
+        Arc::new(self.recipe.in_rack(rack.clone()).expecting(expected))
     }
 
     /// Uses this frame of the robot from now on.
@@ -107,12 +106,18 @@ impl Session {
         self.rack.follow(self.robot.as_deref());
     }
 
-    /// Makes a job to inspect something with the recipe and the calibration in use, in which these parts are expected.
-    pub(crate) fn inspect_job(&self, source: SceneOrScan, expected: Expected) -> InspectJob {
+    /// Makes a job to inspect something with the recipe and the calibration in use, before this rack, in which these parts are
+    /// expected.
+    pub(crate) fn inspect_job(
+        &self,
+        source: SceneOrScan,
+        rack: &Rack,
+        expected: Expected,
+    ) -> InspectJob {
         match source {
             SceneOrScan::Scene(source) => InspectJob::Scene(InspectRequest {
                 source,
-                recipe: self.recipe_in_rack(expected),
+                recipe: self.recipe_in_rack(rack, expected),
             }),
             SceneOrScan::Scan(order) => InspectJob::Scan(ScanRequest {
                 recipe: Arc::new(self.recipe.expecting(expected)),

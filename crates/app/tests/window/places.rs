@@ -5,6 +5,7 @@ use inspection::rack::RackFile;
 use shell::{
     action::Action,
     rack::RackAction,
+    roles::RoleAction,
     session::Shown,
     settings::{self, Settings},
 };
@@ -96,4 +97,25 @@ fn a_place_is_made_of_the_part_in_front_and_a_turned_part_is_refused() {
     assert_eq!(read.rack.in_camera(), state.session.rack.in_camera());
     click(&mut harness, "No rack");
     assert_eq!(shown(&harness), ["none ", "none ", "none unknown"]);
+}
+
+#[test]
+fn both_views_name_the_empty_places() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open();
+    open_place(&mut harness, folder.path());
+    assert!(harness.query_by_label_contains("Empty: ").is_none());
+    let path = folder.path().join("rack.toml");
+    act(&mut harness, Action::Rack(RackAction::Save(path.clone())));
+    let mut file = RackFile::read(&path).expect("saved");
+    for (name, aside_m) in [("left hook", 5.0), ("3", -5.0)] {
+        let mut place = file.rack.places[0].clone();
+        place.name = name.into();
+        place.region.centre_m[0] += aside_m;
+        file.rack.places.push(place);
+    }
+    edit(&mut harness, &file);
+    harness.get_by_label("Empty: left hook, 3");
+    act(&mut harness, Action::Role(RoleAction::Switch));
+    harness.get_by_label("Empty: left hook, 3");
 }

@@ -29,7 +29,7 @@ use capture::SourceSpec;
 use geometry::error::lock;
 use inspection::pipeline::Expected;
 use records::history::{HistoryBuffer, HungId, InspectionSummary, StoredVerdict, Traceability};
-use stages::scene::EmptyCell;
+use stages::{rack::Rack, scene::EmptyCell};
 use ui::{
     language::text,
     task::{Running, Task, TaskContext, TaskError, TaskRunner},
@@ -185,7 +185,8 @@ impl State {
             (source, _) => source,
         };
         let expected = self.session.expected().unwrap_or_default();
-        let job = self.session.inspect_job(source, expected);
+        let rack = self.session.rack.in_camera();
+        let job = self.session.inspect_job(source, rack, expected);
         self.inspect(title, job);
         if let Some(run) = &mut self.session.inspecting {
             run.is_waiting = self.session.source.is_watched();
@@ -276,7 +277,8 @@ impl State {
     }
 
     /// Inspects the scene in front again with the current settings: another verdict on the same hung part. The part of a scene
-    /// from the history hangs there no longer, nor may that of an outdated one: its inspection is only repeated, not new.
+    /// from the history hangs there no longer, nor may that of an outdated one: its inspection is only repeated, not new. One from
+    /// the history is held against the rack of then.
     pub fn inspect_shown(&mut self, title: &str, purpose: ReinspectionPurpose) {
         live::show_unseen(self);
         if let Some(shown) = &self.session.shown {
@@ -286,8 +288,14 @@ impl State {
                 purpose
             };
             let part = PartAtHand::InFront(shown.parts.clone());
-            let expected = shown.inspected.recipe.expected.clone();
-            let job = (self.session).inspect_job(shown.inspected.again(), expected);
+            let of_then = &shown.inspected.recipe;
+            let rack = if shown.is_past {
+                &of_then.rack
+            } else {
+                self.session.rack.in_camera()
+            };
+            let expected = of_then.expected.clone();
+            let job = (self.session).inspect_job(shown.inspected.again(), rack, expected);
             self.inspect_part(title.to_owned(), job, purpose, part);
         }
     }
@@ -321,9 +329,9 @@ impl State {
         let (title, purpose) = (text!("shell-inspecting-again"), ReinspectionPurpose::New);
         let is_saved = saved.is_some();
         if let Some(saved) = saved.filter(|saved| !self.is_in_front(saved)) {
-            // An enrolled part does not belong to an order.
+            // An enrolled part belongs to no order, and need not hang in the rack.
             let part = PartAtHand::Past(Traceability::default());
-            let job = self.session.inspect_job(saved, Expected::default());
+            let job = (self.session).inspect_job(saved, Rack::ANYWHERE, Expected::default());
             self.inspect_part(title, job, purpose, part);
         } else if is_saved || self.inspector.running().is_none() {
             self.inspect_shown(&title, purpose);
@@ -690,12 +698,13 @@ fn remember(recent: &mut Vec<PathBuf>, path: &Path) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::inspection::{inspected::inspected_cell, source::CellChoice};
     use crate::{
         action::{Action, DialogRequest},
         apply::apply,
     };
     use files::write_depth_png;
-    use geometry::fixtures::small_frame;
+    use geometry::{fixtures::small_frame, oriented_box::OrientedBox};
 
     #[test]
     fn a_result_stays_and_is_old_until_the_next_is_there() {
@@ -722,6 +731,31 @@ mod tests {
         assert!(state.inspector.run_waiting());
         update(&mut state);
         assert!(state.session.current_result().is_some());
+    }
+
+    #[test]
+    fn a_past_result_is_inspected_again_before_its_own_rack() {
+        let volume = OrientedBox {
+            centre_m: [0.0, 0.0, 1.5],
+            size_m: [6.0; 3],
+            angles_rad: [0.0; 3],
+        };
+        let rack = Rack {
+            volume: vec![volume],
+            places: Vec::new(),
+        };
+        let mut past = inspected_cell(CellChoice::InTurn, 1);
+        past.recipe = Arc::new(past.recipe.in_rack(rack.clone()));
+        let mut state = State::default();
+        state.show_past(Arc::new(past));
+        for _ in 0..2 {
+            state.inspect_again();
+            assert!(state.inspector.run_waiting());
+            update(&mut state);
+            let shown = state.session.shown.as_ref().expect("a result");
+            assert!(shown.is_past);
+            assert_eq!(shown.inspected.recipe.rack, rack);
+        }
     }
 
     #[test]

@@ -7,6 +7,7 @@
 use std::{
     fs,
     path::{Path, PathBuf},
+    ptr,
     sync::Arc,
     thread,
     time::{Duration, SystemTime},
@@ -28,6 +29,7 @@ use records::{
     orders::{OrderError, Orders},
 };
 use stages::segment::MAX_PARTS;
+use station::Doubt;
 use ui::{
     language::text,
     task::{Task, TaskContext, TaskError, TaskRunner},
@@ -194,35 +196,62 @@ impl Session {
         self.expected_of(&self.trace.of_next())
     }
 
-    /// What should hang there now: with the serial number of the part whose verdict counts, unless another one was entered.
+    /// What should hang there now: with the serial number of the frame whose verdicts count, unless another one was entered.
     pub(crate) fn expected_now(&self) -> Result<Expected, NotKnown> {
-        self.expected_with(self.current_result())
+        let parts = self.latest_parts().iter();
+        self.expected_with(parts.filter(|part| {
+            let currency = self.currency(part);
+            !part.is_open()
+                && !matches!(
+                    currency,
+                    Some(Doubt::Moving | Doubt::SourceLost | Doubt::Superseded)
+                )
+        }))
     }
 
-    fn expected_with(&self, part: Option<&Inspected>) -> Result<Expected, NotKnown> {
-        let mut trace = self.trace.of_next();
-        let of_part = part.map(|part| self.trace.of_part(part));
-        if let Some(of_part) = of_part.filter(|of_part| of_part.order == trace.order)
-            && trace.serial.is_empty()
-        {
-            trace.serial = of_part.serial;
-        }
-        self.expected_of(&trace)
-    }
-
-    /// What Live should expect: its part keeps the serial number that it has taken.
+    /// What Live should expect: the frame keeps the serial number that one of its parts has taken.
     fn expected_by_live(&self) -> Result<Expected, NotKnown> {
-        let latest = self.latest(|shown| !shown.is_past);
-        self.expected_with(latest.filter(|_| !self.is_watching()).map(|part| &**part))
+        let is_past = self.latest(|shown| !shown.is_past).is_none();
+        let parts = self.latest_parts().iter();
+        self.expected_with(parts.filter(|_| !is_past && !self.is_watching()))
+    }
+
+    fn expected_with<'a>(
+        &self,
+        parts: impl Iterator<Item = &'a Arc<Inspected>>,
+    ) -> Result<Expected, NotKnown> {
+        let trace = self.trace.of_next();
+        self.expected_of(&self.with_serial_of(parts, trace))
+    }
+
+    /// With the serial number that one of these parts of the same order has taken, unless there is one already. Only one part of
+    /// a frame takes the number, but its row in the table is for all of them.
+    fn with_serial_of<'a>(
+        &self,
+        parts: impl Iterator<Item = &'a Arc<Inspected>>,
+        mut trace: Traceability,
+    ) -> Traceability {
+        if trace.serial.is_empty() {
+            let mut of_parts = parts.map(|part| self.trace.of_part(part));
+            let of_same =
+                of_parts.find(|of_part| of_part.order == trace.order && !of_part.serial.is_empty());
+            trace.serial = of_same.unwrap_or_default().serial;
+        }
+        trace
     }
 
     /// True if the part has another order or serial number by now, and other parts are expected for that than when it was
     /// inspected.
     pub(crate) fn is_of_other_order(&self, part: &Inspected) -> bool {
         let is_past = self.shown.as_ref().is_some_and(|shown| shown.is_past);
-        self.expecting.orders.is_some()
-            && !is_past
-            && self.expected_of(&self.trace.of_part(part)) != Ok(part.recipe.expected.clone())
+        if self.expecting.orders.is_none() || is_past {
+            return false;
+        }
+        let frame = self.latest_parts();
+        let is_latest = frame.iter().any(|one| ptr::eq(Arc::as_ptr(one), part));
+        let beside = frame.iter().filter(|_| is_latest);
+        let trace = self.with_serial_of(beside, self.trace.of_part(part));
+        self.expected_of(&trace) != Ok(part.recipe.expected.clone())
     }
 
     /// Titles of these parts, each once, with their numbers.
@@ -398,5 +427,53 @@ fn watch(
             context.check()?;
             thread::sleep(TURN);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        inspection::{inspected::inspected_cell, source::CellChoice},
+        session::Shown,
+    };
+    use records::history::HungId;
+
+    #[test]
+    fn the_serial_number_that_a_part_took_counts_for_its_whole_frame() {
+        let path = Path::new("orders.csv");
+        let rows = "order;serial;parts\n4711;;fender|fender\n4711;S-1;fender|grille\n";
+        let mut session = State::default().session;
+        session.expecting.orders = Some(OrderTable {
+            path: path.into(),
+            content: Ok(Arc::new(Orders::parse(path, rows).expect("a table"))),
+        });
+        let trace = |serial: &str| Traceability {
+            order: "4711".into(),
+            serial: serial.into(),
+            ..Traceability::default()
+        };
+        session.trace = crate::trace::current_trace::CurrentTrace::starting(trace(""));
+        let of_number = session.expected_of(&trace("S-1")).expect("in the table");
+        assert_ne!(session.expected(), Ok(of_number.clone()));
+        let part = |number, serial| {
+            let mut part = inspected_cell(CellChoice::InTurn, number);
+            part.recipe = Arc::new(part.recipe.expecting(of_number.clone()));
+            part.set_part(HungId::new(), trace(serial));
+            Arc::new(part)
+        };
+        let parts = vec![part(1, ""), part(2, "S-1")];
+        for selected in [0, 1] {
+            session.shown = Some(Shown::of_parts(1, parts.clone(), selected));
+            assert_eq!(session.expected_now(), Ok(of_number.clone()));
+            assert_eq!(session.expected_by_live(), Ok(of_number.clone()));
+            for part in &parts {
+                assert!(!session.is_of_other_order(part));
+            }
+        }
+        // By itself it has no number.
+        session.shown = Some(Shown::new(2, Arc::clone(&parts[0])));
+        assert!(session.is_of_other_order(&parts[0]));
+        assert_eq!(session.expected_now(), session.expected());
     }
 }

@@ -303,10 +303,6 @@ impl Banner {
                 self.tone = Tone::NotOk;
                 self.caution.clear();
             }
-        } else if expectation.is_partial && is_accepted {
-            self.tone = Tone::Recognised;
-            self.reason = text!("expect-live-sees-one");
-            self.next = text!("expect-capture-all");
         } else if expectation.is_met && self.tone == Tone::Ok {
             self.reason = text!("expect-is-met-and-posed");
         }

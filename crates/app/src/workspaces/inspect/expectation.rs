@@ -17,18 +17,16 @@ pub(super) struct FrameExpectation {
     pub(super) missing: Vec<String>,
     /// Number of expected parts.
     pub(super) num_expected: usize,
-    /// True for a frame of Live, which inspects only one of them: what else hangs there is not known.
-    pub(super) is_partial: bool,
     /// True if all of them are accepted, and nothing else is an enrolled part.
     pub(super) is_met: bool,
 }
 
 impl FrameExpectation {
-    /// `None` if nothing is expected, it is too early for a verdict, or the other parts of the frame are not known.
+    /// `None` if nothing is expected, it is too early for a verdict on one of the parts, or the other parts of the frame are not known.
     pub(super) fn of(parts: &[Arc<Inspected>], session: &Session) -> Option<Self> {
         let first = parts.first()?;
         let expected = &first.recipe.expected;
-        if expected.is_empty() || first.is_open() {
+        if expected.is_empty() || parts.iter().any(|part| part.is_open()) {
             return None;
         }
         let title_of = |name: &str| first.library.title_of(name).to_owned();
@@ -39,9 +37,8 @@ impl FrameExpectation {
             // One part of the frame is opened again, without the others.
             return None;
         }
-        let is_partial = first.followed.is_some() && num_expected > 1;
         let missing = expected.missing(&verdicts).into_iter().map(title_of);
-        let missing: Vec<String> = missing.filter(|_| !is_partial).collect();
+        let missing: Vec<String> = missing.collect();
         let differences = verdicts
             .iter()
             .filter_map(|verdict| match verdict.rejected()? {
@@ -57,8 +54,7 @@ impl FrameExpectation {
             });
         let all_missing = missing.join(" · ");
         let absent = (!missing.is_empty()).then(|| text!("expect-missing", parts = all_missing));
-        let partial = is_partial.then(|| text!("expect-live-sees-one"));
-        let differences: Vec<String> = differences.chain(absent).chain(partial).collect();
+        let differences: Vec<String> = differences.chain(absent).collect();
         let mut complaint = differences.join("; ");
         let order = session.trace.of_part(first).order;
         if !complaint.is_empty() && !order.is_empty() && session.expecting.orders().is_some() {
@@ -71,7 +67,6 @@ impl FrameExpectation {
             complaint,
             missing,
             num_expected,
-            is_partial,
             is_met: expected.is_met(&verdicts) && num_met == num_expected,
         })
     }

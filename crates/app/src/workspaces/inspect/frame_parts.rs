@@ -1,7 +1,8 @@
 //! The parts of a frame, of which one is selected.
 
 use egui::{
-    Align2, FontId, Response, RichText, Role, ScrollArea, Sense, StrokeKind, Ui, WidgetInfo, pos2,
+    Align2, FontId, Frame, Panel, Response, RichText, Role, ScrollArea, Sense, StrokeKind, Ui,
+    WidgetInfo, pos2,
     text::{LayoutJob, TextWrapping},
     vec2,
 };
@@ -12,7 +13,7 @@ use super::{
     headline::Headline,
     operator_words::{in_short, why_not},
 };
-use inspection::pipeline::Verdict;
+use inspection::pipeline::{Inspection, Verdict};
 use shell::{
     inspection::inspected::Inspected,
     session::{Session, Shown},
@@ -20,7 +21,7 @@ use shell::{
 use ui::{
     language::text,
     theme::{ROUNDING, Theme, font, space},
-    widgets::{fitted_middle, focus_ring, text_width, wrapped},
+    widgets::{fitted_middle, focus_ring, text_width, wrapped, wrapped_rows},
 };
 
 /// Most parts listed at once, and on a card that is low; the others scroll into view.
@@ -35,26 +36,32 @@ pub(super) fn numbered(index: usize, title: &str) -> String {
     format!("{} · {title}", index + 1)
 }
 
-/// Draws how many parts are accepted, or as expected, and the list of them, unless there is only one.
+/// Draws how many parts are accepted, or as expected, and the list of them, unless there is only one; then the empty places.
 pub(super) fn ui(ui: &mut Ui, session: &Session, actions: &mut Vec<InspectAction>) {
     let Some(shown) = session.shown.as_ref() else {
         return;
     };
     let rows = rows(shown, session);
+    let empty = empty_places(shown);
     let expectation = FrameExpectation::of(&shown.parts, session);
     let is_low = ui.available_height() < LOW;
-    let (heading, font) = match &expectation {
-        Some(expectation) if is_low => (expectation.title.clone(), font::verdict()),
-        Some(expectation) => (expectation.title.clone(), font::title()),
+    let heading = match &expectation {
+        Some(expectation) if is_low => Some((expectation.title.clone(), font::verdict())),
+        Some(expectation) => Some((expectation.title.clone(), font::title())),
         None if rows.len() > 1 => {
             let headlines = shown.parts.iter().map(|part| Headline::of(part, session));
             let num = headlines.filter(Headline::is_accepted).count();
             let of_all = text!("inspect-parts-accepted", num = num, all = rows.len());
-            (of_all, font::heading())
+            Some((of_all, font::heading()))
         }
-        None => return,
+        None => None,
     };
-    ui.label(RichText::new(heading).font(font));
+    if heading.is_none() && empty.is_none() {
+        return;
+    }
+    if let Some((heading, font)) = heading {
+        ui.label(RichText::new(heading).font(font));
+    }
     let complaint = expectation
         .as_ref()
         .map(|expectation| &expectation.complaint);
@@ -70,11 +77,61 @@ pub(super) fn ui(ui: &mut Ui, session: &Session, actions: &mut Vec<InspectAction
             list(ui, shown.selected(), &rows, &fonts, actions);
         });
     }
+    if let Some(empty) = empty {
+        wrapped(ui, &empty, &font::small(), Theme::of(ui).weak_text);
+    }
     ui.add_space(space::MEDIUM);
 }
 
+/// Draws the parts of the frame for the operator, unless there is only one, and the empty places, at the bottom.
+pub(super) fn operators_panel(
+    ui: &mut Ui,
+    shown: &Shown,
+    session: &Session,
+    actions: &mut Vec<InspectAction>,
+) {
+    let fonts = [font::far_list(), font::body()];
+    let margin = space::MEDIUM;
+    let weak = Theme::of(ui).weak_text;
+    let rows = rows(shown, session);
+    let empty = empty_places(shown);
+    let mut size = 0.0;
+    if rows.len() > 1 {
+        size += height(ui, rows.len(), &fonts);
+    }
+    if let Some(empty) = &empty {
+        let width = ui.available_width() - 2.0 * margin;
+        let lines = wrapped_rows(ui.painter(), empty, &fonts[1], weak, width);
+        size += lines.size().y + ui.spacing().item_spacing.y;
+    }
+    if size == 0.0 {
+        return;
+    }
+    Panel::bottom("parts of the frame")
+        .exact_size(size + 2.0 * margin)
+        .resizable(false)
+        .frame(Frame::new().fill(Theme::of(ui).panel).inner_margin(margin))
+        .show(ui, |ui| {
+            if rows.len() > 1 {
+                list(ui, shown.selected(), &rows, &fonts, actions);
+            }
+            if let Some(empty) = &empty {
+                wrapped(ui, empty, &fonts[1], weak);
+            }
+        });
+}
+
+/// Names the places at which nothing hangs; `None` if there are none, or if only one part of the frame was opened again.
+fn empty_places(shown: &Shown) -> Option<String> {
+    let parts = shown.parts.iter();
+    let found: Vec<&Inspection> = parts.map(|part| &part.inspection).collect();
+    let empty = shown.inspected.recipe.empty_places(&found);
+    let is_known = !empty.is_empty() && !shown.is_past;
+    is_known.then(|| text!("rack-empty-places", places = empty.join(", ")))
+}
+
 /// The parts of the frame, then those that are missing.
-pub(super) fn rows(shown: &Shown, session: &Session) -> Vec<PartRow> {
+fn rows(shown: &Shown, session: &Session) -> Vec<PartRow> {
     let parts = shown.parts.iter().enumerate();
     let rows = parts.map(|(index, part)| PartRow::of(index, part, session));
     let expectation = FrameExpectation::of(&shown.parts, session);
@@ -85,7 +142,7 @@ pub(super) fn rows(shown: &Shown, session: &Session) -> Vec<PartRow> {
 }
 
 /// Height of the list, with titles and lines below in these fonts.
-pub(super) fn height(ui: &Ui, num_rows: usize, fonts: &[FontId; 2]) -> f32 {
+fn height(ui: &Ui, num_rows: usize, fonts: &[FontId; 2]) -> f32 {
     let rows = num_rows.min(MOST_ROWS[0]) as f32;
     rows * (row_height(ui, fonts) + ui.spacing().item_spacing.y)
 }
@@ -98,7 +155,7 @@ fn row_height(ui: &Ui, fonts: &[FontId; 2]) -> f32 {
 }
 
 /// Draws the list with titles and lines below in these fonts.
-pub(super) fn list(
+fn list(
     ui: &mut Ui,
     selected: usize,
     rows: &[PartRow],
@@ -119,7 +176,7 @@ pub(super) fn list(
 }
 
 /// A part in the list.
-pub(super) struct PartRow {
+struct PartRow {
     number: String,
     title: String,
     /// `None` for a part that is missing.

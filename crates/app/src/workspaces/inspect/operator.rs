@@ -76,17 +76,8 @@ pub(super) fn ui(
         .show(ui, |ui| column(ui, &banner, session, actions));
     // The parts of an earlier frame no longer count.
     let shown = session.shown.as_ref().filter(|_| banner.is_current);
-    let rows = shown.map(|shown| frame_parts::rows(shown, session));
-    if let Some((shown, rows)) = shown.zip(rows).filter(|(_, rows)| rows.len() > 1) {
-        let fonts = [font::far_list(), font::body()];
-        let margin = space::MEDIUM;
-        Panel::bottom("parts of the frame")
-            .exact_size(frame_parts::height(ui, rows.len(), &fonts) + 2.0 * margin)
-            .resizable(false)
-            .frame(Frame::new().fill(theme.panel).inner_margin(margin))
-            .show(ui, |ui| {
-                frame_parts::list(ui, shown.selected(), &rows, &fonts, actions);
-            });
+    if let Some(shown) = shown {
+        frame_parts::operators_panel(ui, shown, session, actions);
     }
     CentralPanel::default().frame(Frame::new()).show(ui, |ui| {
         let rect = ui.max_rect();

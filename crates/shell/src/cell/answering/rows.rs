@@ -9,7 +9,7 @@ use std::sync::{
 use crate::source::live::FollowedParts;
 use geometry::error::lock;
 use inspection::pipeline::{Inspection, NamedRecipe};
-use records::history::{NewEntry, SpotIds, Writer};
+use records::history::{HungId, NewEntry, SpotIds, Writer};
 use stages::scene::SceneCloud;
 
 /// Frames that wait for Live at most, about 10 MB each; usually one does, for as long as Live needs for a frame.
@@ -34,10 +34,17 @@ pub(super) struct AnsweredScene {
     pub(super) recipe: NamedRecipe,
 }
 
+impl AnsweredScene {
+    /// Which hung part each of its parts is.
+    pub(super) fn hung(&self, ids: &SpotIds) -> Vec<HungId> {
+        ids.of(&self.inspections, &self.scene, &self.recipe)
+    }
+}
+
 struct WaitingFrame {
     /// One for each part.
     entries: Vec<NewEntry>,
-    frame: AnsweredScene,
+    frame: Arc<AnsweredScene>,
     parts: Receiver<SpotIds>,
 }
 
@@ -55,7 +62,7 @@ impl TriggerRows {
     pub(super) fn add(
         &mut self,
         entries: Vec<NewEntry>,
-        frame: AnsweredScene,
+        frame: Arc<AnsweredScene>,
         parts: Receiver<SpotIds>,
     ) {
         self.waiting.push(WaitingFrame {
@@ -90,12 +97,7 @@ impl TriggerRows {
                 Err(TryRecvError::Disconnected) => None,
             };
             if let Some(ids) = ids {
-                let AnsweredScene {
-                    scene,
-                    inspections,
-                    recipe,
-                } = &waiting.frame;
-                let hung = ids.of(inspections, scene, recipe);
+                let hung = waiting.frame.hung(&ids);
                 for (entry, hung) in waiting.entries.iter_mut().zip(hung) {
                     entry.record.summary.hung = hung;
                 }
@@ -127,15 +129,15 @@ mod tests {
     use inspection::pipeline::live::nothing_there;
     use records::{
         fixtures::history_entry,
-        history::{Filter, HistoryBuffer, HungId, HungSpots, StoredVerdict},
+        history::{Filter, HistoryBuffer, HungSpots, StoredVerdict},
     };
 
-    fn frame() -> AnsweredScene {
-        AnsweredScene {
+    fn frame() -> Arc<AnsweredScene> {
+        Arc::new(AnsweredScene {
             scene: Arc::default(),
             inspections: vec![nothing_there()],
             recipe: NamedRecipe::default(),
-        }
+        })
     }
 
     fn entry(seconds: i64) -> NewEntry {

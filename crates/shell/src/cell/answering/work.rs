@@ -28,7 +28,7 @@ use capture::{self, CaptureError, Feed, SourceSpec};
 use geometry::error::{Advice as _, guarded, lock};
 use inspection::{
     library::{GivenNumbers, LibraryPlace, PartNumbers, Truth},
-    pipeline::{Expected, NamedRecipe, ProgressObserver as _, Unwatched},
+    pipeline::{Expected, Inspection, NamedRecipe, ProgressObserver as _, Unwatched},
 };
 use records::{
     history::{HungId, SpotIds, Traceability, Writer},
@@ -41,7 +41,7 @@ use serve::{
     VerdictCode,
 };
 use stages::scene::{EmptyCell, SceneCloud};
-use station::{Answered, Answering, Camera, NewFrame, NoFrame, NumberedPart, PartFinder};
+use station::{Answered, Answering, Camera, NewFrame, NoFrame, NumberedPart, PartFinder, Subject};
 use ui::{
     language::text,
     task::{TaskContext, TaskError},
@@ -96,7 +96,7 @@ impl AnswerInputs {
         let followed = session.is_live().then(|| session.source.followed());
         Self {
             followed: followed.flatten(),
-            recipe: session.recipe_in_rack(Expected::default()),
+            recipe: session.recipe_in_rack(session.rack.in_camera(), Expected::default()),
             expected: session.expected_now(),
             empty_cell: session.empty_cell.clone(),
             robot,
@@ -251,7 +251,10 @@ struct AnsweringSession<'a> {
 /// An inspection to be kept in the history.
 struct AnsweredFrame {
     origin: Origin,
-    answered: Answered,
+    subject: Subject,
+    frame: Arc<AnsweredScene>,
+    /// What each part really is, if a person has reported it as wrong.
+    reported_as: Vec<Option<Truth>>,
     library: Arc<LibraryView>,
     trace: Traceability,
     /// Tells which parts they are.
@@ -260,25 +263,27 @@ struct AnsweredFrame {
 
 /// The parts of the frame that was answered last.
 struct AnsweredParts {
-    names: Vec<String>,
-    /// Which parts hang there as far as was known when its frame came, then also as Live saw it.
-    hung: Vec<HungId>,
+    frame: Arc<AnsweredScene>,
+    /// Which hung parts they are: as far as was known when the frame came, then also as Live saw it.
+    hung: Vec<Vec<HungId>>,
     /// Tells what Live saw.
     hung_reports: Receiver<SpotIds>,
 }
 
 impl AnsweredParts {
-    /// What each of them really is, if a person has reported it as wrong.
+    /// What each of them really is, if it was accepted and a person has reported it as wrong.
     fn reported_as(&mut self, parts: &Mutex<FollowedParts>) -> Vec<Option<Truth>> {
         let reports = self.hung_reports.try_recv().ok();
-        let reported = reports.iter().flat_map(SpotIds::all);
-        self.hung.extend(reported.cloned());
+        self.hung.extend(reports.map(|ids| self.frame.hung(&ids)));
         let parts = lock(parts);
-        let reported_as = |name: &String| {
+        let all = self.frame.inspections.iter().enumerate();
+        let reported_as = all.map(|(index, inspection)| {
+            let verdict = &inspection.verdict;
+            let name = verdict.guess().filter(|_| verdict.is_accepted())?;
             let mut hung = self.hung.iter();
-            hung.find_map(|hung| parts.reported_as(hung, name))
-        };
-        self.names.iter().map(reported_as).collect()
+            hung.find_map(|hung| parts.reported_as(&hung[index], name))
+        });
+        reported_as.collect()
     }
 }
 
@@ -330,26 +335,41 @@ impl Inspector for AnsweringSession<'_> {
         };
         let trace = inputs.trace.remembered();
         let scene_of = |captured| self.scene_of(captured, &inputs);
-        let mut answered = match answering.answer(captured, subject, &trace, scene_of) {
+        let answered = match answering.answer(captured, subject, &trace, scene_of) {
             Ok(answered) => answered,
             Err(why) => return Found::error((&why).into()).into(),
         };
-        let mut found = answered.found.clone();
+        let Answered {
+            subject,
+            mut found,
+            scene,
+            inspections,
+            recipe,
+        } = answered;
+        let frame = Arc::new(AnsweredScene {
+            scene,
+            inspections,
+            recipe,
+        });
         let mut answered_parts = AnsweredParts {
-            names: found.iter().map(|part| part.part.clone()).collect(),
-            hung: hung.iter().flat_map(SpotIds::all).cloned().collect(),
+            frame: Arc::clone(&frame),
+            hung: hung.iter().map(|ids| frame.hung(ids)).collect(),
             hung_reports,
         };
-        for (part, actual) in found.iter_mut().zip(answered_parts.reported_as(self.parts)) {
-            if let Some(actual) = actual.filter(|_| part.verdict == VerdictCode::Accepted) {
+        let mut reported_as = answered_parts.reported_as(self.parts);
+        for (part, actual) in found.iter_mut().zip(&mut reported_as) {
+            if part.verdict != VerdictCode::Accepted {
+                *actual = None;
+            } else if actual.is_some() {
                 part.refuse(Problem::reported_wrong());
-                answered.subject.reported_as = Some(actual.name().to_owned());
             }
         }
         self.answered_parts = Some(answered_parts);
         self.last = Some(AnsweredFrame {
             origin,
-            answered,
+            subject,
+            frame,
+            reported_as,
             library: Arc::clone(&loaded.shown),
             trace,
             part,
@@ -480,34 +500,37 @@ impl AnsweringSession<'_> {
     fn keep(&mut self, last: AnsweredFrame) {
         let AnsweredFrame {
             origin,
-            answered,
+            subject,
+            frame,
+            reported_as,
             library,
             trace,
             part,
         } = last;
-        let parts = answered.parts(&self.finder.robot);
-        let entry = |inspected: &station::Inspected<'_>| {
-            let picture = segmentation_picture(inspected.scene, &inspected.inspection.segmentation);
+        let entry = |(inspection, actual): (&Inspection, &Option<Truth>)| {
+            let subject = Subject {
+                reported_as: actual.as_ref().map(|actual| actual.name().to_owned()),
+                ..subject.clone()
+            };
+            let inspected = station::Inspected {
+                subject: &subject,
+                scene: &frame.scene,
+                inspection,
+                recipe: &frame.recipe,
+                robot: Some(&self.finder.robot),
+                is_forced: false,
+            };
+            let picture = segmentation_picture(&frame.scene, &inspection.segmentation);
             entry_of(
-                inspected,
+                &inspected,
                 &origin,
                 &library,
                 trace.clone(),
                 picture.as_ref(),
             )
         };
-        let entries = parts.iter().map(entry).collect();
-        let Answered {
-            scene,
-            inspections,
-            recipe,
-            ..
-        } = answered;
-        let frame = AnsweredScene {
-            scene,
-            inspections,
-            recipe,
-        };
+        let parts = frame.inspections.iter().zip(&reported_as);
+        let entries = parts.map(entry).collect();
         self.rows.add(entries, frame, part);
         self.tell_dropped();
     }
@@ -536,5 +559,72 @@ impl AnsweringSession<'_> {
     fn finish(self) -> AnsweringStatus {
         drop(self.rows);
         self.status
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::inspection::{
+        inspected::{InspectRequest, Inspected, inspect_all},
+        source::SceneSource,
+    };
+    use geometry::rigid::RigidTransform;
+    use inspection::pipeline::Recipe;
+    use simulate::{RackKind, RackSetup, SensorNoise, StandingRack};
+    use stages::scene::scene_from_frame;
+
+    #[test]
+    fn a_label_withdraws_only_the_part_that_it_is_of() {
+        let setup = RackSetup::drawn(RackKind::Apart, 3, 0, 1).expect("in range");
+        let rack = StandingRack::arrange(&setup).expect("in range");
+        let frame = rack.frame(
+            |_| Some(RigidTransform::identity()),
+            &SensorNoise::kinect(1),
+        );
+        let mut recipe = Recipe::default();
+        recipe.segment.max_parts = 3;
+        let origin = Origin::File {
+            path: "rack.png".into(),
+            is_simulated: true,
+        };
+        let request = InspectRequest {
+            source: SceneSource::AtHand(Arc::new(scene_from_frame(&frame)), origin),
+            recipe: Arc::new(NamedRecipe::from(recipe)),
+        };
+        let seen = inspect_all(&request, &LibraryCache::default(), &Unwatched);
+        let seen: Vec<Inspected> = seen.expect("inspected");
+        let scene = &seen[0].scene;
+        let hung: Vec<_> = seen
+            .iter()
+            .map(|part| (&part.inspection, part.hung()))
+            .collect();
+        let live = SpotIds::of_frame(scene, &hung);
+        // The answer has them in another order than Live.
+        let answered: Vec<&Inspected> = seen.iter().rev().collect();
+        let frame = AnsweredScene {
+            scene: Arc::clone(scene),
+            inspections: answered
+                .iter()
+                .map(|part| part.inspection.clone())
+                .collect(),
+            recipe: (*request.recipe).clone(),
+        };
+        let is_accepted = |part: &&Inspected| part.inspection.verdict.is_accepted();
+        let labelled = answered.iter().position(is_accepted).expect("accepted");
+        assert!(answered.iter().filter(|part| is_accepted(part)).count() > 1);
+        let parts = Mutex::<FollowedParts>::default();
+        lock(&parts).label(answered[labelled].hung(), Some(&Truth::NotEnrolled));
+        let (tell, hung_reports) = mpsc::channel();
+        let mut answered_parts = AnsweredParts {
+            frame: Arc::new(frame),
+            hung: Vec::new(),
+            hung_reports,
+        };
+        let mut expected = vec![None; answered.len()];
+        assert_eq!(answered_parts.reported_as(&parts), expected);
+        tell.send(live).expect("waited for");
+        expected[labelled] = Some(Truth::NotEnrolled);
+        assert_eq!(answered_parts.reported_as(&parts), expected);
     }
 }

@@ -130,7 +130,8 @@ impl FollowedParts {
     }
 
     /// Gives the inspections of a capture, which is taken in place of Live, their parts and the traceability of those. A part
-    /// whose verdict has counted keeps its own serial number: the waiting one is of the next part.
+    /// whose verdict has counted keeps its own serial number, and beside others also that it has none: the waiting one is of
+    /// the next part.
     pub(crate) fn assign_capture(&mut self, found: &mut [Inspected], current: &CurrentTrace) {
         let first = &found[0];
         let hung = if self.source == first.entry.record.summary.source {
@@ -143,10 +144,13 @@ impl FollowedParts {
         let shows_any = summaries
             .into_iter()
             .any(|one| one.verdict != StoredVerdict::NoPart);
+        let is_beside_others = found.len() > 1;
         let mut taken = None;
         for (one, hung) in found.iter_mut().zip(hung) {
             let known = self.trace_of(&hung);
-            let known = known.filter(|trace| !trace.serial.is_empty() || current.is_late_of(&hung));
+            let known = known.filter(|trace| {
+                is_beside_others || !trace.serial.is_empty() || current.is_late_of(&hung)
+            });
             let trace = match known {
                 Some(trace) => trace.clone(),
                 None => taken.get_or_insert_with(|| current.take(shows_any)).clone(),
@@ -396,9 +400,21 @@ mod tests {
         }
         let [left, right] = [0, 1].map(|spot| parts.spots.at(spot).id().clone());
         assert_ne!(left, right);
-        // The capture has one more, between them.
+        // Their verdicts count, and the first took the serial number.
+        let its_own = Traceability {
+            serial: "4711".into(),
+            ..Traceability::default()
+        };
+        parts.counts(left.clone(), its_own);
+        parts.counts(right.clone(), Traceability::default());
+        // The capture has one more, between them, which takes the next number.
+        let current = CurrentTrace::default();
+        current.set_serial("4712");
         let mut capture = taken(2, None);
-        parts.assign_capture(&mut capture, &CurrentTrace::default());
+        parts.assign_capture(&mut capture, &current);
+        let serials: Vec<&str> = capture.iter().map(|one| &*one.trace().serial).collect();
+        assert_eq!(serials, ["4711", "4712", ""]);
+        assert_eq!(current.get().serial, "");
         let hung: Vec<&HungId> = capture.iter().map(Inspected::hung).collect();
         let names: Vec<_> = capture.iter().map(Inspected::part_title).collect();
         assert_eq!(hung.len(), 3, "{names:?}");
