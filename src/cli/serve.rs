@@ -49,15 +49,16 @@ Protocols, each on its own port; docs/guide/robots_that_ask.md describes them in
   binary, binary-be    frames of 256 bytes with a checksum, little- or big-endian, for PLCs
   eki                  XML for KUKA's option package Ethernet KRL; poses as kuka
   urscript             lists of numbers for Universal Robots; poses as universal-robots
-Requests: TRIGGER inspects a frame captured from then on, LAST repeats that answer, STATUS gives the state of the camera,
-and PATH the points of the spray path of the part that the same client triggered, for where it hangs.
+Requests: TRIGGER inspects a frame captured from then on (TRIGGER 3 5: these parts are expected), PART 2 answers with the
+second part of that frame, LAST repeats the first answer, STATUS gives the state of the camera, and PATH the points of the
+spray path of the part that the same client triggered, for where it hangs.
 A part that moves is refused with the reason moving: the scene must have been still for 0.9 s, and a second frame, 150 ms
 later, must show the part in the same place.
 With --orders and --order, a TRIGGER that names no parts expects those of the order.
 Every answer has a verdict, the age of its frame and a sequence number. Poses are given only for an accepted part whose
 frame is not older than --max-age. Triggers are answered in the order in which they come, each with a frame of its own.
 Poses are in the robot's base frame, so a calibration is needed: partsight calibrate --help
-Every inspection is written to the history, one row for each trigger. Ctrl-C ends the service.
+Every inspection is written to the history, one row for each part of a trigger's frame. Ctrl-C ends the service.
 Connections are neither encrypted nor authenticated. Without an address, only programs on this computer can connect.
 Exit codes: 0 ended by Ctrl-C, 2 could not run.")]
 pub(super) struct ServeArgs {

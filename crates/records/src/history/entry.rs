@@ -441,6 +441,15 @@ impl InspectionDetail {
         line.map_or_else(|_| Expected::default(), |line| line.expected)
     }
 
+    /// Returns the place of the rack at which the part hung; `None` if it hung at none, or there was no rack.
+    pub fn place(&self) -> Option<String> {
+        #[derive(serde::Deserialize)]
+        struct Placed {
+            place: Option<String>,
+        }
+        serde_json::from_str::<Placed>(&self.line).ok()?.place
+    }
+
     /// Returns how far off the pose may be; `None` if the line has no bounds or the pose is unconstrained.
     pub(super) fn pose_bounds(&self) -> Option<PoseDelta> {
         #[derive(serde::Deserialize)]
