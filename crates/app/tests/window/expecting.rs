@@ -12,8 +12,8 @@ use shell::{
 };
 
 use super::{
-    rack::open_rack,
     set_up::{SMALL, WindowHarness, act, open, open_with, plain_options, press, wait_until},
+    several_parts::open_rack,
 };
 
 const ORDERS: &str = "order;serial;parts

@@ -41,8 +41,9 @@ use shell::{
 use inspection::fixtures::copy_library;
 
 use super::{
-    enrol, expecting, live, paint, places, rack, robot,
+    enrol, expecting, live, paint, rack_editor, robot,
     set_up::{SMALL, USUAL, WindowHarness, act, act_in, plain_options, press, settle},
+    several_parts,
     shots::ScanFolder,
 };
 
@@ -258,11 +259,11 @@ fn several_parts_look_as_they_did() {
     }
     let folder = tempfile::tempdir().expect("a folder");
     let mut harness = open_drawn(USUAL);
-    rack::open_rack(&mut harness, folder.path());
+    several_parts::open_rack(&mut harness, folder.path());
     compare(&mut harness, "rack");
     let mut harness = open_drawn(SMALL);
     act(&mut harness, Action::SwitchTheme);
-    rack::open_rack(&mut harness, folder.path());
+    several_parts::open_rack(&mut harness, folder.path());
     harness.get_by_label_contains("2 Radiator support").click();
     compare(&mut harness, "rack_small_light");
     act(&mut harness, Action::Role(RoleAction::Switch));
@@ -283,7 +284,7 @@ fn the_window_of_the_rack_looks_as_it_did() {
         if is_light {
             act(&mut harness, Action::SwitchTheme);
         }
-        places::open_place(&mut harness, folder.path());
+        rack_editor::open_place(&mut harness, folder.path());
         harness.get_by_label_contains("1 · front_door").click();
         compare(&mut harness, name);
     }
@@ -302,7 +303,7 @@ fn a_rack_that_is_not_as_its_order_expects_looks_as_it_did() {
         }
         expecting::use_orders(&mut harness, folder.path());
         expecting::enter_order(&mut harness, "4713");
-        rack::open_rack(&mut harness, folder.path());
+        several_parts::open_rack(&mut harness, folder.path());
         act(&mut harness, Action::DismissAll);
         compare(&mut harness, name);
         act(&mut harness, Action::Role(RoleAction::Switch));

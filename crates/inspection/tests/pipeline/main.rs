@@ -673,7 +673,7 @@ fn turned_object(object: ObjectKind, turn: f64, seed: u64) -> SceneCloud {
     scene_of(&setup)
 }
 
-/// A library of this object alone, as it is seen without a turn.
+/// A library that holds only this object, enrolled without a turn.
 fn of_object(object: ObjectKind) -> Library {
     let about = PartDescription {
         name: PartName::new(object.name()).expect("a name"),

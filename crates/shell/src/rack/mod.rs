@@ -123,7 +123,7 @@ impl Session {
 /// The window in which the rack is edited.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RackEditor {
-    /// The rack as it is edited; it is in use unless something in it is wrong.
+    /// The rack being edited; it is in use unless it has an error.
     draft: RackFile,
     /// Former drafts, the newest last.
     past: Vec<RackFile>,

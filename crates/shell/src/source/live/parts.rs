@@ -233,8 +233,8 @@ mod tests {
         ["simulated", "simulated:empty"].map(|text| text.parse().expect("a source"))
     }
 
-    /// The only part that was told.
-    fn told(part: &Receiver<SpotIds>) -> Result<HungId, TryRecvError> {
+    /// The only part whose id was sent.
+    fn received(part: &Receiver<SpotIds>) -> Result<HungId, TryRecvError> {
         let ids = part.try_recv()?;
         let all: Vec<&HungId> = ids.all().collect();
         assert_eq!(all.len(), 1);
@@ -258,18 +258,18 @@ mod tests {
         let seen = inspected_cell(CellChoice::InTurn, 1);
         parts.spots.see(0, &frame_of(&seen.scene, &seen.inspection));
         parts.seen(begun);
-        assert_eq!(told(&part), Err(TryRecvError::Empty));
+        assert_eq!(received(&part), Err(TryRecvError::Empty));
         parts.seen(later);
-        assert_eq!(told(&part), Ok(next_part(&mut parts)));
-        assert_eq!(told(&of_other), Err(TryRecvError::Disconnected));
+        assert_eq!(received(&part), Ok(next_part(&mut parts)));
+        assert_eq!(received(&of_other), Err(TryRecvError::Disconnected));
 
         // Live goes on to another source before it has seen a frame as new, and whoever asks is still at the one before.
         let last = parts.parts_of_frame(one.to_string(), later);
         assert!(parts.begin(&other).is_empty());
-        told(&last).expect("told at the change");
+        received(&last).expect("sent at the change");
         let late = parts.parts_of_frame(one.to_string(), later);
         parts.seen(later);
-        assert_eq!(told(&late), Err(TryRecvError::Disconnected));
+        assert_eq!(received(&late), Err(TryRecvError::Disconnected));
     }
 
     #[test]
@@ -284,12 +284,12 @@ mod tests {
         let capture = inspected();
         assert!(parts.begin(&one).is_empty());
         parts.seen_alone(first, &[Arc::clone(&capture)]);
-        assert_eq!(told(&of_first), Ok(capture.hung().clone()));
-        assert_eq!(told(&of_second), Err(TryRecvError::Empty));
+        assert_eq!(received(&of_first), Ok(capture.hung().clone()));
+        assert_eq!(received(&of_second), Err(TryRecvError::Empty));
         // One that Live could not inspect.
         let after = second + Duration::from_secs(1);
         parts.seen_alone(after, &[inspected()]);
-        assert_eq!(told(&of_second), Err(TryRecvError::Disconnected));
+        assert_eq!(received(&of_second), Err(TryRecvError::Disconnected));
     }
 
     #[test]
@@ -298,7 +298,7 @@ mod tests {
         let mut parts = FollowedParts::default();
         let part = parts.parts_of_frame(one.to_string(), Instant::now());
         assert!(parts.begin(&one).is_empty() && parts.end().is_empty());
-        told(&part).expect("told at the end");
+        received(&part).expect("told at the end");
         let now = [&one, &other, &one].map(|source| {
             let ids = parts.ids_now(&source.to_string(), false);
             ids.and_then(|ids| ids.all().next().cloned())

@@ -12,8 +12,8 @@ use shell::{
 };
 
 use super::{
-    rack::open_rack,
     set_up::{WindowHarness, act, open, settle},
+    several_parts::open_rack,
 };
 
 /// Opens the window of the rack before a frame of three things, and makes a place of the door.
