@@ -97,6 +97,29 @@ pub fn map_each<T: Send>(
     map_in_order(num_pieces, num_workers, || (), |(), i| work(i))
 }
 
+/// Runs `here` on this thread and `work` on each of `0..num_pieces`, each on a thread of its own beside it; returns the results
+/// in order. None of them starts further threads; without pieces, `here` may.
+pub fn map_beside<H, T: Send>(
+    num_pieces: usize,
+    work: impl Fn(usize) -> T + Sync,
+    here: impl FnOnce() -> H,
+) -> (H, Vec<T>) {
+    if num_pieces == 0 {
+        return (here(), Vec::new());
+    }
+    let work = &work;
+    thread::scope(|scope| {
+        let beside = |i| scope.spawn(move || on_one_core(|| work(i)));
+        let others: Vec<_> = (0..num_pieces).map(beside).collect();
+        let found = on_one_core(here);
+        let joined = others.into_iter().map(|other| match other.join() {
+            Ok(found) => found,
+            Err(panic) => resume_unwind(panic),
+        });
+        (found, joined.collect())
+    })
+}
+
 /// Number of blocks per worker, on average.
 const BLOCKS_EACH: usize = 8;
 
@@ -132,6 +155,14 @@ mod tests {
         let caught = std::panic::catch_unwind(|| on_one_core(|| panic!("ends the work")));
         assert!(caught.is_err());
         assert_eq!(num_cores(), before, "allowed again");
+    }
+
+    #[test]
+    fn pieces_beside_are_in_order_and_start_no_further_threads() {
+        let found = map_beside(3, |i| (i, num_cores()), num_cores);
+        assert_eq!(found, (1, vec![(0, 1), (1, 1), (2, 1)]));
+        let alone = map_beside(0, |i| i, num_cores);
+        assert_eq!(alone, (num_cores(), Vec::new()));
     }
 
     #[test]

@@ -2,6 +2,7 @@
 //!
 //! The window, the command line and the tests are three callers of [`run`].
 
+mod ahead;
 mod expected;
 mod hypothesis;
 pub mod live;
@@ -41,6 +42,10 @@ use stages::{
     stand_off::StandOffParams,
 };
 
+use self::{
+    ahead::SurfacesAhead, hypothesis::try_hypotheses, surface::InspectionInputs,
+    unsound::refuse_unsound, watch::StageClock,
+};
 pub use self::{
     expected::{Expected, ExpectedError},
     mirror::{MirrorTally, OnlyMirrored},
@@ -54,12 +59,6 @@ pub use self::{
     rejection::{Rejection, Unrecognisable, is_like},
     verdict::{AcceptParams, Verdict},
     watch::{Cancelled, ProgressObserver, Stage, Timings},
-};
-use self::{
-    hypothesis::try_hypotheses,
-    surface::{InspectionInputs, inspect_surface},
-    unsound::refuse_unsound,
-    watch::StageClock,
 };
 pub use stages::scan::Unwatched;
 
@@ -184,7 +183,8 @@ pub fn run(
     recipe: &Recipe,
     watch: &dyn ProgressObserver,
 ) -> Result<Inspection, Cancelled> {
-    let mut inspection = likeliest(scene, library, recipe, watch)?;
+    let ahead = &mut SurfacesAhead::new(1);
+    let mut inspection = likeliest(scene, library, recipe, watch, ahead)?;
     recipe
         .expected
         .refuse_others(&mut [&mut inspection.verdict]);
@@ -197,8 +197,9 @@ fn likeliest(
     library: &Library,
     recipe: &Recipe,
     watch: &dyn ProgressObserver,
+    ahead: &mut SurfacesAhead,
 ) -> Result<Inspection, Cancelled> {
-    inspect(scene, library, recipe, watch, || {
+    inspect(scene, library, recipe, watch, ahead, || {
         Some(segment_in(scene, &recipe.rack, &recipe.segment))
     })
     .map(|inspection| inspection.expect("a scene has a segmentation"))
@@ -217,9 +218,10 @@ pub fn run_all(
     recipe: &Recipe,
     watch: &dyn ProgressObserver,
 ) -> Result<Vec<Inspection>, Cancelled> {
-    let mut found = vec![likeliest(scene, library, recipe, watch)?];
-    let mut known = Vec::new();
     let max_parts = recipe.max_parts();
+    let ahead = &mut SurfacesAhead::new(max_parts);
+    let mut found = vec![likeliest(scene, library, recipe, watch, ahead)?];
+    let mut known = Vec::new();
     let expected = &recipe.expected;
     // One other thing may hang between two parts. Of one part, the surface that was inspected is the likeliest. Beside the
     // places of a rack may hang as much as a frame can show.
@@ -235,7 +237,7 @@ pub fn run_all(
         let last = found.last().filter(|_| !is_complete);
         let Some(last) = last else { break };
         known.extend(explained(last, scene, library));
-        let next = inspect(scene, library, recipe, watch, || {
+        let next = inspect(scene, library, recipe, watch, ahead, || {
             let areas = found.iter().map(Inspection::area);
             let largest = areas.fold(0.0, f64::max);
             let first = &found[0].segmentation;
@@ -303,12 +305,13 @@ fn inspect(
     library: &Library,
     recipe: &Recipe,
     watch: &dyn ProgressObserver,
+    ahead: &mut SurfacesAhead,
     segment: impl FnOnce() -> Option<Segmentation>,
 ) -> Result<Option<Inspection>, Cancelled> {
     let ran = match &scene.fault {
         Some(fault) => Err(fault.clone()),
         None => guarded(|| {
-            let mut inspection = inspect_part(scene, library, recipe, watch, segment)?;
+            let mut inspection = inspect_part(scene, library, recipe, watch, ahead, segment)?;
             if let Some(inspection) = &mut inspection {
                 refuse_unsound(inspection, scene);
                 inspection.hang_in(&recipe.rack, scene, library);
@@ -327,6 +330,7 @@ fn inspect_part(
     library: &Library,
     recipe: &Recipe,
     watch: &dyn ProgressObserver,
+    ahead: &mut SurfacesAhead,
     segment: impl FnOnce() -> Option<Segmentation>,
 ) -> Result<Option<Inspection>, Cancelled> {
     let clock = &StageClock::start(watch);
@@ -341,8 +345,9 @@ fn inspect_part(
         return Ok(None);
     };
     let mut inspection = Inspection::of(segmentation, Unrecognisable::EmptyLibrary);
-    let part = inspection.segmentation.part.as_ref();
-    let first = part.map(|part| inspect_surface(part, inputs, 0.0));
+    let segmentation = &inspection.segmentation;
+    let part = segmentation.part.as_ref();
+    let first = part.map(|part| ahead.inspect(segmentation, part, inputs));
     match first.map_err(|no_part| *no_part) {
         Ok(first) => {
             first?.keep(&mut inspection);

@@ -22,7 +22,8 @@ pub struct Timings {
     pub rank: Duration,
     /// Confirmation and pose.
     pub pose: Duration,
-    /// From the scene's points to the verdict.
+    /// From the scene's points to the verdict, or from the verdict on the part before. Stages that ran beside those of an
+    /// earlier part are not in it, so that the totals of a frame's parts add up to the time that it took.
     pub total: Duration,
 }
 
@@ -98,6 +99,18 @@ impl<'a> StageClock<'a> {
         } += begun.elapsed();
         self.timings.set(timings);
         Ok(output)
+    }
+
+    /// Adds stages that ran on another thread beside an earlier part.
+    pub(super) fn add(&self, done: &Timings) {
+        let mut timings = self.timings.get();
+        timings.segment += done.segment;
+        timings.project += done.project;
+        timings.contour += done.contour;
+        timings.signature += done.signature;
+        timings.rank += done.rank;
+        timings.pose += done.pose;
+        self.timings.set(timings);
     }
 
     pub(super) fn finish(&self) -> Timings {

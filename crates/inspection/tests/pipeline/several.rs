@@ -1,11 +1,16 @@
 //! Several parts in one frame.
 
-use std::f64::consts::FRAC_PI_2;
+use std::{cell::Cell, f64::consts::FRAC_PI_2};
 
-use geometry::{depth_frame::DepthFrame, parallel::on_one_core, rigid::pose_error, units::Metres};
+use geometry::{
+    depth_frame::DepthFrame,
+    parallel::{num_cores, on_one_core},
+    rigid::pose_error,
+    units::Metres,
+};
 use inspection::{
     library::{Library, enrolment_pose},
-    pipeline::{Inspection, Recipe, Unwatched, run, run_all},
+    pipeline::{Inspection, ProgressObserver, Recipe, Stage, Unwatched, run, run_all},
 };
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 use simulate::{
@@ -150,6 +155,33 @@ fn every_part_is_accepted_once_at_its_place_from_left_to_right() {
         // As many as hang there are found, however many more may.
         assert_eq!(all_in(&scene, &library, 5).len(), num, "{kinds:?}");
     }
+}
+
+/// Counts the surfaces that the calling thread projects.
+#[derive(Default)]
+struct ProjectedHere(Cell<usize>);
+
+impl ProgressObserver for ProjectedHere {
+    fn begins(&self, stage: Stage) {
+        self.0
+            .set(self.0.get() + usize::from(stage == Stage::Project));
+    }
+}
+
+#[test]
+fn the_next_part_is_inspected_on_another_core() {
+    let library = standard();
+    let (scene, _) = rack(RackKind::Apart, 2, 2);
+    let mut recipe = Recipe::default();
+    recipe.segment.max_parts = 2;
+    let num_here = || {
+        let watch = ProjectedHere::default();
+        let found = run_all(&scene, &library, &recipe, &watch).expect("not cancelled");
+        assert_eq!(found.len(), 2);
+        watch.0.get()
+    };
+    assert_eq!(on_one_core(num_here), 2);
+    assert_eq!(num_here(), if num_cores() > 1 { 1 } else { 2 });
 }
 
 #[test]
