@@ -48,7 +48,7 @@ pub use files;
 #[doc(hidden)]
 pub use geometry::{self, clock, error, units};
 #[doc(hidden)]
-pub use inspection::{library, pipeline};
+pub use inspection::{library, pipeline, rack};
 #[cfg(feature = "plant")]
 #[doc(hidden)]
 pub use plant;

@@ -1,12 +1,17 @@
 //! Inspections: which enrolled part hangs in a scene, and where.
 
-use std::{collections::BTreeMap, sync::Arc};
+use std::{
+    collections::BTreeMap,
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
 use numpy::{PyArray1, PyArray2, PyArrayDyn, PyArrayMethods as _, ndarray::IxDyn};
 use partsight::{
     PointLabel, PoseEstimate, RigidTransform, SceneCloud,
     history::Traceability,
     pipeline::{Cancelled, Expected, NamedRecipe, run_all},
+    rack::RackFile,
     report::InspectionLine,
     run,
 };
@@ -31,6 +36,9 @@ pub(crate) struct Inspection {
     found: partsight::Inspection,
     /// True if the named part was enrolled without a camera.
     is_part_simulated: bool,
+    /// Names of the rack's places at which nothing of the frame hangs.
+    #[pyo3(get)]
+    empty_places: Vec<String>,
 }
 
 /// Inspects a scene: which enrolled part hangs there, and where.
@@ -55,31 +63,44 @@ pub(crate) fn inspect(
 /// Inspects a scene in which several parts may hang: every part, accepted ones first, from left to right in the picture, and
 /// whatever else is neither background nor part.
 ///
-/// The recipe's `segment.max_parts` says how many may hang there; `expected` has the names of those that should. A part that
-/// is not expected is refused as `wrong_part` or `not_expected`. Otherwise as `inspect`, whose result is the first of a
-/// single part.
+/// The recipe's `segment.max_parts` says how many may hang there. `rack` is the path of a rack file or its text, in the
+/// camera's frame: the accepted parts are then in the order of its places. `expected` has the names of the parts that should
+/// hang there, or `place=name` for a part at a place of the rack. A part that is not expected is refused as `wrong_part`,
+/// `expected_elsewhere` or `not_expected`. Otherwise as `inspect`, whose result is the first of a single part.
 #[pyfunction]
-#[pyo3(signature = (scene, library, recipe = None, *, expected = None))]
+#[pyo3(signature = (scene, library, recipe = None, *, expected = None, rack = None))]
 pub(crate) fn inspect_all(
     py: Python<'_>,
     scene: &Scene,
     library: &Library,
     recipe: Option<&Recipe>,
     expected: Option<Vec<String>>,
+    rack: Option<PathBuf>,
 ) -> PyResult<Vec<Inspection>> {
     let loaded = library.loaded();
-    let expected = Expected::new(expected.unwrap_or_default(), |name| {
-        loaded.library.has_part(name)
-    })
-    .map_err(advised)?;
-    let recipe = library.recipe_or(recipe)?.expecting(expected);
+    let rack = rack.map(|rack| {
+        let file = match rack.to_str() {
+            // No file's name has line ends.
+            Some(text) if text.contains('\n') => RackFile::parse(Path::new("rack"), text),
+            _ => RackFile::read(&rack),
+        };
+        file?.for_library(&loaded.library, None)
+    });
+    let rack = rack.transpose().map_err(advised)?.unwrap_or_default();
+    let parts = expected.iter().flatten().map(|text| text.as_str().into());
+    let expected = Expected::new(parts.collect(), &rack, |name| loaded.library.has_part(name));
+    let expected = expected.map_err(advised)?;
+    let recipe = library.recipe_or(recipe)?.in_rack(rack).expecting(expected);
     let found = interruptible(py, |watch| {
         run_all(&scene.capture, &loaded.library, &recipe, watch)
     })?;
-    let found = found.into_iter();
-    Ok(found
-        .map(|found| Inspection::new(scene, library, &recipe, found))
-        .collect())
+    let empty_places = recipe.empty_places(&found.iter().collect::<Vec<_>>());
+    let empty_places: Vec<String> = empty_places.into_iter().map(str::to_owned).collect();
+    let all = found.into_iter().map(|found| Inspection {
+        empty_places: empty_places.clone(),
+        ..Inspection::new(scene, library, &recipe, found)
+    });
+    Ok(all.collect())
 }
 
 /// Inspects without the interpreter's lock, until Ctrl-C.
@@ -114,6 +135,7 @@ impl Inspection {
             recipe: recipe.clone(),
             is_part_simulated: named.and(part).is_some_and(|part| part.simulated),
             found,
+            empty_places: Vec::new(),
         }
     }
 }
@@ -176,6 +198,12 @@ impl Inspection {
     fn robot_doubts(&self) -> Vec<&'static str> {
         let doubts = self.recorded().doubts_if_calibrated();
         doubts.iter().map(Doubt::kind).collect()
+    }
+
+    /// Name of the rack's place where it hangs; `None` if it hangs at none, or there is no rack.
+    #[getter]
+    fn place(&self) -> Option<&str> {
+        self.found.place.as_deref()
     }
 
     /// True if the segmented part reaches the edge of the picture, so that some of it may be missing.

@@ -90,6 +90,35 @@ def test_a_rack_gives_the_programs_parts(library: partsight.Library, tmp_path: P
         partsight.inspect_all(partsight.Scene.open(path), library, expected=["hood"])
 
 
+def test_a_rack_file_gives_the_programs_places(library: partsight.Library, tmp_path: Path) -> None:
+    path, rack = tmp_path / "rack.png", tmp_path / "rack.toml"
+    simulate: list[str | Path] = [program(), "simulate", "--rack", "3", "--seed", "2", "--out", path]
+    subprocess.run(simulate, check=True, capture_output=True)
+    own: list[str | Path] = ["--library", CHECKOUT / "reference_parts", "--recipe", "built-in"]
+    subprocess.run([program(), "rack", "add", rack, path, "--each", *own], check=True, capture_output=True)
+    text = rack.read_text() + "[[place]]\nname = 'far'\ncentre_mm = [9000, 0, 2000]\nsize_mm = [99, 99, 99]\n"
+    rack.write_text(text)
+    scene = partsight.Scene.open(path)
+    parts = [part.part for part in partsight.inspect_all(scene, library, rack=rack)]
+    assert len(parts) == 3
+    expected = [f"1={parts[0]}", f"2={parts[2]}", f"far={parts[2]}"]
+    options: list[str | Path] = ["--json", *own, "--rack", rack, "--expect", ",".join(expected)]
+    ran = subprocess.run([program(), "inspect", path, *options], capture_output=True, text=True)
+    line = json.loads(ran.stdout)
+    for given in (rack, text):
+        found = partsight.inspect_all(scene, library, expected=expected, rack=given)
+        assert [part.place for part in found] == [part["place"] for part in line["parts"]]
+        assert found[0].empty_places == line["empty_places"] == ["far"]
+        kinds = [part.reason_kind for part in found]
+        assert kinds == [part["reason_kind"] for part in line["parts"]]
+        assert sorted(map(str, kinds)) == ["None", "expected_elsewhere", "wrong_part"]
+    for wrong, why in [("place = [", "is not a rack"), (rack.name, "rack.toml")]:
+        with pytest.raises(partsight.PartsightError, match=why):
+            partsight.inspect_all(scene, library, rack=f"{wrong}\n" if "[" in wrong else wrong)
+    with pytest.raises(partsight.PartsightError, match="which the rack does not have"):
+        partsight.inspect_all(scene, library, expected=["4=fender"], rack=rack)
+
+
 def test_real_captures_give_the_programs_line(library: partsight.Library) -> None:
     for path in real_frames():
         check(path, library)

@@ -112,7 +112,7 @@ pub(super) struct InspectArgs {
     /// Write one line of JSON per file, and nothing else, to standard output
     #[arg(long)]
     json: bool,
-    /// Write the JSON line and a picture of every stage of each file to this folder
+    /// Write the JSON line and a picture of every stage of each file, and of each part in it, to this folder
     #[arg(long, value_name = "DIR")]
     report: Option<PathBuf>,
     #[command(flatten)]
@@ -178,9 +178,10 @@ fn inspect(
     let trace = args.trace.of_parts(num_parts)?;
     let database = args.history_to.chosen(console)?;
     let (place, load) = (args.library).load_placed(&recipe.reference_params(), console)?;
-    let recipe = recipe.expecting(args.expect.of(&load.library, &trace)?);
     let robot = args.calibration.frame(console)?;
     let recipe = args.rack.before(recipe, &load.library, robot.as_ref())?;
+    let expected = (args.expect).of(&load.library, &recipe.rack, &trace)?;
+    let recipe = recipe.expecting(expected);
     if args.program.is_forced() && robot.is_none() {
         return Err(advised_error(
             "--force needs to know where the camera sits in the robot's cell",

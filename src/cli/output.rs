@@ -7,7 +7,10 @@ use super::{
     verdict::{in_robot_words, place_of, show_card},
 };
 use files::visible;
-use inspection::{library::Library, pipeline::Verdict};
+use inspection::{
+    library::Library,
+    pipeline::{Inspection, Verdict},
+};
 use station::Inspected;
 
 /// Form of the results.
@@ -66,18 +69,21 @@ impl OutputFormat {
 
     /// Shows whether the parts of a scene are those that are expected.
     fn expected(&self, parts: &[Inspected<'_>], console: &mut Console) {
-        let verdicts: Vec<&Verdict> = parts.iter().map(|part| &part.inspection.verdict).collect();
+        let all: Vec<&Inspection> = parts.iter().map(|part| part.inspection).collect();
         let Some(expected) = parts.first().map(|part| &part.recipe.expected) else {
             return;
         };
-        let missing = expected.missing(&verdicts);
+        let missing = expected.missing(&all);
         match self {
             Self::Card if expected.is_empty() => {}
-            Self::Card if !missing.is_empty() => console.entry("missing", &missing.join(", ")),
-            Self::Card if expected.is_met(&verdicts) => console.entry("parts", &"as expected"),
+            Self::Card if !missing.is_empty() => {
+                let missing: Vec<String> = missing.iter().map(ToString::to_string).collect();
+                console.entry("missing", &missing.join(", "));
+            }
+            Self::Card if expected.is_met(&all) => console.entry("parts", &"as expected"),
             Self::Rows(columns) => {
-                for name in missing {
-                    columns.row("", name, "missing", "", console);
+                for part in missing {
+                    columns.row("", &part.to_string(), "missing", "", console);
                 }
             }
             Self::Card | Self::Json => {}

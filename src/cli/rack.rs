@@ -41,16 +41,10 @@ impl RackFileChoice {
             return Ok(recipe);
         };
         let file = RackFile::read(path).advised()?;
-        file.check_parts(|name| is_enrolled(library, name))
-            .advised()?;
         let base_from_camera = robot.map(|robot| &robot.robot_from_camera);
-        Ok(recipe.in_rack(file.in_camera(base_from_camera).advised()?))
+        let rack = file.for_library(library, base_from_camera).advised()?;
+        Ok(recipe.in_rack(rack))
     }
-}
-
-fn is_enrolled(library: &Library, name: &str) -> bool {
-    let mut references = library.references.iter();
-    references.any(|one| one.name == name || one.enrolled_as == name)
 }
 
 /// Say where parts may hang: the work volume, and the places of a rack
@@ -131,7 +125,7 @@ fn add(args: &AddArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     let mut file = if args.rack.exists() {
         RackFile::read(&args.rack).advised()?
     } else {
-        RackFile::default()
+        RackFile::named_after(&args.rack)
     };
     if args.base && file.rack.is_empty() {
         file.frame = RackFrame::Base;
@@ -210,7 +204,7 @@ fn show(args: &ShowArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     let file = RackFile::read(&args.rack).advised()?;
     show_file(&file, &args.rack, console);
     let load = (args.library).load_some(&NamedRecipe::default().reference_params(), console)?;
-    match file.check_parts(|name| is_enrolled(&load.library, name)) {
+    match file.check_parts(|name| load.library.has_reference(name)) {
         Ok(()) => Ok(Outcome::Accepted),
         Err(error @ RackError::NotEnrolled { .. }) => {
             console.warn(&error, &error);
@@ -227,10 +221,10 @@ fn show_file(file: &RackFile, path: &Path, console: &mut Console) {
     };
     console.line(&format_args!(
         "{}, in {frame}",
-        if file.name.is_empty() {
+        if file.rack.name.is_empty() {
             path.display().to_string()
         } else {
-            file.name.clone()
+            file.rack.name.clone()
         }
     ));
     let mut table = Table::new(&["BOX", "CENTRE, MM", "SIZE, MM", "TURN", "PARTS"]);

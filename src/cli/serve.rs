@@ -18,7 +18,7 @@ use super::{
     LibraryChoice, Outcome,
     calibrate::CalibrationChoice,
     console::{Advised as _, Console, advised_error, with_advice},
-    expect::OrdersChoice,
+    expect::ExpectChoice,
     input::{EmptyCellChoice, within},
     interrupt::Interrupt,
     numbers::NumbersChoice,
@@ -54,7 +54,8 @@ second part of that frame, LAST repeats the first answer, STATUS gives the state
 spray path of the part that the same client triggered, for where it hangs.
 A part that moves is refused with the reason moving: the scene must have been still for 0.9 s, and a second frame, 150 ms
 later, must show the part in the same place.
-With --orders and --order, a TRIGGER that names no parts expects those of the order.
+With --expect, or --orders and --order, a TRIGGER that names no parts expects those. TRIGGER 1=3 2=5 expects them at the first
+and the second place of the --rack.
 Every answer has a verdict, the age of its frame and a sequence number. Poses are given only for an accepted part whose
 frame is not older than --max-age. Triggers are answered in the order in which they come, each with a frame of its own.
 Poses are in the robot's base frame, so a calibration is needed: partsight calibrate --help
@@ -91,7 +92,7 @@ pub(super) struct ServeArgs {
     #[command(flatten)]
     recipe: RecipeChoice,
     #[command(flatten)]
-    orders: OrdersChoice,
+    expect: ExpectChoice,
     #[command(flatten)]
     rack: RackFileChoice,
     #[command(flatten)]
@@ -173,7 +174,6 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
     let trace = args.trace.of_parts(None)?;
     let database = args.history_to.chosen(console)?;
     let (place, load) = (args.library).load_placed(&recipe.reference_params(), console)?;
-    let recipe = recipe.expecting(args.orders.of(&load.library, &trace)?);
     let Some(robot) = args.calibration.frame(console)? else {
         return Err(advised_error(
             "poses are given in the robot's base frame, but no calibration says where the camera sits",
@@ -181,6 +181,8 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
         ));
     };
     let recipe = (args.rack).before(recipe, &load.library, Some(&robot))?;
+    let expected = (args.expect).of(&load.library, &recipe.rack, &trace)?;
+    let recipe = recipe.expecting(expected);
     let parts = args.numbers.parts(&place, &load, console)?;
     let empty_cell = args.empty_cell.open(console)?;
     let camera = Arc::new(Camera::start(&args.source).advised()?);

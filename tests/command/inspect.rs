@@ -219,6 +219,82 @@ fn a_wrong_part_a_missing_one_and_one_too_many_are_told_by_what_is_expected() {
 }
 
 #[test]
+fn each_place_of_a_rack_may_expect_a_part_of_its_own() {
+    let place = Workplace::new();
+    for part in ["front_door", "trunk_lid", "grille"] {
+        place.with_part(part);
+    }
+    two_parts(&place, "both.png");
+    let add = ["rack", "add", "rack.toml", "both.png", "--each"];
+    place.accepted(&[&add[..], &["--library", "parts"]].concat());
+    place.write(
+        "orders.csv",
+        "order;parts\n4711;1=front_door|2=trunk_lid\n4712;1=trunk_lid|2=front_door\n",
+    );
+    let inspect = ["inspect", "both.png", "--library", "parts", "--no-history"];
+    let run = |options: &[&str]| {
+        let rack = ["--rack", "rack.toml"];
+        place.run(&[&inspect[..], &rack, options].concat())
+    };
+    let text = |value: &Value| value.as_str().unwrap_or_default().to_owned();
+    for (options, code, reasons) in [
+        (&["--expect", "1=front_door,2=trunk_lid"][..], 0, ["", ""]),
+        (&["--expect", "1=front_door,trunk_lid"], 0, ["", ""]),
+        (&["--orders", "orders.csv", "--order", "4711"], 0, ["", ""]),
+        (
+            &["--expect", "1=trunk_lid,2=front_door"],
+            1,
+            ["wrong_part", "wrong_part"],
+        ),
+        (
+            &["--orders", "orders.csv", "--order", "4712"],
+            1,
+            ["wrong_part", "wrong_part"],
+        ),
+        (
+            &["--expect", "2=front_door"],
+            1,
+            ["wrong_part", "expected_elsewhere"],
+        ),
+    ] {
+        let ran = run(&[options, &["--json"]].concat());
+        assert_eq!(ran.code, code, "{options:?}: {}", ran.err);
+        let line = ran.json();
+        assert_eq!(line["as_expected"], code == 0, "{line}");
+        let parts = line["parts"].as_array().expect("a list").iter();
+        let mut found: Vec<String> = parts.map(|part| text(&part["reason_kind"])).collect();
+        found.sort();
+        let mut reasons = reasons.map(str::to_owned);
+        reasons.sort();
+        assert_eq!(found, reasons, "{line}");
+    }
+    let file = std::fs::read_to_string(place.path("rack.toml")).expect("a rack");
+    let far = "[[place]]\nname = \"far\"\ncentre_mm = [9000, 0, 2000]\nsize_mm = [99, 99, 99]\n";
+    place.write("rack.toml", &(file + far));
+    let missing = ["--expect", "1=front_door,far=grille"];
+    let line = run(&[&missing[..], &["--json"]].concat()).json();
+    assert_eq!(
+        line["expected"],
+        serde_json::json!(["front_door", "grille"])
+    );
+    assert_eq!(line["expected_places"], serde_json::json!(["1", "far"]));
+    assert_eq!(line["missing"], serde_json::json!(["grille"]));
+    assert_eq!(line["missing_places"], serde_json::json!(["far"]));
+    let card = run(&missing).out;
+    assert!(card.contains("grille at far"), "{card}");
+    for (expected, why) in [
+        ("3=grille", "Give a place of the rack: 1, 2, far"),
+        ("1=grille,1=front_door", "two parts are expected at place"),
+    ] {
+        let refused = run(&["--expect", expected]);
+        assert_eq!(refused.code, 2, "{}", refused.err);
+        assert!(refused.err.contains(why), "{}", refused.err);
+    }
+    let without = place.run(&[&inspect[..], &["--expect", "1=grille"]].concat());
+    assert!(without.err.contains("--rack"), "{}", without.err);
+}
+
+#[test]
 fn the_table_of_orders_says_what_should_hang_there() {
     let place = Workplace::new();
     for part in ["front_door", "trunk_lid", "grille"] {

@@ -6,6 +6,7 @@ expect-parts = { $num ->
         [one] { $num } Teil
        *[other] { $num } Teile
     }
+expect-at-place = { $part } ({ $place })
 expect-not-known = Unbekannt
 expect-says = Welche Teile dort hängen sollen: ein anderes wird abgelehnt, und was fehlt, wird angezeigt
 expect-one-more = Eines mehr
@@ -18,6 +19,8 @@ expect-close-orders = Tabelle schließen
 expect-table = Auftragstabelle
 expect-table-used = Was erwartet wird, steht in { $file }
 expect-table-unusable = Die Auftragstabelle ist nicht verwendbar: { $error }
+expect-reading = Die Auftragstabelle { $file } wird gelesen
+expect-reading-wait = Einen Moment warten
 expect-watching = Auftragstabelle wird beobachtet
 
 ## Warum es nicht bekannt ist
@@ -40,11 +43,13 @@ expect-num-met = { $num } von { $all } wie erwartet
 expect-is-met-and-posed = Wie erwartet, und seine Lage ist bekannt
 expect-missing = Es fehlt: { $parts }
 expect-wrong = Falsches Teil: { $part } statt { $expected }
+expect-elsewhere = Falscher Platz: { $part }, erwartet an { $place }
 expect-surplus = Nicht erwartet: { $part }
 expect-of-order = Auftrag { $order }: { $says }
 expect-hang-missing = Die fehlenden Teile aufhängen und neu aufnehmen, oder die Erwartung berichtigen
 expect-as-expected = wie erwartet
 expect-wrong-part = falsches Teil
+expect-wrong-place = falscher Platz
 expect-not-expected = nicht erwartet
 expect-is-missing = fehlt
 expect-nothing-hangs = Hängt nicht dort

@@ -8,6 +8,7 @@ rack-open = Öffnen…
 rack-save = Speichern unter…
 rack-undo = Rückgängig
 rack-clear = Kein Gestell
+rack-reading = Ein Gestell wird gelesen
 rack-opened = Das Gestell aus { $path } wird verwendet
 rack-saved = Das Gestell wurde in { $path } gespeichert
 rack-not-used = Bitte berichtigen; bis dahin gilt das Gestell vor dieser Änderung

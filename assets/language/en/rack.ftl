@@ -8,6 +8,7 @@ rack-open = Open…
 rack-save = Save as…
 rack-undo = Undo
 rack-clear = No rack
+rack-reading = Reading a rack
 rack-opened = The rack of { $path } is in use
 rack-saved = The rack was saved to { $path }
 rack-not-used = Correct it; until then, the rack before this change is in use

@@ -6,6 +6,7 @@ expect-parts = { $num ->
         [one] { $num } pieza
        *[other] { $num } piezas
     }
+expect-at-place = { $part } ({ $place })
 expect-not-known = Desconocido
 expect-says = Qué piezas deben colgar ahí: otra se rechaza, y se muestra lo que falta
 expect-one-more = Una más
@@ -18,6 +19,8 @@ expect-close-orders = Cerrar la tabla
 expect-table = Tabla de órdenes
 expect-table-used = Lo esperado se toma de { $file }
 expect-table-unusable = No se puede usar la tabla de órdenes: { $error }
+expect-reading = Leyendo la tabla de órdenes { $file }
+expect-reading-wait = Esperar un momento
 expect-watching = Se vigila la tabla de órdenes
 
 ## Por qué no se sabe
@@ -40,11 +43,13 @@ expect-num-met = { $num } de { $all } según lo esperado
 expect-is-met-and-posed = Según lo esperado, y su pose es conocida
 expect-missing = Falta: { $parts }
 expect-wrong = Pieza equivocada: { $part } en lugar de { $expected }
+expect-elsewhere = Lugar equivocado: { $part }, se espera en { $place }
 expect-surplus = No esperada: { $part }
 expect-of-order = Orden { $order }: { $says }
 expect-hang-missing = Colgar las piezas que faltan y capturar de nuevo, o corregir lo esperado
 expect-as-expected = esperada
 expect-wrong-part = equivocada
+expect-wrong-place = lugar equivocado
 expect-not-expected = no esperada
 expect-is-missing = falta
 expect-nothing-hangs = No cuelga ahí

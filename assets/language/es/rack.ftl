@@ -8,6 +8,7 @@ rack-open = Abrir…
 rack-save = Guardar como…
 rack-undo = Deshacer
 rack-clear = Sin bastidor
+rack-reading = Leyendo un bastidor
 rack-opened = Se usa el bastidor de { $path }
 rack-saved = El bastidor se guardó en { $path }
 rack-not-used = Corregirlo; hasta entonces vale el bastidor anterior a este cambio

@@ -8,6 +8,7 @@ rack-open = 打开…
 rack-save = 另存为…
 rack-undo = 撤销
 rack-clear = 不使用挂架
+rack-reading = 正在读取挂架
 rack-opened = 正在使用 { $path } 中的挂架
 rack-saved = 挂架已保存到 { $path }
 rack-not-used = 请更正；在此之前使用更改前的挂架

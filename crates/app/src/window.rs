@@ -433,6 +433,7 @@ impl Window {
         let counted = live::update(&mut self.state);
         let traced = entry::update(&self.state.session, ctx);
         expecting::update(&mut self.state);
+        rack::update(&mut self.state);
         for event in inspected.into_iter().chain(counted).chain(traced) {
             self.tell(&event, ctx);
         }

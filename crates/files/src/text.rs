@@ -41,14 +41,14 @@ pub fn parse_versioned<T: DeserializeOwned, E>(
     toml::from_str(text).map_err(bad)
 }
 
-/// What is wrong with a TOML text, in one line.
-pub fn toml_problem(error: &toml::de::Error) -> String {
-    error
-        .message()
-        .lines()
-        .next()
-        .unwrap_or_default()
-        .to_owned()
+/// What is wrong with a TOML text, in one line, after the number of its line from 1.
+pub fn toml_problem(text: &str, error: &toml::de::Error) -> String {
+    let what = error.message().lines().next().unwrap_or_default();
+    let before = error.span().and_then(|span| text.get(..span.start));
+    match before {
+        Some(before) => format!("line {}: {what}", before.matches('\n').count() + 1),
+        None => what.to_owned(),
+    }
 }
 
 /// A text from a file, or a file's name, for a terminal: control characters, which could move the cursor or recolour what

@@ -10,6 +10,32 @@ pub const MAX_COORDINATE_MM: f64 = 100_000.0;
 /// Minimum length of a box's longest side, millimetres: a smaller one was probably given in metres.
 const MIN_SIDE_MM: f64 = 10.0;
 
+/// Which number of a file makes no box.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum BoxError {
+    /// It is not finite, or out of range.
+    Number {
+        /// The field.
+        field: &'static str,
+        /// The name of the box.
+        name: String,
+        /// The numbers that were given.
+        found: String,
+    },
+    /// Each side is so short that it was probably given in metres.
+    Thin {
+        /// The name of the box.
+        name: String,
+        /// The sides that were given.
+        found: String,
+        /// The length of the longest side, at least, millimetres.
+        least: String,
+    },
+}
+
+texts::described!(BoxError: "box" by "kind");
+
 /// A box in any orientation, in some frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct OrientedBox {
@@ -29,8 +55,14 @@ impl OrientedBox {
         centre_mm: [f64; 3],
         size_mm: [f64; 3],
         angles_deg: [f64; 3],
-    ) -> Result<Self, String> {
-        let wrong = |what: &str, values: [f64; 3]| Err(format!("{what} of {name} is {values:?}"));
+    ) -> Result<Self, BoxError> {
+        let wrong = |field, values: [f64; 3]| {
+            Err(BoxError::Number {
+                field,
+                name: name.to_owned(),
+                found: format!("{values:?}"),
+            })
+        };
         if !centre_mm.iter().all(|x| x.abs() <= MAX_COORDINATE_MM) {
             return wrong("centre_mm", centre_mm);
         }
@@ -38,9 +70,11 @@ impl OrientedBox {
             return wrong("size_mm", size_mm);
         }
         if size_mm.iter().all(|x| *x < MIN_SIDE_MM) {
-            return Err(format!(
-                "no side of {name} is {MIN_SIDE_MM} mm or longer: its size_mm is {size_mm:?}"
-            ));
+            return Err(BoxError::Thin {
+                name: name.to_owned(),
+                found: format!("{size_mm:?}"),
+                least: MIN_SIDE_MM.to_string(),
+            });
         }
         if !angles_deg.iter().all(|x| x.abs() <= 360.0) {
             return wrong("angles_deg", angles_deg);

@@ -167,13 +167,18 @@ pub fn rejections() -> Vec<Rejection> {
 }
 
 /// Those of parts that are not expected, or hang where or as they may not.
-fn rejections_of_others(part: &str) -> [Rejection; 6] {
+fn rejections_of_others(part: &str) -> [Rejection; 7] {
     [
         Rejection::WrongPart {
             part: part.into(),
             expected: "Grille".into(),
         },
         Rejection::NotExpected { part: part.into() },
+        Rejection::ExpectedElsewhere {
+            part: part.into(),
+            place: "right hook".into(),
+            expected_at: "left hook".into(),
+        },
         Rejection::CutByVolume { part: part.into() },
         Rejection::WrongPlace {
             part: part.into(),

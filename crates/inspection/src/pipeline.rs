@@ -20,6 +20,8 @@ mod unsound;
 mod verdict;
 mod watch;
 
+use std::slice;
+
 use nalgebra::Point3;
 
 use crate::library::Library;
@@ -47,7 +49,7 @@ use self::{
     unsound::refuse_unsound, watch::StageClock,
 };
 pub use self::{
-    expected::{Expected, ExpectedError},
+    expected::{Expected, ExpectedError, ExpectedPart, places_of},
     mirror::{MirrorTally, OnlyMirrored},
     named_recipe::{
         AS_IN_THE_PAPER, BUILT_IN, BUILT_IN_RECIPES, MAX_NOTES, NamedRecipe, RecipeBlock,
@@ -185,9 +187,8 @@ pub fn run(
 ) -> Result<Inspection, Cancelled> {
     let ahead = &mut SurfacesAhead::new(1);
     let mut inspection = likeliest(scene, library, recipe, watch, ahead)?;
-    recipe
-        .expected
-        .refuse_others(&mut [&mut inspection.verdict]);
+    let found = slice::from_mut(&mut inspection);
+    recipe.expected.refuse_others(found);
     Ok(inspection)
 }
 
@@ -232,8 +233,8 @@ pub fn run_all(
     };
     for _ in 1..max_surfaces {
         let num_accepted = found.iter().filter(|i| i.verdict.is_accepted()).count();
-        let verdicts: Vec<&Verdict> = found.iter().map(|one| &one.verdict).collect();
-        let is_complete = num_accepted >= max_parts && expected.missing(&verdicts).is_empty();
+        let all: Vec<&Inspection> = found.iter().collect();
+        let is_complete = num_accepted >= max_parts && expected.missing(&all).is_empty();
         let last = found.last().filter(|_| !is_complete);
         let Some(last) = last else { break };
         known.extend(explained(last, scene, library));
@@ -246,8 +247,7 @@ pub fn run_all(
         let Some(next) = next else { break };
         found.push(next);
     }
-    let mut verdicts: Vec<&mut Verdict> = found.iter_mut().map(|one| &mut one.verdict).collect();
-    expected.refuse_others(&mut verdicts);
+    expected.refuse_others(&mut found);
     let place = |one: &Inspection| {
         let mut places = recipe.rack.places.iter();
         let index = places.position(|place| Some(&place.name) == one.place.as_ref());
@@ -492,7 +492,7 @@ mod tests {
     #[test]
     fn what_is_expected_is_no_part_of_the_recipes_identity() {
         let expecting = Recipe {
-            expected: serde_json::from_str("[\"fender\"]").expect("names"),
+            expected: serde_json::from_str("{\"expected\": [\"fender\"]}").expect("names"),
             ..Recipe::default()
         };
         assert_eq!(expecting.identity(), Recipe::default().identity());

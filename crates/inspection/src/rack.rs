@@ -25,18 +25,21 @@ use std::path::{Path, PathBuf};
 
 use nalgebra::Point3;
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
-use crate::pipeline::{Inspection, Rejection};
+use crate::{
+    library::Library,
+    pipeline::{Inspection, Rejection},
+};
 use files::{FileError, parse_versioned, read_text, toml_problem, visible, write_text};
 use geometry::{
     error::Advice,
-    oriented_box::OrientedBox,
+    oriented_box::{BoxError, OrientedBox},
     rigid::RigidTransform,
     units::{Metres, Radians},
 };
 pub use stages::rack::{Place, PlacedPart, Rack};
 use stages::segment::MAX_PARTS;
+use texts::{Described, Message};
 
 /// Version of the file format.
 const SCHEMA: u32 = 1;
@@ -59,11 +62,9 @@ const VOLUME_MARGIN: Metres = Metres(0.15);
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Written", into = "Written")]
 pub struct RackFile {
-    /// Its name; may be empty.
-    pub name: String,
     /// The frame of all its coordinates.
     pub frame: RackFrame,
-    /// Work volume and places, in that frame.
+    /// Name, work volume and places, in that frame.
     pub rack: Rack,
 }
 
@@ -79,21 +80,18 @@ pub enum RackFrame {
 }
 
 /// Why a rack cannot be read, written or used.
-#[derive(Debug, Error)]
+#[derive(Debug, thiserror::Error)]
 pub enum RackError {
     /// The file cannot be read or written.
-    #[error(transparent)]
     File(#[from] FileError),
     /// Something in the file is wrong.
-    #[error("{} is not a rack: {reason}", path.display())]
     Garbled {
         /// The file.
         path: PathBuf,
         /// What is wrong.
-        reason: String,
+        problem: RackProblem,
     },
     /// A place is for a part that the library does not have.
-    #[error("place \"{place}\" of the rack is for {part}, which is not enrolled")]
     NotEnrolled {
         /// The place.
         place: String,
@@ -101,26 +99,97 @@ pub enum RackError {
         part: String,
     },
     /// Its coordinates are in the base frame, and the camera's position there is not known.
-    #[error("the rack is given in the robot's base frame, and the cell is not calibrated")]
     NotCalibrated,
 }
 
-impl Advice for RackError {
-    fn advice(&self) -> String {
+/// What is wrong with a rack.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum RackProblem {
+    /// It is no TOML, or has other fields.
+    Toml {
+        /// The line and what is wrong, in English.
+        what: String,
+    },
+    /// A newer program wrote it.
+    Newer {
+        /// Its version.
+        version: u32,
+    },
+    /// Too many boxes of the work volume.
+    Boxes {
+        /// Their number.
+        found: usize,
+        /// Largest number.
+        limit: usize,
+    },
+    /// Too many places.
+    Places {
+        /// Their number.
+        found: usize,
+        /// Largest number.
+        limit: usize,
+    },
+    /// Neither a volume nor a place.
+    Empty,
+    /// Its name or that of a place is empty, too long or not printable.
+    Name {
+        /// Maximum length, characters.
+        limit: usize,
+        /// True for the name of a place.
+        is_place: bool,
+    },
+    /// Two places have this name.
+    SameName {
+        /// The name.
+        place: String,
+    },
+    /// The centre of a place lies in another.
+    Overlap {
+        /// The place.
+        place: String,
+        /// The other place.
+        over: String,
+    },
+    /// The turn that a place allows is out of range.
+    MaxTurn {
+        /// The place.
+        place: String,
+        /// The turn, degrees.
+        found: String,
+    },
+    /// The numbers of a box or of an orientation are wrong.
+    #[serde(untagged)]
+    Box(BoxError),
+}
+
+impl Described for RackProblem {
+    fn message(&self) -> Message {
         match self {
-            Self::File(error) => error.advice(),
-            Self::Garbled { .. } => "Correct the file; docs/guide/racks.md shows one".into(),
-            Self::NotEnrolled { .. } => {
-                "Enrol the part, or correct its name in the rack file; partsight library list shows the names"
-                    .into()
-            }
-            Self::NotCalibrated => {
-                "Name a calibration with --calibration, or set one in the window; or give the rack in camera space"
-                    .into()
-            }
+            Self::Box(error) => error.message(),
+            _ => Message::tagged("rack", "kind", self),
         }
     }
 }
+
+impl Described for RackError {
+    fn message(&self) -> Message {
+        match self {
+            Self::File(error) => Message::new("rack-file")
+                .with("what", &*error.to_string())
+                .with("to_do", &*error.advice()),
+            Self::Garbled { path, problem } => Message::new("rack-garbled")
+                .with("path", &*path.display().to_string())
+                .caused_by(problem.message()),
+            Self::NotEnrolled { place, part } => Message::new("rack-not-enrolled")
+                .with("place", &**place)
+                .with("name", &**part),
+            Self::NotCalibrated => Message::new("rack-not-calibrated"),
+        }
+    }
+}
+
+texts::display!(RackError, RackProblem);
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -178,6 +247,16 @@ fn new_place_turn_deg() -> f64 {
 }
 
 impl RackFile {
+    /// An empty rack that has the name of this file, if it is a valid one.
+    pub fn named_after(path: &Path) -> Self {
+        let name = path.file_stem().unwrap_or_default().to_string_lossy();
+        let mut file = Self::default();
+        if is_name(&name) {
+            file.rack.name = name.into_owned();
+        }
+        file
+    }
+
     /// Reads a file.
     pub fn read(path: &Path) -> Result<Self, RackError> {
         Self::parse(path, &read_text(path, MAX_BYTES)?)
@@ -185,32 +264,36 @@ impl RackFile {
 
     /// Parses a rack from text; errors name `path` as its file.
     pub fn parse(path: &Path, text: &str) -> Result<Self, RackError> {
-        let garbled = |reason| RackError::Garbled {
+        let garbled = |problem| RackError::Garbled {
             path: path.to_owned(),
-            reason,
+            problem,
         };
-        let newer = |version| garbled(format!("it has version {version}, newer than this program"));
-        let bad = |error: toml::de::Error| garbled(toml_problem(&error));
+        let newer = |version| garbled(RackProblem::Newer { version });
+        let bad = |error: toml::de::Error| {
+            let what = toml_problem(text, &error);
+            garbled(RackProblem::Toml { what })
+        };
         let written: Written = parse_versioned(text, SCHEMA, newer, bad)?;
         Self::try_from(written).map_err(garbled)
     }
 }
 
 impl TryFrom<Written> for RackFile {
-    type Error = String;
+    type Error = RackProblem;
 
-    fn try_from(written: Written) -> Result<Self, String> {
+    fn try_from(written: Written) -> Result<Self, RackProblem> {
         let volume = (1..).zip(written.volume).map(|(number, one)| {
             let name = format!("volume {number}");
-            OrientedBox::of_file(&name, one.centre_mm, one.size_mm, one.angles_deg)
+            let region = OrientedBox::of_file(&name, one.centre_mm, one.size_mm, one.angles_deg);
+            region.map_err(RackProblem::Box)
         });
         let places = written.places.into_iter().map(WrittenPlace::read);
         let file = Self {
             rack: Rack {
+                name: written.name,
                 volume: volume.collect::<Result<_, _>>()?,
                 places: places.collect::<Result<_, _>>()?,
             },
-            name: written.name,
             frame: written.frame,
         };
         file.check()?;
@@ -222,7 +305,7 @@ impl From<RackFile> for Written {
     fn from(file: RackFile) -> Self {
         Self {
             schema_version: SCHEMA,
-            name: file.name,
+            name: file.rack.name,
             frame: file.frame,
             volume: file.rack.volume.iter().map(WrittenBox::of).collect(),
             places: file.rack.places.iter().map(WrittenPlace::of).collect(),
@@ -232,49 +315,59 @@ impl From<RackFile> for Written {
 
 impl RackFile {
     /// Returns what is wrong with names and numbers of boxes and places.
-    pub fn check(&self) -> Result<(), String> {
-        let Rack { volume, places } = &self.rack;
+    pub fn check(&self) -> Result<(), RackProblem> {
+        let Rack {
+            name,
+            volume,
+            places,
+        } = &self.rack;
         if volume.len() > MAX_BOXES {
             let found = volume.len();
-            return Err(format!(
-                "{found} boxes of volume, expected at most {MAX_BOXES}"
-            ));
+            let limit = MAX_BOXES;
+            return Err(RackProblem::Boxes { found, limit });
         }
         if places.len() > MAX_PARTS {
             let found = places.len();
-            return Err(format!("{found} places, expected at most {MAX_PARTS}"));
+            let limit = MAX_PARTS;
+            return Err(RackProblem::Places { found, limit });
         }
         if self.rack.is_empty() {
-            return Err("neither a volume nor a place".into());
+            return Err(RackProblem::Empty);
         }
-        if !self.name.is_empty() && !is_name(&self.name) {
-            return Err(format!(
-                "its name must have 1 to {MAX_NAME} printable characters"
-            ));
+        if !name.is_empty() && !is_name(name) {
+            return Err(RackProblem::Name {
+                limit: MAX_NAME,
+                is_place: false,
+            });
         }
         for (index, place) in places.iter().enumerate() {
             let name = &place.name;
             if !is_name(name) {
-                return Err(format!(
-                    "a place's name must have 1 to {MAX_NAME} printable characters"
-                ));
+                return Err(RackProblem::Name {
+                    limit: MAX_NAME,
+                    is_place: true,
+                });
             }
             let others = &places[..index];
             if others.iter().any(|other| other.name == *name) {
-                return Err(format!("two places are called \"{name}\""));
+                let place = name.clone();
+                return Err(RackProblem::SameName { place });
             }
             let centre = |one: &Place| Point3::from(one.region.centre_m);
             let within = |one: &Place, other: &Place| other.region.distance(&centre(one)) <= 0.0;
             let overlapping =
                 (others.iter()).find(|other| within(place, other) || within(other, place));
             if let Some(other) = overlapping {
-                return Err(format!("places \"{name}\" and \"{}\" overlap", other.name));
+                return Err(RackProblem::Overlap {
+                    place: name.clone(),
+                    over: other.name.clone(),
+                });
             }
             if !(place.max_turn.0 > 0.0 && place.max_turn <= MAX_TURN) {
-                let found = place.max_turn.degrees();
-                return Err(format!(
-                    "max_turn_deg of place \"{name}\" is {found}, expected more than 0, up to 180"
-                ));
+                return Err(RackProblem::MaxTurn {
+                    place: name.clone(),
+                    found: place.max_turn.degrees().to_string(),
+                });
             }
         }
         Ok(())
@@ -314,6 +407,16 @@ impl RackFile {
     pub fn in_camera(&self, base_from_camera: Option<&RigidTransform>) -> Result<Rack, RackError> {
         let frame_from_camera = self.frame_from_camera(base_from_camera)?;
         Ok(self.rack.moved(&frame_from_camera.inverse()))
+    }
+
+    /// As [`in_camera`](Self::in_camera), for parts of this library.
+    pub fn for_library(
+        &self,
+        library: &Library,
+        base_from_camera: Option<&RigidTransform>,
+    ) -> Result<Rack, RackError> {
+        self.check_parts(|name| library.has_reference(name))?;
+        self.in_camera(base_from_camera)
     }
 
     fn frame_from_camera(
@@ -454,7 +557,7 @@ impl WrittenPlace {
         }
     }
 
-    fn read(self) -> Result<Place, String> {
+    fn read(self) -> Result<Place, RackProblem> {
         let Self {
             name,
             centre_mm,
@@ -466,8 +569,11 @@ impl WrittenPlace {
         let parts = parts.into_iter().map(|part| {
             let angles = part.angles_deg;
             if angles.is_some_and(|angles| !angles.iter().all(|x| x.abs() <= 360.0)) {
-                let found = angles.unwrap_or_default();
-                return Err(format!("angles_deg of {} is {found:?}", part.name));
+                return Err(RackProblem::Box(BoxError::Number {
+                    field: "angles_deg",
+                    name: part.name,
+                    found: format!("{:?}", angles.unwrap_or_default()),
+                }));
             }
             Ok(PlacedPart {
                 name: part.name,
@@ -480,7 +586,8 @@ impl WrittenPlace {
                 centre_mm,
                 size_mm,
                 angles_deg,
-            )?,
+            )
+            .map_err(RackProblem::Box)?,
             max_turn: Radians::from_degrees(max_turn_deg),
             parts: parts.collect::<Result<_, _>>()?,
             name,

@@ -2,7 +2,7 @@
 //!
 //! The table is a CSV file, as spreadsheets and planning systems write it. Its first line names the columns, in any order:
 //! `order`, `serial` (may be left out, and its cells may be empty) and `parts`. Further columns are ignored. Cells are
-//! separated by commas, semicolons or tabs, and names of parts within a cell by commas, semicolons or `|`:
+//! separated by commas, semicolons or tabs, and parts within a cell, `PART` or `PLACE=PART`, by commas, semicolons or `|`:
 //!
 //! ```csv
 //! order;serial;parts
@@ -21,14 +21,15 @@ use thiserror::Error;
 use crate::history::Traceability;
 use files::{FileError, read_text};
 use geometry::error::Advice;
-use inspection::pipeline::{Expected, ExpectedError};
-use stages::segment::MAX_PARTS;
+use inspection::pipeline::{Expected, ExpectedError, ExpectedPart};
+use stages::{rack::Rack, segment::MAX_PARTS};
+use texts::{Described, Message};
 
 /// Maximum size of a table: some 100 000 rows.
 const MAX_BYTES: u64 = 8 << 20;
 /// What may separate cells. Of those in the first line, the first of this list does.
 const SEPARATORS: [char; 3] = [';', '\t', ','];
-/// What may separate the names of parts in a cell.
+/// What may separate parts in a cell.
 const PART_SEPARATORS: [char; 3] = [';', ',', '|'];
 
 /// A column of the table.
@@ -57,10 +58,8 @@ impl OrderColumn {
 #[derive(Debug, Error)]
 pub enum OrdersError {
     /// The file cannot be read.
-    #[error(transparent)]
     File(#[from] FileError),
     /// A column is missing, or there twice.
-    #[error("{}, line 1: {found} columns are named {}", path.display(), column.name())]
     Column {
         /// The file.
         path: PathBuf,
@@ -70,76 +69,85 @@ pub enum OrdersError {
         found: usize,
     },
     /// A cell has no valid content.
-    #[error("{}, line {line}, column {}: {problem}", path.display(), column.name())]
-    Cell {
-        /// The file.
-        path: PathBuf,
-        /// Number of the line in the file, from 1.
-        line: u64,
-        /// The column.
-        column: OrderColumn,
-        /// What is wrong.
-        problem: CellProblem,
-    },
+    Cell(BadCell),
     /// There is no order below the first line.
-    #[error("{}: the table has no orders", path.display())]
     NoOrders {
         /// The file.
         path: PathBuf,
     },
 }
 
+/// A cell of a table that has no valid content.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BadCell {
+    /// The file.
+    pub path: PathBuf,
+    /// Number of the line in the file, from 1.
+    pub line: u64,
+    /// The column.
+    pub column: OrderColumn,
+    /// What is wrong.
+    pub problem: CellProblem,
+}
+
 /// What is wrong with a cell.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum CellProblem {
     /// It is empty.
-    #[error("the cell is empty")]
     Empty,
     /// No order or serial number is so long, or has line breaks.
-    #[error(
-        "the cell has line breaks, or more than {} characters",
-        Traceability::MAX_LETTERS
-    )]
     NotOneLine,
     /// The same order and serial number again.
-    #[error("the order and serial number are those of line {first}")]
     Again {
         /// Number of the line that has them too, from 1.
         first: u64,
     },
     /// The parts cannot be expected.
-    #[error("{0}")]
     Parts(ExpectedError),
 }
 
-impl Advice for OrdersError {
-    fn advice(&self) -> String {
+impl Described for OrdersError {
+    fn message(&self) -> Message {
+        let of_file = |id, path: &Path| Message::new(id).with("path", &*path.display().to_string());
         match self {
-            Self::File(error @ FileError::Damaged { .. }) => format!(
-                "{}; a spreadsheet saves a table as CSV UTF-8",
-                error.advice()
-            ),
-            Self::File(error) => error.advice(),
-            Self::Column { .. } => {
-                "Name the columns order, serial and parts in the first line; serial may be left out"
-                    .into()
-            }
-            Self::Cell { problem, .. } => problem.advice(),
-            Self::NoOrders { .. } => "Add a row for each order below the first line".into(),
+            Self::File(error) => Message::new("orders-file")
+                .with("what", &*error.to_string())
+                .with("to_do", &*error.advice())
+                .with("is_damaged", matches!(error, FileError::Damaged { .. })),
+            Self::Column {
+                path,
+                column,
+                found,
+            } => of_file("orders-column", path)
+                .with("column", column.name())
+                .with("found", *found as f64),
+            Self::Cell(cell) => cell.message(),
+            Self::NoOrders { path } => of_file("orders-none", path),
         }
     }
 }
 
-impl Advice for CellProblem {
-    fn advice(&self) -> String {
-        match self {
-            Self::Empty => "Fill the cell, or delete the row".into(),
-            Self::NotOneLine => "Shorten it; look for a missing quotation mark before it".into(),
-            Self::Again { .. } => "Put all parts that hang together into one row".into(),
-            Self::Parts(error) => error.advice(),
-        }
+impl Described for BadCell {
+    fn message(&self) -> Message {
+        let problem = match &self.problem {
+            CellProblem::Empty => Message::new("orders-empty"),
+            CellProblem::NotOneLine => {
+                Message::new("orders-not-one-line").with("limit", Traceability::MAX_LETTERS as f64)
+            }
+            CellProblem::Again { first } => {
+                Message::new("orders-again").with("first", &*first.to_string())
+            }
+            CellProblem::Parts(error) => error.message(),
+        };
+        Message::new("orders-cell")
+            .with("path", &*self.path.display().to_string())
+            .with("line", &*self.line.to_string())
+            .with("column", self.column.name())
+            .caused_by(problem)
     }
 }
+
+texts::display!(OrdersError, BadCell);
 
 /// Why it is not known what to expect.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
@@ -182,15 +190,8 @@ pub enum OrderError {
         serial: String,
     },
     /// The parts of the row cannot be expected.
-    #[error("{}, line {line}, column {}: {source}", path.display(), OrderColumn::Parts.name())]
-    Parts {
-        /// The table.
-        path: PathBuf,
-        /// Number of the line in the file, from 1.
-        line: u64,
-        /// What is wrong.
-        source: ExpectedError,
-    },
+    #[error("{0}")]
+    Parts(BadCell),
 }
 
 impl Advice for OrderError {
@@ -201,9 +202,7 @@ impl Advice for OrderError {
             Self::UnknownSerial { .. } => "Check the serial number, or add it to the table".into(),
             Self::SerialNotGiven { .. } => "Give the serial number".into(),
             Self::OtherOrder { .. } => "Check the order and the serial number".into(),
-            Self::Parts { source, .. } => {
-                format!("{}, or correct the table", source.advice())
-            }
+            Self::Parts(cell) => cell.advice(),
         }
     }
 }
@@ -220,13 +219,13 @@ pub struct Orders {
 struct Row {
     /// Number of the line in the file, from 1.
     line: u64,
-    /// Names of the parts, one at least.
-    parts: Vec<String>,
+    /// One at least.
+    parts: Vec<ExpectedPart>,
 }
 
 impl Orders {
-    /// Reads a table. A single bad row makes the whole table an error, but for the names of its parts: those count once the
-    /// order is asked for.
+    /// Reads a table. A single bad row makes the whole table an error, but for the names of its parts and places: those count
+    /// once the order is asked for.
     pub fn read(path: &Path) -> Result<Self, OrdersError> {
         Self::parse(path, &read_text(path, MAX_BYTES)?)
     }
@@ -264,11 +263,13 @@ impl Orders {
             if row.iter().all(|cell| cell.trim().is_empty()) {
                 continue;
             }
-            let wrong = |column, problem| OrdersError::Cell {
-                path: path.to_owned(),
-                line,
-                column,
-                problem,
+            let wrong = |column, problem| {
+                OrdersError::Cell(BadCell {
+                    path: path.to_owned(),
+                    line,
+                    column,
+                    problem,
+                })
             };
             let cell = |place: Option<usize>| place.and_then(|place| row.get(place)).unwrap_or("");
             let key = |column, place| {
@@ -285,8 +286,8 @@ impl Orders {
             let of_serial = key(OrderColumn::Serial, serial)?;
             let names = cell(Some(parts)).split(PART_SEPARATORS).map(str::trim);
             let names = names.filter(|name| !name.is_empty());
-            let names: Vec<String> = names.map(str::to_owned).collect();
-            let problem = match names.len() {
+            let parts_of_row: Vec<ExpectedPart> = names.map(Into::into).collect();
+            let problem = match parts_of_row.len() {
                 0 => Some(CellProblem::Empty),
                 found if found > MAX_PARTS => {
                     Some(CellProblem::Parts(ExpectedError::TooMany { found }))
@@ -301,7 +302,13 @@ impl Orders {
                 let again = CellProblem::Again { first: *first };
                 return Err(wrong(OrderColumn::Order, again));
             }
-            rows.insert(of_serial, Row { line, parts: names });
+            rows.insert(
+                of_serial,
+                Row {
+                    line,
+                    parts: parts_of_row,
+                },
+            );
         }
         if table.orders.is_empty() {
             let path = path.to_owned();
@@ -315,18 +322,22 @@ impl Orders {
         &self.path
     }
 
-    /// The parts that should hang there for an order and a serial number: those of the row with both; else those of the
+    /// The parts that should hang there, in this rack, for an order and a serial number: those of the row with both; else those of the
     /// order's row without a serial number. Without an order, those of the one row with the serial number.
     pub fn expected(
         &self,
         trace: &Traceability,
+        rack: &Rack,
         is_enrolled: impl Fn(&str) -> bool,
     ) -> Result<Expected, OrderError> {
         let Row { line, parts } = self.row(trace.order.trim(), trace.serial.trim())?;
-        Expected::new(parts.clone(), is_enrolled).map_err(|source| OrderError::Parts {
-            path: self.path.clone(),
-            line: *line,
-            source,
+        Expected::new(parts.clone(), rack, is_enrolled).map_err(|error| {
+            OrderError::Parts(BadCell {
+                path: self.path.clone(),
+                line: *line,
+                column: OrderColumn::Parts,
+                problem: CellProblem::Parts(error),
+            })
         })
     }
 

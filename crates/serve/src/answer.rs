@@ -20,7 +20,7 @@ use stages::segment::MAX_PARTS;
 pub enum Request {
     /// Capture a frame from now on, and inspect it.
     Trigger {
-        /// Numbers of the parts that should hang there, then zeros; all zero if nothing is expected.
+        /// The parts that should hang there, then none; all none if nothing is expected.
         expected: ExpectedNumbers,
     },
     /// Send the camera's state, and the last verdict without its numbers.
@@ -43,13 +43,22 @@ pub enum Request {
     },
 }
 
-/// Numbers of the parts that are expected in a frame; 0 stands for none.
-pub type ExpectedNumbers = [u32; MAX_PARTS];
+/// A part that is expected in a frame, by numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ExpectedNumber {
+    /// The number of the part; 0 for none.
+    pub part: u32,
+    /// The number of its place in the order of the rack's file, from 1; 0 for any.
+    pub place: u32,
+}
+
+/// The parts that are expected in a frame.
+pub type ExpectedNumbers = [ExpectedNumber; MAX_PARTS];
 
 impl Request {
     /// A trigger that expects nothing.
     pub const TRIGGER: Self = Self::Trigger {
-        expected: [0; MAX_PARTS],
+        expected: [ExpectedNumber { part: 0, place: 0 }; MAX_PARTS],
     };
 
     /// The word in text protocols, and the code in binary frames.
@@ -86,13 +95,21 @@ impl Request {
         }
     }
 
+    /// A trigger that expects these parts; `None` if they are more than a frame can show.
+    pub fn expecting(parts: impl IntoIterator<Item = ExpectedNumber>) -> Option<Self> {
+        let mut expected = ExpectedNumbers::default();
+        for (index, part) in parts.into_iter().enumerate() {
+            *expected.get_mut(index)? = part;
+        }
+        Some(Self::Trigger { expected })
+    }
+
     /// The request with these numbers; `None` if it does not take as many.
     pub(super) fn numbered(self, numbers: &[u32]) -> Option<Self> {
         match (self, numbers) {
             (Self::Trigger { .. }, _) => {
-                let mut expected = ExpectedNumbers::default();
-                expected.get_mut(..numbers.len())?.copy_from_slice(numbers);
-                Some(Self::Trigger { expected })
+                let parts = numbers.iter();
+                Self::expecting(parts.map(|&part| ExpectedNumber { part, place: 0 }))
             }
             (_, []) => Some(self),
             (Self::Path { .. }, [point]) => Some(Self::path(*point, 0)),
@@ -103,7 +120,7 @@ impl Request {
         }
     }
 
-    /// Its numbers, without zeros at their end.
+    /// Its numbers, without those of places and without zeros at their end.
     pub(super) fn numbers(self) -> Vec<u32> {
         let mut numbers = match self {
             Self::Path {
@@ -114,7 +131,7 @@ impl Request {
                 index: number,
                 sequence,
             } => vec![number, sequence.unwrap_or(0)],
-            Self::Trigger { expected } => expected.to_vec(),
+            Self::Trigger { expected } => expected.iter().map(|one| one.part).collect(),
             Self::Status | Self::Last => Vec::new(),
         };
         while numbers.pop_if(|number| *number == 0).is_some() {}

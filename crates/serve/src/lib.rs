@@ -32,8 +32,8 @@ mod tally;
 pub use self::server::bound;
 pub use self::{
     answer::{
-        Answer, CameraState, CameraStatus, ExpectedNumbers, Found, FrameParts, LibraryStatus,
-        MAX_COUNT, PathStep, PoseKind, Problem, Request, VerdictCode,
+        Answer, CameraState, CameraStatus, ExpectedNumber, ExpectedNumbers, Found, FrameParts,
+        LibraryStatus, MAX_COUNT, PathStep, PoseKind, Problem, Request, VerdictCode,
     },
     handle::ServerHandle,
     listen::{ListenAddress, ListenError, Listener, OpenToNetwork, parse_address},

@@ -107,7 +107,7 @@ impl Session {
     }
 
     /// Makes a job to inspect something with the recipe and the calibration in use, before this rack, in which these parts are
-    /// expected.
+    /// expected; a scan takes no rack.
     pub(crate) fn inspect_job(
         &self,
         source: SceneOrScan,
@@ -120,7 +120,7 @@ impl Session {
                 recipe: self.recipe_in_rack(rack, expected),
             }),
             SceneOrScan::Scan(order) => InspectJob::Scan(ScanRequest {
-                recipe: Arc::new(self.recipe.expecting(expected)),
+                recipe: Arc::new(self.recipe.expecting(expected.anywhere())),
                 ..self.scan_request(order)
             }),
         }

@@ -2,7 +2,7 @@
 
 use super::{
     notice::{Notice, NoticeTopic},
-    rack::RackEditor,
+    rack::{RackEditor, ReadRack},
     roles::RoleState,
     session::Session,
     shift::ShiftWatch,
@@ -12,7 +12,7 @@ use crate::{
     source::{inspector::Inspector, live::Follower},
     trace::expecting::OrdersWatch,
 };
-use ui::task::TaskRunner;
+use ui::task::{Task, TaskRunner};
 
 /// State of the window outside the workspaces. [`apply`](crate::apply::apply) changes it.
 #[derive(Debug)]
@@ -39,6 +39,8 @@ pub struct State {
     pub shift_watch: ShiftWatch,
     /// Watches the table of orders in use.
     pub orders_watch: OrdersWatch,
+    /// Reads the file of a rack.
+    pub rack_reading: Task<ReadRack>,
 }
 
 /// Whether the window may close.
@@ -80,6 +82,7 @@ impl State {
             roles: RoleState::default(),
             shift_watch: ShiftWatch::new(runner),
             orders_watch: OrdersWatch::new(runner),
+            rack_reading: Task::new("rack-reading", runner),
         }
     }
 }

@@ -10,6 +10,9 @@ use geometry::{oriented_box::OrientedBox, rigid::RigidTransform, units::Radians}
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Rack {
+    /// Its name; may be empty.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub name: String,
     /// Readings outside all of these boxes are background; empty if parts may hang anywhere.
     pub volume: Vec<OrientedBox>,
     /// The places; empty if they are not known. The centre of none lies in another.
@@ -43,6 +46,7 @@ pub struct PlacedPart {
 impl Rack {
     /// A rack in which parts may hang anywhere.
     pub const ANYWHERE: &Self = &Self {
+        name: String::new(),
         volume: Vec::new(),
         places: Vec::new(),
     };
@@ -70,6 +74,7 @@ impl Rack {
             ..place.clone()
         };
         Self {
+            name: self.name.clone(),
             volume: self.volume.iter().map(moved).collect(),
             places: self.places.iter().map(place).collect(),
         }

@@ -6,7 +6,7 @@ use std::{
 };
 
 use super::{
-    Camera, Inspected, NoFrame, PartFinder, Subject, inspected::verdicts_of, motion::time_of,
+    Camera, Inspected, NoFrame, PartFinder, Subject, inspected::inspections_of, motion::time_of,
 };
 use capture::Captured;
 use inspection::{
@@ -87,7 +87,7 @@ impl Answering<'_> {
         trace: &Traceability,
         mut scene_of: impl FnMut(Captured) -> Arc<SceneCloud>,
     ) -> Result<Answered, NoFrame> {
-        let expected = self.finder.expected(&self.expected, self.library)?;
+        let expected = (self.finder).expected(&self.expected, &self.recipe.rack, self.library)?;
         let recipe = self.recipe.expecting(expected);
         let inspected = |scene: &SceneCloud| {
             run_all(scene, self.library, &recipe, &Unwatched).expect("not cancelled")
@@ -127,8 +127,8 @@ impl Answering<'_> {
         let mut all: Vec<Found> = all
             .map(|part| self.finder.found(part, captured_at))
             .collect();
-        let missing = expected.missing(&verdicts_of(parts)).into_iter();
-        let missing = missing.map(|name| self.finder.missing(name, self.library, &all[0]));
+        let missing = expected.missing(&inspections_of(parts)).into_iter();
+        let missing = missing.map(|part| self.finder.missing(part, self.library, &all[0]));
         let missing: Vec<Found> = missing.collect();
         if !missing.is_empty() {
             // Where nothing can be recognised, this is what is missing.
@@ -149,10 +149,13 @@ mod tests {
     use super::*;
     use crate::NumberedPart;
     use capture::SourceSpec;
-    use geometry::rigid::RigidTransform;
+    use geometry::{oriented_box::OrientedBox, rigid::RigidTransform, units::Radians};
     use inspection::fixtures::shipped_library;
     use serve::{Answer, Asked, PoseKind};
-    use stages::scene::scene_from_image;
+    use stages::{
+        rack::{Place, Rack},
+        scene::scene_from_image,
+    };
 
     /// Long enough for a busy machine; normally what is waited for comes at once.
     const PATIENCE: Duration = Duration::from_mins(10);
@@ -219,6 +222,24 @@ mod tests {
         assert_eq!(cancelled.reason(), "stopping");
     }
 
+    /// A rack with a hook at which everything hangs, and one far away.
+    fn two_hooks() -> Rack {
+        let place = |name: &str, x: f64| Place {
+            name: name.into(),
+            region: OrientedBox {
+                centre_m: [x, 0.0, 2.0],
+                size_m: [4.0; 3],
+                angles_rad: [0.0; 3],
+            },
+            max_turn: Radians(1.0),
+            parts: Vec::new(),
+        };
+        Rack {
+            places: vec![place("left hook", 0.0), place("right hook", 9.0)],
+            ..Rack::default()
+        }
+    }
+
     #[test]
     fn a_part_that_is_not_expected_is_refused_and_what_is_missing_is_said() {
         let (library, recipe) = (shipped_library(), NamedRecipe::default());
@@ -230,17 +251,20 @@ mod tests {
             let part = numbered.find(|(_, reference)| reference.name == name);
             part.expect("enrolled").0.number
         };
-        let answered = |numbers: &[u32]| {
+        let in_rack = recipe.in_rack(two_hooks());
+        let answered_in = |recipe: &NamedRecipe, numbers: &[[u32; 2]]| {
             let frame = camera.frame_after(&Asked::now(), PATIENCE, || false);
             let frame = frame.expect("a frame");
             let subject = Subject::of_capture(&frame, &source, 0);
             let mut expected = ExpectedNumbers::default();
-            expected[..numbers.len()].copy_from_slice(numbers);
+            for (one, [place, part]) in expected.iter_mut().zip(numbers) {
+                (one.place, one.part) = (*place, *part);
+            }
             let answering = Answering {
                 camera: &camera,
                 finder: &finder,
                 library: &library,
-                recipe: &recipe,
+                recipe,
                 expected,
                 at_most: PATIENCE,
                 is_ending: &|| false,
@@ -250,6 +274,10 @@ mod tests {
                 Arc::new(scene_from_image(captured.image))
             });
             answered.map(|answered| answered.found)
+        };
+        let answered = |numbers: &[u32]| {
+            let numbers: Vec<[u32; 2]> = numbers.iter().map(|&number| [0, number]).collect();
+            answered_in(&recipe, &numbers)
         };
         let shown = |found: &FrameParts| -> Vec<(VerdictCode, String, String)> {
             let parts = found.iter().map(|part| {
@@ -268,7 +296,7 @@ mod tests {
         assert_eq!(line["as_expected"], true);
         let found = answered(&[grille, fender]).expect("inspected");
         let missing = part(VerdictCode::NoPart, "grille", "missing");
-        assert_eq!(shown(&found), [accepted, missing]);
+        assert_eq!(shown(&found), [accepted.clone(), missing]);
         assert_eq!(found.others[0].number, grille);
         let line: Value = serde_json::from_str(&found.first.report).expect("JSON");
         assert_eq!(line["missing"], serde_json::json!(["grille"]));
@@ -277,6 +305,32 @@ mod tests {
         assert_eq!(shown(&found), [wrong]);
         let unknown = answered(&[99]).expect_err("no such part");
         assert_eq!(unknown.reason(), "unknown_number");
+
+        // By place and number.
+        let answered = |numbers: &[[u32; 2]]| answered_in(&in_rack, numbers);
+        let found = answered(&[[1, fender]]).expect("inspected");
+        assert_eq!(shown(&found), std::slice::from_ref(&accepted));
+        let found = answered(&[[1, grille]]).expect("inspected");
+        assert_eq!(shown(&found)[0].2, "wrong_part");
+        let found = answered(&[[2, fender]]).expect("inspected");
+        assert_eq!(shown(&found)[0].2, "expected_elsewhere");
+        let found = answered(&[[1, fender], [2, grille]]).expect("inspected");
+        assert_eq!(shown(&found)[1].2, "missing");
+        let what = "grille is expected at right hook, and does not hang there";
+        assert!(found.others[0].problem.message.contains(what));
+        let line: Value = serde_json::from_str(&found.first.report).expect("JSON");
+        assert_eq!(line["expected"], serde_json::json!(["fender", "grille"]));
+        let places = serde_json::json!(["left hook", "right hook"]);
+        assert_eq!(line["expected_places"], places);
+        assert_eq!(line["missing"], serde_json::json!(["grille"]));
+        assert_eq!(line["missing_places"], serde_json::json!(["right hook"]));
+        for (numbers, why) in [
+            (&[[3, fender]][..], "unknown_place"),
+            (&[[2, fender], [2, grille]], "place_twice"),
+        ] {
+            let error = answered(numbers).expect_err(why);
+            assert_eq!(error.reason(), why);
+        }
     }
 
     /// An accepted part that cannot be looked for again, because the service ends, is not answered.

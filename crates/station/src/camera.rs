@@ -26,7 +26,7 @@ use geometry::{
     error::{Advice, lock},
 };
 use inspection::pipeline::{
-    Inspection,
+    ExpectedError, Inspection,
     live::{MotionState, SteadyParams, refuse_moving, refuse_unless_again},
 };
 use serve::{Asked, CameraState, CameraStatus, Problem, Unanswered};
@@ -175,6 +175,17 @@ pub enum NoFrame {
         /// The number.
         number: u32,
     },
+    /// A part is expected at a place by a number that no place has.
+    #[error("the rack has {num_places} places, and none has the number {number}")]
+    UnknownPlace {
+        /// The number.
+        number: u32,
+        /// Number of places.
+        num_places: usize,
+    },
+    /// The parts cannot be expected: two are at a place.
+    #[error(transparent)]
+    Expected(#[from] ExpectedError),
     /// The service is ending.
     #[error(transparent)]
     Unanswered(#[from] Unanswered),
@@ -191,6 +202,8 @@ impl NoFrame {
             Self::Unreadable { .. } => "unreadable",
             Self::ClockAhead { .. } => "clock_ahead",
             Self::UnknownNumber { .. } => "unknown_number",
+            Self::UnknownPlace { .. } => "unknown_place",
+            Self::Expected(_) => "place_twice",
             Self::Unanswered(why) => why.reason(),
         }
     }
@@ -218,6 +231,11 @@ impl Advice for NoFrame {
             Self::UnknownNumber { .. } => {
                 "TRIGGER with numbers that partsight library list shows".into()
             }
+            Self::UnknownPlace { .. } => {
+                "TRIGGER with numbers of places by their order in the rack file, from 1; serve takes that with --rack"
+                    .into()
+            }
+            Self::Expected(why) => why.advice(),
             Self::Unanswered(why) => why.advice(),
         }
     }

@@ -6,13 +6,16 @@ use super::{Inspected, NoFrame};
 use geometry::rigid::RigidTransform;
 use inspection::{
     library::{Library, SprayPath},
-    pipeline::{Expected, Inspection, Recipe, Refusal, Rejection, Verdict},
+    pipeline::{Expected, ExpectedPart, Inspection, Recipe, Refusal, Rejection, Verdict},
 };
 use robot::{
     RobotFrame,
     spray::{BandStatus, OffThePart, carry},
 };
-use serve::{Answer, ExpectedNumbers, Found, PathStep, PoseKind, Problem, VerdictCode};
+use serve::{
+    Answer, ExpectedNumber, ExpectedNumbers, Found, PathStep, PoseKind, Problem, VerdictCode,
+};
+use stages::rack::Rack;
 
 /// Data about a reference of the library that a client gets besides its name.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -107,34 +110,47 @@ impl PartFinder {
         found
     }
 
-    /// The parts with these numbers, by name; zeros stand for none.
+    /// The parts with these numbers, by name, at places of this rack.
     pub(super) fn expected(
         &self,
         numbers: &ExpectedNumbers,
+        rack: &Rack,
         library: &Library,
     ) -> Result<Expected, NoFrame> {
-        let numbers = numbers.iter().filter(|number| **number > 0);
-        let names = numbers.map(|&number| {
-            let mut numbered = self.parts.iter().zip(&library.references);
-            let part = numbered.find(|(part, _)| part.number == number);
-            let (_, reference) = part.ok_or(NoFrame::UnknownNumber { number })?;
-            Ok(reference.name.clone())
-        });
-        let names = names.collect::<Result<_, NoFrame>>()?;
-        Ok(Expected::new(names, |_| true).expect("up to eight names"))
+        let numbers = numbers.iter().filter(|one| one.part > 0);
+        let parts = numbers.map(
+            |&ExpectedNumber {
+                 part: number,
+                 place,
+             }| {
+                let mut numbered = self.parts.iter().zip(&library.references);
+                let part = numbered.find(|(part, _)| part.number == number);
+                let (_, reference) = part.ok_or(NoFrame::UnknownNumber { number })?;
+                let place = match place {
+                    0 => None,
+                    number => Some(place_of(rack, number)?),
+                };
+                let name = reference.name.clone();
+                Ok(ExpectedPart { name, place })
+            },
+        );
+        let parts = parts.collect::<Result<_, NoFrame>>()?;
+        Ok(Expected::new(parts, rack, |_| true)?)
     }
 
     /// The result for a part that is expected, and does not hang there.
-    pub(super) fn missing(&self, name: &str, library: &Library, like: &Found) -> Found {
+    pub(super) fn missing(&self, part: &ExpectedPart, library: &Library, like: &Found) -> Found {
+        let name = &part.name;
         let mut numbered = self.parts.iter().zip(&library.references);
-        let part = numbered.find(|(_, reference)| reference.name == name);
-        let what = format!("{name} is expected, and does not hang there");
+        let numbered = numbered.find(|(_, reference)| reference.name == *name);
+        let at = (part.place.as_ref()).map_or_else(String::new, |place| format!(" at {place}"));
+        let what = format!("{name} is expected{at}, and does not hang there");
         let advice = "Hang it there, or correct what is expected";
         Found {
             verdict: VerdictCode::NoPart,
             captured: like.captured,
-            part: name.to_owned(),
-            number: part.map_or(0, |(part, _)| part.number),
+            part: name.clone(),
+            number: numbered.map_or(0, |(part, _)| part.number),
             marks: like.marks & Answer::SIMULATED,
             problem: Problem::new("missing", &what, advice),
             ..Found::default()
@@ -163,6 +179,18 @@ impl PartFinder {
         });
         steps.collect()
     }
+}
+
+/// The name of the place with this number from 1, by its order in the rack.
+fn place_of(rack: &Rack, number: u32) -> Result<String, NoFrame> {
+    let place = (rack.places.iter())
+        .zip(1..)
+        .find(|(_, known)| *known == number);
+    let (place, _) = place.ok_or(NoFrame::UnknownPlace {
+        number,
+        num_places: rack.places.len(),
+    })?;
+    Ok(place.name.clone())
 }
 
 #[cfg(test)]

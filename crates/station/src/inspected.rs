@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use capture::{Captured, SourceSpec};
 use files::written_at;
 use geometry::rigid::row_major;
-use inspection::pipeline::{Inspection, NamedRecipe, Recipe, Verdict};
+use inspection::pipeline::{Inspection, NamedRecipe, Recipe};
 use records::{
     history::{HungId, InspectionContext, NewEntry, SceneTitle, Traceability},
     report::{CaptureLine, InspectionLine, ScanLine},
@@ -239,15 +239,16 @@ impl<'a> Inspected<'a> {
         let all = parts.iter().map(|part| part.inspection_line(trace));
         line.with_parts(all)
             .with_empty_places(Self::empty_places(parts))
-            .expecting(expected, Some(&verdicts_of(parts)))
+            .expecting(expected, Some(&inspections_of(parts)))
             .to_json()
     }
 
     /// Names of the rack's places at which none of the parts of a frame hangs.
     pub fn empty_places(parts: &[Self]) -> Vec<&'a str> {
-        let inspections: Vec<&Inspection> = parts.iter().map(|part| part.inspection).collect();
         let recipe = parts.first().map(|part| part.recipe);
-        recipe.map_or_else(Vec::new, |recipe| recipe.empty_places(&inspections))
+        recipe.map_or_else(Vec::new, |recipe| {
+            recipe.empty_places(&inspections_of(parts))
+        })
     }
 
     fn inspection_line<'b>(&self, trace: &'b Traceability) -> InspectionLine<'b>
@@ -336,8 +337,8 @@ impl<'a> Inspected<'a> {
 }
 
 /// The verdicts on the parts of a frame.
-pub(super) fn verdicts_of<'a>(parts: &[Inspected<'a>]) -> Vec<&'a Verdict> {
-    parts.iter().map(|part| &part.inspection.verdict).collect()
+pub(super) fn inspections_of<'a>(parts: &[Inspected<'a>]) -> Vec<&'a Inspection> {
+    parts.iter().map(|part| part.inspection).collect()
 }
 
 #[cfg(test)]

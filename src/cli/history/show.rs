@@ -281,6 +281,7 @@ fn record_table(from: ReadFrom<'_>, record: &Record) -> Table {
     row("verdict", summary.verdict.title().to_lowercase());
     row("part", summary.part.clone().unwrap_or_default());
     row("place", detail.place().unwrap_or_default());
+    row("rack", detail.rack().unwrap_or_default());
     if summary.part != detail.nearest && summary.score.is_none_or(|[score, _]| is_like(score)) {
         row("nearest", detail.nearest.clone().unwrap_or_default());
     }

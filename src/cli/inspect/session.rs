@@ -22,13 +22,11 @@ use crate::cli::{
 use geometry::error::{Advice, guarded};
 use inspection::{
     library::Library,
-    pipeline::{
-        Inspection, MirrorTally, NamedRecipe, Unwatched, Verdict, live::refuse_moving, run_all,
-    },
+    pipeline::{Inspection, MirrorTally, NamedRecipe, Unwatched, live::refuse_moving, run_all},
 };
 use records::{
     history::{HungId, NewEntry, Traceability},
-    report::{InspectionLine, Picture, ReportFolder, stage_pictures},
+    report::{InspectionLine, Picture, ReportFolder, frame_pictures},
 };
 use robot::RobotFrame;
 use serve::Found;
@@ -196,12 +194,11 @@ impl InspectSession {
     }
 
     fn outcome(&self, frame: &InspectedFrame) -> Outcome {
-        let verdicts: Vec<&Verdict> = frame.parts.iter().map(|part| &part.verdict).collect();
         let expected = &self.recipe.expected;
         Outcome::accepted_if(if expected.is_empty() {
-            verdicts.iter().all(|verdict| verdict.is_accepted())
+            frame.parts.iter().all(|part| part.verdict.is_accepted())
         } else {
-            expected.is_met(&verdicts)
+            expected.is_met(&frame.parts.iter().collect::<Vec<_>>())
         })
     }
 
@@ -345,7 +342,8 @@ impl InspectSession {
     }
 
     fn pictures(&self, frame: &InspectedFrame) -> Option<Vec<Picture>> {
-        (self.report.as_ref()).map(|_| stage_pictures(&frame.scene, &frame.parts[0]))
+        let parts: Vec<&Inspection> = frame.parts.iter().collect();
+        (self.report.as_ref()).map(|_| frame_pictures(&frame.scene, &parts, 0))
     }
 
     /// Returns what to store and publish of an inspection.

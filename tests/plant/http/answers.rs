@@ -359,6 +359,19 @@ fn a_trigger_may_say_what_is_expected_and_a_body_that_says_something_else_is_ref
         number(client.trigger_with("{\"expected\": [3, 5]}")),
         plain + 8
     );
+    let mut placed = |body| number(client.trigger_with(body));
+    assert_eq!(
+        placed("{\"expected\": [3, 5], \"places\": [2, 1]}"),
+        plain + 308
+    );
+    assert_eq!(
+        placed("{\"expected\": [3, 5], \"places\": [0, 1]}"),
+        plain + 108
+    );
+    assert_eq!(
+        placed("{\"expected\": [3, 5], \"places\": [1]}"),
+        plain + 108
+    );
     let num_before = service.num_inspected();
     for body in [
         "{\"expected\": 3}",
@@ -366,6 +379,7 @@ fn a_trigger_may_say_what_is_expected_and_a_body_that_says_something_else_is_ref
         "{\"expected\": [-1]}",
         "{\"expected\": [1, 2, 3, 4, 5, 6, 7, 8, 9]}",
         "{\"expect\": [3]}",
+        "{\"expected\": [3], \"places\": [1, 2]}",
         "expected=3",
         "[3]",
     ] {

@@ -4,15 +4,20 @@ use std::{fs, path::Path};
 
 use egui::{Key, Role};
 use egui_kittest::kittest::Queryable as _;
+use inspection::rack::RackFile;
 use shell::{
     action::{Action, DialogRequest},
+    rack::RackAction,
     roles::RoleAction,
     settings::Settings,
     state::State,
 };
 
 use super::{
-    set_up::{SMALL, WindowHarness, act, open, open_with, plain_options, press, wait_until},
+    rack_editor::open_place,
+    set_up::{
+        SMALL, WindowHarness, act, open, open_with, plain_options, press, wait_for, wait_until,
+    },
     several_parts::open_rack,
 };
 
@@ -26,9 +31,18 @@ const ORDERS: &str = "order;serial;parts
 
 /// Uses a table of orders.
 pub(crate) fn use_orders(harness: &mut WindowHarness, folder: &Path) {
+    use_table(harness, folder, ORDERS);
+}
+
+/// Uses the table of orders with these lines.
+fn use_table(harness: &mut WindowHarness, folder: &Path, orders: &str) {
     let path = folder.join("orders.csv");
-    fs::write(&path, ORDERS).expect("written");
+    fs::write(&path, orders).expect("written");
     act(harness, Action::Chosen(DialogRequest::Orders, path));
+    wait_for(harness, |window| {
+        let mut notices = window.state().notices.iter();
+        notices.any(|notice| notice.what == "What is expected follows from orders.csv")
+    });
 }
 
 /// Types into the field of the order.
@@ -158,6 +172,70 @@ fn a_serial_number_of_other_parts_withdraws_the_verdict() {
     harness.run_steps(4);
     assert_eq!(doubts(&harness)[0], "other_order");
     harness.get_by_label_contains("Its order expects other parts");
+}
+
+#[test]
+fn each_place_of_the_rack_expects_a_part_of_its_own() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open();
+    open_place(&mut harness, folder.path());
+    let path = folder.path().join("rack.toml");
+    act(&mut harness, Action::Rack(RackAction::Save(path.clone())));
+    let mut file = RackFile::read(&path).expect("saved");
+    let mut far = file.rack.places[0].clone();
+    far.name = "left hook".into();
+    far.region.centre_m[0] += 5.0;
+    file.rack.places.push(far);
+    file.write(&path).expect("written");
+    act(&mut harness, Action::Chosen(DialogRequest::Rack, path));
+    wait_until(&mut harness, |state| {
+        state.session.rack.in_camera().places.len() == 2
+    });
+    act(&mut harness, Action::Rack(RackAction::Toggle));
+    let orders = "order;parts
+4711;1=front_door|left hook=grille
+4712;1=grille
+4713;left hook=front_door
+4714;hook=grille
+";
+    use_table(&mut harness, folder.path(), orders);
+    for (order, labels) in [
+        (
+            "4711",
+            [
+                "Expected: Front door, left (1) · Grille (left hook)",
+                "Order 4711: Missing: Grille (left hook)",
+                "4 Grille (left hook): missing",
+            ],
+        ),
+        (
+            "4712",
+            [
+                "Expected: Grille (1)",
+                "Order 4712: Wrong part: Front door, left instead of Grille",
+                "1 Front door, left: wrong part",
+            ],
+        ),
+        (
+            "4713",
+            [
+                "Expected: Front door, left (left hook)",
+                "Order 4713: Wrong place: Front door, left, expected at left hook",
+                "1 Front door, left: wrong place",
+            ],
+        ),
+    ] {
+        enter_order(&mut harness, order);
+        // The same file again would show the same part, which is of the former order.
+        let folder = folder.path().join(order);
+        fs::create_dir(&folder).expect("made");
+        open_rack(&mut harness, &folder);
+        for label in labels {
+            harness.get_by_label(label);
+        }
+    }
+    enter_order(&mut harness, "4714");
+    harness.get_by_label_contains("place \"hook\", which the rack does not have");
 }
 
 #[test]

@@ -8,7 +8,7 @@ use super::{Suite, SuiteFrame, rack::rack_cases};
 use geometry::parallel::on_one_core;
 use inspection::{
     library::Library,
-    pipeline::{Expected, Recipe, Rejection, Unwatched, Verdict, run_all},
+    pipeline::{Expected, Inspection, Recipe, Rejection, Unwatched, run_all},
 };
 use stages::scene::scene_from_frame;
 
@@ -106,17 +106,22 @@ impl ExpectationFigures {
             Expectation::Missing => names.push(absent.clone()),
         }
         let mut recipe = recipe.clone();
-        recipe.expected = Expected::new(names, |_| true).expect("up to 6 parts");
+        let parts = names.iter().map(|name| name.as_str().into());
+        let expected = Expected::new(parts.collect(), &recipe.rack, |_| true);
+        recipe.expected = expected.expect("up to 6 parts");
         let scene = scene_from_frame(&shot.frame);
         let found = on_one_core(|| run_all(&scene, library, &recipe, &Unwatched));
         let found = found.expect("not cancelled");
-        let verdicts: Vec<&Verdict> = found.iter().map(|one| &one.verdict).collect();
-        let is_met = recipe.expected.is_met(&verdicts);
+        let all: Vec<&Inspection> = found.iter().collect();
+        let is_met = recipe.expected.is_met(&all);
         let is_right = match &replaced {
             None if self.expectation == Expectation::Right => is_met,
-            None => recipe.expected.missing(&verdicts).contains(&&*absent),
-            Some(replaced) => verdicts.iter().any(|verdict| {
-                matches!(verdict.rejected(), Some(Rejection::WrongPart { part, expected })
+            None => {
+                let missing = recipe.expected.missing(&all);
+                missing.iter().any(|part| part.name == absent)
+            }
+            Some(replaced) => all.iter().any(|one| {
+                matches!(one.verdict.rejected(), Some(Rejection::WrongPart { part, expected })
                     if part == replaced && *expected == absent)
             }),
         };

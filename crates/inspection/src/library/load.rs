@@ -267,7 +267,7 @@ fn read_meta(entry: &Entry) -> Result<PartMeta, EntryError> {
         _ => EntryError::Unreadable { source },
     })?;
     let bad = |error: toml::de::Error| EntryError::BadMeta {
-        found: toml_problem(&error),
+        found: toml_problem(&text, &error),
     };
     let newer = |found| EntryError::Newer {
         found,

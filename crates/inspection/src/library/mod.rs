@@ -85,4 +85,9 @@ impl Library {
     pub fn has_part(&self, name: &str) -> bool {
         self.references.iter().any(|part| part.name == name)
     }
+
+    /// True if a part or a reference of this name is enrolled.
+    pub fn has_reference(&self, name: &str) -> bool {
+        self.has_part(name) || self.references.iter().any(|one| one.enrolled_as == name)
+    }
 }

@@ -1,67 +1,181 @@
 //! What should hang before the camera, and how what hangs there differs from it.
 
+use std::{fmt, iter};
+
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
-use super::{Rejection, Unrecognisable, Verdict};
-use geometry::error::Advice;
-use stages::segment::MAX_PARTS;
+use super::{Inspection, Rejection, Unrecognisable, Verdict};
+use stages::{rack::Rack, segment::MAX_PARTS};
+use texts::{Described, Message};
 
-/// The parts that should hang there, by name; a name that is given twice stands for two such parts. Empty if nothing is
-/// known about it.
+/// A part that should hang there.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ExpectedPart {
+    /// Its name.
+    pub name: String,
+    /// Name of the rack's place where it should hang; `None` if it may hang at any.
+    pub place: Option<String>,
+}
+
+impl From<&str> for ExpectedPart {
+    /// Reads `PART` or `PLACE=PART`.
+    fn from(text: &str) -> Self {
+        let (place, name) = text.rsplit_once('=').unzip();
+        Self {
+            name: name.unwrap_or(text).trim().to_owned(),
+            place: place.map(|place| place.trim().to_owned()),
+        }
+    }
+}
+
+impl fmt::Display for ExpectedPart {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { name, place } = self;
+        match place {
+            Some(place) => write!(f, "{name} at {place}"),
+            None => f.write_str(name),
+        }
+    }
+}
+
+/// The parts that should hang there; one that is given twice stands for two such parts. Empty if nothing is known about it.
+///
+/// What hangs at a place for which a part is expected is held against that part; what hangs elsewhere, against the parts that
+/// may hang at any place.
 ///
 /// It never turns a refusal for lack of evidence into an acceptance: where the expected part is the best match, it settles
 /// ties with parts that are alike and not expected, and it refuses parts that are not expected.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(transparent)]
-pub struct Expected(Vec<String>);
+#[serde(from = "Written", into = "Written")]
+pub struct Expected(Vec<ExpectedPart>);
+
+/// The fields of a line of JSON.
+#[derive(Serialize, Deserialize)]
+struct Written {
+    #[serde(default)]
+    expected: Vec<String>,
+    /// The place of each; left out if each may hang anywhere.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    expected_places: Vec<Option<String>>,
+}
+
+impl From<Written> for Expected {
+    fn from(written: Written) -> Self {
+        let places = written.expected_places.into_iter();
+        let parts = (written.expected.into_iter()).zip(places.chain(iter::repeat(None)));
+        Self(
+            parts
+                .map(|(name, place)| ExpectedPart { name, place })
+                .collect(),
+        )
+    }
+}
+
+impl From<Expected> for Written {
+    fn from(Expected(parts): Expected) -> Self {
+        Self {
+            expected_places: places_of(&parts).unwrap_or_default(),
+            expected: parts.into_iter().map(|part| part.name).collect(),
+        }
+    }
+}
+
+/// The place of each part; `None` if each may hang anywhere.
+pub fn places_of<'a>(
+    parts: impl IntoIterator<Item = &'a ExpectedPart>,
+) -> Option<Vec<Option<String>>> {
+    let places: Vec<_> = (parts.into_iter()).map(|part| part.place.clone()).collect();
+    places.iter().any(Option::is_some).then_some(places)
+}
 
 /// Why parts cannot be expected.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, Serialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
 pub enum ExpectedError {
     /// More than a frame can show.
-    #[error("{found} parts are expected, and a frame can show {MAX_PARTS}")]
     TooMany {
         /// Their number.
         found: usize,
     },
     /// The library has no such part.
-    #[error("{name} is expected, but not enrolled")]
     NotEnrolled {
         /// The name.
         name: String,
     },
+    /// The rack has no such place.
+    NoSuchPlace {
+        /// The place.
+        place: String,
+        /// Names of the places that it has, with commas between them; empty without a rack.
+        known: String,
+    },
+    /// Two parts are expected at a place.
+    PlaceTwice {
+        /// The place.
+        place: String,
+    },
 }
 
-impl Advice for ExpectedError {
-    fn advice(&self) -> String {
+impl Described for ExpectedError {
+    fn message(&self) -> Message {
+        let message = Message::tagged("expected", "kind", self).with("limit", MAX_PARTS as f64);
         match self {
-            Self::TooMany { .. } => format!("Expect up to {MAX_PARTS} parts"),
-            Self::NotEnrolled { .. } => {
-                "Give names of parts of the library; partsight library list shows them".into()
-            }
+            Self::NoSuchPlace { known, .. } => message.with("has_places", !known.is_empty()),
+            _ => message,
         }
     }
 }
 
+texts::display!(ExpectedError);
+
 impl Expected {
-    /// Expects these enrolled parts, up to [`MAX_PARTS`].
+    /// Expects these enrolled parts, up to [`MAX_PARTS`], and up to one at each place of the rack.
     pub fn new(
-        parts: Vec<String>,
+        parts: Vec<ExpectedPart>,
+        rack: &Rack,
         is_enrolled: impl Fn(&str) -> bool,
     ) -> Result<Self, ExpectedError> {
         let found = parts.len();
         if found > MAX_PARTS {
             return Err(ExpectedError::TooMany { found });
         }
-        match parts.iter().find(|name| !is_enrolled(name)) {
-            Some(name) => Err(ExpectedError::NotEnrolled { name: name.clone() }),
-            None => Ok(Self(parts)),
+        for (index, ExpectedPart { name, place }) in parts.iter().enumerate() {
+            if !is_enrolled(name) {
+                return Err(ExpectedError::NotEnrolled { name: name.clone() });
+            }
+            let Some(place) = place else { continue };
+            let known: Vec<&str> = rack.places.iter().map(|place| &*place.name).collect();
+            if !known.contains(&&**place) {
+                return Err(ExpectedError::NoSuchPlace {
+                    place: place.clone(),
+                    known: known.join(", "),
+                });
+            }
+            let mut others = parts[..index].iter();
+            if others.any(|other| other.place.as_ref() == Some(place)) {
+                let place = place.clone();
+                return Err(ExpectedError::PlaceTwice { place });
+            }
         }
+        Ok(Self(parts))
     }
 
-    /// The names, as they were given.
-    pub fn parts(&self) -> &[String] {
+    /// The same parts wherever they hang, for an inspection without the rack.
+    #[must_use]
+    pub fn anywhere(self) -> Self {
+        let parts = self.0.into_iter();
+        Self(
+            parts
+                .map(|part| ExpectedPart {
+                    place: None,
+                    ..part
+                })
+                .collect(),
+        )
+    }
+
+    /// The parts, as they were given.
+    pub fn parts(&self) -> &[ExpectedPart] {
         &self.0
     }
 
@@ -72,37 +186,56 @@ impl Expected {
 
     /// True if the first part is expected, and the other is not.
     pub(super) fn prefers(&self, part: &str, other: &str) -> bool {
-        let includes = |name: &str| self.0.iter().any(|expected| expected == name);
+        let includes = |name: &str| self.0.iter().any(|expected| expected.name == name);
         includes(part) && !includes(other)
     }
 
-    /// Refuses the accepted parts that are not expected, each in place of one that is missing, as long as any is.
-    pub(super) fn refuse_others(&self, found: &mut [&mut Verdict]) {
+    /// Refuses the accepted parts that are not expected where they hang: each in place of one that is missing there, or
+    /// because it is missing elsewhere, as long as any is.
+    pub(super) fn refuse_others(&self, found: &mut [Inspection]) {
         if self.is_empty() {
             return;
         }
-        let seen: Vec<&Verdict> = found.iter().map(|verdict| &**verdict).collect();
-        let (mut left, surplus) = self.matched(&seen);
+        let (all_left, surplus) = self.matched(&found.iter().collect::<Vec<_>>());
+        let mut left = all_left.clone();
         for index in surplus {
-            let Verdict::Part { part, rejected, .. } = &mut *found[index] else {
+            let one = &mut found[index];
+            let Verdict::Part { part, rejected, .. } = &mut one.verdict else {
                 continue;
             };
-            let part = part.clone();
-            *rejected = Some(if left.is_empty() {
-                Rejection::NotExpected { part }
-            } else {
-                let expected = left.remove(0).to_owned();
+            let (part, place) = (part.clone(), &one.place);
+            let own = self.at(place.as_deref());
+            let own = own.filter(|own| own.name != part && all_left.contains(own));
+            let elsewhere =
+                |one: &ExpectedPart| one.name == part && one.place.is_some() && one.place != *place;
+            *rejected = Some(if let Some(own) = own {
+                let expected = own.name.clone();
                 Rejection::WrongPart { part, expected }
+            } else if let Some(place) = place
+                && let Some(expected_at) =
+                    take(&mut left, elsewhere).and_then(|one| one.place.clone())
+            {
+                let place = place.clone();
+                Rejection::ExpectedElsewhere {
+                    part,
+                    place,
+                    expected_at,
+                }
+            } else if let Some(other) = take(&mut left, |one| self.is_for(one, place.as_deref())) {
+                let expected = other.name.clone();
+                Rejection::WrongPart { part, expected }
+            } else {
+                Rejection::NotExpected { part }
             });
         }
     }
 
-    /// The expected parts that nothing hangs in place of, by the verdicts on a frame. If nothing could be inspected, it is
-    /// not known.
-    pub fn missing(&self, found: &[&Verdict]) -> Vec<&str> {
-        let is_blind = |verdict: &&Verdict| {
+    /// The expected parts that nothing hangs in place of, and that hang at no other place, by the inspections of a frame. If
+    /// nothing could be inspected, it is not known.
+    pub fn missing(&self, found: &[&Inspection]) -> Vec<&ExpectedPart> {
+        let is_blind = |one: &&Inspection| {
             matches!(
-                verdict,
+                one.verdict,
                 Verdict::NoPart(Unrecognisable::EmptyLibrary | Unrecognisable::Fault(_))
             )
         };
@@ -110,21 +243,24 @@ impl Expected {
             return Vec::new();
         }
         let (mut left, _) = self.matched(found);
-        for verdict in found {
-            if let Some(Rejection::WrongPart { expected, .. }) = verdict.rejected() {
-                take_one(&mut left, expected);
+        for one in found {
+            if let Some(Rejection::WrongPart { expected, .. }) = one.verdict.rejected() {
+                let place = one.place.as_deref();
+                take(&mut left, |part| {
+                    part.name == *expected && self.is_for(part, place)
+                });
             }
         }
         left
     }
 
-    /// True if every expected part is accepted, and nothing else is an enrolled part, by the verdicts on a frame.
-    pub fn is_met(&self, found: &[&Verdict]) -> bool {
+    /// True if every expected part is accepted, and nothing else is an enrolled part, by the inspections of a frame.
+    pub fn is_met(&self, found: &[&Inspection]) -> bool {
         let (left, surplus) = self.matched(found);
-        let accepted = found.iter().filter(|verdict| verdict.is_accepted());
-        let num_refused = found.iter().filter(|verdict| {
-            let is_named = name_of(verdict).is_some();
-            is_named && !verdict.is_accepted()
+        let accepted = found.iter().filter(|one| one.verdict.is_accepted());
+        let num_refused = found.iter().filter(|one| {
+            let is_named = name_of(&one.verdict).is_some();
+            is_named && !one.verdict.is_accepted()
         });
         left.is_empty()
             && surplus.is_empty()
@@ -133,21 +269,49 @@ impl Expected {
     }
 
     /// The expected parts that were not found, accepted or not, and the indices of the accepted ones that are not expected.
-    fn matched(&self, found: &[&Verdict]) -> (Vec<&str>, Vec<usize>) {
-        let mut left: Vec<&str> = self.0.iter().map(String::as_str).collect();
+    fn matched(&self, found: &[&Inspection]) -> (Vec<&ExpectedPart>, Vec<usize>) {
+        let mut left: Vec<&ExpectedPart> = self.0.iter().collect();
         let mut surplus = Vec::new();
         for is_accepted in [true, false] {
-            for (index, verdict) in found.iter().enumerate() {
+            for (index, one) in found.iter().enumerate() {
+                let verdict = &one.verdict;
                 if verdict.is_accepted() != is_accepted {
                     continue;
                 }
-                let is_left = name_of(verdict).is_some_and(|name| take_one(&mut left, name));
-                if is_accepted && !is_left {
+                let is_misplaced = matches!(
+                    verdict.rejected(),
+                    Some(
+                        Rejection::ExpectedElsewhere { .. }
+                            | Rejection::WrongPlace { .. }
+                            | Rejection::BesidePlaces { .. }
+                    )
+                );
+                let place = one.place.as_deref();
+                let is_it = |name: &str, part: &ExpectedPart| {
+                    part.name == name && (is_misplaced || self.is_for(part, place))
+                };
+                let taken =
+                    name_of(verdict).and_then(|name| take(&mut left, |part| is_it(name, part)));
+                if is_accepted && taken.is_none() {
                     surplus.push(index);
                 }
             }
         }
         (left, surplus)
+    }
+
+    /// The part that is expected at a place itself.
+    fn at(&self, place: Option<&str>) -> Option<&ExpectedPart> {
+        let mut parts = self.0.iter();
+        parts.find(|part| part.place.is_some() && part.place.as_deref() == place)
+    }
+
+    /// True if what hangs at a place is held against this part.
+    fn is_for(&self, part: &ExpectedPart, place: Option<&str>) -> bool {
+        match self.at(place) {
+            Some(own) => own == part,
+            None => part.place.is_none(),
+        }
     }
 }
 
@@ -156,37 +320,54 @@ fn name_of(verdict: &Verdict) -> Option<&str> {
     verdict.guess().filter(|_| !verdict.is_unknown())
 }
 
-/// Removes one such name. Returns false if there is none.
-fn take_one(names: &mut Vec<&str>, name: &str) -> bool {
-    let place = names.iter().position(|other| *other == name);
-    place.map(|place| names.remove(place)).is_some()
+/// Removes and returns the first that is it.
+fn take<'a>(
+    parts: &mut Vec<&'a ExpectedPart>,
+    is_it: impl Fn(&ExpectedPart) -> bool,
+) -> Option<&'a ExpectedPart> {
+    let index = parts.iter().position(|part| is_it(part));
+    index.map(|index| parts.remove(index))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use geometry::{error::Advice as _, oriented_box::OrientedBox, units::Radians};
+    use stages::rack::Place;
 
-    fn found(part: &str, rejected: Option<Rejection>) -> Verdict {
-        Verdict::Part {
+    fn found(part: &str, rejected: Option<Rejection>) -> Inspection {
+        let fault = serde_json::from_str(r#"{"message": ""}"#);
+        let mut one = Inspection::broken_off(fault.expect("a fault"), 0);
+        one.verdict = Verdict::Part {
             part: part.into(),
             score: 0.95,
             margin: 0.95,
             rejected,
             is_approximate: false,
-        }
+        };
+        one
     }
 
-    fn accepted(part: &str) -> Verdict {
+    fn accepted(part: &str) -> Inspection {
         found(part, None)
     }
 
-    fn refused(part: &str) -> Verdict {
+    fn refused(part: &str) -> Inspection {
         let part_name = part.to_owned();
         let rejected = Rejection::Unconfirmed { part: part_name };
         found(part, Some(rejected))
     }
 
-    fn unknown() -> Verdict {
+    /// At its place in the rack: `PLACE=PART`.
+    fn hung(text: &str, hang: impl Fn(&str) -> Inspection) -> Inspection {
+        let ExpectedPart { name, place } = text.into();
+        Inspection {
+            place,
+            ..hang(&name)
+        }
+    }
+
+    fn unknown() -> Inspection {
         let nearest = "hood".to_owned();
         let rejected = Rejection::Unknown {
             nearest,
@@ -196,28 +377,39 @@ mod tests {
     }
 
     /// What the expectation makes of a frame: what is wrong with each part, what is missing, and whether it is as expected.
-    fn judged(expected: &[&str], mut verdicts: Vec<Verdict>) -> (Vec<String>, Vec<String>, bool) {
-        let expected = Expected(expected.iter().map(|&name| name.to_owned()).collect());
-        expected.refuse_others(&mut verdicts.iter_mut().collect::<Vec<_>>());
-        let seen: Vec<&Verdict> = verdicts.iter().collect();
-        let wrong = verdicts.iter().map(|verdict| match verdict.rejected() {
+    fn judged(expected: &[&str], mut found: Vec<Inspection>) -> (Vec<String>, Vec<String>, bool) {
+        let expected = Expected(expected.iter().map(|&text| text.into()).collect());
+        expected.refuse_others(&mut found);
+        let seen: Vec<&Inspection> = found.iter().collect();
+        let wrong = found.iter().map(|one| match one.verdict.rejected() {
             Some(Rejection::WrongPart { part, expected }) => format!("{part} for {expected}"),
             Some(Rejection::NotExpected { part }) => format!("not {part}"),
+            Some(Rejection::ExpectedElsewhere { expected_at, .. }) => format!("to {expected_at}"),
             Some(_) => "refused".into(),
             None => "accepted".into(),
         });
-        let missing = expected.missing(&seen).into_iter().map(str::to_owned);
+        let missing = expected.missing(&seen).into_iter().map(ToString::to_string);
         (wrong.collect(), missing.collect(), expected.is_met(&seen))
     }
 
     /// Expected parts, verdicts, what is wrong with each, what is missing, and whether it is as expected.
     type Case<'a> = (
         &'a [&'a str],
-        Vec<Verdict>,
+        Vec<Inspection>,
         &'a [&'a str],
         &'a [&'a str],
         bool,
     );
+
+    fn assert_judged<'a>(cases: impl IntoIterator<Item = Case<'a>>) {
+        for (expected, hung, wrong, missing, is_met) in cases {
+            let shown = format!("{expected:?}: {hung:?}");
+            let (found_wrong, found_missing, found_met) = judged(expected, hung);
+            assert_eq!(found_wrong, wrong, "{shown}");
+            assert_eq!(found_missing, missing, "{shown}");
+            assert_eq!(found_met, is_met, "{shown}");
+        }
+    }
 
     #[test]
     fn each_part_is_expected_wrong_missing_or_too_many() {
@@ -283,15 +475,198 @@ mod tests {
                 true,
             ),
         ];
-        for (expected, verdicts, wrong, missing, is_met) in cases {
-            let shown = format!("{expected:?}: {verdicts:?}");
-            let found = judged(expected, verdicts);
-            let (found_wrong, found_missing, found_met) = &found;
-            assert_eq!(found_wrong, wrong, "{shown}");
-            assert_eq!(found_missing, missing, "{shown}");
-            assert_eq!(*found_met, is_met, "{shown}");
-        }
+        assert_judged(cases);
         let nothing = judged(&[], vec![accepted(door)]);
         assert_eq!(nothing.0, ["accepted"]);
+    }
+
+    #[test]
+    fn what_hangs_at_a_place_is_held_against_what_is_expected_there() {
+        let a = |text: &str| hung(text, accepted);
+        let swapped = || vec![a("l=grille"), a("r=fender")];
+        let both: &[&str] = &["l=fender", "r=grille"];
+        let cases: [Case<'_>; 7] = [
+            (
+                both,
+                vec![a("l=fender"), a("r=grille")],
+                &["accepted", "accepted"],
+                &[],
+                true,
+            ),
+            (
+                both,
+                swapped(),
+                &["grille for fender", "fender for grille"],
+                &[],
+                false,
+            ),
+            (
+                both,
+                vec![a("l=fender")],
+                &["accepted"],
+                &["grille at r"],
+                false,
+            ),
+            // The place where it hangs expects another part.
+            (
+                both,
+                vec![a("r=fender")],
+                &["fender for grille"],
+                &["fender at l"],
+                false,
+            ),
+            // The place where it hangs expects none.
+            (
+                both,
+                vec![a("m=fender")],
+                &["to l"],
+                &["grille at r"],
+                false,
+            ),
+            (
+                both,
+                vec![a("m=fender"), a("l=door")],
+                &["to l", "door for fender"],
+                &["grille at r"],
+                false,
+            ),
+            // Only one of two is missing elsewhere.
+            (
+                &["l=fender"],
+                vec![a("m=fender"), a("r=fender")],
+                &["to l", "not fender"],
+                &[],
+                false,
+            ),
+        ];
+        assert_judged(cases);
+    }
+
+    #[test]
+    fn what_may_hang_anywhere_may_not_hang_where_another_part_is_expected() {
+        let a = |text: &str| hung(text, accepted);
+        let cases: [Case<'_>; 6] = [
+            (
+                &["l=fender", "grille"],
+                vec![a("l=grille")],
+                &["grille for fender"],
+                &["grille"],
+                false,
+            ),
+            (
+                &["l=fender", "grille"],
+                vec![a("l=fender"), a("m=grille")],
+                &["accepted", "accepted"],
+                &[],
+                true,
+            ),
+            (
+                &["l=fender", "grille"],
+                vec![a("m=door")],
+                &["door for grille"],
+                &["fender at l"],
+                false,
+            ),
+            (
+                &["fender", "l=fender"],
+                vec![a("m=fender"), a("l=fender")],
+                &["accepted", "accepted"],
+                &[],
+                true,
+            ),
+            // It hangs at its place, and is not accepted.
+            (
+                &["l=fender"],
+                vec![hung("l=fender", refused)],
+                &["refused"],
+                &[],
+                false,
+            ),
+            // What is unknown stays unknown.
+            (
+                &["l=fender"],
+                vec![Inspection {
+                    place: Some("l".into()),
+                    ..unknown()
+                }],
+                &["refused"],
+                &["fender at l"],
+                false,
+            ),
+        ];
+        assert_judged(cases);
+    }
+
+    #[test]
+    fn what_the_rack_refuses_at_another_place_is_not_missing() {
+        let part = || "fender".to_owned();
+        let rejected = Rejection::WrongPlace {
+            part: part(),
+            place: "r".into(),
+        };
+        let mut wrong_place = found("fender", Some(rejected));
+        wrong_place.place = Some("r".into());
+        let (_, missing, _) = judged(&["l=fender"], vec![wrong_place]);
+        assert!(missing.is_empty(), "{missing:?}");
+    }
+
+    #[test]
+    fn only_places_of_the_rack_are_expected_and_each_once() {
+        let place = |name: &str| Place {
+            name: name.into(),
+            region: OrientedBox {
+                centre_m: [0.0; 3],
+                size_m: [1.0; 3],
+                angles_rad: [0.0; 3],
+            },
+            max_turn: Radians(1.0),
+            parts: Vec::new(),
+        };
+        let rack = Rack {
+            places: vec![place("left hook"), place("a=b")],
+            ..Rack::default()
+        };
+        let expected = |texts: &[&str], rack: &Rack| {
+            let parts = texts.iter().map(|&text| text.into()).collect();
+            Expected::new(parts, rack, |name| name == "fender")
+                .map_err(|error| format!("{error}: {}", error.advice()))
+        };
+        let good = expected(&["left hook = fender", "a=b=fender", "fender"], &rack);
+        let good = good.expect("places of the rack");
+        let json = serde_json::to_value(&good).expect("JSON");
+        let both = serde_json::json!({
+            "expected": ["fender", "fender", "fender"],
+            "expected_places": ["left hook", "a=b", null],
+        });
+        assert_eq!(json, both);
+        assert_eq!(
+            serde_json::from_value::<Expected>(json).expect("read"),
+            good
+        );
+        let old = serde_json::json!({ "expected": ["fender"] });
+        let read: Expected = serde_json::from_value(old.clone()).expect("of an older version");
+        assert_eq!(serde_json::to_value(&read).expect("JSON"), old);
+        for (texts, rack, why) in [
+            (
+                &["hook=fender"][..],
+                &rack,
+                "Give a place of the rack: left hook, a=b",
+            ),
+            (&["left hook=fender"], Rack::ANYWHERE, "--rack"),
+            (
+                &["a=b=fender", "a=b=fender"],
+                &rack,
+                "two parts are expected at place \"a=b\"",
+            ),
+            (
+                &["left hook=door"],
+                &rack,
+                "door is expected, but not enrolled",
+            ),
+            (&["fender"; MAX_PARTS + 1], &rack, "9 parts are expected"),
+        ] {
+            let error = expected(texts, rack).expect_err(why);
+            assert!(error.contains(why), "{error}");
+        }
     }
 }

@@ -249,7 +249,7 @@ impl<R: Parameters> RecipeFile<R> {
     pub fn parse(path: &Path, text: &str) -> Result<Self, RecipeError> {
         let garbled = |error: toml::de::Error| RecipeError::Garbled {
             path: path.to_owned(),
-            reason: toml_problem(&error),
+            reason: toml_problem(text, &error),
         };
         let Versioned { schema: found } = toml::from_str(text).map_err(garbled)?;
         if found != SCHEMA {

@@ -167,6 +167,15 @@ pub enum Rejection {
         /// What hangs there.
         part: String,
     },
+    /// It hangs at a place where it is not expected, and not where it is.
+    ExpectedElsewhere {
+        /// What hangs there.
+        part: String,
+        /// The place where it hangs.
+        place: String,
+        /// The place where it is expected.
+        expected_at: String,
+    },
     /// It may not hang at the place where it hangs.
     WrongPlace {
         /// What hangs there.

@@ -8,6 +8,8 @@
 
 mod placements;
 
+use std::slice;
+
 use nalgebra::{Point3, Vector3};
 use rand::{SeedableRng as _, seq::SliceRandom as _};
 use rand_pcg::Pcg64;
@@ -171,7 +173,7 @@ pub fn run_scan(
     refuse_unsound(&mut inspection, &scan.shots[first].scene);
     recipe
         .expected
-        .refuse_others(&mut [&mut inspection.verdict]);
+        .refuse_others(slice::from_mut(&mut inspection));
     Ok(ScanInspection {
         inspection,
         first,

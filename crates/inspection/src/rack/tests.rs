@@ -27,7 +27,7 @@ fn parsed(text: &str) -> Result<RackFile, RackError> {
 #[test]
 fn a_file_reads_as_it_is_written() {
     let file = parsed(FILE).expect("a rack");
-    assert_eq!((&*file.name, file.frame), ("rack A", RackFrame::Base));
+    assert_eq!((&*file.rack.name, file.frame), ("rack A", RackFrame::Base));
     let [left, right] = &file.rack.places[..] else {
         panic!("two places");
     };
@@ -77,7 +77,7 @@ fn a_file_that_is_no_rack_is_refused_with_what_is_wrong_and_what_to_do() {
         ("schema_version = 1", "neither a volume nor a place"),
         ("schema_version = 2\nnew = 1", "newer than this program"),
         (&with("frame = \"flange\""), "unknown variant"),
-        (&with("places = 3"), "unknown field"),
+        (&with("places = 3"), "line 2: unknown field"),
         (&many(MAX_PARTS + 1), "9 places"),
         (&with(&boxes), "21 boxes"),
         (&one.replace("2000", "nan"), "centre_mm of volume 1"),

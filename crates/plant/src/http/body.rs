@@ -6,7 +6,10 @@ use serde_json::{Map, Value};
 
 use geometry::rigid::row_major;
 use robot::{Convention, RobotPose};
-use serve::{Answer, CameraState, ExpectedNumbers, LibraryStatus, PathStep, Problem, VerdictCode};
+use serve::{
+    Answer, CameraState, ExpectedNumber, ExpectedNumbers, LibraryStatus, PathStep, Problem,
+    VerdictCode,
+};
 
 /// What a trigger may say of its frame.
 #[derive(Debug, Default, JsonSchema, Deserialize)]
@@ -15,21 +18,28 @@ pub(super) struct TriggerBody {
     /// The numbers of the parts that should hang there, up to 8; a number that is given twice stands for two such parts.
     #[serde(default)]
     expected: Vec<u32>,
+    /// The number of the place of each, by the order of the rack's file, from 1; 0, or none at its end, for any place.
+    #[serde(default)]
+    places: Vec<u32>,
 }
 
 impl TriggerBody {
     /// Reads a body; an empty one expects nothing. `None` if it is something else.
     pub(super) fn expected_in(body: &[u8]) -> Option<ExpectedNumbers> {
         let read = |body| serde_json::from_slice::<Self>(body).ok();
-        let Self { expected } = match body.trim_ascii() {
+        let Self { expected, places } = match body.trim_ascii() {
             [] => Self::default(),
             body => read(body)?,
         };
+        if expected.contains(&0) || places.len() > expected.len() {
+            return None;
+        }
         let mut numbers = ExpectedNumbers::default();
-        numbers
-            .get_mut(..expected.len())?
-            .copy_from_slice(&expected);
-        (!expected.contains(&0)).then_some(numbers)
+        for (index, part) in expected.into_iter().enumerate() {
+            let place = places.get(index).copied().unwrap_or(0);
+            *numbers.get_mut(index)? = ExpectedNumber { part, place };
+        }
+        Some(numbers)
     }
 }
 

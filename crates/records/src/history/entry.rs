@@ -432,22 +432,22 @@ impl InspectionDetail {
 
     /// Returns what was expected in the frame.
     pub fn expected(&self) -> Expected {
-        #[derive(serde::Deserialize)]
-        struct Expecting {
-            #[serde(default)]
-            expected: Expected,
-        }
-        let line = serde_json::from_str::<Expecting>(&self.line);
-        line.map_or_else(|_| Expected::default(), |line| line.expected)
+        serde_json::from_str(&self.line).unwrap_or_default()
     }
 
     /// Returns the place of the rack at which the part hung; `None` if it hung at none, or there was no rack.
     pub fn place(&self) -> Option<String> {
-        #[derive(serde::Deserialize)]
-        struct Placed {
-            place: Option<String>,
-        }
-        serde_json::from_str::<Placed>(&self.line).ok()?.place
+        self.text_of("place")
+    }
+
+    /// Returns the name of the rack; `None` if there was none, or it had no name.
+    pub fn rack(&self) -> Option<String> {
+        self.text_of("rack")
+    }
+
+    fn text_of(&self, field: &str) -> Option<String> {
+        let line: serde_json::Value = serde_json::from_str(&self.line).ok()?;
+        line.get(field)?.as_str().map(str::to_owned)
     }
 
     /// Returns how far off the pose may be; `None` if the line has no bounds or the pose is unconstrained.

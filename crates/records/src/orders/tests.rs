@@ -2,7 +2,9 @@ use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64;
 
 use super::*;
+use geometry::{oriented_box::OrientedBox, units::Radians};
 use inspection::fixtures::shipped_library;
+use stages::rack::Place;
 
 const TABLE: &str = "order;serial;parts\n4711;;front_door;fender\n";
 
@@ -18,8 +20,11 @@ fn expected(orders: &Orders, order: &str, serial: &str) -> Result<Vec<String>, S
         ..Traceability::default()
     };
     let library = shipped_library();
-    let found = orders.expected(&trace, |name| library.has_part(name));
-    let found = found.map(|expected| expected.parts().to_owned());
+    let found = orders.expected(&trace, Rack::ANYWHERE, |name| library.has_part(name));
+    let found = found.map(|expected| {
+        let parts = expected.parts().iter();
+        parts.map(ToString::to_string).collect()
+    });
     found.map_err(|error| format!("{error}: {}", error.advice()))
 }
 
@@ -50,6 +55,50 @@ fn the_same_table_is_read_however_a_spreadsheet_writes_it() {
     std::fs::write(&path, b"order,parts\n4711,T\xfcr\n").expect("written");
     let error = Orders::read(&path).expect_err("Latin-1");
     assert!(error.advice().contains("CSV UTF-8"), "{}", error.advice());
+}
+
+#[test]
+fn a_part_of_an_order_may_have_a_place_of_the_rack() {
+    let table = "order;parts\n4711;left hook=fender|grille\n4712;hook=fender\n4713;left hook=fender|left hook=grille\n";
+    let orders = parse(table).expect("a table");
+    let rack = Rack {
+        places: vec![Place {
+            name: "left hook".into(),
+            region: OrientedBox {
+                centre_m: [0.0; 3],
+                size_m: [1.0; 3],
+                angles_rad: [0.0; 3],
+            },
+            max_turn: Radians(1.0),
+            parts: Vec::new(),
+        }],
+        ..Rack::default()
+    };
+    let expected = |order: &str, rack: &Rack| {
+        let trace = Traceability {
+            order: order.into(),
+            ..Traceability::default()
+        };
+        let expected = orders.expected(&trace, rack, |_| true);
+        expected.map_err(|error| format!("{error}: {}", error.advice()))
+    };
+    let of_order = expected("4711", &rack).expect("of the rack");
+    let places: Vec<Option<&str>> = (of_order.parts().iter())
+        .map(|part| part.place.as_deref())
+        .collect();
+    assert_eq!(places, [Some("left hook"), None]);
+    for (order, rack, why) in [
+        ("4711", Rack::ANYWHERE, "line 2, column parts"),
+        ("4712", &rack, "Give a place of the rack: left hook"),
+        (
+            "4713",
+            &rack,
+            "two parts are expected at place \"left hook\"",
+        ),
+    ] {
+        let error = expected(order, rack).expect_err(why);
+        assert!(error.contains(why), "{error}");
+    }
 }
 
 #[test]

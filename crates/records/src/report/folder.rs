@@ -38,7 +38,8 @@ impl Advice for ReportError {
 
 /// A folder for the results of inspections, next to the captures or elsewhere.
 ///
-/// Each inspected file gets `STEM.report.json`, a `STEM.STAGE.png` per stage, and `STEM.stages.png` with all of them.
+/// Each inspected file gets `STEM.report.json`, a `STEM.STAGE.png` per stage, and `STEM.stages.png` with all of them; of the
+/// other parts of its frame `STEM.NUMBER.STAGE.png`.
 /// Files of an earlier report under these names are replaced; a depth image and its camera never are.
 #[derive(Debug)]
 pub struct ReportFolder {
@@ -71,12 +72,14 @@ impl ReportFolder {
         line: &str,
         pictures: &[Picture],
     ) -> Result<PathBuf, ReportError> {
-        let strip = Picture {
+        let of_parts = pictures.chunk_by(|one, next| one.part == next.part);
+        let strips = of_parts.map(|pictures| Picture {
+            part: pictures[0].part,
             stage: "stages",
             image: strip(pictures),
-        };
-        let shown = (!pictures.is_empty()).then_some(&strip);
-        let pictures: Vec<&Picture> = pictures.iter().chain(shown).collect();
+        });
+        let strips: Vec<Picture> = strips.collect();
+        let pictures: Vec<&Picture> = pictures.iter().chain(&strips).collect();
         let stem = self.free_stem(scene, &pictures);
         let json = self.json(&stem);
         write_text(&json, &format!("{line}\n"))?;
@@ -118,7 +121,9 @@ impl ReportFolder {
     }
 
     fn picture(&self, stem: &str, picture: &Picture) -> PathBuf {
-        self.path.join(format!("{stem}.{}.png", picture.stage))
+        let part = picture.part.map(|number| format!("{number}."));
+        let (part, stage) = (part.unwrap_or_default(), picture.stage);
+        self.path.join(format!("{stem}.{part}{stage}.png"))
     }
 
     fn free_stem(&mut self, scene: &Path, pictures: &[&Picture]) -> String {

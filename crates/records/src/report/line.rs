@@ -5,7 +5,9 @@ use serde::Serialize;
 
 use crate::history::Traceability;
 use geometry::rigid::row_major;
-use inspection::pipeline::{Expected, Inspection, NamedRecipe, RecipeBlock, Timings, Verdict};
+use inspection::pipeline::{
+    Expected, Inspection, NamedRecipe, RecipeBlock, Timings, Verdict, places_of,
+};
 use robot::RobotFrame;
 
 /// Version of the JSON lines.
@@ -26,6 +28,9 @@ pub struct InspectionLine<'a> {
     /// Every part of a frame in which several may hang, by place and from left to right, then what else hangs there.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     parts: Vec<PartLine<'a>>,
+    /// Name of the rack, if it has one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rack: Option<String>,
     /// Names of the rack's places at which nothing hangs.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     empty_places: Vec<&'a str>,
@@ -84,7 +89,8 @@ struct PartLine<'a> {
 /// Additional fields for a frame of which is known what should hang there.
 #[derive(Clone, Debug, Serialize)]
 struct ExpectedLine<'a> {
-    expected: &'a [String],
+    #[serde(flatten)]
+    expected: &'a Expected,
     #[serde(flatten)]
     of_frame: Option<FrameLine<'a>>,
 }
@@ -94,6 +100,9 @@ struct ExpectedLine<'a> {
 struct FrameLine<'a> {
     /// Expected parts that nothing hangs in place of.
     missing: Vec<&'a str>,
+    /// The place of each; left out if each may hang anywhere.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    missing_places: Option<Vec<Option<String>>>,
     as_expected: bool,
 }
 
@@ -242,10 +251,12 @@ impl<'a> InspectionLine<'a> {
         }
     }
 
-    /// Adds the recipe of the inspection.
+    /// Adds the recipe of the inspection, and the name of its rack.
     #[must_use]
     pub fn by(self, recipe: &NamedRecipe) -> Self {
+        let rack = &recipe.rack.name;
         Self {
+            rack: (!rack.is_empty()).then(|| rack.clone()),
             recipe: Some(recipe.into()),
             ..self
         }
@@ -318,18 +329,19 @@ impl<'a> InspectionLine<'a> {
         }
     }
 
-    /// Adds what should hang there, if something is expected, and whether it does, by the verdicts on all parts of the frame.
+    /// Adds what should hang there, if something is expected, and whether it does, by the inspections of all parts of the frame.
     #[must_use]
-    pub fn expecting(self, expected: &'a Expected, found: Option<&[&Verdict]>) -> Self {
-        let of_frame = found.map(|found| FrameLine {
-            missing: expected.missing(found),
-            as_expected: expected.is_met(found),
+    pub fn expecting(self, expected: &'a Expected, found: Option<&[&Inspection]>) -> Self {
+        let of_frame = found.map(|found| {
+            let missing = expected.missing(found);
+            FrameLine {
+                missing_places: places_of(missing.iter().copied()),
+                missing: missing.into_iter().map(|part| &*part.name).collect(),
+                as_expected: expected.is_met(found),
+            }
         });
         Self {
-            expected: (!expected.is_empty()).then(|| ExpectedLine {
-                expected: expected.parts(),
-                of_frame,
-            }),
+            expected: (!expected.is_empty()).then_some(ExpectedLine { expected, of_frame }),
             ..self
         }
     }

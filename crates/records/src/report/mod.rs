@@ -31,7 +31,9 @@ pub use self::{
     evaluation::evaluation_picture,
     film::{FilmPicture, film_picture},
     folder::{ReportError, ReportFolder},
-    pictures::{Picture, binary_picture, segmentation_picture, stage_pictures, write_png},
+    pictures::{
+        Picture, binary_picture, frame_pictures, segmentation_picture, stage_pictures, write_png,
+    },
     runner_up_picture::runner_up_picture,
 };
 pub use self::{

@@ -22,6 +22,8 @@ use stages::{
 /// A picture of a stage.
 #[derive(Clone, Debug)]
 pub struct Picture {
+    /// Number of the part in its frame, from 1; `None` for the part that the report is about.
+    pub part: Option<usize>,
     /// Name of the stage, usable in file names.
     pub stage: &'static str,
     /// The picture.
@@ -94,7 +96,13 @@ pub fn write_png(path: &Path, picture: &RgbImage) -> Result<(), FileError> {
 /// Draws the stages that ran, in colours for print: segmentation (of an organised scene), binary image, contour,
 /// signature.
 pub fn stage_pictures(scene: &SceneCloud, inspection: &Inspection) -> Vec<Picture> {
-    let picture = |stage, image: Option<RgbImage>| image.map(|image| Picture { stage, image });
+    let picture = |stage, image: Option<RgbImage>| {
+        image.map(|image| Picture {
+            part: None,
+            stage,
+            image,
+        })
+    };
     let plane = inspection.plane.as_ref();
     let (contour, signature) = (inspection.contour.as_ref(), inspection.signature.as_ref());
     [
@@ -114,6 +122,22 @@ pub fn stage_pictures(scene: &SceneCloud, inspection: &Inspection) -> Vec<Pictur
     .into_iter()
     .flatten()
     .collect()
+}
+
+/// Draws the stages of every part of a frame: those of the part that the report is about, then those of the others, with their
+/// numbers.
+pub fn frame_pictures(scene: &SceneCloud, parts: &[&Inspection], about: usize) -> Vec<Picture> {
+    let others = (parts.iter().enumerate()).filter(|(index, _)| *index != about);
+    let others = others.flat_map(|(index, part)| {
+        let part_number = Some(index + 1);
+        let pictures = stage_pictures(scene, part).into_iter();
+        pictures.map(move |picture| Picture {
+            part: part_number,
+            ..picture
+        })
+    });
+    let about = parts.get(about).map(|part| stage_pictures(scene, part));
+    about.into_iter().flatten().chain(others).collect()
 }
 
 /// Combines the pictures side by side at one height.

@@ -53,6 +53,7 @@ pub fn runner_up_picture(
         left += panel.width();
     }
     Some(Picture {
+        part: None,
         stage: "contenders",
         image,
     })

@@ -326,7 +326,8 @@ impl BoxText {
         if !is_name || name.chars().count() > MAX_NAME {
             return Err(format!("its name has not 1 to {MAX_NAME} letters"));
         }
-        let region = OrientedBox::of_file(name, self.centre_mm, self.size_mm, self.angles_deg)?;
+        let region = OrientedBox::of_file(name, self.centre_mm, self.size_mm, self.angles_deg)
+            .map_err(|error| error.to_string())?;
         Ok(CellBox {
             name: name.to_owned(),
             region,

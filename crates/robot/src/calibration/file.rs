@@ -202,14 +202,7 @@ fn parse(text: &str, path: &Path) -> Result<ReadCalibration, CalibrationError> {
         path: path.to_owned(),
         found,
     };
-    let no_toml = |error: toml::de::Error| {
-        let line = error.span().map(|span| {
-            let before = text.get(..span.start).unwrap_or_default();
-            format!("line {}: ", before.matches('\n').count() + 1)
-        });
-        let what = toml_problem(&error);
-        bad(format!("{}{what}", line.unwrap_or_default()))
-    };
+    let no_toml = |error: toml::de::Error| bad(toml_problem(text, &error));
     let newer = |found| CalibrationError::Newer {
         path: path.to_owned(),
         found,

@@ -194,7 +194,7 @@ impl CellCheckFolder {
             found,
         };
         let read: Text = parse_versioned(&text, SCHEMA_VERSION, newer, |error| {
-            bad(toml_problem(&error))
+            bad(toml_problem(&text, &error))
         })?;
         if Path::new(&read.part).file_name() != Some(read.part.as_ref()) {
             return Err(bad("the file of the points beside it is missing".into()));

@@ -118,7 +118,7 @@ impl Advice for BadRequest {
                 "Send TRIGGER, STATUS, LAST, PATH or PART, in the protocol of this port".into()
             }
             Self::Incomplete { .. } => "Send the complete request, with its terminator".into(),
-            Self::NoNumber { .. } => "Send PATH or PART alone, or with the number of a point or a part from 1 and, if need be, the sequence number of a trigger's answer; TRIGGER alone, or with the numbers of the expected parts".into(),
+            Self::NoNumber { .. } => "Send PATH or PART alone, or with the number of a point or a part from 1 and, if need be, the sequence number of a trigger's answer; TRIGGER alone, or with the numbers of the expected parts, each as PART or PLACE=PART".into(),
             Self::Magic => "Begin the frame with the bytes 50 53 52 51".into(),
             Self::Version { found, order } => {
                 let other = match order {

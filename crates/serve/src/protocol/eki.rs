@@ -124,7 +124,7 @@ mod tests {
 
     use super::*;
     use crate::{
-        answer::{Problem, VerdictCode},
+        answer::{ExpectedNumber, Problem, VerdictCode},
         protocol::tests::refused,
     };
     use geometry::rigid::{from_euler_zyx, pose_error};
@@ -158,6 +158,14 @@ mod tests {
             (
                 "<Robot><Request>LAST</Request><Point>0</Point><Sequence>0</Sequence></Robot>",
                 Request::Last,
+            ),
+            (
+                "<Robot><Request>TRIGGER</Request><Expected>2=3 5</Expected></Robot>",
+                Request::expecting([3, 5].map(|part| ExpectedNumber {
+                    part,
+                    place: if part == 3 { 2 } else { 0 },
+                }))
+                .expect("two"),
             ),
             (
                 "<Robot><Request>PATH</Request></Robot>",

@@ -1,10 +1,11 @@
-//! A request as a line of text: `TRIGGER` or, if the parts number 3 and 5 are expected, `TRIGGER 3 5`; `STATUS`, `LAST`,
-//! `PATH`, `PATH 3` or, of the inspection number 41, `PATH 3 41`; `PART` likewise.
+//! A request as a line of text: `TRIGGER` or, if the parts number 3 and 5 are expected, `TRIGGER 3 5` or, at the first and the
+//! second place of the rack, `TRIGGER 1=3 2=5`; `STATUS`, `LAST`, `PATH`, `PATH 3` or, of the inspection number 41,
+//! `PATH 3 41`; `PART` likewise.
 //!
 //! A line ends with LF, CR or both. Case does not matter. Empty lines, and blanks and zeros around a request, are ignored.
 
 use super::{Parsed, bad_request::BadRequest, is_filler};
-use crate::answer::Request;
+use crate::answer::{ExpectedNumber, Request};
 
 /// Maximum length of a line, bytes; every request is shorter.
 const MAX_LINE: usize = 128;
@@ -44,16 +45,28 @@ pub(super) fn named<'a>(
     let numbers: Vec<&[u8]> = numbers.collect();
     // As many as it takes, whatever they are.
     request.numbered(&vec![0; numbers.len()])?;
-    let numbers: Result<Vec<u32>, BadRequest> = numbers.into_iter().map(number_in).collect();
-    match numbers {
-        Ok(numbers) => request.numbered(&numbers).map(Ok),
-        Err(why) => Some(Err(why)),
+    let numbers = numbers.into_iter();
+    if let Request::Trigger { .. } = request {
+        let parts: Result<Vec<ExpectedNumber>, _> = numbers.map(expected_in).collect();
+        return parts.map(Request::expecting).transpose();
     }
+    let numbers: Result<Vec<u32>, _> = numbers.map(number_in).collect();
+    (numbers.map(|numbers| request.numbered(&numbers))).transpose()
 }
 
 /// Finds a request by its word, ignoring case; its numbers are 0.
 pub(super) fn of_name(word: &[u8]) -> Option<Request> {
     Request::find(|(name, _)| name.as_bytes().eq_ignore_ascii_case(word))
+}
+
+/// Reads `PART` or `PLACE=PART`.
+fn expected_in(text: &[u8]) -> Result<ExpectedNumber, BadRequest> {
+    let (place, part) = match text.iter().position(|byte| *byte == b'=') {
+        Some(at) => (number_in(&text[..at])?, &text[at + 1..]),
+        None => (0, text),
+    };
+    let part = number_in(part)?;
+    Ok(ExpectedNumber { part, place })
 }
 
 fn number_in(text: &[u8]) -> Result<u32, BadRequest> {
@@ -78,6 +91,12 @@ mod tests {
         Request::TRIGGER.numbered(numbers).expect("not too many")
     }
 
+    /// Expects parts at places, both by number.
+    fn placed(parts: [(u32, u32); 2]) -> Request {
+        let parts = parts.map(|(part, place)| ExpectedNumber { part, place });
+        Request::expecting(parts).expect("not too many")
+    }
+
     #[test]
     fn every_request_is_read_with_any_end_and_in_any_case() {
         for (text, request) in [
@@ -87,6 +106,8 @@ mod tests {
                 "trigger;1;2;3;4;5;6;7;16777215\n",
                 expecting(&[1, 2, 3, 4, 5, 6, 7, 16_777_215]),
             ),
+            ("TRIGGER 1=3 2=5\n", placed([(3, 1), (5, 2)])),
+            ("trigger;2=16777215;7\n", placed([(16_777_215, 2), (7, 0)])),
             ("status\r", Request::Status),
             ("Last\n", Request::Last),
             ("PATH\n", Request::path(0, 0)),
@@ -124,6 +145,10 @@ mod tests {
             ("START\n", "unknown_request"),
             ("TRIGGER 1 2 3 4 5 6 7 8 9\n", "unknown_request"),
             ("TRIGGER x\n", "no_point"),
+            ("TRIGGER 1=\n", "no_point"),
+            ("TRIGGER =3\n", "no_point"),
+            ("TRIGGER 1=2=3\n", "no_point"),
+            ("PATH 1=2\n", "no_point"),
             ("STATUS 1\n", "unknown_request"),
             ("PATH 1 2 3\n", "unknown_request"),
             ("PART 1 2 3\n", "unknown_request"),

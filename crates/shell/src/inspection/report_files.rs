@@ -16,9 +16,8 @@ use inspection::pipeline::Inspection;
 use records::{
     history::Traceability,
     report::{
-        ReportError, ReportFolder,
+        ReportError, ReportFolder, frame_pictures,
         pose_report::{PdfPictures, PoseReport, ReportSubject, SeenBy, append_csv, pose_pdf},
-        stage_pictures,
     },
 };
 use robot::{
@@ -242,27 +241,30 @@ fn scene_name(origin: &Origin) -> PathBuf {
     }
 }
 
-/// Writes an inspection like `partsight inspect --report` and `partsight report`: its line of JSON as of now, the pictures of
-/// its stages, and the pose report as JSON, PDF and a row of CSV; returns a message about it. Because the user did not choose
+/// Writes the selected part of a frame like `partsight inspect --report` and `partsight report`: its line of JSON as of now, the pictures of
+/// its stages and of those of the other parts of its frame, and the pose report as JSON, PDF and a row of CSV; returns a message about it. Because the user did not choose
 /// the file names, an earlier report in the folder is kept.
 pub fn report(
     folder: &Path,
-    inspected: &Inspected,
+    parts: &[Arc<Inspected>],
+    selected: usize,
     line: &str,
     report: &PoseReport,
     shot: Option<&ViewShot>,
 ) -> Result<String, UserError> {
     let problem = |error: ReportError| UserError::of(&error);
+    let inspected = &parts[selected];
     let name = scene_name(&inspected.origin);
     let name = unused_name(folder, &name);
-    let stages = stage_pictures(&inspected.scene, &inspected.inspection);
+    let all: Vec<&Inspection> = parts.iter().map(|part| &part.inspection).collect();
+    let stages = frame_pictures(&inspected.scene, &all, selected);
     let mut out = ReportFolder::make(folder).map_err(problem)?;
     let path = out.write(&name, line, &stages).map_err(problem)?;
     let view = shot.and_then(|shot| on_paper(shot).take().ok());
     let view = view.map(|view| DynamicImage::from(view).into_rgb8());
     let pictures = PdfPictures {
         view: view.as_ref(),
-        stages: &stages,
+        stages: &stages[..stages.partition_point(|picture| picture.part.is_none())],
         title: inspected.part_title(),
     };
     let pdf = pose_pdf(report, &pictures);
@@ -383,7 +385,14 @@ mod tests {
             Convention::Kuka,
         );
         let folder = tempfile::tempdir().expect("a folder");
-        report(folder.path(), &inspected, "{}", &pose, None).expect("written");
+        let other = inspected_cell(CellChoice::InTurn, 2);
+        let parts = [Arc::new(other), Arc::new(inspected)];
+        report(folder.path(), &parts, 1, "{}", &pose, None).expect("written");
+        let name = scene_name(&parts[1].origin).display().to_string();
+        for of_part in ["contour", "stages", "1.contour", "1.stages"] {
+            let picture = folder.path().join(format!("{name}.{of_part}.png"));
+            assert!(picture.exists(), "{}", picture.display());
+        }
         let mut files = std::fs::read_dir(folder.path()).expect("listed");
         let pdf = files.find_map(|file| {
             let path = file.expect("a file").path();

@@ -15,9 +15,12 @@ use crate::{
     state::{State, notify},
 };
 use geometry::rigid::{RigidTransform, from_row_major, row_major};
-use inspection::rack::{Rack, RackError, RackFile};
+use inspection::rack::{Rack, RackError, RackFile, RackProblem};
 use robot::RobotFrame;
-use ui::{language::text, user_error::UserError};
+use ui::{
+    language::{described, text, what_and_advice},
+    user_error::UserError,
+};
 
 /// Maximum number of steps that can be undone.
 const MAX_UNDO: usize = 50;
@@ -83,8 +86,8 @@ impl RackInUse {
     pub fn title(&self) -> String {
         match &self.file {
             None => text!("rack-none"),
-            Some(file) if file.name.is_empty() => text!("rack-unnamed"),
-            Some(file) => file.name.clone(),
+            Some(file) if file.rack.name.is_empty() => text!("rack-unnamed"),
+            Some(file) => file.rack.name.clone(),
         }
     }
 
@@ -144,13 +147,18 @@ impl RackEditor {
     }
 }
 
+/// A rack that was read, and its file.
+pub type ReadRack = (PathBuf, Box<RackFile>);
+
 /// An action on the rack.
 #[derive(Clone, Debug)]
 pub enum RackAction {
     /// Open or close the window.
     Toggle,
-    /// Use the rack of this file.
+    /// Read this file, and use its rack.
     Open(PathBuf),
+    /// Use the rack that was read, or say why it cannot be read.
+    Opened(Result<ReadRack, UserError>),
     /// Write the rack in use to this file.
     Save(PathBuf),
     /// Change the rack to this one.
@@ -170,6 +178,13 @@ pub enum RackAction {
     Undo,
 }
 
+/// Uses the rack whose file has been read by now.
+pub fn update(state: &mut State) {
+    if let Some(read) = state.rack_reading.poll() {
+        apply(state, RackAction::Opened(read));
+    }
+}
+
 /// Carries out an action on the rack.
 pub fn apply(state: &mut State, action: RackAction) -> Option<Effect> {
     if let RackAction::Toggle = action {
@@ -180,22 +195,33 @@ pub fn apply(state: &mut State, action: RackAction) -> Option<Effect> {
         }
         return None;
     }
+    if let RackAction::Open(path) = action {
+        state.rack_reading.start(text!("rack-reading"), |_| {
+            let file = RackFile::read(&path);
+            let file = file.map_err(|error| UserError::from(what_and_advice(&error)))?;
+            Ok((path, Box::new(file)))
+        });
+        return None;
+    }
     // A file may be chosen after the window was closed.
     let open = state.rack_editor.take();
     let mut editor = open.unwrap_or_else(|| RackEditor::of(&state.session));
     let robot = state.session.robot.clone();
     let changed = match action {
-        RackAction::Toggle => Ok(None),
-        RackAction::Open(path) => RackFile::read(&path).map(|file| {
+        RackAction::Toggle | RackAction::Open(_) => Ok(None),
+        RackAction::Opened(read) => read.map(|(path, file)| {
             let title = path.display().to_string();
             notify(state, Notice::done(text!("rack-opened", path = title)));
-            Some(file)
+            Some(*file)
         }),
-        RackAction::Save(path) => editor.draft.write(&path).map(|_| {
-            let title = path.display().to_string();
-            notify(state, Notice::done(text!("rack-saved", path = title)));
-            None
-        }),
+        RackAction::Save(path) => {
+            let written = editor.draft.write(&path).map(|_| {
+                let title = path.display().to_string();
+                notify(state, Notice::done(text!("rack-saved", path = title)));
+                None
+            });
+            written.map_err(|error| what_and_advice(&error).into())
+        }
         RackAction::Edit { file, continues } => {
             let was_dragged = std::mem::replace(&mut editor.is_dragged, continues);
             if was_dragged && continues {
@@ -238,7 +264,7 @@ pub fn apply(state: &mut State, action: RackAction) -> Option<Effect> {
             set(state, &mut editor);
         }
         Ok(None) => {}
-        Err(error) => editor.problem = Some(UserError::of(&error)),
+        Err(error) => editor.problem = Some(error),
     }
     state.rack_editor = Some(editor);
     None
@@ -251,8 +277,8 @@ fn set(state: &mut State, editor: &mut RackEditor) {
     } else {
         editor.draft.check()
     };
-    let wrong = |what| UserError {
-        what,
+    let wrong = |problem: RackProblem| UserError {
+        what: described(&problem),
         advice: text!("rack-not-used"),
     };
     let library = state.session.library.clone();
@@ -264,7 +290,7 @@ fn set(state: &mut State, editor: &mut RackEditor) {
     let used = checked.map_err(wrong).and_then(|()| {
         let known = editor.draft.check_parts(is_enrolled);
         let used = known.and_then(|()| state.session.use_rack(editor.draft.clone()));
-        used.map_err(|error| UserError::of(&error))
+        used.map_err(|error| what_and_advice(&error).into())
     });
     editor.is_new |= used.is_ok();
     editor.problem = used.err();
@@ -275,10 +301,12 @@ fn taken(
     state: &State,
     editor: &RackEditor,
     take: impl FnOnce(&mut RackFile, &Inspected) -> Result<bool, RackError>,
-) -> Result<Option<RackFile>, RackError> {
+) -> Result<Option<RackFile>, UserError> {
     let Some(shown) = &state.session.shown else {
         return Ok(None);
     };
     let mut file = editor.draft.clone();
-    Ok(take(&mut file, &shown.inspected)?.then_some(file))
+    let taken = take(&mut file, &shown.inspected);
+    let taken = taken.map_err(|error| UserError::from(what_and_advice(&error)))?;
+    Ok(taken.then_some(file))
 }

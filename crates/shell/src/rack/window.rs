@@ -90,7 +90,7 @@ fn top(
 ) {
     ui.horizontal(|ui| {
         let label = ui.label(text!("rack-name"));
-        let field = TextEdit::singleline(&mut file.name).char_limit(MAX_NAME);
+        let field = TextEdit::singleline(&mut file.rack.name).char_limit(MAX_NAME);
         ui.add(field.desired_width(f32::INFINITY))
             .labelled_by(label.id);
     });

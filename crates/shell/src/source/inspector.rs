@@ -743,6 +743,7 @@ mod tests {
         let rack = Rack {
             volume: vec![volume],
             places: Vec::new(),
+            ..Rack::default()
         };
         let mut past = inspected_cell(CellChoice::InTurn, 1);
         past.recipe = Arc::new(past.recipe.in_rack(rack.clone()));

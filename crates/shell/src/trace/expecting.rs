@@ -1,7 +1,7 @@
 //! What should hang before the camera: parts that the user chose, or those of an order.
 //!
 //! With a table of orders, the order and the serial number that are entered say what to expect of the next part. While that is
-//! not known, nothing is captured. A part keeps what was expected of it; if its order or serial number turns out to be another
+//! not known, or the table is not read yet, nothing is captured. A part keeps what was expected of it; if its order or serial number turns out to be another
 //! one, no robot may act on it. The table is read again once it changes.
 
 use std::{
@@ -22,16 +22,16 @@ use crate::{
 };
 use inspection::{
     library::{PartMeta, PartName},
-    pipeline::Expected,
+    pipeline::{Expected, ExpectedPart},
 };
 use records::{
     history::Traceability,
     orders::{OrderError, Orders},
 };
-use stages::segment::MAX_PARTS;
+use stages::{rack::Rack, segment::MAX_PARTS};
 use station::Doubt;
 use ui::{
-    language::text,
+    language::{text, what_and_advice},
     task::{Task, TaskContext, TaskError, TaskRunner},
     user_error::UserError,
 };
@@ -51,7 +51,8 @@ pub struct Expecting {
 #[derive(Debug)]
 struct OrderTable {
     path: PathBuf,
-    content: TableContent,
+    /// `None` until it is read.
+    content: Option<TableContent>,
 }
 
 /// The table, or why it cannot be read.
@@ -70,7 +71,7 @@ impl Expecting {
     /// Starts with the table of orders in this file.
     pub fn starting(path: Option<PathBuf>) -> Self {
         Self {
-            orders: path.map(OrderTable::read),
+            orders: path.map(OrderTable::unread),
             ..Self::default()
         }
     }
@@ -87,8 +88,8 @@ impl Expecting {
 }
 
 impl OrderTable {
-    fn read(path: PathBuf) -> Self {
-        let content = read(&path);
+    fn unread(path: PathBuf) -> Self {
+        let content = None;
         Self { path, content }
     }
 }
@@ -96,7 +97,7 @@ impl OrderTable {
 fn read(path: &Path) -> TableContent {
     let read = Orders::read(path).map(Arc::new);
     read.map_err(|error| {
-        let UserError { what, advice } = UserError::of(&error);
+        let [what, advice] = what_and_advice(&error);
         let what = text!("expect-table-unusable", error = what);
         UserError { what, advice }
     })
@@ -157,8 +158,8 @@ impl NotKnown {
                 text!("expect-several-orders", serial = serial),
                 text!("expect-give-order"),
             ],
-            OrderError::Parts { .. } => {
-                let UserError { what, advice } = UserError::of(error);
+            OrderError::Parts(cell) => {
+                let [what, advice] = what_and_advice(cell);
                 [text!("expect-table-unusable", error = what), advice]
             }
         };
@@ -179,15 +180,19 @@ impl Session {
         };
         let expecting = &self.expecting;
         let Some(table) = &expecting.orders else {
-            let mut chosen = expecting.chosen.clone();
-            chosen.retain(|name| is_enrolled(name));
-            return Ok(Expected::new(chosen, |_| true).expect("the menu offers no more"));
+            let chosen = expecting.chosen.iter().filter(|name| is_enrolled(name));
+            let chosen = chosen.map(|name| name.as_str().into()).collect();
+            let expected = Expected::new(chosen, Rack::ANYWHERE, |_| true);
+            return Ok(expected.expect("the menu offers no more"));
         };
-        let orders = table
-            .content
-            .as_ref()
-            .map_err(|e| NotKnown::Table(e.clone()))?;
-        let expected = orders.expected(trace, is_enrolled);
+        let unread = || {
+            let what = text!("expect-reading", file = file_name(&table.path));
+            let advice = text!("expect-reading-wait");
+            NotKnown::Table(UserError { what, advice })
+        };
+        let content = table.content.as_ref().ok_or_else(unread)?;
+        let orders = content.as_ref().map_err(|e| NotKnown::Table(e.clone()))?;
+        let expected = orders.expected(trace, self.rack.in_camera(), is_enrolled);
         expected.map_err(NotKnown::Order)
     }
 
@@ -254,22 +259,22 @@ impl Session {
         self.expected_of(&trace) != Ok(part.recipe.expected.clone())
     }
 
-    /// Titles of these parts, each once, with their numbers.
-    pub(super) fn titles_of(&self, names: &[String]) -> String {
-        let mut counts: Vec<(&String, usize)> = Vec::new();
-        for name in names {
-            match counts.iter_mut().find(|(known, _)| *known == name) {
+    /// Titles of these parts, each once, with their places or their numbers.
+    pub(super) fn titles_of(&self, parts: &[ExpectedPart]) -> String {
+        let mut counts: Vec<(&ExpectedPart, usize)> = Vec::new();
+        for part in parts {
+            match counts.iter_mut().find(|(known, _)| *known == part) {
                 Some((_, num)) => *num += 1,
-                None => counts.push((name, 1)),
+                None => counts.push((part, 1)),
             }
         }
-        let titles = counts.into_iter().map(|(name, num)| {
-            let title = self
-                .library
-                .as_ref()
-                .map_or(&**name, |known| known.title_of(name));
+        let titles = counts.into_iter().map(|(part, num)| {
+            let title = title_of(part, |name| match &self.library {
+                Some(library) => library.title_of(name).to_owned(),
+                None => name.to_owned(),
+            });
             match num {
-                1 => title.to_owned(),
+                1 => title,
                 num => format!("{num} × {title}"),
             }
         });
@@ -283,6 +288,15 @@ impl Session {
         names.sort();
         names.dedup();
         names
+    }
+}
+
+/// The title of a part, with its place.
+pub fn title_of(part: &ExpectedPart, title_of: impl Fn(&str) -> String) -> String {
+    let title = title_of(&part.name);
+    match &part.place {
+        Some(place) => text!("expect-at-place", part = title, place = place),
+        None => title,
     }
 }
 
@@ -303,19 +317,12 @@ pub(crate) fn apply(state: &mut State, action: ExpectAction) {
     }
 }
 
-/// Uses the table of orders in this file from now on, and says why it cannot be used.
+/// Uses the table of orders in this file from now on; nothing is inspected until it is read.
 pub(crate) fn use_orders(state: &mut State, path: PathBuf) {
-    let table = OrderTable::read(path);
     remove_notices(state, NoticeTopic::Orders);
-    match &table.content {
-        Ok(_) => {
-            let what = text!("expect-table-used", file = file_name(&table.path));
-            notify(state, Notice::done(what));
-        }
-        Err(error) => tell(state, error.clone()),
-    }
     state.session.expecting.chosen.clear();
-    state.session.expecting.orders = Some(table);
+    state.session.expecting.orders = Some(OrderTable::unread(path));
+    state.orders_watch.stop();
 }
 
 fn tell(state: &mut State, error: UserError) {
@@ -347,10 +354,15 @@ pub fn update(state: &mut State) {
     if let Some(content) = state.orders_watch.poll(expecting.orders.as_ref())
         && let Some(table) = &mut expecting.orders
     {
-        let error = content.as_ref().err().cloned();
-        table.content = content;
-        if let Some(error) = error {
-            tell(state, error);
+        let used = text!("expect-table-used", file = file_name(&table.path));
+        let told = match &content {
+            Ok(_) if table.content.is_none() => Some(Notice::done(used)),
+            Ok(_) => None,
+            Err(error) => Some(Notice::from(error.clone()).about(NoticeTopic::Orders)),
+        };
+        table.content = Some(content);
+        if let Some(told) = told {
+            notify(state, told);
         }
     }
     let mut notices = state.notices.iter();
@@ -388,6 +400,12 @@ impl OrdersWatch {
         }
     }
 
+    /// Stops watching, so that the next table is read whatever its name is.
+    fn stop(&mut self) {
+        self.task.cancel();
+        self.path = None;
+    }
+
     /// Watches this table from now on. Returns its content once it has changed.
     fn poll(&mut self, table: Option<&OrderTable>) -> Option<TableContent> {
         let path = table.map(|table| &table.path);
@@ -406,7 +424,7 @@ impl OrdersWatch {
 
 fn watch(
     path: &Path,
-    mut known: TableContent,
+    mut known: Option<TableContent>,
     context: &TaskContext<TableContent>,
 ) -> Result<TableContent, TaskError> {
     let mut before = None;
@@ -417,9 +435,9 @@ fn watch(
             |(_, changed): &(u64, SystemTime)| changed.elapsed().is_ok_and(|age| age > SETTLED);
         if now != before || !now.as_ref().is_some_and(is_settled) {
             let content = read(path);
-            if content != known {
-                known = content;
-                context.latest(known.clone());
+            if known.as_ref() != Some(&content) {
+                known = Some(content.clone());
+                context.latest(content);
             }
         }
         before = now;
@@ -446,7 +464,7 @@ mod tests {
         let mut session = State::default().session;
         session.expecting.orders = Some(OrderTable {
             path: path.into(),
-            content: Ok(Arc::new(Orders::parse(path, rows).expect("a table"))),
+            content: Some(Ok(Arc::new(Orders::parse(path, rows).expect("a table")))),
         });
         let trace = |serial: &str| Traceability {
             order: "4711".into(),

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::headline::Headline;
-use inspection::pipeline::{Rejection, Verdict};
-use shell::{inspection::inspected::Inspected, session::Session};
+use inspection::pipeline::{Inspection, Rejection};
+use shell::{inspection::inspected::Inspected, session::Session, trace::expecting};
 use ui::language::text;
 
 /// How a frame compares with what is expected.
@@ -13,7 +13,7 @@ pub(super) struct FrameExpectation {
     pub(super) title: String,
     /// Each difference; empty if there is none that is not said of a part by itself.
     pub(super) complaint: String,
-    /// Titles of the parts that nothing hangs in place of.
+    /// Titles of the parts that nothing hangs in place of, with their places.
     pub(super) missing: Vec<String>,
     /// Number of expected parts.
     pub(super) num_expected: usize,
@@ -30,28 +30,33 @@ impl FrameExpectation {
             return None;
         }
         let title_of = |name: &str| first.library.title_of(name).to_owned();
-        let verdicts: Vec<&Verdict> = parts.iter().map(|part| &part.inspection.verdict).collect();
+        let all: Vec<&Inspection> = parts.iter().map(|part| &part.inspection).collect();
         let num_expected = expected.parts().len();
         let is_past = session.shown.as_ref().is_some_and(|shown| shown.is_past);
         if is_past && num_expected > 1 {
             // One part of the frame is opened again, without the others.
             return None;
         }
-        let missing = expected.missing(&verdicts).into_iter().map(title_of);
-        let missing: Vec<String> = missing.collect();
-        let differences = verdicts
-            .iter()
-            .filter_map(|verdict| match verdict.rejected()? {
-                Rejection::WrongPart { part, expected } => Some(text!(
-                    "expect-wrong",
-                    part = title_of(part),
-                    expected = title_of(expected)
-                )),
-                Rejection::NotExpected { part } => {
-                    Some(text!("expect-surplus", part = title_of(part)))
-                }
-                _ => None,
-            });
+        let missing = expected.missing(&all).into_iter();
+        let missing: Vec<String> = missing
+            .map(|part| expecting::title_of(part, title_of))
+            .collect();
+        let differences = all.iter().filter_map(|one| match one.verdict.rejected()? {
+            Rejection::WrongPart { part, expected } => Some(text!(
+                "expect-wrong",
+                part = title_of(part),
+                expected = title_of(expected)
+            )),
+            Rejection::ExpectedElsewhere {
+                part, expected_at, ..
+            } => Some(text!(
+                "expect-elsewhere",
+                part = title_of(part),
+                place = expected_at
+            )),
+            Rejection::NotExpected { part } => Some(text!("expect-surplus", part = title_of(part))),
+            _ => None,
+        });
         let all_missing = missing.join(" · ");
         let absent = (!missing.is_empty()).then(|| text!("expect-missing", parts = all_missing));
         let differences: Vec<String> = differences.chain(absent).collect();
@@ -67,7 +72,7 @@ impl FrameExpectation {
             complaint,
             missing,
             num_expected,
-            is_met: expected.is_met(&verdicts) && num_met == num_expected,
+            is_met: expected.is_met(&all) && num_met == num_expected,
         })
     }
 }
@@ -79,6 +84,7 @@ pub(super) fn word_of(inspected: &Inspected) -> Option<String> {
     }
     match inspected.inspection.verdict.rejected() {
         Some(Rejection::WrongPart { .. }) => Some(text!("expect-wrong-part")),
+        Some(Rejection::ExpectedElsewhere { .. }) => Some(text!("expect-wrong-place")),
         Some(Rejection::NotExpected { .. }) => Some(text!("expect-not-expected")),
         None if inspected.inspection.verdict.is_accepted() => Some(text!("expect-as-expected")),
         _ => None,

@@ -355,6 +355,7 @@ impl InspectState {
         let convention = cx.session.convention;
         let trace = cx.session.trace.of_part(&inspected);
         let subject = cx.session.subject_now(&inspected);
+        let (parts, selected) = (shown.parts.clone(), shown.selected());
         self.writing
             .start(text!("inspect-writing-report"), move |_| {
                 let robot = robot.as_deref();
@@ -362,7 +363,8 @@ impl InspectState {
                 let report =
                     report_files::report_of(&inspected, &subject, &trace, robot, convention);
                 let shot = shot.as_ref();
-                let written = report_files::report(&folder, &inspected, &line, &report, shot)?;
+                let written =
+                    report_files::report(&folder, &parts, selected, &line, &report, shot)?;
                 Ok(Notice::done(written))
             });
     }
