@@ -24,6 +24,7 @@ rack-add-box = Quader um dieses Teil
 rack-places = Plätze
 rack-places-says = Die Mitte eines Teils muss im Quader seines Platzes liegen
 rack-add-place = Platz für dieses Teil
+rack-add-places = Platz für jedes Teil
 rack-take-place = Angezeigtes Teil übernehmen
 rack-take-place-says = Verschiebt den Platz zum angezeigten Teil und lässt es dort hängen, wie es jetzt hängt
 rack-no-part = Zuerst ein Teil aufnehmen, das erkannt wird

@@ -24,6 +24,7 @@ rack-add-box = Add a box around this part
 rack-places = Places
 rack-places-says = The middle of a part must lie in the box of its place
 rack-add-place = Add a place for this part
+rack-add-places = Add a place for each part
 rack-take-place = Take the part in front
 rack-take-place-says = Move the place to the part in front, and let it hang there as it does now
 rack-no-part = Capture a part that is recognised first

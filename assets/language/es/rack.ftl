@@ -24,6 +24,7 @@ rack-add-box = Añadir caja alrededor de esta pieza
 rack-places = Lugares
 rack-places-says = El centro de una pieza debe estar en la caja de su lugar
 rack-add-place = Añadir lugar para esta pieza
+rack-add-places = Añadir lugar para cada pieza
 rack-take-place = Tomar la pieza mostrada
 rack-take-place-says = Mueve el lugar a la pieza mostrada y le permite colgar como cuelga ahora
 rack-no-part = Capturar antes una pieza que se reconozca

@@ -24,6 +24,7 @@ rack-add-box = 在此零件周围添加长方体
 rack-places = 位置
 rack-places-says = 零件的中心必须在其位置的长方体内
 rack-add-place = 为此零件添加位置
+rack-add-places = 为每个零件添加位置
 rack-take-place = 采用当前零件
 rack-take-place-says = 将位置移到当前零件处，并允许它按现在的方向挂
 rack-no-part = 请先采集一个能识别的零件

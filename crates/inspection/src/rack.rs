@@ -470,6 +470,13 @@ impl RackFile {
         Ok(true)
     }
 
+    /// The lowest number that is the name of no place.
+    pub fn new_place_name(&self) -> String {
+        let mut numbers = (1..).map(|number: usize| number.to_string());
+        let is_new = |name: &String| self.rack.places.iter().all(|place| place.name != *name);
+        numbers.find(is_new).expect("one of endless numbers")
+    }
+
     /// Adds a box around the segmented part of an inspection to the work volume; returns false if there is none.
     pub fn take_volume(
         &mut self,

@@ -59,6 +59,8 @@ pub struct Session {
     pub program: ProgramSetup,
     /// Where parts may hang.
     pub rack: RackInUse,
+    /// True while the rack is edited: every part of a frame is found, so that each can get a place.
+    pub is_rack_edited: bool,
     /// The robot frame, with the camera's pose in the robot's base, if the cell is calibrated; see [`Self::use_robot`].
     pub robot: Option<Arc<RobotFrame>>,
     /// Whether and where robots are answered.
@@ -92,6 +94,16 @@ pub struct Session {
 }
 
 impl Session {
+    /// The recipe for results that are shown, before this rack, in which these parts are expected.
+    pub(crate) fn recipe_to_show(&self, rack: &Rack, expected: Expected) -> Arc<NamedRecipe> {
+        let recipe = self.recipe_in_rack(rack, expected);
+        if self.is_rack_edited {
+            Arc::new(recipe.finding_all())
+        } else {
+            recipe
+        }
+    }
+
     /// The recipe in use, before this rack, in which these parts are expected.
     pub(crate) fn recipe_in_rack(&self, rack: &Rack, expected: Expected) -> Arc<NamedRecipe> {
         if rack.is_empty() && expected.is_empty() {
@@ -117,7 +129,7 @@ impl Session {
         match source {
             SceneOrScan::Scene(source) => InspectJob::Scene(InspectRequest {
                 source,
-                recipe: self.recipe_in_rack(rack, expected),
+                recipe: self.recipe_to_show(rack, expected),
             }),
             SceneOrScan::Scan(order) => InspectJob::Scan(ScanRequest {
                 recipe: Arc::new(self.recipe.expecting(expected.anywhere())),

@@ -13,7 +13,7 @@ use shell::{
 
 use super::{
     set_up::{WindowHarness, act, open, settle},
-    several_parts::open_rack,
+    several_parts::{open_rack, open_three_things},
 };
 
 /// Opens the window of the rack before a frame of three things, and makes a place of the door.
@@ -104,6 +104,31 @@ fn a_place_is_made_of_the_part_in_front_and_a_turned_part_is_refused() {
     );
     click(&mut harness, "No rack");
     assert_eq!(shown(&harness), ["none ", "none ", "none unknown"]);
+}
+
+#[test]
+fn while_a_rack_is_edited_every_part_of_a_frame_is_found_and_can_get_a_place() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open();
+    open_three_things(&mut harness, folder.path());
+    assert_eq!(shown(&harness), ["none "]);
+    act(&mut harness, Action::Rack(RackAction::Toggle));
+    settle(&mut harness);
+    assert_eq!(shown(&harness), ["none ", "none ", "none unknown"]);
+    click(&mut harness, "Add a place for each part");
+    assert_eq!(shown(&harness), ["1 ", "2 ", "none unknown"]);
+    assert!(
+        harness
+            .query_by_label("Add a place for each part")
+            .is_none()
+    );
+    click(&mut harness, "Undo");
+    assert_eq!(shown(&harness), ["none ", "none ", "none unknown"]);
+    click(&mut harness, "Add a place for this part");
+    assert_eq!(shown(&harness)[0], "1 ");
+    act(&mut harness, Action::Rack(RackAction::Toggle));
+    settle(&mut harness);
+    assert_eq!(shown(&harness), ["1 "]);
 }
 
 #[test]

@@ -29,13 +29,18 @@ use super::{
     },
 };
 
-/// Writes a frame of a door, a radiator support and something that is not enrolled, and inspects up to three parts of it.
+/// Inspects up to three parts of a frame of three things.
 pub(crate) fn open_rack(harness: &mut WindowHarness, folder: &Path) {
+    use_recipe(harness, 0.9);
+    open_three_things(harness, folder);
+}
+
+/// Writes a frame of a door, a radiator support and something that is not enrolled, and opens it.
+pub(crate) fn open_three_things(harness: &mut WindowHarness, folder: &Path) {
     let setup = RackSetup::drawn(RackKind::Foreign, 3, 0, 4).expect("three places");
     let path = folder.join("rack.png");
     let rack = rack_frame(&setup).expect("a plain cell");
     write_depth_png(&path, &rack.frame).expect("written");
-    use_recipe(harness, 0.9);
     act(harness, Action::Open(path));
 }
 

@@ -29,7 +29,7 @@ use super::{
 };
 use crate::library::PartName;
 use files::{read_text, toml_problem, write_text};
-use stages::{pose::PoseMethod, rack::Rack, rank::Matcher};
+use stages::{pose::PoseMethod, rack::Rack, rank::Matcher, segment::MAX_PARTS};
 
 /// Name of the built-in recipe, in which every parameter is at its default.
 pub const BUILT_IN: &str = "built-in";
@@ -102,6 +102,14 @@ impl NamedRecipe {
         if recipe.rack != rack {
             Arc::make_mut(&mut recipe.parameters).rack = rack;
         }
+        recipe
+    }
+
+    /// The same recipe that looks for as many parts as a frame can show.
+    #[must_use]
+    pub fn finding_all(&self) -> Self {
+        let mut recipe = self.clone();
+        Arc::make_mut(&mut recipe.parameters).segment.max_parts = MAX_PARTS;
         recipe
     }
 

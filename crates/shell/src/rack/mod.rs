@@ -15,7 +15,7 @@ use crate::{
     state::{State, notify},
 };
 use geometry::rigid::{RigidTransform, from_row_major, row_major};
-use inspection::rack::{Rack, RackError, RackFile, RackProblem};
+use inspection::rack::{Rack, RackError, RackFile, RackProblem, may_be_taken};
 use robot::RobotFrame;
 use ui::{
     language::{described, text, what_and_advice},
@@ -172,6 +172,8 @@ pub enum RackAction {
     Inspect,
     /// Make a place, or change the one of this name, from the part in front.
     TakePlace(String),
+    /// Make a place of each part of the frame in front that has none.
+    TakePlaces,
     /// Add a box around the part in front to the work volume.
     TakeVolume,
     /// Undo the last change.
@@ -188,11 +190,12 @@ pub fn update(state: &mut State) {
 /// Carries out an action on the rack.
 pub fn apply(state: &mut State, action: RackAction) -> Option<Effect> {
     if let RackAction::Toggle = action {
-        match state.rack_editor.take() {
-            Some(editor) if editor.is_new => state.inspect_again(),
-            Some(_) => {}
-            None => state.rack_editor = Some(RackEditor::of(&state.session)),
-        }
+        state.session.is_rack_edited = state.rack_editor.is_none();
+        state.rack_editor = match state.rack_editor.take() {
+            Some(_) => None,
+            None => Some(RackEditor::of(&state.session)),
+        };
+        inspect_present(state);
         return None;
     }
     if let RackAction::Open(path) = action {
@@ -234,15 +237,21 @@ pub fn apply(state: &mut State, action: RackAction) -> Option<Effect> {
         }
         RackAction::Inspect => {
             (editor.is_new, editor.is_dragged) = (false, false);
-            let shown = state.session.shown.as_ref();
-            if state.session.is_live() || shown.is_some_and(|shown| !shown.is_past) {
-                state.inspect_again();
-            }
+            inspect_present(state);
             Ok(None)
         }
         RackAction::TakePlace(name) => taken(state, &editor, |file, front| {
             let camera = camera(robot.as_deref());
             file.take_place(&name, &front.inspection, front.middle, camera)
+        }),
+        RackAction::TakePlaces => taken(state, &editor, |file, _| {
+            let camera = camera(robot.as_deref());
+            let mut is_changed = false;
+            for part in parts_without_place(&state.session) {
+                let name = file.new_place_name();
+                is_changed |= file.take_place(&name, &part.inspection, part.middle, camera)?;
+            }
+            Ok(is_changed)
         }),
         RackAction::TakeVolume => taken(state, &editor, |file, front| {
             file.take_volume(&front.inspection, camera(robot.as_deref()))
@@ -267,7 +276,23 @@ pub fn apply(state: &mut State, action: RackAction) -> Option<Effect> {
         Err(error) => editor.problem = Some(error),
     }
     state.rack_editor = Some(editor);
+    state.session.is_rack_edited = true;
     None
+}
+
+/// The parts of the frame in front of which a place can be made, and that have none.
+fn parts_without_place(session: &Session) -> impl Iterator<Item = &Inspected> {
+    let parts = session.shown.iter().flat_map(|shown| &shown.parts);
+    let parts = parts.map(|part| &**part);
+    parts.filter(|part| may_be_taken(&part.inspection) && part.inspection.place.is_none())
+}
+
+/// Inspects the frame in front again, unless it is from the history.
+fn inspect_present(state: &mut State) {
+    let shown = state.session.shown.as_ref();
+    if state.session.is_live() || shown.is_some_and(|shown| !shown.is_past) {
+        state.inspect_again();
+    }
 }
 
 /// Uses the draft, unless something in it is wrong.

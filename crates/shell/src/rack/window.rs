@@ -5,7 +5,7 @@ use egui::{
     WidgetInfo, pos2, vec2,
 };
 
-use super::{RackAction, RackEditor};
+use super::{RackAction, RackEditor, parts_without_place};
 use crate::{
     action::{Action, DialogRequest},
     state::State,
@@ -212,14 +212,15 @@ fn places(ui: &mut Ui, state: &State, file: &mut RackFile, caused: &mut Vec<Acti
     ui.add_enabled_ui(has_part && file.rack.places.len() < MAX_PARTS, |ui| {
         let add = text_button(ui, &text!("rack-add-place"));
         if add.on_disabled_hover_text(text!("rack-no-part")).clicked() {
-            let is_free = |number: &usize| {
-                let name = number.to_string();
-                file.rack.places.iter().all(|place| place.name != name)
-            };
-            let number = (1..=MAX_PARTS).find(is_free).unwrap_or_default();
-            caused.push(Action::Rack(RackAction::TakePlace(number.to_string())));
+            let name = file.new_place_name();
+            caused.push(Action::Rack(RackAction::TakePlace(name)));
         }
     });
+    let num_new = parts_without_place(&state.session).count();
+    let num_free = MAX_PARTS.saturating_sub(file.rack.places.len());
+    if (2..=num_free).contains(&num_new) && text_button(ui, &text!("rack-add-places")).clicked() {
+        caused.push(Action::Rack(RackAction::TakePlaces));
+    }
 }
 
 fn place_ui(ui: &mut Ui, place: &mut Place) {

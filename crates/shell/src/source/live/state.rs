@@ -168,7 +168,7 @@ fn follow_source(state: &mut State) {
     let expected = expecting::follow_expected(&mut state.session);
     let request = LiveStart {
         spec,
-        recipe: (state.session).recipe_in_rack(state.session.rack.in_camera(), expected),
+        recipe: (state.session).recipe_to_show(state.session.rack.in_camera(), expected),
         params: state.session.live.params.clone(),
         empty_cell: state.session.empty_cell.clone(),
         record: state.session.live.recording.clone(),
