@@ -104,16 +104,15 @@ impl SurfacesAhead {
         if num_others == 0 {
             return Ok(Vec::new());
         }
-        let waiting = match &mut self.waiting {
-            Some(waiting) => waiting,
-            None => {
-                let (scene, params) = (inputs.scene, &inputs.recipe.segment);
-                let limit = self.max_parts - 1;
-                let others = inputs.clock.time(Stage::Segment, || {
-                    other_segments(scene, segmentation, params, limit)
-                })?;
-                self.waiting.insert(others.into())
-            }
+        let waiting = if let Some(waiting) = &mut self.waiting {
+            waiting
+        } else {
+            let (scene, params) = (inputs.scene, &inputs.recipe.segment);
+            let limit = self.max_parts - 1;
+            let others = inputs.clock.time(Stage::Segment, || {
+                other_segments(scene, segmentation, params, limit)
+            })?;
+            self.waiting.insert(others.into())
         };
         waiting.retain(|other| other != part);
         let num_next = num_others.min(waiting.len());
