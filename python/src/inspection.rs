@@ -88,7 +88,9 @@ pub(crate) fn inspect_all(
     });
     let rack = rack.transpose().map_err(advised)?.unwrap_or_default();
     let parts = expected.iter().flatten().map(|text| text.as_str().into());
-    let expected = Expected::new(parts.collect(), &rack, |name| loaded.library.has_part(name));
+    let expected = Expected::new(parts.collect(), Some(&rack), |name| {
+        loaded.library.has_part(name)
+    });
     let expected = expected.map_err(advised)?;
     let recipe = library.recipe_or(recipe)?.in_rack(rack).expecting(expected);
     let found = interruptible(py, |watch| {

@@ -23,11 +23,11 @@ pub(super) struct ExpectChoice {
 }
 
 impl ExpectChoice {
-    /// Returns what is expected of these enrolled parts in this rack, with a table for an order and a serial number.
+    /// Returns what is expected of these enrolled parts in this rack or wherever they hang, with a table for an order and a serial number.
     pub(super) fn of(
         &self,
         library: &Library,
-        rack: &Rack,
+        rack: Option<&Rack>,
         trace: &Traceability,
     ) -> anyhow::Result<Expected> {
         let is_enrolled = |name: &str| library.has_part(name);

@@ -180,7 +180,7 @@ fn inspect(
     let (place, load) = (args.library).load_placed(&recipe.reference_params(), console)?;
     let robot = args.calibration.frame(console)?;
     let recipe = args.rack.before(recipe, &load.library, robot.as_ref())?;
-    let expected = (args.expect).of(&load.library, &recipe.rack, &trace)?;
+    let expected = (args.expect).of(&load.library, Some(&recipe.rack), &trace)?;
     let recipe = recipe.expecting(expected);
     if args.program.is_forced() && robot.is_none() {
         return Err(advised_error(

@@ -181,7 +181,7 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
         ));
     };
     let recipe = (args.rack).before(recipe, &load.library, Some(&robot))?;
-    let expected = (args.expect).of(&load.library, &recipe.rack, &trace)?;
+    let expected = (args.expect).of(&load.library, Some(&recipe.rack), &trace)?;
     let recipe = recipe.expecting(expected);
     let parts = args.numbers.parts(&place, &load, console)?;
     let empty_cell = args.empty_cell.open(console)?;

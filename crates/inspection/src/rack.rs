@@ -283,7 +283,7 @@ impl TryFrom<Written> for RackFile {
 
     fn try_from(written: Written) -> Result<Self, RackProblem> {
         let volume = (1..).zip(written.volume).map(|(number, one)| {
-            let name = format!("volume {number}");
+            let name = format!("[[volume]] {number}");
             let region = OrientedBox::of_file(&name, one.centre_mm, one.size_mm, one.angles_deg);
             region.map_err(RackProblem::Box)
         });
@@ -578,7 +578,7 @@ impl WrittenPlace {
             if angles.is_some_and(|angles| !angles.iter().all(|x| x.abs() <= 360.0)) {
                 return Err(RackProblem::Box(BoxError::Number {
                     field: "angles_deg",
-                    name: part.name,
+                    name: format!("[[place]] {name}, {}", part.name),
                     found: format!("{:?}", angles.unwrap_or_default()),
                 }));
             }
@@ -589,7 +589,7 @@ impl WrittenPlace {
         });
         Ok(Place {
             region: OrientedBox::of_file(
-                &format!("place \"{name}\""),
+                &format!("[[place]] {name}"),
                 centre_mm,
                 size_mm,
                 angles_deg,

@@ -322,12 +322,12 @@ impl Orders {
         &self.path
     }
 
-    /// The parts that should hang there, in this rack, for an order and a serial number: those of the row with both; else those of the
+    /// The parts that should hang there, in this rack or wherever they hang, for an order and a serial number: those of the row with both; else those of the
     /// order's row without a serial number. Without an order, those of the one row with the serial number.
     pub fn expected(
         &self,
         trace: &Traceability,
-        rack: &Rack,
+        rack: Option<&Rack>,
         is_enrolled: impl Fn(&str) -> bool,
     ) -> Result<Expected, OrderError> {
         let Row { line, parts } = self.row(trace.order.trim(), trace.serial.trim())?;

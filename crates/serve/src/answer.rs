@@ -52,6 +52,13 @@ pub struct ExpectedNumber {
     pub place: u32,
 }
 
+impl ExpectedNumber {
+    /// True if it says anything: messages of fixed length end with zeros.
+    pub fn is_given(self) -> bool {
+        self.part > 0 || self.place > 0
+    }
+}
+
 /// The parts that are expected in a frame.
 pub type ExpectedNumbers = [ExpectedNumber; MAX_PARTS];
 

@@ -94,14 +94,14 @@ pub struct Session {
 }
 
 impl Session {
-    /// The recipe for results that are shown, before this rack, in which these parts are expected.
+    /// The recipe for results that are shown, before this rack, in which these parts are expected. While the rack is edited, any
+    /// part may hang there.
     pub(crate) fn recipe_to_show(&self, rack: &Rack, expected: Expected) -> Arc<NamedRecipe> {
-        let recipe = self.recipe_in_rack(rack, expected);
         if self.is_rack_edited {
-            Arc::new(recipe.finding_all())
-        } else {
-            recipe
+            let recipe = self.recipe_in_rack(rack, Expected::default());
+            return Arc::new(recipe.finding_all());
         }
+        self.recipe_in_rack(rack, expected)
     }
 
     /// The recipe in use, before this rack, in which these parts are expected.

@@ -117,7 +117,7 @@ impl PartFinder {
         rack: &Rack,
         library: &Library,
     ) -> Result<Expected, NoFrame> {
-        let numbers = numbers.iter().filter(|one| one.part > 0);
+        let numbers = numbers.iter().filter(|one| one.is_given());
         let parts = numbers.map(
             |&ExpectedNumber {
                  part: number,
@@ -135,7 +135,7 @@ impl PartFinder {
             },
         );
         let parts = parts.collect::<Result<_, NoFrame>>()?;
-        Ok(Expected::new(parts, rack, |_| true)?)
+        Ok(Expected::new(parts, Some(rack), |_| true)?)
     }
 
     /// The result for a part that is expected, and does not hang there.

@@ -22,7 +22,8 @@ pub(super) fn inspect(args: &InspectArgs, console: &mut Console) -> anyhow::Resu
     let trace = args.trace.of_parts(Some(1))?;
     let database = args.history_to.chosen(console)?;
     let load = (args.library).load_some(&recipe.reference_params(), console)?;
-    let recipe = recipe.expecting((args.expect).of(&load.library, &recipe.rack, &trace)?);
+    let expected = (args.expect).of(&load.library, None, &trace)?;
+    let recipe = recipe.expecting(expected);
     let (scan, captured_at) = open_scan(&args.scan, &args.poses, &recipe.segment, console)?;
     require_two_to_show_part(&scan).advised()?;
     let recording = (!args.no_history)

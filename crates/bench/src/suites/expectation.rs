@@ -107,7 +107,7 @@ impl ExpectationFigures {
         }
         let mut recipe = recipe.clone();
         let parts = names.iter().map(|name| name.as_str().into());
-        let expected = Expected::new(parts.collect(), &recipe.rack, |_| true);
+        let expected = Expected::new(parts.collect(), Some(&recipe.rack), |_| true);
         recipe.expected = expected.expect("up to 6 parts");
         let scene = scene_from_frame(&shot.frame);
         let found = on_one_core(|| run_all(&scene, library, &recipe, &Unwatched));

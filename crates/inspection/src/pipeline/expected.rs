@@ -129,33 +129,40 @@ impl Described for ExpectedError {
 texts::display!(ExpectedError);
 
 impl Expected {
-    /// Expects these enrolled parts, up to [`MAX_PARTS`], and up to one at each place of the rack.
+    /// Expects these enrolled parts, up to [`MAX_PARTS`], and up to one at each place of the rack; without one, as for a scan,
+    /// wherever they hang.
     pub fn new(
-        parts: Vec<ExpectedPart>,
-        rack: &Rack,
+        mut parts: Vec<ExpectedPart>,
+        rack: Option<&Rack>,
         is_enrolled: impl Fn(&str) -> bool,
     ) -> Result<Self, ExpectedError> {
         let found = parts.len();
         if found > MAX_PARTS {
             return Err(ExpectedError::TooMany { found });
         }
-        for (index, ExpectedPart { name, place }) in parts.iter().enumerate() {
-            if !is_enrolled(name) {
-                return Err(ExpectedError::NotEnrolled { name: name.clone() });
-            }
-            let Some(place) = place else { continue };
-            let known: Vec<&str> = rack.places.iter().map(|place| &*place.name).collect();
-            if !known.contains(&&**place) {
+        if let Some(part) = parts.iter().find(|part| !is_enrolled(&part.name)) {
+            let name = part.name.clone();
+            return Err(ExpectedError::NotEnrolled { name });
+        }
+        let Some(rack) = rack else {
+            return Ok(Self(parts).anywhere());
+        };
+        let mut taken: Vec<&str> = Vec::new();
+        for place in parts.iter_mut().filter_map(|part| part.place.as_mut()) {
+            let mut places = rack.places.iter().map(|place| &*place.name);
+            let Some(known) = places.find(|name| name.trim() == place.trim()) else {
+                let known: Vec<&str> = rack.places.iter().map(|place| &*place.name).collect();
                 return Err(ExpectedError::NoSuchPlace {
                     place: place.clone(),
                     known: known.join(", "),
                 });
-            }
-            let mut others = parts[..index].iter();
-            if others.any(|other| other.place.as_ref() == Some(place)) {
-                let place = place.clone();
+            };
+            if taken.contains(&known) {
+                let place = known.to_owned();
                 return Err(ExpectedError::PlaceTwice { place });
             }
+            taken.push(known);
+            known.clone_into(place);
         }
         Ok(Self(parts))
     }
@@ -272,23 +279,23 @@ impl Expected {
     fn matched(&self, found: &[&Inspection]) -> (Vec<&ExpectedPart>, Vec<usize>) {
         let mut left: Vec<&ExpectedPart> = self.0.iter().collect();
         let mut surplus = Vec::new();
-        for is_accepted in [true, false] {
+        // What hangs where it may comes before what hangs elsewhere and takes the same name.
+        for order in [(true, false), (false, false), (false, true)] {
             for (index, one) in found.iter().enumerate() {
                 let verdict = &one.verdict;
-                if verdict.is_accepted() != is_accepted {
+                let (is_accepted, is_misplaced) = (verdict.is_accepted(), is_misplaced(verdict));
+                if (is_accepted, is_misplaced) != order {
                     continue;
                 }
-                let is_misplaced = matches!(
-                    verdict.rejected(),
-                    Some(
-                        Rejection::ExpectedElsewhere { .. }
-                            | Rejection::WrongPlace { .. }
-                            | Rejection::BesidePlaces { .. }
-                    )
-                );
                 let place = one.place.as_deref();
                 let is_it = |name: &str, part: &ExpectedPart| {
-                    part.name == name && (is_misplaced || self.is_for(part, place))
+                    let is_here = match verdict.rejected() {
+                        Some(Rejection::ExpectedElsewhere { expected_at, .. }) => {
+                            part.place.as_ref() == Some(expected_at)
+                        }
+                        _ => is_misplaced || self.is_for(part, place),
+                    };
+                    part.name == name && is_here
                 };
                 let taken =
                     name_of(verdict).and_then(|name| take(&mut left, |part| is_it(name, part)));
@@ -313,6 +320,18 @@ impl Expected {
             None => part.place.is_none(),
         }
     }
+}
+
+/// True if the part is refused because of where it hangs.
+fn is_misplaced(verdict: &Verdict) -> bool {
+    matches!(
+        verdict.rejected(),
+        Some(
+            Rejection::ExpectedElsewhere { .. }
+                | Rejection::WrongPlace { .. }
+                | Rejection::BesidePlaces { .. }
+        )
+    )
 }
 
 /// The name of a part that is not unknown.
@@ -598,6 +617,17 @@ mod tests {
     }
 
     #[test]
+    fn a_part_that_hangs_elsewhere_takes_no_place_from_one_that_is_refused_at_its_own() {
+        assert_judged([(
+            &["l=fender", "r=fender"][..],
+            vec![hung("m=fender", accepted), hung("l=fender", refused)],
+            &["to r", "refused"][..],
+            &[][..],
+            false,
+        )]);
+    }
+
+    #[test]
     fn what_the_rack_refuses_at_another_place_is_not_missing() {
         let part = || "fender".to_owned();
         let rejected = Rejection::WrongPlace {
@@ -623,14 +653,19 @@ mod tests {
             parts: Vec::new(),
         };
         let rack = Rack {
-            places: vec![place("left hook"), place("a=b")],
+            places: vec![place("left hook"), place("a=b"), place("r ")],
             ..Rack::default()
         };
+        let of_scan = Expected::new(vec!["hook=fender".into()], None, |_| true);
+        let of_scan = of_scan.expect("a scan has no places");
+        assert_eq!(of_scan.parts(), ["fender".into()]);
         let expected = |texts: &[&str], rack: &Rack| {
             let parts = texts.iter().map(|&text| text.into()).collect();
-            Expected::new(parts, rack, |name| name == "fender")
+            Expected::new(parts, Some(rack), |name| name == "fender")
                 .map_err(|error| format!("{error}: {}", error.advice()))
         };
+        let blank = expected(&["r=fender"], &rack).expect("a place of the rack");
+        assert_eq!(blank.parts()[0].place.as_deref(), Some("r "));
         let good = expected(&["left hook = fender", "a=b=fender", "fender"], &rack);
         let good = good.expect("places of the rack");
         let json = serde_json::to_value(&good).expect("JSON");
@@ -650,7 +685,7 @@ mod tests {
             (
                 &["hook=fender"][..],
                 &rack,
-                "Give a place of the rack: left hook, a=b",
+                "Give a place of the rack: left hook, a=b, r",
             ),
             (&["left hook=fender"], Rack::ANYWHERE, "--rack"),
             (

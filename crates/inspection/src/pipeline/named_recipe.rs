@@ -109,7 +109,10 @@ impl NamedRecipe {
     #[must_use]
     pub fn finding_all(&self) -> Self {
         let mut recipe = self.clone();
-        Arc::make_mut(&mut recipe.parameters).segment.max_parts = MAX_PARTS;
+        if recipe.segment.max_parts < MAX_PARTS {
+            Arc::make_mut(&mut recipe.parameters).segment.max_parts = MAX_PARTS;
+            recipe.label.is_changed = true;
+        }
         recipe
     }
 

@@ -20,7 +20,7 @@ fn expected(orders: &Orders, order: &str, serial: &str) -> Result<Vec<String>, S
         ..Traceability::default()
     };
     let library = shipped_library();
-    let found = orders.expected(&trace, Rack::ANYWHERE, |name| library.has_part(name));
+    let found = orders.expected(&trace, Some(Rack::ANYWHERE), |name| library.has_part(name));
     let found = found.map(|expected| {
         let parts = expected.parts().iter();
         parts.map(ToString::to_string).collect()
@@ -79,7 +79,7 @@ fn a_part_of_an_order_may_have_a_place_of_the_rack() {
             order: order.into(),
             ..Traceability::default()
         };
-        let expected = orders.expected(&trace, rack, |_| true);
+        let expected = orders.expected(&trace, Some(rack), |_| true);
         expected.map_err(|error| format!("{error}: {}", error.advice()))
     };
     let of_order = expected("4711", &rack).expect("of the rack");

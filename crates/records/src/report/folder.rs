@@ -121,16 +121,21 @@ impl ReportFolder {
     }
 
     fn picture(&self, stem: &str, picture: &Picture) -> PathBuf {
-        let part = picture.part.map(|number| format!("{number}."));
-        let (part, stage) = (part.unwrap_or_default(), picture.stage);
-        self.path.join(format!("{stem}.{part}{stage}.png"))
+        let (stem, stage) = (stem_of_part(stem, picture), picture.stage);
+        self.path.join(format!("{stem}.{stage}.png"))
     }
 
     fn free_stem(&mut self, scene: &Path, pictures: &[&Picture]) -> String {
-        let is_free =
-            |stem: &String| !self.holds_capture(stem, pictures) && !self.taken.contains(stem);
+        // Those of its parts, too: another scene may be called as they are.
+        let stems = |stem: &str| -> BTreeSet<String> {
+            let of_parts = pictures.iter().map(|picture| stem_of_part(stem, picture));
+            of_parts.chain([stem.to_owned()]).collect()
+        };
+        let is_free = |stem: &String| {
+            !self.holds_capture(stem, pictures) && self.taken.is_disjoint(&stems(stem))
+        };
         let stem = counted(scene).find(is_free).unwrap_or_default();
-        self.taken.insert(stem.clone());
+        self.taken.extend(stems(&stem));
         stem
     }
 
@@ -143,10 +148,48 @@ impl ReportFolder {
     }
 }
 
+/// Returns the stem of the pictures of a part.
+fn stem_of_part(stem: &str, picture: &Picture) -> String {
+    match picture.part {
+        None => stem.to_owned(),
+        Some(number) => format!("{stem}.{number}"),
+    }
+}
+
 /// Returns the stem of a scene's file, then the stem followed by -2, -3 and so on.
 fn counted(scene: &Path) -> impl Iterator<Item = String> {
     let stem = scene.file_stem().unwrap_or(scene.as_os_str());
     let stem = stem.to_string_lossy().into_owned();
     let numbered = stem.clone();
     std::iter::once(stem).chain((2..).map(move |number| format!("{numbered}-{number}")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use image::RgbImage;
+
+    #[test]
+    fn pictures_of_a_frames_parts_and_of_another_scene_never_share_a_name() {
+        for scenes in [["rack", "rack.2"], ["rack.2", "rack"]] {
+            let folder = tempfile::tempdir().expect("a folder");
+            let mut out = ReportFolder::make(folder.path()).expect("made");
+            let mut num = 0;
+            for scene in scenes {
+                let of_rack = [None, Some(2)].map(|part| Picture {
+                    part,
+                    stage: "contour",
+                    image: RgbImage::new(1, 1),
+                });
+                let pictures = &of_rack[..if scene == "rack" { 2 } else { 1 }];
+                let file = format!("{scene}.png");
+                out.write(Path::new(&file), "{}", pictures)
+                    .expect("written");
+                // One of the stage, and one of all stages.
+                num += 1 + 2 * pictures.len();
+            }
+            let written = folder.path().read_dir().expect("a folder").count();
+            assert_eq!(written, num, "{scenes:?}");
+        }
+    }
 }

@@ -190,12 +190,13 @@ pub fn update(state: &mut State) {
 /// Carries out an action on the rack.
 pub fn apply(state: &mut State, action: RackAction) -> Option<Effect> {
     if let RackAction::Toggle = action {
-        state.session.is_rack_edited = state.rack_editor.is_none();
-        state.rack_editor = match state.rack_editor.take() {
-            Some(_) => None,
-            None => Some(RackEditor::of(&state.session)),
-        };
-        inspect_present(state);
+        if state.rack_editor.is_some() {
+            close(state);
+        } else {
+            state.rack_editor = Some(RackEditor::of(&state.session));
+            state.session.is_rack_edited = true;
+            inspect_present(state);
+        }
         return None;
     }
     if let RackAction::Open(path) = action {
@@ -278,6 +279,14 @@ pub fn apply(state: &mut State, action: RackAction) -> Option<Effect> {
     state.rack_editor = Some(editor);
     state.session.is_rack_edited = true;
     None
+}
+
+/// Closes the window of the rack, if it is open.
+pub(crate) fn close(state: &mut State) {
+    if state.rack_editor.take().is_some() {
+        state.session.is_rack_edited = false;
+        inspect_present(state);
+    }
 }
 
 /// The parts of the frame in front of which a place can be made, and that have none.

@@ -25,7 +25,7 @@ use super::{
     session::WorkspaceKind,
     state::State,
 };
-use crate::{apply::apply as apply_any, source::live, state::notify};
+use crate::{apply::apply as apply_any, rack, source::live, state::notify};
 use ui::language::text;
 
 /// Returns the action, unless it needs the engineer's view, which is then asked for first.
@@ -86,6 +86,7 @@ pub fn apply(state: &mut State, action: RoleAction) -> Option<Effect> {
 fn switch_to_operator(state: &mut State) {
     state.session.role = UserRole::Operator;
     state.roles.asked = None;
+    rack::close(state);
     // The others are about the engineer's work.
     let is_everyones = |notice: &Notice| notice.topic == NoticeTopic::SecondWindow;
     state.notices.retain(is_everyones);

@@ -65,6 +65,8 @@ fn column(ui: &mut Ui, height: f32, name: &str, content: impl FnOnce(&mut Ui)) {
         ScrollArea::vertical()
             .id_salt(name)
             .max_height(height)
+            // The bar stands at the end of the column, however short its entries are.
+            .auto_shrink([false, true])
             .show(ui, content);
     });
 }

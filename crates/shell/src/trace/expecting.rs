@@ -1,7 +1,7 @@
 //! What should hang before the camera: parts that the user chose, or those of an order.
 //!
 //! With a table of orders, the order and the serial number that are entered say what to expect of the next part. While that is
-//! not known, or the table is not read yet, nothing is captured. A part keeps what was expected of it; if its order or serial number turns out to be another
+//! not known, or a table that was chosen is not read yet, nothing is captured. A part keeps what was expected of it; if its order or serial number turns out to be another
 //! one, no robot may act on it. The table is read again once it changes.
 
 use std::{
@@ -26,9 +26,9 @@ use inspection::{
 };
 use records::{
     history::Traceability,
-    orders::{OrderError, Orders},
+    orders::{OrderError, Orders, OrdersError},
 };
-use stages::{rack::Rack, segment::MAX_PARTS};
+use stages::segment::MAX_PARTS;
 use station::Doubt;
 use ui::{
     language::{text, what_and_advice},
@@ -56,7 +56,7 @@ struct OrderTable {
 }
 
 /// The table, or why it cannot be read.
-type TableContent = Result<Arc<Orders>, UserError>;
+type TableContent = Result<Arc<Orders>, Arc<OrdersError>>;
 
 /// An action on what is expected.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -68,10 +68,14 @@ pub enum ExpectAction {
 }
 
 impl Expecting {
-    /// Starts with the table of orders in this file.
+    /// Starts with the table of orders in this file, which is read at once: what starts with the program waits for nothing.
     pub fn starting(path: Option<PathBuf>) -> Self {
+        let read = |path: PathBuf| OrderTable {
+            content: Some(read(&path)),
+            path,
+        };
         Self {
-            orders: path.map(OrderTable::unread),
+            orders: path.map(read),
             ..Self::default()
         }
     }
@@ -94,20 +98,29 @@ impl OrderTable {
     }
 }
 
+/// True if two readings of a table say the same.
+fn is_same(one: &TableContent, other: &TableContent) -> bool {
+    match (one, other) {
+        (Ok(one), Ok(other)) => one == other,
+        (Err(one), Err(other)) => one.to_string() == other.to_string(),
+        _ => false,
+    }
+}
+
 fn read(path: &Path) -> TableContent {
-    let read = Orders::read(path).map(Arc::new);
-    read.map_err(|error| {
-        let [what, advice] = what_and_advice(&error);
-        let what = text!("expect-table-unusable", error = what);
-        UserError { what, advice }
-    })
+    Orders::read(path).map(Arc::new).map_err(Arc::new)
 }
 
 /// Why it is not known what should hang there.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub enum NotKnown {
+    /// The table is not read yet.
+    Unread {
+        /// Name of its file.
+        file: String,
+    },
     /// The table cannot be read.
-    Table(UserError),
+    Table(Arc<OrdersError>),
     /// The table does not say it.
     Order(OrderError),
 }
@@ -116,7 +129,11 @@ impl NotKnown {
     /// For a robot, whose programmer reads it.
     pub(crate) fn in_english(&self) -> UserError {
         match self {
-            Self::Table(error) => error.clone(),
+            Self::Unread { file } => UserError {
+                what: format!("the table of orders, {file}, is being read"),
+                advice: "Send the trigger again in a second".into(),
+            },
+            Self::Table(error) => UserError::of(&**error),
             Self::Order(error) => UserError::of(error),
         }
     }
@@ -124,7 +141,16 @@ impl NotKnown {
     /// For the user.
     pub(crate) fn in_words(&self) -> UserError {
         let error = match self {
-            Self::Table(error) => return error.clone(),
+            Self::Unread { file } => {
+                let what = text!("expect-reading", file = file);
+                let advice = text!("expect-reading-wait");
+                return UserError { what, advice };
+            }
+            Self::Table(error) => {
+                let [what, advice] = what_and_advice(&**error);
+                let what = text!("expect-table-unusable", error = what);
+                return UserError { what, advice };
+            }
             Self::Order(error) => error,
         };
         let [what, advice] = match error {
@@ -182,17 +208,17 @@ impl Session {
         let Some(table) = &expecting.orders else {
             let chosen = expecting.chosen.iter().filter(|name| is_enrolled(name));
             let chosen = chosen.map(|name| name.as_str().into()).collect();
-            let expected = Expected::new(chosen, Rack::ANYWHERE, |_| true);
+            let expected = Expected::new(chosen, None, |_| true);
             return Ok(expected.expect("the menu offers no more"));
         };
-        let unread = || {
-            let what = text!("expect-reading", file = file_name(&table.path));
-            let advice = text!("expect-reading-wait");
-            NotKnown::Table(UserError { what, advice })
+        let unread = || NotKnown::Unread {
+            file: file_name(&table.path),
         };
         let content = table.content.as_ref().ok_or_else(unread)?;
-        let orders = content.as_ref().map_err(|e| NotKnown::Table(e.clone()))?;
-        let expected = orders.expected(trace, self.rack.in_camera(), is_enrolled);
+        let orders = content
+            .as_ref()
+            .map_err(|e| NotKnown::Table(Arc::clone(e)))?;
+        let expected = orders.expected(trace, Some(self.rack.in_camera()), is_enrolled);
         expected.map_err(NotKnown::Order)
     }
 
@@ -256,7 +282,11 @@ impl Session {
         let is_latest = frame.iter().any(|one| ptr::eq(Arc::as_ptr(one), part));
         let beside = frame.iter().filter(|_| is_latest);
         let trace = self.with_serial_of(beside, self.trace.of_part(part));
-        self.expected_of(&trace) != Ok(part.recipe.expected.clone())
+        let expected = self.expected_of(&trace).map(|expected| match part.scan {
+            Some(_) => expected.anywhere(),
+            None => expected,
+        });
+        !expected.is_ok_and(|expected| expected == part.recipe.expected)
     }
 
     /// Titles of these parts, each once, with their places or their numbers.
@@ -358,7 +388,10 @@ pub fn update(state: &mut State) {
         let told = match &content {
             Ok(_) if table.content.is_none() => Some(Notice::done(used)),
             Ok(_) => None,
-            Err(error) => Some(Notice::from(error.clone()).about(NoticeTopic::Orders)),
+            Err(error) => {
+                let error = NotKnown::Table(Arc::clone(error)).in_words();
+                Some(Notice::from(error).about(NoticeTopic::Orders))
+            }
         };
         table.content = Some(content);
         if let Some(told) = told {
@@ -435,7 +468,7 @@ fn watch(
             |(_, changed): &(u64, SystemTime)| changed.elapsed().is_ok_and(|age| age > SETTLED);
         if now != before || !now.as_ref().is_some_and(is_settled) {
             let content = read(path);
-            if known.as_ref() != Some(&content) {
+            if !known.as_ref().is_some_and(|known| is_same(known, &content)) {
                 known = Some(content.clone());
                 context.latest(content);
             }
@@ -458,6 +491,23 @@ mod tests {
     use records::history::HungId;
 
     #[test]
+    fn the_program_starts_with_the_table_of_last_time() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("orders.csv");
+        std::fs::write(&path, "order;parts\n4711;fender\n").expect("written");
+        let mut session = State::default().session;
+        for (path, is_read) in [(path.clone(), true), (path.with_extension("txt"), false)] {
+            session.expecting = Expecting::starting(Some(path));
+            let known = session.expected_of(&Traceability {
+                order: "4711".into(),
+                ..Traceability::default()
+            });
+            assert_eq!(known.is_ok(), is_read, "{known:?}");
+            assert!(!matches!(known, Err(NotKnown::Unread { .. })));
+        }
+    }
+
+    #[test]
     fn the_serial_number_that_a_part_took_counts_for_its_whole_frame() {
         let path = Path::new("orders.csv");
         let rows = "order;serial;parts\n4711;;fender|fender\n4711;S-1;fender|grille\n";
@@ -473,7 +523,7 @@ mod tests {
         };
         session.trace = crate::trace::current_trace::CurrentTrace::starting(trace(""));
         let of_number = session.expected_of(&trace("S-1")).expect("in the table");
-        assert_ne!(session.expected(), Ok(of_number.clone()));
+        assert_ne!(session.expected().ok().as_ref(), Some(&of_number));
         let part = |number, serial| {
             let mut part = inspected_cell(CellChoice::InTurn, number);
             part.recipe = Arc::new(part.recipe.expecting(of_number.clone()));
@@ -483,8 +533,8 @@ mod tests {
         let parts = vec![part(1, ""), part(2, "S-1")];
         for selected in [0, 1] {
             session.shown = Some(Shown::of_parts(1, parts.clone(), selected));
-            assert_eq!(session.expected_now(), Ok(of_number.clone()));
-            assert_eq!(session.expected_by_live(), Ok(of_number.clone()));
+            assert_eq!(session.expected_now().ok().as_ref(), Some(&of_number));
+            assert_eq!(session.expected_by_live().ok().as_ref(), Some(&of_number));
             for part in &parts {
                 assert!(!session.is_of_other_order(part));
             }
@@ -492,6 +542,6 @@ mod tests {
         // By itself it has no number.
         session.shown = Some(Shown::new(2, Arc::clone(&parts[0])));
         assert!(session.is_of_other_order(&parts[0]));
-        assert_eq!(session.expected_now(), session.expected());
+        assert_eq!(session.expected_now().ok(), session.expected().ok());
     }
 }

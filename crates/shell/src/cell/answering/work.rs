@@ -294,7 +294,7 @@ impl Inspector for AnsweringSession<'_> {
             answer: Answer::default(),
         });
         let inputs = self.follow();
-        let is_told = asked.expected.iter().any(|one| one.part > 0);
+        let is_told = asked.expected.iter().any(|one| one.is_given());
         let expected = match &inputs.expected {
             Err(why) if !is_told => {
                 let UserError { what, advice } = why.in_english();
