@@ -5,8 +5,8 @@ use std::sync::Arc;
 use egui::{
     Align, Align2, Area, Button, Color32, ColorImage, ComboBox, Context, Event, FontId, Frame,
     Galley, Id, Key, Label, Layout, Margin, Modal, ModalResponse, Painter, Pos2, Rect, Response,
-    RichText, ScrollArea, Sense, Stroke, StrokeKind, TextEdit, TextStyle, TextureHandle,
-    TextureOptions, Ui, Vec2, WidgetInfo, pos2,
+    RichText, ScrollArea, Sense, Stroke, StrokeKind, TextEdit, TextStyle, TextWrapMode,
+    TextureHandle, TextureOptions, Ui, Vec2, WidgetInfo, pos2,
     style::{ScrollStyle, StyleModifier},
     text::LayoutJob,
     vec2,
@@ -207,6 +207,14 @@ pub fn focus_ring(ui: &Ui, rect: Rect, response: &egui::Response) {
 /// Draws a button.
 pub fn text_button(ui: &mut Ui, text: &str) -> egui::Response {
     labelled(ui, Button::new(text), text)
+}
+
+/// Draws a button that can only be pressed if `can`. In a wrapped row it moves to the next line before its text breaks.
+pub fn button_if(ui: &mut Ui, can: bool, text: &str) -> egui::Response {
+    let button = Button::new(text).wrap_mode(TextWrapMode::Extend);
+    let response = ui.add_enabled(can, button.min_size(Vec2::splat(space::TARGET)));
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, can, text));
+    response
 }
 
 /// Draws a button whose accessible name is `label` alone, whatever shortcut it shows.

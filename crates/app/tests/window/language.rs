@@ -17,6 +17,7 @@ use records::history::{Retention, StoredVerdict};
 use shell::{
     action::{Action, Effect},
     cell::{CheckAction, RobotAction, RobotPage},
+    rack::RackAction,
     roles::RoleAction,
     session::WorkspaceKind,
     source::live::{LiveAction, SourceState},
@@ -180,6 +181,7 @@ struct Drawn {
     /// The visible region.
     clip: Rect,
     is_elided: bool,
+    is_word_broken: bool,
 }
 
 /// A text that does not fit, and how.
@@ -199,6 +201,7 @@ fn texts(harness: &WindowHarness) -> Vec<Drawn> {
                 lines: lines_of(text),
                 clip,
                 is_elided: text.galley.elided,
+                is_word_broken: breaks_a_word(text),
             }),
             Shape::Vec(shapes) => shapes.iter().for_each(|shape| collect(shape, clip, found)),
             _ => {}
@@ -228,6 +231,15 @@ fn lines_of(text: &TextShape) -> Vec<Rect> {
         .collect()
 }
 
+/// True if a line ends within a word of an alphabet.
+fn breaks_a_word(text: &TextShape) -> bool {
+    let lines: Vec<String> = text.galley.rows.iter().map(|row| row.text()).collect();
+    let is_letter =
+        |letter: Option<char>| letter.is_some_and(|c| c.is_alphabetic() && c < '\u{2e80}');
+    let mut pairs = lines.windows(2);
+    pairs.any(|pair| is_letter(pair[0].chars().last()) && is_letter(pair[1].chars().next()))
+}
+
 /// Bounds of the controls in the top bar that overlap one another.
 fn overlapping_controls(harness: &WindowHarness) -> Vec<Rect> {
     let buttons = harness.query_all_by_role(egui::Role::Button);
@@ -241,7 +253,7 @@ fn overlapping_controls(harness: &WindowHarness) -> Vec<Rect> {
         .collect()
 }
 
-/// Texts that end in an ellipsis, are cut off at a side, or overlap each other.
+/// Texts that end in an ellipsis, break within a word, are cut off at a side, or overlap each other.
 fn misfits(harness: &WindowHarness) -> Vec<Misfit> {
     let texts = texts(harness);
     let mut found = Vec::new();
@@ -259,6 +271,9 @@ fn misfits(harness: &WindowHarness) -> Vec<Misfit> {
         };
         if drawn.is_elided {
             report("ends in an ellipsis");
+        }
+        if drawn.is_word_broken {
+            report("breaks within a word");
         }
         let seen = clip.intersect(window);
         if rect.left() < seen.left() - 2.0 || rect.right() > seen.right() + 2.0 {
@@ -309,10 +324,11 @@ enum Scenery {
     Cell,
     Source,
     Library,
+    Rack,
 }
 
 /// In this order in one window: a draft and Live change what the others show.
-const SCENERIES: [Scenery; 14] = [
+const SCENERIES: [Scenery; 15] = [
     Scenery::Workspace(WorkspaceKind::Enrol),
     Scenery::Workspace(WorkspaceKind::Compare),
     Scenery::Workspace(WorkspaceKind::Align),
@@ -325,6 +341,7 @@ const SCENERIES: [Scenery; 14] = [
     Scenery::Cell,
     Scenery::Source,
     Scenery::Library,
+    Scenery::Rack,
     Scenery::Draft,
     Scenery::Live,
 ];
@@ -361,6 +378,7 @@ fn arrange(harness: &mut WindowHarness, scenery: Scenery) {
         }
         Scenery::Source => menu(harness, 0),
         Scenery::Library => menu(harness, 1),
+        Scenery::Rack => act(harness, Action::Rack(RackAction::Toggle)),
     }
 }
 
@@ -373,7 +391,7 @@ fn leave(harness: &mut WindowHarness, scenery: Scenery) {
             harness.key_press(egui::Key::Enter);
             settle(harness);
         }
-        Scenery::Help | Scenery::Robot => arrange(harness, scenery),
+        Scenery::Help | Scenery::Robot | Scenery::Rack => arrange(harness, scenery),
         Scenery::Cell => act(harness, Action::Live(LiveAction::SetUp(None))),
         Scenery::Source | Scenery::Library => {
             harness.key_press(egui::Key::Escape);

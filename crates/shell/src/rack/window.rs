@@ -19,7 +19,7 @@ use stages::segment::MAX_PARTS;
 use ui::{
     language::text,
     theme::{Theme, space},
-    widgets::text_button,
+    widgets::{button_if, text_button},
 };
 
 /// Width of the window, logical pixels.
@@ -123,21 +123,15 @@ fn top(
             caused.push(Action::Ask(DialogRequest::Rack));
         }
         let can_save = !file.rack.is_empty() && editor.problem.is_none();
-        ui.add_enabled_ui(can_save, |ui| {
-            if text_button(ui, &text!("rack-save")).clicked() {
-                caused.push(Action::Ask(DialogRequest::SaveRack));
-            }
-        });
-        ui.add_enabled_ui(!editor.past.is_empty(), |ui| {
-            if text_button(ui, &text!("rack-undo")).clicked() {
-                caused.push(Action::Rack(RackAction::Undo));
-            }
-        });
-        ui.add_enabled_ui(!file.rack.is_empty(), |ui| {
-            if text_button(ui, &text!("rack-clear")).clicked() {
-                *file = RackFile::default();
-            }
-        });
+        if button_if(ui, can_save, &text!("rack-save")).clicked() {
+            caused.push(Action::Ask(DialogRequest::SaveRack));
+        }
+        if button_if(ui, !editor.past.is_empty(), &text!("rack-undo")).clicked() {
+            caused.push(Action::Rack(RackAction::Undo));
+        }
+        if button_if(ui, !file.rack.is_empty(), &text!("rack-clear")).clicked() {
+            *file = RackFile::default();
+        }
     });
 }
 
@@ -161,12 +155,10 @@ fn volume(ui: &mut Ui, state: &State, file: &mut RackFile, caused: &mut Vec<Acti
         file.rack.volume.remove(index);
     }
     let has_part = has_part(state) && file.rack.volume.len() < MAX_BOXES;
-    ui.add_enabled_ui(has_part, |ui| {
-        let add = text_button(ui, &text!("rack-add-box"));
-        if add.on_disabled_hover_text(text!("rack-no-part")).clicked() {
-            caused.push(Action::Rack(RackAction::TakeVolume));
-        }
-    });
+    let add = button_if(ui, has_part, &text!("rack-add-box"));
+    if add.on_disabled_hover_text(text!("rack-no-part")).clicked() {
+        caused.push(Action::Rack(RackAction::TakeVolume));
+    }
 }
 
 /// True if a part is in front of which a place or a box can be made.
@@ -192,14 +184,12 @@ fn places(ui: &mut Ui, state: &State, file: &mut RackFile, caused: &mut Vec<Acti
             .show(ui, |ui| {
                 place_ui(ui, place);
                 ui.horizontal_wrapped(|ui| {
-                    ui.add_enabled_ui(has_part, |ui| {
-                        let take = text_button(ui, &text!("rack-take-place"));
-                        let take = take.on_hover_text(text!("rack-take-place-says"));
-                        if take.on_disabled_hover_text(text!("rack-no-part")).clicked() {
-                            let name = place.name.clone();
-                            caused.push(Action::Rack(RackAction::TakePlace(name)));
-                        }
-                    });
+                    let take = button_if(ui, has_part, &text!("rack-take-place"));
+                    let take = take.on_hover_text(text!("rack-take-place-says"));
+                    if take.on_disabled_hover_text(text!("rack-no-part")).clicked() {
+                        let name = place.name.clone();
+                        caused.push(Action::Rack(RackAction::TakePlace(name)));
+                    }
                     if text_button(ui, &text!("rack-remove")).clicked() {
                         removed = Some(index);
                     }
@@ -209,13 +199,12 @@ fn places(ui: &mut Ui, state: &State, file: &mut RackFile, caused: &mut Vec<Acti
     if let Some(index) = removed {
         file.rack.places.remove(index);
     }
-    ui.add_enabled_ui(has_part && file.rack.places.len() < MAX_PARTS, |ui| {
-        let add = text_button(ui, &text!("rack-add-place"));
-        if add.on_disabled_hover_text(text!("rack-no-part")).clicked() {
-            let name = file.new_place_name();
-            caused.push(Action::Rack(RackAction::TakePlace(name)));
-        }
-    });
+    let can_add = has_part && file.rack.places.len() < MAX_PARTS;
+    let add = button_if(ui, can_add, &text!("rack-add-place"));
+    if add.on_disabled_hover_text(text!("rack-no-part")).clicked() {
+        let name = file.new_place_name();
+        caused.push(Action::Rack(RackAction::TakePlace(name)));
+    }
     let num_new = parts_without_place(&state.session).count();
     let num_free = MAX_PARTS.saturating_sub(file.rack.places.len());
     if (2..=num_free).contains(&num_new) && text_button(ui, &text!("rack-add-places")).clicked() {
