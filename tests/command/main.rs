@@ -11,6 +11,8 @@ mod errors_and_help;
 mod evaluate;
 mod examples;
 mod fuzz_targets;
+#[cfg(target_os = "linux")]
+mod genicam;
 mod history;
 mod inspect;
 mod kill;

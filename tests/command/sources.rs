@@ -377,7 +377,7 @@ fn a_cameras_files_are_listed_only_if_its_library_is_there() {
     // With the library a file can be played, even if no camera is plugged in.
     let library = place.path("stub.so");
     if let Err(why) = compile_c(
-        "crates/inspection/tests/cameras/realsense/camera.c",
+        "crates/inspection/tests/pipeline/realsense/camera.c",
         &library,
         &SHARED,
     ) {

@@ -10,6 +10,8 @@ use std::{
     time::Duration,
 };
 
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+
 use crate::data_folder;
 
 /// Address space of the process, in KiB.
@@ -166,7 +168,11 @@ fn small_files_that_unpack_to_gigabytes_are_refused() {
     let at = |name: &str| folder.path().join(name);
     packed_zeros(&at("points.pcd"), 49_000_000, 1);
     packed_zeros(&at("fields.pcd"), 4_000_000, 1000);
-    let png = image::codecs::png::PngEncoder::new(fs::File::create(at("line.png")).expect("made"));
+    let png = PngEncoder::new_with_quality(
+        fs::File::create(at("line.png")).expect("made"),
+        CompressionType::Fast,
+        FilterType::NoFilter,
+    );
     let pixels = vec![0_u8; 100_000_000];
     image::ImageEncoder::write_image(png, &pixels, 1, 50_000_000, image::ExtendedColorType::L16)
         .expect("written");

@@ -5,12 +5,36 @@ use std::{env, ffi::OsString, path::Path, process::Command, time::Instant};
 use geometry::fixtures::small_frame;
 use jiff::{SignedDuration, Timestamp};
 
-use crate::{Captured, Image};
+use crate::{
+    CameraError, CameraLibrary, CaptureError, Captured, Image, SourceListing, SourceSpec, list,
+};
 
 /// The time this many seconds after a fixed one.
 pub fn moment(seconds: i64) -> Timestamp {
     let first: Timestamp = "2026-03-01T06:00:00Z".parse().expect("a time");
     first + SignedDuration::from_secs(seconds)
+}
+
+/// The error of a camera, its library or its file; any other fails the test.
+pub fn camera_error(error: CaptureError) -> CameraError {
+    match error {
+        CaptureError::Camera(error) => error,
+        other => panic!("{other}"),
+    }
+}
+
+/// The sources of a library, including those that cannot be opened.
+pub fn listed_by(
+    library: &CameraLibrary,
+    is_of_library: impl Fn(&SourceSpec) -> bool,
+) -> Vec<SourceListing> {
+    let listed = list().into_iter();
+    let of_library = listed.filter(|listed| match (&listed.spec, &listed.error) {
+        (Some(spec), _) => is_of_library(spec),
+        (None, Some(error)) => error.library == library,
+        (None, None) => false,
+    });
+    of_library.collect()
 }
 
 /// A capture of one pixel, arriving now.

@@ -98,6 +98,7 @@ impl PointCloud {
 }
 
 /// True when all three coordinates are finite.
+#[inline]
 pub fn is_finite(point: &Point3<f32>) -> bool {
     point.x.is_finite() && point.y.is_finite() && point.z.is_finite()
 }

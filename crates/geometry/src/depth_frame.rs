@@ -40,6 +40,7 @@ impl Intrinsics {
 
     /// Returns the camera point seen at column `u`, row `v` with depth `z` (metres along the optical axis). NaN where no
     /// ray maps to the pixel, which never happens inside the image of a camera that [`is_invertible`](Self::is_invertible).
+    #[inline]
     pub fn point_at(&self, u: f64, v: f64, z: f64) -> Point3<f64> {
         let seen = self.seen_at(u, v);
         let [x, y] = if self.distortion.is_none() {
@@ -52,6 +53,7 @@ impl Intrinsics {
 
     /// Returns the column and row at which a camera point is seen, inside the image or not; `None` if the point is
     /// behind the camera or the lens shows it nowhere.
+    #[inline]
     pub fn pixel_of(&self, point: &Point3<f64>) -> Option<(f64, f64)> {
         if point.z <= 0.0 {
             return None;

@@ -248,21 +248,24 @@ mod tests {
     use super::*;
     use inspection::pipeline::Unwatched;
 
+    fn check_rankings(matcher: Matcher) {
+        let mut seen = Vec::new();
+        let mut after_row = |row: &ScalingRow| seen.push(row.num_references);
+        let found = scaling(matcher, 70, &Unwatched, &mut after_row).expect("measured");
+        assert!(found.is_identical);
+        assert_eq!(seen, [8, 16, 32, 64, 70]);
+        let mut times = found.rows.iter().flat_map(|row| row.least_ms);
+        assert!(times.all(|ms| ms > 0.0));
+    }
+
     #[test]
-    fn every_number_of_workers_gives_the_serial_ranking_by_both_matchers() {
-        for matcher in [Matcher::Default, Matcher::Paper] {
-            let mut seen = Vec::new();
-            let mut after_row = |row: &ScalingRow| seen.push(row.num_references);
-            let found = scaling(matcher, 70, &Unwatched, &mut after_row).expect("measured");
-            assert!(found.is_identical, "{matcher:?}");
-            assert_eq!(seen, [8, 16, 32, 64, 70]);
-            assert!(
-                found
-                    .rows
-                    .iter()
-                    .all(|row| row.least_ms.iter().all(|ms| *ms > 0.0))
-            );
-        }
+    fn every_number_of_workers_gives_the_serial_ranking() {
+        check_rankings(Matcher::Default);
+    }
+
+    #[test]
+    fn every_number_of_workers_gives_the_serial_ranking_of_the_paper() {
+        check_rankings(Matcher::Paper);
     }
 
     #[test]

@@ -1,9 +1,18 @@
-//! The whole inspection: moved and rotated parts, invalid points, cancellation, reproducible results.
+//! The whole inspection: moved and rotated parts, invalid points, cancellation, reproducible results; and cameras without a
+//! camera: their libraries with played or recorded devices, and stub libraries.
 
 #![allow(clippy::disallowed_methods, reason = "tests change files")]
 
 mod cameras;
+#[cfg(target_os = "linux")]
+mod kinect;
+#[cfg(target_os = "linux")]
+mod openni;
+#[cfg(target_os = "linux")]
+mod own_process;
 mod rack;
+#[cfg(target_os = "linux")]
+mod realsense;
 mod several;
 
 use std::cell::Cell;

@@ -72,7 +72,7 @@ impl StagePanel {
 pub type PlaneLine = Vec<[f32; 2]>;
 
 /// Data drawn for an inspection; `None` or empty for what its stages did not produce.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct StageFigures {
     /// The label of every point, as the camera sees it.
     pub segmentation: Option<RgbImage>,
@@ -91,7 +91,7 @@ pub struct StageFigures {
 }
 
 /// Outline and rays of the part in its plane.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct ContourFigure {
     /// The outline first, then the openings; each closed.
     pub borders: Vec<PlaneLine>,
@@ -104,7 +104,7 @@ pub struct ContourFigure {
 }
 
 /// The two curves of a fan signature.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct SignatureCurves {
     /// Ray lengths L, metres.
     pub lengths: Vec<f32>,
@@ -113,7 +113,7 @@ pub struct SignatureCurves {
 }
 
 /// An enrolled part in the ranking.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct RankedPartFigure {
     /// Title of the part.
     pub title: String,

@@ -67,7 +67,7 @@ pub struct InspectRequest {
 }
 
 /// A scene with everything found in it.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Inspected {
     /// Origin of the scene.
     pub origin: Origin,
@@ -211,7 +211,7 @@ impl Inspected {
 }
 
 /// The scan of an inspection.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct InspectedScan {
     /// Its shots, put together.
     pub fused: Arc<FusedShots>,
@@ -507,19 +507,30 @@ impl FinishedInspection {
     }
 }
 
-/// Inspects a frame of the simulated cell with the built-in recipe.
+/// A frame of the simulated cell, inspected now with the built-in recipe; what one inspection finds serves every later call.
 #[cfg(any(test, feature = "fixtures"))]
 pub fn inspected_cell(choice: super::source::CellChoice, number: u64) -> Inspected {
-    let request = InspectRequest {
-        source: SceneSource::Cell { choice, number },
-        recipe: Arc::default(),
-    };
-    let parts = inspect_all(
-        &request,
-        &LibraryCache::default(),
-        &::inspection::pipeline::Unwatched,
-    );
-    parts.expect("inspected").remove(0)
+    static KNOWN: std::sync::Mutex<Vec<((super::source::CellChoice, u64), Inspected)>> =
+        std::sync::Mutex::new(Vec::new());
+    let mut known = geometry::error::lock(&KNOWN);
+    let place = known.iter().position(|(of, _)| *of == (choice, number));
+    let place = place.unwrap_or_else(|| {
+        let request = InspectRequest {
+            source: SceneSource::Cell { choice, number },
+            recipe: Arc::default(),
+        };
+        let watch = ::inspection::pipeline::Unwatched;
+        let parts = inspect_all(&request, &LibraryCache::default(), &watch);
+        known.push(((choice, number), parts.expect("inspected").remove(0)));
+        known.len() - 1
+    });
+    let mut inspected = known[place].1.clone();
+    drop(known);
+    let now = geometry::clock::now();
+    (inspected.at, inspected.captured_at) = (now, now.into());
+    inspected.entry.record.summary.at = now;
+    inspected.set_part(HungId::new(), Traceability::default());
+    inspected
 }
 
 #[cfg(test)]

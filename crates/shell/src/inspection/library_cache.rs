@@ -188,14 +188,16 @@ impl LibraryView {
     }
 }
 
-/// For tests: the shipped parts of the checkout, whatever library the user has.
+/// For tests: the shipped parts of the checkout, whatever library the user has. They are loaded once.
 #[cfg(any(test, feature = "fixtures"))]
 impl Default for LibraryCache {
     fn default() -> Self {
-        Self::new(
-            Some(::inspection::fixtures::SHIPPED_PARTS.into()),
-            Camera::default(),
-        )
+        static SHIPPED: std::sync::OnceLock<Arc<LoadedLibrary>> = std::sync::OnceLock::new();
+        let given = ::inspection::fixtures::SHIPPED_PARTS;
+        let cache = Self::new(Some(given.into()), Camera::default());
+        let shipped = SHIPPED.get_or_init(|| cache.get());
+        cache.lock().loaded = Some(Arc::clone(shipped));
+        cache
     }
 }
 

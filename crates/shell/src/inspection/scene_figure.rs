@@ -20,7 +20,7 @@ use stages::{
 use ui::viewport::{Line, LineSet, PointSet, Role, furniture, vec3};
 
 /// Points and lines of one result, camera frame; `None` for what the result does not have.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct SceneFigure {
     /// The scene, with label and deviation of each point.
     pub points: PointSet,
@@ -40,7 +40,7 @@ pub struct SceneFigure {
 }
 
 /// A spray path carried to the found pose.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct SprayFigure {
     /// The path of the nozzle tip, and each nozzle's ray: solid up to the surface if in the band, else dashed and marked by a
     /// cross. A long path, dashed where the gun is off, has rays only where the camera sees that it leaves the band.
@@ -54,7 +54,7 @@ pub struct SprayFigure {
 }
 
 /// A nozzle in front of the part.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct NozzleFigure {
     /// Nozzle and ray.
     pub lines: LineSet,

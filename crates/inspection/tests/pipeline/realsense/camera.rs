@@ -4,11 +4,10 @@ use std::time::Duration;
 
 use capture::{
     BackpressurePolicy, CameraErrorKind, Feed, FeedItem, NextCapture, RealsenseSpec, Recovery,
-    SourceSpec,
+    SourceSpec, fixtures::camera_error,
 };
 use geometry::error::Advice as _;
 
-use crate::errors::camera_error;
 use crate::realsense::{
     PATIENCE, check, frame_of, listed, next_capture, next_frame, open_camera, open_text,
     with_cameras,

@@ -18,10 +18,10 @@ use std::{
 
 use capture::{
     CameraError, CaptureError, Captured, DepthSource, FREENECT, KinectSpec, NextCapture,
-    SourceListing, SourceSpec, open,
+    SourceListing, SourceSpec,
+    fixtures::{camera_error, listed_by},
+    open,
 };
-
-use crate::errors::{camera_error, listed_by};
 
 /// Timeout longer than any step of a test, so that it ends only one that hangs.
 const PATIENCE: Duration = Duration::from_mins(1);

@@ -5,10 +5,9 @@ use std::fs;
 use capture::CameraErrorKind;
 use geometry::error::Advice as _;
 
-use capture::fixtures::{SHARED, compile_c};
+use capture::fixtures::{SHARED, camera_error, compile_c};
 
 use crate::{
-    errors::camera_error,
     own_process::{self, is_own},
     realsense::{listed, open_text, skipped},
 };
@@ -75,7 +74,7 @@ fn a_place_without_the_library_and_other_libraries_are_told_apart() {
     // The newer library takes precedence.
     let library = folder.path().join("librealsense2.so.2.55");
     if let Err(why) = compile_c(
-        "crates/inspection/tests/cameras/realsense/python.c",
+        "crates/inspection/tests/pipeline/realsense/python.c",
         &library,
         &SHARED,
     ) {

@@ -1,5 +1,6 @@
 //! GenICam cameras, played on the loopback network by the fake camera of aravis.
 //!
+//! They stand here although they run no command: aravis waits for most of a minute, in which the other tests compute.
 //! Without it (`apt-get install aravis-tools libaravis-0.8-0`) the tests report that they are skipped; with
 //! `PARTSIGHT_REQUIRE_GENICAM=1` they fail.
 
@@ -7,18 +8,17 @@ use std::{
     fs, io,
     path::Path,
     process::{Child, Command, Stdio},
-    sync::{Mutex, MutexGuard, PoisonError},
     thread,
     time::{Duration, Instant},
 };
 
 use capture::{
     ARAVIS, BackpressurePolicy, CameraError, CameraErrorKind, CaptureError, Captured, DepthSource,
-    Feed, FeedItem, FeedState, GenicamSpec, Image, NextCapture, Recovery, SourceSpec, open,
+    Feed, FeedItem, FeedState, GenicamSpec, Image, NextCapture, Recovery, SourceSpec,
+    fixtures::{camera_error, listed_by},
+    open,
 };
 use geometry::{cloud::Grid, depth_frame::DepthFrame, error::Advice as _};
-
-use crate::errors::{camera_error, listed_by};
 
 /// Timeout longer than any step of a test, so that it ends only one that hangs.
 const PATIENCE: Duration = Duration::from_mins(1);
@@ -87,12 +87,6 @@ impl Drop for FakeCamera {
     }
 }
 
-/// Serialises the tests, because all cameras have the same address.
-fn alone() -> MutexGuard<'static, ()> {
-    static ONE: Mutex<()> = Mutex::new(());
-    ONE.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
 fn spec(text: &str) -> SourceSpec {
     text.parse().expect(text)
 }
@@ -154,12 +148,19 @@ fn check_pattern(frame: &DepthFrame) {
     assert!(num_steps.count() >= 508, "it begins again at most thrice");
 }
 
+/// One after the other in one test, because all cameras have the same address and every step waits.
 #[test]
-fn every_pixel_of_a_depth_image_arrives() {
-    let _alone = alone();
-    let Some(_camera) = FakeCamera::start(None) else {
+fn a_camera_is_read_refused_lost_and_found_again() {
+    let Some(camera) = FakeCamera::start(None) else {
         return;
     };
+    every_pixel_of_a_depth_image_arrives();
+    grey_values_are_no_depth_and_another_camera_is_not_taken();
+    a_camera_that_is_gone_is_lost_and_found_again(camera);
+    a_3d_camera_says_itself_what_its_values_stand_for();
+}
+
+fn every_pixel_of_a_depth_image_arrives() {
     let folder = tempfile::tempdir().expect("a folder");
     let spec = grey_as_depth(folder.path());
     let mut source = open(&spec).expect("opens");
@@ -183,12 +184,7 @@ fn every_pixel_of_a_depth_image_arrives() {
     check_pattern(&depth_of(next_capture(again.as_mut())));
 }
 
-#[test]
 fn grey_values_are_no_depth_and_another_camera_is_not_taken() {
-    let _alone = alone();
-    let Some(_camera) = FakeCamera::start(None) else {
-        return;
-    };
     for (source, words, advice) in [
         (
             "genicam",
@@ -220,15 +216,11 @@ fn grey_values_are_no_depth_and_another_camera_is_not_taken() {
     assert_eq!(error.recovery(), Recovery::Reopen);
 }
 
-#[test]
 fn a_3d_camera_says_itself_what_its_values_stand_for() {
-    let _alone = alone();
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("camera.xml");
     describe(&path, "1", "0");
-    let Some(camera) = FakeCamera::start(Some(&path)) else {
-        return;
-    };
+    let camera = FakeCamera::start(Some(&path)).expect("one was there before");
     let mut source = open(&spec("genicam")).expect("opens");
     let captured = next_capture(source.as_mut());
     assert_eq!(captured.warnings, []);
@@ -263,21 +255,14 @@ fn a_3d_camera_says_itself_what_its_values_stand_for() {
         ("1", "1", "ReverseX", "false"),
     ] {
         describe(&path, mode, reverse);
-        let Some(_camera) = FakeCamera::start(Some(&path)) else {
-            return;
-        };
+        let _camera = FakeCamera::start(Some(&path)).expect("one was there before");
         let error = open_error("genicam");
         assert!(error.to_string().contains(words), "{error}");
         assert!(error.advice().contains(advice), "{}", error.advice());
     }
 }
 
-#[test]
-fn a_camera_that_is_gone_is_lost_and_found_again() {
-    let _alone = alone();
-    let Some(camera) = FakeCamera::start(None) else {
-        return;
-    };
+fn a_camera_that_is_gone_is_lost_and_found_again(camera: FakeCamera) {
     let folder = tempfile::tempdir().expect("a folder");
     let spec = grey_as_depth(folder.path());
     let feed = Feed::start(spec, BackpressurePolicy::Newest, || {}).expect("a thread");
@@ -306,7 +291,7 @@ fn a_camera_that_is_gone_is_lost_and_found_again() {
     );
     // Discard the frames captured before.
     while feed.wait(Duration::ZERO).is_some() {}
-    let _camera = FakeCamera::start(None).expect("it was there before");
+    let _camera = FakeCamera::start(None).expect("one was there before");
     check_pattern(&depth_of(captured(&feed)));
     // Before the camera: closing one that no longer answers takes many seconds.
     drop(feed);

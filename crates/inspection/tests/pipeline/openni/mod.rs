@@ -9,7 +9,7 @@ mod camera;
 mod library;
 mod played;
 
-use crate::{errors::listed_by, own_process};
+use crate::own_process;
 use std::{
     env,
     ffi::OsStr,
@@ -19,7 +19,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use capture::fixtures::{SHARED, compile_c};
+use capture::fixtures::{SHARED, compile_c, listed_by};
 use capture::{
     CaptureError, Captured, DepthSource, Image, NextCapture, OPENNI, OpenNiSpec, SourceListing,
     SourceSpec, open,
@@ -27,7 +27,7 @@ use capture::{
 use geometry::depth_frame::DepthFrame;
 
 /// Source of a stub driver for OpenNI's library, which plays a camera.
-const CAMERA: &str = "crates/inspection/tests/cameras/openni/camera.c";
+const CAMERA: &str = "crates/inspection/tests/pipeline/openni/camera.c";
 /// Timeout longer than any step of a test, so that it ends only one that hangs.
 const PATIENCE: Duration = Duration::from_mins(1);
 

@@ -10,13 +10,12 @@ use std::{
 
 use capture::{
     BackpressurePolicy, CameraErrorKind, CaptureError, DepthSource, Feed, FeedItem, FeedState,
-    NextCapture, OpenNiSpec, Pace, Recovery, SourceSpec, open,
+    NextCapture, OpenNiSpec, Pace, Recovery, SourceSpec, fixtures::camera_error, open,
 };
 use geometry::error::Advice as _;
 
 use capture::fixtures::compile_c;
 
-use crate::errors::camera_error;
 use crate::openni::{PATIENCE, check, frame_of, next_capture, with_camera};
 
 const NUM_FRAMES: usize = 12;
@@ -25,7 +24,7 @@ const NUM_FRAMES: usize = 12;
 fn record(folder: &Path, state: &str) {
     let program = folder.join("record");
     compile_c(
-        "crates/inspection/tests/cameras/openni/record.c",
+        "crates/inspection/tests/pipeline/openni/record.c",
         &program,
         &[],
     )

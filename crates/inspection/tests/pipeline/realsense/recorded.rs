@@ -16,10 +16,9 @@ use capture::{
 };
 use geometry::{distortion::Distortion, error::Advice as _};
 
-use capture::fixtures::{SHARED, compile_c};
+use capture::fixtures::{SHARED, camera_error, compile_c};
 
 use crate::{
-    errors::camera_error,
     own_process,
     realsense::{PATIENCE, check, frame_of, listed, next_capture, skipped},
 };
@@ -55,13 +54,13 @@ fn record(folder: &Path, model: &str) -> Result<(), String> {
     let library = fs::canonicalize(library).expect("PARTSIGHT_TEST_REALSENSE is there");
     let python = folder.join(PYTHON);
     compile_c(
-        "crates/inspection/tests/cameras/realsense/python.c",
+        "crates/inspection/tests/pipeline/realsense/python.c",
         &python,
         &SHARED,
     )?;
     let program = folder.join("record");
     compile_c(
-        "crates/inspection/tests/cameras/realsense/record.c",
+        "crates/inspection/tests/pipeline/realsense/record.c",
         &program,
         &[],
     )?;

@@ -1,10 +1,9 @@
 //! The system's own libfreenect, with or without a Kinect.
 
-use capture::{CameraErrorKind, KinectSpec, SourceSpec, open};
+use capture::{CameraErrorKind, KinectSpec, SourceSpec, fixtures::camera_error, open};
 use geometry::error::Advice as _;
 
 use crate::{
-    errors::camera_error,
     kinect::{listed, skipped},
     own_process::{self, is_own},
 };

@@ -25,7 +25,7 @@ fn with_camera(test: &str, state: &str, body: impl FnOnce()) {
     let mut options = SHARED.to_vec();
     options.extend((state == "old").then_some("-DOLD"));
     if let Err(why) = compile_c(
-        "crates/inspection/tests/cameras/kinect/camera.c",
+        "crates/inspection/tests/pipeline/kinect/camera.c",
         &library,
         &options,
     ) {

@@ -14,10 +14,9 @@ use std::{
 use capture::{CameraError, CameraErrorKind, OpenNiSpec, SourceSpec, open};
 use geometry::error::Advice as _;
 
-use capture::fixtures::{SHARED, compile_c};
+use capture::fixtures::{SHARED, camera_error, compile_c};
 
 use crate::{
-    errors::camera_error,
     openni::{CAMERA, listed, skipped, system_library, with_camera},
     own_process::{self, is_own},
 };

@@ -10,14 +10,14 @@ mod camera;
 mod library;
 mod recorded;
 
-use crate::{errors::listed_by, own_process};
+use crate::own_process;
 use std::{
     env,
     ffi::OsStr,
     time::{Duration, Instant},
 };
 
-use capture::fixtures::{SHARED, compile_c};
+use capture::fixtures::{SHARED, compile_c, listed_by};
 use capture::{
     CaptureError, Captured, DepthSource, Image, NextCapture, REALSENSE, RealsenseSpec,
     SourceListing, SourceSpec, open,
@@ -25,7 +25,7 @@ use capture::{
 use geometry::depth_frame::DepthFrame;
 
 /// Source of a stub library with the functions of librealsense, which plays two cameras.
-const CAMERA: &str = "crates/inspection/tests/cameras/realsense/camera.c";
+const CAMERA: &str = "crates/inspection/tests/pipeline/realsense/camera.c";
 /// Timeout longer than any step of a test, so that it ends only one that hangs.
 const PATIENCE: Duration = Duration::from_mins(1);
 
