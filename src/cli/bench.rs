@@ -11,6 +11,7 @@ mod recognition;
 mod registration;
 mod scaling;
 mod serve;
+mod servo;
 mod soak;
 mod speed;
 mod systems;
@@ -62,6 +63,7 @@ Examples:
   partsight bench paint --plots films
   partsight bench paint --coat primer
   partsight bench serve --json serve.json
+  partsight bench servo --runs 200 --json servo.json
   partsight bench soak --frames 1000000 --plot soak.png
 
 Each part is enrolled from one frontal capture of the standard car, then seen in sets of simulated frames. Without a
@@ -75,6 +77,9 @@ pub(super) struct BenchArgs {
     /// Poses of each part, or of what else hangs there; or racks of each kind
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=10_000))]
     poses: Option<u64>,
+    /// For servo: runs to camera poses; half as many more are disturbed, and an eighth as many go to the start of a path
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=10_000))]
+    runs: Option<u64>,
     /// Seed of the first frame. Parameters are chosen on frames from 3000000 on, and measured on those from 9000000 on
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     seed: Option<u64>,
@@ -162,6 +167,8 @@ enum Bench {
     Paint,
     /// The server that robots ask, on this computer: status requests of each protocol beside bare exchanges of as many bytes over TCP, and triggers beside the same inspections called directly
     Serve,
+    /// Simulated runs of visual servoing: where they end, how long they take, why they stop, and whether limits are kept
+    Servo,
     /// Small frames, one after the other, through all that inspect --source does: latency, memory, threads and open files; exit code 1 if the memory grows by more than 2 % after the warm-up
     Soak,
 }
@@ -187,6 +194,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
         Bench::History => history::run(args, console),
         Bench::Paint => paint::run(args, console),
         Bench::Serve => serve::run(args, console),
+        Bench::Servo => servo::run(args, console),
         Bench::Soak => soak::run(args, console),
     }
 }
@@ -198,6 +206,12 @@ fn check(args: &BenchArgs) -> anyhow::Result<()> {
         return Err(advised_error(
             "--csv and --part are for table1",
             "Use it like this: partsight bench table1 --csv FILE",
+        ));
+    }
+    if bench != Bench::Servo && args.runs.is_some() {
+        return Err(advised_error(
+            "--runs is for servo",
+            "Use it like this: partsight bench servo --runs N",
         ));
     }
     if !args.suite.is_empty() && !matches!(bench, Bench::Recognition | Bench::Speed) {

@@ -12,6 +12,7 @@ mod process_usage;
 mod processor_time;
 pub mod registration;
 pub mod scaling;
+pub mod servo;
 mod speed;
 pub mod suites;
 pub mod systems;

@@ -93,16 +93,11 @@ impl SimulatedScan {
         let seed = setup.seed.wrapping_mul(1000).wrapping_add(k as u64);
         let mut random = Pcg64::seed_from_u64(seed ^ STREAM);
         let base_from_camera = self.camera(k, &mut random);
-        let camera_from_base = base_from_camera.inverse();
-        let mut rendering = Rendering::new(Intrinsics::KINECT);
-        let part = camera_from_base * base_from_model;
-        rendering.draw_mesh(&self.part, &part, SurfaceLabel::Part);
-        rendering.draw_mesh(&self.cell, &camera_from_base, SurfaceLabel::Clutter);
         let noise = SensorNoise {
             multiplier: setup.noise,
             seed,
         };
-        let frame = Sensor::Kinect.sense(&rendering, &noise);
+        let frame = self.frame(&base_from_camera, base_from_model, &noise);
         let turn = UnitQuaternion::from_axis_angle(&direction(&mut random), setup.turn_error.0);
         let shift = direction(&mut random).into_inner() * setup.place_error.0;
         SimulatedShot {
@@ -113,6 +108,21 @@ impl SimulatedScan {
                 turn * base_from_camera.rotation,
             ),
         }
+    }
+
+    /// Takes a frame with camera and part at these poses.
+    pub fn frame(
+        &self,
+        base_from_camera: &RigidTransform,
+        base_from_model: &RigidTransform,
+        noise: &SensorNoise,
+    ) -> DepthFrame {
+        let camera_from_base = base_from_camera.inverse();
+        let mut rendering = Rendering::new(Intrinsics::KINECT);
+        let part = camera_from_base * base_from_model;
+        rendering.draw_mesh(&self.part, &part, SurfaceLabel::Part);
+        rendering.draw_mesh(&self.cell, &camera_from_base, SurfaceLabel::Clutter);
+        Sensor::Kinect.sense(&rendering, noise)
     }
 
     /// Poses the camera: from left to right around the part, alternately from above and below, 1.2 to 1.5 m away.

@@ -27,6 +27,7 @@ mod check_points;
 mod error;
 mod file;
 mod film_room;
+mod follow;
 mod kinematics;
 mod models;
 mod obstacles;
@@ -183,6 +184,11 @@ impl Arm {
             Some(Convention::Fanuc) => [j1, j2, j3 - j2, j4, j5, j6],
             _ => *joints,
         }
+    }
+
+    /// Top speeds of the joints, rad/s.
+    pub fn joint_speeds(&self) -> &Joints {
+        &self.speeds
     }
 
     /// Distance from joint 2 to the middle of the wrist with the arm stretched, metres.

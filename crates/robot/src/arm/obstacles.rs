@@ -231,6 +231,17 @@ impl Obstacles {
         self.boxes.iter().map(|one| one.region.corners())
     }
 
+    /// The obstacle that a tool is nearest to, if it is nearer than the clearance. The tool fills `radius` metres around its
+    /// axis, in the frame of the path.
+    pub fn nearest_to_tool(&self, axis: &Segment, radius: f64) -> Option<Obstacle> {
+        let tool = Capsule {
+            body: Body::Gun,
+            axis: *axis,
+            radius,
+        };
+        worst(self.pairs(&[tool])).map(|(_, obstacle)| obstacle)
+    }
+
     /// All pairs of these bodies and obstacles of the cell that are too near.
     pub(super) fn pairs(&self, bodies: &[Capsule]) -> impl Iterator<Item = Nearness> {
         bodies.iter().flat_map(move |capsule| {

@@ -1,6 +1,7 @@
 mod accelerations;
 mod collisions;
 mod files;
+mod follow;
 mod freedom;
 mod kinematics;
 mod moving_rail;

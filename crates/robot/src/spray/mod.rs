@@ -161,17 +161,9 @@ pub fn carry(
 ) -> CarriedPath {
     let seen = SeenSurface::of(seen);
     let surface = seen.surface();
-    let mut before: Option<Vector3<f64>> = None;
-    let points = path.points().iter().map(|point| {
-        let mut part_from_nozzle = tool_frame(point);
-        // A fan turned by 180° is the same fan: choose the sign that keeps the nozzle from turning.
-        if point.fan.is_some() {
-            let x = part_from_nozzle * Vector3::x();
-            if before.is_some_and(|before| before.dot(&x) < 0.0) {
-                part_from_nozzle *= UnitQuaternion::from_euler_angles(0.0, 0.0, PI);
-            }
-            before = Some(part_from_nozzle * Vector3::x());
-        }
+    let nozzles = nozzle_frames(path);
+    let points = path.points().iter().zip(&nozzles);
+    let points = points.map(|(point, part_from_nozzle)| {
         let camera_from_nozzle = camera_from_part * part_from_nozzle;
         let expected = point.stand_off.unwrap_or(params.taught);
         let meets = meeting(&camera_from_nozzle, &surface, expected);
@@ -187,6 +179,24 @@ pub fn carry(
     CarriedPath {
         points: points.collect(),
     }
+}
+
+/// Returns the tool's frame at each point of a path, `part_from_nozzle`.
+pub fn nozzle_frames(path: &SprayPath) -> Vec<RigidTransform> {
+    let mut before: Option<Vector3<f64>> = None;
+    let frames = path.points().iter().map(|point| {
+        let mut part_from_nozzle = tool_frame(point);
+        // A fan turned by 180° is the same fan: choose the sign that keeps the nozzle from turning.
+        if point.fan.is_some() {
+            let x = part_from_nozzle * Vector3::x();
+            if before.is_some_and(|before| before.dot(&x) < 0.0) {
+                part_from_nozzle *= UnitQuaternion::from_euler_angles(0.0, 0.0, PI);
+            }
+            before = Some(part_from_nozzle * Vector3::x());
+        }
+        part_from_nozzle
+    });
+    frames.collect()
 }
 
 /// Compares a path that is about to be stored with the part as it was enrolled.

@@ -1,0 +1,16 @@
+//! A simulated cell in which a whole run of servoing can be tried: an arm that carries a camera, the part, and what may go
+//! wrong.
+//!
+//! Time is simulated too, and everything is drawn from seeds: the same setup gives the same run.
+
+mod arm;
+mod cell;
+mod run;
+
+pub use self::{
+    arm::{ArmDynamics, SimulatedArm},
+    cell::{
+        CellSetup, Disturbance, HandEyeError, SimulatedCell, SimulatedCellError, SimulatedTarget,
+    },
+    run::{RunResult, Sample, run},
+};
