@@ -102,5 +102,6 @@ fn about(shot: &SimulatedFrame, origin: String, difficulty: String) -> CaseDescr
             camera_from_part: truth.camera_from_part * at.part_from_model.inverse(),
             cloud_crc32: Some(at.cloud.crc32),
         }),
+        one_of_several: None,
     }
 }

@@ -546,6 +546,7 @@ fn about(origin: &str) -> CaseDescription {
         truth: Truth::Part("fender".into()),
         found: FoundVerdict::default(),
         pose: None,
+        one_of_several: None,
     }
 }
 

@@ -10,6 +10,7 @@ use super::{
     confusion::{Confusion, Tally},
     error::CaseError,
     judge::{CaseResult, FoundVerdict, Truth},
+    meta::inspect_case,
     store::{CaseFolder, CaseList, KeptCase},
     trade_off::TradeOff,
 };
@@ -19,7 +20,7 @@ use geometry::{
 };
 use inspection::{
     library::{FileCheck, Library},
-    pipeline::{self, Cancelled, Inspection, ProgressObserver, Recipe, Unwatched},
+    pipeline::{Cancelled, Inspection, ProgressObserver, Recipe, Unwatched},
 };
 use stages::scene::SceneCloud;
 
@@ -50,7 +51,9 @@ impl<'a> CaseJudge<'a> {
         scene: &SceneCloud,
         watch: &dyn ProgressObserver,
     ) -> Result<CaseResult, Cancelled> {
-        let inspection = pipeline::run(scene, self.library, self.recipe, watch)?;
+        let about = &case.meta.about;
+        let (one, name) = (about.one_of_several.as_ref(), about.found.part.as_deref());
+        let inspection = inspect_case(scene, one, name, self.library, self.recipe, watch)?;
         Ok(self.compare(case, &inspection))
     }
 
@@ -174,9 +177,11 @@ pub fn evaluate(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cases::{CaseDescription, TruePose};
+    use crate::cases::{CaseDescription, CaseOutcome, OneOfSeveral, TruePose};
+    use inspection::pipeline;
     use inspection::{fixtures::shipped_library, library::shipped_enrolled_at};
-    use simulate::{CellSetup, PartKind, Side, frame};
+    use simulate::{CellSetup, PartKind, RackKind, RackSetup, Side, frame, rack_frame};
+    use stages::pose::PoseEstimate;
     use stages::scene::scene_from_frame;
 
     #[test]
@@ -204,6 +209,7 @@ mod tests {
                     camera_from_part,
                     cloud_crc32,
                 }),
+                one_of_several: None,
             };
             let scene = scene_from_frame(&shot.frame);
             cases.keep(&scene, about).expect("kept");
@@ -229,6 +235,44 @@ mod tests {
     }
 
     #[test]
+    fn a_case_of_one_of_several_parts_is_about_that_part() {
+        let library = shipped_library();
+        let setup = RackSetup::drawn(RackKind::Apart, 2, 0, 2).expect("two places");
+        let rack = rack_frame(&setup).expect("a plain cell");
+        let scene = scene_from_frame(&rack.frame);
+        let mut recipe = Recipe::default();
+        recipe.segment.max_parts = 2;
+        let found = pipeline::run_all(&scene, &library, &recipe, &Unwatched).expect("two parts");
+        let folder = tempfile::tempdir().expect("a folder");
+        let cases = CaseFolder::at(folder.path());
+        for one in &found {
+            let name = one.verdict.guess().expect("a part");
+            let pose = one.found_pose().map(PoseEstimate::camera_from_part);
+            let about = CaseDescription {
+                origin: name.into(),
+                simulated: true,
+                kept_at: jiff::Timestamp::UNIX_EPOCH,
+                remark: String::new(),
+                difficulty: None,
+                truth: Truth::Part(name.into()),
+                found: FoundVerdict::from(&one.verdict),
+                pose: None,
+                one_of_several: OneOfSeveral::of(&recipe, pose),
+            };
+            cases.keep(&scene, about).expect("kept");
+        }
+        // Whatever the recipe of the evaluation looks for.
+        let recipe = Recipe::default();
+        let judge = CaseJudge::new(&library, &recipe);
+        let list = cases.list().expect("listed");
+        let evaluation = evaluate(&cases, list, &judge, 1, &|_| ());
+        assert_eq!(evaluation.results.len(), 2);
+        for result in &evaluation.results {
+            assert_eq!(result.judgement(), CaseOutcome::Right, "{result:?}");
+        }
+    }
+
+    #[test]
     fn a_pose_that_is_no_rigid_transform_makes_a_case_damaged_and_a_missing_one_does_not() {
         let folder = tempfile::tempdir().expect("a folder");
         let cases = CaseFolder::at(folder.path());
@@ -243,6 +287,7 @@ mod tests {
             truth: Truth::Nothing,
             found: FoundVerdict::default(),
             pose: None,
+            one_of_several: None,
         };
         let scene = stages::scene::scene_from_cloud(cloud);
         let kept = cases.keep(&scene, about).expect("kept");

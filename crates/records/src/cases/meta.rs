@@ -1,12 +1,20 @@
 //! `case.toml`: the description of a case, and the record of its scene.
 
 use jiff::Timestamp;
+use nalgebra::Vector3;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::judge::{FoundVerdict, Truth};
-use crate::history::{FrameRecord, Record};
+use crate::history::{FrameRecord, Record, index_of_part};
 use geometry::{depth_frame::Intrinsics, rigid::RigidTransform, sixteen_numbers};
-use stages::scene::PictureEdge;
+use inspection::{
+    library::Library,
+    pipeline::{self, Cancelled, Inspection, ProgressObserver, Recipe},
+};
+use stages::{
+    scene::{PictureEdge, SceneCloud},
+    segment::MAX_PARTS,
+};
 
 /// The schema that is written; newer ones are refused. Schema 1 stored every scene as a cloud; schema 2 stores scenes as the
 /// history stores frames.
@@ -34,6 +42,9 @@ pub struct CaseDescription {
     /// The true pose, if known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pose: Option<TruePose>,
+    /// Which part of the scene the case is about, if several may hang there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub one_of_several: Option<OneOfSeveral>,
 }
 
 impl CaseDescription {
@@ -49,8 +60,52 @@ impl CaseDescription {
             truth,
             found: FoundVerdict::from(record),
             pose: None,
+            one_of_several: (record.detail.recipe.as_deref())
+                .and_then(|recipe| OneOfSeveral::of(recipe, record.detail.camera_from_part)),
         }
     }
+}
+
+/// A part of a scene in which several may hang.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct OneOfSeveral {
+    /// Number of parts that were looked for.
+    pub max_parts: usize,
+    /// The origin of the part at the pose that was found, camera space, metres; `None` without a pose.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at_m: Option<[f64; 3]>,
+}
+
+impl OneOfSeveral {
+    /// Describes the part of an inspection with this recipe; `None` if that looks for one part.
+    pub fn of(recipe: &Recipe, camera_from_part: Option<RigidTransform>) -> Option<Self> {
+        let max_parts = recipe.max_parts();
+        (max_parts > 1).then(|| Self {
+            max_parts,
+            at_m: camera_from_part.map(|pose| pose.translation.vector.into()),
+        })
+    }
+}
+
+/// Inspects the part that a case is about: of several, the one of this name at this place, as
+/// [`InspectionSummary::index_in`](crate::history::InspectionSummary::index_in) finds it.
+pub fn inspect_case(
+    scene: &SceneCloud,
+    one_of_several: Option<&OneOfSeveral>,
+    name: Option<&str>,
+    library: &Library,
+    recipe: &Recipe,
+    watch: &dyn ProgressObserver,
+) -> Result<Inspection, Cancelled> {
+    let Some(one) = one_of_several else {
+        return pipeline::run(scene, library, recipe, watch);
+    };
+    let mut recipe = recipe.clone();
+    let max_parts = &mut recipe.segment.max_parts;
+    *max_parts = (*max_parts).max(one.max_parts.min(MAX_PARTS));
+    let mut found = pipeline::run_all(scene, library, &recipe, watch)?;
+    let index = index_of_part(name, one.at_m.map(Vector3::from), found.iter());
+    Ok(found.swap_remove(index))
 }
 
 /// The true pose of a part.

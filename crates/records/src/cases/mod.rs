@@ -81,7 +81,7 @@ pub use self::{
     error::CaseError,
     evaluation::{CaseJudge, Evaluation, evaluate},
     judge::{CaseAnswer, CaseOutcome, CaseResult, FoundVerdict, Truth},
-    meta::{CaseDescription, CaseMeta, SCHEMA_VERSION, TruePose},
+    meta::{CaseDescription, CaseMeta, OneOfSeveral, SCHEMA_VERSION, TruePose, inspect_case},
     past::{PastCases, TruthFrom},
     record::{
         CaseRecord, EarlierRun, EvaluationRecord, PoseErrors, PoseOff, RECORD_SCHEMA, RecipeRecord,

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 
 use super::entry::{Record, StoredVerdict};
 use geometry::rigid::{PoseDelta, RigidTransform, pose_error};
@@ -63,28 +63,37 @@ impl InspectionSummary {
 }
 
 impl InspectionSummary {
-    /// The index of the inspection of this part among those of a frame that was inspected again: of the parts of its name, or
-    /// else of all, the nearest; 0 if there are none.
+    /// The index of the inspection of this part among those of a frame that was inspected again.
     pub fn index_in<'a>(&self, found: impl Iterator<Item = &'a Inspection>) -> usize {
-        let distance = |inspection: &Inspection| {
-            let pose = inspection.found_pose().map(PoseEstimate::camera_from_part);
-            let both = pose.zip(self.camera_from_part);
-            both.map_or(f64::INFINITY, |(now, before)| {
-                (now.translation.vector - before.translation.vector).norm()
-            })
-        };
-        let rank = |inspection: &Inspection| {
-            let is_named = inspection.reference().is_some()
-                && inspection.ranking.entries.first().map(|best| &best.part)
-                    == self.nearest.as_ref();
-            (!is_named, distance(inspection))
-        };
-        let nearest = found.enumerate().min_by(|(_, a), (_, b)| {
-            let ((a, near), (b, far)) = (rank(a), rank(b));
-            a.cmp(&b).then(near.total_cmp(&far))
-        });
-        nearest.map_or(0, |(index, _)| index)
+        let at = self.camera_from_part.map(|pose| pose.translation.vector);
+        index_of_part(self.nearest.as_deref(), at, found)
     }
+}
+
+/// The index of a part among the inspections of a frame: of the parts of its name, or else of all, the one whose pose is nearest
+/// to where it was, camera space; 0 if there are none.
+pub(crate) fn index_of_part<'a>(
+    name: Option<&str>,
+    at: Option<Vector3<f64>>,
+    found: impl Iterator<Item = &'a Inspection>,
+) -> usize {
+    let distance = |inspection: &Inspection| {
+        let pose = inspection.found_pose().map(PoseEstimate::camera_from_part);
+        let both = pose.zip(at);
+        both.map_or(f64::INFINITY, |(now, before)| {
+            (now.translation.vector - before).norm()
+        })
+    };
+    let rank = |inspection: &Inspection| {
+        let best = inspection.ranking.entries.first();
+        let is_named = best.is_some_and(|best| Some(&*best.part) == name);
+        (!is_named, distance(inspection))
+    };
+    let nearest = found.enumerate().min_by(|(_, a), (_, b)| {
+        let ((a, near), (b, far)) = (rank(a), rank(b));
+        a.cmp(&b).then(near.total_cmp(&far))
+    });
+    nearest.map_or(0, |(index, _)| index)
 }
 
 /// Bounds of a pose, unless it is unconstrained.

@@ -41,6 +41,7 @@ mod traceability;
 mod waiting;
 mod writer;
 
+pub(crate) use self::differences::index_of_part;
 pub use self::{
     buffer::HistoryBuffer,
     differences::{Differences, InspectionSummary, ParameterChange},

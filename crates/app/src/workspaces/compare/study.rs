@@ -5,13 +5,14 @@ use std::sync::Arc;
 use super::comparison::OutlineComparison;
 use inspection::{
     library::Library,
-    pipeline::{self, Inspection, NamedRecipe, ProgressObserver, Verdict},
+    pipeline::{Inspection, NamedRecipe, ProgressObserver, Verdict},
 };
-use records::cases::{CaseFolder, FoundVerdict, KeptCase, Truth};
+use records::cases::{CaseFolder, FoundVerdict, KeptCase, OneOfSeveral, Truth, inspect_case};
 use shell::inspection::{
     inspected::Inspected, library_cache::LibraryCache, unit_system::UnitSystem,
 };
 use stages::{
+    pose::PoseEstimate,
     rank::{MatchRanking, Matcher, Query, RankParams, rank},
     scene::SceneCloud,
     signature::LiteralSignature,
@@ -140,6 +141,14 @@ impl CaseStudy {
     }
 }
 
+/// Which part of its frame was inspected, and its name.
+fn one_of(inspected: &Inspected) -> (Option<OneOfSeveral>, Option<String>) {
+    let inspection = &inspected.inspection;
+    let pose = inspection.found_pose().map(PoseEstimate::camera_from_part);
+    let one = OneOfSeveral::of(&inspected.recipe, pose);
+    (one, inspection.verdict.guess().map(str::to_owned))
+}
+
 /// Inspects a case and compares it.
 pub fn study(
     request: &StudyRequest,
@@ -147,13 +156,17 @@ pub fn study(
     watch: &dyn ProgressObserver,
 ) -> Result<CaseStudy, TaskError> {
     let loaded = library_cache.get();
-    let (scene, inspected) = match &request.case {
+    let (scene, inspected, one_of_several, name) = match &request.case {
         CaseScene::Inspected(inspected) => {
-            (Arc::clone(&inspected.scene), Some(Arc::clone(inspected)))
+            let (one, name) = one_of(inspected);
+            let scene = Arc::clone(&inspected.scene);
+            (scene, Some(Arc::clone(inspected)), one, name)
         }
         CaseScene::Kept { folder, case } => {
             let scene = folder.read_scene(case).map_err(|e| UserError::of(&e))?;
-            (Arc::new(scene), None)
+            let about = &case.meta.about;
+            let (one, name) = (about.one_of_several.clone(), about.found.part.clone());
+            (Arc::new(scene), None, one, name)
         }
     };
     if watch.is_cancelled() {
@@ -162,7 +175,14 @@ pub fn study(
     let fitted = loaded.fitting(&request.recipe, watch);
     let fitted = fitted.ok_or(TaskError::Cancelled)?;
     let library: &Library = &fitted;
-    let inspection = pipeline::run(&scene, library, &request.recipe, watch)?;
+    let inspection = inspect_case(
+        &scene,
+        one_of_several.as_ref(),
+        name.as_deref(),
+        library,
+        &request.recipe,
+        watch,
+    )?;
     let found = FoundVerdict::from(&inspection.verdict);
     let shown = &loaded.shown;
     let title_of = |name: &str| shown.title_of(name).to_owned();

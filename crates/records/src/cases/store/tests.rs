@@ -32,6 +32,7 @@ fn about(origin: &str) -> CaseDescription {
         truth: Truth::Part("front_door".into()),
         found: FoundVerdict::default(),
         pose: None,
+        one_of_several: None,
     }
 }
 

@@ -25,6 +25,7 @@ fn kept(name: &str) -> KeptCase {
         truth: Truth::Part("fender".into()),
         found: FoundVerdict::default(),
         pose: None,
+        one_of_several: None,
     };
     let scene = FrameRecord {
         file: "scene.pcd".into(),
