@@ -31,15 +31,11 @@ impl ExpectChoice {
         trace: &Traceability,
     ) -> anyhow::Result<Expected> {
         let is_enrolled = |name: &str| library.has_part(name);
-        match &self.orders {
-            Some(path) => {
-                let orders = Orders::read(path).advised()?;
-                orders.expected(trace, rack, is_enrolled).advised()
-            }
-            None => {
-                let parts = self.expect.iter().map(|text| text.as_str().into());
-                Expected::new(parts.collect(), rack, is_enrolled).advised()
-            }
+        if let Some(path) = &self.orders {
+            let orders = Orders::read(path).advised()?;
+            return orders.expected(trace, rack, is_enrolled).advised();
         }
+        let parts = self.expect.iter().map(|text| text.as_str().into());
+        Expected::new(parts.collect(), rack, is_enrolled).advised()
     }
 }
