@@ -40,10 +40,9 @@
 //! moment at which the frame was taken, so that a delayed frame is not an error; the arm then follows a smooth motion from
 //! its last commanded pose to the goal, see [`Servo`].
 
+mod arm_states;
 mod end_look;
 mod fence;
-mod history;
-mod limits;
 mod look;
 mod mover;
 mod one_pose;
@@ -55,13 +54,12 @@ mod task;
 mod twist;
 
 pub use self::{
+    arm_states::ArmState,
     end_look::Arrival,
     fence::{Fence, Tool},
-    history::ArmState,
-    limits::Limits,
     look::{Look, SeenPart},
     one_pose::{OnePose, OnePoseAnswer},
-    params::{ServoError, ServoParams},
+    params::{Limits, ServoError, ServoParams},
     servo::{Servo, Step},
     stop::StopReason,
     task::{Goal, Target, Task, TaskError},

@@ -1,15 +1,15 @@
 //! Servoing in single moves, for every controller that can be sent to a pose: look at rest, move, look again.
 //!
 //! The robot asks with its pose, waits for one pose, moves there in a straight line as fast as its own program says, and asks
-//! again, until it is told that the target is reached. Gain and speed limits do not apply; instead a move is at most
+//! again, until the answer is that the target is reached. Gain and speed limits do not apply; instead a move is at most
 //! `max_move` long, so that a wrong calibration, which bends the way, is corrected before it carries the robot far.
 
 use nalgebra::Point3;
 
 use crate::{
     Arrival, Fence, Goal, Look, SeenPart, ServoError, ServoParams, StopReason, Task,
+    arm_states::ArmState,
     end_look::RestLooks,
-    history::ArmState,
     twist::{is_within, part_way},
 };
 use geometry::rigid::{PoseDelta, RigidTransform, pose_error};

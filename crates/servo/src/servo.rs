@@ -20,8 +20,8 @@ use nalgebra::Point3;
 
 use crate::{
     Arrival, Fence, Goal, Look, SeenPart, ServoError, ServoParams, StopReason, Task, Twist,
+    arm_states::{ArmState, ArmStates},
     end_look::RestLooks,
-    history::{ArmState, History},
     mover::Mover,
     twist::{is_within, part_way},
 };
@@ -48,9 +48,9 @@ pub struct Servo {
     task: Task,
     params: ServoParams,
     fence: Fence,
-    history: History,
+    reported: ArmStates,
     /// Where the robot was sent lately.
-    sent: History,
+    sent: ArmStates,
     run: Option<Run>,
     part: PartTrack,
     hold: Option<Hold>,
@@ -106,8 +106,8 @@ impl Servo {
             task,
             params: params.checked()?,
             fence,
-            history: History::default(),
-            sent: History::default(),
+            reported: ArmStates::default(),
+            sent: ArmStates::default(),
             run: None,
             part: PartTrack::default(),
             hold: None,
@@ -153,10 +153,10 @@ impl Servo {
             }
         });
         let dt = self.time_step(&run, now);
-        self.history.push(arm);
+        self.reported.push(arm);
         self.refuse_astray(&run, arm);
         if let Some(look) = look
-            && let Err(reason) = self.take_in(look, &run.mover, arm)
+            && let Err(reason) = self.observe(look, &run.mover, arm)
         {
             self.hold(reason, now);
         }
@@ -226,7 +226,7 @@ impl Servo {
     }
 
     /// Takes in a look, or says why the robot must not move by it.
-    fn take_in(&mut self, look: &Look, mover: &Mover, arm: &ArmState) -> Result<(), StopReason> {
+    fn observe(&mut self, look: &Look, mover: &Mover, arm: &ArmState) -> Result<(), StopReason> {
         let robot_from_flange = self.flange_at(look.taken_at, arm.at)?;
         let seen = look.seen.clone()?;
         let task = &self.task;
@@ -298,13 +298,13 @@ impl Servo {
         if age > self.params.max_age {
             return Err(stale);
         }
-        self.history.pose_at(taken_at).ok_or(stale)
+        self.reported.pose_at(taken_at).ok_or(stale)
     }
 
     /// Averages the goal on the way, and collects looks at rest.
     fn use_look(&mut self, goal: &Goal, seen: &SeenPart, taken_at: Duration, mover: &Mover) {
         if let Phase::Looking(looks) = &mut self.phase {
-            let rest = self.history.rest_since().filter(|_| mover.is_at_rest());
+            let rest = self.reported.rest_since().filter(|_| mover.is_at_rest());
             if rest.is_some_and(|since| taken_at >= since + self.params.settle) {
                 looks.push(goal.error, *seen);
             }

@@ -6,7 +6,7 @@ use inspection::pipeline::Refusal;
 use robot::arm::{Obstacle, PointProblem};
 use texts::{Described, Message};
 
-/// Why the robot is told to stay. `Display` states the reason, its `Advice` what to do.
+/// Why the robot stops. `Display` gives the reason, `Advice` what to do next.
 #[derive(Clone, Debug, PartialEq, thiserror::Error, Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum StopReason {
@@ -22,7 +22,7 @@ pub enum StopReason {
         /// The part, or reference, that was recognised.
         other: String,
     },
-    /// Another pose fits nearly as well.
+    /// The pose is ambiguous: another one fits nearly as well, or its size does not match.
     Ambiguous {
         /// The part.
         part: String,

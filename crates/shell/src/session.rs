@@ -14,7 +14,7 @@ use crate::{
         source::{CellChoice, SceneOrScan},
         unit_system::UnitSystem,
     },
-    rack::RackInUse,
+    rack::{RackEditor, RackInUse},
     source::live::LiveState,
     trace::{current_trace::CurrentTrace, expecting::Expecting},
 };
@@ -59,8 +59,8 @@ pub struct Session {
     pub program: ProgramSetup,
     /// Where parts may hang.
     pub rack: RackInUse,
-    /// True while the rack is edited: every part of a frame is found, so that each can get a place.
-    pub is_rack_edited: bool,
+    /// The window in which the rack is edited, while it is open: every part of a frame is found, so that each can get a place.
+    pub rack_editor: Option<RackEditor>,
     /// The robot frame, with the camera's pose in the robot's base, if the cell is calibrated; see [`Self::use_robot`].
     pub robot: Option<Arc<RobotFrame>>,
     /// Whether and where robots are answered.
@@ -97,7 +97,7 @@ impl Session {
     /// The recipe for results that are shown, before this rack, in which these parts are expected. While the rack is edited, any
     /// part may hang there.
     pub(crate) fn recipe_to_show(&self, rack: &Rack, expected: Expected) -> Arc<NamedRecipe> {
-        if self.is_rack_edited {
+        if self.rack_editor.is_some() {
             let recipe = self.recipe_in_rack(rack, Expected::default());
             return Arc::new(recipe.finding_all());
         }

@@ -2,7 +2,7 @@
 
 use super::{
     notice::{Notice, NoticeTopic},
-    rack::{RackEditor, ReadRack},
+    rack::ReadRack,
     roles::RoleState,
     session::Session,
     shift::ShiftWatch,
@@ -23,8 +23,6 @@ pub struct State {
     pub inspector: Inspector,
     /// Follows the source.
     pub follower: Follower,
-    /// The window in which the rack is edited, while it is open.
-    pub rack_editor: Option<RackEditor>,
     /// Notices, oldest first.
     pub notices: Vec<Notice>,
     /// True while the list of shortcuts is open.
@@ -74,7 +72,6 @@ impl State {
             session: Session::default(),
             inspector: Inspector::new(runner, library_cache),
             follower: Follower::new(runner, library_cache),
-            rack_editor: None,
             notices: Vec::new(),
             is_help_open: false,
             closing: Closing::default(),

@@ -136,7 +136,7 @@ fn while_a_rack_is_edited_every_part_of_a_frame_is_found_and_can_get_a_place() {
     act(&mut harness, Action::Role(RoleAction::Switch));
     settle(&mut harness);
     assert_eq!(shown(&harness), ["1 "]);
-    assert!(harness.state().state().rack_editor.is_none());
+    assert!(harness.state().state().session.rack_editor.is_none());
 }
 
 #[test]

@@ -412,7 +412,7 @@ impl<'a> SimulatedCell<'a> {
     pub(super) fn inspected(&self, frame: &DepthFrame, taken_at: Duration) -> Look {
         let scene = scene_from_frame(frame);
         let inspection = run(&scene, self.library, &self.recipe, &Unwatched);
-        let inspection = inspection.expect("nobody cancels it");
+        let inspection = inspection.expect("not cancelled");
         Look::new(&self.task, &inspection, taken_at)
     }
 

@@ -190,11 +190,10 @@ pub fn update(state: &mut State) {
 /// Carries out an action on the rack.
 pub fn apply(state: &mut State, action: RackAction) -> Option<Effect> {
     if let RackAction::Toggle = action {
-        if state.rack_editor.is_some() {
+        if state.session.rack_editor.is_some() {
             close(state);
         } else {
-            state.rack_editor = Some(RackEditor::of(&state.session));
-            state.session.is_rack_edited = true;
+            state.session.rack_editor = Some(RackEditor::of(&state.session));
             inspect_present(state);
         }
         return None;
@@ -208,7 +207,7 @@ pub fn apply(state: &mut State, action: RackAction) -> Option<Effect> {
         return None;
     }
     // A file may be chosen after the window was closed.
-    let open = state.rack_editor.take();
+    let open = state.session.rack_editor.clone();
     let mut editor = open.unwrap_or_else(|| RackEditor::of(&state.session));
     let robot = state.session.robot.clone();
     let changed = match action {
@@ -276,15 +275,13 @@ pub fn apply(state: &mut State, action: RackAction) -> Option<Effect> {
         Ok(None) => {}
         Err(error) => editor.problem = Some(error),
     }
-    state.rack_editor = Some(editor);
-    state.session.is_rack_edited = true;
+    state.session.rack_editor = Some(editor);
     None
 }
 
 /// Closes the window of the rack, if it is open.
 pub(crate) fn close(state: &mut State) {
-    if state.rack_editor.take().is_some() {
-        state.session.is_rack_edited = false;
+    if state.session.rack_editor.take().is_some() {
         inspect_present(state);
     }
 }

@@ -30,6 +30,7 @@ const MARGIN_PX: f32 = 380.0;
 /// Draws the window while it is open.
 pub fn window(ctx: &Context, state: &State, actions: &mut Vec<Action>) {
     let Some(editor) = state
+        .session
         .rack_editor
         .as_ref()
         .filter(|_| !state.session.is_operator_view())

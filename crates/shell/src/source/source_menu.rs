@@ -233,7 +233,10 @@ fn cameras(ui: &mut Ui, chosen: Option<&SourceSpec>, actions: &mut Vec<Action>) 
 /// Draws the entry for the window of the rack.
 fn rack(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
     heading(ui, text!("rack-heading"));
-    let button = Button::selectable(state.rack_editor.is_some(), state.session.rack.title());
+    let button = Button::selectable(
+        state.session.rack_editor.is_some(),
+        state.session.rack.title(),
+    );
     if ui.add(button).on_hover_text(text!("rack-says")).clicked() {
         actions.push(Action::Rack(RackAction::Toggle));
         ui.close();

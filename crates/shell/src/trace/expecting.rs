@@ -385,7 +385,7 @@ pub fn update(state: &mut State) {
         && let Some(table) = &mut expecting.orders
     {
         let used = text!("expect-table-used", file = file_name(&table.path));
-        let told = match &content {
+        let notice = match &content {
             Ok(_) if table.content.is_none() => Some(Notice::done(used)),
             Ok(_) => None,
             Err(error) => {
@@ -394,13 +394,13 @@ pub fn update(state: &mut State) {
             }
         };
         table.content = Some(content);
-        if let Some(told) = told {
-            notify(state, told);
+        if let Some(notice) = notice {
+            notify(state, notice);
         }
     }
     let mut notices = state.notices.iter();
-    let is_told = notices.any(|notice| notice.topic == NoticeTopic::Orders);
-    if is_told && state.session.expected().is_ok() {
+    let is_notified = notices.any(|notice| notice.topic == NoticeTopic::Orders);
+    if is_notified && state.session.expected().is_ok() {
         remove_notices(state, NoticeTopic::Orders);
     }
     if state.session.is_live() {

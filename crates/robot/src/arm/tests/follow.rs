@@ -42,7 +42,7 @@ fn a_pose_that_the_arm_must_not_take_is_refused_for_its_reason() {
     let flipped = [0.0, 0.3, 0.1, 0.0, 1.0, 0.0];
     let pose = arm.nozzle_pose(&flipped).expect("finite");
     let mut bent = arm.clone();
-    // Of the solutions with the wrist as it is, none is left.
+    // No solution keeps the configuration of the wrist.
     bent.arm.limits[4] = [0.1, 2.0];
     let refused = bent.joints_near(&pose, &near);
     assert_eq!(refused, Err(PointProblem::ConfigurationChange));

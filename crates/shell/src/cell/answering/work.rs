@@ -294,9 +294,9 @@ impl Inspector for AnsweringSession<'_> {
             answer: Answer::default(),
         });
         let inputs = self.follow();
-        let is_told = asked.expected.iter().any(|one| one.is_given());
+        let is_given = asked.expected.iter().any(|one| one.is_given());
         let expected = match &inputs.expected {
-            Err(why) if !is_told => {
+            Err(why) if !is_given => {
                 let UserError { what, advice } = why.in_english();
                 return Found::error(Problem::new("not_known", &what, &advice)).into();
             }

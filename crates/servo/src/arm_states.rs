@@ -21,7 +21,7 @@ pub struct ArmState {
 
 /// The arm's poses of the last seconds.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct History {
+pub(crate) struct ArmStates {
     states: VecDeque<(Duration, RigidTransform)>,
 }
 
@@ -30,7 +30,7 @@ const KEPT: Duration = Duration::from_secs(5);
 /// The arm is at rest while its flange moves by no more than this: metres and radians.
 const REST: (f64, f64) = (5e-5, 5e-5);
 
-impl History {
+impl ArmStates {
     pub(crate) fn push(&mut self, state: &ArmState) {
         self.states.push_back((state.at, state.robot_from_flange));
         while (self.states.front()).is_some_and(|(at, _)| *at + KEPT < state.at) {
@@ -83,10 +83,10 @@ mod tests {
 
     #[test]
     fn between_two_reports_the_pose_is_in_between_and_beyond_them_unknown() {
-        let mut history = History::default();
-        history.push(&state(100, 0.1));
-        history.push(&state(140, 0.2));
-        let at = |millis| history.pose_at(Duration::from_millis(millis));
+        let mut states = ArmStates::default();
+        states.push(&state(100, 0.1));
+        states.push(&state(140, 0.2));
+        let at = |millis| states.pose_at(Duration::from_millis(millis));
         let quarter = at(110).expect("known");
         assert!((quarter.translation.x - 0.125).abs() < 1e-12);
         assert!((quarter.rotation.angle() - 0.125).abs() < 1e-12);
@@ -96,10 +96,10 @@ mod tests {
 
     #[test]
     fn rest_begins_with_the_last_motion() {
-        let mut history = History::default();
+        let mut states = ArmStates::default();
         for (millis, x) in [(0, 0.0), (10, 0.1), (20, 0.2), (30, 0.2), (40, 0.20001)] {
-            history.push(&state(millis, x));
+            states.push(&state(millis, x));
         }
-        assert_eq!(history.rest_since(), Some(Duration::from_millis(20)));
+        assert_eq!(states.rest_since(), Some(Duration::from_millis(20)));
     }
 }
