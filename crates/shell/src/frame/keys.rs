@@ -12,106 +12,29 @@ use crate::{
     state::State,
 };
 use ui::{
-    key_binding::{KeyBinding, Shortcut},
+    key_binding::{CTRL_SHIFT, KeyBinding, Shortcut},
     language::{keys, text},
     theme::{font, space},
     widgets,
 };
 
 /// The shortcuts of the whole window.
+#[rustfmt::skip]
 const SHORTCUTS: [Shortcut<Action>; 13] = [
-    Shortcut {
-        modifiers: Modifiers::NONE,
-        key: Key::Space,
-        keys: || keys("Space"),
-        does: || text!("shell-does-capture"),
-        action: || Action::Capture,
-    },
-    Shortcut {
-        modifiers: Modifiers::NONE,
-        key: Key::L,
-        keys: || keys("L"),
-        does: || text!("shell-does-live"),
-        action: || Action::Live(LiveAction::Toggle),
-    },
-    Shortcut {
-        modifiers: Modifiers::COMMAND,
-        key: Key::L,
-        keys: || keys("Ctrl L"),
-        does: || text!("shell-does-record"),
-        action: || Action::Live(LiveAction::ToggleRecording),
-    },
+    Shortcut::new(Modifiers::NONE, Key::Space, || text!("shell-does-capture"), || Action::Capture),
+    Shortcut::new(Modifiers::NONE, Key::L, || text!("shell-does-live"), || Action::Live(LiveAction::Toggle)),
+    Shortcut::new(Modifiers::COMMAND, Key::L, || text!("shell-does-record"), || Action::Live(LiveAction::ToggleRecording)),
     // Before Ctrl O, which would match it too.
-    Shortcut {
-        modifiers: Modifiers::COMMAND.plus(Modifiers::SHIFT),
-        key: Key::O,
-        keys: || keys("Ctrl Shift O"),
-        does: || text!("shell-does-open-scan"),
-        action: || Action::Ask(DialogRequest::Scan),
-    },
-    Shortcut {
-        modifiers: Modifiers::COMMAND,
-        key: Key::O,
-        keys: || keys("Ctrl O"),
-        does: || text!("shell-open-scene"),
-        action: || Action::Ask(DialogRequest::Scene),
-    },
-    Shortcut {
-        modifiers: Modifiers::COMMAND,
-        key: Key::E,
-        keys: || keys("Ctrl E"),
-        does: || text!("shell-does-export"),
-        action: || Action::Make(Effect::Tell(Event::Export)),
-    },
-    Shortcut {
-        modifiers: Modifiers::NONE,
-        key: Key::B,
-        keys: || keys("B"),
-        does: || text!("shell-does-robot"),
-        action: || Action::Make(Effect::Robot(RobotAction::Toggle)),
-    },
-    Shortcut {
-        modifiers: Modifiers::NONE,
-        key: Key::U,
-        keys: || keys("U"),
-        does: || text!("shell-does-units"),
-        action: || Action::SwitchUnits,
-    },
-    Shortcut {
-        modifiers: Modifiers::NONE,
-        key: Key::T,
-        keys: || keys("T"),
-        does: || text!("shell-does-theme"),
-        action: || Action::SwitchTheme,
-    },
-    Shortcut {
-        modifiers: Modifiers::COMMAND,
-        key: Key::K,
-        keys: || keys("Ctrl K"),
-        does: || text!("shell-does-role"),
-        action: || Action::Role(RoleAction::Switch),
-    },
-    Shortcut {
-        modifiers: Modifiers::COMMAND,
-        key: Key::Q,
-        keys: || keys("Ctrl Q"),
-        does: || text!("shell-does-quit"),
-        action: || Action::Make(Effect::Close),
-    },
-    Shortcut {
-        modifiers: Modifiers::NONE,
-        key: Key::F1,
-        keys: || keys("F1"),
-        does: || text!("shell-does-help"),
-        action: || Action::ToggleHelp,
-    },
-    Shortcut {
-        modifiers: Modifiers::NONE,
-        key: Key::Escape,
-        keys: || keys("Esc"),
-        does: || text!("shell-does-escape"),
-        action: || Action::CloseTop,
-    },
+    Shortcut::new(CTRL_SHIFT, Key::O, || text!("shell-does-open-scan"), || Action::Ask(DialogRequest::Scan)),
+    Shortcut::new(Modifiers::COMMAND, Key::O, || text!("shell-open-scene"), || Action::Ask(DialogRequest::Scene)),
+    Shortcut::new(Modifiers::COMMAND, Key::E, || text!("shell-does-export"), || Action::Make(Effect::Tell(Event::Export))),
+    Shortcut::new(Modifiers::NONE, Key::B, || text!("shell-does-robot"), || Action::Make(Effect::Robot(RobotAction::Toggle))),
+    Shortcut::new(Modifiers::NONE, Key::U, || text!("shell-does-units"), || Action::SwitchUnits),
+    Shortcut::new(Modifiers::NONE, Key::T, || text!("shell-does-theme"), || Action::SwitchTheme),
+    Shortcut::new(Modifiers::COMMAND, Key::K, || text!("shell-does-role"), || Action::Role(RoleAction::Switch)),
+    Shortcut::new(Modifiers::COMMAND, Key::Q, || text!("shell-does-quit"), || Action::Make(Effect::Close)),
+    Shortcut::new(Modifiers::NONE, Key::F1, || text!("shell-does-help"), || Action::ToggleHelp),
+    Shortcut::new(Modifiers::NONE, Key::Escape, || text!("shell-does-escape"), || Action::CloseTop),
 ];
 
 /// Keys of the 3-D view and of the focus, only for the list; the last one is only the engineer's.
@@ -138,13 +61,13 @@ fn picture_keys() -> [[String; 2]; 3] {
 }
 
 /// Keys of the workspaces, in the order of the rail.
-const RAIL_KEYS: [(Key, &str); 6] = [
-    (Key::Num1, "1"),
-    (Key::Num2, "2"),
-    (Key::Num3, "3"),
-    (Key::Num4, "4"),
-    (Key::Num5, "5"),
-    (Key::Num6, "6"),
+const RAIL_KEYS: [Key; 6] = [
+    Key::Num1,
+    Key::Num2,
+    Key::Num3,
+    Key::Num4,
+    Key::Num5,
+    Key::Num6,
 ];
 
 /// Part of the window's height that the list leaves free, for heading, button, edges, and a notice above it, logical pixels.
@@ -186,7 +109,7 @@ pub fn shortcuts(
     let own = own.map(|(index, binding)| (binding, Action::Make(Effect::Press(workspace, index))));
     let named = SHORTCUTS
         .iter()
-        .map(|shortcut| (shortcut.binding(), (shortcut.action)()));
+        .map(|shortcut| (shortcut.binding, (shortcut.action)()));
     for (binding, action) in own.chain(named) {
         let is_plain = binding.modifiers.is_none();
         // In a text field, Ctrl Z undoes typing.
@@ -205,7 +128,7 @@ pub fn shortcuts(
     if is_writing || was_writing {
         return;
     }
-    for ((key, _), workspace) in RAIL_KEYS.into_iter().zip(WorkspaceKind::ALL) {
+    for (key, workspace) in RAIL_KEYS.into_iter().zip(WorkspaceKind::ALL) {
         if ctx.input_mut(|input| input.consume_key(Modifiers::NONE, key)) {
             actions.push(Action::GoTo(workspace));
         }
@@ -233,7 +156,7 @@ fn listed(bindings: impl Iterator<Item = KeyBinding>) -> impl Iterator<Item = [S
         all.extend(with_shift);
     }
     all.into_iter()
-        .map(|binding| [(binding.keys)(), (binding.does)()])
+        .map(|binding| [binding.keys(), (binding.does)()])
 }
 
 /// Draws the list of shortcuts.
@@ -260,12 +183,13 @@ pub fn help(ctx: &egui::Context, state: &State, own: &[KeyBinding], actions: &mu
             list.show(ui, |ui| {
                 let own = if is_operator { &[][..] } else { own };
                 let own = listed(own.iter().copied());
-                let named = SHORTCUTS.iter().map(Shortcut::binding);
+                let named = SHORTCUTS.iter().map(|shortcut| shortcut.binding);
                 let named = listed(named.filter(|key| !is_operator || is_operators(key, has_pin)));
                 let of_rail = RAIL_KEYS.into_iter().zip(WorkspaceKind::ALL);
                 let of_rail =
                     of_rail.filter(|(_, kind)| !is_operator || roles::is_operators(*kind));
-                let of_rail = of_rail.map(|((_, rail), workspace)| [keys(rail), workspace.title()]);
+                let of_rail =
+                    of_rail.map(|(key, workspace)| [key.name().to_owned(), workspace.title()]);
                 let is_enrolling = state.session.workspace == WorkspaceKind::Enrol;
                 let of_picture = is_enrolling.then(picture_keys).into_iter().flatten();
                 // Only the engineer measures.

@@ -42,7 +42,7 @@ use shell::{
 pub use ui::scrubber::Playback;
 use ui::{
     key_binding::{KeyBinding, Shortcut},
-    language::{keys, text},
+    language::text,
     task::{Running, TaskRunner},
     theme::Theme,
     viewport::{ViewError, ViewportGpu},
@@ -54,35 +54,12 @@ const SIDE: [f32; 2] = [340.0, 300.0];
 const PLOT: [f32; 2] = [236.0, 200.0];
 
 /// The shortcuts of this workspace.
+#[rustfmt::skip]
 const SHORTCUTS: [Shortcut<AlignAction>; 4] = [
-    Shortcut {
-        modifiers: Modifiers::NONE,
-        key: Key::R,
-        keys: || keys("R"),
-        does: || text!("align-key-run"),
-        action: || AlignAction::Run,
-    },
-    Shortcut {
-        modifiers: Modifiers::NONE,
-        key: Key::P,
-        keys: || text!("align-keys-play"),
-        does: || text!("align-key-play"),
-        action: || AlignAction::TogglePlay,
-    },
-    Shortcut {
-        modifiers: Modifiers::NONE,
-        key: Key::Comma,
-        keys: || text!("align-keys-back"),
-        does: || text!("align-key-back"),
-        action: || AlignAction::Step(-1.0),
-    },
-    Shortcut {
-        modifiers: Modifiers::NONE,
-        key: Key::Period,
-        keys: || text!("align-keys-on"),
-        does: || text!("align-key-on"),
-        action: || AlignAction::Step(1.0),
-    },
+    Shortcut::new(Modifiers::NONE, Key::R, || text!("align-key-run"), || AlignAction::Run),
+    Shortcut::new(Modifiers::NONE, Key::P, || text!("align-key-play"), || AlignAction::TogglePlay).keys_as(|| text!("align-keys-play")),
+    Shortcut::new(Modifiers::NONE, Key::Comma, || text!("align-key-back"), || AlignAction::Step(-1.0)).keys_as(|| text!("align-keys-back")),
+    Shortcut::new(Modifiers::NONE, Key::Period, || text!("align-key-on"), || AlignAction::Step(1.0)).keys_as(|| text!("align-keys-on")),
 ];
 
 /// The workspace.
@@ -144,7 +121,7 @@ impl Workspace for AlignWorkspace {
     }
 
     fn key_bindings(&self) -> Vec<KeyBinding> {
-        SHORTCUTS.iter().map(Shortcut::binding).collect()
+        SHORTCUTS.iter().map(|shortcut| shortcut.binding).collect()
     }
 
     fn press(&mut self, place: usize, cx: &mut ShellContext<'_>) {

@@ -40,42 +40,19 @@ use shell::{
     workspace::Workspace,
 };
 use ui::{
-    key_binding::{KeyBinding, Shortcut},
-    language::{keys, text},
+    key_binding::{CTRL_SHIFT, KeyBinding, Shortcut},
+    language::text,
     task::{Running, TaskRunner},
     theme::{Theme, space},
 };
 
 /// The shortcuts of the workspace. The one with more modifiers comes first, as the other would match it too.
+#[rustfmt::skip]
 const SHORTCUTS: [Shortcut<CompareAction>; 4] = [
-    Shortcut {
-        modifiers: Modifiers::COMMAND.plus(Modifiers::SHIFT),
-        key: Key::Z,
-        keys: || keys("Ctrl Shift Z"),
-        does: || text!("shell-redo"),
-        action: || CompareAction::Redo,
-    },
-    Shortcut {
-        modifiers: Modifiers::NONE,
-        key: Key::K,
-        keys: || keys("K"),
-        does: || text!("compare-key-keep"),
-        action: || CompareAction::Keep,
-    },
-    Shortcut {
-        modifiers: Modifiers::COMMAND,
-        key: Key::R,
-        keys: || keys("Ctrl R"),
-        does: || text!("compare-key-run"),
-        action: || CompareAction::RunAll,
-    },
-    Shortcut {
-        modifiers: Modifiers::COMMAND,
-        key: Key::Z,
-        keys: || keys("Ctrl Z"),
-        does: || text!("compare-key-undo"),
-        action: || CompareAction::Undo,
-    },
+    Shortcut::new(CTRL_SHIFT, Key::Z, || text!("shell-redo"), || CompareAction::Redo),
+    Shortcut::new(Modifiers::NONE, Key::K, || text!("compare-key-keep"), || CompareAction::Keep),
+    Shortcut::new(Modifiers::COMMAND, Key::R, || text!("compare-key-run"), || CompareAction::RunAll),
+    Shortcut::new(Modifiers::COMMAND, Key::Z, || text!("compare-key-undo"), || CompareAction::Undo),
 ];
 
 /// Width of the recipe in a wide and in a narrow window, logical pixels.
@@ -138,7 +115,7 @@ impl Workspace for CompareWorkspace {
     }
 
     fn key_bindings(&self) -> Vec<KeyBinding> {
-        SHORTCUTS.iter().map(Shortcut::binding).collect()
+        SHORTCUTS.iter().map(|shortcut| shortcut.binding).collect()
     }
 
     fn press(&mut self, place: usize, cx: &mut ShellContext<'_>) {

@@ -54,8 +54,8 @@ use shell::{
     workspace::Workspace,
 };
 use ui::{
-    key_binding::{KeyBinding, Shortcut},
-    language::{keys, text},
+    key_binding::{CTRL_SHIFT, KeyBinding, Shortcut},
+    language::text,
     task::{Running, TaskRunner},
     theme::{Theme, font, space},
     viewport::{ViewError, ViewportGpu},
@@ -63,42 +63,13 @@ use ui::{
 };
 
 /// The shortcuts of this workspace. Those with more modifiers come first, as the others would match them too.
+#[rustfmt::skip]
 const SHORTCUTS: [Shortcut<EnrolAction>; 5] = [
-    Shortcut {
-        modifiers: Modifiers::COMMAND.plus(Modifiers::SHIFT),
-        key: Key::Z,
-        keys: || keys("Ctrl Shift Z"),
-        does: || text!("enrol-key-redo"),
-        action: || EnrolAction::Redo,
-    },
-    Shortcut {
-        modifiers: Modifiers::COMMAND,
-        key: Key::Z,
-        keys: || keys("Ctrl Z"),
-        does: || text!("enrol-key-undo"),
-        action: || EnrolAction::Undo,
-    },
-    Shortcut {
-        modifiers: Modifiers::COMMAND,
-        key: Key::S,
-        keys: || keys("Ctrl S"),
-        does: || text!("enrol-key-save"),
-        action: || EnrolAction::Save,
-    },
-    Shortcut {
-        modifiers: Modifiers::NONE,
-        key: Key::D,
-        keys: || keys("D"),
-        does: || text!("enrol-key-draw"),
-        action: || EnrolAction::DrawNext,
-    },
-    Shortcut {
-        modifiers: Modifiers::NONE,
-        key: Key::R,
-        keys: || keys("R"),
-        does: || text!("enrol-key-rotate"),
-        action: || EnrolAction::Draw(None),
-    },
+    Shortcut::new(CTRL_SHIFT, Key::Z, || text!("enrol-key-redo"), || EnrolAction::Redo),
+    Shortcut::new(Modifiers::COMMAND, Key::Z, || text!("enrol-key-undo"), || EnrolAction::Undo),
+    Shortcut::new(Modifiers::COMMAND, Key::S, || text!("enrol-key-save"), || EnrolAction::Save),
+    Shortcut::new(Modifiers::NONE, Key::D, || text!("enrol-key-draw"), || EnrolAction::DrawNext),
+    Shortcut::new(Modifiers::NONE, Key::R, || text!("enrol-key-rotate"), || EnrolAction::Draw(None)),
 ];
 
 /// Width of the card in a wide and in a narrow window, logical pixels.
@@ -189,7 +160,7 @@ impl Workspace for EnrolWorkspace {
     }
 
     fn key_bindings(&self) -> Vec<KeyBinding> {
-        SHORTCUTS.iter().map(Shortcut::binding).collect()
+        SHORTCUTS.iter().map(|shortcut| shortcut.binding).collect()
     }
 
     fn press(&mut self, place: usize, cx: &mut ShellContext<'_>) {

@@ -38,7 +38,7 @@ use shell::{
 };
 use ui::{
     key_binding::{KeyBinding, Shortcut},
-    language::{keys, text},
+    language::text,
     task::{Running, TaskRunner},
     theme::{Theme, space},
 };
@@ -47,35 +47,12 @@ use ui::{
 const DETAILS: [f32; 2] = [340.0, 300.0];
 
 /// The shortcuts of this workspace.
+#[rustfmt::skip]
 const SHORTCUTS: [Shortcut<HistoryAction>; 4] = [
-    Shortcut {
-        modifiers: Modifiers::NONE,
-        key: Key::ArrowUp,
-        keys: || keys("Up"),
-        does: || text!("history-key-newer"),
-        action: || HistoryAction::Step(Direction::Up),
-    },
-    Shortcut {
-        modifiers: Modifiers::NONE,
-        key: Key::ArrowDown,
-        keys: || keys("Down"),
-        does: || text!("history-key-older"),
-        action: || HistoryAction::Step(Direction::Down),
-    },
-    Shortcut {
-        modifiers: Modifiers::NONE,
-        key: Key::Enter,
-        keys: || keys("Enter"),
-        does: || text!("history-key-open"),
-        action: || HistoryAction::OpenSelected,
-    },
-    Shortcut {
-        modifiers: Modifiers::NONE,
-        key: Key::A,
-        keys: || keys("A"),
-        does: || text!("history-key-again"),
-        action: || HistoryAction::AgainSelected,
-    },
+    Shortcut::new(Modifiers::NONE, Key::ArrowUp, || text!("history-key-newer"), || HistoryAction::Step(Direction::Up)),
+    Shortcut::new(Modifiers::NONE, Key::ArrowDown, || text!("history-key-older"), || HistoryAction::Step(Direction::Down)),
+    Shortcut::new(Modifiers::NONE, Key::Enter, || text!("history-key-open"), || HistoryAction::OpenSelected),
+    Shortcut::new(Modifiers::NONE, Key::A, || text!("history-key-again"), || HistoryAction::AgainSelected),
 ];
 
 /// The workspace.
@@ -209,7 +186,7 @@ impl Workspace for HistoryWorkspace {
     }
 
     fn key_bindings(&self) -> Vec<KeyBinding> {
-        SHORTCUTS.iter().map(Shortcut::binding).collect()
+        SHORTCUTS.iter().map(|shortcut| shortcut.binding).collect()
     }
 
     fn press(&mut self, place: usize, cx: &mut ShellContext<'_>) {

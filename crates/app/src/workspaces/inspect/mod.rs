@@ -40,8 +40,8 @@ use shell::{
     workspace::Workspace,
 };
 use ui::{
-    key_binding::{KeyBinding, Shortcut},
-    language::{Language, keys, text},
+    key_binding::{CTRL_SHIFT, KeyBinding, Shortcut},
+    language::{Language, text},
     task::{Running, TaskRunner},
     theme::{Theme, font, space},
     viewport::{ViewError, ViewportGpu},
@@ -55,63 +55,16 @@ const CARD_MARGIN: Margin = Margin::symmetric(18, 14);
 const STRIP: [f32; 2] = [196.0, 164.0];
 
 /// The shortcuts of this workspace.
+#[rustfmt::skip]
 const SHORTCUTS: [Shortcut<InspectAction>; 8] = [
-    Shortcut {
-        modifiers: Modifiers::COMMAND.plus(Modifiers::SHIFT),
-        key: Key::Z,
-        keys: || keys("Ctrl Shift Z"),
-        does: || text!("inspect-does-redo"),
-        action: || InspectAction::Shots(ShotsAction::Redo),
-    },
-    Shortcut {
-        modifiers: Modifiers::COMMAND,
-        key: Key::Z,
-        keys: || keys("Ctrl Z"),
-        does: || text!("inspect-does-undo"),
-        action: || InspectAction::Shots(ShotsAction::Undo),
-    },
-    Shortcut {
-        modifiers: Modifiers::NONE,
-        key: Key::P,
-        keys: || keys("P"),
-        does: || text!("inspect-does-picture"),
-        action: || InspectAction::Ask(InspectFile::Picture),
-    },
-    Shortcut {
-        modifiers: Modifiers::NONE,
-        key: Key::C,
-        keys: || keys("C"),
-        does: || text!("inspect-does-contour"),
-        action: || InspectAction::Toggle(ViewPart::Outline),
-    },
-    Shortcut {
-        modifiers: Modifiers::NONE,
-        key: Key::N,
-        keys: || keys("N"),
-        does: || text!("inspect-does-nozzle"),
-        action: || InspectAction::Toggle(ViewPart::NozzleWorst),
-    },
-    Shortcut {
-        modifiers: Modifiers::COMMAND.plus(Modifiers::SHIFT),
-        key: Key::C,
-        keys: || keys("Ctrl Shift C"),
-        does: || text!("inspect-does-copy"),
-        action: || InspectAction::CopyPose,
-    },
-    Shortcut {
-        modifiers: Modifiers::NONE,
-        key: Key::Comma,
-        keys: || keys(","),
-        does: || text!("inspect-does-previous-part"),
-        action: || InspectAction::NextPart(-1),
-    },
-    Shortcut {
-        modifiers: Modifiers::NONE,
-        key: Key::Period,
-        keys: || keys("."),
-        does: || text!("inspect-does-next-part"),
-        action: || InspectAction::NextPart(1),
-    },
+    Shortcut::new(CTRL_SHIFT, Key::Z, || text!("inspect-does-redo"), || InspectAction::Shots(ShotsAction::Redo)),
+    Shortcut::new(Modifiers::COMMAND, Key::Z, || text!("inspect-does-undo"), || InspectAction::Shots(ShotsAction::Undo)),
+    Shortcut::new(Modifiers::NONE, Key::P, || text!("inspect-does-picture"), || InspectAction::Ask(InspectFile::Picture)),
+    Shortcut::new(Modifiers::NONE, Key::C, || text!("inspect-does-contour"), || InspectAction::Toggle(ViewPart::Outline)),
+    Shortcut::new(Modifiers::NONE, Key::N, || text!("inspect-does-nozzle"), || InspectAction::Toggle(ViewPart::NozzleWorst)),
+    Shortcut::new(CTRL_SHIFT, Key::C, || text!("inspect-does-copy"), || InspectAction::CopyPose),
+    Shortcut::new(Modifiers::NONE, Key::Comma, || text!("inspect-does-previous-part"), || InspectAction::NextPart(-1)),
+    Shortcut::new(Modifiers::NONE, Key::Period, || text!("inspect-does-next-part"), || InspectAction::NextPart(1)),
 ];
 
 /// The workspace. Between frames it keeps its state and what it prepared of the last result.
@@ -347,7 +300,7 @@ impl Workspace for InspectWorkspace {
     }
 
     fn key_bindings(&self) -> Vec<KeyBinding> {
-        SHORTCUTS.iter().map(Shortcut::binding).collect()
+        SHORTCUTS.iter().map(|shortcut| shortcut.binding).collect()
     }
 
     fn press(&mut self, place: usize, cx: &mut ShellContext<'_>) {

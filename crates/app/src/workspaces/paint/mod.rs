@@ -47,8 +47,8 @@ use shell::{
 };
 pub use ui::scrubber::Playback;
 use ui::{
-    key_binding::{KeyBinding, Shortcut},
-    language::{keys, text},
+    key_binding::{CTRL_SHIFT, KeyBinding, Shortcut},
+    language::text,
     task::{Running, TaskRunner},
     theme::{Theme, space},
     viewport::{DrawnShape, ViewError, ViewportGpu},
@@ -60,66 +60,16 @@ const SIDE: [f32; 2] = [340.0, 300.0];
 const TIMELINE: f32 = 2.0 * space::TARGET + 46.0;
 
 /// The shortcuts of this workspace. Those with more modifiers come first, as the others would match them too.
+#[rustfmt::skip]
 const SHORTCUTS: [Shortcut<PaintAction>; 8] = [
-    Shortcut {
-        modifiers: Modifiers::COMMAND.plus(Modifiers::SHIFT),
-        key: Key::Z,
-        keys: || keys("Ctrl Shift Z"),
-        does: || text!("shell-redo"),
-        action: || PaintAction::Redo,
-    },
-    Shortcut {
-        modifiers: Modifiers::COMMAND,
-        key: Key::Z,
-        keys: || keys("Ctrl Z"),
-        does: || text!("shell-undo"),
-        action: || PaintAction::Undo,
-    },
-    Shortcut {
-        modifiers: Modifiers::COMMAND,
-        key: Key::S,
-        keys: || keys("Ctrl S"),
-        does: || text!("paint-store"),
-        action: || PaintAction::Store,
-    },
-    Shortcut {
-        modifiers: Modifiers::NONE,
-        key: Key::P,
-        keys: || keys("P"),
-        does: || text!("paint-key-play"),
-        action: || PaintAction::TogglePlay,
-    },
-    Shortcut {
-        modifiers: Modifiers::NONE,
-        key: Key::Comma,
-        keys: || keys(","),
-        does: || text!("paint-key-back"),
-        action: || PaintAction::Step(-1),
-    },
-    Shortcut {
-        modifiers: Modifiers::NONE,
-        key: Key::Period,
-        keys: || keys("."),
-        does: || text!("paint-key-on"),
-        action: || PaintAction::Step(1),
-    },
-    Shortcut {
-        modifiers: Modifiers::NONE,
-        key: Key::D,
-        keys: || keys("D"),
-        does: || text!("paint-keep-out-lasso"),
-        action: || {
-            let lasso = PaintTool::Outline(DrawnShape::Lasso, RegionUse::KeepOut);
-            PaintAction::Use(lasso)
-        },
-    },
-    Shortcut {
-        modifiers: Modifiers::NONE,
-        key: Key::R,
-        keys: || keys("R"),
-        does: || text!("view-rotate"),
-        action: || PaintAction::Use(PaintTool::Look),
-    },
+    Shortcut::new(CTRL_SHIFT, Key::Z, || text!("shell-redo"), || PaintAction::Redo),
+    Shortcut::new(Modifiers::COMMAND, Key::Z, || text!("shell-undo"), || PaintAction::Undo),
+    Shortcut::new(Modifiers::COMMAND, Key::S, || text!("paint-store"), || PaintAction::Store),
+    Shortcut::new(Modifiers::NONE, Key::P, || text!("paint-key-play"), || PaintAction::TogglePlay),
+    Shortcut::new(Modifiers::NONE, Key::Comma, || text!("paint-key-back"), || PaintAction::Step(-1)),
+    Shortcut::new(Modifiers::NONE, Key::Period, || text!("paint-key-on"), || PaintAction::Step(1)),
+    Shortcut::new(Modifiers::NONE, Key::D, || text!("paint-keep-out-lasso"), || PaintAction::Use(PaintTool::Outline(DrawnShape::Lasso, RegionUse::KeepOut))),
+    Shortcut::new(Modifiers::NONE, Key::R, || text!("view-rotate"), || PaintAction::Use(PaintTool::Look)),
 ];
 
 /// The workspace.
@@ -192,7 +142,7 @@ impl Workspace for PaintWorkspace {
     }
 
     fn key_bindings(&self) -> Vec<KeyBinding> {
-        SHORTCUTS.iter().map(Shortcut::binding).collect()
+        SHORTCUTS.iter().map(|shortcut| shortcut.binding).collect()
     }
 
     fn press(&mut self, place: usize, cx: &mut ShellContext<'_>) {
