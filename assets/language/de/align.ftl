@@ -1,15 +1,10 @@
 ## What is aligned
 align-moved-copy = Bewegte Kopie
-align-scene = Szene
 align-files = Zwei Dateien
 align-run = Starten
 align-run-hint = Mit jedem Verfahren ausrichten (R)
-align-view-menu = Ansicht
 align-view-menu-hint = Aller 3D-Ansichten
-align-library-loading = Die Bibliothek wird geladen
 align-library-failed = Die Bibliothek konnte nicht geladen werden
-align-part = Teil
-align-no-part = keines
 align-part-hint = Das eingelernte Teil, das die Referenz ist
 align-start = Start
 align-custom = Eigener…
@@ -37,13 +32,11 @@ align-no-part-in-scene = In der Szene wurde kein Teil gefunden: eine andere aufn
 align-choose-source = Die Datei wählen, die bewegt wird: Quelle…
 align-choose-target = Die Datei wählen, die stehen bleibt: Ziel…
 align-part-gone = die Bibliothek hat kein Teil { $name }
-align-part-gone-advice = Ein anderes Teil wählen
 align-mesh-no-area = { $path }: Das Netz hat keine Fläche
 align-mesh-no-area-advice = Das Netz mit seinen Flächen erneut exportieren
 
 ## The views
 align-view-of = 3D-Ansicht, { $method }
-align-global = Global
 align-previous-result = Voriges Ergebnis: eine neue Ausrichtung läuft
 align-at-work = Läuft…
 align-not-run = Nicht gelaufen

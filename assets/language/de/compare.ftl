@@ -104,7 +104,6 @@ compare-cell-taken-for = { $truth } erkannt als { $part }: { $count }
 compare-cell-not-accepted = { $truth }, nicht akzeptiert: { $count }
 compare-open-case = { $name } öffnen
 compare-open-case-hint = Diesen Fall anzeigen
-compare-remove = Entfernen
 compare-remove-named = { $name } entfernen
 compare-cell-refused = zu Unrecht abgewiesen
 compare-matrix-hint = Zeilen: was es ist · Spalten: als was es akzeptiert wurde · eine Zelle öffnet ihre Fälle

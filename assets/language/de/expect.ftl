@@ -2,16 +2,11 @@
 
 expect-title = Erwartet
 expect-anything = Jedes Teil
-expect-parts = { $num ->
-        [one] { $num } Teil
-       *[other] { $num } Teile
-    }
 expect-at-place = { $part } ({ $place })
 expect-not-known = Unbekannt
 expect-says = Welche Teile dort hängen sollen: ein anderes wird abgelehnt, und was fehlt, wird angezeigt
 expect-one-more = Eines mehr
 expect-one-less = Eines weniger
-expect-clear = Jedes Teil
 expect-orders = Aufträge…
 expect-orders-says = Eine Tabelle (CSV) der Aufträge mit den Teilen, die dafür dort hängen
 expect-by-orders = Nach Auftragstabelle
@@ -20,7 +15,6 @@ expect-table = Auftragstabelle
 expect-table-used = Was erwartet wird, steht in { $file }
 expect-table-unusable = Die Auftragstabelle ist nicht verwendbar: { $error }
 expect-reading = Die Auftragstabelle { $file } wird gelesen
-expect-reading-wait = Einen Moment warten
 expect-watching = Auftragstabelle wird beobachtet
 
 ## Warum es nicht bekannt ist

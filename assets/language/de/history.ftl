@@ -1,10 +1,7 @@
 ## The list
-history-empty = Noch nichts geprüft
 history-empty-advice = „Aufnehmen“ drücken: Jede Prüfung erscheint hier und bleibt nach dem Schließen des Fensters erhalten
 history-in-memory = Nur im Arbeitsspeicher: { $reason }
 history-none-listed = Keine passenden Prüfungen: Filter ändern
-history-column-part = Teil
-history-column-scene = Szene
 history-column-score = Score
 history-column-ms = ms
 history-column-time = Zeitpunkt
@@ -30,7 +27,6 @@ history-find = Suchen
 history-find-hint = Teil, Serien-Nr., Szene
 history-filter-days = Tage
 history-filter-verdict = Ergebnis
-history-filter-part = Teil
 history-filter-all-verdicts = Alle
 history-filter-all-parts = Alle
 history-days-all = Alle Tage
@@ -85,7 +81,6 @@ history-frame-gone-advice = Künftig mehr Bilder aufbewahren: „Bilder…“ ü
 history-actual-part = Tatsächliches Teil
 history-choose-actual-part = Das tatsächliche Teil wählen
 history-remark = Bemerkung
-history-remark-hint = Alles Wissenswerte
 history-your-remark = Eigene Bemerkung
 
 ## What differs
@@ -114,7 +109,6 @@ history-keep-used =
        *[other] { $count } Bilder
     }, { $size }. Die ältesten werden zuerst gelöscht
 history-keep-marked = Solche mit Bemerkung oder tatsächlichem Teil bleiben erhalten: { $size }
-history-apply = Übernehmen
 
 ## Statistics
 history-none-counted = Keine passenden Teile: Filter ändern
@@ -137,7 +131,6 @@ history-no-part-left-out =
     }
 history-drift = Verlauf der Messwerte: { $part }
 history-drift-needs = Der Verlauf der Messwerte wird für ein Teil gezeigt, das mindestens { $count }-mal akzeptiert wurde
-history-drift-score = Score
 history-drift-fit = Abweichung von der Referenz, rms
 history-drift-ends = erstes Fünftel { $first }, letztes Fünftel { $last } (Mediane)
 history-drift-place = Lage des Teils: vom ersten zum letzten Fünftel x { $x }, y { $y }, z { $z } (Mediane)

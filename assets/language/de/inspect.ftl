@@ -16,7 +16,6 @@ inspect-let-it-hang = Das Teil eine Sekunde still hängen lassen
 inspect-looking = Suche läuft
 inspect-not-long-enough = noch nicht lange genug gesehen
 inspect-it-is-steady = das Teil hängt still
-inspect-wait = Einen Moment warten
 inspect-not-accepted-yet = Noch offen
 inspect-nearest = Am nächsten: { $part }
 inspect-recognised = Erkannt
@@ -45,7 +44,6 @@ inspect-wrong-part = Falsches Teil?
 inspect-wrong-part-says = Im Vergleich ansehen, warum es als dieses Teil erkannt wurde
 inspect-copy-pose = Kopieren
 inspect-copy-pose-says = In der gewählten Konvention, in der ersten Zeile genannt (Strg Umschalt C)
-inspect-score = Score
 inspect-score-itself = Score des Teils selbst, nicht des Spiegelbilds
 inspect-as-part = Als { $part } (nicht akzeptiert)
 inspect-next = Nächstes: { $part } { $score }
@@ -60,7 +58,6 @@ inspect-rms = rms
 inspect-overlap = Überlappung
 inspect-unconstrained = Nicht bestimmt: { $freedom }
 inspect-pose-uncertainty = Pose-Unsicherheit (95 %)
-inspect-uncertainty = Unsicherheit (95 %)
 inspect-runner-up = zweitbeste Pose
 inspect-times-worse = { $ratio }× schlechter
 inspect-as-good = gleich gut
@@ -69,7 +66,6 @@ inspect-ambiguous = Eine andere Pose passt ebenso gut: prüfen, wie herum das Te
 inspect-inspection = Prüfung
 inspect-time = Zeit
 inspect-scene = Szene
-inspect-camera = Kamera
 inspect-simulated = simuliert
 inspect-serial = Serien-Nr.
 inspect-order = Auftrag
@@ -100,7 +96,6 @@ inspect-none-meets = keine der { $num } angenommenen Düsenpositionen zeigt auf 
 
 ## The pose for the robot
 
-inspect-pose = Pose
 inspect-robot-frame = Basiskoordinatensystem des Roboters, laut { $name }
 inspect-camera-frame = Kamerakoordinatensystem: Die Zelle ist nicht kalibriert
 inspect-camera-frame-only = Kamerakoordinatensystem: Ein Roboter darf mit diesem Ergebnis nicht arbeiten
@@ -112,7 +107,6 @@ inspect-pose-copied = { $name } in der Konvention { $convention } kopiert
 
 ## The view
 
-inspect-view = Ansicht
 inspect-colour = Farbe · { $colouring }
 inspect-show = Anzeigen
 inspect-export-path = Lackierbahn exportieren…
@@ -132,7 +126,6 @@ inspect-part-outline = Eingelernte Kontur
 inspect-part-nozzle-middle = Düse über der Mitte
 inspect-part-nozzle-worst = Düse an der schlechtesten Stelle
 inspect-part-spray-path = Lackierbahn
-inspect-part-robot-base = Roboterbasis
 inspect-part-shot-cameras = Kameras der Aufnahmen
 inspect-part-unseen = Von keiner Aufnahme gesehen
 inspect-needs-pose = Erfordert ein Teil, dessen Pose gefunden wurde
@@ -154,8 +147,6 @@ inspect-path-in-band = Lackierbahn · { $inside } von { $num } im Band
 
 ## The stages
 
-inspect-segmentation = Segmentierung
-inspect-binary-image = Binärbild
 inspect-contour = Kontur
 inspect-signatures = Signaturen
 inspect-ranking = Rangliste
@@ -185,7 +176,6 @@ inspect-not-asked-for = nicht ausgerichtet: keine Pose verlangt
 inspect-flat-shape = nicht ausgerichtet: als flache Form eingelernt
 inspect-no-pose-found = nicht ausgerichtet: keine Pose gefunden
 inspect-score-too-low = nicht ausgerichtet: Score zu niedrig für einen Versuch
-inspect-nothing-yet = Noch nichts geprüft
 inspect-capture-cell = „Aufnehmen“ drücken für ein Bild der simulierten Zelle, oder eine aufgenommene Szene hierher ziehen
 inspect-capture-or-drop = „Aufnehmen“ drücken oder eine aufgenommene Szene hierher ziehen
 

@@ -10,7 +10,6 @@ live-recorded = { $num ->
         [one] { $num } Bild, { $size }, in { $folder } aufgezeichnet
        *[other] { $num } Bilder, { $size }, in { $folder } aufgezeichnet
     }
-live-live = Live
 live-playing = Wiedergabe
 live-watching = Ordner
 live-is = { $name } · { $what }

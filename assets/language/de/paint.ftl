@@ -1,11 +1,8 @@
 ## Part and coat
-paint-library-loading = Die Bibliothek wird geladen
 paint-no-part = Die Bibliothek enthält kein Teil zum Lackieren
 paint-no-such-part = { $part } ist nicht mehr in der Bibliothek
-paint-no-such-part-advice = Anderes Teil wählen
 paint-part = Zu lackierendes Teil: { $part }
 paint-part-hint = Das eingelernte Teil, das lackiert wird
-paint-none-chosen = keines
 paint-recognised-gone = Das zuletzt erkannte Teil ist nicht mehr eingelernt: das zu lackierende Teil wählen
 paint-within = { $share } % innerhalb { $target } ± { $tolerance } µm
 paint-side-none = Zu lackierende Seite wählen
@@ -19,13 +16,11 @@ paint-coat = Beschichtung
 paint-coat-changed = { $coat }, geändert
 paint-coat-named = Beschichtung: { $coat }
 paint-coat-name = Name der Beschichtung
-paint-reset-coat = Zurücksetzen
 paint-saved-coat = Beschichtung { $coat } gespeichert
 paint-no-coat-folder = Es gibt keinen Ordner für Beschichtungen
 paint-no-coat-folder-advice = Das Fenster als Benutzer mit einem Home-Ordner starten
 
 ## What the film comes to
-paint-check = Schicht
 paint-thinnest-thickest = Dünnste · dickste Stelle
 paint-mean = Mittel
 paint-missed = Nicht getroffen
@@ -92,7 +87,6 @@ paint-propose-hint = Bahnabstand und Geschwindigkeit suchen, mit denen die Schic
 paint-export-hint = Bahn als Tabelle schreiben
 paint-export-title = Lackierbahn exportieren
 paint-store = Beim Teil speichern
-paint-store-short = Speichern
 paint-store-hint = Bahn beim Teil speichern; Prüfungen und Roboterprogramme verwenden sie von da an
 paint-is-stored = Diese Bahn ist beim Teil gespeichert
 paint-planned-path = Geplant
@@ -197,7 +191,6 @@ paint-show-unreached = Nächsten zeigen
 paint-rail-moves = Entlang der Bahn ist seine Schiene zwischen { $from } und { $to } mm
 paint-rail-at = Bei { $at } mm seiner Schiene würde er { $count } erreichen
 paint-base-moved = Mit dem Fuß um { $by } mm versetzt würde er { $count } erreichen
-paint-apply = Übernehmen
 paint-apply-rail = Den Fuß entlang der Schiene dorthin versetzen
 paint-apply-base = Den Fuß dorthin versetzen
 paint-export-program = Programm…

@@ -60,7 +60,6 @@ results-group-segmentation = Segmentierung
 results-group-binary-image = Binärbild
 results-group-contour = Kontur und Strahlen
 results-group-match = Vergleich
-results-group-pose = Pose
 results-group-icp-ga = ICP-GA
 results-group-acceptance = Akzeptanz
 results-group-stand-off = Düsenabstand

@@ -41,7 +41,6 @@ robot-flange-at-every = robot_from_flange bei jeder Aufnahme
 robot-flange-unknown = Die Flanschpose bei der Aufnahme ist nicht bekannt: Es gibt keine Pose für den Roboter
 robot-flange-unknown-advice = Die Flanschpose wie auf der Steuerung angezeigt eingeben und speichern
 robot-flange-at = Flansch bei der Aufnahme
-robot-store = Speichern
 
 ## By hand
 
@@ -138,7 +137,6 @@ robot-answer = Anfragen
 robot-answer-says = Roboter und SPS fragen über TCP nach einer Prüfung und erhalten Ergebnis und Pose, wie von partsight serve. Jeder Trigger wird aus einem Bild beantwortet, das die Quelle des Fensters danach liefert
 robot-protocol = Protokoll
 robot-port = Port, oder IP-Adresse und Port
-robot-pose-sent = Pose
 robot-pose-of-part = Lage des Teils
 robot-pose-offset = Abstand von der Standardposition
 robot-poses-as = Posen als

@@ -275,3 +275,23 @@ shell-choose-or-go-on = Oben rechts eine andere wählen oder fortfahren: Das ers
 shell-holds-no-library = { $path } enthält keine Teilebibliothek
 shell-sentence = { $text }.
 shell-about-scene = { $scene }: { $what }
+
+## Words of several areas
+
+shell-scene = Szene
+shell-view = Ansicht
+shell-part = Teil
+shell-no-part = keines
+shell-remove = Entfernen
+shell-name = Name
+shell-notes-hint = Alles Wissenswerte
+shell-reset = Zurücksetzen
+shell-wait = Einen Moment warten
+shell-apply = Übernehmen
+shell-score = Score
+shell-pose = Pose
+shell-robot-base = Roboterbasis
+shell-store = Speichern
+shell-library-loading = Die Bibliothek wird geladen
+shell-choose-another-part = Ein anderes Teil wählen
+shell-nothing-inspected = Noch nichts geprüft

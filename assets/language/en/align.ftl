@@ -1,15 +1,10 @@
 ## What is aligned
 align-moved-copy = Moved copy
-align-scene = Scene
 align-files = Two files
 align-run = Run
 align-run-hint = Align by every method (R)
-align-view-menu = View
 align-view-menu-hint = Of all 3-D views
-align-library-loading = The library is being loaded
 align-library-failed = The library could not be loaded
-align-part = Part
-align-no-part = none
 align-part-hint = The enrolled part that is the reference
 align-start = Start
 align-custom = Custom…
@@ -37,14 +32,12 @@ align-no-part-in-scene = No part was found in the scene: capture another
 align-choose-source = Choose the file that is moved: Source…
 align-choose-target = Choose the file that stays: Target…
 align-part-gone = the library has no part { $name }
-align-part-gone-advice = Choose another part
 align-mesh-no-area = { $path }: the mesh has no area
 align-mesh-no-area-advice = Export the mesh again with its faces
 
 ## The views
 align-view-of = 3-D view, { $method }
-align-global = Global
-align-previous-result = Previous result: a new inspection is running
+align-previous-result = Previous result: a new alignment is running
 align-at-work = At work…
 align-not-run = Not run
 align-figures = E { $e } m² · rms { $rms } on { $overlap } % · { $time } ms

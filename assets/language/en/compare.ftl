@@ -104,7 +104,6 @@ compare-cell-taken-for = { $truth } taken for { $part }: { $count }
 compare-cell-not-accepted = { $truth }, not accepted: { $count }
 compare-open-case = Open { $name }
 compare-open-case-hint = Bring this case to the front
-compare-remove = Remove
 compare-remove-named = Remove { $name }
 compare-cell-refused = wrongly refused
 compare-matrix-hint = Rows: what it is · columns: what it was accepted as · a cell opens its cases

@@ -2,16 +2,11 @@
 
 expect-title = Expected
 expect-anything = Any part
-expect-parts = { $num ->
-        [one] { $num } part
-       *[other] { $num } parts
-    }
 expect-at-place = { $part } ({ $place })
 expect-not-known = Not known
 expect-says = Which parts should hang there: another one is refused, and it is shown what is missing
 expect-one-more = One more
 expect-one-less = One less
-expect-clear = Any part
 expect-orders = Orders…
 expect-orders-says = A table (CSV) of orders with the parts that hang there for each
 expect-by-orders = By table of orders
@@ -20,7 +15,6 @@ expect-table = Table of orders
 expect-table-used = What is expected follows from { $file }
 expect-table-unusable = The table of orders cannot be used: { $error }
 expect-reading = Reading the table of orders { $file }
-expect-reading-wait = Wait a moment
 expect-watching = Watching the table of orders
 
 ## Why it is not known

@@ -1,10 +1,7 @@
 ## The list
-history-empty = Nothing inspected yet
 history-empty-advice = Press Capture: every inspection is listed here and kept when the window closes
 history-in-memory = Kept in memory only: { $reason }
 history-none-listed = No matching inspections: change the filter
-history-column-part = Part
-history-column-scene = Scene
 history-column-score = Score
 history-column-ms = ms
 history-column-time = Time
@@ -30,7 +27,6 @@ history-find = Find
 history-find-hint = Part, serial, scene
 history-filter-days = Days
 history-filter-verdict = Verdict
-history-filter-part = Part
 history-filter-all-verdicts = All
 history-filter-all-parts = All
 history-days-all = All days
@@ -85,7 +81,6 @@ history-frame-gone-advice = Keep more frames from now on: Frames… above the li
 history-actual-part = Actual part
 history-choose-actual-part = Choose the actual part
 history-remark = Remark
-history-remark-hint = Anything worth remembering
 history-your-remark = Your remark
 
 ## What differs
@@ -114,7 +109,6 @@ history-keep-used =
        *[other] { $count } frames
     }, { $size }. The oldest go first
 history-keep-marked = Those with a remark or an actual part stay: { $size }
-history-apply = Apply
 
 ## Statistics
 history-none-counted = No matching parts: change the filter
@@ -137,7 +131,6 @@ history-no-part-left-out =
     }
 history-drift = Drift: { $part }
 history-drift-needs = Drift is shown for a part that was accepted at least { $count } times
-history-drift-score = Score
 history-drift-fit = Fit to the reference, rms
 history-drift-ends = first fifth { $first }, last fifth { $last } (medians)
 history-drift-place = Place of the part: from first to last fifth x { $x }, y { $y }, z { $z } (medians)

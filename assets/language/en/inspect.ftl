@@ -16,7 +16,6 @@ inspect-let-it-hang = Let the part hang still for a second
 inspect-looking = Looking
 inspect-not-long-enough = it has not been seen for long enough yet
 inspect-it-is-steady = it is steady
-inspect-wait = Wait a moment
 inspect-not-accepted-yet = Not accepted yet
 inspect-nearest = Nearest: { $part }
 inspect-recognised = Recognised
@@ -45,7 +44,6 @@ inspect-wrong-part = Wrong part?
 inspect-wrong-part-says = See in Compare why it was recognised as this part
 inspect-copy-pose = Copy pose
 inspect-copy-pose-says = In the chosen convention, named on the first line (Ctrl Shift C)
-inspect-score = Score
 inspect-score-itself = Score of the part itself, not of its mirror image
 inspect-as-part = As { $part } (not accepted)
 inspect-next = Next: { $part } { $score }
@@ -60,7 +58,6 @@ inspect-rms = rms
 inspect-overlap = overlap
 inspect-unconstrained = Unconstrained: { $freedom }
 inspect-pose-uncertainty = pose uncertainty (95 %)
-inspect-uncertainty = uncertainty (95 %)
 inspect-runner-up = runner-up pose
 inspect-times-worse = { $ratio }× worse
 inspect-as-good = as good
@@ -69,7 +66,6 @@ inspect-ambiguous = Another pose fits as well: check which way round the part ha
 inspect-inspection = Inspection
 inspect-time = time
 inspect-scene = scene
-inspect-camera = camera
 inspect-simulated = simulated
 inspect-serial = serial
 inspect-order = order
@@ -100,7 +96,6 @@ inspect-none-meets = none of { $num } assumed nozzle positions points at the par
 
 ## The pose for the robot
 
-inspect-pose = Pose
 inspect-robot-frame = The robot's base frame, by { $name }
 inspect-camera-frame = The camera's frame: the cell is not calibrated
 inspect-camera-frame-only = The camera's frame: a robot must not act on this result
@@ -112,7 +107,6 @@ inspect-pose-copied = Copied { $name } in the convention { $convention }
 
 ## The view
 
-inspect-view = View
 inspect-colour = Colour · { $colouring }
 inspect-show = Show
 inspect-export-path = Export spray path…
@@ -132,7 +126,6 @@ inspect-part-outline = Enrolled contour
 inspect-part-nozzle-middle = Nozzle over the middle
 inspect-part-nozzle-worst = Nozzle at the worst spot
 inspect-part-spray-path = Spray path
-inspect-part-robot-base = Robot base
 inspect-part-shot-cameras = Cameras of the shots
 inspect-part-unseen = Not seen by any shot
 inspect-needs-pose = Needs a part whose pose was found
@@ -154,8 +147,6 @@ inspect-path-in-band = Spray path · { $inside } of { $num } in the band
 
 ## The stages
 
-inspect-segmentation = Segmentation
-inspect-binary-image = Binary image
 inspect-contour = Contour
 inspect-signatures = Signatures
 inspect-ranking = Ranking
@@ -185,7 +176,6 @@ inspect-not-asked-for = not aligned: no pose was asked for
 inspect-flat-shape = not aligned: it is enrolled as a flat shape
 inspect-no-pose-found = not aligned: no pose was found
 inspect-score-too-low = not aligned: its score was too low to be tried
-inspect-nothing-yet = Nothing inspected yet
 inspect-capture-cell = Press Capture for a frame of the simulated cell, or drop a captured scene here
 inspect-capture-or-drop = Press Capture, or drop a captured scene here
 

@@ -10,7 +10,6 @@ live-recorded = { $num ->
         [one] Recorded { $num } frame, { $size }, to { $folder }
        *[other] Recorded { $num } frames, { $size }, to { $folder }
     }
-live-live = Live
 live-playing = Playing
 live-watching = Watching
 live-is = { $name } · { $what }

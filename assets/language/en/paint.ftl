@@ -1,11 +1,8 @@
 ## Part and coat
-paint-library-loading = The library is being loaded
 paint-no-part = The library has no part to paint
 paint-no-such-part = { $part } is no longer in the library
-paint-no-such-part-advice = Choose another part
 paint-part = Part to paint: { $part }
 paint-part-hint = The enrolled part that is painted
-paint-none-chosen = none
 paint-recognised-gone = The part recognised last is no longer enrolled: choose the part to paint
 paint-within = { $share } % within { $target } ± { $tolerance } µm
 paint-side-none = Choose the side to be painted
@@ -19,13 +16,11 @@ paint-coat = Coat
 paint-coat-changed = { $coat }, changed
 paint-coat-named = Coat: { $coat }
 paint-coat-name = Name of the coat
-paint-reset-coat = Reset
 paint-saved-coat = Saved the coat { $coat }
 paint-no-coat-folder = There is no folder for coats
 paint-no-coat-folder-advice = Start the window as a user with a home folder
 
 ## What the film comes to
-paint-check = Film
 paint-thinnest-thickest = Thinnest · thickest
 paint-mean = Mean
 paint-missed = Missed
@@ -92,7 +87,6 @@ paint-propose-hint = Find the row spacing and the speed that bring the film to i
 paint-export-hint = Write the path as a table
 paint-export-title = Export the spray path
 paint-store = Store with the part
-paint-store-short = Store
 paint-store-hint = Store the path with the part; inspections and robot programs use it from then on
 paint-is-stored = This path is stored with the part
 paint-planned-path = Planned
@@ -197,7 +191,6 @@ paint-show-unreached = Show next
 paint-rail-moves = Along the path its rail is between { $from } and { $to } mm
 paint-rail-at = At { $at } mm on its rail it would reach { $count }
 paint-base-moved = With its base moved by { $by } mm it would reach { $count }
-paint-apply = Apply
 paint-apply-rail = Move the base there along the rail
 paint-apply-base = Move the base there
 paint-export-program = Program…

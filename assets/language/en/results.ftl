@@ -60,7 +60,6 @@ results-group-segmentation = Segmentation
 results-group-binary-image = Binary image
 results-group-contour = Contour and rays
 results-group-match = Match
-results-group-pose = Pose
 results-group-icp-ga = ICP-GA
 results-group-acceptance = Acceptance
 results-group-stand-off = Stand-off

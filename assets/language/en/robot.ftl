@@ -41,7 +41,6 @@ robot-flange-at-every = robot_from_flange at every capture
 robot-flange-unknown = the flange pose at a capture is not known: there is no pose for the robot
 robot-flange-unknown-advice = Type the flange's pose as the controller shows it, and store it
 robot-flange-at = Flange at a capture
-robot-store = Store
 
 ## By hand
 
@@ -138,7 +137,6 @@ robot-answer = Answer robots
 robot-answer-says = Robots and PLCs ask over TCP for an inspection and get verdict and pose, as from partsight serve. Each trigger is answered from a frame that the window's source delivers after it
 robot-protocol = Protocol
 robot-port = Port, or IP address and port
-robot-pose-sent = Pose
 robot-pose-of-part = Where the part is
 robot-pose-offset = How far it is from its standard position
 robot-poses-as = poses as

@@ -275,3 +275,23 @@ shell-choose-or-go-on = Choose another one at the top right, or go on: the first
 shell-holds-no-library = { $path } holds no library of parts
 shell-sentence = { $text }.
 shell-about-scene = { $scene }: { $what }
+
+## Words of several areas
+
+shell-scene = Scene
+shell-view = View
+shell-part = Part
+shell-no-part = none
+shell-remove = Remove
+shell-name = Name
+shell-notes-hint = Anything worth remembering
+shell-reset = Reset
+shell-wait = Wait a moment
+shell-apply = Apply
+shell-score = Score
+shell-pose = Pose
+shell-robot-base = Robot base
+shell-store = Store
+shell-library-loading = The library is being loaded
+shell-choose-another-part = Choose another part
+shell-nothing-inspected = Nothing inspected yet

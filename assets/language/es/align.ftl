@@ -1,15 +1,10 @@
 ## What is aligned
 align-moved-copy = Copia movida
-align-scene = Escena
 align-files = Dos archivos
 align-run = Ejecutar
 align-run-hint = Alinear con todos los métodos (R)
-align-view-menu = Vista
 align-view-menu-hint = De todas las vistas 3D
-align-library-loading = La biblioteca se está cargando
 align-library-failed = No se pudo cargar la biblioteca
-align-part = Pieza
-align-no-part = ninguna
 align-part-hint = La pieza registrada que sirve de referencia
 align-start = Inicio
 align-custom = Propio…
@@ -37,13 +32,11 @@ align-no-part-in-scene = No se encontró ninguna pieza en la escena: capturar ot
 align-choose-source = Elegir el archivo que se mueve: Origen…
 align-choose-target = Elegir el archivo que permanece fijo: Destino…
 align-part-gone = la biblioteca no tiene la pieza { $name }
-align-part-gone-advice = Elegir otra pieza
 align-mesh-no-area = { $path }: la malla no tiene área
 align-mesh-no-area-advice = Exportar de nuevo la malla con sus caras
 
 ## The views
 align-view-of = Vista 3D, { $method }
-align-global = Global
 align-previous-result = Resultado anterior: hay una nueva alineación en curso
 align-at-work = En curso…
 align-not-run = Sin ejecutar

@@ -108,7 +108,6 @@ compare-cell-taken-for = { $truth } reconocida como { $part }: { $count }
 compare-cell-not-accepted = { $truth }, no aceptada: { $count }
 compare-open-case = Abrir { $name }
 compare-open-case-hint = Mostrar este caso
-compare-remove = Eliminar
 compare-remove-named = Eliminar { $name }
 compare-cell-refused = rechazo erróneo
 compare-matrix-hint = Filas: qué es · columnas: como qué se aceptó · una celda abre sus casos

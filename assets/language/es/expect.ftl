@@ -2,16 +2,11 @@
 
 expect-title = Esperado
 expect-anything = Cualquier pieza
-expect-parts = { $num ->
-        [one] { $num } pieza
-       *[other] { $num } piezas
-    }
 expect-at-place = { $part } ({ $place })
 expect-not-known = Desconocido
 expect-says = Qué piezas deben colgar ahí: otra se rechaza, y se muestra lo que falta
 expect-one-more = Una más
 expect-one-less = Una menos
-expect-clear = Cualquier pieza
 expect-orders = Órdenes…
 expect-orders-says = Una tabla (CSV) de órdenes con las piezas que cuelgan ahí para cada una
 expect-by-orders = Según la tabla de órdenes
@@ -20,7 +15,6 @@ expect-table = Tabla de órdenes
 expect-table-used = Lo esperado se toma de { $file }
 expect-table-unusable = No se puede usar la tabla de órdenes: { $error }
 expect-reading = Leyendo la tabla de órdenes { $file }
-expect-reading-wait = Esperar un momento
 expect-watching = Se vigila la tabla de órdenes
 
 ## Por qué no se sabe

@@ -1,10 +1,7 @@
 ## The list
-history-empty = Todavía no hay inspecciones
 history-empty-advice = Pulsar Capturar: cada inspección aparece aquí y se conserva al cerrar la ventana
 history-in-memory = Solo en memoria: { $reason }
 history-none-listed = Ninguna inspección coincide: cambiar el filtro
-history-column-part = Pieza
-history-column-scene = Escena
 history-column-score = Punt.
 history-column-ms = ms
 history-column-time = Fecha
@@ -30,7 +27,6 @@ history-find = Buscar
 history-find-hint = Pieza, serie, escena
 history-filter-days = Días
 history-filter-verdict = Resultado
-history-filter-part = Pieza
 history-filter-all-verdicts = Todos
 history-filter-all-parts = Todas
 history-days-all = Todos los días
@@ -85,7 +81,6 @@ history-frame-gone-advice = Conservar más imágenes en adelante: Imágenes… e
 history-actual-part = Pieza real
 history-choose-actual-part = Elegir la pieza real
 history-remark = Observación
-history-remark-hint = Lo que convenga recordar
 history-your-remark = Observación propia
 
 ## What differs
@@ -114,7 +109,6 @@ history-keep-used =
        *[other] { $count } imágenes
     }, { $size }. Las más antiguas se borran primero
 history-keep-marked = Las que tienen observación o pieza real se conservan: { $size }
-history-apply = Aplicar
 
 ## Statistics
 history-none-counted = Ninguna pieza coincide: cambiar el filtro
@@ -137,7 +131,6 @@ history-no-part-left-out =
     }
 history-drift = Deriva: { $part }
 history-drift-needs = La deriva se muestra de una pieza aceptada al menos { $count } veces
-history-drift-score = Puntuación
 history-drift-fit = Ajuste a la referencia, rms
 history-drift-ends = primer quinto { $first }, último quinto { $last } (medianas)
 history-drift-place = Posición de la pieza: del primer al último quinto x { $x }, y { $y }, z { $z } (medianas)

@@ -16,7 +16,6 @@ inspect-let-it-hang = Dejar la pieza inmóvil un segundo
 inspect-looking = Buscando
 inspect-not-long-enough = aún no se ha visto el tiempo suficiente
 inspect-it-is-steady = está inmóvil
-inspect-wait = Esperar un momento
 inspect-not-accepted-yet = Aún no aceptada
 inspect-nearest = La más parecida: { $part }
 inspect-recognised = Reconocida
@@ -45,7 +44,6 @@ inspect-wrong-part = ¿Otra pieza?
 inspect-wrong-part-says = Ver en Comparar por qué se reconoció como esta pieza
 inspect-copy-pose = Copiar pose
 inspect-copy-pose-says = En la convención elegida, indicada en la primera línea (Ctrl Mayús C)
-inspect-score = Puntuación
 inspect-score-itself = Puntuación de la pieza misma, no de su imagen reflejada
 inspect-as-part = Como { $part } (no aceptada)
 inspect-next = Siguiente: { $part } { $score }
@@ -60,7 +58,6 @@ inspect-rms = rms
 inspect-overlap = solape
 inspect-unconstrained = No determinada: { $freedom }
 inspect-pose-uncertainty = incertidumbre de pose (95 %)
-inspect-uncertainty = incertidumbre (95 %)
 inspect-runner-up = segunda mejor pose
 inspect-times-worse = { $ratio }× peor
 inspect-as-good = igual de buena
@@ -69,7 +66,6 @@ inspect-ambiguous = Otra pose encaja igual de bien: comprobar en qué sentido cu
 inspect-inspection = Inspección
 inspect-time = tiempo
 inspect-scene = escena
-inspect-camera = cámara
 inspect-simulated = simulada
 inspect-serial = n.º de serie
 inspect-order = orden
@@ -100,7 +96,6 @@ inspect-none-meets = ninguna de las { $num } posiciones de boquilla supuestas ap
 
 ## The pose for the robot
 
-inspect-pose = Pose
 inspect-robot-frame = Sistema de la base del robot, según { $name }
 inspect-camera-frame = Sistema de la cámara: la celda no está calibrada
 inspect-camera-frame-only = Sistema de la cámara: un robot no debe usar este resultado
@@ -112,7 +107,6 @@ inspect-pose-copied = { $name } copiado en la convención { $convention }
 
 ## The view
 
-inspect-view = Vista
 inspect-colour = Color · { $colouring }
 inspect-show = Mostrar
 inspect-export-path = Exportar trayectoria de pintura…
@@ -132,7 +126,6 @@ inspect-part-outline = Contorno registrado
 inspect-part-nozzle-middle = Boquilla sobre el centro
 inspect-part-nozzle-worst = Boquilla en el peor punto
 inspect-part-spray-path = Trayectoria de pintura
-inspect-part-robot-base = Base del robot
 inspect-part-shot-cameras = Cámaras de las tomas
 inspect-part-unseen = No visto por ninguna toma
 inspect-needs-pose = Requiere una pieza cuya pose se haya encontrado
@@ -154,8 +147,6 @@ inspect-path-in-band = Trayectoria de pintura · { $inside } de { $num } en la b
 
 ## The stages
 
-inspect-segmentation = Segmentación
-inspect-binary-image = Imagen binaria
 inspect-contour = Contorno
 inspect-signatures = Signaturas
 inspect-ranking = Clasificación
@@ -185,7 +176,6 @@ inspect-not-asked-for = sin alinear: no se pidió pose
 inspect-flat-shape = sin alinear: está registrada como forma plana
 inspect-no-pose-found = sin alinear: no se encontró la pose
 inspect-score-too-low = sin alinear: puntuación demasiado baja para intentarlo
-inspect-nothing-yet = Aún no se ha inspeccionado nada
 inspect-capture-cell = Pulsar Capturar para una imagen de la celda simulada, o soltar aquí una escena capturada
 inspect-capture-or-drop = Pulsar Capturar, o soltar aquí una escena capturada
 

@@ -10,7 +10,6 @@ live-recorded = { $num ->
         [one] { $num } imagen, { $size }, grabada en { $folder }
        *[other] { $num } imágenes, { $size }, grabadas en { $folder }
     }
-live-live = En vivo
 live-playing = Reproducción
 live-watching = Vigilando
 live-is = { $name } · { $what }

@@ -1,11 +1,8 @@
 ## Part and coat
-paint-library-loading = Se está cargando la biblioteca
 paint-no-part = La biblioteca no tiene ninguna pieza que pintar
 paint-no-such-part = { $part } ya no está en la biblioteca
-paint-no-such-part-advice = Elegir otra pieza
 paint-part = Pieza que se pinta: { $part }
 paint-part-hint = La pieza registrada que se pinta
-paint-none-chosen = ninguna
 paint-recognised-gone = La última pieza reconocida ya no está registrada: elegir la pieza que se pinta
 paint-within = { $share } % dentro de { $target } ± { $tolerance } µm
 paint-side-none = Elegir el lado que se pinta
@@ -19,13 +16,11 @@ paint-coat = Capa
 paint-coat-changed = { $coat }, modificada
 paint-coat-named = Capa: { $coat }
 paint-coat-name = Nombre de la capa
-paint-reset-coat = Restablecer
 paint-saved-coat = Capa { $coat } guardada
 paint-no-coat-folder = No hay carpeta para las capas
 paint-no-coat-folder-advice = Iniciar la ventana como usuario con carpeta personal
 
 ## What the film comes to
-paint-check = Película
 paint-thinnest-thickest = Mínimo · máximo
 paint-mean = Media
 paint-missed = Sin cubrir
@@ -92,7 +87,6 @@ paint-propose-hint = Buscar la separación y la velocidad con las que la pelícu
 paint-export-hint = Escribir la trayectoria como tabla
 paint-export-title = Exportar la trayectoria de pintura
 paint-store = Guardar con la pieza
-paint-store-short = Guardar
 paint-store-hint = Guardar la trayectoria con la pieza; las inspecciones y los programas de robot la usan desde entonces
 paint-is-stored = Esta trayectoria está guardada con la pieza
 paint-planned-path = Planificada
@@ -197,7 +191,6 @@ paint-show-unreached = Mostrar el siguiente
 paint-rail-moves = A lo largo de la trayectoria su carril está entre { $from } y { $to } mm
 paint-rail-at = A { $at } mm de su carril alcanzaría { $count }
 paint-base-moved = Con la base desplazada { $by } mm alcanzaría { $count }
-paint-apply = Aplicar
 paint-apply-rail = Mover la base hasta ahí a lo largo del carril
 paint-apply-base = Mover la base hasta ahí
 paint-export-program = Programa…

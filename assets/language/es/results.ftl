@@ -60,7 +60,6 @@ results-group-segmentation = Segmentación
 results-group-binary-image = Imagen binaria
 results-group-contour = Contorno y rayos
 results-group-match = Comparación
-results-group-pose = Pose
 results-group-icp-ga = ICP-GA
 results-group-acceptance = Aceptación
 results-group-stand-off = Distancia de boquilla

@@ -41,7 +41,6 @@ robot-flange-at-every = robot_from_flange en cada captura
 robot-flange-unknown = no se conoce la pose de la brida al capturar: no hay pose para el robot
 robot-flange-unknown-advice = Escribir la pose de la brida como la muestra el controlador y guardarla
 robot-flange-at = Brida al capturar
-robot-store = Guardar
 
 ## By hand
 
@@ -138,7 +137,6 @@ robot-answer = Peticiones
 robot-answer-says = Robots y PLC piden por TCP una inspección y reciben resultado y pose, como de partsight serve. Cada trigger se responde con una imagen que la fuente de la ventana da después
 robot-protocol = Protocolo
 robot-port = Puerto, o dirección IP y puerto
-robot-pose-sent = Pose
 robot-pose-of-part = Dónde está la pieza
 robot-pose-offset = Distancia a su posición estándar
 robot-poses-as = poses como

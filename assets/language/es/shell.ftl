@@ -275,3 +275,23 @@ shell-choose-or-go-on = Elegir otra arriba a la derecha, o continuar: la primera
 shell-holds-no-library = { $path } no contiene ninguna biblioteca de piezas
 shell-sentence = { $text }.
 shell-about-scene = { $scene }: { $what }
+
+## Words of several areas
+
+shell-scene = Escena
+shell-view = Vista
+shell-part = Pieza
+shell-no-part = ninguna
+shell-remove = Eliminar
+shell-name = Nombre
+shell-notes-hint = Lo que convenga recordar
+shell-reset = Restablecer
+shell-wait = Esperar un momento
+shell-apply = Aplicar
+shell-score = Puntuación
+shell-pose = Pose
+shell-robot-base = Base del robot
+shell-store = Guardar
+shell-library-loading = La biblioteca se está cargando
+shell-choose-another-part = Elegir otra pieza
+shell-nothing-inspected = Todavía no hay inspecciones

@@ -1,15 +1,10 @@
 ## What is aligned
 align-moved-copy = 移动的副本
-align-scene = 场景
 align-files = 两个文件
 align-run = 运行
 align-run-hint = 用每种方法配准 (R)
-align-view-menu = 视图
 align-view-menu-hint = 应用于所有三维视图
-align-library-loading = 正在加载零件库
 align-library-failed = 无法加载零件库
-align-part = 零件
-align-no-part = 无
 align-part-hint = 作为参考的已注册零件
 align-start = 起始
 align-custom = 自定义…
@@ -37,13 +32,11 @@ align-no-part-in-scene = 场景中未找到零件：请重新采集
 align-choose-source = 请选择被移动的文件：源…
 align-choose-target = 请选择保持不动的文件：目标…
 align-part-gone = 零件库中没有零件 { $name }
-align-part-gone-advice = 请选择其他零件
 align-mesh-no-area = { $path }：网格没有面积
 align-mesh-no-area-advice = 请连同面片重新导出网格
 
 ## The views
 align-view-of = 三维视图，{ $method }
-align-global = 全局
 align-previous-result = 这是上一次的结果：正在重新配准
 align-at-work = 运行中…
 align-not-run = 未运行

@@ -103,7 +103,6 @@ compare-cell-taken-for = { $truth } 识别为 { $part }：{ $count }
 compare-cell-not-accepted = { $truth }，未接受：{ $count }
 compare-open-case = 打开 { $name }
 compare-open-case-hint = 显示此样本
-compare-remove = 移除
 compare-remove-named = 移除 { $name }
 compare-cell-refused = 误拒绝
 compare-matrix-hint = 行：实际零件 · 列：接受为 · 单击单元格可打开其中的样本

@@ -2,13 +2,11 @@
 
 expect-title = 预期
 expect-anything = 任意零件
-expect-parts = { $num } 个零件
 expect-at-place = { $part }（{ $place }）
 expect-not-known = 未知
 expect-says = 应悬挂哪些零件：其他零件会被拒绝，并显示缺少的零件
 expect-one-more = 增加一个
 expect-one-less = 减少一个
-expect-clear = 任意零件
 expect-orders = 订单表…
 expect-orders-says = 订单表（CSV），列出每个订单应悬挂的零件
 expect-by-orders = 按订单表
@@ -17,7 +15,6 @@ expect-table = 订单表
 expect-table-used = 预期零件取自 { $file }
 expect-table-unusable = 无法使用订单表：{ $error }
 expect-reading = 正在读取订单表 { $file }
-expect-reading-wait = 请稍候
 expect-watching = 正在监视订单表
 
 ## 未知的原因

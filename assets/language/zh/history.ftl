@@ -1,10 +1,7 @@
 ## The list
-history-empty = 尚无检测记录
 history-empty-advice = 请按“采集”：每次检测都会列在此处，关闭窗口后仍会保留
 history-in-memory = 仅保存在内存中：{ $reason }
 history-none-listed = 没有符合条件的检测：请更改筛选条件
-history-column-part = 零件
-history-column-scene = 场景
 history-column-score = 得分
 history-column-ms = ms
 history-column-time = 时间
@@ -29,7 +26,6 @@ history-find = 查找
 history-find-hint = 零件、序列号或备注
 history-filter-days = 日期
 history-filter-verdict = 判定
-history-filter-part = 零件
 history-filter-all-verdicts = 全部
 history-filter-all-parts = 全部
 history-days-all = 全部日期
@@ -84,7 +80,6 @@ history-frame-gone-advice = 今后请保留更多深度帧：列表上方的“�
 history-actual-part = 实际零件
 history-choose-actual-part = 请选择实际零件
 history-remark = 备注
-history-remark-hint = 任何值得记录的内容
 history-your-remark = 您的备注
 
 ## What differs
@@ -109,7 +104,6 @@ history-keep-days = 最多保留（天）
 history-keep-gigabytes = 最大占用（GB）
 history-keep-used = 当前：{ $count } 个深度帧，{ $size }。最旧的先删除
 history-keep-marked = 带有备注或实际零件的会保留：{ $size }
-history-apply = 应用
 
 ## Statistics
 history-none-counted = 没有符合条件的零件：请更改筛选条件
@@ -124,7 +118,6 @@ history-simulated-left-out = 未计入 { $count } 个仿真零件
 history-no-part-left-out = 未计入 { $count } 条无零件的记录
 history-drift = 漂移：{ $part }
 history-drift-needs = 零件至少被接受 { $count } 次后才显示漂移
-history-drift-score = 得分
 history-drift-fit = 与参考的偏差（rms）
 history-drift-ends = 前五分之一 { $first }，后五分之一 { $last }（中位数）
 history-drift-place = 零件位置：从前五分之一到后五分之一 x { $x }，y { $y }，z { $z }（中位数）

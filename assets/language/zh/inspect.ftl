@@ -16,7 +16,6 @@ inspect-let-it-hang = 让零件静止一秒
 inspect-looking = 正在查看
 inspect-not-long-enough = 观察时间不足
 inspect-it-is-steady = 零件已静止
-inspect-wait = 请稍候
 inspect-not-accepted-yet = 尚未接受
 inspect-nearest = 最接近：{ $part }
 inspect-recognised = 已识别
@@ -45,7 +44,6 @@ inspect-wrong-part = 零件不对？
 inspect-wrong-part-says = 在“比较”中查看为何识别为该零件
 inspect-copy-pose = 复制位姿
 inspect-copy-pose-says = 采用所选约定，首行注明名称 (Ctrl Shift C)
-inspect-score = 得分
 inspect-score-itself = 零件本身的得分（非镜像）
 inspect-as-part = 按“{ $part }”计（未接受）
 inspect-next = 次优：{ $part } { $score }
@@ -60,7 +58,6 @@ inspect-rms = rms
 inspect-overlap = 重叠率
 inspect-unconstrained = 未约束：{ $freedom }
 inspect-pose-uncertainty = 位姿不确定度 (95 %)
-inspect-uncertainty = 不确定度 (95 %)
 inspect-runner-up = 次优位姿
 inspect-times-worse = 差 { $ratio } 倍
 inspect-as-good = 同样好
@@ -69,7 +66,6 @@ inspect-ambiguous = 另一位姿同样匹配：请确认零件的悬挂方向
 inspect-inspection = 检测
 inspect-time = 耗时
 inspect-scene = 场景
-inspect-camera = 相机
 inspect-simulated = 仿真
 inspect-serial = 序列号
 inspect-order = 订单
@@ -99,7 +95,6 @@ inspect-none-meets = { $num } 个假定喷嘴位置均未指向零件
 
 ## The pose for the robot
 
-inspect-pose = 位姿
 inspect-robot-frame = 机器人基坐标系，依据 { $name }
 inspect-camera-frame = 相机坐标系：工位未标定
 inspect-camera-frame-only = 相机坐标系：机器人不得使用此结果
@@ -111,7 +106,6 @@ inspect-pose-copied = 已按约定 { $convention } 复制 { $name }
 
 ## The view
 
-inspect-view = 视图
 inspect-colour = 着色 · { $colouring }
 inspect-show = 显示
 inspect-export-path = 导出喷涂轨迹…
@@ -131,7 +125,6 @@ inspect-part-outline = 已注册轮廓
 inspect-part-nozzle-middle = 中部上方的喷嘴
 inspect-part-nozzle-worst = 最差部位的喷嘴
 inspect-part-spray-path = 喷涂轨迹
-inspect-part-robot-base = 机器人基座
 inspect-part-shot-cameras = 各次拍摄的相机
 inspect-part-unseen = 所有拍摄均未看到
 inspect-needs-pose = 需要已找到位姿的零件
@@ -150,8 +143,6 @@ inspect-path-in-band = 喷涂轨迹 · 已检查的 { $num } 点中 { $inside } 
 
 ## The stages
 
-inspect-segmentation = 分割
-inspect-binary-image = 二值图像
 inspect-contour = 轮廓
 inspect-signatures = 特征曲线
 inspect-ranking = 排名
@@ -181,7 +172,6 @@ inspect-not-asked-for = 未配准：未要求位姿
 inspect-flat-shape = 未配准：注册为平面形状
 inspect-no-pose-found = 未配准：未找到位姿
 inspect-score-too-low = 未配准：得分过低，未尝试
-inspect-nothing-yet = 尚未检测
 inspect-capture-cell = 按“采集”获取仿真工位的一帧，或将采集的场景拖放到此处
 inspect-capture-or-drop = 按“采集”，或将采集的场景拖放到此处
 

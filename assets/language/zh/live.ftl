@@ -4,7 +4,6 @@ live-record-says = 原样保存来源的每一帧 (Ctrl L)
 live-stop-recording = 停止录制
 live-stop-recording-so-far = 停止录制 · { $num } 帧，{ $size }
 live-recorded = 已录制 { $num } 帧（{ $size }）到 { $folder }
-live-live = 实时
 live-playing = 播放
 live-watching = 监视文件夹
 live-is = { $name } · { $what }

@@ -1,11 +1,8 @@
 ## Part and coat
-paint-library-loading = 正在加载零件库
 paint-no-part = 零件库中没有可喷涂的零件
 paint-no-such-part = { $part } 已不在零件库中
-paint-no-such-part-advice = 请选择其他零件
 paint-part = 喷涂零件：{ $part }
 paint-part-hint = 要喷涂的已注册零件
-paint-none-chosen = 无
 paint-recognised-gone = 上次识别的零件已不再注册：请选择要喷涂的零件
 paint-within = { $share } % 在 { $target } ± { $tolerance } µm 内
 paint-side-none = 选择要喷涂的一侧
@@ -19,13 +16,11 @@ paint-coat = 涂层
 paint-coat-changed = { $coat }，已更改
 paint-coat-named = 涂层：{ $coat }
 paint-coat-name = 涂层名称
-paint-reset-coat = 重置
 paint-saved-coat = 已保存涂层 { $coat }
 paint-no-coat-folder = 没有涂层文件夹
 paint-no-coat-folder-advice = 请以有主文件夹的用户启动窗口
 
 ## What the film comes to
-paint-check = 漆膜
 paint-thinnest-thickest = 最薄 · 最厚
 paint-mean = 平均
 paint-missed = 漏喷
@@ -92,7 +87,6 @@ paint-propose-hint = 求取使膜厚达到目标的行距和速度
 paint-export-hint = 将轨迹写成表格
 paint-export-title = 导出喷涂轨迹
 paint-store = 随零件保存
-paint-store-short = 保存
 paint-store-hint = 将轨迹随零件保存；此后检测和机器人程序将使用它
 paint-is-stored = 此轨迹已随零件保存
 paint-planned-path = 已规划
@@ -196,7 +190,6 @@ paint-show-unreached = 显示下一个
 paint-rail-moves = 沿轨迹导轨位于 { $from } 至 { $to } mm 之间
 paint-rail-at = 导轨在 { $at } mm 时可达 { $count } 个点
 paint-base-moved = 底座移动 { $by } mm 后可达 { $count } 个点
-paint-apply = 应用
 paint-apply-rail = 把底座沿导轨移到该处
 paint-apply-base = 把底座移到该处
 paint-export-program = 导出程序…

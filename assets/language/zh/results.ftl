@@ -60,7 +60,6 @@ results-group-segmentation = 分割
 results-group-binary-image = 二值图像
 results-group-contour = 轮廓与射线
 results-group-match = 匹配
-results-group-pose = 位姿
 results-group-icp-ga = ICP-GA
 results-group-acceptance = 接受条件
 results-group-stand-off = 喷距

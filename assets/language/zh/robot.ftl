@@ -41,7 +41,6 @@ robot-flange-at-every = 每次采集的 robot_from_flange
 robot-flange-unknown = 采集时的法兰位姿未知：没有可供机器人使用的位姿
 robot-flange-unknown-advice = 按控制器显示输入法兰位姿并保存
 robot-flange-at = 采集时的法兰
-robot-store = 保存
 
 ## By hand
 
@@ -130,7 +129,6 @@ robot-answer = 应答机器人
 robot-answer-says = 机器人和 PLC 通过 TCP 请求检测，并获得判定和位姿，与 partsight serve 相同。每次触发都由窗口来源在其后给出的一帧回答
 robot-protocol = 协议
 robot-port = 端口，或 IP 地址和端口
-robot-pose-sent = 位姿
 robot-pose-of-part = 零件的位置
 robot-pose-offset = 相对标准位置的偏移
 robot-poses-as = 位姿格式

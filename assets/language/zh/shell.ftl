@@ -259,3 +259,23 @@ shell-choose-or-go-on = 在右上角选择其他零件库，或继续：保存�
 shell-holds-no-library = { $path } 中没有零件库
 shell-sentence = { $text }。
 shell-about-scene = { $scene }：{ $what }
+
+## Words of several areas
+
+shell-scene = 场景
+shell-view = 视图
+shell-part = 零件
+shell-no-part = 无
+shell-remove = 移除
+shell-name = 名称
+shell-notes-hint = 任何值得记录的内容
+shell-reset = 重置
+shell-wait = 请稍候
+shell-apply = 应用
+shell-score = 得分
+shell-pose = 位姿
+shell-robot-base = 机器人基座
+shell-store = 保存
+shell-library-loading = 正在加载零件库
+shell-choose-another-part = 请选择其他零件
+shell-nothing-inspected = 尚无检测记录

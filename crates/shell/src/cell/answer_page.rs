@@ -98,7 +98,7 @@ fn fields(ui: &mut Ui, dialog: &mut RobotDialog) {
             .labelled_by(label.id);
     });
     ui.horizontal_wrapped(|ui| {
-        ui.label(text!("robot-pose-sent"));
+        ui.label(text!("shell-pose"));
         for (pose, text) in [
             (PoseKind::RobotFromPart, text!("robot-pose-of-part")),
             (PoseKind::RobotOffset, text!("robot-pose-offset")),

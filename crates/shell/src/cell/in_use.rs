@@ -201,7 +201,7 @@ fn arm(
             let why_not = typed
                 .err()
                 .map(|error| written_pose_error(&error).join("\n"));
-            let store = text_button(ui, &text!("robot-store"));
+            let store = text_button(ui, &text!("shell-store"));
             let store = store.on_disabled_hover_text(why_not.unwrap_or_default());
             if store.clicked() {
                 caused.push(RobotAction::StoreArm);

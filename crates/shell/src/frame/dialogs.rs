@@ -17,8 +17,11 @@ pub fn request(ask: DialogRequest) -> FileRequest {
         DialogRequest::RecordTo => (text!("shell-record-to"), FileChoice::FolderToWrite),
         DialogRequest::WatchedFolder => (text!("shell-watched-folder"), FileChoice::Folder),
         DialogRequest::Part => (text!("shell-open-part"), FileChoice::File),
-        DialogRequest::Rack => (text!("rack-open"), FileChoice::File),
-        DialogRequest::SaveRack => (text!("rack-save"), FileChoice::NewFile("rack.toml".into())),
+        DialogRequest::Rack => (text!("shell-open"), FileChoice::File),
+        DialogRequest::SaveRack => (
+            text!("shell-save-as"),
+            FileChoice::NewFile("rack.toml".into()),
+        ),
         DialogRequest::Orders => (text!("expect-table"), FileChoice::File),
     };
     FileRequest {

@@ -46,8 +46,8 @@ impl StagePanel {
     /// Returns the name shown to the user.
     pub fn title(self) -> String {
         match self {
-            Self::Segmentation => text!("inspect-segmentation"),
-            Self::BinaryImage => text!("inspect-binary-image"),
+            Self::Segmentation => text!("results-group-segmentation"),
+            Self::BinaryImage => text!("results-group-binary-image"),
             Self::Contour => text!("inspect-contour"),
             Self::Signature => text!("inspect-signatures"),
             Self::Ranking => text!("inspect-ranking"),

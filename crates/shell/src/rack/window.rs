@@ -90,7 +90,7 @@ fn top(
     caused: &mut Vec<Action>,
 ) {
     ui.horizontal(|ui| {
-        let label = ui.label(text!("rack-name"));
+        let label = ui.label(text!("shell-name"));
         let field = TextEdit::singleline(&mut file.rack.name).char_limit(MAX_NAME);
         ui.add(field.desired_width(f32::INFINITY))
             .labelled_by(label.id);
@@ -100,7 +100,7 @@ fn top(
         let is_calibrated = state.session.robot.is_some();
         for (frame, text) in [
             (RackFrame::Camera, text!("rack-in-camera")),
-            (RackFrame::Base, text!("rack-in-base")),
+            (RackFrame::Base, text!("shell-robot-base")),
         ] {
             let can = frame == RackFrame::Camera || is_calibrated;
             let button = egui::Button::selectable(file.frame == frame, text);
@@ -120,14 +120,14 @@ fn top(
         }
     });
     ui.horizontal_wrapped(|ui| {
-        if text_button(ui, &text!("rack-open")).clicked() {
+        if text_button(ui, &text!("shell-open")).clicked() {
             caused.push(Action::Ask(DialogRequest::Rack));
         }
         let can_save = !file.rack.is_empty() && editor.problem.is_none();
-        if button_if(ui, can_save, &text!("rack-save")).clicked() {
+        if button_if(ui, can_save, &text!("shell-save-as")).clicked() {
             caused.push(Action::Ask(DialogRequest::SaveRack));
         }
-        if button_if(ui, !editor.past.is_empty(), &text!("rack-undo")).clicked() {
+        if button_if(ui, !editor.past.is_empty(), &text!("shell-undo")).clicked() {
             caused.push(Action::Rack(RackAction::Undo));
         }
         if button_if(ui, !file.rack.is_empty(), &text!("rack-clear")).clicked() {
@@ -215,7 +215,7 @@ fn places(ui: &mut Ui, state: &State, file: &mut RackFile, caused: &mut Vec<Acti
 
 fn place_ui(ui: &mut Ui, place: &mut Place) {
     ui.horizontal(|ui| {
-        let label = ui.label(text!("rack-name"));
+        let label = ui.label(text!("shell-name"));
         let field = TextEdit::singleline(&mut place.name).char_limit(MAX_NAME);
         ui.add(field.desired_width(180.0)).labelled_by(label.id);
     });

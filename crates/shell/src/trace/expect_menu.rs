@@ -47,7 +47,7 @@ pub fn ui(ui: &mut Ui, session: &Session, actions: &mut Vec<Action>) {
         let room = ui.available_width() - 2.0 * ui.spacing().button_padding.x - 24.0;
         let shown = match num {
             0 | 1 => fitted_middle(ui.painter(), &title, &font::body(), room),
-            num => text!("expect-parts", num = num),
+            num => text!("shell-num-parts", num = num),
         };
         let button = Button::new(format!("{shown} ▼")).min_size(Vec2::splat(space::TARGET));
         let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
@@ -91,7 +91,9 @@ fn menu(ui: &mut Ui, session: &Session, actions: &mut Vec<Action>) {
             }
         });
         ui.separator();
-        let clear = ui.add_enabled_ui(!chosen.is_empty(), |ui| button(ui, text!("expect-clear")));
+        let clear = ui.add_enabled_ui(!chosen.is_empty(), |ui| {
+            button(ui, text!("expect-anything"))
+        });
         if clear.inner.clicked() {
             actions.push(Action::Expect(ExpectAction::Parts(Vec::new())));
             ui.close();

@@ -143,7 +143,7 @@ impl NotKnown {
         let error = match self {
             Self::Unread { file } => {
                 let what = text!("expect-reading", file = file);
-                let advice = text!("expect-reading-wait");
+                let advice = text!("shell-wait");
                 return UserError { what, advice };
             }
             Self::Table(error) => {

@@ -18,7 +18,7 @@ pub fn group(group: Group) -> String {
         Group::BinaryImage => text!("results-group-binary-image"),
         Group::Contour => text!("results-group-contour"),
         Group::Match => text!("results-group-match"),
-        Group::Pose => text!("results-group-pose"),
+        Group::Pose => text!("shell-pose"),
         Group::IcpGa => text!("results-group-icp-ga"),
         Group::Acceptance => text!("results-group-acceptance"),
         Group::StandOff => text!("results-group-stand-off"),

@@ -79,7 +79,7 @@ pub(super) fn ui(
 
 /// Menu of view directions, for all views at once.
 fn look_menu(ui: &mut Ui) -> Option<ViewDirection> {
-    let menu = ui.menu_button(format!("{} ▼", text!("align-view-menu")), |ui| {
+    let menu = ui.menu_button(format!("{} ▼", text!("shell-view")), |ui| {
         let mut choices = ViewDirection::choices().into_iter();
         let chosen = choices.find(|(text, _)| ui.button(text).clicked());
         if chosen.is_some() {
@@ -119,7 +119,7 @@ fn run(ui: &mut Ui, align: &AlignState, session: &Session, actions: &mut Vec<Ali
 
 fn part_menu(ui: &mut Ui, align: &AlignState, session: &Session, actions: &mut Vec<AlignAction>) {
     let Some(library) = &session.library else {
-        ui.label(text!("align-library-loading"));
+        ui.label(text!("shell-library-loading"));
         return;
     };
     if let Some(problem) = &library.unloaded {
@@ -129,10 +129,10 @@ fn part_menu(ui: &mut Ui, align: &AlignState, session: &Session, actions: &mut V
     }
     let chosen = align.chosen_part(session);
     let title = chosen.map_or_else(
-        || text!("align-no-part"),
+        || text!("shell-no-part"),
         |name| library.title_of(name).to_owned(),
     );
-    let named = |title: &str| format!("{} · {title} ▼", text!("align-part"));
+    let named = |title: &str| format!("{} · {title} ▼", text!("shell-part"));
     // The menu uses the width left by Run.
     let room = ui.available_width() - button_width(ui, &named(""));
     let font = TextStyle::Button.resolve(ui.style());

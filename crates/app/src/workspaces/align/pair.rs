@@ -240,7 +240,7 @@ fn find<'a>(loaded: &'a LoadedLibrary, part: &str) -> Result<(&'a Reference, &'a
     });
     found.ok_or_else(|| UserError {
         what: text!("align-part-gone", name = part),
-        advice: text!("align-part-gone-advice"),
+        advice: text!("shell-choose-another-part"),
     })
 }
 

@@ -11,7 +11,7 @@ pub(super) fn title(method: PoseMethod) -> String {
     match method {
         PoseMethod::Icp => "ICP".into(),
         PoseMethod::IcpGa => "ICP-GA".into(),
-        PoseMethod::Global => text!("align-global"),
+        PoseMethod::Global => text!("results-option-global"),
     }
 }
 

@@ -115,7 +115,7 @@ fn progress(ui: &mut Ui, align: &AlignState, session: &Session, actions: &mut Ve
             };
             let button = ui.add_enabled_ui(total > 0, |ui| labelled(ui, Button::new(text), &label));
             let no_part = match &session.library {
-                None => text!("align-library-loading"),
+                None => text!("shell-library-loading"),
                 Some(library) if library.unloaded.is_some() => text!("align-library-failed"),
                 Some(_) => text!("align-library-has-no-part"),
             };

@@ -102,7 +102,7 @@ impl Pairing {
     pub fn title(self) -> String {
         match self {
             Self::MovedCopy => text!("align-moved-copy"),
-            Self::Scene => text!("align-scene"),
+            Self::Scene => text!("shell-scene"),
             Self::Files => text!("align-files"),
         }
     }
@@ -162,7 +162,7 @@ impl AlignState {
     pub fn choice(&self, session: &Session) -> Result<PairSource, String> {
         let part = || {
             let Some(library) = &session.library else {
-                return Err(text!("align-library-loading"));
+                return Err(text!("shell-library-loading"));
             };
             if let Some(problem) = &library.unloaded {
                 return Err(problem.what.clone());

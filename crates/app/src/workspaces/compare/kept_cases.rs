@@ -296,7 +296,7 @@ pub(super) fn case_row(ui: &mut Ui, name: &str, what: &str, acts: &mut Vec<Compa
             acts.push(CompareAction::OpenCase(name.to_owned()));
         }
         let label = text!("compare-remove-named", name = name);
-        let remove = labelled(ui, Button::new(text!("compare-remove")), &label);
+        let remove = labelled(ui, Button::new(text!("shell-remove")), &label);
         if remove.clicked() {
             acts.push(CompareAction::Remove(name.to_owned()));
         }

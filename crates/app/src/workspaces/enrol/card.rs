@@ -82,7 +82,7 @@ pub(super) fn ui(
             }
         }
         ui.add_enabled_ui(can_change, |ui| {
-            if button(ui, text!("enrol-remove")) {
+            if button(ui, text!("shell-remove")) {
                 actions.push(EnrolAction::Remove(open.name.clone()));
             }
         });

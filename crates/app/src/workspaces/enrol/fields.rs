@@ -44,7 +44,7 @@ pub(super) fn ui(ui: &mut Ui, form: &Form) -> Option<Field> {
     }
     if let Some(name) = line(
         ui,
-        text!("enrol-name"),
+        text!("shell-name"),
         text!("enrol-name-hint"),
         &form.name,
         1,
@@ -60,7 +60,7 @@ pub(super) fn ui(ui: &mut Ui, form: &Form) -> Option<Field> {
     if let Some(notes) = line(
         ui,
         text!("enrol-notes"),
-        text!("enrol-notes-hint"),
+        text!("shell-notes-hint"),
         &form.notes,
         2,
     ) {

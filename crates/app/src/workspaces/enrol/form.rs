@@ -144,7 +144,7 @@ fn stored(
         };
         small(ui, shortened(&draft.subject.origin.shown_title(), 40));
         if draft.subject.origin.is_simulated() {
-            small(ui, text!("enrol-draft-simulated"));
+            small(ui, text!("enrol-simulated"));
         }
         let num_kept = draft.selection.indices.len();
         small(ui, text!("enrol-points-kept", points = grouped(num_kept)));

@@ -67,7 +67,7 @@ impl SegmentTitle {
     /// Name for a person.
     pub fn shown(self) -> String {
         match self {
-            Self::Part => text!("enrol-segment-part"),
+            Self::Part => text!("shell-part"),
             Self::Stand => text!("enrol-segment-stand"),
             Self::Surface(number) => text!("enrol-segment-surface", number = number),
             Self::Background(number) => text!("enrol-segment-background", number = number),

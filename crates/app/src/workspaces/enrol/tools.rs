@@ -104,7 +104,7 @@ fn steps(draft: &Draft, enrol: &EnrolState) -> Vec<Tool<EnrolAction>> {
             EnrolAction::Redo,
         ),
         (
-            text!("enrol-reset"),
+            text!("shell-reset"),
             text!("enrol-reset-all"),
             !draft.corrections.edits.is_empty(),
             EnrolAction::Reset,

@@ -148,7 +148,7 @@ fn parts(ui: &mut Ui, history: &HistoryState, session: &Session, filter: &mut Li
     let others = others.filter(|(name, _)| !is_enrolled(name));
     let others = others.map(|(name, title)| (Some(name.clone()), title.clone()));
     let all = std::iter::once((None, text!("history-filter-all-parts")));
-    let label = text!("history-filter-part");
+    let label = text!("shell-part");
     let choices = all.chain(enrolled).chain(others);
     menu(ui, &label, &mut filter.part, choices);
 }

@@ -101,7 +101,7 @@ pub(super) fn ui(ui: &mut Ui, drift: &Drift, units: UnitSystem) {
             let title = format!("{name}: {ends}");
             over_time(ui, &drift.at, &title, &curves, shown, theme);
         };
-    let name = text!("history-drift-score");
+    let name = text!("shell-score");
     one_curve(ui, name, &drift.score, (&score, 0.1, 1.0));
     let name = text!("history-drift-fit");
     one_curve(ui, name, &drift.rms_m, (&length, 0.002, f64::INFINITY));

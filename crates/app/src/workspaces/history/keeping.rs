@@ -32,7 +32,7 @@ pub(super) fn ui(ctx: &Context, history: &HistoryState, actions: &mut Vec<Histor
         ui.add_space(space::MEDIUM);
         let mut closing = None;
         ui.horizontal(|ui| {
-            if widgets::default_button(ui, &text!("history-apply"), true) {
+            if widgets::default_button(ui, &text!("shell-apply"), true) {
                 closing = Some(true);
             }
             if text_button(ui, &text!("shell-close")).clicked() {

@@ -50,7 +50,7 @@ impl Remark {
         let Some((_, known, text)) = &mut self.draft else {
             return is_labelled;
         };
-        let field = line_edit(text, text!("history-remark-hint"), f32::INFINITY);
+        let field = line_edit(text, text!("shell-notes-hint"), f32::INFINITY);
         let response = ui.add(field);
         let label = text!("history-your-remark");
         response.widget_info(|| WidgetInfo::labeled(egui::Role::TextInput, true, &label));

@@ -158,7 +158,7 @@ const MARGINS: [f32; 2] = [40.0, 14.0];
 /// The columns from left to right.
 const COLUMNS: [Column; 5] = [
     Column {
-        name: || text!("history-column-part"),
+        name: || text!("shell-part"),
         width: Width::Share(0.58),
         is_path: false,
         text: |past, _| match past.num_below {
@@ -172,7 +172,7 @@ const COLUMNS: [Column; 5] = [
         look: |theme| (font::body_strong(), theme.text),
     },
     Column {
-        name: || text!("history-column-scene"),
+        name: || text!("shell-scene"),
         width: Width::Share(0.42),
         is_path: true,
         // Show a remark first: it is what most people look for.

@@ -208,7 +208,7 @@ impl Workspace for HistoryWorkspace {
 fn empty(ui: &mut Ui) {
     ui.vertical_centered(|ui| {
         ui.add_space(ui.available_height() * 0.4);
-        ui.heading(text!("history-empty"));
+        ui.heading(text!("shell-nothing-inspected"));
         ui.add_space(space::SMALL);
         ui.weak(text!("history-empty-advice"));
     });

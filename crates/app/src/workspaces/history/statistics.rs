@@ -230,7 +230,7 @@ fn by_part(ui: &mut Ui, parts: &[(Option<String>, Tally)]) {
         .spacing(vec2(24.0, 4.0))
         .show(ui, |ui| {
             for name in [
-                text!("history-column-part"),
+                text!("shell-part"),
                 text!("operator-ok"),
                 text!("operator-not-ok"),
                 text!("history-ok-share"),

@@ -104,7 +104,7 @@ impl Banner {
     }
 
     pub(super) fn of(session: &Session) -> Self {
-        let wait = text!("inspect-wait");
+        let wait = text!("shell-wait");
         if session.is_live() {
             match session.live.status.as_ref().map(|status| &status.source) {
                 None | Some(SourceState::Opening) => {
@@ -190,7 +190,7 @@ impl Banner {
             [
                 text!("inspect-looking"),
                 text!("operator-nothing-captured"),
-                text!("inspect-wait"),
+                text!("shell-wait"),
             ]
         } else if session.shown.is_some() {
             [

@@ -221,7 +221,7 @@ fn score(ui: &mut Ui, inspected: &Inspected, headline: &Headline) {
     let name = if is_mirrored {
         text!("inspect-score-itself")
     } else {
-        text!("inspect-score")
+        text!("shell-score")
     };
     row(ui, &name, &format!("{score:.2}"));
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 12.0), Sense::hover());
@@ -323,7 +323,7 @@ fn fit(ui: &mut Ui, pose: &PoseEstimate, units: UnitSystem) {
             let value = format!("{shift} · {turn}");
             let names = [
                 text!("inspect-pose-uncertainty"),
-                text!("inspect-uncertainty"),
+                text!("robot-uncertainty"),
                 "95 %".to_owned(),
             ];
             let width = |text: &str| {
@@ -362,7 +362,7 @@ fn footer(ui: &mut Ui, inspected: &Inspected, session: &Session) {
     row(ui, &text!("inspect-time"), &format!("{ms:.1} ms"));
     row(ui, &text!("inspect-scene"), &inspected.origin.shown_title());
     if inspected.origin.is_simulated() {
-        row(ui, &text!("inspect-camera"), &text!("inspect-simulated"));
+        row(ui, &text!("robot-camera"), &text!("inspect-simulated"));
     }
     for (name, text) in session.trace.of_part(inspected).known() {
         row(ui, &traced(name), &shortened(text, 28));

@@ -29,7 +29,7 @@ pub(super) fn ui(
 ) {
     let figure = &inspected.view;
     if ui.available_width() < MENU_WIDTH_PX {
-        ui.menu_button(small(opened(&text!("inspect-view"))), |ui| sides(ui, view));
+        ui.menu_button(small(opened(&text!("shell-view"))), |ui| sides(ui, view));
     } else {
         sides(ui, view);
     }

@@ -195,12 +195,12 @@ impl Headline {
             MotionState::Watching => (
                 text!("inspect-looking"),
                 text!("inspect-not-long-enough"),
-                text!("inspect-wait"),
+                text!("shell-wait"),
             ),
             MotionState::Steady { .. } => (
                 text!("inspect-looking"),
                 text!("inspect-it-is-steady"),
-                text!("inspect-wait"),
+                text!("shell-wait"),
             ),
         };
         Self {

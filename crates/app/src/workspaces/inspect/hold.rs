@@ -94,7 +94,7 @@ impl Hold {
             _ => sentence(&usual_reason),
         };
         let advice = match (found, role) {
-            (Doubt::Superseded, _) if session.inspecting.is_some() => text!("inspect-wait"),
+            (Doubt::Superseded, _) if session.inspecting.is_some() => text!("shell-wait"),
             (Doubt::Superseded, _) => inspect_current(session, role),
             (Doubt::Old, UserRole::Operator) if is_file => choose_camera(role),
             (Doubt::Old, UserRole::Engineer) if is_file => text!("inspect-hold-open-newer"),
@@ -137,7 +137,7 @@ pub(super) fn inspect_current(session: &Session, role: UserRole) -> String {
         // Live goes on with the next file by itself.
         Some(failed) if session.is_watching() => failed.advice.clone(),
         _ if session.is_watching() => text!("operator-save-capture"),
-        _ if session.is_live() => text!("inspect-wait"),
+        _ if session.is_live() => text!("shell-wait"),
         _ if session.source.followed().is_some() => text!("operator-follow-current"),
         // A file shows what it showed before.
         _ => choose_camera(role),

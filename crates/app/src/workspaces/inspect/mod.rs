@@ -340,7 +340,7 @@ fn strip_height(state: &InspectState, inspected: &Inspected, height: f32) -> f32
 fn first_step(session: &Session) -> String {
     match session.source.followed() {
         _ if session.is_watching() => text!("operator-save-capture"),
-        _ if session.is_live() => text!("inspect-wait"),
+        _ if session.is_live() => text!("shell-wait"),
         Some(SourceSpec::Simulated(_)) => text!("inspect-capture-cell"),
         _ => text!("inspect-capture-or-drop"),
     }
@@ -351,7 +351,11 @@ fn empty(ui: &Ui, session: &Session) {
     let theme = Theme::of(ui);
     let text = match &session.inspecting {
         Some(run) => format!("{}…", run.title),
-        None => format!("{}\n{}", text!("inspect-nothing-yet"), first_step(session)),
+        None => format!(
+            "{}\n{}",
+            text!("shell-nothing-inspected"),
+            first_step(session)
+        ),
     };
     let rect = ui.available_rect_before_wrap();
     let galley = ui.painter().layout(

@@ -90,7 +90,7 @@ pub(super) fn ui(
     let Some(numbered) = numbered(session, inspected) else {
         return;
     };
-    heading(ui, &text!("inspect-pose"));
+    heading(ui, &text!("shell-pose"));
     ui.scope(|ui| {
         // Text on the card is lower, but this is a control.
         ui.spacing_mut().interact_size.y = space::TARGET;

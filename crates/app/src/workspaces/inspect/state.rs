@@ -79,7 +79,7 @@ impl ViewPart {
             Self::NozzleMiddle => text!("inspect-part-nozzle-middle"),
             Self::NozzleWorst => text!("inspect-part-nozzle-worst"),
             Self::SprayPath => text!("inspect-part-spray-path"),
-            Self::RobotBase => text!("inspect-part-robot-base"),
+            Self::RobotBase => text!("shell-robot-base"),
             Self::ShotCameras => text!("inspect-part-shot-cameras"),
             Self::Unseen => text!("inspect-part-unseen"),
         }

@@ -353,7 +353,7 @@ impl SceneView {
                         let at = base.translation.vector;
                         labels.push(TextLabel {
                             at: glam::Vec3::new(at.x as f32, at.y as f32, at.z as f32),
-                            text: text!("inspect-part-robot-base"),
+                            text: text!("shell-robot-base"),
                         });
                     }
                 }

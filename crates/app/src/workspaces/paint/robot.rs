@@ -289,7 +289,7 @@ fn apply_ui(
     shift: [f64; 3],
     actions: &mut Vec<PaintAction>,
 ) {
-    let button = labelled(ui, Button::new(text!("paint-apply")), label);
+    let button = labelled(ui, Button::new(text!("shell-apply")), label);
     if button.on_hover_text(label).clicked() {
         let mut setup = setup.clone();
         for (value, metres) in setup.base.iter_mut().zip(shift) {

@@ -78,7 +78,7 @@ pub(super) fn ui(
 fn head(ui: &mut Ui, paint: &PaintState, session: &Session, actions: &mut Vec<PaintAction>) {
     let theme = Theme::of(ui);
     let Some(library) = &session.library else {
-        ui.label(text!("paint-library-loading"));
+        ui.label(text!("shell-library-loading"));
         return;
     };
     if library.parts.is_empty() {
@@ -86,7 +86,7 @@ fn head(ui: &mut Ui, paint: &PaintState, session: &Session, actions: &mut Vec<Pa
         return;
     }
     let chosen = paint.part(session);
-    let none = text!("paint-none-chosen");
+    let none = text!("shell-no-part");
     let title = chosen.map_or(none.as_str(), |part| library.title_of(part.as_str()));
     let text = RichText::new(format!("{} ▼", shortened(title, TITLE))).font(font::verdict());
     let label = text!("paint-part", part = title);
@@ -216,7 +216,7 @@ fn coat(ui: &mut Ui, paint: &PaintState, actions: &mut Vec<PaintAction>) {
                 ui.close();
             }
         });
-        if design.is_coat_changed() && text_button(ui, &text!("paint-reset-coat")).clicked() {
+        if design.is_coat_changed() && text_button(ui, &text!("shell-reset")).clicked() {
             actions.push(PaintAction::ResetCoat);
         }
     });
@@ -318,7 +318,7 @@ fn parameters_of(
 
 /// Draws the figures of the film.
 fn check(ui: &mut Ui, planned: &Planned) {
-    heading(ui, &text!("paint-check"));
+    heading(ui, &text!("coat-group-film"));
     let (film, takes) = (&planned.film.figures, &planned.film.path);
     let micrometres = |metres: f64| format!("{:.1}", 1e6 * metres);
     for (name, value) in [
@@ -434,7 +434,7 @@ fn buttons(ui: &mut Ui, paint: &PaintState, session: &Session, actions: &mut Vec
             actions.push(PaintAction::Ask(PaintFile::Program));
         }
     });
-    let store = text!("paint-store-short");
+    let store = text!("shell-store");
     let library = session.library.as_ref();
     let fixed = library.and_then(|library| library.is_fixed.as_ref());
     let is_stored = paint.is_stored();

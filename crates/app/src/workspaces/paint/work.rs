@@ -89,7 +89,7 @@ pub(super) fn enrolled<'a>(
     let found = place.and_then(|place| Some((place, loaded.library.references.get(place)?)));
     found.ok_or_else(|| UserError {
         what: text!("paint-no-such-part", part = part.as_str()),
-        advice: text!("paint-no-such-part-advice"),
+        advice: text!("shell-choose-another-part"),
     })
 }
 

@@ -182,7 +182,7 @@ fn follow_source(state: &mut State) {
     state.session.live.status = None;
     let library_cache = state.follower.library_cache.clone();
     let job = move |context: &_| follow(&request, &library_cache, context);
-    state.follower.task.start(text!("live-live"), job);
+    state.follower.task.start(text!("shell-live"), job);
 }
 
 /// Starts over after a change of something that verdicts depend on, so that no earlier verdict counts. Does nothing if no

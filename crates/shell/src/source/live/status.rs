@@ -89,7 +89,7 @@ pub(crate) fn words(session: &Session) -> (Mark, String) {
         Source::Camera(spec) if matches!(**spec, SourceSpec::Recording(_)) => text!("live-playing"),
         Source::Camera(spec) if matches!(**spec, SourceSpec::Watched(_)) => text!("live-watching"),
         Source::Camera(_) | Source::Cell(_) | Source::File(_) | Source::Scan(_) => {
-            text!("live-live")
+            text!("shell-live")
         }
     };
     let Some(status) = &session.live.status else {
