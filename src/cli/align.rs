@@ -6,9 +6,9 @@ use clap::Args;
 use serde::Serialize;
 
 use super::{
-    MethodChoice, Outcome,
+    Outcome,
     console::{Advised as _, Console, Table, advised_error},
-    input::{open_cloud, warn_of},
+    input::{Choice, choice, open_cloud, warn_of},
 };
 use geometry::{
     cloud::PointCloud,
@@ -39,8 +39,8 @@ pub(super) struct AlignArgs {
     /// The cloud that stays
     target: PathBuf,
     /// Method
-    #[arg(long, value_enum, default_value_t = MethodChoice::Global)]
-    pose: MethodChoice,
+    #[arg(long, value_parser = choice(&METHODS), default_value = "global")]
+    pose: PoseMethod,
     /// Start pose: three angles (radians, or 90deg) and a shift (metres, or 800mm); R = Rz·Ry·Rx
     #[arg(long, value_name = "\"rx ry rz x y z\"", value_parser = parse_pose, allow_hyphen_values = true)]
     initial: Option<GivenPose>,
@@ -48,6 +48,13 @@ pub(super) struct AlignArgs {
     #[arg(long)]
     json: bool,
 }
+
+#[rustfmt::skip]
+const METHODS: [Choice<PoseMethod>; 3] = [
+    ("global", "From any start: many are tried, the best is refined", PoseMethod::Global),
+    ("icp", "The paper's iterative closest point, from one start", PoseMethod::Icp),
+    ("icp-ga", "The paper's ICP-GA: ICP and a genetic algorithm in turns, from one start", PoseMethod::IcpGa),
+];
 
 /// JSON line of `align --json`.
 #[derive(Debug, Serialize)]
@@ -83,7 +90,7 @@ pub(super) fn run(args: &AlignArgs, console: &mut Console) -> anyhow::Result<Out
     }
     let initial = args.initial.as_ref().map(|given| given.pose);
     let clock = Instant::now();
-    let aligned = align(&source, &target, args.pose.into(), initial);
+    let aligned = align(&source, &target, args.pose, initial);
     let time_ms = clock.elapsed().as_micros() as f64 / 1000.0;
     if let Err(error) = &aligned {
         let message = format!("{}: {error}", paths_meant(args, *error));
@@ -102,7 +109,7 @@ pub(super) fn run(args: &AlignArgs, console: &mut Console) -> anyhow::Result<Out
             schema: SCHEMA,
             source: &args.source.display().to_string(),
             target: &args.target.display().to_string(),
-            method: PoseMethod::from(args.pose).name(),
+            method: args.pose.name(),
             target_from_source: pose.map(|pose| row_major(&pose.target_from_source)),
             reason: failure.or_else(|| doubt.map(|doubt| doubt.to_string())),
             e_m2: fit.map(|fit| fit.e_m2),

@@ -6,12 +6,12 @@ mod show;
 
 use std::path::{Path, PathBuf};
 
-use clap::{Args, Subcommand, ValueEnum};
+use clap::{Args, Subcommand};
 
 use super::{
     Outcome,
     console::{Advised as _, Console, advised_error},
-    input::parse_robot_pose,
+    input::{Choice, choice, parse_robot_pose},
 };
 use robot::{
     RobotFrame, WrittenPose,
@@ -63,8 +63,8 @@ struct SetArgs {
     #[command(flatten)]
     kept: CalibrationOutput,
     /// What the camera is fixed to
-    #[arg(long, value_enum)]
-    mount: MountChoice,
+    #[arg(long, value_parser = choice(&MOUNTS))]
+    mount: Mount,
 }
 
 /// Store the flange pose at which every capture is taken, for a camera on the flange
@@ -122,22 +122,18 @@ impl CalibrationOutput {
     }
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum MountChoice {
-    /// The camera stands in the cell
-    EyeToHand,
-    /// The camera is on the robot's flange
-    EyeInHand,
-}
-
-impl From<MountChoice> for Mount {
-    fn from(choice: MountChoice) -> Self {
-        match choice {
-            MountChoice::EyeToHand => Self::EyeToHand,
-            MountChoice::EyeInHand => Self::EyeInHand,
-        }
-    }
-}
+const MOUNTS: [Choice<Mount>; 2] = [
+    (
+        "eye-to-hand",
+        "The camera stands in the cell",
+        Mount::EyeToHand,
+    ),
+    (
+        "eye-in-hand",
+        "The camera is on the robot's flange",
+        Mount::EyeInHand,
+    ),
+];
 
 pub(super) fn run(args: &CalibrateArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     match &args.command {
@@ -150,7 +146,7 @@ pub(super) fn run(args: &CalibrateArgs, console: &mut Console) -> anyhow::Result
 }
 
 fn set(args: &SetArgs, console: &mut Console) -> anyhow::Result<Outcome> {
-    let camera = CameraPlace::on(args.mount.into(), args.pose.pose);
+    let camera = CameraPlace::on(args.mount, args.pose.pose);
     keep(camera, Origin::ByHand, &args.kept, console)
 }
 

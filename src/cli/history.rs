@@ -10,20 +10,21 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use clap::{Args, Subcommand, ValueEnum};
+use clap::{Args, Subcommand};
 use jiff::{Timestamp, tz::TimeZone};
 
 use self::moments::{parse_since, parse_until};
 use super::{
     LibraryChoice, Outcome,
     console::{Advised as _, Console, Table, advised_error, marked_simulated},
+    input::{Choice, choice},
     plant,
     record::HistoryChoice,
 };
 use inspection::library::Truth;
 use records::history::{
     ACCEPTED_KEPT, FILE, Filter, History, HistoryError, KeepFrames, Retention, StoredVerdict,
-    Summary, Traceability,
+    Summary, Traceability, VerdictFilter,
 };
 use stages::reference::ReferenceParams;
 
@@ -98,8 +99,8 @@ pub(super) struct FilterArgs {
     #[arg(long, value_name = "NAME")]
     part: Option<String>,
     /// With this verdict
-    #[arg(long, value_enum, value_name = "VERDICT")]
-    verdict: Option<VerdictChoice>,
+    #[arg(long, value_parser = choice(&VERDICTS), value_name = "VERDICT")]
+    verdict: Option<VerdictFilter>,
     /// With these words in the name of part, scene or source, in the remark or in the true label
     #[arg(long, value_name = "TEXT")]
     text: Option<String>,
@@ -111,32 +112,14 @@ pub(super) struct FilterArgs {
     reinspections: bool,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum VerdictChoice {
-    /// A part, accepted
-    Accepted,
-    /// Everything that was not accepted: rejected, unknown and no-part
-    NotAccepted,
-    /// An enrolled part was the best match, and was not accepted
-    Rejected,
-    /// Something that is not enrolled, or only the mirror image of an enrolled part
-    Unknown,
-    /// No part
-    NoPart,
-}
-
-impl VerdictChoice {
-    /// Returns the only verdict that matches; `None` if several do.
-    fn verdict(self) -> Option<StoredVerdict> {
-        match self {
-            Self::Accepted => Some(StoredVerdict::Accepted),
-            Self::NotAccepted => None,
-            Self::Rejected => Some(StoredVerdict::Rejected),
-            Self::Unknown => Some(StoredVerdict::Unknown),
-            Self::NoPart => Some(StoredVerdict::NoPart),
-        }
-    }
-}
+#[rustfmt::skip]
+const VERDICTS: [Choice<VerdictFilter>; 5] = [
+    ("accepted", "A part, accepted", VerdictFilter::Only(StoredVerdict::Accepted)),
+    ("not-accepted", "Everything that was not accepted: rejected, unknown and no-part", VerdictFilter::NotAccepted),
+    ("rejected", "An enrolled part was the best match, and was not accepted", VerdictFilter::Only(StoredVerdict::Rejected)),
+    ("unknown", "Something that is not enrolled, or only the mirror image of an enrolled part", VerdictFilter::Only(StoredVerdict::Unknown)),
+    ("no-part", "No part", VerdictFilter::Only(StoredVerdict::NoPart)),
+];
 
 impl FilterArgs {
     pub(super) fn filter(&self) -> Filter {
@@ -144,8 +127,7 @@ impl FilterArgs {
             since: self.since,
             until: self.until,
             part: self.part.clone(),
-            verdict: self.verdict.and_then(VerdictChoice::verdict),
-            is_accepted: (self.verdict == Some(VerdictChoice::NotAccepted)).then_some(false),
+            verdict: self.verdict,
             is_simulated: self.simulated,
             with_below: self.reinspections,
             text: self.text.clone().unwrap_or_default(),
@@ -208,8 +190,8 @@ pub(super) struct ExportArgs {
 #[derive(Debug, Args)]
 pub(super) struct KeepArgs {
     /// Inspections whose frames are kept
-    #[arg(value_enum)]
-    keep: Option<KeepChoice>,
+    #[arg(value_parser = choice(&KEPT))]
+    keep: Option<KeepFrames>,
     /// Days after which frames are removed
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=3650))]
     days: Option<u32>,
@@ -218,15 +200,12 @@ pub(super) struct KeepArgs {
     gigabytes: Option<f64>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum KeepChoice {
-    /// All inspections
-    All,
-    /// Those that were not accepted and the newest 200 accepted ones
-    NotAccepted,
-    /// None
-    None,
-}
+#[rustfmt::skip]
+const KEPT: [Choice<KeepFrames>; 3] = [
+    ("all", "All inspections", KeepFrames::All),
+    ("not-accepted", "Those that were not accepted and the newest 200 accepted ones", KeepFrames::NotAccepted),
+    ("none", "None", KeepFrames::None),
+];
 
 pub(super) fn run(args: &HistoryArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     if let Some(outcome) = plant::overview(&args.command, console)? {
@@ -456,12 +435,7 @@ fn cells(row: &Summary) -> [String; 10] {
 fn keep(history: &mut History, asked: &KeepArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     let before = history.retention().advised()?;
     let rule = Retention {
-        keep: match asked.keep {
-            Some(KeepChoice::All) => KeepFrames::All,
-            Some(KeepChoice::NotAccepted) => KeepFrames::NotAccepted,
-            Some(KeepChoice::None) => KeepFrames::None,
-            None => before.keep,
-        },
+        keep: asked.keep.unwrap_or(before.keep),
         max_days: asked.days.unwrap_or(before.max_days),
         max_gigabytes: asked.gigabytes.unwrap_or(before.max_gigabytes),
     }

@@ -7,7 +7,10 @@ use std::{
     thread,
 };
 
-use clap::{Args, builder::PossibleValuesParser};
+use clap::{
+    Args,
+    builder::{PossibleValue, PossibleValuesParser, TypedValueParser},
+};
 
 use super::console::{Advised as _, Console, advised_error, with_advice};
 use capture::{Captured, Image};
@@ -46,6 +49,22 @@ impl Advice for InputError {
             Self::EmptyMesh { .. } => "Export the mesh again with its faces".into(),
         }
     }
+}
+
+/// A value of an option: its name, its line in `--help`, and what it stands for.
+pub(super) type Choice<T> = (&'static str, &'static str, T);
+
+/// Parses the name of one of `choices`.
+pub(super) fn choice<T: Copy + Send + Sync + 'static>(
+    choices: &'static [Choice<T>],
+) -> impl TypedValueParser<Value = T> {
+    let names = choices
+        .iter()
+        .map(|(name, help, _)| PossibleValue::new(*name).help((!help.is_empty()).then_some(*help)));
+    PossibleValuesParser::new(names).try_map(|given| {
+        let chosen = choices.iter().find(|(name, ..)| *name == given);
+        chosen.map(|(.., value)| *value).ok_or("unknown value")
+    })
 }
 
 /// How the numbers of clouds and meshes are meant.

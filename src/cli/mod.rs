@@ -43,7 +43,7 @@ use std::{
     thread,
 };
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand};
 use serde::Serialize;
 
 use self::console::{Advised as _, Console, advised_error};
@@ -53,7 +53,7 @@ use files::write_atomically;
 use inspection::library::{
     LibraryFolder, LibraryLoad, LibraryPlace, PartName, StoredPart, open_library,
 };
-use stages::{pose::PoseMethod, reference::ReferenceParams};
+use stages::reference::ReferenceParams;
 
 /// Recognises car body parts in depth-camera point clouds and says where they are.
 #[derive(Debug, Parser)]
@@ -369,25 +369,4 @@ fn hint(folder: &LibraryFolder) -> Option<String> {
     } else {
         format!("Give the folder that holds the parts: --library {meant}")
     })
-}
-
-/// A method of `align`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum MethodChoice {
-    /// From any start: many are tried, the best is refined
-    Global,
-    /// The paper's iterative closest point, from one start
-    Icp,
-    /// The paper's ICP-GA: ICP and a genetic algorithm in turns, from one start
-    IcpGa,
-}
-
-impl From<MethodChoice> for PoseMethod {
-    fn from(choice: MethodChoice) -> Self {
-        match choice {
-            MethodChoice::Global => Self::Global,
-            MethodChoice::Icp => Self::Icp,
-            MethodChoice::IcpGa => Self::IcpGa,
-        }
-    }
 }

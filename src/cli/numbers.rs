@@ -1,10 +1,10 @@
 //! Conventions of poses and numbers of parts for robots and other systems, as command line options.
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use super::{
     console::{Advised as _, Console, advised_error},
-    input::parse_convention,
+    input::{Choice, choice, parse_convention},
 };
 use inspection::library::{GivenNumbers, LibraryLoad, LibraryPlace, PartNumbers};
 use robot::{Convention, spray::off_the_part};
@@ -18,21 +18,19 @@ pub(super) struct NumbersChoice {
     #[arg(long = "as", value_name = "CONVENTION", value_parser = parse_convention)]
     pub(super) convention: Option<Convention>,
     /// Which pose is given; default: robot-from-part
-    #[arg(long, value_enum)]
-    transform: Option<PoseArg>,
+    #[arg(long, value_parser = choice(&POSES))]
+    transform: Option<PoseKind>,
     /// The number by which robots know an enrolled part, from 1 to 9999; may be given several times. Without any, parts
     /// have the numbers that partsight library list shows; one without a number gets the next, and keeps it
     #[arg(long, value_name = "NAME=N", value_parser = parse_number)]
     number: Vec<PartNumber>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum PoseArg {
-    /// Where the part is: for a path in the part's own frame
-    RobotFromPart,
-    /// How far it is from its standard position: for a path taught in the base frame
-    RobotOffset,
-}
+#[rustfmt::skip]
+const POSES: [Choice<PoseKind>; 2] = [
+    ("robot-from-part", "Where the part is: for a path in the part's own frame", PoseKind::RobotFromPart),
+    ("robot-offset", "How far it is from its standard position: for a path taught in the base frame", PoseKind::RobotOffset),
+];
 
 /// A part and its number for robots.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -54,10 +52,7 @@ fn parse_number(text: &str) -> Result<PartNumber, String> {
 impl NumbersChoice {
     /// Returns which pose to give.
     pub(super) fn kind(&self) -> PoseKind {
-        match self.transform {
-            None | Some(PoseArg::RobotFromPart) => PoseKind::RobotFromPart,
-            Some(PoseArg::RobotOffset) => PoseKind::RobotOffset,
-        }
+        self.transform.unwrap_or_default()
     }
 
     /// Returns number and path of each reference, in the order of the library. Unless numbers are given, gives one to each

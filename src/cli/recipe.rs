@@ -2,9 +2,12 @@
 
 use std::sync::Arc;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
-use super::console::{Advised as _, Console, advised_error, with_advice};
+use super::{
+    console::{Advised as _, Console, advised_error, with_advice},
+    input::{Choice, choice},
+};
 use inspection::pipeline::{
     BUILT_IN, NamedRecipe, PoseChoice, Recipe, RecipeFile, RecipeFolder, RecipeLabel,
     built_in_recipe, open_recipe,
@@ -18,32 +21,26 @@ pub(super) struct RecipeChoice {
     #[command(flatten)]
     from: RecipeSource,
     /// How the enrolled parts are ranked; default: as in the recipe
-    #[arg(long, value_enum)]
-    matcher: Option<MatcherChoice>,
+    #[arg(long, value_parser = choice(&MATCHERS))]
+    matcher: Option<Matcher>,
     /// How the pose is found; default: as in the recipe
-    #[arg(long, value_enum)]
-    pose: Option<PoseArg>,
+    #[arg(long, value_parser = choice(&POSES))]
+    pose: Option<PoseChoice>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum MatcherChoice {
-    /// Circular correlation of the outlines in metres, overlap, and the fit of the pose
-    Default,
-    /// The paper's Algorithm 2, literally
-    Paper,
-}
+#[rustfmt::skip]
+const MATCHERS: [Choice<Matcher>; 2] = [
+    ("default", "Circular correlation of the outlines in metres, overlap, and the fit of the pose", Matcher::Default),
+    ("paper", "The paper's Algorithm 2, literally", Matcher::Paper),
+];
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum PoseArg {
-    /// From any start; also confirms which part it is
-    Global,
-    /// The paper's iterative closest point, from the standard position
-    Icp,
-    /// The paper's ICP-GA: ICP and a genetic algorithm in turns, from the standard position
-    IcpGa,
-    /// No pose: the verdict rests on the outline alone
-    None,
-}
+#[rustfmt::skip]
+const POSES: [Choice<PoseChoice>; 4] = [
+    ("global", "From any start; also confirms which part it is", PoseChoice::By(PoseMethod::Global)),
+    ("icp", "The paper's iterative closest point, from the standard position", PoseChoice::By(PoseMethod::Icp)),
+    ("icp-ga", "The paper's ICP-GA: ICP and a genetic algorithm in turns, from the standard position", PoseChoice::By(PoseMethod::IcpGa)),
+    ("none", "No pose: the verdict rests on the outline alone", PoseChoice::Skip),
+];
 
 impl RecipeChoice {
     /// Returns the recipe with the requested changes.
@@ -60,18 +57,8 @@ impl RecipeChoice {
 
     fn changed(&self, file: &RecipeFile) -> NamedRecipe {
         self.from.changed(file, |recipe| {
-            match self.matcher {
-                None => {}
-                Some(MatcherChoice::Default) => recipe.rank.matcher = Matcher::Default,
-                Some(MatcherChoice::Paper) => recipe.rank.matcher = Matcher::Paper,
-            }
-            match self.pose {
-                None => {}
-                Some(PoseArg::Global) => recipe.pose = PoseChoice::By(PoseMethod::Global),
-                Some(PoseArg::Icp) => recipe.pose = PoseChoice::By(PoseMethod::Icp),
-                Some(PoseArg::IcpGa) => recipe.pose = PoseChoice::By(PoseMethod::IcpGa),
-                Some(PoseArg::None) => recipe.pose = PoseChoice::Skip,
-            }
+            recipe.rank.matcher = self.matcher.unwrap_or(recipe.rank.matcher);
+            recipe.pose = self.pose.unwrap_or(recipe.pose);
         })
     }
 }

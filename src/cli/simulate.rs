@@ -6,12 +6,12 @@ mod scan;
 
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueEnum, builder::PossibleValuesParser};
+use clap::{Args, builder::PossibleValuesParser};
 
 use super::{
     Outcome,
     console::{Advised as _, Console, advised_error},
-    input::within,
+    input::{Choice, choice, within},
     write_json,
 };
 use files::{depth_png::intrinsics_path, save_cloud, write_depth_png};
@@ -45,8 +45,8 @@ pub(super) struct SimulateArgs {
     #[arg(long, value_name = "NAME", value_delimiter = ',', required_unless_present_any = ["cases", "rack"], value_parser = PossibleValuesParser::new(subject_names()))]
     part: Vec<String>,
     /// Side of the car, for doors and fenders
-    #[arg(long, value_enum, default_value_t = SideChoice::Left)]
-    side: SideChoice,
+    #[arg(long, value_parser = choice(&SIDES), default_value = "left")]
+    side: Side,
     /// Seed of the pose, the cell and the noise
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -63,14 +63,14 @@ pub(super) struct SimulateArgs {
     )]
     pose: Option<GivenPose>,
     /// How far from square-on the random pose may be; with --cases several may be given
-    #[arg(long, value_enum, value_delimiter = ',', default_value = "placed")]
-    placement: Vec<PlacementChoice>,
+    #[arg(long, value_parser = choice(&PLACEMENTS), value_delimiter = ',', default_value = "placed")]
+    placement: Vec<Placement>,
     /// What else is in the cell
-    #[arg(long, value_enum, default_value_t = ClutterChoice::None)]
-    clutter: ClutterChoice,
+    #[arg(long, value_parser = choice(&CLUTTERS), default_value = "none")]
+    clutter: Clutter,
     /// What holds the part
-    #[arg(long, value_enum, default_value_t = StandChoice::None)]
-    stand: StandChoice,
+    #[arg(long, value_parser = choice(&STANDS), default_value = "none")]
+    stand: Stand,
     /// A paint booth seen from the robot's flange: the part cut off by the picture, a field of view smaller than the
     /// picture, tubes and clamps that touch the part. The seed sets the pose, the stand and the walls
     #[arg(long, conflicts_with_all = ["placement", "clutter", "stand"])]
@@ -83,8 +83,8 @@ pub(super) struct SimulateArgs {
     #[arg(long, value_name = "N", conflicts_with_all = ["part", "side", "pose", "placement", "booth", "cases", "scan"])]
     rack: Option<usize>,
     /// With --rack: what is special about it
-    #[arg(long, value_name = "KIND", value_enum, default_value_t = RackChoice::Apart, requires = "rack", conflicts_with_all = ["part", "cases"])]
-    rack_kind: RackChoice,
+    #[arg(long, value_name = "KIND", value_parser = choice(&RACKS), default_value = "apart", requires = "rack", conflicts_with_all = ["part", "cases"])]
+    rack_kind: RackKind,
     /// The file: .pcd (organised), .png (16-bit depth, intrinsics in a .json beside it), .ply or .xyz (points only)
     #[arg(long, value_name = "FILE", required_unless_present_any = ["cases", "scan"])]
     out: Option<PathBuf>,
@@ -134,10 +134,7 @@ impl SimulateArgs {
     fn subjects(&self) -> Vec<SimulatedObject> {
         let part = |kind| SimulatedObject::Part {
             kind,
-            side: match self.side {
-                SideChoice::Left => Side::Left,
-                SideChoice::Right => Side::Right,
-            },
+            side: self.side,
             model_seed: self.model,
         };
         if self.part.is_empty() {
@@ -172,107 +169,46 @@ impl SimulateArgs {
     /// Sets the noise, and what stands around the part.
     fn equip(&self, setup: &mut CellSetup) {
         setup.noise.multiplier = self.noise;
-        setup.clutter = match self.clutter {
-            ClutterChoice::None => Clutter::None,
-            ClutterChoice::OnFloor => Clutter::OnFloor,
-            ClutterChoice::InFront => Clutter::InFront,
-        };
-        setup.stand = match self.stand {
-            StandChoice::None => Stand::None,
-            StandChoice::Post => Stand::Post,
-            StandChoice::Floor => Stand::Floor,
-        };
+        setup.clutter = self.clutter;
+        setup.stand = self.stand;
     }
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum ClutterChoice {
-    /// Nothing
-    None,
-    /// Two or three things on the floor
-    OnFloor,
-    /// The same, and a plank that hides 10 to 25 % of the part
-    InFront,
-}
+#[rustfmt::skip]
+const CLUTTERS: [Choice<Clutter>; 3] = [
+    ("none", "Nothing", Clutter::None),
+    ("on-floor", "Two or three things on the floor", Clutter::OnFloor),
+    ("in-front", "The same, and a plank that hides 10 to 25 % of the part", Clutter::InFront),
+];
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum StandChoice {
-    /// Nothing in sight
-    None,
-    /// A post with two hooks
-    Post,
-    /// It stands on the floor
-    Floor,
-}
+const STANDS: [Choice<Stand>; 3] = [
+    ("none", "Nothing in sight", Stand::None),
+    ("post", "A post with two hooks", Stand::Post),
+    ("floor", "It stands on the floor", Stand::Floor),
+];
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum RackChoice {
-    /// Different parts with gaps of 40 to 150 mm
-    Apart,
-    /// Different parts with gaps of at most 10 mm
-    Touching,
-    /// Different parts in pairs: one hangs 100 to 300 mm in front of the other and hides up to a third of it
-    Overlapping,
-    /// Two equal parts among others
-    Equal,
-    /// The left and the right part of one kind among others
-    Mirrored,
-    /// An object that is not a shipped part among parts
-    Foreign,
-    /// One place is empty
-    Empty,
-}
+#[rustfmt::skip]
+const RACKS: [Choice<RackKind>; 7] = [
+    ("apart", "Different parts with gaps of 40 to 150 mm", RackKind::Apart),
+    ("touching", "Different parts with gaps of at most 10 mm", RackKind::Touching),
+    ("overlapping", "Different parts in pairs: one hangs 100 to 300 mm in front of the other and hides up to a third of it", RackKind::Overlapping),
+    ("equal", "Two equal parts among others", RackKind::Equal),
+    ("mirrored", "The left and the right part of one kind among others", RackKind::Mirrored),
+    ("foreign", "An object that is not a shipped part among parts", RackKind::Foreign),
+    ("empty", "One place is empty", RackKind::Empty),
+];
 
-impl From<RackChoice> for RackKind {
-    fn from(choice: RackChoice) -> Self {
-        match choice {
-            RackChoice::Apart => Self::Apart,
-            RackChoice::Touching => Self::Touching,
-            RackChoice::Overlapping => Self::Overlapping,
-            RackChoice::Equal => Self::Equal,
-            RackChoice::Mirrored => Self::Mirrored,
-            RackChoice::Foreign => Self::Foreign,
-            RackChoice::Empty => Self::Empty,
-        }
-    }
-}
+const SIDES: [Choice<Side>; 2] = [("left", "", Side::Left), ("right", "", Side::Right)];
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum SideChoice {
-    Left,
-    Right,
-}
+/// The name of a kind of random pose, which cases give as their difficulty, and its range.
+type Placement = (&'static str, fn() -> PoseRange);
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum PlacementChoice {
-    /// Hung with care: up to 10 degrees off
-    Facing,
-    /// Hung carelessly: up to 30 degrees off, any roll
-    Placed,
-    /// Up to 45 degrees off, any roll
-    Hard,
-}
-
-impl PlacementChoice {
-    /// Returns the name on the command line.
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            Self::Facing => "facing",
-            Self::Placed => "placed",
-            Self::Hard => "hard",
-        }
-    }
-}
-
-impl From<PlacementChoice> for PoseRange {
-    fn from(choice: PlacementChoice) -> Self {
-        match choice {
-            PlacementChoice::Facing => Self::facing(),
-            PlacementChoice::Placed => Self::placed(),
-            PlacementChoice::Hard => Self::hard(),
-        }
-    }
-}
+#[rustfmt::skip]
+const PLACEMENTS: [Choice<Placement>; 3] = [
+    ("facing", "Hung with care: up to 10 degrees off", ("facing", PoseRange::facing)),
+    ("placed", "Hung carelessly: up to 30 degrees off, any roll", ("placed", PoseRange::placed)),
+    ("hard", "Up to 45 degrees off, any roll", ("hard", PoseRange::hard)),
+];
 
 pub(super) fn run(args: &SimulateArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     if let Some(folder) = &args.cases {
@@ -285,7 +221,8 @@ pub(super) fn run(args: &SimulateArgs, console: &mut Console) -> anyhow::Result<
     if let (Some(num_places), Some(out)) = (args.rack, out) {
         return rack::run(num_places, out, args, console);
     }
-    let (&[subject], &[placement], Some(out)) = (&subjects[..], &args.placement[..], out) else {
+    let (&[subject], &[(_, pose_range)], Some(out)) = (&subjects[..], &args.placement[..], out)
+    else {
         return Err(advised_error(
             "one file shows one part at one placement",
             "Give one of each, or write cases: partsight simulate --cases DIR",
@@ -298,7 +235,7 @@ pub(super) fn run(args: &SimulateArgs, console: &mut Console) -> anyhow::Result<
     let mut setup = args.cell(subject, args.seed);
     setup.pose = match &args.pose {
         Some(given) => PartPose::Fixed(given.pose),
-        None => PartPose::Drawn(placement.into()),
+        None => PartPose::Drawn(pose_range()),
     };
     let simulated = frame(&setup);
     write_frame(out, &simulated.frame)?;

@@ -73,7 +73,7 @@ pub fn history_times(num_rows: usize) -> Result<Vec<HistoryTime>, HistoryError> 
         (
             "not accepted",
             Filter {
-                verdict: Some(StoredVerdict::Rejected),
+                verdict: Some(StoredVerdict::Rejected.into()),
                 ..everything()
             },
         ),
@@ -96,7 +96,7 @@ pub fn history_times(num_rows: usize) -> Result<Vec<HistoryTime>, HistoryError> 
             Filter {
                 since: since(num_rows / 2),
                 part: part(),
-                verdict: Some(StoredVerdict::Rejected),
+                verdict: Some(StoredVerdict::Rejected.into()),
                 text: "grille simulated".into(),
                 ..everything()
             },

@@ -243,7 +243,7 @@ fn count(history: &HistoryBuffer, since: Zoned, source: &str) -> Result<ShiftPar
     for verdict in StoredVerdict::ALL {
         if verdict != StoredVerdict::NoPart {
             let filter = Filter {
-                verdict: Some(verdict),
+                verdict: Some(verdict.into()),
                 ..all.clone()
             };
             last.extend(history.page(&filter, 0, MAX_LISTED)?.rows);

@@ -6,14 +6,14 @@ use clap::Args;
 use serde::Serialize;
 
 use super::{
-    CalibrationOutput, Console, MountChoice, Outcome,
+    CalibrationOutput, Console, MOUNTS, Outcome,
     captures::{TargetChoice, pairs_of_captures},
     keep,
     show::matrix,
 };
 use crate::cli::{
     console::{Advised as _, Table, advised_error},
-    input::parse_convention,
+    input::{choice, parse_convention},
 };
 use geometry::{error::Advice as _, rigid::row_major};
 use records::report::SCHEMA;
@@ -51,8 +51,8 @@ pub(super) struct HandEyeArgs {
     #[arg(value_name = "PAIRS")]
     pairs: PathBuf,
     /// What the camera is fixed to
-    #[arg(long, value_enum)]
-    mount: MountChoice,
+    #[arg(long, value_parser = choice(&MOUNTS))]
+    mount: Mount,
     #[command(flatten)]
     kept: CalibrationOutput,
     #[command(flatten)]
@@ -96,7 +96,7 @@ pub(super) fn run(args: &HandEyeArgs, console: &mut Console) -> anyhow::Result<O
         (read.pairs, Target::Marker)
     };
     let left_out = leave_out(&mut pairs, &args.without)?;
-    let solved = solve(&pairs, args.mount.into(), target).advised()?;
+    let solved = solve(&pairs, args.mount, target).advised()?;
     if args.json {
         console.line(&serde_json::to_string(&Line::of(&solved, args))?);
     } else {

@@ -12,7 +12,7 @@ use crate::cli::{
 };
 use inspection::library::shipped_enrolled_at;
 use records::cases::{CaseDescription, FoundVerdict, TruePose, Truth};
-use simulate::{PartPose, PoseRange, Side, SimulatedFrame, SimulatedObject, frame};
+use simulate::{PartPose, Side, SimulatedFrame, SimulatedObject, frame};
 use stages::scene::scene_from_frame;
 
 /// Writes `--num` cases that cycle through the objects, then through the placements, each with its own seed.
@@ -27,7 +27,8 @@ pub(super) fn run(
     console.start_progress(num);
     for place in 0..num {
         let subject = subjects[place % subjects.len()];
-        let placement = args.placement[(place / subjects.len()) % args.placement.len()];
+        let (placement, pose_range) =
+            args.placement[(place / subjects.len()) % args.placement.len()];
         let seed = args.seed.checked_add(place as u64).ok_or_else(|| {
             advised_error(
                 "the seeds go beyond the largest number",
@@ -35,12 +36,12 @@ pub(super) fn run(
             )
         })?;
         let mut setup = args.cell(subject, seed);
-        setup.pose = PartPose::Drawn(PoseRange::from(placement));
+        setup.pose = PartPose::Drawn(pose_range());
         let shot = frame(&setup);
         let difficulty = match &args.difficulty {
             Some(words) => words.clone(),
             None if args.booth => "booth".to_owned(),
-            None => placement.name().to_owned(),
+            None => placement.to_owned(),
         };
         let origin = format!("{} {difficulty} {seed}", name_of(subject));
         console.begin(&origin);

@@ -17,8 +17,8 @@ pub(super) fn run(
     console: &mut Console,
 ) -> anyhow::Result<Outcome> {
     check_outputs_differ(args, out)?;
-    let kind = args.rack_kind.into();
-    let mut setup = RackSetup::drawn(kind, num_places, args.model, args.seed).advised()?;
+    let mut setup =
+        RackSetup::drawn(args.rack_kind, num_places, args.model, args.seed).advised()?;
     args.equip(&mut setup.cell);
     let rack = rack_frame(&setup).advised()?;
     write_frame(out, &rack.frame)?;

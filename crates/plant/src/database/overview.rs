@@ -373,7 +373,7 @@ mod tests {
             ("TRUE AND there.cell = $1", 1)
         );
         let filter = Filter {
-            verdict: Some(StoredVerdict::Accepted),
+            verdict: Some(StoredVerdict::Accepted.into()),
             is_simulated: Some(true),
             text: "left ? door".into(),
             ..Filter::default()

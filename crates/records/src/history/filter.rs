@@ -14,10 +14,8 @@ pub struct Filter {
     pub until: Option<Timestamp>,
     /// Recognised as this part, accepted or not.
     pub part: Option<String>,
-    /// With exactly this verdict.
-    pub verdict: Option<StoredVerdict>,
-    /// Accepted, or not accepted for whatever reason: unknown parts and scenes without a part are not accepted either.
-    pub is_accepted: Option<bool>,
+    /// With these verdicts.
+    pub verdict: Option<VerdictFilter>,
     /// Simulated or not.
     pub is_simulated: Option<bool>,
     /// Only from this source.
@@ -30,6 +28,21 @@ pub struct Filter {
     /// Texts that a list shows, in lower case, each with what the search text has for it: a verdict, a kind of refusal,
     /// `simulated`, `simulated_frame ` or `shots `, after `=`. A word of the former also matches the latter.
     pub shown: Vec<[String; 2]>,
+}
+
+/// The verdicts of the inspections in a list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum VerdictFilter {
+    /// Exactly this verdict.
+    Only(StoredVerdict),
+    /// Not accepted for whatever reason: unknown parts and scenes without a part are not accepted either.
+    NotAccepted,
+}
+
+impl From<StoredVerdict> for VerdictFilter {
+    fn from(verdict: StoredVerdict) -> Self {
+        Self::Only(verdict)
+    }
 }
 
 impl Filter {
@@ -66,15 +79,11 @@ impl Filter {
             add("at < ?", until.as_microsecond().into());
         }
         if let Some(verdict) = self.verdict {
-            add("verdict = ?", verdict.name().to_owned().into());
-        }
-        if let Some(is_accepted) = self.is_accepted {
-            let condition = if is_accepted {
-                "verdict = ?"
-            } else {
-                "verdict <> ?"
+            let (condition, verdict) = match verdict {
+                VerdictFilter::Only(verdict) => ("verdict = ?", verdict),
+                VerdictFilter::NotAccepted => ("verdict <> ?", StoredVerdict::Accepted),
             };
-            add(condition, StoredVerdict::Accepted.name().to_owned().into());
+            add(condition, verdict.name().to_owned().into());
         }
         if let Some(part) = &self.part {
             add("part = ?", part.clone().into());
@@ -107,8 +116,10 @@ impl Filter {
             && self.since.is_none_or(|since| row.at >= since)
             && self.until.is_none_or(|until| row.at < until)
             && (self.part.is_none() || self.part == row.part)
-            && self.verdict.is_none_or(|verdict| row.verdict == verdict)
-            && (self.is_accepted).is_none_or(|is| (row.verdict == StoredVerdict::Accepted) == is)
+            && self.verdict.is_none_or(|verdict| match verdict {
+                VerdictFilter::Only(verdict) => row.verdict == verdict,
+                VerdictFilter::NotAccepted => row.verdict != StoredVerdict::Accepted,
+            })
             && self.is_simulated.is_none_or(|is| row.is_simulated == is)
             && self
                 .source

@@ -51,7 +51,7 @@ pub use self::{
     },
     error::HistoryError,
     event::HistoryEvent,
-    filter::Filter,
+    filter::{Filter, VerdictFilter},
     frames::{
         FrameError, FrameRecord, read as read_frame, read_by as read_frame_by,
         write_as as write_frame,

@@ -27,7 +27,7 @@ pub(crate) fn seen_before(
     let now = &inspected.entry.record.summary;
     let filter = Filter {
         since: Some(written),
-        verdict: Some(now.verdict),
+        verdict: Some(now.verdict.into()),
         text: now.source.clone(),
         ..Filter::default()
     };

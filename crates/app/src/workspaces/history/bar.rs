@@ -4,7 +4,7 @@ use egui::{Align, Button, Layout, Ui, WidgetInfo, vec2};
 
 use super::{
     HistoryAction, HistoryFile, HistoryState,
-    filter::{DateRange, ListFilter, VerdictChoice, day_of},
+    filter::{DateRange, ListFilter, VERDICTS, day_of, verdict_title},
 };
 use shell::session::Session;
 use ui::{
@@ -128,7 +128,7 @@ fn days(ui: &mut Ui, filter: &mut ListFilter) {
 
 fn verdicts(ui: &mut Ui, filter: &mut ListFilter) {
     let all = std::iter::once((None, text!("history-filter-all-verdicts")));
-    let each = VerdictChoice::ALL.map(|verdict| (Some(verdict), verdict.title()));
+    let each = VERDICTS.map(|verdict| (Some(verdict), verdict_title(verdict)));
     let label = text!("history-filter-verdict");
     menu(ui, &label, &mut filter.verdict, all.chain(each));
 }

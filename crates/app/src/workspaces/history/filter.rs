@@ -2,7 +2,7 @@
 
 use jiff::{Span, Timestamp, Zoned, civil};
 
-use records::history::{Filter, StoredVerdict};
+use records::history::{Filter, StoredVerdict, VerdictFilter};
 use shell::language::results::{accepted_or_not, searched_texts, stored_verdict};
 use ui::language::text;
 
@@ -16,47 +16,24 @@ pub struct ListFilter {
     /// Only inspections recognised as this part.
     pub part: Option<String>,
     /// Only inspections with these verdicts.
-    pub verdict: Option<VerdictChoice>,
+    pub verdict: Option<VerdictFilter>,
     /// Words to find in the names of part, scene and source (as stored or as displayed), the remark and the true label.
     pub text: String,
 }
 
-/// The verdicts of the inspections shown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum VerdictChoice {
-    /// A part, accepted.
-    Accepted,
-    /// Everything that was not accepted: rejected, unknown and no part.
-    NotAccepted,
-    /// Something that is not enrolled.
-    Unknown,
-    /// No part.
-    NoPart,
-}
+/// The verdicts that can be chosen, in the order of the menu.
+pub const VERDICTS: [VerdictFilter; 4] = [
+    VerdictFilter::Only(StoredVerdict::Accepted),
+    VerdictFilter::NotAccepted,
+    VerdictFilter::Only(StoredVerdict::Unknown),
+    VerdictFilter::Only(StoredVerdict::NoPart),
+];
 
-impl VerdictChoice {
-    /// Every choice, in the order of the menu.
-    pub const ALL: [Self; 4] = [
-        Self::Accepted,
-        Self::NotAccepted,
-        Self::Unknown,
-        Self::NoPart,
-    ];
-
-    /// Name for a person.
-    pub fn title(self) -> String {
-        self.verdict()
-            .map_or_else(|| accepted_or_not(false), stored_verdict)
-    }
-
-    /// Returns the only verdict that matches; `None` if several do.
-    fn verdict(self) -> Option<StoredVerdict> {
-        match self {
-            Self::Accepted => Some(StoredVerdict::Accepted),
-            Self::NotAccepted => None,
-            Self::Unknown => Some(StoredVerdict::Unknown),
-            Self::NoPart => Some(StoredVerdict::NoPart),
-        }
+/// Name of these verdicts for a person.
+pub fn verdict_title(filter: VerdictFilter) -> String {
+    match filter {
+        VerdictFilter::Only(verdict) => stored_verdict(verdict),
+        VerdictFilter::NotAccepted => accepted_or_not(false),
     }
 }
 
@@ -129,8 +106,7 @@ impl ListFilter {
             since,
             until,
             part: self.part.clone(),
-            verdict: self.verdict.and_then(VerdictChoice::verdict),
-            is_accepted: (self.verdict == Some(VerdictChoice::NotAccepted)).then_some(false),
+            verdict: self.verdict,
             is_simulated: None,
             source: None,
             with_below: false,
@@ -175,25 +151,6 @@ mod tests {
         );
         assert_eq!(filter(DateRange::Typed, "", "2026-11-0"), ["", ""]);
         assert!(day_of("2026-11-0").is_err());
-    }
-
-    #[test]
-    fn all_that_is_not_accepted_is_chosen_at_once() {
-        let filter = |verdict| {
-            let filter = ListFilter {
-                verdict,
-                ..ListFilter::default()
-            };
-            let found = filter.at(&geometry::clock::zoned_now());
-            (found.verdict, found.is_accepted)
-        };
-        assert_eq!(filter(None), (None, None));
-        assert_eq!(
-            filter(Some(VerdictChoice::NotAccepted)),
-            (None, Some(false))
-        );
-        let unknown = (Some(StoredVerdict::Unknown), None);
-        assert_eq!(filter(Some(VerdictChoice::Unknown)), unknown);
     }
 
     #[test]

@@ -21,7 +21,7 @@ use egui::{CentralPanel, Frame, Key, Margin, Modifiers, Panel, Ui};
 
 pub use self::{
     apply::{Direction, HistoryAction, HistoryFile, HistoryJob},
-    filter::{DateRange, ListFilter, VerdictChoice},
+    filter::{DateRange, ListFilter},
     state::HistoryState,
     statistics::{ReasonGroup, Statistics, StatisticsView, Tally},
     work::{HistoryQuery, HistoryResult, OpenedInspection},

@@ -145,7 +145,7 @@ fn parts(history: &HistoryBuffer) -> Result<BTreeMap<String, String>, HistoryErr
 pub(super) fn former_title(history: &HistoryBuffer, name: &str) -> String {
     let accepted = Filter {
         part: Some(name.to_owned()),
-        verdict: Some(StoredVerdict::Accepted),
+        verdict: Some(StoredVerdict::Accepted.into()),
         ..Filter::default()
     };
     let page = history.page(&accepted, 0, 1).ok();
