@@ -11,7 +11,10 @@ use std::str::FromStr;
 pub use self::table::PARAMETERS;
 use super::Recipe;
 use files::nearest_name;
-use geometry::error::Advice;
+use geometry::{
+    error::Advice,
+    units::{Metres, Radians},
+};
 
 /// A set of parameters, such as a [`Recipe`].
 pub trait Parameters: Clone + Default + PartialEq + 'static {
@@ -175,6 +178,79 @@ pub enum Kind<R = Recipe> {
     Number(Number<R>),
     /// One of several options.
     Choice(Choice<R>),
+}
+
+/// A value as a set of parameters stores it.
+pub trait StoredValue {
+    /// The number that it stands for.
+    fn read(&self) -> f64;
+    /// Stores the number; a count is rounded.
+    fn write(&mut self, number: f64);
+}
+
+impl StoredValue for f64 {
+    fn read(&self) -> f64 {
+        *self
+    }
+
+    fn write(&mut self, number: f64) {
+        *self = number;
+    }
+}
+
+macro_rules! stored_as_length_or_angle {
+    ($($kind:ident)+) => {$(
+        impl StoredValue for $kind {
+            fn read(&self) -> f64 {
+                self.0
+            }
+
+            fn write(&mut self, number: f64) {
+                self.0 = number;
+            }
+        }
+    )+};
+}
+stored_as_length_or_angle!(Metres Radians);
+
+macro_rules! stored_as_count {
+    ($($kind:ident)+) => {$(
+        impl StoredValue for $kind {
+            #[allow(clippy::cast_lossless, reason = "only those of small counts are lossless")]
+            fn read(&self) -> f64 {
+                *self as f64
+            }
+
+            fn write(&mut self, number: f64) {
+                *self = number.round() as Self;
+            }
+        }
+    )+};
+}
+stored_as_count!(usize u64 u16);
+
+/// The row of a number in a table of parameters: path of the field, which is the key, too; name, group, place, unit, range
+/// and decimals as shown, and help.
+#[macro_export]
+macro_rules! number_parameter {
+    ($first:ident $(. $rest:ident)*, $name:literal, $group:path, $place:ident, $unit:ident, $range:expr, $decimals:literal, $help:literal) => {
+        $crate::pipeline::parameters::Parameter {
+            key: concat!(stringify!($first) $(, ".", stringify!($rest))*),
+            name: $name,
+            help: $help,
+            group: $group,
+            place: $crate::pipeline::parameters::Place::$place,
+            kind: $crate::pipeline::parameters::Kind::Number($crate::pipeline::parameters::Number {
+                unit: $crate::pipeline::parameters::DisplayUnit::$unit,
+                range: $range,
+                decimals: $decimals,
+                get: |set| $crate::pipeline::parameters::StoredValue::read(&set.$first$(.$rest)*),
+                set: |set, number| {
+                    $crate::pipeline::parameters::StoredValue::write(&mut set.$first$(.$rest)*, number);
+                },
+            }),
+        }
+    };
 }
 
 /// A parameter of the recipe.

@@ -23,7 +23,7 @@ use std::path::{Path, PathBuf};
 
 use nalgebra::{DMatrix, DVector};
 
-use super::coat::{Coat, Gun, Profile};
+use super::coat::{BETA_RANGE, Coat, Gun, Profile, TRANSFER_RANGE_PERCENT, WIDTH_RANGE_MM};
 use files::{FileError, read_text, table_rows};
 use geometry::error::Advice;
 
@@ -43,12 +43,6 @@ const MAX_NEGATIVE_SHARE: f64 = 0.1;
 /// Largest residual of a stripe, as a share of the thickest place.
 const MAX_RESIDUAL_SHARE: f64 = 0.25;
 const NUM_ROUNDS: usize = 200;
-/// Range of a coat's β.
-const BETA_RANGE: [f64; 2] = [1.0, 10.0];
-/// Range of a coat's width, metres.
-const WIDTH_RANGE_M: [f64; 2] = [0.01, 1.0];
-/// Range of a coat's transfer efficiency.
-const TRANSFER_RANGE: [f64; 2] = [0.01, 1.0];
 
 /// One measurement across a stripe.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -276,8 +270,7 @@ pub fn fit_stripe(
     }
     let (volume, width) = (fitted[0], fitted[1].abs());
     let transfer = volume * speed / (coat.gun.flow * coat.gun.solids);
-    let in_range = |what, unit, scale: f64, value: f64, [low, high]: [f64; 2]| {
-        let (value, low, high) = (value * scale, low * scale, high * scale);
+    let in_range = |what, unit, value: f64, [low, high]: [f64; 2]| {
         if (low..=high).contains(&value) {
             Ok(())
         } else {
@@ -290,8 +283,8 @@ pub fn fit_stripe(
             })
         }
     };
-    in_range("a pattern width", "mm", 1e3, width, WIDTH_RANGE_M)?;
-    in_range("a transfer efficiency", "%", 1e2, transfer, TRANSFER_RANGE)?;
+    in_range("a pattern width", "mm", width * 1e3, WIDTH_RANGE_MM)?;
+    in_range("a transfer efficiency", "%", transfer * 1e2, TRANSFER_RANGE_PERCENT)?;
     let gun = Gun {
         profile,
         width,

@@ -8,7 +8,10 @@ use geometry::{
     rigid::RigidTransform,
     units::{Metres, Radians},
 };
-use inspection::pipeline::parameters::{DisplayUnit, Kind, Number, Parameter, Parameters, Place};
+use inspection::{
+    number_parameter as number,
+    pipeline::parameters::{DisplayUnit, Kind, Parameter, Parameters},
+};
 
 /// Settings of the cell and of the moves.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -72,49 +75,23 @@ pub enum ProgramGroup {
     Arm,
 }
 
-macro_rules! number {
-    ($key:literal, $name:literal, $group:ident, $unit:ident, $range:expr, $decimals:literal, $get:expr, $set:expr, $help:literal) => {
-        Parameter {
-            key: $key,
-            name: $name,
-            help: $help,
-            group: ProgramGroup::$group,
-            place: Place::Fold,
-            kind: Kind::Number(Number {
-                unit: DisplayUnit::$unit,
-                range: $range,
-                decimals: $decimals,
-                get: $get,
-                set: $set,
-            }),
-        }
-    };
-}
-
 impl Parameters for ProgramParams {
     type Group = ProgramGroup;
     #[rustfmt::skip]
     const ALL: &'static [Parameter<Self>] = &[
-        number!("gun_output", "Output that opens the gun", Program, None, [0.0, 9999.0], 0,
-            |p| f64::from(p.gun_output), |p, v| p.gun_output = v.round() as u16,
+        number!(gun_output, "Output that opens the gun", ProgramGroup::Program, Fold, None, [0.0, 9999.0], 0,
             "Number of the digital output that opens the gun"),
-        number!("gun_radius", "Radius of the gun", Arm, Millimetres, [1.0, 1000.0], 1,
-            |p| p.gun_radius.0, |p, v| p.gun_radius = Metres(v),
+        number!(gun_radius, "Radius of the gun", ProgramGroup::Arm, Fold, Millimetres, [1.0, 1000.0], 1,
             "Radius of the gun around the line from the flange to the nozzle's mouth; at most half the gun's length is used"),
-        number!("clearance", "Clearance of gun and arm", Arm, Millimetres, [0.0, 1000.0], 1,
-            |p| p.clearance.0, |p, v| p.clearance = Metres(v),
+        number!(clearance, "Clearance of gun and arm", ProgramGroup::Arm, Fold, Millimetres, [0.0, 1000.0], 1,
             "Minimum distance of gun and arm from part, boxes and floor"),
-        number!("speed", "Speed where the path has none", Moves, MillimetresPerSecond, [1.0, 5000.0], 1,
-            |p| p.speed, |p, v| p.speed = v,
+        number!(speed, "Speed where the path has none", ProgramGroup::Moves, Fold, MillimetresPerSecond, [1.0, 5000.0], 1,
             "Speed of the nozzle where the path sets none"),
-        number!("approach", "Approach and retreat", Moves, Millimetres, [10.0, 1000.0], 1,
-            |p| p.approach.0, |p, v| p.approach = Metres(v),
+        number!(approach, "Approach and retreat", ProgramGroup::Moves, Fold, Millimetres, [10.0, 1000.0], 1,
             "Distance of the approach points from the path's first and last point"),
-        number!("blend", "Blending radius", Program, Millimetres, [0.0, 100.0], 1,
-            |p| p.blend.0, |p, v| p.blend = Metres(v),
+        number!(blend, "Blending radius", ProgramGroup::Program, Fold, Millimetres, [0.0, 100.0], 1,
             "Radius within which the robot may cut corners"),
-        number!("max_tilt", "Tilt of the gun where needed, up to", Arm, Degrees, [0.0, 30.0], 1,
-            |p| p.max_tilt.0, |p, v| p.max_tilt = Radians(v),
+        number!(max_tilt, "Tilt of the gun where needed, up to", ProgramGroup::Arm, Fold, Degrees, [0.0, 30.0], 1,
             "Maximum tilt of the nozzle about the point that it aims at; used only where the arm cannot otherwise follow the path"),
     ];
 }

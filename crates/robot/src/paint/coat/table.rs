@@ -1,9 +1,17 @@
 //! All parameters of a [`Coat`], a row each; `--set`, files of coats and the guide are derived from it.
 
 use super::{Coat, Pattern, Profile, RowDirection};
-use inspection::pipeline::parameters::{
-    Choice, DisplayUnit, Kind, Number, Parameter, Parameters, Place,
+use inspection::{
+    number_parameter as number,
+    pipeline::parameters::{Choice, Kind, Parameter, Parameters, Place},
 };
+
+/// Range of β.
+pub(in crate::paint) const BETA_RANGE: [f64; 2] = [1.0, 10.0];
+/// Range of the pattern's width, millimetres.
+pub(in crate::paint) const WIDTH_RANGE_MM: [f64; 2] = [10.0, 1000.0];
+/// Range of the transfer efficiency, per cent.
+pub(in crate::paint) const TRANSFER_RANGE_PERCENT: [f64; 2] = [1.0, 100.0];
 
 /// Group of a coat's parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,26 +36,6 @@ impl CoatGroup {
             Self::Film => "Film",
         }
     }
-}
-
-macro_rules! number {
-    ($key:literal, $name:literal, $group:ident, $place:ident, $unit:ident, $range:expr, $decimals:literal,
-     $($field:ident).+, $help:literal) => {
-        Parameter {
-            key: $key,
-            name: $name,
-            help: $help,
-            group: CoatGroup::$group,
-            place: Place::$place,
-            kind: Kind::Number(Number {
-                unit: DisplayUnit::$unit,
-                range: $range,
-                decimals: $decimals,
-                get: |c| c.$($field).+,
-                set: |c, v| c.$($field).+ = v,
-            }),
-        }
-    };
 }
 
 macro_rules! choice {
@@ -76,60 +64,60 @@ impl Parameters for Coat {
 const TABLE: &[Parameter<Coat>] = &[
     choice!("gun.profile", "Profile", Gun, gun.profile, ["Gaussian" => Profile::Gaussian, "Beta" => Profile::Beta],
         "How the paint is spread over the jet: an elliptical Gaussian, or a beta profile that ends at its edge."),
-    number!("gun.width", "Pattern width", Gun, Front, Millimetres, [10.0, 1000.0], 0, gun.width,
+    number!(gun.width, "Pattern width", CoatGroup::Gun, Front, Millimetres, WIDTH_RANGE_MM, 0,
         "Width of the pattern across the direction of travel at the measured distance: 4σ of a Gaussian, all of a \
          beta profile. Wider needs fewer rows and loses more paint at edges."),
-    number!("gun.depth", "Pattern depth", Gun, Front, Millimetres, [5.0, 1000.0], 0, gun.depth,
+    number!(gun.depth, "Pattern depth", CoatGroup::Gun, Front, Millimetres, [5.0, 1000.0], 0,
         "Depth of the pattern along the direction of travel at the measured distance, defined like the width. Deeper \
          blurs the ends of rows."),
-    number!("gun.beta", "Beta", Gun, Fold, None, [1.0, 10.0], 1, gun.beta,
+    number!(gun.beta, "Beta", CoatGroup::Gun, Fold, None, BETA_RANGE, 1,
         "β of a beta profile (1 - r²)^(β-1): 1 is even up to the edge, higher values gather the paint in the middle. A Gaussian does not use it."),
-    number!("gun.distance", "Measured at", Gun, Fold, Millimetres, [30.0, 1000.0], 0, gun.distance,
+    number!(gun.distance, "Measured at", CoatGroup::Gun, Fold, Millimetres, [30.0, 1000.0], 0,
         "Distance from the mouth at which width and depth were measured. The jet widens in proportion to the distance."),
-    number!("gun.flow", "Paint flow", Gun, Front, MillilitresPerMinute, [1.0, 5000.0], 0, gun.flow,
+    number!(gun.flow, "Paint flow", CoatGroup::Gun, Front, MillilitresPerMinute, [1.0, 5000.0], 0,
         "Paint through the gun while it sprays. The film is thicker in proportion to the flow."),
-    number!("gun.transfer", "Transfer efficiency", Gun, Front, Percent, [1.0, 100.0], 0, gun.transfer,
+    number!(gun.transfer, "Transfer efficiency", CoatGroup::Gun, Front, Percent, TRANSFER_RANGE_PERCENT, 0,
         "Share of the sprayed paint that flies to the part; the rest is mist. What passes beyond the part's edges is \
          counted separately."),
-    number!("gun.solids", "Solids", Gun, Front, Percent, [1.0, 100.0], 0, gun.solids,
+    number!(gun.solids, "Solids", CoatGroup::Gun, Front, Percent, [1.0, 100.0], 0,
         "Share of the paint's volume that stays as dry film. The paint's data sheet gives it."),
     choice!("pattern", "Pattern", Path, pattern,
         ["Raster" => Pattern::Raster, "Cross-hatch" => Pattern::CrossHatch, "Contour" => Pattern::Contour],
         "Raster: rows side by side. Cross-hatch: a second raster across the first, so twice the film. Contour: closed rings along the outline and around wide openings, from the outside in."),
     choice!("direction", "Rows along", Path, direction, ["Principal axis" => RowDirection::Principal, "Angle" => RowDirection::Angle],
         "Principal axis: rows along the part's longest extent, the fewest turns. Angle: at the angle below."),
-    number!("angle", "Angle of the rows", Path, Fold, Degrees, [-90.0, 90.0], 0, angle,
+    number!(angle, "Angle of the rows", CoatGroup::Path, Fold, Degrees, [-90.0, 90.0], 0,
         "Angle of the rows from the part's x axis, turning towards its y axis. Used only if the rows run at an angle."),
-    number!("spacing", "Row spacing", Path, Front, Millimetres, [5.0, 500.0], 0, spacing,
+    number!(spacing, "Row spacing", CoatGroup::Path, Front, Millimetres, [5.0, 500.0], 0,
         "Distance between rows, measured along the curved surface. At two thirds of the pattern's width, rows overlap by a third. Closer rows are more even and take longer."),
-    number!("stand_off", "Stand-off", Path, Front, Millimetres, [30.0, 600.0], 0, stand_off,
+    number!(stand_off, "Stand-off", CoatGroup::Path, Front, Millimetres, [30.0, 600.0], 0,
         "From the gun's mouth to the surface along the jet. Farther spreads the jet wider and evens out corners."),
-    number!("speed", "Speed", Path, Front, MillimetresPerSecond, [10.0, 3000.0], 0, speed,
+    number!(speed, "Speed", CoatGroup::Path, Front, MillimetresPerSecond, [10.0, 3000.0], 0,
         "Speed of the jet over the surface; the gun itself runs faster around outer curves. The film is thinner in \
          proportion to the speed."),
-    number!("overrun", "Overrun", Path, Front, Millimetres, [0.0, 400.0], 0, overrun,
+    number!(overrun, "Overrun", CoatGroup::Path, Front, Millimetres, [0.0, 400.0], 0,
         "How far beyond the edge the gun still sprays. Raising it evens out the edges and wastes paint; half the pattern's width loses nothing at the edge."),
-    number!("lead", "Lead-in and lead-out", Path, Fold, Millimetres, [0.0, 500.0], 0, lead,
+    number!(lead, "Lead-in and lead-out", CoatGroup::Path, Fold, Millimetres, [0.0, 500.0], 0,
         "Extra travel with the gun off at both ends of a row, so that the gun sprays at full speed. Raising it costs \
          time."),
-    number!("opening", "Openings crossed below", Path, Fold, Millimetres, [0.0, 2000.0], 0, opening,
+    number!(opening, "Openings crossed below", CoatGroup::Path, Fold, Millimetres, [0.0, 2000.0], 0,
         "Where a row crosses an opening narrower than this, the gun stays on. Wider openings are crossed with the gun off, beyond the overrun."),
-    number!("margin", "Margin of keep-outs", Path, Fold, Millimetres, [0.0, 400.0], 0, margin,
+    number!(margin, "Margin of keep-outs", CoatGroup::Path, Fold, Millimetres, [0.0, 400.0], 0,
         "The gun is off within keep-out regions and this far around them. Half the pattern's width keeps nearly all paint out."),
-    number!("smoothing", "Smoothing", Path, Fold, Millimetres, [10.0, 300.0], 0, smoothing,
+    number!(smoothing, "Smoothing", CoatGroup::Path, Fold, Millimetres, [10.0, 300.0], 0,
         "Width over which the surface is smoothed before the gun follows it. Raising it calms the gun over ribs and steps and cuts corners."),
-    number!("tilt_limit", "Tilt limit", Path, Front, Degrees, [0.0, 80.0], 0, tilt_limit,
+    number!(tilt_limit, "Tilt limit", CoatGroup::Path, Front, Degrees, [0.0, 80.0], 0,
         "How far the gun may lean from the direction in which the part is painted. Raising it follows steep flanks \
          and swings the wrist at corners."),
-    number!("acceleration", "Acceleration", Path, Fold, MetresPerSecondSquared, [0.0, 20.0], 1, acceleration,
+    number!(acceleration, "Acceleration", CoatGroup::Path, Fold, MetresPerSecondSquared, [0.0, 20.0], 1,
         "Largest acceleration of the gun along a stroke, where its speed varies to even out the film. Raising it follows smaller details; 0 keeps the speed constant."),
-    number!("flank_lean", "Lean to flanks", Path, Fold, Degrees, [0.0, 60.0], 0, flank_lean,
+    number!(flank_lean, "Lean to flanks", CoatGroup::Path, Fold, Degrees, [0.0, 60.0], 0,
         "How far the gun leans towards steep flanks in short strokes that are added if less than 95 % of the surface would be within the tolerance. They take much of the path's time; 0 adds none."),
-    number!("point_spacing", "Point spacing", Path, Fold, Millimetres, [5.0, 200.0], 0, point_spacing,
+    number!(point_spacing, "Point spacing", CoatGroup::Path, Fold, Millimetres, [5.0, 200.0], 0,
         "Distance between the points of the path. Closer follows curves better and makes longer robot programs."),
-    number!("target", "Target thickness", Film, Front, Micrometres, [0.5, 2000.0], 1, target,
+    number!(target, "Target thickness", CoatGroup::Film, Front, Micrometres, [0.5, 2000.0], 1,
         "Wanted thickness of the dry film after this coat. A proposed speed brings the film to it."),
-    number!("tolerance", "Tolerance", Film, Front, Percent, [1.0, 90.0], 0, tolerance,
+    number!(tolerance, "Tolerance", CoatGroup::Film, Front, Percent, [1.0, 90.0], 0,
         "How far from the target the film may be and still count as right."),
 ];
 
