@@ -17,7 +17,6 @@ use records::{
 };
 use robot::RobotFrame;
 use stages::{
-    pose::PoseEstimate,
     scan::{self, Scan, Shot},
     scene::SceneCloud,
 };
@@ -237,8 +236,7 @@ impl<'a> Inspected<'a> {
             return line.to_json();
         }
         let all = parts.iter().map(|part| part.inspection_line(trace));
-        line.with_parts(all)
-            .with_empty_places(Self::empty_places(parts))
+        line.with_parts(all, Self::empty_places(parts))
             .expecting(expected, Some(&inspections_of(parts)))
             .to_json()
     }
@@ -263,46 +261,36 @@ impl<'a> Inspected<'a> {
         } = *self;
         let is_accepted = inspection.verdict.is_accepted();
         let robot = self.frame_for_robot();
+        let doubts = if self.robot.is_some() && is_accepted {
+            self.doubts().iter().map(Doubt::kind).collect()
+        } else {
+            Vec::new()
+        };
         let mut line = InspectionLine::of(&subject.scene, inspection)
-            .by(recipe)
-            .traced(trace)
-            .in_robot(robot, inspection)
-            .expecting(&recipe.expected, None)
-            .reported_as(subject.reported_as.as_deref());
-        if self.robot.is_some() && is_accepted {
-            line = line.doubted(self.doubts().iter().map(Doubt::kind).collect());
-        }
-        match &subject.capture {
-            Some(capture) => {
-                line = line.captured(CaptureLine {
-                    source: &capture.source,
-                    number: capture.number,
-                    taken_at: capture.taken_at,
-                    simulated: subject.is_simulated,
-                    dropped: capture.num_dropped,
-                });
-            }
-            None if subject.is_simulated => line = line.of_simulation(),
-            None => {}
-        }
-        if subject.is_motion_unchecked && is_accepted {
-            line = line.motion_unchecked();
-        }
-        if subject.is_replayed() {
-            line = line.replayed();
-        }
-        if let Some(scan) = &subject.scan {
-            let pose = inspection.found_pose().map(PoseEstimate::camera_from_part);
-            let base_from_part = robot
-                .zip(pose)
-                .map(|(robot, pose)| row_major(&robot.robot_from_part(&pose)));
-            line = line.of_scan(ScanLine {
-                frames: scan.shots.len(),
-                used: scan.num_used,
-                reference_frame: &scan.reference_frame,
-                base_from_part,
-            });
-        }
+            .in_robot(robot, inspection, doubts)
+            .expecting(&recipe.expected, None);
+        line.recipe = Some(recipe.into());
+        line.rack = Some(&*recipe.rack.name).filter(|name| !name.is_empty());
+        line.trace = Some(trace);
+        line.reported_as = subject.reported_as.as_deref();
+        line.capture = subject.capture.as_ref().map(|capture| CaptureLine {
+            source: &capture.source,
+            number: capture.number,
+            taken_at: capture.taken_at,
+            simulated: subject.is_simulated,
+            dropped: capture.num_dropped,
+        });
+        line.simulated = (subject.is_simulated && subject.capture.is_none()).then_some(true);
+        line.motion_checked = (subject.is_motion_unchecked && is_accepted).then_some(false);
+        line.replayed = subject.is_replayed().then_some(true);
+        line.scan = subject.scan.as_ref().map(|scan| ScanLine {
+            frames: scan.shots.len(),
+            used: scan.num_used,
+            reference_frame: &scan.reference_frame,
+            base_from_part: robot
+                .zip(inspection.found_pose())
+                .map(|(robot, pose)| row_major(&robot.robot_from_part(&pose.camera_from_part()))),
+        });
         line
     }
 

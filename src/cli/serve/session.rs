@@ -95,7 +95,8 @@ impl Inspector for ServeSession<'_> {
         if answer.verdict == VerdictCode::Error && matches!(self.format, OutputFormat::Json) {
             let Problem { reason, message } = &answer.problem;
             let source = self.source.to_string();
-            let line = InspectionLine::failed(&source, reason, message).traced(&self.trace);
+            let mut line = InspectionLine::failed(&source, reason, message);
+            line.trace = Some(&self.trace);
             self.console.line(&line.to_json());
         }
         self.services.inspected(record);

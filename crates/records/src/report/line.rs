@@ -5,9 +5,7 @@ use serde::Serialize;
 
 use crate::history::Traceability;
 use geometry::rigid::row_major;
-use inspection::pipeline::{
-    Expected, Inspection, NamedRecipe, RecipeBlock, Timings, Verdict, places_of,
-};
+use inspection::pipeline::{Expected, Inspection, RecipeBlock, Timings, Verdict, places_of};
 use robot::RobotFrame;
 
 /// Version of the JSON lines.
@@ -18,11 +16,12 @@ pub const SCHEMA: u32 = 1;
 pub struct InspectionLine<'a> {
     schema: u32,
     scene: &'a str,
+    /// The capture, if a source delivered the scene.
     #[serde(flatten)]
-    capture: Option<CaptureLine<'a>>,
-    /// Set for a scene known to be simulated; captures from a source have their own field.
+    pub capture: Option<CaptureLine<'a>>,
+    /// True for a scene known to be simulated; captures from a source have their own field, and nothing is known about other files.
     #[serde(skip_serializing_if = "Option::is_none")]
-    simulated: Option<bool>,
+    pub simulated: Option<bool>,
     #[serde(flatten)]
     first: PartLine<'a>,
     /// Every part of a frame in which several may hang, by place and from left to right, then what else hangs there.
@@ -30,30 +29,31 @@ pub struct InspectionLine<'a> {
     parts: Vec<PartLine<'a>>,
     /// Name of the rack, if it has one.
     #[serde(skip_serializing_if = "Option::is_none")]
-    rack: Option<String>,
+    pub rack: Option<&'a str>,
     /// Names of the rack's places at which nothing hangs.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     empty_places: Vec<&'a str>,
     /// What should hang there, if something is expected.
     #[serde(flatten)]
     expected: Option<ExpectedLine<'a>>,
+    /// The recipe of the inspection.
     #[serde(skip_serializing_if = "Option::is_none")]
-    recipe: Option<RecipeBlock>,
+    pub recipe: Option<RecipeBlock>,
     /// Set for several frames inspected together.
     #[serde(skip_serializing_if = "Option::is_none")]
-    scan: Option<ScanLine<'a>>,
+    pub scan: Option<ScanLine<'a>>,
     /// `serial`, `order` and `operator`, as far as known.
     #[serde(flatten)]
-    trace: Option<&'a Traceability>,
-    /// What really hung there, if a person reported the acceptance as wrong.
+    pub trace: Option<&'a Traceability>,
+    /// What really hung there, if a person reported the acceptance as wrong: a part, `not_enrolled` or `nothing`.
     #[serde(skip_serializing_if = "Option::is_none")]
-    reported_as: Option<&'a str>,
+    pub reported_as: Option<&'a str>,
     /// False if the part was accepted in a frame of a source and no other frame shows whether it hangs still.
     #[serde(skip_serializing_if = "Option::is_none")]
-    motion_checked: Option<bool>,
+    pub motion_checked: Option<bool>,
     /// True if the frame was recorded earlier, and is replayed now.
     #[serde(skip_serializing_if = "Option::is_none")]
-    replayed: Option<bool>,
+    pub replayed: Option<bool>,
 }
 
 /// The fields for one part of a scene.
@@ -224,74 +224,16 @@ impl<'a> InspectionLine<'a> {
         line
     }
 
-    /// Adds serial number, order and operator.
+    /// Adds the pose in the robot's base frame, and why a robot may not act on it although the cell is calibrated and the part was
+    /// accepted. Without a frame, nothing is added that a robot could move by.
     #[must_use]
-    pub fn traced(self, trace: &'a Traceability) -> Self {
-        Self {
-            trace: Some(trace),
-            ..self
-        }
-    }
-
-    /// Adds what really hung there, if a person reported the acceptance as wrong: a part, `not_enrolled` or `nothing`.
-    #[must_use]
-    pub fn reported_as(self, actual: Option<&'a str>) -> Self {
-        Self {
-            reported_as: actual,
-            ..self
-        }
-    }
-
-    /// Adds that nothing shows whether the part hangs still.
-    #[must_use]
-    pub fn motion_unchecked(self) -> Self {
-        Self {
-            motion_checked: Some(false),
-            ..self
-        }
-    }
-
-    /// Adds the recipe of the inspection, and the name of its rack.
-    #[must_use]
-    pub fn by(self, recipe: &NamedRecipe) -> Self {
-        let rack = &recipe.rack.name;
-        Self {
-            rack: (!rack.is_empty()).then(|| rack.clone()),
-            recipe: Some(recipe.into()),
-            ..self
-        }
-    }
-
-    /// Adds the fields for several frames inspected together.
-    #[must_use]
-    pub fn of_scan(self, scan: ScanLine<'a>) -> Self {
-        Self {
-            scan: Some(scan),
-            ..self
-        }
-    }
-
-    /// Adds the fields for a capture from a source.
-    #[must_use]
-    pub fn captured(self, capture: CaptureLine<'a>) -> Self {
-        Self {
-            capture: Some(capture),
-            ..self
-        }
-    }
-
-    /// Marks a scene as simulated. Other files have no such field, since nothing is known about them.
-    #[must_use]
-    pub fn of_simulation(self) -> Self {
-        Self {
-            simulated: Some(true),
-            ..self
-        }
-    }
-
-    /// Adds the pose in the robot's base frame. Without a frame, nothing is added that a robot could move by.
-    #[must_use]
-    pub fn in_robot(mut self, frame: Option<&'a RobotFrame>, inspection: &Inspection) -> Self {
+    pub fn in_robot(
+        mut self,
+        frame: Option<&'a RobotFrame>,
+        inspection: &Inspection,
+        doubts: Vec<&'static str>,
+    ) -> Self {
+        self.first.robot_doubts = doubts;
         self.first.robot = frame.zip(inspection.found_pose()).map(|(frame, pose)| {
             let camera_from_part = pose.camera_from_part();
             RobotLine {
@@ -304,27 +246,12 @@ impl<'a> InspectionLine<'a> {
         self
     }
 
-    /// Adds that the frame was recorded earlier, and is replayed now.
+    /// Adds every part of the frame, each from its own line, and the places of the rack at which nothing hangs.
     #[must_use]
-    pub fn replayed(self) -> Self {
-        Self {
-            replayed: Some(true),
-            ..self
-        }
-    }
-
-    /// States why a robot may not act on the pose although the cell is calibrated and the part was accepted.
-    #[must_use]
-    pub fn doubted(mut self, doubts: Vec<&'static str>) -> Self {
-        self.first.robot_doubts = doubts;
-        self
-    }
-
-    /// Adds every part of the frame, each from its own line.
-    #[must_use]
-    pub fn with_parts(self, parts: impl Iterator<Item = Self>) -> Self {
+    pub fn with_parts(self, parts: impl Iterator<Item = Self>, empty_places: Vec<&'a str>) -> Self {
         Self {
             parts: parts.map(|line| line.first).collect(),
+            empty_places,
             ..self
         }
     }
@@ -342,15 +269,6 @@ impl<'a> InspectionLine<'a> {
         });
         Self {
             expected: (!expected.is_empty()).then_some(ExpectedLine { expected, of_frame }),
-            ..self
-        }
-    }
-
-    /// Adds the places of the rack at which nothing hangs.
-    #[must_use]
-    pub fn with_empty_places(self, empty_places: Vec<&'a str>) -> Self {
-        Self {
-            empty_places,
             ..self
         }
     }

@@ -284,7 +284,12 @@ pub fn fit_stripe(
         }
     };
     in_range("a pattern width", "mm", width * 1e3, WIDTH_RANGE_MM)?;
-    in_range("a transfer efficiency", "%", transfer * 1e2, TRANSFER_RANGE_PERCENT)?;
+    in_range(
+        "a transfer efficiency",
+        "%",
+        transfer * 1e2,
+        TRANSFER_RANGE_PERCENT,
+    )?;
     let gun = Gun {
         profile,
         width,
