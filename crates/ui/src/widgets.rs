@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use egui::{
     Align, Align2, Area, Button, Color32, ColorImage, ComboBox, Context, Event, FontId, Frame,
-    Galley, Id, Key, Label, Layout, Margin, Modal, ModalResponse, Painter, Pos2, Rect, Response,
-    RichText, ScrollArea, Sense, Stroke, StrokeKind, TextEdit, TextStyle, TextWrapMode,
+    Galley, Id, Key, Label, Layout, Margin, Modal, ModalResponse, Painter, Panel, Pos2, Rect,
+    Response, RichText, ScrollArea, Sense, Stroke, StrokeKind, TextEdit, TextStyle, TextWrapMode,
     TextureHandle, TextureOptions, Ui, Vec2, WidgetInfo, pos2,
     style::{ScrollStyle, StyleModifier},
     text::LayoutJob,
@@ -14,6 +14,44 @@ use egui::{
 use image::RgbImage;
 
 use super::theme::{ROUNDING, Theme, font, space};
+
+/// Width of the window, logical pixels, below which panels are narrow and bars have no room for keys.
+pub const NARROW: f32 = 1100.0;
+/// Height of a workspace, logical pixels, up to which its panels are low.
+const LOW: f32 = 760.0;
+
+/// Returns the width for a wide or for a narrow window.
+pub fn by_width(window: f32, [wide, narrow]: [f32; 2]) -> f32 {
+    if window > NARROW { wide } else { narrow }
+}
+
+/// Returns the height for a high or for a low workspace.
+pub fn by_height(workspace: f32, [high, low]: [f32; 2]) -> f32 {
+    if workspace > LOW { high } else { low }
+}
+
+/// Draws a panel that cannot be resized at an edge of a workspace.
+pub fn fixed_panel<R>(
+    ui: &mut Ui,
+    panel: Panel,
+    margin: Margin,
+    add: impl FnOnce(&mut Ui) -> R,
+) -> R {
+    let frame = Frame::new().fill(Theme::of(ui).panel).inner_margin(margin);
+    panel.resizable(false).frame(frame).show(ui, add).inner
+}
+
+/// Draws the panel on the right of a workspace, before its other panels, with its width for a wide or for a narrow window.
+pub fn side_panel<R>(
+    ui: &mut Ui,
+    id: &'static str,
+    widths: [f32; 2],
+    margin: Margin,
+    add: impl FnOnce(&mut Ui) -> R,
+) -> R {
+    let width = by_width(ui.available_width(), widths);
+    fixed_panel(ui, Panel::right(id).exact_size(width), margin, add)
+}
 
 /// The sign of a mark, which repeats what its colour means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

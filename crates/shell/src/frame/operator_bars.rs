@@ -18,7 +18,7 @@ use crate::{
 use ui::{
     language::{keys, text},
     theme::{ROUNDING, Theme, font, space},
-    widgets::{Mark, labelled, line_mark, shortened, text_button},
+    widgets::{Mark, by_width, labelled, line_mark, shortened, text_button},
 };
 
 /// Height of the lower bar, logical pixels.
@@ -30,7 +30,7 @@ pub const COLUMN: [f32; 2] = [400.0, 320.0];
 
 /// Returns the width of the column beside the picture in a window of this width.
 pub fn column_width(window: f32) -> f32 {
-    COLUMN[usize::from(window <= 1100.0)]
+    by_width(window, COLUMN)
 }
 
 /// Draws both bars.

@@ -18,11 +18,9 @@ use ui::{
     language::{Language, keys, text},
     task::Running,
     theme::{Theme, ThemeChoice, font, space},
-    widgets::{labelled, shortened, status_label, text_button},
+    widgets::{NARROW, labelled, shortened, status_label, text_button},
 };
 
-/// Width of the window, logical pixels, below which the bar has no room for keys.
-pub const NARROW: f32 = 1100.0;
 /// Width of the bar that is left to the status of Live, logical pixels.
 const LIVE_STATUS_WIDTH_PX: f32 = 180.0;
 /// Width below which the running work is not named beside its spinner, logical pixels: most words would be cut.

@@ -7,7 +7,6 @@ use egui::{Button, RichText, ScrollArea, Ui, Vec2};
 use super::live::LiveAction;
 use crate::{
     action::{Action, DialogRequest},
-    frame::top_bar::NARROW,
     inspection::source::{CellChoice, file_name},
     rack::RackAction,
     session::Source,
@@ -17,7 +16,7 @@ use capture::{GenicamSpec, KinectSpec, OpenNiSpec, RealsenseSpec, SimulatedSpec,
 use ui::{
     language::text,
     theme::{font, space},
-    widgets::{shortened, show_scroll_bar},
+    widgets::{NARROW, shortened, show_scroll_bar},
 };
 
 /// Width of a column, logical pixels.

@@ -22,7 +22,7 @@ mod track;
 mod views;
 mod work;
 
-use egui::{Frame, Key, Margin, Modifiers, Panel, Ui};
+use egui::{Key, Margin, Modifiers, Panel, Ui};
 
 pub use self::{
     action::{AlignAction, AlignFile},
@@ -44,8 +44,8 @@ use ui::{
     key_binding::{KeyBinding, Shortcut},
     language::text,
     task::{Running, TaskRunner},
-    theme::Theme,
     viewport::{ViewError, ViewportGpu},
+    widgets::{by_height, fixed_panel, side_panel},
 };
 
 /// Width of the panel on the right in a wide and in a narrow window, logical pixels.
@@ -88,28 +88,23 @@ impl Workspace for AlignWorkspace {
 
     fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) {
         let Self { state, views, side } = self;
-        let (session, theme) = (cx.session, Theme::of(ui));
+        let session = cx.session;
         let mut actions = Vec::new();
-        let size = ui.available_size();
-        let panel = |margin| Frame::new().fill(theme.panel).inner_margin(margin);
-        Panel::right("table one")
-            .exact_size(if size.x > 1100.0 { SIDE[0] } else { SIDE[1] })
-            .resizable(false)
-            .frame(panel(Margin::symmetric(18, 14)))
-            .show(ui, |ui| side.ui(ui, state, session, &mut actions));
-        let look = Panel::top("alignment")
-            .exact_size(choosing::height(state) + 16.0)
-            .resizable(false)
-            .frame(panel(Margin::symmetric(12, 8)))
-            .show(ui, |ui| choosing::ui(ui, state, session, &mut actions));
-        if let Some(look) = look.inner {
+        let height = ui.available_height();
+        side_panel(ui, "table one", SIDE, Margin::symmetric(18, 14), |ui| {
+            side.ui(ui, state, session, &mut actions);
+        });
+        let top = Panel::top("alignment").exact_size(choosing::height(state) + 16.0);
+        let look = fixed_panel(ui, top, Margin::symmetric(12, 8), |ui| {
+            choosing::ui(ui, state, session, &mut actions)
+        });
+        if let Some(look) = look {
             views.look(look);
         }
-        Panel::bottom("iterations")
-            .exact_size(if size.y > 760.0 { PLOT[0] } else { PLOT[1] })
-            .resizable(false)
-            .frame(panel(Margin::symmetric(14, 8)))
-            .show(ui, |ui| scrubber::ui(ui, state, &mut actions));
+        let bottom = Panel::bottom("iterations").exact_size(by_height(height, PLOT));
+        fixed_panel(ui, bottom, Margin::symmetric(14, 8), |ui| {
+            scrubber::ui(ui, state, &mut actions);
+        });
         views.ui(ui, state, session);
         for action in actions {
             state.apply(action, cx);

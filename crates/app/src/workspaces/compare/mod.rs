@@ -26,7 +26,7 @@ mod work;
 
 use std::path::PathBuf;
 
-use egui::{Frame, Key, Margin, Modifiers, Panel, Rect, Ui, UiBuilder, pos2, vec2};
+use egui::{Key, Margin, Modifiers, Panel, Rect, Ui, UiBuilder, pos2, vec2};
 
 pub use self::{
     action::{CompareAction, CompareFile, RecipeAction},
@@ -44,6 +44,7 @@ use ui::{
     language::text,
     task::{Running, TaskRunner},
     theme::{Theme, space},
+    widgets::{fixed_panel, side_panel},
 };
 
 /// The shortcuts of the workspace. The one with more modifiers comes first, as the other would match it too.
@@ -79,27 +80,18 @@ impl Workspace for CompareWorkspace {
     }
 
     fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) {
-        let (session, theme) = (cx.session, Theme::of(ui));
+        let session = cx.session;
         let state = &self.state;
         let mut acts = Vec::new();
         if state.is_behind(session) {
             acts.push(CompareAction::Follow);
         }
-        let width = ui.available_width();
-        let panel = |margin| Frame::new().fill(theme.panel).inner_margin(margin);
-        Panel::right("recipe")
-            .exact_size(if width > 1100.0 { RECIPE[0] } else { RECIPE[1] })
-            .resizable(false)
-            .frame(panel(Margin::ZERO))
-            .show(ui, |ui| {
-                recipe_panel::ui(ui, state, session, &mut acts);
-            });
-        Panel::top("case")
-            .resizable(false)
-            .frame(panel(Margin::symmetric(12, 8)))
-            .show(ui, |ui| {
-                case_bar::ui(ui, state, session, &mut acts);
-            });
+        side_panel(ui, "recipe", RECIPE, Margin::ZERO, |ui| {
+            recipe_panel::ui(ui, state, session, &mut acts);
+        });
+        fixed_panel(ui, Panel::top("case"), Margin::symmetric(12, 8), |ui| {
+            case_bar::ui(ui, state, session, &mut acts);
+        });
         body(ui, state, session, &mut acts);
         for action in acts {
             self.state.apply(action, cx);

@@ -59,7 +59,7 @@ use ui::{
     task::{Running, TaskRunner},
     theme::{Theme, font, space},
     viewport::{ViewError, ViewportGpu},
-    widgets::text_button,
+    widgets::{fixed_panel, side_panel, text_button},
 };
 
 /// The shortcuts of this workspace. Those with more modifiers come first, as the others would match them too.
@@ -199,43 +199,37 @@ impl Panes {
         session: &Session,
         actions: &mut Vec<EnrolAction>,
     ) {
-        let theme = Theme::of(ui);
-        let size = ui.available_size();
-        let panel = |margin| Frame::new().fill(theme.panel).inner_margin(margin);
         let library = session.library.as_ref();
         let checked = enrol.draft.as_ref().and_then(Draft::ready);
         self.thumbnails.make(ui.ctx(), library, checked);
-        Panel::right("enrol card")
-            .exact_size(if size.x > 1100.0 { CARD[0] } else { CARD[1] })
-            .resizable(false)
-            .frame(panel(Margin::symmetric(16, 12)))
-            .show(ui, |ui| match &enrol.open {
-                Some(open) => {
-                    card::ui(ui, open, enrol, session, &self.thumbnails, actions);
-                }
+        side_panel(
+            ui,
+            "enrol card",
+            CARD,
+            Margin::symmetric(16, 12),
+            |ui| match &enrol.open {
+                Some(open) => card::ui(ui, open, enrol, session, &self.thumbnails, actions),
                 None => form::ui(ui, enrol, session, &self.thumbnails, actions),
-            });
+            },
+        );
         let scan = shown_scan(enrol, session);
-        Panel::bottom("enrolled parts")
-            .exact_size(strip_height(scan))
-            .resizable(false)
-            .frame(panel(Margin::symmetric(14, 6)))
-            .show(ui, |ui| {
-                if let Some(scan) = scan {
-                    let mut caused = Vec::new();
-                    let usual = text!("enrol-enrolled-parts");
-                    let is_list = ShotList::tabs(ui, scan, &usual, &mut caused);
-                    if is_list {
-                        self.shots.ui(ui, scan, &mut caused);
-                    }
-                    actions.extend(caused.into_iter().map(EnrolAction::Shots));
-                    if is_list {
-                        return;
-                    }
+        let bottom = Panel::bottom("enrolled parts").exact_size(strip_height(scan));
+        fixed_panel(ui, bottom, Margin::symmetric(14, 6), |ui| {
+            if let Some(scan) = scan {
+                let mut caused = Vec::new();
+                let usual = text!("enrol-enrolled-parts");
+                let is_list = ShotList::tabs(ui, scan, &usual, &mut caused);
+                if is_list {
+                    self.shots.ui(ui, scan, &mut caused);
                 }
-                self.catalogue
-                    .ui(ui, enrol, library, &self.thumbnails, actions);
-            });
+                actions.extend(caused.into_iter().map(EnrolAction::Shots));
+                if is_list {
+                    return;
+                }
+            }
+            self.catalogue
+                .ui(ui, enrol, library, &self.thumbnails, actions);
+        });
         match &enrol.draft {
             Some(draft) => self.draft(ui, draft, enrol, session, actions),
             None => empty(ui, enrol, session, actions),

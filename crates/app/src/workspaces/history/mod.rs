@@ -17,7 +17,7 @@ mod work;
 
 use std::sync::Arc;
 
-use egui::{CentralPanel, Frame, Key, Margin, Modifiers, Panel, Ui};
+use egui::{CentralPanel, Frame, Key, Margin, Modifiers, Ui};
 
 pub use self::{
     apply::{Direction, HistoryAction, HistoryFile, HistoryJob},
@@ -40,7 +40,8 @@ use ui::{
     key_binding::{KeyBinding, Shortcut},
     language::text,
     task::{Running, TaskRunner},
-    theme::{Theme, space},
+    theme::space,
+    widgets::side_panel,
 };
 
 /// Width of the details in a wide and in a narrow window, logical pixels.
@@ -115,26 +116,15 @@ impl Workspace for HistoryWorkspace {
             list,
             ..
         } = self;
-        let (session, theme) = (cx.session, Theme::of(ui));
+        let session = cx.session;
         if state.num_rows() == 0 && state.problem.is_none() {
             empty(ui);
             return;
         }
         let mut actions = Vec::new();
-        let width = ui.available_width();
-        Panel::right("details")
-            .exact_size(if width > 1100.0 {
-                DETAILS[0]
-            } else {
-                DETAILS[1]
-            })
-            .resizable(false)
-            .frame(
-                Frame::new()
-                    .fill(theme.panel)
-                    .inner_margin(Margin::same(16)),
-            )
-            .show(ui, |ui| details.ui(ui, state, session, &mut actions));
+        side_panel(ui, "details", DETAILS, Margin::same(16), |ui| {
+            details.ui(ui, state, session, &mut actions);
+        });
         CentralPanel::default()
             .frame(Frame::new().inner_margin(Margin::same(16)))
             .show(ui, |ui| {

@@ -45,7 +45,7 @@ use ui::{
     task::{Running, TaskRunner},
     theme::{Theme, font, space},
     viewport::{ViewError, ViewportGpu},
-    widgets::texture,
+    widgets::{by_height, fixed_panel, side_panel, texture},
 };
 
 /// Width of the verdict card in a wide and in a narrow window, logical pixels.
@@ -234,11 +234,9 @@ impl Workspace for InspectWorkspace {
             let mut actions = Vec::new();
             if session.expecting.orders().is_some() {
                 // Without an order, there may never be a result.
-                Panel::right("order")
-                    .exact_size(card_width(ui.available_width()))
-                    .resizable(false)
-                    .frame(Frame::new().fill(theme.panel).inner_margin(CARD_MARGIN))
-                    .show(ui, |ui| card::expecting(ui, session, &mut actions));
+                side_panel(ui, "order", CARD, CARD_MARGIN, |ui| {
+                    card::expecting(ui, session, &mut actions);
+                });
             }
             empty(ui, session);
             for action in actions {
@@ -249,23 +247,15 @@ impl Workspace for InspectWorkspace {
         self.make(ui.ctx(), shown);
         let inspected: &Inspected = &shown.inspected;
         let mut actions = Vec::new();
-        let size = ui.available_size();
-        let panel = |margin| Frame::new().fill(theme.panel).inner_margin(margin);
-        Panel::right("verdict")
-            .exact_size(card_width(size.x))
-            .resizable(false)
-            .frame(panel(CARD_MARGIN))
-            .show(ui, |ui| {
-                let shows_nozzle = self.state.shows_nozzle();
-                card::ui(ui, inspected, session, shows_nozzle, &mut actions);
-            });
-        Panel::bottom("stages")
-            .exact_size(strip_height(&self.state, inspected, size.y))
-            .resizable(false)
-            .frame(panel(Margin::ZERO))
-            .show(ui, |ui| {
-                self.strip(ui, inspected, session, &mut actions);
-            });
+        side_panel(ui, "verdict", CARD, CARD_MARGIN, |ui| {
+            let shows_nozzle = self.state.shows_nozzle();
+            card::ui(ui, inspected, session, shows_nozzle, &mut actions);
+        });
+        let height = strip_height(&self.state, inspected, ui.available_height());
+        let bottom = Panel::bottom("stages").exact_size(height);
+        fixed_panel(ui, bottom, Margin::ZERO, |ui| {
+            self.strip(ui, inspected, session, &mut actions);
+        });
         if self.state.enlarged.is_some() {
             let rest = ui.available_rect_before_wrap();
             ui.painter().rect_filled(rest, 0.0, theme.canvas);
@@ -323,12 +313,8 @@ impl Workspace for InspectWorkspace {
     }
 }
 
-fn card_width(window: f32) -> f32 {
-    if window > 1100.0 { CARD[0] } else { CARD[1] }
-}
-
 fn strip_height(state: &InspectState, inspected: &Inspected, height: f32) -> f32 {
-    let usual = if height > 760.0 { STRIP[0] } else { STRIP[1] };
+    let usual = by_height(height, STRIP);
     match state.shots.strip {
         _ if inspected.scan.is_none() => usual,
         StripTab::Shots => ShotList::HEIGHT,

@@ -52,6 +52,7 @@ use ui::{
     task::{Running, TaskRunner},
     theme::{Theme, space},
     viewport::{DrawnShape, ViewError, ViewportGpu},
+    widgets::{fixed_panel, side_panel},
 };
 
 /// Width of the panel on the right in a wide and in a narrow window, logical pixels.
@@ -104,22 +105,17 @@ impl Workspace for PaintWorkspace {
         let Self { state, view, .. } = self;
         let (session, theme) = (cx.session, Theme::of(ui));
         let mut actions = Vec::new();
-        let size = ui.available_size();
-        let panel = |margin| Frame::new().fill(theme.panel).inner_margin(margin);
-        Panel::right("paint side")
-            .exact_size(if size.x > 1100.0 { SIDE[0] } else { SIDE[1] })
-            .resizable(false)
-            .frame(panel(Margin::ZERO))
-            .show(ui, |ui| side::ui(ui, state, session, &mut actions));
-        Panel::top("paint tools")
-            .resizable(false)
-            .frame(panel(Margin::symmetric(12, 8)))
-            .show(ui, |ui| tools::ui(ui, state, &mut actions));
-        Panel::bottom("paint timeline")
-            .exact_size(TIMELINE)
-            .resizable(false)
-            .frame(panel(Margin::symmetric(14, 8)))
-            .show(ui, |ui| timeline::ui(ui, state, &mut actions));
+        side_panel(ui, "paint side", SIDE, Margin::ZERO, |ui| {
+            side::ui(ui, state, session, &mut actions);
+        });
+        let top = Panel::top("paint tools");
+        fixed_panel(ui, top, Margin::symmetric(12, 8), |ui| {
+            tools::ui(ui, state, &mut actions);
+        });
+        let bottom = Panel::bottom("paint timeline").exact_size(TIMELINE);
+        fixed_panel(ui, bottom, Margin::symmetric(14, 8), |ui| {
+            timeline::ui(ui, state, &mut actions);
+        });
         CentralPanel::default()
             .frame(Frame::new().fill(theme.canvas))
             .show(ui, |ui| view.ui(ui, state, session, &mut actions));
