@@ -1,7 +1,10 @@
 //! Packs kept cases into rows, judges them row by row, and reports on all results: the steps of `partsight evaluate`,
 //! to share between several computers.
 
-use std::{path::PathBuf, time::Duration};
+use std::{
+    path::{Path, PathBuf},
+    time::Duration,
+};
 
 use bench::EvaluationReport;
 use partsight::{
@@ -10,6 +13,7 @@ use partsight::{
         CaseError, CaseFolder, CaseJudge, CaseList, CaseResult, FoundVerdict, KeptCase, PackedCase,
         RecipeRecord, SCHEMA_VERSION, Truth,
     },
+    files::FileError,
     geometry::rigid::{PoseDelta, row_major},
     run,
     stages::pose::PoseEstimate,
@@ -115,7 +119,10 @@ fn kind_of(truth: &Truth) -> &'static str {
 fn columns_of(problem: &CaseError) -> (String, Option<String>, Option<u32>) {
     match problem {
         CaseError::Damaged { name, what } => (name.clone(), Some(what.clone()), None),
-        CaseError::Newer { name, found, .. } => (name.clone(), None, Some(*found)),
+        CaseError::File(FileError::Newer { path, found, .. }) => {
+            let name = path.parent().map(|case| case.display().to_string());
+            (name.unwrap_or_default(), None, Some(*found))
+        }
         CaseError::NoSuchCase { name, .. } => (name.clone(), Some(problem.to_string()), None),
         // The other errors concern a whole folder.
         other => (String::new(), Some(other.to_string()), None),
@@ -126,11 +133,14 @@ fn columns_of(problem: &CaseError) -> (String, Option<String>, Option<u32>) {
 fn problem_of(name: &str, damage: Option<&str>, newer: Option<u32>) -> Option<CaseError> {
     let name = name.to_owned();
     match (damage, newer) {
-        (_, Some(found)) => Some(CaseError::Newer {
-            name,
-            found,
-            known: SCHEMA_VERSION,
-        }),
+        (_, Some(found)) => {
+            let newer = FileError::Newer {
+                path: Path::new(&name).join("case.toml"),
+                found,
+                known: SCHEMA_VERSION,
+            };
+            Some(newer.into())
+        }
         (Some(what), None) => Some(CaseError::Damaged {
             name,
             what: what.to_owned(),

@@ -248,7 +248,7 @@ fn verify(choice: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outco
     }
     for problem in &load.problems {
         let word = match problem.reason {
-            EntryError::Newer { .. } => "NEWER  ",
+            EntryError::Newer(_) => "NEWER  ",
             _ => "DAMAGED",
         };
         console.line(&format_args!("{word}  {problem}"));

@@ -372,7 +372,9 @@ fn verify_tells_newer_from_damaged_and_names_what_it_skipped() {
     let verify = place.run(&["library", "verify", "--library", "parts"]);
     assert_eq!(verify.code, 1);
     assert!(
-        verify.out.contains("NEWER    next: made by a newer"),
+        verify
+            .out
+            .contains("NEWER    next: part.toml: made by a newer"),
         "{}",
         verify.out
     );

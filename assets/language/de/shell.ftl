@@ -152,7 +152,7 @@ shell-writing-settings = Einstellungen werden gespeichert
 
 ## Settings
 
-shell-settings-not-used = Die Einstellungen in { $path } werden nicht verwendet: { $why }
+shell-settings-not-used = Die Einstellungen werden nicht verwendet: { $why }
 shell-settings-set-aside = Sie wurden nach { $path } verschoben; das Fenster startet mit Standardeinstellungen
 shell-settings-values-not-used = { $keys } in { $path } { $num ->
     [one] ist nicht verwendbar und hat den Standardwert

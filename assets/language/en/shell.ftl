@@ -152,7 +152,7 @@ shell-writing-settings = Writing the settings
 
 ## Settings
 
-shell-settings-not-used = The settings in { $path } are not used: { $why }
+shell-settings-not-used = The settings are not used: { $why }
 shell-settings-set-aside = They were moved to { $path }; the window starts with default settings
 shell-settings-values-not-used = { $keys } in { $path } { $num ->
     [one] cannot be used and has its default value

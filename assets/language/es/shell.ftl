@@ -152,7 +152,7 @@ shell-writing-settings = Guardando los ajustes
 
 ## Settings
 
-shell-settings-not-used = Los ajustes de { $path } no se usan: { $why }
+shell-settings-not-used = Los ajustes no se usan: { $why }
 shell-settings-set-aside = Se han movido a { $path }; la ventana se abre con los ajustes predeterminados
 shell-settings-values-not-used = { $keys } en { $path } { $num ->
     [one] no se puede usar y tiene su valor predeterminado

@@ -140,7 +140,7 @@ shell-writing-settings = 正在保存设置
 
 ## Settings
 
-shell-settings-not-used = 未使用 { $path } 中的设置：{ $why }
+shell-settings-not-used = 未使用设置：{ $why }
 shell-settings-set-aside = 已将其移至 { $path }；窗口以默认设置启动
 shell-settings-values-not-used = 无法使用 { $path } 中的 { $keys }，{ $num ->
    *[other] 使用默认值

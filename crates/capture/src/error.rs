@@ -45,16 +45,6 @@ pub enum CaptureError {
         /// The folder.
         path: PathBuf,
     },
-    /// The recording was made by a newer version.
-    #[error("{}: made by a newer version: format {found}, this one reads up to {known}", path.display())]
-    NewerRecording {
-        /// The recording's list of frames.
-        path: PathBuf,
-        /// Its format version.
-        found: u32,
-        /// The newest version that can be read.
-        known: u32,
-    },
     /// The recording contradicts itself.
     #[error("{}: damaged: {what}", path.display())]
     DamagedRecording {
@@ -124,7 +114,6 @@ impl CaptureError {
             | Self::File(_)
             | Self::MeshIsNoCapture { .. }
             | Self::NoFrames { .. }
-            | Self::NewerRecording { .. }
             | Self::DamagedRecording { .. }
             | Self::FolderInUse { .. }
             | Self::Unwritable { .. }
@@ -162,7 +151,6 @@ impl Advice for CaptureError {
             Self::NoFrames { .. } => {
                 "Give the folder that holds the frames, or record a source into one first".into()
             }
-            Self::NewerRecording { .. } => "Update Partsight on this computer".into(),
             Self::DamagedRecording { .. } => {
                 "Copy the recording again from where it was made".into()
             }

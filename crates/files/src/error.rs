@@ -6,11 +6,12 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 use super::cause::{advice_on, words_of};
+use super::folders::OWN_FOLDER;
 use super::import::BadImportOption;
 use super::names::{listed, nearest_name};
 use geometry::error::{Advice, Fault};
 
-/// Why a file could not be read or written. Every variant names the file.
+/// Why a file could not be read or written. Every variant about a file names it.
 #[derive(Debug, Error)]
 pub enum FileError {
     /// There is nothing at that path.
@@ -135,6 +136,19 @@ pub enum FileError {
         /// The most bytes that are read.
         limit: u64,
     },
+    /// A newer version of the program wrote the file.
+    #[error("{}: made by a newer version of Partsight (schema {found}, this one reads up to {known})", path.display())]
+    Newer {
+        /// The file.
+        path: PathBuf,
+        /// The version of its format.
+        found: u32,
+        /// The newest version that this program reads.
+        known: u32,
+    },
+    /// The system names no folder for the user's data.
+    #[error("this system has no folder for user data")]
+    NoUserFolder,
     /// Another program wrote to the file while it was read.
     #[error("{}: the file changed while it was read", path.display())]
     Changing {
@@ -345,6 +359,10 @@ impl Advice for FileError {
             }
             Self::TooLong { .. } => {
                 "Choose another file: a table, a description or a calibration is far smaller".into()
+            }
+            Self::Newer { .. } => "Update Partsight on this computer".into(),
+            Self::NoUserFolder => {
+                format!("Set the environment variable {OWN_FOLDER} to a folder of your own")
             }
             Self::TooLarge { .. } => {
                 "Thin the cloud out, or cut away what is not the part, and export it again".into()

@@ -9,15 +9,16 @@ use std::{
 
 use directories::ProjectDirs;
 
-use super::disk;
+use super::{FileError, disk};
 
 /// The environment variable that names another folder for the user's data and settings. A relative path starts at the
 /// working folder, as in an argument.
-const OWN_FOLDER: &str = "PARTSIGHT_DATA";
+pub(super) const OWN_FOLDER: &str = "PARTSIGHT_DATA";
 
-/// Returns the folder for this program's data of the user; `None` if the system has none.
-pub fn user_data() -> Option<PathBuf> {
-    own_folder().or_else(|| Some(system_folders()?.data_dir().to_owned()))
+/// Returns the folder for this program's data of the user.
+pub fn user_data() -> Result<PathBuf, FileError> {
+    let folder = own_folder().or_else(|| Some(system_folders()?.data_dir().to_owned()));
+    folder.ok_or(FileError::NoUserFolder)
 }
 
 /// Returns the path of the user's settings; `None` if the system has no folder for it.

@@ -71,7 +71,7 @@ pub use self::open::{FileContent, FileWarning, file_of, open, open_bytes, writte
 pub use self::pcd::write_pcd;
 pub use self::ply::{PointProperty, write_ply, write_ply_with};
 pub use self::source::{open_regular, read_bytes, read_limited, refuse_special, shortened};
-pub use self::text::{parse_versioned, read_text, toml_problem, visible};
+pub use self::text::{parse_json, parse_toml, read_text, toml_problem, visible};
 pub use self::write::{replace_file, write_text};
 pub use self::write::{save_cloud, write_atomically};
 pub use self::xyz::write_xyz;

@@ -22,23 +22,48 @@ pub fn read_text(path: &Path, limit: u64) -> Result<String, FileError> {
     })
 }
 
-/// Parses TOML whose `schema_version` is at most `known`. Any other error than a `newer` version is `bad`.
-pub fn parse_versioned<T: DeserializeOwned, E>(
+/// The version of a file's format, whatever the format calls it.
+#[derive(Deserialize)]
+struct Versioned {
+    #[serde(default, alias = "schema_version", alias = "partsight_recording")]
+    schema: u32,
+}
+
+impl Versioned {
+    fn check(self, path: &Path, known: u32) -> Result<(), FileError> {
+        if self.schema > known {
+            return Err(FileError::Newer {
+                path: path.to_owned(),
+                found: self.schema,
+                known,
+            });
+        }
+        Ok(())
+    }
+}
+
+/// Parses the TOML of a file whose version is at most `known`. What is no such TOML is `bad`.
+pub fn parse_toml<T: DeserializeOwned, E: From<FileError>>(
+    path: &Path,
     text: &str,
     known: u32,
-    newer: impl Fn(u32) -> E,
     bad: impl Fn(toml::de::Error) -> E,
 ) -> Result<T, E> {
-    /// The one field that every version has.
-    #[derive(Deserialize)]
-    struct Versioned {
-        schema_version: u32,
-    }
-    let Versioned { schema_version } = toml::from_str(text).map_err(&bad)?;
-    if schema_version > known {
-        return Err(newer(schema_version));
-    }
+    let versioned: Versioned = toml::from_str(text).map_err(&bad)?;
+    versioned.check(path, known)?;
     toml::from_str(text).map_err(bad)
+}
+
+/// Parses the JSON of a file whose version is at most `known`. What is no such JSON is `bad`.
+pub fn parse_json<T: DeserializeOwned, E: From<FileError>>(
+    path: &Path,
+    json: &[u8],
+    known: u32,
+    bad: impl Fn(serde_json::Error) -> E,
+) -> Result<T, E> {
+    let versioned: Versioned = serde_json::from_slice(json).map_err(&bad)?;
+    versioned.check(path, known)?;
+    serde_json::from_slice(json).map_err(bad)
 }
 
 /// What is wrong with a TOML text, in one line, after the number of its line from 1.

@@ -30,7 +30,7 @@ use crate::{
     library::Library,
     pipeline::{Inspection, Rejection},
 };
-use files::{FileError, parse_versioned, read_text, toml_problem, visible, write_text};
+use files::{FileError, parse_toml, read_text, toml_problem, visible, write_text};
 use geometry::{
     error::Advice,
     oriented_box::{BoxError, OrientedBox},
@@ -110,11 +110,6 @@ pub enum RackProblem {
     Toml {
         /// The line and what is wrong, in English.
         what: String,
-    },
-    /// A newer program wrote it.
-    Newer {
-        /// Its version.
-        version: u32,
     },
     /// Too many boxes of the work volume.
     Boxes {
@@ -268,12 +263,11 @@ impl RackFile {
             path: path.to_owned(),
             problem,
         };
-        let newer = |version| garbled(RackProblem::Newer { version });
         let bad = |error: toml::de::Error| {
             let what = toml_problem(text, &error);
             garbled(RackProblem::Toml { what })
         };
-        let written: Written = parse_versioned(text, SCHEMA, newer, bad)?;
+        let written: Written = parse_toml(path, text, SCHEMA, bad)?;
         Self::try_from(written).map_err(garbled)
     }
 }

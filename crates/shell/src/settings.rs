@@ -1,7 +1,7 @@
 //! Settings kept from one start of the window to the next, in a text file that people can read and edit.
 
 use std::{
-    io::{self, Read as _},
+    io,
     path::{Path, PathBuf},
     sync::Arc,
 };
@@ -22,7 +22,7 @@ use crate::{
     source::live::LiveState,
     trace::{current_trace::CurrentTrace, expecting::Expecting},
 };
-use files::{advice_on, disk, open_regular, user_settings, write_text};
+use files::{FileError, advice_on, disk, user_settings, write_text};
 use geometry::error::Advice as _;
 use inspection::pipeline::{NamedRecipe, Recipe, RecipeLabel, parameters::is_valid};
 use records::history::Traceability;
@@ -203,26 +203,6 @@ pub fn users_file() -> Option<PathBuf> {
     user_settings()
 }
 
-/// Why a settings file was not used.
-#[derive(Debug, thiserror::Error)]
-enum BadSettings {
-    #[error("it cannot be read: {}", files::words_of(.0))]
-    Unreadable(#[from] io::Error),
-    #[error("it is larger than {MAX_BYTES} bytes")]
-    TooLarge,
-    #[error("it is not in Partsight's format ({0})")]
-    Garbled(String),
-    #[error("it was written by a newer version of Partsight ({found}, this one knows {SCHEMA})")]
-    Newer { found: u32 },
-}
-
-/// The part of the file that all versions share.
-#[derive(Deserialize)]
-struct Versioned {
-    #[serde(default)]
-    schema: u32,
-}
-
 /// The settings of a file, and the keys whose values cannot be used.
 struct ReadSettings {
     settings: Settings,
@@ -249,15 +229,9 @@ pub fn load(path: &Path) -> (Settings, Option<UserError>) {
                 (!bad_keys.is_empty()).then(|| values_not_used(path, &settings, &bad_keys));
             (settings, problem)
         }
-        Err(BadSettings::Unreadable(error)) if error.kind() == io::ErrorKind::NotFound => {
-            (Settings::default(), None)
-        }
+        Err(FileError::NotFound { .. }) => (Settings::default(), None),
         Err(bad) => {
-            let what = text!(
-                "shell-settings-not-used",
-                path = path.display().to_string(),
-                why = bad.to_string()
-            );
+            let what = text!("shell-settings-not-used", why = bad.to_string());
             let advice = match set_aside(path) {
                 Ok(aside) => text!(
                     "shell-settings-set-aside",
@@ -303,22 +277,13 @@ pub fn window_size(path: &Path) -> Option<[f32; 2]> {
     read(path).ok()?.settings.window
 }
 
-fn read(path: &Path) -> Result<ReadSettings, BadSettings> {
-    let mut text = String::new();
-    let file = open_regular(path)?;
-    let num_read = file.take(MAX_BYTES + 1).read_to_string(&mut text)?;
-    if num_read as u64 > MAX_BYTES {
-        return Err(BadSettings::TooLarge);
-    }
-    let garbled = |error: toml::de::Error| {
-        let message = error.message();
-        BadSettings::Garbled(message.lines().next().unwrap_or(message).to_owned())
+fn read(path: &Path) -> Result<ReadSettings, FileError> {
+    let text = files::read_text(path, MAX_BYTES)?;
+    let garbled = |error: toml::de::Error| FileError::Damaged {
+        path: path.to_owned(),
+        what: files::toml_problem(&text, &error),
     };
-    let Versioned { schema: found } = toml::from_str(&text).map_err(garbled)?;
-    if found > SCHEMA {
-        return Err(BadSettings::Newer { found });
-    }
-    let table: Table = toml::from_str(&text).map_err(garbled)?;
+    let table: Table = files::parse_toml(path, &text, SCHEMA, garbled)?;
     let (table, mut bad_keys) = usable(table);
     let has_live = table.contains_key("live");
     let mut settings: Settings = table.try_into().map_err(garbled)?;

@@ -9,7 +9,7 @@ use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 use crate::error::CaptureError;
-use files::{DepthCamera, read_bytes};
+use files::{DepthCamera, parse_json, read_bytes};
 use geometry::sixteen_numbers::SixteenNumbers;
 use simulate::FrameTruth;
 
@@ -94,25 +94,11 @@ pub(super) fn read(folder: &Path) -> Result<Manifest, CaptureError> {
 }
 
 fn read_header(path: &Path, line: &[u8]) -> Result<Header, CaptureError> {
-    #[derive(Deserialize)]
-    struct Versioned {
-        partsight_recording: u32,
-    }
     let damaged = |error: serde_json::Error| CaptureError::DamagedRecording {
         path: path.to_owned(),
         what: format!("line 1: {error}"),
     };
-    let Versioned {
-        partsight_recording,
-    } = serde_json::from_slice(line).map_err(damaged)?;
-    if partsight_recording > VERSION {
-        return Err(CaptureError::NewerRecording {
-            path: path.to_owned(),
-            found: partsight_recording,
-            known: VERSION,
-        });
-    }
-    serde_json::from_slice(line).map_err(damaged)
+    parse_json(path, line, VERSION, damaged)
 }
 
 /// True for the name of a file directly in the recording's folder.

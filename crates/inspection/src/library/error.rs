@@ -3,7 +3,7 @@
 use std::{io, path::PathBuf};
 
 use super::{load::MAX_PARTS, name::PartName, problem::EntryProblem};
-use files::{advice_on, words_of};
+use files::{FileError, advice_on, words_of};
 use geometry::error::Advice;
 
 /// Why a library cannot be used or changed.
@@ -111,9 +111,9 @@ pub enum LibraryError {
         /// What is wrong with it.
         reason: String,
     },
-    /// The system names no folder for user data.
-    #[error("this system has no folder for user data")]
-    NoUserFolder,
+    /// The system has no folder for the library.
+    #[error(transparent)]
+    File(#[from] FileError),
 }
 
 fn joined(names: &[PartName]) -> String {
@@ -173,7 +173,7 @@ impl Advice for LibraryError {
                  need new programs"
                     .into()
             }
-            Self::NoUserFolder => "Name a folder with --library".into(),
+            Self::File(error) => error.advice(),
         }
     }
 }

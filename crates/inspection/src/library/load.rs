@@ -19,7 +19,7 @@ use super::{
     store::LibraryFolder,
 };
 use files::{
-    FileContent, FileError, open_bytes, open_regular, parse_versioned, read_bytes, read_picture,
+    FileContent, FileError, open_bytes, open_regular, parse_toml, read_bytes, read_picture,
     toml_problem,
 };
 use geometry::{
@@ -269,11 +269,7 @@ fn read_meta(entry: &Entry) -> Result<PartMeta, EntryError> {
     let bad = |error: toml::de::Error| EntryError::BadMeta {
         found: toml_problem(&text, &error),
     };
-    let newer = |found| EntryError::Newer {
-        found,
-        known: SCHEMA_VERSION,
-    };
-    let meta: PartMeta = parse_versioned(&text, SCHEMA_VERSION, newer, bad)?;
+    let meta: PartMeta = parse_toml(Path::new(META), &text, SCHEMA_VERSION, bad)?;
     if meta.name.as_str() == entry.name {
         Ok(meta)
     } else {

@@ -191,7 +191,7 @@ fn open_filled(path: &Path) -> Result<LibraryFolder, LibraryError> {
 }
 
 fn user_path() -> Result<PathBuf, LibraryError> {
-    let folder = user_data().ok_or(LibraryError::NoUserFolder)?;
+    let folder = user_data()?;
     Ok(folder.join("library"))
 }
 

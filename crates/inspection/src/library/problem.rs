@@ -30,13 +30,8 @@ pub struct EntryProblem {
 #[derive(Debug, thiserror::Error)]
 pub enum EntryError {
     /// A newer version of the program wrote it.
-    #[error("made by a newer version of Partsight (schema {found}, this one reads up to {known})")]
-    Newer {
-        /// Its schema version.
-        found: u32,
-        /// The newest version that this program reads.
-        known: u32,
-    },
+    #[error("{0}")]
+    Newer(Box<FileError>),
     /// A required file is missing.
     #[error("{file} is missing")]
     Missing {
@@ -88,10 +83,16 @@ pub enum EntryError {
     Reference(#[from] ReferenceError),
 }
 
+impl From<FileError> for EntryError {
+    fn from(newer: FileError) -> Self {
+        Self::Newer(newer.into())
+    }
+}
+
 impl Advice for EntryProblem {
     fn advice(&self) -> String {
         match &self.reason {
-            EntryError::Newer { .. } => {
+            EntryError::Newer(_) => {
                 "Update Partsight, or enrol the part again with this version".into()
             }
             EntryError::NameMismatch { name, .. } => format!("Rename the folder to {name}"),

@@ -28,7 +28,7 @@ use super::{
     recipe_error::RecipeError,
 };
 use crate::library::PartName;
-use files::{read_text, toml_problem, write_text};
+use files::{parse_toml, read_text, toml_problem, write_text};
 use stages::{pose::PoseMethod, rack::Rack, rank::Matcher, segment::MAX_PARTS};
 
 /// Name of the built-in recipe, in which every parameter is at its default.
@@ -209,12 +209,6 @@ struct Written {
     parameters: toml::Table,
 }
 
-/// The fields that every version of the file has.
-#[derive(Deserialize)]
-struct Versioned {
-    schema: u32,
-}
-
 impl RecipeFile {
     /// The recipe in which every parameter is at its default, as if read from a file.
     pub fn built_in() -> Self {
@@ -262,12 +256,7 @@ impl<R: Parameters> RecipeFile<R> {
             path: path.to_owned(),
             reason: toml_problem(text, &error),
         };
-        let Versioned { schema: found } = toml::from_str(text).map_err(garbled)?;
-        if found != SCHEMA {
-            let path = path.to_owned();
-            return Err(RecipeError::OtherSchema { path, found });
-        }
-        let written: Written = toml::from_str(text).map_err(garbled)?;
+        let written: Written = parse_toml(path, text, SCHEMA, garbled)?;
         let found = written.notes.chars().count();
         if found > MAX_NOTES {
             return Err(RecipeError::LongNotes { found });

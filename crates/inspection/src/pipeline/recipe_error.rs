@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::{
-    named_recipe::{BUILT_IN, MAX_NOTES, SCHEMA},
+    named_recipe::{BUILT_IN, MAX_NOTES},
     parameters::SettingError,
 };
 use crate::library::BadName;
@@ -23,14 +23,6 @@ pub enum RecipeError {
         path: PathBuf,
         /// What the parser reported.
         reason: String,
-    },
-    /// The file has another version of the format.
-    #[error("{}: the recipe has schema {found}, this program reads {SCHEMA}", path.display())]
-    OtherSchema {
-        /// The file.
-        path: PathBuf,
-        /// Its schema.
-        found: u32,
     },
     /// A parameter does not exist, or cannot have this value.
     #[error("{}: {source}", path.display())]
@@ -86,9 +78,6 @@ pub enum RecipeError {
         /// The name.
         name: String,
     },
-    /// No place for the user's recipes.
-    #[error("this system has no folder for user data")]
-    NoUserFolder,
 }
 
 impl Advice for RecipeError {
@@ -97,9 +86,6 @@ impl Advice for RecipeError {
             Self::File(error) => error.advice(),
             Self::Garbled { .. } => {
                 "Give a file that Partsight exported, or write one as docs/guide/files.md shows".into()
-            }
-            Self::OtherSchema { .. } => {
-                "Use the version of Partsight that wrote it, or save the recipe again with this one".into()
             }
             Self::BadParameter { .. } => {
                 "Correct the file (none of it was used); docs/guide/parameters.md lists names, units and \
@@ -125,7 +111,6 @@ impl Advice for RecipeError {
                 "Rename the file: lowercase letters, digits, _ and -, for example glossy.toml".into()
             }
             Self::Exists { .. } | Self::BuiltIn { .. } => "Choose another name".into(),
-            Self::NoUserFolder => "Set HOME, or give the recipe as a file".into(),
         }
     }
 }

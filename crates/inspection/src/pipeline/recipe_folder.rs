@@ -50,7 +50,7 @@ impl RecipeFolder {
 
     /// The user's own folder, beside the library in the system's folder for user data.
     pub fn of_user() -> Result<Self, RecipeError> {
-        let folder = user_data().ok_or(RecipeError::NoUserFolder)?;
+        let folder = user_data()?;
         Ok(Self::at(folder.join("recipes")))
     }
 
@@ -445,7 +445,7 @@ mod tests {
         assert_eq!(opened, recipe("glossy", 0.8));
         let unknown = open_recipe(Ok(folder), Some("glossy")).expect_err("not kept");
         assert!(unknown.advice().contains("./glossy"));
-        let nowhere = open_recipe(Err(RecipeError::NoUserFolder), None);
+        let nowhere = open_recipe(Err(FileError::NoUserFolder.into()), None);
         assert_eq!(
             nowhere.expect("the program's own").recipe,
             Recipe::default()

@@ -75,12 +75,6 @@ pub enum BundleError {
         /// What is wrong with it.
         reason: String,
     },
-    /// A manifest of a later version of this program.
-    #[error("{name}: made by a newer version of Partsight")]
-    Newer {
-        /// Its name in the store.
-        name: String,
-    },
     /// Another key than the trusted one signed it.
     #[error("{name}: signed with the key {found}, but the trusted key is {trusted}")]
     OtherKey {
@@ -236,7 +230,6 @@ impl Advice for BundleError {
             Self::BadManifest { .. } | Self::BadBundle { .. } => {
                 "Do not use this version: publish the library again, and find out who can write to the store".into()
             }
-            Self::Newer { .. } => "Update Partsight on this computer".into(),
             Self::OtherKey { .. } => {
                 "Ask the publisher for the public key, library.pub, and give that with --trust if you trust it".into()
             }

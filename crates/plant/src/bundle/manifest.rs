@@ -3,6 +3,8 @@
 //! Three lines: the manifest as JSON, the public key and the signature, both in base64. The signature is of the first line as
 //! it stands there, behind [`SIGNED_AS`].
 
+use std::path::Path;
+
 use base64::{Engine as _, engine::general_purpose::STANDARD};
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -11,6 +13,7 @@ use super::{
     error::BundleError,
     keys::{SigningKey, TrustedKey},
 };
+use files::parse_json;
 use inspection::library::PartNumbers;
 
 /// The version of the format that is written, and the newest one that is read.
@@ -148,23 +151,12 @@ impl<'a> SignedText<'a> {
 
     /// The manifest, if the signature is its key's.
     fn manifest(&self) -> Result<Manifest, BundleError> {
-        /// What every format has.
-        #[derive(Deserialize)]
-        struct Versioned {
-            schema: u32,
-        }
         let name = self.name;
         if !(self.key).is_signature(&signed_bytes(self.json), &self.signature) {
             return Err(damaged(name, "the signature is not one of this text"));
         }
         let wrong = |error: serde_json::Error| damaged(name, &error.to_string());
-        let Versioned { schema } = serde_json::from_str(self.json).map_err(wrong)?;
-        if schema > SCHEMA {
-            return Err(BundleError::Newer {
-                name: name.to_owned(),
-            });
-        }
-        let manifest: Manifest = serde_json::from_str(self.json).map_err(wrong)?;
+        let manifest: Manifest = parse_json(Path::new(name), self.json.as_bytes(), SCHEMA, wrong)?;
         if is_sha256(&manifest.bundle.sha256) {
             Ok(manifest)
         } else {
@@ -265,7 +257,10 @@ mod tests {
             schema: SCHEMA + 1,
             ..manifest(&"0f".repeat(32))
         };
-        assert!(matches!(read(&newer), BundleError::Newer { .. }));
+        assert!(matches!(
+            read(&newer),
+            BundleError::File(files::FileError::Newer { .. })
+        ));
         for sha256 in ["", "../../secret", &"0F".repeat(32)] {
             let error = read(&manifest(sha256));
             assert!(matches!(error, BundleError::BadManifest { .. }), "{error}");

@@ -13,7 +13,7 @@ use super::{
     sha256,
     store::{BundleStore, bundle_name, manifest_name},
 };
-use files::{FileError, read_limited, write_file};
+use files::{FileError, parse_json, read_limited, write_file};
 use inspection::library::{LibraryFolder, PartName, PartNumbers, SprayPath};
 use stages::reference::ReferenceParams;
 
@@ -283,14 +283,11 @@ impl TakenBundle {
             Err(FileError::NotFound { .. }) => return Ok(None),
             bytes => bytes?,
         };
-        let bad = |reason| BundleError::BadRecord { path, reason };
-        match serde_json::from_slice::<Self>(&bytes) {
-            Ok(record) if record.schema > SCHEMA => {
-                Err(bad("made by a newer version of Partsight".into()))
-            }
-            Ok(record) => Ok(Some(record)),
-            Err(error) => Err(bad(error.to_string())),
-        }
+        let record = parse_json(&path, &bytes, SCHEMA, |error| BundleError::BadRecord {
+            path: path.clone(),
+            reason: error.to_string(),
+        });
+        record.map(Some)
     }
 
     /// True if it is this version, signed with this key.

@@ -3,7 +3,7 @@
 use std::{io, path::PathBuf};
 
 use crate::history::HistoryError;
-use files::{advice_on, words_of};
+use files::{FileError, advice_on, words_of};
 use geometry::error::Advice;
 
 /// Why a case or a folder of cases cannot be used.
@@ -33,18 +33,9 @@ pub enum CaseError {
         /// The damage found.
         what: String,
     },
-    /// A case was written by a newer version.
-    #[error(
-        "the kept case {name} was made by a newer version (format {found}, this one reads up to {known})"
-    )]
-    Newer {
-        /// Name of the case's folder.
-        name: String,
-        /// The schema of the case.
-        found: u32,
-        /// The newest schema that this version reads.
-        known: u32,
-    },
+    /// A newer version of the program wrote a case, or the system has no folder for the cases.
+    #[error(transparent)]
+    File(#[from] FileError),
     /// There is no case of that name.
     #[error("{}: no kept case named {name}", path.display())]
     NoSuchCase {
@@ -56,9 +47,6 @@ pub enum CaseError {
     /// The history to be exported as cases cannot be read.
     #[error(transparent)]
     History(#[from] HistoryError),
-    /// The system names no folder for a user's data.
-    #[error("this system has no folder for user data")]
-    NoUserFolder,
 }
 
 impl Advice for CaseError {
@@ -71,10 +59,9 @@ impl Advice for CaseError {
             Self::Damaged { .. } => {
                 "Copy it again from where it came from, or delete its folder".into()
             }
-            Self::Newer { .. } => "Update Partsight on this computer".into(),
+            Self::File(error) => error.advice(),
             Self::NoSuchCase { .. } => "Check whether the folder was moved or renamed".into(),
             Self::History(error) => error.advice(),
-            Self::NoUserFolder => "Choose a folder of cases".into(),
         }
     }
 }

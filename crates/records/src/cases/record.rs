@@ -29,7 +29,7 @@ use super::{
     judge::{CaseAnswer, CaseOutcome, CaseResult, FoundVerdict, Truth},
     trade_off::TradeOff,
 };
-use files::{FileError, read_bytes};
+use files::{FileError, parse_json, read_bytes};
 use geometry::{error::Advice, statistics::quantile};
 use inspection::pipeline::{
     NamedRecipe, Recipe, RecipeBlock,
@@ -262,14 +262,6 @@ pub enum RecordError {
         /// The error of the JSON parser.
         what: String,
     },
-    /// The file was written by a newer version.
-    #[error("{}: made by a newer version (schema {found}, this one reads up to {RECORD_SCHEMA})", path.display())]
-    Newer {
-        /// The file.
-        path: PathBuf,
-        /// The schema of the file.
-        found: u32,
-    },
 }
 
 impl Advice for RecordError {
@@ -279,7 +271,6 @@ impl Advice for RecordError {
             Self::NotARecord { .. } => {
                 "Choose a file that partsight evaluate DIR --json FILE wrote".into()
             }
-            Self::Newer { .. } => "Update Partsight on this computer".into(),
         }
     }
 }
@@ -287,23 +278,11 @@ impl Advice for RecordError {
 impl EarlierRun {
     /// Reads a file that an earlier run wrote.
     pub fn read(path: &Path) -> Result<Self, RecordError> {
-        /// The field that all schemas have.
-        #[derive(Deserialize)]
-        struct Versioned {
-            schema: u32,
-        }
-        let bytes = read_bytes(path)?;
-        let no_record = |error: serde_json::Error| RecordError::NotARecord {
-            path: path.to_owned(),
-            what: error.to_string(),
-        };
-        let Versioned { schema } = serde_json::from_slice(&bytes).map_err(no_record)?;
-        if schema > RECORD_SCHEMA {
-            return Err(RecordError::Newer {
+        parse_json(path, &read_bytes(path)?, RECORD_SCHEMA, |error| {
+            RecordError::NotARecord {
                 path: path.to_owned(),
-                found: schema,
-            });
-        }
-        serde_json::from_slice(&bytes).map_err(no_record)
+                what: error.to_string(),
+            }
+        })
     }
 }

@@ -14,8 +14,8 @@ use super::{
 };
 use crate::history::{FrameRecord, read_frame_by, write_frame};
 use files::{
-    FileError, FileLock, disk, in_counting_order, new_folder, open_regular, parse_versioned,
-    read_bytes, replace_file, sync_folder, user_data, words_of, write_file,
+    FileError, FileLock, disk, in_counting_order, new_folder, open_regular, parse_toml, read_bytes,
+    replace_file, sync_folder, user_data, words_of, write_file,
 };
 use stages::scene::SceneCloud;
 
@@ -62,7 +62,7 @@ impl CaseFolder {
 
     /// Returns the user's own folder of cases, in the system's folder for user data.
     pub fn of_user() -> Result<Self, CaseError> {
-        let folder = user_data().ok_or(CaseError::NoUserFolder)?;
+        let folder = user_data()?;
         Ok(Self::at(folder.join("cases")))
     }
 
@@ -363,12 +363,8 @@ fn parse_meta(name: &str, text: &str) -> Result<CaseMeta, CaseError> {
         what,
     };
     let bad = |error: toml::de::Error| damaged(format!("{META}: {}", error.message()));
-    let newer = |found| CaseError::Newer {
-        name: name.to_owned(),
-        found,
-        known: SCHEMA_VERSION,
-    };
-    let meta: CaseMeta = parse_versioned(text, SCHEMA_VERSION, newer, bad)?;
+    let path = Path::new(name).join(META);
+    let meta: CaseMeta = parse_toml(&path, text, SCHEMA_VERSION, bad)?;
     let cell = meta.scene.empty_cell.as_deref();
     if !is_plain(&meta.scene.file) || cell.is_some_and(|file| !is_plain(file)) {
         return Err(damaged(format!("{META} names no file of its own")));

@@ -108,9 +108,6 @@ pub enum HistoryError {
         /// The file.
         path: PathBuf,
     },
-    /// The system names no folder for user data.
-    #[error("this system has no folder for user data")]
-    NoUserFolder,
 }
 
 impl HistoryError {
@@ -196,7 +193,6 @@ impl Advice for HistoryError {
             Self::NoSuchPart { .. } => {
                 "If the history was moved or replaced, put the former file back and set the true label in History".into()
             }
-            Self::NoUserFolder => "Name a folder with --history".into(),
         }
     }
 }

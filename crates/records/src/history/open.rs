@@ -72,7 +72,7 @@ pub struct OnlyRead {
 
 /// Returns the folder of the user's own history.
 pub fn users_folder() -> Result<PathBuf, HistoryError> {
-    user_data().ok_or(HistoryError::NoUserFolder)
+    Ok(user_data()?)
 }
 
 impl History {

@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use super::SCHEMA_VERSION;
 use crate::FARTHEST;
 use files::FileError;
 use geometry::{error::Advice, units::Metres};
@@ -13,14 +12,6 @@ pub enum CalibrationError {
     /// The file cannot be read or written.
     #[error(transparent)]
     File(#[from] FileError),
-    /// The file was made by a newer version of this program.
-    #[error("{}: made by a newer version of Partsight (schema {found}, this one reads up to {SCHEMA_VERSION})", path.display())]
-    Newer {
-        /// The file.
-        path: PathBuf,
-        /// Schema version of the file.
-        found: u32,
-    },
     /// The file has unexpected content.
     #[error("{}: not a calibration: {found}", path.display())]
     Bad {
@@ -59,9 +50,6 @@ pub enum CalibrationError {
         /// The file.
         path: PathBuf,
     },
-    /// The system names no folder for user data.
-    #[error("this system has no folder for user data")]
-    NoUserFolder,
 }
 
 impl Advice for CalibrationError {
@@ -70,8 +58,10 @@ impl Advice for CalibrationError {
             Self::File(FileError::NotFound { .. }) => {
                 "Check the path, or make a calibration: partsight calibrate hand-eye, or partsight calibrate set".into()
             }
+            Self::File(FileError::Newer { .. }) => {
+                "Update Partsight, or calibrate again with this version".into()
+            }
             Self::File(error) => error.advice(),
-            Self::Newer { .. } => "Update Partsight, or calibrate again with this version".into(),
             Self::Bad { .. } => {
                 "Correct the file in a text editor, or calibrate again; partsight calibrate set --help shows how".into()
             }
@@ -89,7 +79,6 @@ impl Advice for CalibrationError {
             Self::NotKept { .. } => {
                 "Check the numbers and their convention: a camera sits within metres of the robot".into()
             }
-            Self::NoUserFolder => "Name a file with --calibration".into(),
         }
     }
 }

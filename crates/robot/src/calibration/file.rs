@@ -11,8 +11,7 @@ use serde::Deserialize;
 use super::{CalibrationError, CameraPlace, CellCalibration, Origin, numbers_text};
 use crate::{FARTHEST, hand_eye::Mount};
 use files::{
-    FileError, crc32, disk, folder_of, parse_versioned, read_text, toml_problem, user_data,
-    write_text,
+    FileError, crc32, disk, folder_of, parse_toml, read_text, toml_problem, user_data, write_text,
 };
 use geometry::{
     rigid::{from_row_major, row_major},
@@ -203,11 +202,7 @@ fn parse(text: &str, path: &Path) -> Result<ReadCalibration, CalibrationError> {
         found,
     };
     let no_toml = |error: toml::de::Error| bad(toml_problem(text, &error));
-    let newer = |found| CalibrationError::Newer {
-        path: path.to_owned(),
-        found,
-    };
-    let read: Text = parse_versioned(text, SCHEMA_VERSION, newer, no_toml)?;
+    let read: Text = parse_toml(path, text, SCHEMA_VERSION, no_toml)?;
     let numbers_of = |rows: &Matrix| -> [f64; 16] { std::array::from_fn(|i| rows[i / 4][i % 4]) };
     let rigid = |key: &'static str, rows: &Matrix| {
         let numbers = numbers_of(rows);
@@ -274,6 +269,6 @@ fn parse(text: &str, path: &Path) -> Result<ReadCalibration, CalibrationError> {
 
 /// The path of the cell's calibration if none is named: `cell.toml` in the folder for user data.
 pub fn default_path() -> Result<PathBuf, CalibrationError> {
-    let folder = user_data().ok_or(CalibrationError::NoUserFolder)?;
+    let folder = user_data()?;
     Ok(folder.join("cell.toml"))
 }

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{CellBaseline, CellCheck, CellLimits, CellView, view::PlanePatch};
 use files::{
-    FileContent, FileError, FileLock, crc32, disk, open, parse_versioned, read_text, toml_problem,
+    FileContent, FileError, FileLock, crc32, disk, open, parse_toml, read_text, toml_problem,
     user_data, write_atomically, write_pcd, write_text,
 };
 use geometry::{
@@ -49,14 +49,6 @@ pub enum CellCheckError {
         /// The folder.
         path: PathBuf,
     },
-    /// The file was made by a newer version of this program.
-    #[error("{}: made by a newer version of Partsight (schema {found}, this one reads up to {SCHEMA_VERSION})", path.display())]
-    Newer {
-        /// The file.
-        path: PathBuf,
-        /// Schema version of the file.
-        found: u32,
-    },
     /// A file has unexpected content.
     #[error("{}: {found}", path.display())]
     Bad {
@@ -65,27 +57,23 @@ pub enum CellCheckError {
         /// The first error in it.
         found: String,
     },
-    /// The system names no folder for user data.
-    #[error("this system has no folder for user data")]
-    NoUserFolder,
 }
 
 impl Advice for CellCheckError {
     fn advice(&self) -> String {
         match self {
+            Self::File(FileError::Newer { .. }) => {
+                "Update Partsight, or take a new baseline with this version".into()
+            }
             Self::File(error) => error.advice(),
             Self::NoBaseline { .. } => {
                 "Take one while the cell is right: partsight cell baseline FILE, or --source kinect"
                     .into()
             }
-            Self::Newer { .. } => {
-                "Update Partsight, or take a new baseline with this version".into()
-            }
             Self::Bad { path, .. } if path.ends_with(CHECKS) => {
                 "Move the file away: the next check begins a new one".into()
             }
             Self::Bad { .. } => "Take a new baseline".into(),
-            Self::NoUserFolder => "Name a folder with --folder".into(),
         }
     }
 }
@@ -115,7 +103,7 @@ impl CellCheckFolder {
 
     /// The user's own folder, beside the calibration in the system's folder for user data.
     pub fn of_user() -> Result<Self, CellCheckError> {
-        let folder = user_data().ok_or(CellCheckError::NoUserFolder)?;
+        let folder = user_data()?;
         Ok(Self::at(folder.join("cell-check")))
     }
 
@@ -189,11 +177,7 @@ impl CellCheckFolder {
             }
             text => text?,
         };
-        let newer = |found| CellCheckError::Newer {
-            path: path.clone(),
-            found,
-        };
-        let read: Text = parse_versioned(&text, SCHEMA_VERSION, newer, |error| {
+        let read: Text = parse_toml(&path, &text, SCHEMA_VERSION, |error| {
             bad(toml_problem(&text, &error))
         })?;
         if Path::new(&read.part).file_name() != Some(read.part.as_ref()) {

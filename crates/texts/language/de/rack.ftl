@@ -19,7 +19,6 @@ rack-not-calibrated = das Gestell ist im Basissystem des Roboters angegeben, und
 ## Was daran falsch ist
 
 rack-toml = { $what }
-rack-newer = es hat die Version { $version }, neuer als dieses Programm
 rack-boxes = { $found } Quader des Arbeitsraums, höchstens { $limit } erwartet
 rack-places = { $found } Plätze, höchstens { $limit } erwartet
 rack-empty = weder ein Arbeitsraum noch ein Platz

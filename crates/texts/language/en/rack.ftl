@@ -21,7 +21,6 @@ rack-not-calibrated = the rack is given in the robot's base frame, and the cell 
 ## What is wrong with it
 
 rack-toml = { $what }
-rack-newer = it has version { $version }, newer than this program
 rack-boxes = { $found } boxes of volume, expected at most { $limit }
 rack-places = { $found } places, expected at most { $limit }
 rack-empty = neither a volume nor a place

@@ -19,7 +19,6 @@ rack-not-calibrated = el bastidor está dado en la base del robot, y la celda no
 ## Qué está mal
 
 rack-toml = { $what }
-rack-newer = tiene la versión { $version }, más nueva que este programa
 rack-boxes = { $found } cajas del volumen, se esperan como máximo { $limit }
 rack-places = { $found } lugares, se esperan como máximo { $limit }
 rack-empty = ni un volumen ni un lugar

@@ -19,7 +19,6 @@ rack-not-calibrated = 挂架以机器人基坐标系给出，而单元没有标�
 ## 有什么错误
 
 rack-toml = { $what }
-rack-newer = 它的版本为 { $version }，比本程序新
 rack-boxes = 工作空间有 { $found } 个长方体，最多 { $limit } 个
 rack-places = 有 { $found } 个位置，最多 { $limit } 个
 rack-empty = 既没有工作空间，也没有位置

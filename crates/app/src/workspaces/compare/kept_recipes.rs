@@ -6,7 +6,7 @@ use std::{
     sync::Arc,
 };
 
-use files::disk;
+use files::{FileError, disk};
 use inspection::{
     library::PartName,
     pipeline::{
@@ -168,7 +168,7 @@ impl KeptRecipes {
 
     pub(super) fn start(&mut self, change: RecipeChange, cx: &mut ShellContext<'_>) {
         if self.folder.is_none() {
-            return cx.notify(UserError::of(&RecipeError::NoUserFolder));
+            return cx.notify(UserError::of(&FileError::NoUserFolder));
         }
         self.waiting.push_back(change);
         self.start_next();

@@ -192,34 +192,13 @@ fn examined(enrol: &EnrolState) -> Option<Arc<Selection>> {
         .then(|| Arc::clone(&draft.selection))
 }
 
-/// Why the file cannot be used.
-#[derive(Debug, thiserror::Error)]
-enum BadDraft {
-    #[error(transparent)]
-    Unreadable(#[from] FileError),
-    #[error("it is not in Partsight's format ({0})")]
-    Garbled(String),
-    #[error("it was written by a newer version of Partsight ({found}, this one knows {SCHEMA})")]
-    Newer { found: u32 },
-}
-
-/// The fields common to all versions of the file.
-#[derive(Deserialize)]
-struct Versioned {
-    schema: u32,
-}
-
 /// Reads the file, if present; sets a bad one aside.
 fn load(path: &Path) -> Option<Result<KeptDraft, UserError>> {
     if !path.exists() {
         return None;
     }
     Some(read(path).map_err(|bad| UserError {
-        what: text!(
-            "enrol-draft-not-used",
-            path = path.display().to_string(),
-            why = bad.to_string()
-        ),
+        what: text!("enrol-draft-not-used", why = bad.to_string()),
         advice: match set_aside(path) {
             Ok(aside) => text!("enrol-draft-set-aside", path = aside.display().to_string()),
             Err(error) => text!("shell-settings-move-away", why = files::words_of(&error)),
@@ -227,21 +206,21 @@ fn load(path: &Path) -> Option<Result<KeptDraft, UserError>> {
     }))
 }
 
-fn read(path: &Path) -> Result<KeptDraft, BadDraft> {
+fn read(path: &Path) -> Result<KeptDraft, FileError> {
     let text = files::read_text(path, MAX_BYTES)?;
-    let garbled = |error: serde_json::Error| BadDraft::Garbled(error.to_string());
-    let Versioned { schema: found } = serde_json::from_str(&text).map_err(garbled)?;
-    if found > SCHEMA {
-        return Err(BadDraft::Newer { found });
-    }
-    let draft: KeptDraft = serde_json::from_str(&text).map_err(garbled)?;
+    let damaged = |what: String| FileError::Damaged {
+        path: path.to_owned(),
+        what,
+    };
+    let garbled = |error: serde_json::Error| damaged(error.to_string());
+    let draft: KeptDraft = files::parse_json(path, text.as_bytes(), SCHEMA, garbled)?;
     if draft.corrections.edits.len() > MAX_EDITS {
         let what = format!("more than {MAX_EDITS} corrections");
-        return Err(BadDraft::Garbled(what));
+        return Err(damaged(what));
     }
     if draft.form.title.chars().count() > MAX_TITLE {
         let what = format!("a title of more than {MAX_TITLE} characters");
-        return Err(BadDraft::Garbled(what));
+        return Err(damaged(what));
     }
     Ok(draft)
 }

@@ -348,7 +348,10 @@ fn a_packed_case_is_the_same_without_its_folder_and_its_damage_is_reported_the_s
         case_toml: newer,
         ..packed.clone()
     };
-    assert!(matches!(newer.unpack(), Err(CaseError::Newer { .. })));
+    assert!(matches!(
+        newer.unpack(),
+        Err(CaseError::File(FileError::Newer { .. }))
+    ));
     let outside = packed.case_toml.replace(cell, "../other.pcd");
     let outside = PackedCase {
         case_toml: outside,

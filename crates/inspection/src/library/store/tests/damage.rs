@@ -1,6 +1,7 @@
 //! Damaged parts: each is named, and the others load.
 
 use super::*;
+use files::FileError;
 
 fn problem(load: &LibraryLoad) -> &EntryError {
     assert_eq!(load.problems.len(), 1, "{:?}", load.problems);
@@ -44,9 +45,16 @@ fn a_newer_schema_is_refused_in_words_whatever_else_it_says() {
     let (_guard, library, damaged) = two_parts();
     fs::write(damaged.join(META), "schema_version = 3\ncolour = \"red\"\n").expect("written");
     let loaded = load(&library);
+    let EntryError::Newer(newer) = problem(&loaded) else {
+        panic!("{:?}", loaded.problems);
+    };
     assert!(matches!(
-        problem(&loaded),
-        EntryError::Newer { found: 3, known: 2 }
+        **newer,
+        FileError::Newer {
+            found: 3,
+            known: 2,
+            ..
+        }
     ));
     assert!(loaded.problems[0].to_string().contains("newer version"));
 }
