@@ -140,20 +140,13 @@ fn every_example_of_the_service_starts_once_there_is_a_calibration() {
 }
 
 /// Runs a program; returns `None`, with a message, if it is not installed.
-#[expect(
-    clippy::print_stdout,
-    reason = "a test that checks nothing must say so"
-)]
 fn run(command: &mut Command) -> Option<Output> {
     match command.output() {
         Ok(output) => Some(output),
         Err(error) if error.kind() == io::ErrorKind::NotFound => {
             let program = command.get_program().display();
-            let skipped = format!("skipped: {program} is not installed");
-            let is_required =
-                std::env::var_os("PARTSIGHT_REQUIRE_PACKAGING").is_some_and(|value| value == "1");
-            assert!(!is_required, "PARTSIGHT_REQUIRE_PACKAGING=1, and {skipped}");
-            println!("{skipped}");
+            let lacking = format_args!("{program} is not installed");
+            geometry::fixtures::skipped("PARTSIGHT_REQUIRE_PACKAGING", lacking);
             None
         }
         Err(error) => panic!("{error}"),

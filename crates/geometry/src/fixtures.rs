@@ -9,6 +9,17 @@ use crate::{
     rigid::RigidTransform,
 };
 
+/// Reports that a test checks nothing for want of something; fails where this environment variable is `1`.
+#[expect(
+    clippy::print_stdout,
+    reason = "a test that checks nothing must say so"
+)]
+pub fn skipped(variable: &str, what: impl std::fmt::Display) {
+    let is_required = std::env::var_os(variable).is_some_and(|value| value == "1");
+    assert!(!is_required, "{variable}=1, and skipped: {what}");
+    println!("skipped: {what}");
+}
+
 /// A small captured frame with these depths in millimetres.
 pub fn small_frame(width: usize, depth: impl IntoIterator<Item = u16>) -> DepthFrame {
     let depth: Vec<u16> = depth.into_iter().collect();

@@ -18,7 +18,7 @@ use capture::{
     fixtures::{camera_error, listed_by},
     open,
 };
-use geometry::{cloud::Grid, depth_frame::DepthFrame, error::Advice as _};
+use geometry::{cloud::Grid, depth_frame::DepthFrame, error::Advice as _, fixtures::skipped};
 
 /// Timeout longer than any step of a test, so that it ends only one that hangs.
 const PATIENCE: Duration = Duration::from_mins(1);
@@ -27,19 +27,6 @@ const DEPTH_CAMERA: &str = include_str!("camera.xml");
 const MODE: &str = "THE_MODE";
 const REVERSE: &str = "THE_REVERSE";
 const ID: &str = "Aravis-Fake-PS01";
-
-/// Reports what a test lacks; fails if the environment requires it.
-#[expect(
-    clippy::print_stdout,
-    reason = "a test that checks nothing must say so"
-)]
-fn skipped(what: &str) {
-    let text = format!("skipped: {what}");
-    let is_required =
-        std::env::var_os("PARTSIGHT_REQUIRE_GENICAM").is_some_and(|value| value == "1");
-    assert!(!is_required, "PARTSIGHT_REQUIRE_GENICAM=1, and {text}");
-    println!("{text}");
-}
 
 /// A camera that runs until it is dropped.
 struct FakeCamera(Child);
@@ -57,7 +44,10 @@ impl FakeCamera {
         let camera = match started {
             Ok(child) => Self(child),
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
-                skipped("arv-fake-gv-camera-0.8 is not installed (apt-get install aravis-tools)");
+                skipped(
+                    "PARTSIGHT_REQUIRE_GENICAM",
+                    "arv-fake-gv-camera-0.8 is not installed (apt-get install aravis-tools)",
+                );
                 return None;
             }
             Err(error) => panic!("{error}"),
@@ -70,7 +60,10 @@ impl FakeCamera {
                 }
                 let kind = listed.error.map(|error| error.kind);
                 if kind == Some(CameraErrorKind::LibraryMissing { path: None }) {
-                    skipped("aravis is not installed (apt-get install libaravis-0.8-0)");
+                    skipped(
+                        "PARTSIGHT_REQUIRE_GENICAM",
+                        "aravis is not installed (apt-get install libaravis-0.8-0)",
+                    );
                     return None;
                 }
             }

@@ -31,10 +31,6 @@ pub(crate) struct S3Server {
 
 impl S3Server {
     /// Starts a server; `None`, with a message, if moto is not installed.
-    #[expect(
-        clippy::print_stdout,
-        reason = "a test that checks nothing must say so"
-    )]
     pub(crate) fn start() -> Option<Self> {
         let address = free_address();
         let started = Command::new("moto_server")
@@ -43,11 +39,10 @@ impl S3Server {
             .stderr(Stdio::null())
             .spawn();
         let Ok(child) = started else {
-            let text = "skipped: moto is not installed (pip install \"moto[server]\")";
-            let is_required =
-                std::env::var_os("PARTSIGHT_REQUIRE_S3").is_some_and(|value| value == "1");
-            assert!(!is_required, "PARTSIGHT_REQUIRE_S3=1, and {text}");
-            println!("{text}");
+            geometry::fixtures::skipped(
+                "PARTSIGHT_REQUIRE_S3",
+                "moto is not installed (pip install \"moto[server]\")",
+            );
             return None;
         };
         let server = Self { child, address };

@@ -72,17 +72,10 @@ fn done(command: &mut Command) -> Output {
 
 impl Postgres {
     /// Starts a server; `None`, with a message, if PostgreSQL is not installed.
-    #[expect(
-        clippy::print_stdout,
-        reason = "a test that checks nothing must say so"
-    )]
     pub(crate) fn start_new() -> Option<Self> {
         let Some(programs) = programs() else {
-            let text = "skipped: PostgreSQL is not installed (apt-get install postgresql)";
-            let is_required =
-                env::var_os("PARTSIGHT_REQUIRE_POSTGRES").is_some_and(|value| value == "1");
-            assert!(!is_required, "PARTSIGHT_REQUIRE_POSTGRES=1, and {text}");
-            println!("{text}");
+            let lacking = "PostgreSQL is not installed (apt-get install postgresql)";
+            geometry::fixtures::skipped("PARTSIGHT_REQUIRE_POSTGRES", lacking);
             return None;
         };
         let folder = tempfile::tempdir().expect("a folder");

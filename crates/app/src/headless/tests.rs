@@ -1,5 +1,5 @@
 //! Tests with frames that are really drawn. Without a graphics device they print a message and pass, unless
-//! `PARTSIGHT_REQUIRE_GPU` is set.
+//! `PARTSIGHT_REQUIRE_GPU=1` is set.
 
 use egui::{Key, Modifiers, PointerButton, Pos2};
 
@@ -15,10 +15,9 @@ fn open() -> Option<HeadlessWindow> {
             assert!(window.settle(), "still working after a minute");
             Some(window)
         }
-        Err(ViewError::NoDevice { reason })
-            if std::env::var_os("PARTSIGHT_REQUIRE_GPU").is_none() =>
-        {
-            eprintln!("skipped, for want of a graphics device: {reason}");
+        Err(ViewError::NoDevice { reason }) => {
+            let lacking = format_args!("no graphics device: {reason}");
+            geometry::fixtures::skipped("PARTSIGHT_REQUIRE_GPU", lacking);
             None
         }
         Err(error) => panic!("{error}"),

@@ -53,10 +53,8 @@ const MAX_DIFFERENT: usize = 100;
 /// True if pictures can be compared with the kept ones; otherwise reports why not.
 #[expect(clippy::print_stderr, reason = "a test that skips must say why")]
 fn draws_in_software() -> bool {
-    let is_required = std::env::var_os("PARTSIGHT_REQUIRE_GPU").is_some();
     if let Err(error) = ui::viewport::ViewportGpu::headless() {
-        assert!(!is_required, "{error}");
-        eprintln!("skipped: {error}");
+        geometry::fixtures::skipped("PARTSIGHT_REQUIRE_GPU", error);
         return false;
     }
     let state = create_render_state(default_wgpu_setup(), RendererOptions::PREDICTABLE);

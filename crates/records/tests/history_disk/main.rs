@@ -11,7 +11,7 @@
 use std::{env, ffi::OsString, fs, path::Path, process::Command, thread};
 
 use capture::fixtures::{SHARED, compile_c};
-use geometry::error::Advice as _;
+use geometry::{error::Advice as _, fixtures::skipped};
 use records::fixtures::{history_entry, open_history};
 use records::history::{Filter, History, HistoryError, KeepFrames, Retention, StoredVerdict};
 
@@ -177,7 +177,7 @@ fn fails_at_every_call(num_before: usize, is_listed: bool, prepare: impl Fn(&Pat
     let tools = tempfile::tempdir().expect("a folder");
     let disk = tools.path().join("libdisk.so");
     if let Err(why) = compile_c("crates/records/tests/history_disk/disk.c", &disk, &SHARED) {
-        return skipped(&why);
+        return skipped("PARTSIGHT_REQUIRE_COMPILER", &why);
     }
     let prepared = tools.path().join("prepared");
     fs::create_dir(&prepared).expect("made");
@@ -243,17 +243,6 @@ fn copy(from: &Path, to: &Path) {
             fs::copy(entry.path(), target).expect("copied");
         }
     }
-}
-
-#[expect(
-    clippy::print_stdout,
-    reason = "a test that checks nothing must say so"
-)]
-fn skipped(why: &str) {
-    let text = format!("skipped: {why}");
-    let is_required = env::var_os("PARTSIGHT_REQUIRE_COMPILER") == Some(OsString::from("1"));
-    assert!(!is_required, "PARTSIGHT_REQUIRE_COMPILER=1, and {text}");
-    println!("{text}");
 }
 
 #[test]

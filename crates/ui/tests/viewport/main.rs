@@ -13,7 +13,7 @@ use std::path::PathBuf;
 
 use eframe::egui_wgpu::{RenderState, RendererOptions};
 use egui_kittest::wgpu::{create_render_state, default_wgpu_setup};
-use geometry::{nearest::KdTree, rigid::RigidTransform, units::Metres};
+use geometry::{fixtures::skipped, nearest::KdTree, rigid::RigidTransform, units::Metres};
 use image::RgbaImage;
 use nalgebra::Point3;
 use simulate::{self, CellSetup, PartKind, PartPose, PoseRange, Side};
@@ -27,14 +27,12 @@ use ui::viewport::{
 };
 
 /// Opens a device without a window; `None`, with the reason printed, if there is none.
-#[expect(clippy::print_stderr, reason = "a test that skips must say why")]
 fn device() -> Option<ViewportGpu> {
     match ViewportGpu::headless() {
         Ok(gpu) => Some(gpu),
-        Err(ViewError::NoDevice { reason })
-            if std::env::var_os("PARTSIGHT_REQUIRE_GPU").is_none() =>
-        {
-            eprintln!("skipped, for want of a graphics device: {reason}");
+        Err(ViewError::NoDevice { reason }) => {
+            let lacking = format_args!("no graphics device: {reason}");
+            skipped("PARTSIGHT_REQUIRE_GPU", lacking);
             None
         }
         Err(error) => panic!("{error}"),

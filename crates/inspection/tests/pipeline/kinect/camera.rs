@@ -29,7 +29,7 @@ fn with_camera(test: &str, state: &str, body: impl FnOnce()) {
         &library,
         &options,
     ) {
-        return skipped(&why);
+        return skipped("PARTSIGHT_REQUIRE_KINECT", &why);
     }
     let log = folder.path().join("calls");
     let environment: [(&str, &OsStr); 3] = [

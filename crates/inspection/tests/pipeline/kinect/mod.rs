@@ -22,6 +22,7 @@ use capture::{
     fixtures::{camera_error, listed_by},
     open,
 };
+use geometry::fixtures::skipped;
 
 /// Timeout longer than any step of a test, so that it ends only one that hangs.
 const PATIENCE: Duration = Duration::from_mins(1);
@@ -55,19 +56,6 @@ fn next_capture(source: &mut dyn DepthSource) -> Option<Captured> {
     panic!("nothing came");
 }
 
-/// Reports what a test lacks; fails if the environment requires it.
-#[expect(
-    clippy::print_stdout,
-    reason = "a test that checks nothing must say so"
-)]
-fn skipped(what: &str) {
-    let text = format!("skipped: {what}");
-    let is_required =
-        std::env::var_os("PARTSIGHT_REQUIRE_KINECT").is_some_and(|value| value == "1");
-    assert!(!is_required, "PARTSIGHT_REQUIRE_KINECT=1, and {text}");
-    println!("{text}");
-}
-
 /// The folder with the fakenect build; `None`, with a message, if it is not installed.
 fn fakenect() -> Option<PathBuf> {
     let lib = PathBuf::from("/usr/lib");
@@ -82,6 +70,7 @@ fn fakenect() -> Option<PathBuf> {
         .find(|folder| folder.join("libfreenect.so.0.5").is_file());
     if folder.is_none() {
         skipped(
+            "PARTSIGHT_REQUIRE_KINECT",
             "the fakenect build of libfreenect is not installed (apt-get install libfreenect0.5)",
         );
     }

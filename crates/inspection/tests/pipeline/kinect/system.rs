@@ -26,7 +26,7 @@ fn the_systems_library_is_found_by_itself_and_says_whether_a_kinect_is_there() {
         println!("figures: {}: {error}. {}", kinect.title, error.advice());
         match error.kind {
             CameraErrorKind::LibraryMissing { path: None } => {
-                skipped("libfreenect is not installed");
+                skipped("PARTSIGHT_REQUIRE_KINECT", "libfreenect is not installed");
             }
             // The errors of a machine without a Kinect, without USB, or without permission.
             CameraErrorKind::NoDevice { wanted: None, .. }

@@ -56,7 +56,10 @@ fn the_systems_library_is_found_by_itself_and_says_whether_a_camera_is_there() {
                     "{}",
                     error.advice()
                 );
-                skipped("libOpenNI2 is not installed (apt-get install libopenni2-0)");
+                skipped(
+                    "PARTSIGHT_REQUIRE_OPENNI",
+                    "libOpenNI2 is not installed (apt-get install libopenni2-0)",
+                );
             }
             // The error of a machine without a camera.
             CameraErrorKind::NoDevice { wanted: None, .. } => {}
@@ -94,7 +97,10 @@ fn a_place_without_the_library_is_named() {
 fn another_library_and_one_without_drivers_are_told_apart() {
     let test = "openni::library::another_library_and_one_without_drivers_are_told_apart";
     let Some(library) = system_library() else {
-        return skipped("libOpenNI2 is not installed (apt-get install libopenni2-0)");
+        return skipped(
+            "PARTSIGHT_REQUIRE_OPENNI",
+            "libOpenNI2 is not installed (apt-get install libopenni2-0)",
+        );
     };
     if !is_own(test) {
         return own_process::run(test, &[]);
@@ -110,7 +116,7 @@ fn another_library_and_one_without_drivers_are_told_apart() {
     let folder = tempfile::tempdir().expect("a folder");
     let other = folder.path().join("libOpenNI2.so.0");
     if let Err(why) = compile_c(CAMERA, &other, &SHARED) {
-        return skipped(&why);
+        return skipped("PARTSIGHT_REQUIRE_OPENNI", &why);
     }
     let error = error_with(folder.path());
     assert!(
@@ -166,7 +172,10 @@ fn the_working_folder_of_other_threads_stays_while_the_library_starts() {
             assert_eq!(env::current_dir().expect("a folder"), here);
             let status = fs::read_to_string("/proc/self/status").expect("of this process");
             if num_elsewhere > 0 && !status.contains("Seccomp:\t0") {
-                return skipped("this system may forbid a thread a working folder of its own");
+                return skipped(
+                    "PARTSIGHT_REQUIRE_OPENNI",
+                    "this system may forbid a thread a working folder of its own",
+                );
             }
             assert_eq!(num_elsewhere, 0);
         },

@@ -24,7 +24,7 @@ use capture::{
     CaptureError, Captured, DepthSource, Image, NextCapture, OPENNI, OpenNiSpec, SourceListing,
     SourceSpec, open,
 };
-use geometry::depth_frame::DepthFrame;
+use geometry::{depth_frame::DepthFrame, fixtures::skipped};
 
 /// Source of a stub driver for OpenNI's library, which plays a camera.
 const CAMERA: &str = "crates/inspection/tests/pipeline/openni/camera.c";
@@ -39,7 +39,7 @@ fn with_camera(test: &str, state: &str, prepare: impl FnOnce(&Path), body: impl 
     }
     let folder = tempfile::tempdir().expect("a folder");
     if let Err(why) = install(folder.path()) {
-        return skipped(&why);
+        return skipped("PARTSIGHT_REQUIRE_OPENNI", &why);
     }
     prepare(folder.path());
     let environment: [(&str, &OsStr); 2] = [
@@ -70,18 +70,6 @@ fn system_library() -> Option<PathBuf> {
     let folder = format!("/usr/lib/{}-linux-gnu", env::consts::ARCH);
     let library = Path::new(&folder).join("libOpenNI2.so.0");
     library.is_file().then_some(library)
-}
-
-/// Reports what a test lacks; fails if the environment requires it.
-#[expect(
-    clippy::print_stdout,
-    reason = "a test that checks nothing must say so"
-)]
-fn skipped(what: &str) {
-    let text = format!("skipped: {what}");
-    let is_required = env::var_os("PARTSIGHT_REQUIRE_OPENNI").is_some_and(|value| value == "1");
-    assert!(!is_required, "PARTSIGHT_REQUIRE_OPENNI=1, and {text}");
-    println!("{text}");
 }
 
 /// Opens the first camera.

@@ -22,7 +22,7 @@ use capture::{
     CaptureError, Captured, DepthSource, Image, NextCapture, REALSENSE, RealsenseSpec,
     SourceListing, SourceSpec, open,
 };
-use geometry::depth_frame::DepthFrame;
+use geometry::{depth_frame::DepthFrame, fixtures::skipped};
 
 /// Source of a stub library with the functions of librealsense, which plays two cameras.
 const CAMERA: &str = "crates/inspection/tests/pipeline/realsense/camera.c";
@@ -44,18 +44,6 @@ fn with_cameras(test: &str, state: &str, body: impl FnOnce()) {
         ("STUB", OsStr::new(state)),
     ];
     own_process::run(test, &environment);
-}
-
-/// Reports what a test lacks; fails if the environment requires it.
-#[expect(
-    clippy::print_stdout,
-    reason = "a test that checks nothing must say so"
-)]
-fn skipped(variable: &str, what: &str) {
-    let text = format!("skipped: {what}");
-    let is_required = env::var_os(variable).is_some_and(|value| value == "1");
-    assert!(!is_required, "{variable}=1, and {text}");
-    println!("{text}");
 }
 
 /// Opens the first camera.
