@@ -114,19 +114,6 @@ fn a_file_cut_anywhere_is_an_error_and_never_a_panic() {
 }
 
 #[test]
-fn a_file_with_one_wrong_byte_never_panics() {
-    for bytes in same_points_stored_three_ways() {
-        for at in 0..bytes.len() {
-            for wrong in [0, b'9', b' ', 0xFF] {
-                let mut bytes = bytes.clone();
-                bytes[at] = wrong;
-                let _ = read(source(&bytes));
-            }
-        }
-    }
-}
-
-#[test]
 fn cells_without_a_reading_stay_in_the_grid_and_leave_a_list() {
     let rows = "1 2 3\nnan nan nan\n0 0 0\n4 5 inf\n-nan(ind) 1 1\n1e38 0 0\n";
     let organised = header("x:F:4:1 y:F:4:1 z:F:4:1", "3", "2", "ascii") + rows;

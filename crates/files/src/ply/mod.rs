@@ -135,4 +135,4 @@ fn triangulated(
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

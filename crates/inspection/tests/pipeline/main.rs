@@ -10,6 +10,8 @@ mod kinect;
 mod openni;
 #[cfg(target_os = "linux")]
 mod own_process;
+#[cfg(target_os = "linux")]
+mod played_camera;
 mod rack;
 #[cfg(target_os = "linux")]
 mod realsense;

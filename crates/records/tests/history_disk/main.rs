@@ -8,7 +8,7 @@
 #![allow(clippy::disallowed_methods, reason = "tests change files")]
 #![cfg(target_os = "linux")]
 
-use std::{env, ffi::OsString, fs, path::Path, process::Command, thread};
+use std::{env, fs, path::Path, process::Command, thread};
 
 use capture::fixtures::{SHARED, compile_c};
 use geometry::{error::Advice as _, fixtures::skipped};

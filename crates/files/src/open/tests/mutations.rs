@@ -8,7 +8,7 @@ use rand_pcg::Pcg64;
 
 use super::*;
 use crate::{
-    MAX_POINTS, depth_png::read_depths, gltf, pcd, table_rows, write_pcd, write_ply, write_xyz,
+    MAX_POINTS, depth_png::read_depths, gltf, pcd, ply, table_rows, write_pcd, write_ply, write_xyz,
 };
 use geometry::cloud::Grid;
 use geometry::fixtures::small_frame;
@@ -83,11 +83,15 @@ fn seeds_of(format: &Format) -> Vec<Seed> {
                 ("PCD, as written", written(write_pcd)),
             ]
         }
-        Format::Ply => vec![
-            ("PLY, as written", written(write_ply)),
-            ("PLY, ascii mesh", PLY_MESH.into()),
-            ("PLY, big endian", big_endian_ply()),
-        ],
+        Format::Ply => {
+            let [ascii, little, big] = ply::tests::same_mesh_stored_three_ways();
+            vec![
+                ("PLY, ascii", ascii),
+                ("PLY, little endian", little),
+                ("PLY, big endian", big),
+                ("PLY, as written", written(write_ply)),
+            ]
+        }
         Format::Xyz => vec![
             ("XYZ", written(write_xyz)),
             (
@@ -133,21 +137,6 @@ fn written(write: fn(&mut dyn std::io::Write, &PointCloud) -> std::io::Result<()
 
 fn depth_frame() -> DepthFrame {
     small_frame(6, 900..924)
-}
-
-const PLY_MESH: &str = "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n\
-    element face 2\nproperty list uchar int vertex_indices\nend_header\n\
-    0 0 1\n1 0 1\n1 1 1\n0 1 1\n3 0 1 2\n3 0 2 3\n";
-
-fn big_endian_ply() -> Vec<u8> {
-    let mut bytes = b"ply\nformat binary_big_endian 1.0\nelement vertex 2\nproperty float x\nproperty float y\n\
-        property float z\nproperty list uchar uint seen\nend_header\n"
-        .to_vec();
-    for point in [[0.0_f32, 0.1, 1.0], [0.2, 0.3, 1.1]] {
-        bytes.extend(point.iter().flat_map(|c| c.to_be_bytes()));
-        bytes.extend([1, 0, 0, 0, 7]);
-    }
-    bytes
 }
 
 /// Makes one change, such as copying, editing and failing disks cause.

@@ -8,8 +8,9 @@ use geometry::error::Advice as _;
 use capture::fixtures::{SHARED, compile_c};
 
 use crate::{
-    kinect::{listed, next_capture, open_error, open_kinect, skipped},
+    kinect::{listed, open_error, open_kinect, skipped},
     own_process::{self, is_own},
+    played_camera::next_capture,
 };
 
 /// The calls from the start to the end of a stream, with their arguments.
@@ -56,7 +57,9 @@ fn the_newest_frame_comes_in_millimetres_with_the_cameras_own_focal_length() {
         let mut kinect = open_kinect().expect("opens");
         assert_eq!(kinect.title(), "Kinect");
         for expected in [1003, 1005] {
-            let captured = next_capture(kinect.as_mut()).expect("a frame");
+            let captured = next_capture(kinect.as_mut())
+                .expect("no problem")
+                .expect("a frame");
             assert_eq!(captured.warnings, []);
             let Image::Depth(frame) = captured.image else {
                 panic!("a cloud")
@@ -94,7 +97,9 @@ fn every_camera_is_listed_and_opened_by_its_serial_number() {
         calls();
         let mut kinect = open(&spec).expect("opens");
         assert_eq!(kinect.title(), "Kinect B00417");
-        next_capture(kinect.as_mut()).expect("a frame");
+        next_capture(kinect.as_mut())
+            .expect("no problem")
+            .expect("a frame");
         drop(kinect);
         assert_eq!(calls(), WHOLE.replace("open 0", "open 1"));
 
@@ -128,7 +133,9 @@ fn an_unplugged_camera_is_an_error_that_opening_again_may_help() {
     with_camera(test, "unplugged", || {
         let mut kinect = open_kinect().expect("opens");
         for _ in 0..2 {
-            next_capture(kinect.as_mut()).expect("a frame");
+            next_capture(kinect.as_mut())
+                .expect("no problem")
+                .expect("a frame");
         }
         let error = kinect.next(Duration::from_millis(500)).expect_err("lost");
         assert_eq!(error.recovery(), Recovery::Reopen);
@@ -164,7 +171,9 @@ fn a_signal_is_no_open_error() {
         || {
             let mut kinect = open_kinect().expect("opens");
             for _ in 0..3 {
-                next_capture(kinect.as_mut()).expect("a frame");
+                next_capture(kinect.as_mut())
+                    .expect("no problem")
+                    .expect("a frame");
             }
         },
     );

@@ -11,21 +11,14 @@ mod played;
 mod session;
 mod system;
 
-use std::{
-    path::PathBuf,
-    time::{Duration, Instant},
-};
+use std::path::PathBuf;
 
 use capture::{
-    CameraError, CaptureError, Captured, DepthSource, FREENECT, KinectSpec, NextCapture,
-    SourceListing, SourceSpec,
+    CameraError, CaptureError, DepthSource, FREENECT, KinectSpec, SourceListing, SourceSpec,
     fixtures::{camera_error, listed_by},
     open,
 };
 use geometry::fixtures::skipped;
-
-/// Timeout longer than any step of a test, so that it ends only one that hangs.
-const PATIENCE: Duration = Duration::from_mins(1);
 
 /// Opens the Kinect that the environment provides.
 fn open_kinect() -> Result<Box<dyn DepthSource>, CaptureError> {
@@ -40,20 +33,6 @@ fn open_error() -> CameraError {
 /// The Kinects in the list of sources, including those that cannot be opened.
 fn listed() -> Vec<SourceListing> {
     listed_by(&FREENECT, |spec| matches!(spec, SourceSpec::Kinect(_)))
-}
-
-/// The next capture; `None` at the end of the session.
-fn next_capture(source: &mut dyn DepthSource) -> Option<Captured> {
-    let start = Instant::now();
-    while start.elapsed() < PATIENCE {
-        match source.next(Duration::from_millis(20)).expect("no problem") {
-            NextCapture::Captured(captured) => return Some(captured),
-            NextCapture::End => return None,
-            NextCapture::NotYet => {}
-            NextCapture::Skipped(skipped) => panic!("{skipped:?}"),
-        }
-    }
-    panic!("nothing came");
 }
 
 /// The folder with the fakenect build; `None`, with a message, if it is not installed.

@@ -14,10 +14,11 @@ use inspection::fixtures::shipped_library;
 
 use crate::{
     kinect::{
-        PATIENCE, fakenect, next_capture, open_error, open_kinect,
+        fakenect, open_error, open_kinect,
         session::{self, CAMERA, step_width},
     },
     own_process::{self, is_own},
+    played_camera::{PATIENCE, next_capture},
 };
 
 /// Runs a test's body with a session that `write` makes in an empty folder.
@@ -53,7 +54,9 @@ fn frames_arrive_with_the_depth_that_was_seen_and_the_session_ends() {
             assert_eq!(kinect.title(), "Kinect, a recorded session");
             assert!(!kinect.is_simulated());
             for (k, seen) in session::frames().iter().enumerate() {
-                let captured = next_capture(kinect.as_mut()).expect("a frame");
+                let captured = next_capture(kinect.as_mut())
+                    .expect("no problem")
+                    .expect("a frame");
                 assert_eq!(captured.number, k as u64 + 1);
                 assert!(
                     captured
@@ -105,7 +108,9 @@ fn a_part_is_recognised_in_what_the_library_gives() {
         write,
         || {
             let mut kinect = open_kinect().expect("a session");
-            let captured = next_capture(kinect.as_mut()).expect("a frame");
+            let captured = next_capture(kinect.as_mut())
+                .expect("no problem")
+                .expect("a frame");
             let scene = scene_from_frame(depth_of(&captured));
             let found = run(&scene, &shipped_library(), &Recipe::default(), &Unwatched)
                 .expect("not cancelled");
@@ -136,10 +141,14 @@ fn stopping_works_from_any_state() {
             drop(open_kinect().expect("a session"));
             // Running; it cannot be opened twice.
             let mut kinect = open_kinect().expect("opened again");
-            next_capture(kinect.as_mut()).expect("a frame");
+            next_capture(kinect.as_mut())
+                .expect("no problem")
+                .expect("a frame");
             let error = open_error();
             assert_eq!(error.kind, CameraErrorKind::InUse, "{error}");
-            next_capture(kinect.as_mut()).expect("the first is not disturbed");
+            next_capture(kinect.as_mut())
+                .expect("no problem")
+                .expect("the first is not disturbed");
             drop(kinect);
             // On the camera's own thread: before the first frame, between frames, and after its end.
             let spec = || SourceSpec::Kinect(KinectSpec::default());
@@ -182,7 +191,7 @@ fn a_session_that_is_over_ends_the_feed_and_stays_over() {
             drop(feed);
             let mut again = open_kinect().expect("opens");
             assert!(
-                next_capture(again.as_mut()).is_none(),
+                next_capture(again.as_mut()).expect("no problem").is_none(),
                 "the library has no way back to the start"
             );
         },
@@ -208,7 +217,9 @@ fn a_session_that_would_end_the_program_is_refused_and_a_repaired_one_opens() {
             assert!(error.advice().contains("INDEX.txt"), "{}", error.advice());
             fs::write(&index, whole).expect("written");
             let mut kinect = open_kinect().expect("repaired");
-            next_capture(kinect.as_mut()).expect("a frame");
+            next_capture(kinect.as_mut())
+                .expect("no problem")
+                .expect("a frame");
         },
     );
 }

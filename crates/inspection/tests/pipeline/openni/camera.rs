@@ -2,13 +2,12 @@
 
 use std::time::Duration;
 
-use capture::{
-    BackpressurePolicy, CameraErrorKind, Feed, FeedItem, NextCapture, OpenNiSpec, Recovery,
-    SourceSpec, open,
-};
-use geometry::error::Advice as _;
+use capture::{CameraErrorKind, NextCapture, OpenNiSpec, Recovery, SourceSpec, open};
 
-use crate::openni::{PATIENCE, check, listed, next_capture, next_frame, open_camera, with_camera};
+use crate::{
+    openni::{check, listed, open_camera, with_camera},
+    played_camera::{is_lost_and_found_again, is_refused, next_frame},
+};
 
 /// Checks frames of a camera whose mirroring is on at first, whether or not it can be switched off.
 fn shows_what_it_saw(test: &str, state: &str, metres_per_unit: f64) {
@@ -110,25 +109,7 @@ fn an_unplugged_camera_is_lost_and_found_again() {
         "unplugged",
         |_| {},
         || {
-            let mut camera = open_camera().expect("opens");
-            let error = loop {
-                match next_capture(camera.as_mut()) {
-                    Ok(captured) => assert!(captured.expect("no end").number <= 2),
-                    Err(error) => break error,
-                }
-            };
-            assert_eq!(error.recovery(), Recovery::Reopen);
-            assert!(error.to_string().contains("was lost"), "{error}");
-            assert!(matches!(camera.next(Duration::ZERO), Ok(NextCapture::End)));
-            drop(camera);
-
-            // It can be opened again at once, and gives two frames at most each time.
-            let spec = SourceSpec::OpenNi(OpenNiSpec::default());
-            let feed = Feed::start(spec, BackpressurePolicy::Every, || {}).expect("a thread");
-            for _ in 0..4 {
-                let item = feed.wait(PATIENCE).expect("a frame");
-                assert!(matches!(item, FeedItem::Captured(_)), "{item:?}");
-            }
+            is_lost_and_found_again(SourceSpec::OpenNi(OpenNiSpec::default()));
         },
     );
 }
@@ -156,16 +137,7 @@ fn refused(test: &str, state: &str, words: &str, advice: &str) {
         state,
         |_| {},
         || {
-            // The second attempt is like the first: nothing is left behind that would keep the camera from opening.
-            for _ in 0..2 {
-                let ended = open_camera().and_then(|mut camera| {
-                    while next_capture(camera.as_mut())?.is_some() {}
-                    Ok(())
-                });
-                let error = ended.expect_err("refused");
-                assert!(error.to_string().contains(words), "{error}");
-                assert!(error.advice().contains(advice), "{}", error.advice());
-            }
+            is_refused(&SourceSpec::OpenNi(OpenNiSpec::default()), words, advice);
         },
     );
 }

@@ -16,21 +16,14 @@ use std::{
     fs,
     os::unix::fs::symlink,
     path::{Path, PathBuf},
-    time::{Duration, Instant},
 };
 
 use capture::fixtures::{SHARED, compile_c, listed_by};
-use capture::{
-    CaptureError, Captured, DepthSource, Image, NextCapture, OPENNI, OpenNiSpec, SourceListing,
-    SourceSpec, open,
-};
+use capture::{CaptureError, DepthSource, OPENNI, OpenNiSpec, SourceListing, SourceSpec, open};
 use geometry::{depth_frame::DepthFrame, fixtures::skipped};
 
 /// Source of a stub driver for OpenNI's library, which plays a camera.
 const CAMERA: &str = "crates/inspection/tests/pipeline/openni/camera.c";
-/// Timeout longer than any step of a test, so that it ends only one that hangs.
-const PATIENCE: Duration = Duration::from_mins(1);
-
 /// Runs a test's body with the camera in that state; see `camera.c`. Before, `prepare` gets the folder of the
 /// library.
 fn with_camera(test: &str, state: &str, prepare: impl FnOnce(&Path), body: impl FnOnce()) {
@@ -80,32 +73,6 @@ fn open_camera() -> Result<Box<dyn DepthSource>, CaptureError> {
 /// The OpenNI cameras in the list of sources.
 fn listed() -> Vec<SourceListing> {
     listed_by(&OPENNI, |spec| matches!(spec, SourceSpec::OpenNi(_)))
-}
-
-/// The next capture; `None` at the end of a file.
-fn next_capture(source: &mut dyn DepthSource) -> Result<Option<Captured>, CaptureError> {
-    let start = Instant::now();
-    while start.elapsed() < PATIENCE {
-        match source.next(Duration::from_millis(20))? {
-            NextCapture::Captured(captured) => return Ok(Some(captured)),
-            NextCapture::End => return Ok(None),
-            NextCapture::NotYet => {}
-            NextCapture::Skipped(skipped) => panic!("{skipped:?}"),
-        }
-    }
-    panic!("nothing came");
-}
-
-fn next_frame(source: &mut dyn DepthSource) -> DepthFrame {
-    let captured = next_capture(source).expect("no problem").expect("no end");
-    frame_of(captured)
-}
-
-fn frame_of(captured: Captured) -> DepthFrame {
-    match captured.image {
-        Image::Depth(frame) => frame,
-        Image::Cloud(_) => panic!("a camera gives depth images"),
-    }
 }
 
 /// Checks that a frame shows what the camera saw, in metres and not mirrored. Returns its number, which one pixel

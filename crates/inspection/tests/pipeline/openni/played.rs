@@ -16,7 +16,10 @@ use geometry::error::Advice as _;
 
 use capture::fixtures::compile_c;
 
-use crate::openni::{PATIENCE, check, frame_of, next_capture, with_camera};
+use crate::{
+    openni::{check, with_camera},
+    played_camera::{PATIENCE, frame_of, next_capture},
+};
 
 const NUM_FRAMES: usize = 12;
 

@@ -3,14 +3,14 @@
 use std::time::Duration;
 
 use capture::{
-    BackpressurePolicy, CameraErrorKind, Feed, FeedItem, NextCapture, RealsenseSpec, Recovery,
-    SourceSpec, fixtures::camera_error,
+    CameraErrorKind, NextCapture, RealsenseSpec, Recovery, SourceSpec, fixtures::camera_error,
 };
+
 use geometry::error::Advice as _;
 
-use crate::realsense::{
-    PATIENCE, check, frame_of, listed, next_capture, next_frame, open_camera, open_text,
-    with_cameras,
+use crate::{
+    played_camera::{frame_of, is_lost_and_found_again, is_refused, next_capture, next_frame},
+    realsense::{check, listed, open_camera, open_text, with_cameras},
 };
 
 /// The pixel that shows the number of the camera.
@@ -120,25 +120,7 @@ fn a_preset_is_set_by_its_name_and_its_unit_is_read() {
 fn an_unplugged_camera_is_lost_and_found_again() {
     let test = "realsense::camera::an_unplugged_camera_is_lost_and_found_again";
     with_cameras(test, "unplugged", || {
-        let mut camera = open_camera().expect("opens");
-        let error = loop {
-            match next_capture(camera.as_mut()) {
-                Ok(captured) => assert!(captured.expect("no end").number <= 2),
-                Err(error) => break error,
-            }
-        };
-        assert_eq!(error.recovery(), Recovery::Reopen);
-        assert!(error.to_string().contains("was lost"), "{error}");
-        assert!(matches!(camera.next(Duration::ZERO), Ok(NextCapture::End)));
-        drop(camera);
-
-        // It can be opened again at once, and gives two frames at most each time.
-        let spec = SourceSpec::Realsense(RealsenseSpec::default());
-        let feed = Feed::start(spec, BackpressurePolicy::Every, || {}).expect("a thread");
-        for _ in 0..4 {
-            let item = feed.wait(PATIENCE).expect("a frame");
-            assert!(matches!(item, FeedItem::Captured(_)), "{item:?}");
-        }
+        is_lost_and_found_again(SourceSpec::Realsense(RealsenseSpec::default()));
     });
 }
 
@@ -164,17 +146,11 @@ fn a_camera_that_sends_nothing_is_waited_for_then_opened_again() {
 /// Checks message and advice in a state in which the camera does not open, or stops after its first frames.
 fn refused(test: &str, state: &str, words: &str, advice: &str) {
     with_cameras(test, state, || {
-        // The second attempt is like the first: nothing is left behind that would keep the camera from opening.
-        for _ in 0..2 {
-            let ended = open_camera().and_then(|mut camera| {
-                while next_capture(camera.as_mut())?.is_some() {}
-                Ok(())
-            });
-            let error = ended.expect_err("refused");
-            assert!(error.to_string().contains(words), "{error}");
-            assert!(!error.to_string().contains('\n'), "{error}");
-            assert!(error.advice().contains(advice), "{}", error.advice());
-        }
+        is_refused(
+            &SourceSpec::Realsense(RealsenseSpec::default()),
+            words,
+            advice,
+        );
     });
 }
 

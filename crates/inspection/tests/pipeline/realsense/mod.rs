@@ -11,24 +11,16 @@ mod library;
 mod recorded;
 
 use crate::own_process;
-use std::{
-    env,
-    ffi::OsStr,
-    time::{Duration, Instant},
-};
+use std::ffi::OsStr;
 
 use capture::fixtures::{SHARED, compile_c, listed_by};
 use capture::{
-    CaptureError, Captured, DepthSource, Image, NextCapture, REALSENSE, RealsenseSpec,
-    SourceListing, SourceSpec, open,
+    CaptureError, DepthSource, REALSENSE, RealsenseSpec, SourceListing, SourceSpec, open,
 };
 use geometry::{depth_frame::DepthFrame, fixtures::skipped};
 
 /// Source of a stub library with the functions of librealsense, which plays two cameras.
 const CAMERA: &str = "crates/inspection/tests/pipeline/realsense/camera.c";
-/// Timeout longer than any step of a test, so that it ends only one that hangs.
-const PATIENCE: Duration = Duration::from_mins(1);
-
 /// Runs a test's body with the cameras in that state; see `camera.c`.
 fn with_cameras(test: &str, state: &str, body: impl FnOnce()) {
     if own_process::is_own(test) {
@@ -58,32 +50,6 @@ fn open_text(text: &str) -> Result<Box<dyn DepthSource>, CaptureError> {
 /// The RealSense cameras in the list of sources.
 fn listed() -> Vec<SourceListing> {
     listed_by(&REALSENSE, |spec| matches!(spec, SourceSpec::Realsense(_)))
-}
-
-/// The next capture; `None` at the end of a file.
-fn next_capture(source: &mut dyn DepthSource) -> Result<Option<Captured>, CaptureError> {
-    let start = Instant::now();
-    while start.elapsed() < PATIENCE {
-        match source.next(Duration::from_millis(20))? {
-            NextCapture::Captured(captured) => return Ok(Some(captured)),
-            NextCapture::End => return Ok(None),
-            NextCapture::NotYet => {}
-            NextCapture::Skipped(skipped) => panic!("{skipped:?}"),
-        }
-    }
-    panic!("nothing came");
-}
-
-fn next_frame(source: &mut dyn DepthSource) -> DepthFrame {
-    let captured = next_capture(source).expect("no problem").expect("no end");
-    frame_of(captured)
-}
-
-fn frame_of(captured: Captured) -> DepthFrame {
-    match captured.image {
-        Image::Depth(frame) => frame,
-        Image::Cloud(_) => panic!("a camera gives depth images"),
-    }
 }
 
 /// Checks every pixel of a frame except those that `camera.c` changes from frame to frame. Returns the frame's

@@ -20,7 +20,8 @@ use capture::fixtures::{SHARED, camera_error, compile_c};
 
 use crate::{
     own_process,
-    realsense::{PATIENCE, check, frame_of, listed, next_capture, skipped},
+    played_camera::{PATIENCE, frame_of, next_capture},
+    realsense::{check, listed, skipped},
 };
 
 const NUM_FRAMES: u16 = 60;
