@@ -77,11 +77,6 @@ const SET_HELP: &str = "Set a parameter, in its own unit, such as segment.plane_
     several times. docs/guide/parameters.md lists names, units and ranges";
 
 impl RecipeSource {
-    /// Returns whether any of these options is given.
-    pub(super) fn is_given(&self) -> bool {
-        self.recipe.is_some() || !self.set.is_empty()
-    }
-
     /// Returns the recipe; by default the user's default one.
     pub(super) fn recipe(&self) -> anyhow::Result<NamedRecipe> {
         Ok(self.changed(&self.file()?, |_| ()))

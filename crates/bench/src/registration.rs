@@ -6,7 +6,6 @@
 
 mod clouds;
 
-use clap::{ValueEnum, builder::PossibleValue};
 use std::time::{Duration, Instant};
 
 use nalgebra::{Point3, UnitQuaternion, Vector3};
@@ -86,29 +85,6 @@ impl Condition {
                 "seen from within 75° of the outside, drawn likewise, onto the whole part"
             }
         }
-    }
-}
-
-impl ValueEnum for Condition {
-    fn value_variants<'a>() -> &'a [Self] {
-        &Self::ALL
-    }
-
-    fn to_possible_value(&self) -> Option<PossibleValue> {
-        let (name, help) = match self {
-            Self::Whole => ("whole", "The whole part"),
-            Self::View => ("view", "One view with a Kinect's noise"),
-            Self::Hidden => ("hidden", "30 % hidden"),
-            Self::Noisy => ("noisy", "Three times the noise"),
-            Self::Stray => ("stray", "One point in ten anywhere"),
-            Self::Starts => ("starts", "From T1..T5 and random starts, with every method"),
-            Self::Resampled => (
-                "resampled",
-                "Both clouds sampled at random, few or many points",
-            ),
-            Self::Outside => ("outside", "Seen from outside, sampled likewise"),
-        };
-        Some(PossibleValue::new(name).help(help))
     }
 }
 

@@ -1,10 +1,14 @@
 //! `partsight bench bounds` and `bench sheets`: measure whether pose errors stay within their bounds.
 
-use std::{borrow::Borrow, path::Path};
+use std::{
+    borrow::Borrow,
+    path::{Path, PathBuf},
+};
 
+use clap::Args;
 use serde::Serialize;
 
-use super::{BenchArgs, NUM_POSES, write_results};
+use super::{FrameChoice, JsonFile, NUM_POSES, write_results};
 use crate::cli::{
     Outcome,
     console::{Advised as _, Console, Table, advised_error},
@@ -37,9 +41,18 @@ struct CaseLine {
     doubt: Option<String>,
 }
 
-pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
-    let first_seed = args.seed.unwrap_or(MEASURING_SEED);
-    let num_poses = args.poses.unwrap_or(NUM_POSES);
+#[derive(Debug, Args)]
+pub(super) struct BoundsArgs {
+    #[command(flatten)]
+    frames: FrameChoice,
+    /// Take this mesh instead of the simulated parts, with its outside towards the camera; may be given several times
+    #[arg(long, value_name = "FILE#NAME")]
+    mesh: Vec<PathBuf>,
+}
+
+pub(super) fn run(args: &BoundsArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    let first_seed = args.frames.seed.unwrap_or(MEASURING_SEED);
+    let num_poses = args.frames.poses.unwrap_or(NUM_POSES);
     let libraries = if args.mesh.is_empty() {
         // A different car model for each first seed, and never the standard one.
         let model_seed = first_seed / 10_000;
@@ -85,15 +98,15 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
         }
         console.table(&table);
     }
-    write_lines(args, &done)?;
+    write_lines(&args.frames.file, &done)?;
     Ok(Outcome::Accepted)
 }
 
 fn write_lines<L: Borrow<BoundsLibrary>>(
-    args: &BenchArgs,
+    file: &JsonFile,
     done: &[(L, Vec<BoundsCase>)],
 ) -> anyhow::Result<()> {
-    let Some(path) = &args.json else {
+    let Some(path) = &file.json else {
         return Ok(());
     };
     let of_library = |(library, cases): &(L, Vec<BoundsCase>)| -> Vec<CaseLine> {
@@ -129,7 +142,7 @@ const NUM_SHEET_POSES: u64 = 3;
 const SHEET_VIEWS: [View; 2] = [View::Whole, View::Cut];
 
 /// Runs `partsight bench sheets`: panels of every thickness, enrolled in every form that they may be stored in.
-pub(super) fn run_sheets(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+pub(super) fn run_sheets(args: &FrameChoice, console: &mut Console) -> anyhow::Result<Outcome> {
     let first_seed = args.seed.unwrap_or(MEASURING_SEED);
     let num_poses = args.poses.unwrap_or(NUM_SHEET_POSES);
     let pairs = THICKNESSES.iter().flat_map(|thickness| {
@@ -164,7 +177,7 @@ pub(super) fn run_sheets(args: &BenchArgs, console: &mut Console) -> anyhow::Res
         }
     }
     console.table(&table);
-    write_lines(args, &done)?;
+    write_lines(&args.file, &done)?;
     Ok(Outcome::Accepted)
 }
 fn table(first: &str) -> Table {

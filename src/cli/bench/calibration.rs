@@ -3,7 +3,7 @@
 
 use serde::Serialize;
 
-use super::{BenchArgs, recognition::Frames, write_json};
+use super::{FrameChoice, recognition::Frames, write_json};
 use crate::cli::{
     Outcome,
     console::{Console, Table},
@@ -28,7 +28,7 @@ const NUM_POSES: u64 = 14;
 /// Score from which on errors are counted.
 const ACCEPTED: f64 = 0.9;
 
-pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+pub(super) fn run(args: &FrameChoice, console: &mut Console) -> anyhow::Result<Outcome> {
     let num_poses = args.poses.unwrap_or(NUM_POSES);
     let first_seed = args.seed.unwrap_or(TUNING_SEED);
     let mut suites = Suite::ALL.to_vec();
@@ -39,7 +39,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     console.line(&format_args!("Simulated: {}.", frames.words()));
     let models = [Question::Part, Question::Type].map(|question| fit(&results, question, console));
     show_bands(&results, console);
-    if let Some(path) = &args.json {
+    if let Some(path) = &args.file.json {
         let file = CalibrationFile {
             schema: 1,
             simulated: true,

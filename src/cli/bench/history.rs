@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{BenchArgs, write_json};
+use super::{JsonFile, write_json};
 use crate::cli::{
     Outcome,
     console::{Advised as _, Console, Table},
@@ -21,7 +21,7 @@ struct HistoryFile {
 }
 
 /// Times queries of a long history.
-pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+pub(super) fn run(args: &JsonFile, console: &mut Console) -> anyhow::Result<Outcome> {
     console.line(&format_args!(
         "A history of {NUM_ROWS} inspections: a page of 50 and the number of all, first, middle and last page."
     ));

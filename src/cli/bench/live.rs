@@ -2,7 +2,9 @@
 
 use std::time::Duration;
 
-use super::{BenchArgs, write_results};
+use clap::Args;
+
+use super::{JsonFile, write_results};
 use crate::cli::{
     Outcome,
     console::{Advised as _, Console, Table},
@@ -11,9 +13,17 @@ use app::headless::live_stretches;
 
 /// Duration of one line of the table.
 const STRETCH: Duration = Duration::from_secs(30);
+#[derive(Debug, Args)]
+pub(super) struct LiveArgs {
+    #[command(flatten)]
+    file: JsonFile,
+    /// Duration in minutes
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1440))]
+    minutes: u64,
+}
 
 /// Follows the simulated line for the requested time.
-pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+pub(super) fn run(args: &LiveArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     let num_stretches = 2 * args.minutes as usize;
     console.line(&format_args!(
         "The window without a display follows the simulated line for {} min; a line per {} s.",
@@ -54,7 +64,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
         ]);
     }
     console.table(&table);
-    if let Some(path) = &args.json {
+    if let Some(path) = &args.file.json {
         write_results(path, "stretches", &stretches)?;
     }
     Ok(Outcome::Accepted)

@@ -1,12 +1,13 @@
 //! `partsight bench paint`: spray paths and films of the library's parts, and of parts enrolled from frames.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use clap::Args;
 use serde::Serialize;
 
-use super::{BenchArgs, write_json};
+use super::{JsonFile, write_json};
 use crate::cli::{
-    Outcome,
+    LibraryChoice, Outcome,
     console::{Advised as _, Console, Table},
     input::open_scene,
 };
@@ -25,7 +26,24 @@ struct PaintFile {
     parts: Vec<PaintedPart>,
 }
 
-pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+#[derive(Debug, Args)]
+pub(super) struct PaintArgs {
+    #[command(flatten)]
+    file: JsonFile,
+    /// Enrol a part from each of these scenes and paint it too
+    #[arg(long, value_name = "FILE", num_args = 1..)]
+    files: Vec<PathBuf>,
+    /// The coat, by name or file, instead of the default one
+    #[arg(long, value_name = "NAME|FILE")]
+    coat: Option<String>,
+    /// Draw the film of each part into this folder
+    #[arg(long, value_name = "DIR")]
+    plots: Option<PathBuf>,
+    #[command(flatten)]
+    library: LibraryChoice,
+}
+
+pub(super) fn run(args: &PaintArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     let coat = match &args.coat {
         Some(name) => {
             let folder = CoatFolder::of_user().advised()?;
@@ -55,7 +73,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
             draw(part, &coat, folder)?;
         }
     }
-    if let Some(path) = &args.json {
+    if let Some(path) = &args.file.json {
         write_json(
             path,
             &PaintFile {

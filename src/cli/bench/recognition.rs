@@ -1,16 +1,19 @@
 //! `partsight bench recognition`: recognition rate, acceptance and false accepts on sets of simulated frames, then the
 //! paper's matcher and the other systems of its Table I on the same frames.
 
-use clap::ValueEnum;
+use std::path::PathBuf;
+
+use clap::Args;
 use serde::Serialize;
 
 use super::{
-    BenchArgs, calibration::show_bands, confusions::Pictures, systems::SystemsTable, write_json,
+    FrameChoice, calibration::show_bands, confusions::Pictures, systems::SystemsTable, write_json,
 };
 use crate::cli::{
     Outcome,
     console::{Advised as _, Console, Table},
-    recipe::show_recipe,
+    input::{Choice, choice},
+    recipe::{RecipeSource, show_recipe},
 };
 use bench::{
     suites::{
@@ -25,63 +28,36 @@ use inspection::{
     pipeline::{Recipe, RecipeBlock, parameters::changed_settings},
 };
 
-/// The suites by name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum SuiteChoice {
-    /// All of them
-    All,
-    /// Enrolled parts hung with care: up to 10 degrees off, 1.0 to 1.4 m away
-    Standard,
-    /// Enrolled parts hung anyhow: up to 30 degrees off, any roll, 0.9 to 1.8 m away
-    Placed,
-    /// The same parts of other car models
-    OtherModels,
-    /// Up to 45 degrees off, clutter, three times the noise, 10 to 25 % hidden or out of the picture
-    Hard,
-    /// Things that nobody enrolled, and empty cells
-    Unknown,
-    /// Right-hand parts where only the left-hand ones are enrolled
-    Mirrored,
-    /// Parts of both sides, both enrolled
-    BothSides,
-    /// Enrolled parts that stand or lean on the floor, up to 30 degrees off
-    Floor,
-    /// Enrolled parts on a stand in a paint booth, seen from the robot's flange; most of them cut by the picture
-    Booth,
-    /// Things that nobody enrolled on a stand in the booth, and stands without a part
-    BoothUnknown,
-    /// The same parts of cars of other makes, 6 to 12 % off in every dimension
-    OtherMakes,
-    /// The same with three times the noise
-    NoisyMakes,
-    /// Racks of 2 to 5 places: enrolled parts apart, on a bar, touching, overlapping, two equal ones, left and right of one kind, with an unknown object, with an empty place
-    Rack,
-}
+/// The suites of racks.
+const RACKS: [Suite; 8] = [
+    Suite::RackApart,
+    Suite::RackOnBar,
+    Suite::RackTouching,
+    Suite::RackOverlapping,
+    Suite::RackEqual,
+    Suite::RackMirrored,
+    Suite::RackForeign,
+    Suite::RackEmpty,
+];
 
-impl SuiteChoice {
-    fn suites(self) -> Vec<Suite> {
-        let one = match self {
-            Self::All => return Suite::ALL.to_vec(),
-            Self::Standard => Suite::Standard,
-            Self::Placed => Suite::Placed,
-            Self::OtherModels => Suite::OtherModels,
-            Self::Hard => Suite::Hard,
-            Self::Unknown => Suite::Unknown,
-            Self::Mirrored => Suite::Mirrored,
-            Self::BothSides => Suite::BothSides,
-            Self::Floor => Suite::Floor,
-            Self::Booth => Suite::Booth,
-            Self::BoothUnknown => Suite::BoothUnknown,
-            Self::OtherMakes => Suite::OtherMakes,
-            Self::NoisyMakes => Suite::NoisyMakes,
-            Self::Rack => {
-                let racks = Suite::ALL.into_iter();
-                return racks.filter(|suite| suite.rack().is_some()).collect();
-            }
-        };
-        vec![one]
-    }
-}
+/// The suites by name.
+#[rustfmt::skip]
+pub(super) const SUITES: [Choice<&[Suite]>; 14] = [
+    ("all", "All of them", &Suite::ALL),
+    ("standard", "Enrolled parts hung with care: up to 10 degrees off, 1.0 to 1.4 m away", &[Suite::Standard]),
+    ("placed", "Enrolled parts hung anyhow: up to 30 degrees off, any roll, 0.9 to 1.8 m away", &[Suite::Placed]),
+    ("other-models", "The same parts of other car models", &[Suite::OtherModels]),
+    ("hard", "Up to 45 degrees off, clutter, three times the noise, 10 to 25 % hidden or out of the picture", &[Suite::Hard]),
+    ("unknown", "Things that nobody enrolled, and empty cells", &[Suite::Unknown]),
+    ("mirrored", "Right-hand parts where only the left-hand ones are enrolled", &[Suite::Mirrored]),
+    ("both-sides", "Parts of both sides, both enrolled", &[Suite::BothSides]),
+    ("floor", "Enrolled parts that stand or lean on the floor, up to 30 degrees off", &[Suite::Floor]),
+    ("booth", "Enrolled parts on a stand in a paint booth, seen from the robot's flange; most of them cut by the picture", &[Suite::Booth]),
+    ("booth-unknown", "Things that nobody enrolled on a stand in the booth, and stands without a part", &[Suite::BoothUnknown]),
+    ("other-makes", "The same parts of cars of other makes, 6 to 12 % off in every dimension", &[Suite::OtherMakes]),
+    ("noisy-makes", "The same with three times the noise", &[Suite::NoisyMakes]),
+    ("rack", "Racks of 2 to 5 places: enrolled parts apart, on a bar, touching, overlapping, two equal ones, left and right of one kind, with an unknown object, with an empty place", &RACKS),
+];
 
 /// Default number of poses per subject.
 const NUM_POSES: u64 = 10;
@@ -110,8 +86,25 @@ struct RecognitionFile<'a> {
     table1: Option<&'a SystemsTable>,
 }
 
-pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
-    let frames = Frames::of(args, &Suite::ALL, NUM_POSES);
+#[derive(Debug, Args)]
+pub(super) struct RecognitionArgs {
+    #[command(flatten)]
+    frames: FrameChoice,
+    /// These sets of frames; may be given several times
+    #[arg(long, value_parser = choice(&SUITES), value_name = "NAME")]
+    suite: Vec<&'static [Suite]>,
+    /// Leave out the other systems of the paper's Table I, which take most of the time
+    #[arg(long)]
+    only_ours: bool,
+    /// Draw into this folder what went wrong, the first of each subject, and of each part the frame in which another came nearest
+    #[arg(long, value_name = "DIR")]
+    pictures: Option<PathBuf>,
+    #[command(flatten)]
+    recipe: RecipeSource,
+}
+
+pub(super) fn run(args: &RecognitionArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    let frames = Frames::of(&args.frames, &args.suite, &Suite::ALL, NUM_POSES);
     let recipe = args.recipe.recipe_or_built_in()?;
     let libraries = SuiteLibraries::enrol(&EnrolParams::default()).advised()?;
     let systems = if args.only_ours {
@@ -164,7 +157,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
         console.line(&"");
         table1.show(console);
     }
-    if let Some(path) = &args.json {
+    if let Some(path) = &args.frames.file.json {
         let file = RecognitionFile {
             schema: 2,
             simulated: true,
@@ -191,19 +184,24 @@ pub(super) struct Frames {
 }
 
 impl Frames {
-    /// Selects the suites of the arguments, or these if the arguments name none.
-    pub(super) fn of(args: &BenchArgs, suites: &[Suite], num_poses: u64) -> Self {
-        let mut asked_for: Vec<Suite> = Vec::new();
-        for suite in args.suite.iter().flat_map(|choice| choice.suites()) {
-            if !asked_for.contains(&suite) {
-                asked_for.push(suite);
+    /// Selects the suites asked for, or these if there are none.
+    pub(super) fn of(
+        choice: &FrameChoice,
+        asked_for: &[&[Suite]],
+        suites: &[Suite],
+        num_poses: u64,
+    ) -> Self {
+        let mut chosen: Vec<Suite> = Vec::new();
+        for suite in asked_for.concat() {
+            if !chosen.contains(&suite) {
+                chosen.push(suite);
             }
         }
-        if asked_for.is_empty() {
-            asked_for.extend(suites);
+        if chosen.is_empty() {
+            chosen.extend(suites);
         }
-        let first_seed = args.seed.unwrap_or(MEASURING_SEED);
-        Self::from_seed(&asked_for, args.poses.unwrap_or(num_poses), first_seed)
+        let first_seed = choice.seed.unwrap_or(MEASURING_SEED);
+        Self::from_seed(&chosen, choice.poses.unwrap_or(num_poses), first_seed)
     }
 
     /// Creates the frames of these suites from a seed on.

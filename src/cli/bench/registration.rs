@@ -1,11 +1,15 @@
 //! `partsight bench registration`: poses of clouds that share no point.
 
+use std::path::PathBuf;
+
+use clap::Args;
 use serde::Serialize;
 
-use super::{BenchArgs, NUM_POSES, bounds::opened, write_json};
+use super::{FrameChoice, NUM_POSES, bounds::opened, write_json};
 use crate::cli::{
     Outcome,
     console::{Console, Table},
+    input::{Choice, choice},
 };
 use bench::{
     registration::{
@@ -73,7 +77,31 @@ fn studies(chosen: &[Condition]) -> Vec<Experiment> {
     studies
 }
 
-pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+#[derive(Debug, Args)]
+pub(super) struct RegistrationArgs {
+    #[command(flatten)]
+    frames: FrameChoice,
+    /// Take this mesh instead of the simulated parts, with its outside towards the camera; may be given several times
+    #[arg(long, value_name = "FILE#NAME")]
+    mesh: Vec<PathBuf>,
+    /// Only sources of this kind; may be given several times
+    #[arg(long, value_parser = choice(&CONDITIONS), value_name = "NAME")]
+    condition: Vec<Condition>,
+}
+
+#[rustfmt::skip]
+const CONDITIONS: [Choice<Condition>; 8] = [
+    ("whole", "The whole part", Condition::Whole),
+    ("view", "One view with a Kinect's noise", Condition::View),
+    ("hidden", "30 % hidden", Condition::Hidden),
+    ("noisy", "Three times the noise", Condition::Noisy),
+    ("stray", "One point in ten anywhere", Condition::Stray),
+    ("starts", "From T1..T5 and random starts, with every method", Condition::Starts),
+    ("resampled", "Both clouds sampled at random, few or many points", Condition::Resampled),
+    ("outside", "Seen from outside, sampled likewise", Condition::Outside),
+];
+
+pub(super) fn run(args: &RegistrationArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     let studies = studies(&args.condition);
     let parts = if args.mesh.is_empty() {
         RegistrationPart::simulated()
@@ -84,7 +112,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
             .map(|opened| opened.map(part))
             .collect::<anyhow::Result<_>>()?
     };
-    let num_sources = args.poses.unwrap_or(NUM_POSES) as usize;
+    let num_sources = args.frames.poses.unwrap_or(NUM_POSES) as usize;
     let num_methods: usize = studies.iter().map(|study| study.methods.len()).sum();
     console.start_progress(num_methods * num_sources * parts.len());
     let mut done = Vec::new();
@@ -94,7 +122,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
             parts: parts.clone(),
             condition: study.condition,
             num_sources,
-            seed: args.seed.unwrap_or(MEASURING_SEED),
+            seed: args.frames.seed.unwrap_or(MEASURING_SEED),
             methods: study.methods.clone(),
         };
         let registration = register_all(&setup, || console.done());
@@ -106,7 +134,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
         parts.len()
     ));
     show(&done, &parts, console);
-    if let Some(path) = &args.json {
+    if let Some(path) = &args.frames.file.json {
         let file = RegistrationFile {
             schema: 1,
             simulated: true,

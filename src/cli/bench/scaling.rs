@@ -1,8 +1,11 @@
 //! `partsight bench scaling`: serial and parallel ranking, the paper's Fig. 7(a) and (b).
 
-use anyhow::Context as _;
+use std::path::PathBuf;
 
-use super::{BenchArgs, name_of, write_results};
+use anyhow::Context as _;
+use clap::Args;
+
+use super::{JsonFile, name_of, write_results};
 use crate::cli::{
     Outcome,
     console::{Advised as _, Console, Table},
@@ -12,7 +15,19 @@ use inspection::pipeline::Unwatched;
 use records::report::{SizeCurve, curves_picture, stacked, write_png};
 use stages::rank::{Matcher, RankParams};
 
-pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+#[derive(Debug, Args)]
+pub(super) struct ScalingArgs {
+    #[command(flatten)]
+    file: JsonFile,
+    /// Draw the figures into this file
+    #[arg(long, value_name = "PNG")]
+    plot: Option<PathBuf>,
+    /// Maximum number of references; ten thousand take less than 3 GB
+    #[arg(long, value_name = "N", default_value_t = bench::scaling::MOST as u64, value_parser = clap::value_parser!(u64).range(8..=100_000))]
+    most: u64,
+}
+
+pub(super) fn run(args: &ScalingArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     let most = args.most as usize;
     let matchers = [Matcher::Default, Matcher::Paper];
     console.start_progress(matchers.len() * sizes(most).len());
@@ -34,7 +49,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
             .advised()
             .with_context(|| format!("{} was not written", path.display()))?;
     }
-    if let Some(path) = &args.json {
+    if let Some(path) = &args.file.json {
         write_results(path, "scalings", &scalings)?;
     }
     Ok(Outcome::Accepted)

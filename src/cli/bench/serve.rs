@@ -20,7 +20,7 @@ use self::{
     client::{Client, busy_rate},
     service::{Inspections, ServedProtocol, Service},
 };
-use super::{BenchArgs, write_json};
+use super::{FrameChoice, write_json};
 use crate::cli::{
     Outcome,
     console::{Console, Table, advised_error},
@@ -115,7 +115,7 @@ impl Times {
     }
 }
 
-pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+pub(super) fn run(args: &FrameChoice, console: &mut Console) -> anyhow::Result<Outcome> {
     let frames = Suite::Placed.frames(
         args.poses.unwrap_or(NUM_POSES),
         args.seed.unwrap_or(MEASURING_SEED),
@@ -167,7 +167,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     check_triggers(&service, of_each * clients.len())?;
     show_status(&status, console);
     show_triggers(&direct, &triggers, console);
-    if let Some(path) = &args.json {
+    if let Some(path) = &args.file.json {
         let file = ServeFile {
             schema: 1,
             simulated: true,

@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use super::{BenchArgs, write_results};
+use clap::Args;
+
+use super::{JsonFile, write_results};
 use crate::cli::{
     Outcome,
     console::{Advised as _, Console, Table},
@@ -17,7 +19,19 @@ use inspection::library::{EnrolParams, enrol_standard_parts};
 /// Default number of undisturbed runs.
 const NUM_RUNS: u64 = 64;
 
-pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+#[derive(Debug, Args)]
+pub(super) struct ServoArgs {
+    /// Runs to camera poses; half as many more are disturbed, and an eighth as many go to the start of a path
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=10_000))]
+    runs: Option<u64>,
+    /// Seed of the first frame
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
+    seed: Option<u64>,
+    #[command(flatten)]
+    file: JsonFile,
+}
+
+pub(super) fn run(args: &ServoArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     let first_seed = args.seed.unwrap_or(MEASURING_SEED);
     let num_runs = args.runs.unwrap_or(NUM_RUNS) as usize;
     let library = enrol_standard_parts(&EnrolParams::default()).advised()?;
@@ -32,7 +46,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     }
     console.end_progress();
     show(&cases, console);
-    if let Some(path) = &args.json {
+    if let Some(path) = &args.file.json {
         write_results(path, "cases", &cases)?;
     }
     Ok(Outcome::Accepted)

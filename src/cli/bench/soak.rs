@@ -2,17 +2,19 @@
 //! memory, threads or handles keep growing.
 
 use std::{
+    path::PathBuf,
     sync::Arc,
     time::{Duration, Instant},
 };
 
 use anyhow::Context as _;
+use clap::Args;
 use jiff::{SignedDuration, Timestamp};
 use serde::Serialize;
 
-use super::{BenchArgs, write_json};
+use super::{JsonFile, write_json};
 use crate::cli::{
-    Outcome,
+    LibraryChoice, Outcome,
     console::{Advised as _, Console, Table, advised_error},
     record::{HistoryChoice, HistoryRecorder},
 };
@@ -239,7 +241,21 @@ fn record<'a>(
     }
 }
 
-pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+#[derive(Debug, Args)]
+pub(super) struct SoakArgs {
+    #[command(flatten)]
+    file: JsonFile,
+    /// Number of frames, at least 100000, so that every part hangs there and the history's cache fills in the first fifth, the warm-up. A library with few parts makes it quicker
+    #[arg(long, value_name = "N", default_value_t = 100_000, value_parser = clap::value_parser!(u64).range(100_000..=1_000_000_000))]
+    frames: u64,
+    /// Draw the figures into this file
+    #[arg(long, value_name = "PNG")]
+    plot: Option<PathBuf>,
+    #[command(flatten)]
+    library: LibraryChoice,
+}
+
+pub(super) fn run(args: &SoakArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     let recipe = NamedRecipe::default();
     let load = args
         .library
@@ -298,7 +314,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
             .advised()
             .with_context(|| format!("{} was not written", path.display()))?;
     }
-    if let Some(path) = &args.json {
+    if let Some(path) = &args.file.json {
         let file = SoakFile {
             schema: 1,
             simulated: true,

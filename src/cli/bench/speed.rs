@@ -4,13 +4,18 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
+use clap::Args;
 use serde::{Deserialize, Serialize};
 
-use super::{BenchArgs, recognition::Frames, write_json};
+use super::{
+    FrameChoice,
+    recognition::{Frames, SUITES},
+    write_json,
+};
 use crate::cli::{
-    Outcome,
+    LibraryChoice, Outcome,
     console::{Advised as _, Console, Table, advised_error},
-    input::open_scene,
+    input::{choice, open_scene},
 };
 use bench::{SetTimes, StageTimes, stage_times, suites::Suite};
 use files::read_limited;
@@ -38,12 +43,29 @@ const NUM_POSES: u64 = 25;
 /// Maximum size of an earlier measurement, bytes; they take some kilobytes.
 const MOST_BYTES: u64 = 1 << 20;
 
-pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+#[derive(Debug, Args)]
+pub(super) struct SpeedArgs {
+    #[command(flatten)]
+    frames: FrameChoice,
+    /// These sets of frames; may be given several times
+    #[arg(long, value_parser = choice(&SUITES), value_name = "NAME")]
+    suite: Vec<&'static [Suite]>,
+    /// Inspect these scenes with the library instead of simulated frames
+    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["suite", "poses", "seed"])]
+    files: Vec<PathBuf>,
+    /// Show how many times as long each set took as in this file, which --json wrote
+    #[arg(long, value_name = "JSON")]
+    compare: Option<PathBuf>,
+    #[command(flatten)]
+    library: LibraryChoice,
+}
+
+pub(super) fn run(args: &SpeedArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     // Fails before anything is measured.
     let earlier = args.compare.as_deref().map(read_earlier).transpose()?;
     let is_simulated = args.files.is_empty();
     let (sets, words) = if is_simulated {
-        let frames = Frames::of(args, &[Suite::Placed], NUM_POSES);
+        let frames = Frames::of(&args.frames, &args.suite, &[Suite::Placed], NUM_POSES);
         let results = frames.inspect(console)?.into_iter().map(|result| {
             let timings: Vec<Timings> = result
                 .cases
@@ -74,7 +96,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
         .collect();
     console.line(&"");
     show_sets(&sets, earlier.as_ref(), console);
-    if let Some(path) = &args.json {
+    if let Some(path) = &args.frames.file.json {
         let file = SpeedFile {
             schema: 2,
             simulated: is_simulated,
@@ -101,7 +123,7 @@ fn read_earlier(path: &Path) -> anyhow::Result<EarlierSpeed> {
 
 /// Times inspections of files with the selected library. A file that cannot be opened is an error: its time would be
 /// missing.
-fn inspect_files(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Vec<Timings>> {
+fn inspect_files(args: &SpeedArgs, console: &mut Console) -> anyhow::Result<Vec<Timings>> {
     let recipe = Recipe::default();
     let load = (args.library).load_some(&recipe.reference_params(), console)?;
     console.start_progress(args.files.len());

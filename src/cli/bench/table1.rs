@@ -1,13 +1,14 @@
 //! `partsight bench table1`: the right half of the paper's Table I.
 
-use std::fmt::Write as _;
+use std::{fmt::Write as _, path::PathBuf};
 
 use anyhow::Context as _;
+use clap::Args;
 use serde::Serialize;
 
-use super::{BenchArgs, write_json};
+use super::{JsonFile, write_json};
 use crate::cli::{
-    Outcome,
+    LibraryChoice, Outcome,
     console::{Advised as _, Console, Table, advised_error},
 };
 use bench::table1::{Attempt, Row, table1};
@@ -45,7 +46,21 @@ struct AttemptLine {
     reason: Option<String>,
 }
 
-pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+#[derive(Debug, Args)]
+pub(super) struct Table1Args {
+    #[command(flatten)]
+    file: JsonFile,
+    /// Write every attempt to this file as comma-separated values
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+    /// Only this part; may be given several times
+    #[arg(long, value_name = "NAME")]
+    part: Vec<String>,
+    #[command(flatten)]
+    library: LibraryChoice,
+}
+
+pub(super) fn run(args: &Table1Args, console: &mut Console) -> anyhow::Result<Outcome> {
     let mut library = args
         .library
         .load_some(&ReferenceParams::default(), console)?
@@ -56,7 +71,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     console.end_progress();
     show(&rows, console);
     let lines = || rows.iter().flat_map(attempt_lines);
-    if let Some(path) = &args.json {
+    if let Some(path) = &args.file.json {
         let file = Table1File {
             schema: 1,
             transforms: DISPLACEMENTS,

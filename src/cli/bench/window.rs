@@ -1,6 +1,6 @@
 //! `partsight bench window`: processor time of a frame of the window.
 
-use super::{BenchArgs, write_results};
+use super::{JsonFile, write_results};
 use crate::cli::{
     Outcome,
     console::{Advised as _, Console, Table},
@@ -11,7 +11,7 @@ use app::{WindowOptions, headless::window_cost};
 const NUM_FRAMES: usize = 120;
 
 /// Times frames of the window's first result, without a display.
-pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+pub(super) fn run(args: &JsonFile, console: &mut Console) -> anyhow::Result<Outcome> {
     let cost = window_cost(NUM_FRAMES, WindowOptions::default()).advised()?;
     let [width, height] = cost.size;
     console.line(&format_args!(

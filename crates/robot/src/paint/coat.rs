@@ -16,6 +16,7 @@ use inspection::{
     pipeline::parameters::{Kind, Parameters as _},
 };
 
+pub(super) use self::table::{BETA_RANGE, TRANSFER_RANGE_PERCENT, WIDTH_RANGE_MM};
 pub use self::{
     folder::{BUILT_IN_COATS, CoatError, CoatFolder, built_in_coat},
     table::CoatGroup,

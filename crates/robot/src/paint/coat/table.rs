@@ -7,11 +7,11 @@ use inspection::{
 };
 
 /// Range of β.
-pub(in crate::paint) const BETA_RANGE: [f64; 2] = [1.0, 10.0];
+pub(crate) const BETA_RANGE: [f64; 2] = [1.0, 10.0];
 /// Range of the pattern's width, millimetres.
-pub(in crate::paint) const WIDTH_RANGE_MM: [f64; 2] = [10.0, 1000.0];
+pub(crate) const WIDTH_RANGE_MM: [f64; 2] = [10.0, 1000.0];
 /// Range of the transfer efficiency, per cent.
-pub(in crate::paint) const TRANSFER_RANGE_PERCENT: [f64; 2] = [1.0, 100.0];
+pub(crate) const TRANSFER_RANGE_PERCENT: [f64; 2] = [1.0, 100.0];
 
 /// Group of a coat's parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
