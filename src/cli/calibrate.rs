@@ -260,6 +260,14 @@ pub(super) struct CalibrationChoice {
     robot_pose: Option<WrittenPose>,
 }
 
+/// The error of what needs a calibration that there is not.
+pub(super) fn no_calibration(needed_by: &str) -> anyhow::Error {
+    advised_error(
+        format!("{needed_by} needs to know where the camera sits in the robot's cell"),
+        "Name a calibration with --calibration, or make one: partsight calibrate",
+    )
+}
+
 impl CalibrationChoice {
     /// Returns the robot's frame; `None` without a calibration. A named calibration must exist and be valid; the user's
     /// own is used if possible, with a warning otherwise.

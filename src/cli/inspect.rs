@@ -1,9 +1,8 @@
 //! `partsight inspect`: recognises the part and estimates its pose.
 
-mod program;
+mod carried_path;
 mod scan;
 mod session;
-mod spray;
 
 use std::{
     collections::VecDeque,
@@ -16,16 +15,16 @@ use clap::Args;
 use self::session::{InspectSession, Opened};
 use super::{
     LibraryChoice, Outcome,
-    calibrate::CalibrationChoice,
-    console::{Advised as _, Console, advised_error},
+    calibrate::{CalibrationChoice, no_calibration},
+    console::{Advised as _, Console},
     expect::ExpectChoice,
     follow::{follow, parse_source},
     input::{EmptyCellChoice, ImportChoice, Scenes, open_ahead, scene_of},
     output::{Columns, OutputFormat},
-    plant::{ChosenPublisher, HistoryToChoice, PublishArgs},
+    plant::{ChosenPublisher, PublishArgs},
     rack::RackFileChoice,
     recipe::RecipeChoice,
-    record::{HistoryChoice, HistoryRecorder},
+    record::RecordingChoice,
     scan::PosesChoice,
     trace::TraceChoice,
 };
@@ -106,9 +105,7 @@ pub(super) struct InspectArgs {
     #[command(flatten)]
     calibration: CalibrationChoice,
     #[command(flatten)]
-    spray: spray::SprayChoice,
-    #[command(flatten)]
-    program: program::ProgramChoice,
+    carried: carried_path::CarriedPathChoice,
     /// Write one line of JSON per file, and nothing else, to standard output
     #[arg(long)]
     json: bool,
@@ -118,21 +115,15 @@ pub(super) struct InspectArgs {
     #[command(flatten)]
     trace: TraceChoice,
     #[command(flatten)]
-    history: HistoryChoice,
-    /// Do not write to the history
-    #[arg(long, conflicts_with = "history")]
-    no_history: bool,
+    recording: RecordingChoice,
     #[command(flatten)]
     publish: PublishArgs,
-    #[command(flatten)]
-    history_to: HistoryToChoice,
 }
 
 pub(super) fn run(mut args: InspectArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     // Before anything that can fail.
-    args.program.remove_previous()?;
-    args.spray.remove_previous()?;
-    check_outputs(&args)?;
+    args.carried.remove_previous()?;
+    (args.carried).check(!args.scan.is_empty(), args.source.is_some())?;
     args.import.write_behind(&mut args.files);
     let args = &args;
     args.publish.check(args.source.as_ref())?;
@@ -140,32 +131,6 @@ pub(super) fn run(mut args: InspectArgs, console: &mut Console) -> anyhow::Resul
         return scan::inspect(args, console);
     }
     open_ahead(&args.files, |scenes| inspect(args, scenes, console))
-}
-
-/// Refuses combinations of options that write a file for a robot. The parser would refuse them before an earlier file is
-/// removed.
-fn check_outputs(args: &InspectArgs) -> anyhow::Result<()> {
-    let wanted = [
-        ("--program", args.program.is_wanted()),
-        ("--spray", args.spray.is_wanted()),
-    ];
-    let wanted = wanted.into_iter().filter(|(_, is_wanted)| *is_wanted);
-    let wanted: Vec<&str> = wanted.map(|(option, _)| option).collect();
-    match wanted[..] {
-        [option] if !args.scan.is_empty() => Err(advised_error(
-            format!("{option} takes a capture's file, not a scan"),
-            "Give one capture",
-        )),
-        [_, _] => Err(advised_error(
-            "--program and --spray cannot be used together",
-            "Run inspect once for each",
-        )),
-        _ if args.program.is_forced() && args.source.is_some() => Err(advised_error(
-            "--force takes a capture's file or a scan, not a source",
-            "Leave it out: what a source delivers is not old, and other doubts need another capture",
-        )),
-        _ => Ok(()),
-    }
 }
 
 fn inspect(
@@ -176,27 +141,17 @@ fn inspect(
     let recipe = args.recipe.recipe()?;
     let num_parts = args.source.is_none().then_some(args.files.len());
     let trace = args.trace.of_parts(num_parts)?;
-    let database = args.history_to.chosen(console)?;
+    let database = args.recording.database(console)?;
     let (place, load) = (args.library).load_placed(&recipe.reference_params(), console)?;
     let robot = args.calibration.frame(console)?;
     let recipe = args.rack.before(recipe, &load.library, robot.as_ref())?;
     let expected = (args.expect).of(&load.library, Some(&recipe.rack), &trace)?;
     let recipe = recipe.expecting(expected);
-    if args.program.is_forced() && robot.is_none() {
-        return Err(advised_error(
-            "--force needs to know where the camera sits in the robot's cell",
-            "Name a calibration with --calibration, or make one: partsight calibrate",
-        ));
+    if args.carried.is_forced() && robot.is_none() {
+        return Err(no_calibration("--force"));
     }
     let publisher = ChosenPublisher::new(&args.publish, &place, &load, robot.as_ref(), console)?;
-    let (files, frame) = (&args.files, robot.as_ref());
-    let (spray, program) = if args.program.is_wanted() {
-        (None, args.program.start(files, frame, place, &load)?)
-    } else {
-        let is_forced = args.program.is_forced();
-        let spray = (args.spray).start(files, frame, place, &load, is_forced)?;
-        (spray, None)
-    };
+    let carried = (args.carried).start(&args.files, robot.as_ref(), place, &load)?;
     let format = match (args.json, args.files.as_slice()) {
         (true, _) => OutputFormat::Json,
         (false, []) => OutputFormat::Rows(Columns::for_captures(&load.library)),
@@ -209,10 +164,7 @@ fn inspect(
     let publisher = publisher
         .map(|publisher| publisher.start(&load, &trace, console))
         .transpose()?;
-    let recording = (!args.no_history)
-        .then(|| HistoryRecorder::start(&args.history, &load, &trace, database, console))
-        .transpose()?
-        .flatten();
+    let recording = (args.recording).start(&load, &trace, database, console)?;
     format.head(console);
     let mut one = InspectSession {
         library: load.library,
@@ -224,9 +176,8 @@ fn inspect(
         },
         empty_cell,
         robot,
-        is_forced: args.program.is_forced(),
-        spray,
-        program,
+        is_forced: args.carried.is_forced(),
+        carried,
         format,
         report,
         recording,

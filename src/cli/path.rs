@@ -7,7 +7,11 @@ mod paint;
 
 use clap::{Args, Subcommand};
 
-use super::{LibraryChoice, Outcome, console::Console};
+use super::{
+    LibraryChoice, Outcome,
+    console::{Advised as _, Console, advised_error, store_a_path},
+};
+use inspection::library::{LibraryPlace, PartName, SprayPath};
 
 /// Plan a part's spray path, simulate its film, check it against an arm, and export it to a controller
 #[derive(Debug, Args)]
@@ -44,4 +48,15 @@ pub(super) fn run(args: &PathArgs, console: &mut Console) -> anyhow::Result<Outc
         PathCommand::Export(export) => export::run(&args.library, export, console),
         PathCommand::Fit(fit) => fit::run(fit, console),
     }
+}
+
+/// Returns the stored path of a part, which must have one.
+fn stored_path(place: &LibraryPlace, name: &PartName) -> anyhow::Result<SprayPath> {
+    let stored = place.spray_path(name.as_str()).advised()?;
+    stored.ok_or_else(|| no_path(name.as_str()))
+}
+
+/// The error of what needs the path of a part that has none.
+pub(super) fn no_path(part: &str) -> anyhow::Error {
+    advised_error(format!("{part} has no spray path"), store_a_path(part))
 }

@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Arg, ArgMatches, Args, Command, FromArgMatches, error::ErrorKind};
-use nalgebra::Point3;
 
 use super::{
     Outcome,
@@ -12,21 +11,13 @@ use super::{
     robot_file,
 };
 use geometry::{rigid::RigidTransform, units::any_of};
-use inspection::{
-    library::{PartName, Side, SprayPath},
-    pipeline::parameters::{DisplayUnit, Kind, Parameter, Parameters as _},
-};
+use inspection::pipeline::parameters::{DisplayUnit, Kind, Parameter, Parameters as _};
 use robot::{
-    RobotFrame, WrittenPose,
+    WrittenPose,
     arm::{Arm, Obstacles, PlacedArm, Rail},
     program::{ProgramGroup, ProgramParams, ProgramSettings, RobotLanguage},
-    spray::{CarriedPath, off_the_part},
 };
-use stages::reference::{Coverage, Reference};
-use station::{
-    Inspected,
-    robot_file::{RobotFile, RobotFileContent, file_of_part},
-};
+use station::robot_file::{RobotFile, RobotFileContent};
 
 /// Tool, gun and arm of a program; the command names its file `program`.
 #[derive(Debug, Args)]
@@ -180,41 +171,21 @@ pub(super) fn language_help() -> String {
     )
 }
 
-/// A program to write.
-#[derive(Clone)]
-pub(super) struct ProgramFile {
-    file: PathBuf,
+/// Language, tool and arm of a program to write.
+pub(super) struct ChosenProgram {
     language: &'static RobotLanguage,
     settings: ProgramSettings,
     arm: Option<PlacedArm>,
-    is_forced: bool,
-}
-
-/// The part and capture that a program is for.
-pub(super) struct ProgramSubject<'a> {
-    pub(super) part: &'a PartName,
-    pub(super) reference: &'a Reference,
-    pub(super) coverage: Coverage,
-    /// The side that it is painted from; `None` for its own.
-    pub(super) side: Option<Side>,
-    /// The stored path, in part space.
-    pub(super) path: &'a SprayPath,
-    /// The capture; `None` for the standard position.
-    pub(super) capture: Option<Inspected<'a>>,
-    /// What else hangs there, see [`RobotFile::beside`].
-    pub(super) beside: &'a [&'a [Point3<f32>]],
-    pub(super) camera_from_part: RigidTransform,
-    pub(super) is_simulated: bool,
 }
 
 impl ProgramOptions {
-    /// Prepares a program file in this format, or in that of the file's ending. The ending must not be that of another
+    /// Prepares a program in this format, or in that of the file's ending. The ending must not be that of another
     /// language.
     pub(super) fn open(
         &self,
         file: &Path,
         language: Option<&'static RobotLanguage>,
-    ) -> anyhow::Result<ProgramFile> {
+    ) -> anyhow::Result<ChosenProgram> {
         let language = match (language, RobotLanguage::from_file(file)) {
             (Some(language), Ok(other)) if language != other => {
                 return Err(advised_error(
@@ -238,8 +209,7 @@ impl ProgramOptions {
         let arm = arm.zip(nozzle);
         let arm = arm.map(|(arm, nozzle)| self.cell.place(arm, nozzle, &self.params.0));
         let arm = arm.transpose()?;
-        Ok(ProgramFile {
-            file: file.to_owned(),
+        Ok(ChosenProgram {
             language,
             settings: ProgramSettings {
                 tool: self.tool.clone(),
@@ -247,51 +217,23 @@ impl ProgramOptions {
                 params: self.params.0,
             },
             arm,
-            is_forced: self.force,
         })
     }
 }
 
-impl ProgramFile {
-    /// The program of one of several parts.
-    pub(super) fn of_part(&self, number: usize) -> Self {
-        Self {
-            file: file_of_part(&self.file, number),
-            ..self.clone()
+impl ChosenProgram {
+    /// What the file of the program contains.
+    pub(super) fn content(&self) -> RobotFileContent<'_> {
+        RobotFileContent::Program {
+            language: self.language,
+            settings: &self.settings,
+            arm: self.arm.as_ref(),
         }
     }
 
-    /// Writes the program of a carried path, unless there are doubts and `--force` is not set.
-    pub(super) fn write(
-        &self,
-        carried: &CarriedPath,
-        subject: &ProgramSubject<'_>,
-        frame: &RobotFrame,
-        console: &Console,
-    ) -> anyhow::Result<Outcome> {
-        let file = RobotFile {
-            file: &self.file,
-            content: RobotFileContent::Program {
-                language: self.language,
-                settings: &self.settings,
-                arm: self.arm.as_ref(),
-            },
-            carried,
-            frame,
-            part: subject.part.as_str(),
-            part_cloud: &subject.reference.cloud,
-            coverage: subject.coverage,
-            side: subject.side,
-            path: Some(subject.path),
-            off: off_the_part(subject.path, subject.reference),
-            capture: subject.capture,
-            beside: subject.beside,
-            camera_from_part: subject.camera_from_part,
-            is_stored: true,
-            is_simulated: subject.is_simulated,
-            is_forced: self.is_forced,
-        };
-        if robot_file::write(&file, console)?.is_none() {
+    /// Writes a file with this content, unless there are doubts and it is not forced.
+    pub(super) fn write(&self, file: &RobotFile<'_>, console: &Console) -> anyhow::Result<Outcome> {
+        if robot_file::write(file, console)?.is_none() {
             return Ok(Outcome::NotAccepted);
         }
         let base = self.arm.as_ref().map(|arm| arm.robot_from_base);

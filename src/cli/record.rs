@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::{
     console::Console,
-    plant::{ChosenDatabase, HistorySender},
+    plant::{ChosenDatabase, HistorySender, HistoryToChoice},
 };
 use inspection::library::LibraryLoad;
 use records::{
@@ -27,6 +27,39 @@ impl HistoryChoice {
     /// Returns the folder.
     pub(super) fn folder(&self) -> Result<PathBuf, HistoryError> {
         self.history.clone().map_or_else(users_folder, Ok)
+    }
+}
+
+/// Whether and where inspections are recorded.
+#[derive(Debug, Args)]
+pub(super) struct RecordingChoice {
+    #[command(flatten)]
+    history: HistoryChoice,
+    /// Do not write to the history
+    #[arg(long, conflicts_with = "history")]
+    no_history: bool,
+    #[command(flatten)]
+    history_to: HistoryToChoice,
+}
+
+impl RecordingChoice {
+    /// Returns the database that the history is sent to, if one is given.
+    pub(super) fn database(&self, console: &Console) -> anyhow::Result<Option<ChosenDatabase>> {
+        self.history_to.chosen(console)
+    }
+
+    /// Starts recording, as [`HistoryRecorder::start`] does; returns `None` if it is not wanted.
+    pub(super) fn start(
+        &self,
+        library: &LibraryLoad,
+        trace: &Traceability,
+        database: Option<ChosenDatabase>,
+        console: &Console,
+    ) -> anyhow::Result<Option<HistoryRecorder>> {
+        if self.no_history {
+            return Ok(None);
+        }
+        HistoryRecorder::start(&self.history, library, trace, database, console)
     }
 }
 

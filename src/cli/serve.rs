@@ -16,17 +16,17 @@ use clap::Args;
 use self::session::ServeSession;
 use super::{
     LibraryChoice, Outcome,
-    calibrate::CalibrationChoice,
-    console::{Advised as _, Console, advised_error, with_advice},
+    calibrate::{CalibrationChoice, no_calibration},
+    console::{Advised as _, Console, with_advice},
     expect::ExpectChoice,
     input::{EmptyCellChoice, within},
     interrupt::Interrupt,
     numbers::NumbersChoice,
     output::{Columns, OutputFormat},
-    plant::{ChosenServices, HistoryToChoice, HttpArgs, MqttChoice, TakeArgs, taken_version},
+    plant::{ChosenServices, HttpArgs, MqttChoice, TakeArgs, taken_version},
     rack::RackFileChoice,
     recipe::RecipeChoice,
-    record::{HistoryChoice, HistoryRecorder},
+    record::RecordingChoice,
     trace::TraceChoice,
 };
 use capture::{OpenNiSpec, Pace, RealsenseSpec, RecordingSpec, SourceSpec};
@@ -105,12 +105,7 @@ pub(super) struct ServeArgs {
     #[command(flatten)]
     trace: TraceChoice,
     #[command(flatten)]
-    history: HistoryChoice,
-    /// Do not write to the history
-    #[arg(long, conflicts_with = "history")]
-    no_history: bool,
-    #[command(flatten)]
-    history_to: HistoryToChoice,
+    recording: RecordingChoice,
     #[command(flatten)]
     mqtt: MqttChoice,
 }
@@ -172,13 +167,10 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
     let services = ChosenServices::new(&args.numbers, &args.http, &args.mqtt, &args.take)?;
     let recipe = args.recipe.recipe()?;
     let trace = args.trace.of_parts(None)?;
-    let database = args.history_to.chosen(console)?;
+    let database = args.recording.database(console)?;
     let (place, load) = (args.library).load_placed(&recipe.reference_params(), console)?;
     let Some(robot) = args.calibration.frame(console)? else {
-        return Err(advised_error(
-            "poses are given in the robot's base frame, but no calibration says where the camera sits",
-            "Make one with partsight calibrate, or name one with --calibration",
-        ));
+        return Err(no_calibration("serve"));
     };
     let recipe = (args.rack).before(recipe, &load.library, Some(&robot))?;
     let expected = (args.expect).of(&load.library, Some(&recipe.rack), &trace)?;
@@ -188,10 +180,7 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
     let camera = Arc::new(Camera::start(&args.source).advised()?);
     let interrupt = Interrupt::listen()?;
     let (mut server, events) = start(args, &listeners, &camera)?;
-    let recording = (!args.no_history)
-        .then(|| HistoryRecorder::start(&args.history, &load, &trace, database, console))
-        .transpose()?
-        .flatten();
+    let recording = (args.recording).start(&load, &trace, database, console)?;
     announce(&server, &listeners, &args.source, &parts, &load, console);
     if let Some(version) = taken_version(&place, console) {
         console.note(&format_args!("Library: {version}"));

@@ -5,7 +5,6 @@ use crate::cli::{
     Outcome,
     console::{Advised as _, Console},
     output::OutputFormat,
-    record::HistoryRecorder,
     scan::open_scan,
 };
 use inspection::pipeline::{
@@ -20,16 +19,13 @@ use station::{Inspected, Subject};
 pub(super) fn inspect(args: &InspectArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     let recipe = args.recipe.recipe()?;
     let trace = args.trace.of_parts(Some(1))?;
-    let database = args.history_to.chosen(console)?;
+    let database = args.recording.database(console)?;
     let load = (args.library).load_some(&recipe.reference_params(), console)?;
     let expected = (args.expect).of(&load.library, None, &trace)?;
     let recipe = recipe.expecting(expected);
     let (scan, captured_at) = open_scan(&args.scan, &args.poses, &recipe.segment, console)?;
     require_two_to_show_part(&scan).advised()?;
-    let recording = (!args.no_history)
-        .then(|| HistoryRecorder::start(&args.history, &load, &trace, database, console))
-        .transpose()?
-        .flatten();
+    let recording = (args.recording).start(&load, &trace, database, console)?;
     let ScanInspection {
         inspection,
         first: place,
@@ -56,7 +52,7 @@ pub(super) fn inspect(args: &InspectArgs, console: &mut Console) -> anyhow::Resu
         inspection: &inspection,
         recipe: &recipe,
         robot: Some(&robot),
-        is_forced: args.program.is_forced(),
+        is_forced: args.carried.is_forced(),
     };
     let title = format!(
         "{}, {used} of {frames} frames, as seen from {}",

@@ -10,7 +10,7 @@ use std::{
 
 use nalgebra::Point3;
 
-use super::{program, spray};
+use super::carried_path::CarriedPathFile;
 use crate::cli::{
     Outcome,
     console::{Advised as _, Console, marked_simulated},
@@ -47,8 +47,7 @@ pub(super) struct InspectSession {
     pub(super) robot: Option<RobotFrame>,
     /// True to give a robot's pose and file despite doubts.
     pub(super) is_forced: bool,
-    pub(super) spray: Option<spray::SprayFile>,
-    pub(super) program: Option<program::CapturedProgram>,
+    pub(super) carried: Option<CarriedPathFile>,
     pub(super) format: OutputFormat,
     pub(super) report: Option<ReportFolder>,
     pub(super) recording: Option<HistoryRecorder>,
@@ -397,8 +396,7 @@ impl InspectSession {
         frame: &InspectedFrame,
         console: &Console,
     ) -> anyhow::Result<Option<Outcome>> {
-        let (Some(robot), true) = (&self.robot, self.spray.is_some() || self.program.is_some())
-        else {
+        let (Some(robot), Some(carried)) = (&self.robot, &self.carried) else {
             return Ok(None);
         };
         let accepted = frame.parts.iter().filter(|part| part.verdict.is_accepted());
@@ -410,12 +408,8 @@ impl InspectSession {
             let others = (frame.parts.iter().enumerate()).filter(|(other, _)| *other != index);
             let beside: Vec<_> = others.filter_map(|(_, part)| part.readings()).collect();
             let (seen, library) = (self.record(frame, &frame.subject, part), &self.library);
-            if let Some(spray) = &self.spray {
-                outcome = outcome.max(spray.write(&seen, number, library, robot, console)?);
-            } else if let Some(program) = &self.program {
-                let written = program.write(&seen, &beside, number, library, robot, console)?;
-                outcome = outcome.max(written);
-            }
+            let written = carried.write(&seen, &beside, number, library, robot, console)?;
+            outcome = outcome.max(written);
         }
         Ok(Some(outcome))
     }
@@ -465,8 +459,7 @@ mod tests {
             scenes: CameraScenes::default(),
             robot: None,
             is_forced: false,
-            spray: None,
-            program: None,
+            carried: None,
             format: OutputFormat::Card,
             report: Some(ReportFolder::make(folder.path()).expect("made")),
             recording: None,

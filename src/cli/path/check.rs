@@ -7,10 +7,11 @@ use clap::Args;
 use nalgebra::Translation3;
 use serde_json::json;
 
+use super::stored_path;
 use crate::cli::{
     LibraryChoice, Outcome,
-    calibrate::CalibrationChoice,
-    console::{Advised as _, Console, advised_error, store_a_path},
+    calibrate::{CalibrationChoice, no_calibration},
+    console::{Advised as _, Console},
     input::parse_nozzle_pose,
     program::{CellChoice, ParamOptions},
     read_part,
@@ -61,18 +62,10 @@ pub(super) fn run(
     let name = &args.part;
     let arm = Arm::named(&args.arm).advised()?;
     let Some(frame) = args.calibration.frame(console)? else {
-        return Err(advised_error(
-            "the check needs to know where the camera sits in the robot's cell",
-            "Name a calibration with --calibration, or make one: partsight calibrate",
-        ));
+        return Err(no_calibration("the check"));
     };
     let place = choice.open(console)?;
-    let Some(path) = place.spray_path(name.as_str()).advised()? else {
-        return Err(advised_error(
-            format!("{name} has no spray path"),
-            store_a_path(name.as_str()),
-        ));
-    };
+    let path = stored_path(&place, name)?;
     let StoredPart {
         reference, meta, ..
     } = read_part(&place, name)?;

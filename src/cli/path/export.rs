@@ -6,18 +6,22 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::stored_path;
 use crate::cli::{
     LibraryChoice, Outcome,
-    calibrate::CalibrationChoice,
-    console::{Advised as _, Console, advised_error},
-    program::{ProgramOptions, ProgramSubject, language_help, parse_language},
+    calibrate::{CalibrationChoice, no_calibration},
+    console::{Advised as _, Console},
+    program::{ProgramOptions, language_help, parse_language},
     read_part,
 };
 use geometry::rigid::RigidTransform;
 use inspection::library::PartName;
-use robot::{program::RobotLanguage, spray::carry};
+use robot::{
+    program::RobotLanguage,
+    spray::{carry, off_the_part},
+};
 use stages::stand_off::StandOffParams;
-use station::robot_file::remove_previous;
+use station::robot_file::{RobotFile, remove_previous};
 
 /// Write the stored path of a part, hung as it was enrolled, as a program for the robot's controller
 #[derive(Debug, Args)]
@@ -45,34 +49,33 @@ pub(super) fn run(
     // Whatever happens next, no robot may run an earlier program for this one.
     remove_previous(&args.output).advised()?;
     let Some(frame) = args.calibration.frame(console)? else {
-        return Err(advised_error(
-            "a program needs to know where the camera sits in the robot's cell",
-            "Name a calibration with --calibration, or make one: partsight calibrate",
-        ));
+        return Err(no_calibration("a program"));
     };
-    let file = args.options.open(&args.output, args.language)?;
+    let program = args.options.open(&args.output, args.language)?;
     let place = choice.open(console)?;
-    let Some(path) = place.spray_path(name.as_str()).advised()? else {
-        return Err(advised_error(
-            format!("{name} has no spray path, so there is nothing to write a program from"),
-            format!("Plan one: partsight path plan {name} --coat primer --store"),
-        ));
-    };
+    let path = stored_path(&place, name)?;
     let part = read_part(&place, name)?;
     // In the standard position, part space is the camera frame.
     let standard = RigidTransform::identity();
     let params = StandOffParams::default();
     let carried = carry(&path, &standard, &part.reference.cloud, &params);
-    let subject = ProgramSubject {
-        part: name,
-        reference: &part.reference,
+    let file = RobotFile {
+        file: &args.output,
+        content: program.content(),
+        carried: &carried,
+        frame: &frame,
+        part: name.as_str(),
+        part_cloud: &part.reference.cloud,
         coverage: part.meta.coverage,
         side: part.meta.side,
-        path: &path,
+        path: Some(&path),
+        off: off_the_part(&path, &part.reference),
         capture: None,
         beside: &[],
         camera_from_part: standard,
+        is_stored: true,
         is_simulated: part.meta.simulated,
+        is_forced: args.options.force,
     };
-    file.write(&carried, &subject, &frame, console)
+    program.write(&file, console)
 }

@@ -7,9 +7,10 @@ use clap::Args;
 use nalgebra::Point3;
 use serde_json::json;
 
+use super::stored_path;
 use crate::cli::{
     LibraryChoice, Outcome,
-    console::{Advised as _, Console, advised_error},
+    console::{Advised as _, Console},
     input::parse_side,
     read_part,
     recipe::parse_setting,
@@ -192,14 +193,8 @@ pub(super) fn run_simulate(
     let coat = args.coat.open()?;
     let part = read_part(&choice.open(console)?, name)?;
     let path = match &args.path {
-        Some(file) => Some(SprayPath::read_for(file, name).advised()?),
-        None => choice.open(console)?.spray_path(name.as_str()).advised()?,
-    };
-    let Some(path) = path else {
-        return Err(advised_error(
-            format!("{name} has no spray path"),
-            format!("Plan one: partsight path plan {name} --coat primer --store"),
-        ));
+        Some(file) => SprayPath::read_for(file, name).advised()?,
+        None => stored_path(&choice.open(console)?, name)?,
     };
     let surface = surface_of(&part, args.side)?;
     let film = simulate(&surface, &path, &coat, &[]).advised()?;

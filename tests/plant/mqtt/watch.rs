@@ -157,7 +157,10 @@ fn options_that_would_be_passed_over_are_refused() {
             format!("{source} {mqtt} --calibration cell.toml"),
             "no convention is chosen",
         ),
-        (format!("{source} {mqtt} --as kuka"), "no calibration says"),
+        (
+            format!("{source} {mqtt} --as kuka"),
+            "where the camera sits",
+        ),
     ] {
         let args = format!("inspect --no-history {args}");
         let args: Vec<&str> = args.split(' ').collect();

@@ -7,6 +7,7 @@ use clap::Args;
 
 use super::mqtt::{ChosenBroker, MqttChoice, end_link, show_news};
 use crate::cli::{
+    calibrate::no_calibration,
     console::{Console, advised_error},
     numbers::NumbersChoice,
 };
@@ -67,10 +68,7 @@ impl ChosenPublisher {
             return Ok(None);
         };
         let Some(robot) = robot else {
-            return Err(advised_error(
-                "--mqtt publishes poses in the robot's base frame, but no calibration says where the camera sits",
-                "Make one with partsight calibrate, or name one with --calibration",
-            ));
+            return Err(no_calibration("--mqtt"));
         };
         let finder = PartFinder {
             parts: args.numbers.parts(place, load, console)?,
