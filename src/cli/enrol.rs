@@ -13,6 +13,7 @@ use super::{
     recipe::RecipeSource,
     scan::{PosesChoice, open_scan},
 };
+use capture::CaptureWarning;
 use files::{self, FileContent};
 use geometry::{cloud::Grid, error::Advice as _};
 use inspection::library::{
@@ -216,7 +217,8 @@ fn enrolled_from(
     }
     let file = args.file.as_deref().expect("required without --scan");
     let opened = files::open(file).advised()?;
-    warn_of(file, &opened.warnings(), console);
+    let warnings: Vec<CaptureWarning> = opened.warnings().into_iter().map(Into::into).collect();
+    warn_of(file, &warnings, console);
     let about = about(args, file, opened.is_simulated())?;
     let path = file.display();
     let captured = |scene: SceneCloud| {

@@ -13,9 +13,9 @@ use clap::{
 };
 
 use super::console::{Advised as _, Console, advised_error, with_advice};
-use capture::{Captured, Image};
+use capture::{CaptureError, CaptureWarning, Captured, read_image};
 use files::{
-    self, DepthCamera, FileContent, FileError, FileWarning,
+    self, DepthCamera, FileError, FileWarning,
     import::{ImportOptions, LengthUnit, UpAxis},
 };
 use geometry::{cloud::PointCloud, error::Advice};
@@ -30,10 +30,8 @@ use station::CameraScenes;
 pub(super) enum InputError {
     #[error(transparent)]
     File(#[from] FileError),
-    #[error("{path}: a mesh, expected a depth camera's capture")]
-    MeshIsNoScene { path: String },
-    #[error("{path}: {}", FileWarning::CaptureWithFaces)]
-    CaptureWithFaces { path: String },
+    #[error(transparent)]
+    Capture(#[from] CaptureError),
     #[error("{path}: the mesh has no area")]
     EmptyMesh { path: String },
 }
@@ -42,10 +40,10 @@ impl Advice for InputError {
     fn advice(&self) -> String {
         match self {
             Self::File(error) => error.advice(),
-            Self::MeshIsNoScene { path } => {
-                format!("Enrol it as a reference: partsight enrol {path} --name NAME")
+            Self::Capture(CaptureError::CaptureWithFaces { .. }) => {
+                FileAdvice(&FileWarning::CaptureWithFaces.into()).advice()
             }
-            Self::CaptureWithFaces { .. } => FileAdvice(&FileWarning::CaptureWithFaces).advice(),
+            Self::Capture(error) => error.advice(),
             Self::EmptyMesh { .. } => "Export the mesh again with its faces".into(),
         }
     }
@@ -96,11 +94,14 @@ impl ImportChoice {
 }
 
 /// Advice on a file for the command line, which names the option to use.
-struct FileAdvice<'a>(&'a FileWarning);
+struct FileAdvice<'a>(&'a CaptureWarning);
 
 impl Advice for FileAdvice<'_> {
     fn advice(&self) -> String {
-        match self.0 {
+        let CaptureWarning::File(warning) = self.0 else {
+            return self.0.advice();
+        };
+        match warning {
             FileWarning::TooWideForMetres { extent } if extent.0 < files::ONLY_MILLIMETRES => format!(
                 "Give the unit that makes its size right: --units mm ({:.1} m), cm ({:.1} m) or in ({:.1} m), or \
                  #units=mm after its path",
@@ -123,7 +124,7 @@ impl Advice for FileAdvice<'_> {
 }
 
 /// Shows the warnings about a file, and about the camera of a depth image.
-pub(super) fn warn_of(path: &Path, warnings: &[FileWarning], console: &Console) {
+pub(super) fn warn_of(path: &Path, warnings: &[CaptureWarning], console: &Console) {
     for warning in warnings {
         console.warn(
             &format_args!("{}: {warning}", path.display()),
@@ -136,7 +137,7 @@ pub(super) fn warn_of(path: &Path, warnings: &[FileWarning], console: &Console) 
 }
 
 /// A captured scene and the warnings about its file.
-pub(super) type OpenedScene = Result<(SceneCloud, Vec<FileWarning>), InputError>;
+pub(super) type OpenedScene = Result<(SceneCloud, Vec<CaptureWarning>), InputError>;
 
 /// Scenes as they are opened, with the paths of their files.
 pub(super) type Scenes<'a> = mpsc::IntoIter<(&'a Path, OpenedScene)>;
@@ -160,26 +161,8 @@ pub(super) fn open_ahead<T>(files: &[PathBuf], work: impl FnOnce(Scenes<'_>) -> 
 
 /// Opens a captured scene.
 pub(super) fn open_scene(path: &Path) -> OpenedScene {
-    let opened = match files::open(path) {
-        Ok(opened) => opened,
-        // The camera is covered or sees nothing: the file is valid, but contains no part.
-        Err(FileError::NoPoints { .. }) => return Ok((SceneCloud::default(), Vec::new())),
-        Err(error) => return Err(error.into()),
-    };
-    let warnings = opened.warnings_as_capture();
-    let scene = match opened {
-        FileContent::Cloud(cloud) => scene_from_image(Image::Cloud(cloud)),
-        FileContent::Depth(frame) => scene_from_image(Image::Depth(frame)),
-        FileContent::Mesh(_) => {
-            let path = path.display().to_string();
-            return Err(if warnings.contains(&FileWarning::CaptureWithFaces) {
-                InputError::CaptureWithFaces { path }
-            } else {
-                InputError::MeshIsNoScene { path }
-            });
-        }
-    };
-    Ok((scene, warnings))
+    let (image, warnings) = read_image(path)?;
+    Ok((scene_from_image(image), warnings))
 }
 
 /// Parses the name of a part or a recipe for clap: the error for a bad one states the rule.
@@ -277,9 +260,9 @@ pub(super) fn open_case_folder(path: &Path) -> anyhow::Result<CaseFolder> {
 }
 
 /// Opens any file with points; a mesh is sampled evenly.
-pub(super) fn open_cloud(path: &Path) -> Result<(PointCloud, Vec<FileWarning>), InputError> {
+pub(super) fn open_cloud(path: &Path) -> Result<(PointCloud, Vec<CaptureWarning>), InputError> {
     let opened = files::open(path)?;
-    let warnings = opened.warnings();
+    let warnings = opened.warnings().into_iter().map(Into::into).collect();
     let cloud = cloud_of(opened).ok_or_else(|| InputError::EmptyMesh {
         path: path.display().to_string(),
     })?;

@@ -36,6 +36,12 @@ pub enum CaptureError {
         /// The file.
         path: PathBuf,
     },
+    /// The file is the capture of a camera that does not look along z, saved with faces.
+    #[error("{}: {}", path.display(), FileWarning::CaptureWithFaces)]
+    CaptureWithFaces {
+        /// The file.
+        path: PathBuf,
+    },
     /// A camera, its library or a file recorded by it failed.
     #[error(transparent)]
     Camera(#[from] CameraError),
@@ -113,6 +119,7 @@ impl CaptureError {
             Self::FolderGone { .. }
             | Self::File(_)
             | Self::MeshIsNoCapture { .. }
+            | Self::CaptureWithFaces { .. }
             | Self::NoFrames { .. }
             | Self::DamagedRecording { .. }
             | Self::FolderInUse { .. }
@@ -143,10 +150,11 @@ impl Advice for CaptureError {
             Self::File(error) => error.advice(),
             Self::MeshIsNoCapture { path } => {
                 format!(
-                    "Enrol it as a reference: partsight enrol {}",
+                    "Enrol it as a reference: partsight enrol {} --name NAME",
                     path.display()
                 )
             }
+            Self::CaptureWithFaces { .. } => FileWarning::CaptureWithFaces.advice(),
             Self::Camera(error) => error.advice(),
             Self::NoFrames { .. } => {
                 "Give the folder that holds the frames, or record a source into one first".into()

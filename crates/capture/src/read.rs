@@ -6,7 +6,7 @@ use super::{
     error::{CaptureError, CaptureWarning},
     source::Image,
 };
-use files::{self, FileContent, FileError, file_name};
+use files::{self, FileContent, FileError, FileWarning, file_name};
 use geometry::cloud::PointCloud;
 
 /// A file ending of scenes that is also common for logs and settings beside them.
@@ -39,18 +39,18 @@ pub(super) fn image_of(
         }
         Err(error) => return Err(error.into()),
     };
-    let warnings = opened
-        .warnings_as_capture()
-        .into_iter()
-        .map(CaptureWarning::File);
-    let warnings = warnings.collect();
+    let warnings = opened.warnings_as_capture();
     let image = match opened {
         FileContent::Cloud(cloud) => Image::Cloud(cloud),
         FileContent::Depth(frame) => Image::Depth(frame),
         FileContent::Mesh(_) => {
             let path = path.to_owned();
-            return Err(CaptureError::MeshIsNoCapture { path });
+            return Err(if warnings.contains(&FileWarning::CaptureWithFaces) {
+                CaptureError::CaptureWithFaces { path }
+            } else {
+                CaptureError::MeshIsNoCapture { path }
+            });
         }
     };
-    Ok((image, warnings))
+    Ok((image, warnings.into_iter().map(Into::into).collect()))
 }

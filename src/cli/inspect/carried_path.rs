@@ -244,7 +244,7 @@ fn start_in_front(
     params: &StandOffParams,
 ) -> anyhow::Result<SprayPath> {
     if let Some(other) = inspection.other_reference() {
-        let part = &reference.part;
+        let part = &reference.name;
         return Err(advised_error(
             format!(
                 "{other}, one more reference of {part}, has no spray path: that of {part} is in other coordinates"

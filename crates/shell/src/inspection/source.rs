@@ -7,8 +7,10 @@ use super::{
     scan_choice::{ScanFiles, ScanOrder},
 };
 use crate::language::results::{object, scene_title};
-use capture::{self, CaptureWarning, CellScene, Image, SimulatedSpec, SourceSpec};
-use files::{self, FileContent, FileError, FileWarning, written_at};
+use capture::{
+    self, CaptureError, CaptureWarning, CellScene, SimulatedSpec, SourceSpec, read_image,
+};
+use files::{self, written_at};
 use geometry::error::Advice;
 use records::history::{FrameError, FrameRecord, SceneTitle, read_frame};
 use simulate::{
@@ -300,39 +302,26 @@ pub struct Captured {
 /// Why a source delivered no scene.
 #[derive(Debug, thiserror::Error)]
 pub enum SceneError {
-    /// The file cannot be read.
+    /// The file cannot be read as a capture.
     #[error(transparent)]
-    File(#[from] FileError),
+    File(#[from] CaptureError),
     /// The camera delivered no frame.
     #[error(transparent)]
     Camera(#[from] NoFrame),
     /// The frame in the history cannot be read.
     #[error(transparent)]
     Kept(#[from] FrameError),
-    /// The file is a mesh, not a scene of a camera.
-    #[error("{}: a mesh, expected a depth camera's capture", path.display())]
-    MeshIsNoScene {
-        /// Path of the file.
-        path: PathBuf,
-    },
-    /// The file is the capture of a camera that does not look along z, saved with faces.
-    #[error("{}: {}", path.display(), FileWarning::CaptureWithFaces)]
-    CaptureWithFaces {
-        /// Path of the file.
-        path: PathBuf,
-    },
 }
 
 impl Advice for SceneError {
     fn advice(&self) -> String {
         match self {
+            Self::File(CaptureError::MeshIsNoCapture { .. }) => {
+                "Open it in the Enrol workspace (2) to enrol it as a reference".into()
+            }
             Self::File(error) => error.advice(),
             Self::Camera(error) => error.advice(),
             Self::Kept(error) => error.advice(),
-            Self::MeshIsNoScene { .. } => {
-                "Open it in the Enrol workspace (2) to enrol it as a reference".into()
-            }
-            Self::CaptureWithFaces { .. } => FileWarning::CaptureWithFaces.advice(),
         }
     }
 }
@@ -379,27 +368,15 @@ impl SceneSource {
                 })
             }
             Self::File(path) => {
-                let opened = files::open(path)?;
-                let warnings = opened.warnings_as_capture();
-                let scene = match opened {
-                    FileContent::Cloud(cloud) => scene_from_image(Image::Cloud(cloud)),
-                    FileContent::Depth(frame) => scene_from_image(Image::Depth(frame)),
-                    FileContent::Mesh(_) => {
-                        let path = path.clone();
-                        return Err(if warnings.contains(&FileWarning::CaptureWithFaces) {
-                            SceneError::CaptureWithFaces { path }
-                        } else {
-                            SceneError::MeshIsNoScene { path }
-                        });
-                    }
-                };
+                let (image, warnings) = read_image(path)?;
+                let scene = scene_from_image(image);
                 Ok(Captured {
                     origin: Origin::File {
                         path: path.clone(),
                         is_simulated: scene.cloud.is_simulated,
                     },
                     scene: Arc::new(scene),
-                    warnings: warnings.into_iter().map(Into::into).collect(),
+                    warnings,
                 })
             }
             Self::Camera(spec) => {
@@ -470,6 +447,16 @@ mod tests {
         assert_eq!(kind(1), PartKind::FrontDoor);
         let seen: std::collections::BTreeSet<_> = (1..=8).map(kind).collect();
         assert_eq!(seen.len(), 8);
+    }
+
+    #[test]
+    fn a_file_without_any_reading_is_a_scene_without_points() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("covered.xyz");
+        std::fs::write(&path, "nan nan nan\n").expect("written");
+        let source = SceneSource::File(path);
+        let captured = source.take(&Camera::default(), &|| false);
+        assert!(captured.expect("read").scene.cloud.points.is_empty());
     }
 
     #[test]

@@ -9,6 +9,7 @@ use super::{
     scanned::ScannedMatter,
     segments::{PointAction, SegmentKind, SegmentTitle, Segments},
 };
+use capture::CaptureError;
 use files::{self, FileContent, FileWarning};
 use geometry::{cloud::PointCloud, mesh::TriangleMesh};
 use inspection::library::{EnrolError, EnrolParams};
@@ -89,7 +90,7 @@ impl EnrolInput {
             let (scene, origin) = (captured.scene, captured.origin);
             return Ok(Ok(Self::of_scene(scene, origin, usual, params)));
         };
-        let opened = files::open(path)?;
+        let opened = files::open(path).map_err(CaptureError::from)?;
         let warnings = opened.warnings();
         let origin = Origin::File {
             path: path.clone(),
