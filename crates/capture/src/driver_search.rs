@@ -83,15 +83,18 @@ fn is_absent(name: &str, reason: &str) -> bool {
     cfg!(windows) || (reason.contains(name) && reason.to_lowercase().contains("no such file"))
 }
 
-/// Defines `Functions`, a library's functions with their types as in its header, and loads them.
+/// Defines `Functions`, a library's functions with their types as in its header, and loads them. The library may lack those
+/// after a `?`.
 macro_rules! driver_functions {
     (
         $(#[$attribute:meta])*
         $($name:ident: fn($($argument:ty),*) $(-> $result:ty)?;)*
+        $(? $optional:ident: fn($($of_optional:ty),*) $(-> $optional_result:ty)?;)*
     ) => {
         $(#[$attribute])*
         pub(super) struct Functions {
             $($name: unsafe extern "C" fn($($argument),*) $(-> $result)?,)*
+            $($optional: Option<unsafe extern "C" fn($($of_optional),*) $(-> $optional_result)?>,)*
         }
 
         impl Functions {
@@ -124,6 +127,10 @@ macro_rules! driver_functions {
                     // SAFETY: the types are those of the header, and the library is never unloaded.
                     $($name: *unsafe { library.get(stringify!($name).as_bytes()) }
                         .or(Err(stringify!($name)))?,)*
+                    // SAFETY: as above.
+                    $($optional: unsafe { library.get(stringify!($optional).as_bytes()) }
+                        .ok()
+                        .map(|function| *function),)*
                 })
             }
         }

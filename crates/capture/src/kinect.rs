@@ -21,7 +21,7 @@ use std::{
 };
 
 use self::{
-    freenect::{Context, Device, Failed, Library},
+    freenect::{Context, Device, Failed, Library, num_turns},
     header::{DEPTH_11BIT, DEPTH_MM, DEPTH_MM_MAX, FrameMode},
 };
 use super::{
@@ -45,7 +45,6 @@ pub(super) struct Kinect {
     title: String,
     camera: Intrinsics,
     units: Units,
-    library: &'static Library,
     /// Number of entries of the recorded session, if the library plays one.
     num_entries: Option<usize>,
     num_frames: u64,
@@ -67,7 +66,7 @@ pub(super) fn list() -> Vec<SourceListing> {
 
 fn found_devices() -> Result<Vec<SourceListing>, CameraError> {
     let library = FREENECT.find(None, Library::load)?;
-    let (context, num_entries) = start(library)?;
+    let (context, num_entries) = start(&library)?;
     let num_devices = context.num_devices().map_err(not_opened)?;
     if num_devices == 0 {
         return Err(FREENECT.no_device(None, Vec::new()));
@@ -77,7 +76,7 @@ fn found_devices() -> Result<Vec<SourceListing>, CameraError> {
             serial,
             library: None,
         };
-        SourceListing::openable(title(&spec, library), SourceSpec::Kinect(spec))
+        SourceListing::openable(title(&spec, &library), SourceSpec::Kinect(spec))
     };
     if num_entries.is_some() {
         return Ok(vec![can_be_opened(None)]);
@@ -103,7 +102,7 @@ fn title(spec: &KinectSpec, library: &Library) -> String {
 
 /// Starts the library. A build that plays recorded sessions terminates the program if there is no session, so check for it
 /// first. Returns the context and the session's number of entries.
-fn start(library: &'static Library) -> Result<(Context, Option<usize>), CameraError> {
+fn start(library: &Library) -> Result<(Context, Option<usize>), CameraError> {
     let num_entries = library
         .plays_sessions()
         .then(|| session::check(library.file()))
@@ -115,7 +114,7 @@ impl Kinect {
     /// Opens the Kinect with the given serial number, or the first one, and starts its depth stream.
     pub(super) fn open(spec: &KinectSpec) -> Result<Self, CameraError> {
         let library = FREENECT.find(spec.library.as_deref(), Library::load)?;
-        let (context, num_entries) = start(library)?;
+        let (context, num_entries) = start(&library)?;
         let mut device = open_device(context, num_entries.is_some(), spec.serial.as_deref())?;
         let mode = best_mode(&device.depth_modes()).ok_or_else(no_depth_mode)?;
         let mut warnings = Vec::new();
@@ -135,10 +134,9 @@ impl Kinect {
             .map_err(|failed| failed.error(CameraErrorKind::NotStarted))?;
         Ok(Self {
             device: Some(device),
-            title: title(spec, library),
+            title: title(spec, &library),
             camera,
             units,
-            library,
             num_entries,
             num_frames: 0,
             silence: ReadTimeout::default(),
@@ -183,10 +181,7 @@ impl DepthSource for Kinect {
         let mut waited = Duration::ZERO;
         loop {
             // Stop before the end: beyond it, the library would also print a message to the program's output.
-            if self
-                .num_entries
-                .is_some_and(|num| self.library.num_turns() >= num)
-            {
+            if self.num_entries.is_some_and(|num| num_turns() >= num) {
                 self.device = None;
             }
             let Some(device) = &mut self.device else {

@@ -16,8 +16,7 @@
 
 use std::{
     cell::{Cell, RefCell},
-    ffi::{CStr, OsStr, OsString, c_char, c_double, c_int, c_void},
-    mem,
+    ffi::{CStr, OsStr, c_char, c_double, c_int, c_void},
     ptr::{self, NonNull},
     sync::{
         Mutex, MutexGuard, TryLockError,
@@ -32,62 +31,32 @@ use super::header::{
 use crate::{
     camera_error::{CameraError, CameraErrorKind},
     camera_library::FREENECT,
-    driver_search::LoadError,
+    driver_search::{LoadError, driver_functions},
 };
-use geometry::error::lock;
 
 /// Maximum number of log lines kept per call.
 const MAX_LOG_LINES: usize = 8;
 
-/// Defines `Functions`: the functions with their types as in the header. Those of the second list are optional.
-macro_rules! functions {
-    (
-        required { $($name:ident: fn($($argument:ty),*) $(-> $result:ty)?;)* }
-        optional { $($may:ident: fn($($may_argument:ty),*) $(-> $may_result:ty)?;)* }
-    ) => {
-        struct Functions {
-            $($name: unsafe extern "C" fn($($argument),*) $(-> $result)?,)*
-            $($may: Option<unsafe extern "C" fn($($may_argument),*) $(-> $may_result)?>,)*
-        }
-
-        impl Functions {
-            fn look_up(library: &libloading::Library) -> Result<Self, &'static str> {
-                Ok(Self {
-                    // SAFETY: the types are those of libfreenect.h 0.5, and the library is never unloaded.
-                    $($name: *unsafe { library.get(stringify!($name).as_bytes()) }
-                        .or(Err(stringify!($name)))?,)*
-                    // SAFETY: as above.
-                    $($may: unsafe { library.get(stringify!($may).as_bytes()) }.ok().map(|function| *function),)*
-                })
-            }
-        }
-    };
-}
-
-functions! {
-    required {
-        freenect_init: fn(*mut *mut c_void, *mut c_void) -> c_int;
-        freenect_shutdown: fn(*mut c_void) -> c_int;
-        freenect_select_subdevices: fn(*mut c_void, c_int);
-        freenect_num_devices: fn(*mut c_void) -> c_int;
-        freenect_open_device: fn(*mut c_void, *mut *mut c_void, c_int) -> c_int;
-        freenect_open_device_by_camera_serial: fn(*mut c_void, *mut *mut c_void, *const c_char) -> c_int;
-        freenect_close_device: fn(*mut c_void) -> c_int;
-        freenect_get_depth_mode_count: fn() -> c_int;
-        freenect_get_depth_mode: fn(c_int) -> FrameMode;
-        freenect_set_depth_mode: fn(*mut c_void, FrameMode) -> c_int;
-        freenect_set_depth_callback: fn(*mut c_void, OnDepth);
-        freenect_start_depth: fn(*mut c_void) -> c_int;
-        freenect_stop_depth: fn(*mut c_void) -> c_int;
-        freenect_process_events_timeout: fn(*mut c_void, *mut TimeVal) -> c_int;
-        freenect_set_log_level: fn(*mut c_void, c_int);
-        freenect_set_log_callback: fn(*mut c_void, OnLog);
-    }
-    optional {
-        freenect_list_device_attributes: fn(*mut c_void, *mut *mut Attributes) -> c_int;
-        freenect_free_device_attributes: fn(*mut Attributes);
-        freenect_camera_to_world: fn(*mut c_void, c_int, c_int, c_int, *mut c_double, *mut c_double);
-    }
+driver_functions! {
+    freenect_init: fn(*mut *mut c_void, *mut c_void) -> c_int;
+    freenect_shutdown: fn(*mut c_void) -> c_int;
+    freenect_select_subdevices: fn(*mut c_void, c_int);
+    freenect_num_devices: fn(*mut c_void) -> c_int;
+    freenect_open_device: fn(*mut c_void, *mut *mut c_void, c_int) -> c_int;
+    freenect_open_device_by_camera_serial: fn(*mut c_void, *mut *mut c_void, *const c_char) -> c_int;
+    freenect_close_device: fn(*mut c_void) -> c_int;
+    freenect_get_depth_mode_count: fn() -> c_int;
+    freenect_get_depth_mode: fn(c_int) -> FrameMode;
+    freenect_set_depth_mode: fn(*mut c_void, FrameMode) -> c_int;
+    freenect_set_depth_callback: fn(*mut c_void, OnDepth);
+    freenect_start_depth: fn(*mut c_void) -> c_int;
+    freenect_stop_depth: fn(*mut c_void) -> c_int;
+    freenect_process_events_timeout: fn(*mut c_void, *mut TimeVal) -> c_int;
+    freenect_set_log_level: fn(*mut c_void, c_int);
+    freenect_set_log_callback: fn(*mut c_void, OnLog);
+    ? freenect_list_device_attributes: fn(*mut c_void, *mut *mut Attributes) -> c_int;
+    ? freenect_free_device_attributes: fn(*mut Attributes);
+    ? freenect_camera_to_world: fn(*mut c_void, c_int, c_int, c_int, *mut c_double, *mut c_double);
 }
 
 type List = unsafe extern "C" fn(*mut c_void, *mut *mut Attributes) -> c_int;
@@ -100,35 +69,22 @@ impl Functions {
     }
 }
 
+/// Number of calls that processed events of a recorded session, which is a global state of the library that plays it.
+static NUM_TURNS: AtomicUsize = AtomicUsize::new(0);
+
 /// A library, loaded until the process ends.
 pub(super) struct Library {
-    functions: Functions,
+    functions: &'static Functions,
     file: String,
-    num_turns: AtomicUsize,
 }
 
 impl Library {
     /// Loads the library of that name or path.
-    pub(super) fn load(name: &OsStr) -> Result<&'static Self, LoadError> {
-        static LOADED: Mutex<Vec<(OsString, &'static Library)>> = Mutex::new(Vec::new());
-        let mut loaded = lock(&LOADED);
-        if let Some((_, library)) = loaded.iter().find(|(known, _)| known == name) {
-            return Ok(library);
-        }
-        // SAFETY: loading runs the library's initialisers. libfreenect has none, and libusb's only set up locks; if
-        // a setting names another library, that one's run as if the user had started it as a program.
-        let library = unsafe { libloading::Library::new(name) };
-        let library = library.map_err(|error| LoadError::System(error.to_string()))?;
-        let functions = Functions::look_up(&library);
-        // It is never unloaded, even if it lacks a function.
-        mem::forget(library);
-        let library: &'static Self = Box::leak(Box::new(Self {
-            functions: functions.map_err(LoadError::MissingSymbol)?,
+    pub(super) fn load(name: &OsStr) -> Result<Self, LoadError> {
+        Ok(Self {
+            functions: Functions::load(name)?,
             file: name.to_string_lossy().into_owned(),
-            num_turns: AtomicUsize::new(0),
-        }));
-        loaded.push((name.to_owned(), library));
-        Ok(library)
+        })
     }
 
     /// Name or path by which it was loaded.
@@ -140,11 +96,11 @@ impl Library {
     pub(super) fn plays_sessions(&self) -> bool {
         self.functions.list().is_none()
     }
+}
 
-    /// Number of calls that processed events since the library was loaded.
-    pub(super) fn num_turns(&self) -> usize {
-        self.num_turns.load(Ordering::Relaxed)
-    }
+/// Number of calls that processed events of the recorded session since its library was loaded.
+pub(super) fn num_turns() -> usize {
+    NUM_TURNS.load(Ordering::Relaxed)
 }
 
 /// The lock on the process's only context.
@@ -152,7 +108,6 @@ static CLAIM: Mutex<()> = Mutex::new(());
 
 /// A running library without an open device.
 pub(super) struct Context {
-    library: &'static Library,
     functions: &'static Functions,
     handle: NonNull<c_void>,
     _claim: MutexGuard<'static, ()>,
@@ -160,8 +115,8 @@ pub(super) struct Context {
 
 impl Context {
     /// Starts the library with cameras only.
-    pub(super) fn new(library: &'static Library) -> Result<Self, CameraError> {
-        let functions = &library.functions;
+    pub(super) fn new(library: &Library) -> Result<Self, CameraError> {
+        let functions = library.functions;
         let claim = match CLAIM.try_lock() {
             Ok(claim) => claim,
             Err(TryLockError::Poisoned(claim)) => claim.into_inner(),
@@ -183,7 +138,6 @@ impl Context {
             (functions.freenect_select_subdevices)(context.as_ptr(), DEVICE_CAMERA);
         }
         Ok(Self {
-            library,
             functions,
             handle: context,
             _claim: claim,
@@ -319,10 +273,9 @@ impl Device {
         let mut wait = TimeVal::from(wait);
         self.inbox.is_new = false;
         let (functions, context) = (self.context.functions, self.context.handle.as_ptr());
-        self.context
-            .library
-            .num_turns
-            .fetch_add(1, Ordering::Relaxed);
+        if functions.list().is_none() {
+            NUM_TURNS.fetch_add(1, Ordering::Relaxed);
+        }
         RECEIVING.set(&raw mut self.inbox);
         // SAFETY: the context is initialised and its device open; `wait` is a timeval. The callback finds the inbox,
         // which nothing else touches until the call has returned.
