@@ -208,7 +208,7 @@ fn show(check: &CellCheck, baseline: &CellBaseline, console: &mut Console) {
     let limits = baseline.limits;
     console.entry(
         "cell",
-        &marked_simulated(check.finding.describe(), check.is_simulated),
+        &marked_simulated(&check.finding.to_string(), check.is_simulated),
     );
     console.entry(
         "part",
@@ -278,7 +278,7 @@ fn list(
         let at = check.at.to_zoned(TimeZone::system());
         table.row([
             at.strftime("%Y-%m-%d %H:%M").to_string(),
-            marked_simulated(check.finding.describe(), check.is_simulated),
+            marked_simulated(&check.finding.to_string(), check.is_simulated),
             check.shift().to_string(),
             x,
             y,

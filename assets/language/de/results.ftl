@@ -23,26 +23,6 @@ results-below-target = unter Zielwert
 results-iteration-limit = Iterationsgrenze
 results-no-progress = kein Fortschritt
 
-## The check of the cell
-
-results-cell-in-place = Kamera und Teil sind an ihrem Platz
-results-cell-in-place-advice = Es ist nichts zu tun
-results-cell-part-moved = das Teil hat sich bewegt, die Kamera nicht
-results-cell-part-moved-advice = Das Teil wie zuvor aufhängen oder seine Halterung prüfen und erneut kontrollieren; soll es so bleiben, einen neuen Ausgangszustand aufnehmen
-results-cell-camera-moved = die Kamera hat sich bewegt
-results-cell-camera-moved-advice = Die Kamera befestigen, neu kalibrieren, dann einen neuen Ausgangszustand aufnehmen
-results-cell-part-or-camera-moved = das Teil oder die Kamera hat sich bewegt
-results-cell-part-or-camera-moved-advice = Das Teil wie zuvor aufhängen und erneut kontrollieren; hilft das nicht, hat sich die Kamera bewegt: Sie neu kalibrieren und einen neuen Ausgangszustand aufnehmen
-results-cell-noisier = Kamera und Teil sind an ihrem Platz, aber die Messwerte rauschen stärker
-results-cell-noisier-advice = Das Fenster der Kamera reinigen, auf Streulicht oder Nebel davor achten und erneut kontrollieren
-results-cell-no-frame = kein Bild
-results-cell-no-frame-advice = Das Teil für die Zellenkontrolle aufnehmen und die Datei angeben
-results-cell-moving = die Bilder stimmen nicht überein: Das Teil ist in Bild { $frame } um { $shift } und { $turn } anders als im ersten
-results-cell-moving-advice = Das Teil still hängen lassen, die Kamera nicht bewegen und erneut aufnehmen
-results-cell-other-part = nur { $overlap } % dessen, was in Bild { $frame } zu sehen ist, liegen auf dem Teil des Ausgangszustands
-results-cell-other-part-advice = Das Teil des Ausgangszustands an seinen üblichen Platz hängen, mit nichts davor; hängt es dort, hat sich Kamera oder Teil um mehrere Zentimeter bewegt
-results-cell-pose = Bild { $frame }: { $error }
-
 ## The simulated cell
 
 results-object-hood = Motorhaube

@@ -37,21 +37,6 @@ shots-not-seen = Von keiner Aufnahme gesehen · { $share } der eingelernten Flä
 shots-unseen = Nicht gesehen: Das Teil kann hier weitergehen · { $share } des Umrisses
 shots-seen-by-one = Nur von Aufnahme { $shot } gesehen · { $share } des Teils
 
-## Why a shot is left out
-
-shots-wrong-pose = falsche Pose
-shots-wrong-pose-by = die Pose ist falsch: Das Bild passt { $shift } und { $turn } daneben
-shots-contradicts = Widerspruch zu den anderen Bildern
-shots-contradicts-by = sie widerspricht den anderen Bildern: { $share } % des gemeinsam Gesehenen stimmen überein
-shots-looked-past-by = sie widerspricht den anderen Bildern: Eines blickt an { $share } % dessen vorbei, was beide sehen müssten
-shots-overlaps-none = überlappt keine andere
-shots-overlaps-none-says = sie überlappt keine andere Aufnahme, daher lässt sich ihre Pose nicht prüfen
-shots-part-moved = Teil bewegt
-shots-part-moved-by = das Teil hat sich bewegt: Die Zelle stimmt mit den anderen Bildern überein, vom Teil nur { $share } %
-shots-excluded-advice = Prüfen, ob diese Pose zu diesem Bild gehört, und das Bild bei ruhendem Arm erneut aufnehmen
-shots-overlaps-none-advice = Prüfen, ob diese Pose zu diesem Bild gehört, oder eine Aufnahme hinzufügen, die Fläche von dieser und von einer anderen zeigt
-shots-part-moved-advice = Das Bild bei stillstehendem Teil erneut aufnehmen
-
 ## Files
 
 shots-add-a-frame = Bild zum Scan hinzufügen

@@ -37,21 +37,6 @@ shots-not-seen = Not seen by any shot · { $share } of the enrolled surface
 shots-unseen = Unseen: the part may continue here · { $share } of the outline
 shots-seen-by-one = Seen by shot { $shot } alone · { $share } of the part
 
-## Why a shot is left out
-
-shots-wrong-pose = its pose is wrong
-shots-wrong-pose-by = its pose is wrong: the frame fits { $shift } and { $turn } away
-shots-contradicts = it contradicts the other frames
-shots-contradicts-by = it contradicts the other frames: { $share } % of what they see together agrees
-shots-looked-past-by = it contradicts the other frames: one looks past { $share } % of what both should see
-shots-overlaps-none = overlaps no other
-shots-overlaps-none-says = it overlaps no other shot, so its pose cannot be checked
-shots-part-moved = the part moved
-shots-part-moved-by = the part moved: the cell agrees with the other frames, { $share } % of the part does
-shots-excluded-advice = Check that this pose belongs to this frame, and capture the frame again with the arm at rest
-shots-overlaps-none-advice = Check that this pose belongs to this frame, or add a shot that shows surface of this one and of another
-shots-part-moved-advice = Capture the frame again while the part stands still
-
 ## Files
 
 shots-add-a-frame = Add a frame to the scan

@@ -23,26 +23,6 @@ results-below-target = bajo el objetivo
 results-iteration-limit = límite de iteraciones
 results-no-progress = sin avance
 
-## The check of the cell
-
-results-cell-in-place = la cámara y la pieza están en su sitio
-results-cell-in-place-advice = No hay que hacer nada
-results-cell-part-moved = la pieza se movió; la cámara no
-results-cell-part-moved-advice = Colgar la pieza como estaba, o revisar lo que la sujeta, y comprobar de nuevo; si ha de quedarse así, tomar un nuevo estado inicial
-results-cell-camera-moved = la cámara se movió
-results-cell-camera-moved-advice = Fijar la cámara, calibrarla de nuevo y después tomar un nuevo estado inicial
-results-cell-part-or-camera-moved = la pieza o la cámara se movió
-results-cell-part-or-camera-moved-advice = Colgar la pieza como estaba y comprobar de nuevo; si no basta, la cámara se movió: calibrarla y tomar un nuevo estado inicial
-results-cell-noisier = la cámara y la pieza están en su sitio, pero las lecturas tienen más ruido
-results-cell-noisier-advice = Limpiar la ventana de la cámara, buscar luz parásita o niebla delante de ella y comprobar de nuevo
-results-cell-no-frame = ninguna imagen
-results-cell-no-frame-advice = Capturar la pieza que comprueba la celda e indicar el archivo
-results-cell-moving = las imágenes no coinciden: en la imagen { $frame } la pieza está { $shift } y { $turn } fuera de donde está en la primera
-results-cell-moving-advice = Dejar la pieza quieta, no mover la cámara y capturar de nuevo
-results-cell-other-part = solo el { $overlap } % de lo que se ve en la imagen { $frame } está sobre la pieza del estado inicial
-results-cell-other-part-advice = Colgar la pieza del estado inicial en su sitio habitual, sin nada delante; si está colgada allí, la cámara o la pieza se movió varios centímetros
-results-cell-pose = imagen { $frame }: { $error }
-
 ## The simulated cell
 
 results-object-hood = capó

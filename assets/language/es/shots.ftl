@@ -37,21 +37,6 @@ shots-not-seen = No visto por ninguna toma · { $share } de la superficie regist
 shots-unseen = Sin ver: la pieza puede continuar aquí · { $share } del contorno
 shots-seen-by-one = Visto solo por la toma { $shot } · { $share } de la pieza
 
-## Why a shot is left out
-
-shots-wrong-pose = pose errónea
-shots-wrong-pose-by = su pose es errónea: la imagen encaja a { $shift } y { $turn }
-shots-contradicts = contradice a las demás imágenes
-shots-contradicts-by = contradice a las demás imágenes: concuerda el { $share } % de lo que ven en común
-shots-looked-past-by = contradice a las demás imágenes: una ve más allá del { $share } % de lo que ambas deberían ver
-shots-overlaps-none = no solapa con otra
-shots-overlaps-none-says = no solapa con ninguna otra toma, así que su pose no se puede comprobar
-shots-part-moved = la pieza se movió
-shots-part-moved-by = la pieza se movió: la celda concuerda con las demás imágenes, de la pieza el { $share } %
-shots-excluded-advice = Comprobar que esta pose corresponde a esta imagen y volver a capturarla con el brazo en reposo
-shots-overlaps-none-advice = Comprobar que esta pose corresponde a esta imagen, o añadir una toma que muestre superficie de esta y de otra
-shots-part-moved-advice = Volver a capturar la imagen con la pieza inmóvil
-
 ## Files
 
 shots-add-a-frame = Añadir una imagen al escaneo

@@ -23,26 +23,6 @@ results-below-target = 低于目标值
 results-iteration-limit = 达到迭代上限
 results-no-progress = 无进展
 
-## The check of the cell
-
-results-cell-in-place = 相机和零件均在原位
-results-cell-in-place-advice = 无需处理
-results-cell-part-moved = 零件已移动；相机未移动
-results-cell-part-moved-advice = 请将零件挂回原位或检查其固定装置，然后再次检查；若零件要保持现状，请采集新的基准
-results-cell-camera-moved = 相机已移动
-results-cell-camera-moved-advice = 请固定相机并重新标定，然后采集新的基准
-results-cell-part-or-camera-moved = 零件或相机已移动
-results-cell-part-or-camera-moved-advice = 请将零件挂回原位并再次检查；若仍无效，则相机已移动：请标定相机并采集新的基准
-results-cell-noisier = 相机和零件均在原位，但测量值噪声增大
-results-cell-noisier-advice = 请清洁相机窗口，检查其前方是否有杂散光或雾气，然后再次检查
-results-cell-no-frame = 没有帧
-results-cell-no-frame-advice = 请采集用于检查工位的零件并指定文件
-results-cell-moving = 各帧不一致：第 { $frame } 帧中的零件与第一帧相差 { $shift } 和 { $turn }
-results-cell-moving-advice = 请让零件保持静止，不要移动相机，然后重新采集
-results-cell-other-part = 第 { $frame } 帧中所见仅有 { $overlap } % 位于基准的零件上
-results-cell-other-part-advice = 请将基准的零件挂在其常用位置，前方不要有遮挡；若零件已挂在该处，则相机或零件移动了数厘米
-results-cell-pose = 第 { $frame } 帧：{ $error }
-
 ## The simulated cell
 
 results-object-hood = 发动机罩

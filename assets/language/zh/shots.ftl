@@ -37,21 +37,6 @@ shots-not-seen = 所有拍摄均未看到 · 占已注册表面的 { $share }
 shots-unseen = 未看到：零件可能延伸至此 · 占轮廓的 { $share }
 shots-seen-by-one = 仅第 { $shot } 次拍摄看到 · 占零件的 { $share }
 
-## Why a shot is left out
-
-shots-wrong-pose = 位姿错误
-shots-wrong-pose-by = 位姿错误：该帧在偏移 { $shift }、{ $turn } 处匹配
-shots-contradicts = 与其他帧矛盾
-shots-contradicts-by = 与其他帧矛盾：共同可见部分仅 { $share } % 一致
-shots-looked-past-by = 与其他帧矛盾：双方应共同看到的部分有 { $share } % 被其中一帧看穿
-shots-overlaps-none = 与其他拍摄无重叠
-shots-overlaps-none-says = 与其他拍摄无重叠，无法检查其位姿
-shots-part-moved = 零件移动
-shots-part-moved-by = 零件移动：工位与其他帧一致，零件仅 { $share } % 一致
-shots-excluded-advice = 确认该位姿属于该帧，并在机械臂静止时重新采集
-shots-overlaps-none-advice = 确认该位姿属于该帧，或增加一次同时拍到该帧与另一帧表面的拍摄
-shots-part-moved-advice = 在零件静止时重新采集该帧
-
 ## Files
 
 shots-add-a-frame = 向扫描添加一帧

@@ -23,7 +23,7 @@ pub static LIBRARY: Catalogue = Catalogue::new(files);
 
 macro_rules! files {
     ($language:literal) => {
-        files!($language: "doubt" "enrol" "expected" "orders" "pose" "rack" "refusal" "servo")
+        files!($language: "cell" "doubt" "enrol" "expected" "orders" "pose" "rack" "refusal" "scan" "servo")
     };
     ($language:literal: $($area:literal)+) => {
         &[$(($area, include_str!(concat!("../language/", $language, "/", $area, ".ftl")))),+]

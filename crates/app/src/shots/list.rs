@@ -19,11 +19,10 @@ use shell::{
         scan_figure::{ShotFate, ShotRow},
         unit_system::UnitSystem,
     },
-    language::results::{excluded, excluded_advice, excluded_in_short},
     session::{Session, WorkspaceKind},
 };
 use ui::{
-    language::text,
+    language::{advised, described, in_short, text},
     theme::{ROUNDING, Theme, font, space},
     widgets::{Mark, focus_ring, grouped, labelled, line_mark, sentence, shortened},
 };
@@ -275,11 +274,11 @@ fn words(ui: &mut Ui, row: &ShotRow, is_taken: bool, units: UnitSystem) {
         ShotFate::Excluded(why) => {
             let all = text!(
                 "shots-left-out-says",
-                why = sentence(&excluded(&why)),
-                advice = excluded_advice(&why)
+                why = sentence(&described(&why)),
+                advice = advised(&why)
             );
             // The card of the workspace shows the details.
-            let short = text!("shots-left-out", why = excluded_in_short(&why));
+            let short = text!("shots-left-out", why = in_short(&why));
             remark(ui, short, &all);
         }
         ShotFate::Used {

@@ -2,12 +2,9 @@
 
 use egui::{RichText, Ui};
 
-use shell::{
-    inspection::{fuse::FusedShots, scan_figure::ShotFate, unit_system::UnitSystem},
-    language::results::{excluded, excluded_advice},
-};
+use shell::inspection::{fuse::FusedShots, scan_figure::ShotFate, unit_system::UnitSystem};
 use ui::{
-    language::{text, what_and_advice},
+    language::{self, described, text, what_and_advice},
     theme::{Theme, font, space},
     widgets::{grouped, heading, row, sentence},
 };
@@ -61,9 +58,9 @@ fn figures(ui: &mut Ui, fused: &FusedShots, units: UnitSystem) {
             let text = text!(
                 "shots-shot-left-out",
                 shot = index + 1,
-                why = excluded(&why)
+                why = described(&why)
             );
-            advised(ui, &text, excluded_advice(&why));
+            advised(ui, &text, language::advised(&why));
         }
     }
     if let Some(found) = &fused.scan.doubt {

@@ -21,7 +21,7 @@ pub(super) const COLUMNS: &str = "number, at, scene, simulated_frame, num_shots,
     (SELECT count(*) FROM inspection AS other WHERE other.parent = inspection.number) AS num_below";
 
 /// The columns of the rest of an inspection, with its recipe.
-pub(super) const DETAIL_COLUMNS: &str = "nearest, refusal, camera_from_part, recipe.identity, recipe.json, recipe_name, \
+pub(super) const DETAIL_SELECTED: &str = "nearest, refusal, camera_from_part, recipe.identity, recipe.json, recipe_name, \
     recipe_changed, library, program, line, thumbnail, origin, frame";
 
 /// Returns the inspection that stands for a part.

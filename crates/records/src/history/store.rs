@@ -15,7 +15,7 @@ use super::{
     hung::HungId,
     open::{FILE, FRAMES, file_identity, with_ending},
     retention::{KeepFrames, Retention},
-    rows::{COLUMNS, DETAIL_COLUMNS, head_of, insert, json, record_of, summary_of, trace_part},
+    rows::{COLUMNS, DETAIL_SELECTED, head_of, insert, json, record_of, summary_of, trace_part},
     shots,
     traceability::TraceChange,
 };
@@ -219,7 +219,7 @@ impl History {
     pub fn row(&self, number: i64) -> Result<Option<Record>, HistoryError> {
         let read = || -> rusqlite::Result<Option<Record>> {
             let asked = format!(
-                "SELECT {COLUMNS}, {DETAIL_COLUMNS}
+                "SELECT {COLUMNS}, {DETAIL_SELECTED}
                 FROM inspection JOIN detail USING (number) JOIN recipe ON recipe.identity = detail.recipe
                 WHERE number = ?"
             );

@@ -6,10 +6,8 @@ use jiff::Timestamp;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use geometry::{
-    error::Advice,
-    units::{Metres, Radians},
-};
+use geometry::units::{Metres, Radians};
+use texts::{Described, Message};
 
 /// The result of a check.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -83,39 +81,15 @@ impl CellFinding {
             Self::Noisier => "noisier",
         }
     }
+}
 
-    /// The conclusion in words, for people.
-    pub fn describe(self) -> &'static str {
-        match self {
-            Self::InPlace => "camera and part are in place",
-            Self::PartMoved => "the part moved; the camera did not",
-            Self::CameraMoved => "the camera moved",
-            Self::PartOrCameraMoved => "the part or the camera moved",
-            Self::Noisier => "camera and part are in place, but the readings are noisier",
-        }
+impl Described for CellFinding {
+    fn message(&self) -> Message {
+        Message::new(format!("cell-{}", self.name().replace('_', "-")))
     }
 }
 
-impl Advice for CellFinding {
-    fn advice(&self) -> String {
-        match self {
-            Self::InPlace => "Nothing needs to be done",
-            Self::PartMoved => {
-                "Hang the part as it was, or check what holds it, and check again; if it is to stay, take a new baseline"
-            }
-            Self::CameraMoved => {
-                "Fix the camera, calibrate it again, then take a new baseline"
-            }
-            Self::PartOrCameraMoved => {
-                "Hang the part as it was and check again; if that does not help, the camera moved: calibrate it and take a new baseline"
-            }
-            Self::Noisier => {
-                "Clean the camera's window, look for stray light or mist in front of it, and check again"
-            }
-        }
-        .into()
-    }
-}
+texts::display!(CellFinding);
 
 /// Writes checks as CSV: a line with the column names, then a line per check.
 pub fn write_csv(writer: &mut dyn Write, checks: &[CellCheck]) -> io::Result<()> {

@@ -25,7 +25,6 @@ pub use self::{
 };
 use geometry::{
     cloud::PointCloud,
-    error::Advice,
     plane::Plane,
     rigid::{PoseDelta, RigidTransform, pose_error},
     statistics::lower_median,
@@ -33,6 +32,7 @@ use geometry::{
     voxel::downsample,
 };
 use stages::pose::{PoseError, PoseEstimate, PoseMethod, PreparedTarget, align_to};
+use texts::{Described, Message};
 
 /// Most frames in one check; more do not improve it.
 pub const MAX_FRAMES: usize = 16;
@@ -95,13 +95,8 @@ pub struct CellBaseline {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CellViewError {
     /// No frame was given.
-    #[error("no frame")]
     NoFrame,
     /// Part or camera moved between the frames.
-    #[error(
-        "the frames do not agree: the part is {} and {} elsewhere in frame {frame} than in the first",
-        moved.shift, moved.rotation
-    )]
     Moving {
         /// Number of the frame, from 1.
         frame: usize,
@@ -109,7 +104,6 @@ pub enum CellViewError {
         moved: PoseDelta,
     },
     /// Too little of what is seen lies on the baseline's part.
-    #[error("only {:.0} % of what is seen in frame {frame} lies on the part of the baseline", 100.0 * overlap)]
     OtherPart {
         /// Number of the frame, from 1.
         frame: usize,
@@ -117,7 +111,6 @@ pub enum CellViewError {
         overlap: f64,
     },
     /// The part cannot be aligned.
-    #[error("frame {frame}: {error}")]
     Pose {
         /// Number of the frame, from 1.
         frame: usize,
@@ -126,21 +119,25 @@ pub enum CellViewError {
     },
 }
 
-impl Advice for CellViewError {
-    fn advice(&self) -> String {
+impl Described for CellViewError {
+    fn message(&self) -> Message {
         match self {
-            Self::NoFrame => "Capture the part that checks the cell, and give the file".into(),
-            Self::Moving { .. } => {
-                "Let the part hang still, keep the camera where it is, and capture again".into()
-            }
-            Self::OtherPart { .. } => {
-                "Hang the part that the baseline was taken of, in its usual place, with nothing in front of it; if it does hang there, camera or part moved by several centimetres"
-                    .into()
-            }
-            Self::Pose { error, .. } => error.advice(),
+            Self::NoFrame => Message::new("cell-no-frame"),
+            Self::Moving { frame, moved } => Message::new("cell-moving")
+                .with("frame", *frame as f64)
+                .with("shift_m", moved.shift.0)
+                .with("turn_rad", moved.rotation.0),
+            Self::OtherPart { frame, overlap } => Message::new("cell-other-part")
+                .with("frame", *frame as f64)
+                .with("overlap", *overlap),
+            Self::Pose { frame, error } => Message::new("cell-pose")
+                .with("frame", *frame as f64)
+                .caused_by(error.message()),
         }
     }
 }
+
+texts::display!(CellViewError);
 
 impl CellBaseline {
     /// Makes a baseline from frames in which part and camera stand still.

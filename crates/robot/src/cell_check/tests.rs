@@ -3,6 +3,7 @@ use std::fs;
 use nalgebra::{Isometry3, Vector3};
 
 use super::*;
+use geometry::error::Advice as _;
 use simulate::{CellSetup, PartKind, PartPose, SensorNoise, Side, frame};
 use stages::{fixtures::scene_of, segment::SegmentParams};
 

@@ -15,7 +15,6 @@ use crate::{
         camera::Camera,
         source::{Captured, Origin, SceneError, SceneSource},
     },
-    language::results::{cell_finding, cell_view_error, cell_view_error_advice},
     message::Message,
     notice::Notice,
     session::{Session, Source, UserRole},
@@ -210,7 +209,7 @@ impl CellChecks {
     fn warn(&mut self, cx: &mut ShellContext<'_>) {
         let moved = self.latest().filter(|check| check.finding.has_moved());
         let warning = moved.map(|check| {
-            let finding = marked(cell_finding(check.finding), check.is_simulated);
+            let finding = marked(described(&check.finding), check.is_simulated);
             Notice::look(
                 text!(
                     "robot-moved",
@@ -440,8 +439,8 @@ pub(super) fn no_baseline() -> UserError {
 
 fn in_words(error: &CellViewError) -> UserError {
     UserError {
-        what: cell_view_error(error),
-        advice: cell_view_error_advice(error),
+        what: described(error),
+        advice: advised(error),
     }
 }
 

@@ -11,14 +11,13 @@ use super::{
 use crate::{
     cell::dialog_state::{CheckAction, RobotAction, RobotDialog, RobotFile, RobotQuestion},
     inspection::unit_system::UnitSystem,
-    language::results::{cell_finding, cell_finding_advice},
     session::Session,
     source::source_menu,
 };
 use geometry::units::{Metres, Radians};
 use robot::cell_check::{CellBaseline, CellCheck, CellFinding, CellLimits};
 use ui::{
-    language::text,
+    language::{advised, described, text},
     plot::over_time,
     theme::{Theme, space},
     user_error::UserError,
@@ -220,8 +219,8 @@ fn finding(ui: &mut Ui, check: &CellCheck, limits: CellLimits, units: UnitSystem
         CellFinding::CameraMoved | CellFinding::PartOrCameraMoved => Mark::Bad,
     };
     let found = UserError {
-        what: marked(cell_finding(check.finding), check.is_simulated),
-        advice: cell_finding_advice(check.finding),
+        what: marked(described(&check.finding), check.is_simulated),
+        advice: advised(&check.finding),
     };
     error_row(ui, sign, &found);
     let mut figure = |name: String, value: String| row(ui, &name, &value);
@@ -283,7 +282,7 @@ fn former(ui: &mut Ui, content: &CheckFolderContent, units: UnitSystem) {
                 }
                 ui.end_row();
                 for check in checks.iter().rev().take(shown) {
-                    let found = marked(cell_finding(check.finding), check.is_simulated);
+                    let found = marked(described(&check.finding), check.is_simulated);
                     for figure in [
                         shown_time(check.at),
                         units.length(check.shift().0),

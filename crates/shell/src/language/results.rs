@@ -10,17 +10,9 @@ use inspection::{
     pipeline::{AS_IN_THE_PAPER, AcceptParams, RecipeLabel, RefusalKind, is_like},
 };
 use records::history::{KeepFrames, SceneTitle, StoredVerdict, Summary};
-use robot::cell_check::{CellFinding, CellViewError};
 use simulate::ObjectKind;
-use stages::{pose::Stopped, scan::Excluded, stand_off::StandOffError};
-use ui::language::{Language, advised, described, text};
-
-/// Formats a number with a fixed number of decimals.
-macro_rules! fixed {
-    ($value:expr, $decimals:literal) => {
-        format!("{:.*}", $decimals, $value)
-    };
-}
+use stages::{pose::Stopped, stand_off::StandOffError};
+use ui::language::{Language, text};
 
 /// Says whether an inspection was accepted, for whatever reason it was not.
 pub fn accepted_or_not(is_accepted: bool) -> String {
@@ -172,105 +164,6 @@ pub fn stand_off_error(error: &StandOffError) -> String {
     }
 }
 
-/// Describes the finding of a check of the cell.
-pub(crate) fn cell_finding(finding: CellFinding) -> String {
-    match finding {
-        CellFinding::InPlace => text!("results-cell-in-place"),
-        CellFinding::PartMoved => text!("results-cell-part-moved"),
-        CellFinding::CameraMoved => text!("results-cell-camera-moved"),
-        CellFinding::PartOrCameraMoved => text!("results-cell-part-or-camera-moved"),
-        CellFinding::Noisier => text!("results-cell-noisier"),
-    }
-}
-
-/// Advises what to do about a finding.
-pub(crate) fn cell_finding_advice(finding: CellFinding) -> String {
-    match finding {
-        CellFinding::InPlace => text!("results-cell-in-place-advice"),
-        CellFinding::PartMoved => text!("results-cell-part-moved-advice"),
-        CellFinding::CameraMoved => text!("results-cell-camera-moved-advice"),
-        CellFinding::PartOrCameraMoved => text!("results-cell-part-or-camera-moved-advice"),
-        CellFinding::Noisier => text!("results-cell-noisier-advice"),
-    }
-}
-
-/// Explains why frames cannot serve as a baseline of the cell or be compared with it.
-pub(crate) fn cell_view_error(error: &CellViewError) -> String {
-    match error {
-        CellViewError::NoFrame => text!("results-cell-no-frame"),
-        CellViewError::Moving { frame, moved } => text!(
-            "results-cell-moving",
-            frame = *frame,
-            shift = moved.shift.to_string(),
-            turn = moved.rotation.to_string()
-        ),
-        CellViewError::OtherPart { frame, overlap } => text!(
-            "results-cell-other-part",
-            frame = *frame,
-            overlap = fixed!(overlap * 100.0, 0)
-        ),
-        CellViewError::Pose { frame, error } => {
-            text!(
-                "results-cell-pose",
-                frame = *frame,
-                error = described(error)
-            )
-        }
-    }
-}
-
-/// Advises what to do about such frames.
-pub(crate) fn cell_view_error_advice(error: &CellViewError) -> String {
-    match error {
-        CellViewError::NoFrame => text!("results-cell-no-frame-advice"),
-        CellViewError::Moving { .. } => text!("results-cell-moving-advice"),
-        CellViewError::OtherPart { .. } => text!("results-cell-other-part-advice"),
-        CellViewError::Pose { error, .. } => advised(error),
-    }
-}
-
-/// Explains in a few words why a shot was left out.
-pub fn excluded_in_short(why: &Excluded) -> String {
-    match why {
-        Excluded::WrongPose { .. } => text!("shots-wrong-pose"),
-        Excluded::Contradicts { .. } | Excluded::LookedPast { .. } => text!("shots-contradicts"),
-        Excluded::OverlapsNone => text!("shots-overlaps-none"),
-        Excluded::PartMoved { .. } => text!("shots-part-moved"),
-    }
-}
-
-/// Explains why a shot was left out.
-pub fn excluded(why: &Excluded) -> String {
-    match why {
-        Excluded::WrongPose { moved } => text!(
-            "shots-wrong-pose-by",
-            shift = moved.shift.to_string(),
-            turn = moved.rotation.to_string()
-        ),
-        Excluded::Contradicts { share } => {
-            text!("shots-contradicts-by", share = fixed!(share * 100.0, 0))
-        }
-        Excluded::LookedPast { share } => {
-            text!("shots-looked-past-by", share = fixed!(share * 100.0, 1))
-        }
-        Excluded::OverlapsNone => text!("shots-overlaps-none-says"),
-        Excluded::PartMoved { share } => {
-            text!("shots-part-moved-by", share = fixed!(share * 100.0, 0))
-        }
-    }
-}
-
-/// Advises what to do about an excluded shot.
-pub fn excluded_advice(why: &Excluded) -> String {
-    match why {
-        Excluded::WrongPose { .. } | Excluded::Contradicts { .. } | Excluded::LookedPast { .. } => {
-            text!("shots-excluded-advice")
-        }
-        Excluded::OverlapsNone => text!("shots-overlaps-none-advice"),
-        Excluded::PartMoved { .. } => text!("shots-part-moved-advice"),
-    }
-}
-
 /// States the side that a part is painted from.
 pub fn painted_from(side: Side) -> String {
     match side {
@@ -330,11 +223,6 @@ mod tests {
     use std::collections::BTreeSet;
 
     use super::*;
-    use geometry::error::Advice as _;
-    use geometry::{
-        rigid::PoseDelta,
-        units::{Metres, Radians},
-    };
     use inspection::{
         fixtures::rejections,
         pipeline::{Refusal, Rejection},
@@ -343,40 +231,9 @@ mod tests {
         fixtures::history_entry,
         history::{Filter, Record},
     };
-    use stages::fixtures::pose_errors;
 
     #[test]
     fn in_english_the_window_says_what_the_library_says() {
-        for finding in [
-            CellFinding::InPlace,
-            CellFinding::PartMoved,
-            CellFinding::CameraMoved,
-            CellFinding::PartOrCameraMoved,
-            CellFinding::Noisier,
-        ] {
-            assert_eq!(cell_finding(finding), finding.describe());
-            assert_eq!(cell_finding_advice(finding), finding.advice());
-        }
-        let mut cell_errors = vec![
-            CellViewError::NoFrame,
-            CellViewError::Moving {
-                frame: 3,
-                moved: PoseDelta {
-                    shift: Metres(0.0154),
-                    rotation: Radians(0.02),
-                },
-            },
-            CellViewError::OtherPart {
-                frame: 1,
-                overlap: 0.618,
-            },
-        ];
-        let of_pose = |error| CellViewError::Pose { frame: 2, error };
-        cell_errors.extend(pose_errors().into_iter().map(of_pose));
-        for error in cell_errors {
-            assert_eq!(cell_view_error(&error), error.to_string());
-            assert_eq!(cell_view_error_advice(&error), error.advice());
-        }
         for verdict in StoredVerdict::ALL {
             assert_eq!(stored_verdict(verdict), verdict.title());
         }
@@ -542,7 +399,7 @@ mod tests {
         let title_of = |name: &str| format!("the {name} of today");
         let shown = || {
             let why = past.titled_refusal(title_of).expect("refused");
-            [described(&why), advised(&why)]
+            [described(&why), ui::language::advised(&why)]
         };
         assert_eq!(
             shown()[0],

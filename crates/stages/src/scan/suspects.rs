@@ -42,28 +42,23 @@ impl Default for SuspectParams {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum Excluded {
     /// The frame fits at another pose.
-    #[error("its pose is wrong: the frame fits {} and {} away", moved.shift, moved.rotation)]
     WrongPose {
         /// Motion from the robot's pose to the one that fits better.
         moved: PoseDelta,
     },
     /// The frame fits nowhere nearby.
-    #[error("it contradicts the other frames: {:.0} % of what they see together agrees", share * 100.0)]
     Contradicts {
         /// Share of the common readings that agrees, 0..1.
         share: f64,
     },
     /// It shows surface where other frames see none.
-    #[error("it contradicts the other frames: one looks past {:.1} % of what both should see", share * 100.0)]
     LookedPast {
         /// Share of what it and another frame see together that one of them looks past, 0..1.
         share: f64,
     },
     /// It sees hardly any surface that another frame sees.
-    #[error("it overlaps no other frame, so its pose cannot be checked")]
     OverlapsNone,
     /// The cell agrees, but the part does not.
-    #[error("the part moved: the cell agrees with the other frames, {:.0} % of the part does", share * 100.0)]
     PartMoved {
         /// Share of the part that agrees, 0..1.
         share: f64,
@@ -82,19 +77,25 @@ impl Excluded {
     }
 }
 
-impl geometry::error::Advice for Excluded {
-    fn advice(&self) -> String {
+impl texts::Described for Excluded {
+    fn message(&self) -> Message {
         match self {
-            Self::WrongPose { .. } | Self::Contradicts { .. } | Self::LookedPast { .. } => {
-                "Check that this pose belongs to this frame, and capture the frame again with the arm at rest".into()
+            Self::WrongPose { moved } => Message::new("excluded-wrong-pose")
+                .with("shift_m", moved.shift.0)
+                .with("turn_rad", moved.rotation.0),
+            Self::Contradicts { share } => {
+                Message::new("excluded-contradicts").with("share", *share)
             }
-            Self::OverlapsNone => {
-                "Check that this pose belongs to this frame, or add a frame that shows surface of this one and of another".into()
+            Self::LookedPast { share } => {
+                Message::new("excluded-looked-past").with("share", *share)
             }
-            Self::PartMoved { .. } => "Capture the frame again while the part stands still".into(),
+            Self::OverlapsNone => Message::new("excluded-overlaps-none"),
+            Self::PartMoved { share } => Message::new("excluded-part-moved").with("share", *share),
         }
     }
 }
+
+texts::display!(Excluded);
 
 /// Share of the common readings below which shots that are used get a warning. 49 pairs of real captures with measured poses,
 /// and four scans of them, reach 0.998. With one pose of a pair 100 mm wrong, half of the pairs that are used stay below

@@ -50,6 +50,12 @@ pub fn what_and_advice(what: &impl Described) -> [String; 2] {
     [described(what), advised(what)]
 }
 
+/// Returns what the library describes in a few words.
+pub fn in_short(what: &impl Described) -> String {
+    let short = what.message().attribute(Language::current(), "short");
+    short.unwrap_or_else(|| described(what))
+}
+
 /// Returns a text of the library's catalogue that has no variables.
 pub fn library_text(id: &str) -> String {
     Message::new(id).text(Language::current())

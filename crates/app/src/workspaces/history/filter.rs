@@ -22,7 +22,7 @@ pub struct ListFilter {
 }
 
 /// The verdicts that can be chosen, in the order of the menu.
-pub const VERDICTS: [VerdictFilter; 4] = [
+pub(super) const VERDICTS: [VerdictFilter; 4] = [
     VerdictFilter::Only(StoredVerdict::Accepted),
     VerdictFilter::NotAccepted,
     VerdictFilter::Only(StoredVerdict::Unknown),
@@ -30,7 +30,7 @@ pub const VERDICTS: [VerdictFilter; 4] = [
 ];
 
 /// Name of these verdicts for a person.
-pub fn verdict_title(filter: VerdictFilter) -> String {
+pub(super) fn verdict_title(filter: VerdictFilter) -> String {
     match filter {
         VerdictFilter::Only(verdict) => stored_verdict(verdict),
         VerdictFilter::NotAccepted => accepted_or_not(false),
