@@ -27,7 +27,7 @@ pub(super) fn write(
     };
     let title = match file.content {
         RobotFileContent::Poses { convention, .. } => convention.title(),
-        RobotFileContent::Program { language, .. } => language.title,
+        RobotFileContent::Program { language, .. } => language.title.to_owned(),
     };
     console.note(&format_args!(
         "{}: {} as {title}; {}",

@@ -290,7 +290,7 @@ fn accelerations_are_checked_where_their_limits_are_known() {
         shop.coded(code, &[&check[..], &nozzle, more].concat())
     };
     let ran = check(0, "irb4600", &[]);
-    let unchecked = "not checked: accelerations of joints";
+    let unchecked = "not checked: accelerations of the joints";
     assert!(ran.out.contains(unchecked), "{}", ran.out);
     let line = check(0, "irb4600", &["--json"]).json();
     assert_eq!(line["unchecked_accelerations"], "joints");

@@ -178,53 +178,8 @@ robot-numbers-not-stored = Nummern von Teilen können nicht gespeichert werden u
 
 ## Poses and conventions
 robot-unnamed = eine Kalibrierung ohne Namen
-robot-convention-matrix = Matrix, 4×4
-robot-convention-quaternion = Quaternion x y z w
-robot-convention-rotation-vector = Rotationsvektor
-robot-meaning-matrix = 4×4-Matrix, Zeile für Zeile: 3×3-Drehung mit x y z in Metern als vierter Spalte, dann 0 0 0 1; sie multipliziert eine Spalte [x y z 1] von links
-robot-meaning-quaternion = x y z in Metern, dann ein Einheitsquaternion qx qy qz qw, der Skalar qw zuletzt und nicht negativ
-robot-meaning-rotation-vector = x y z in Metern, dann rx ry rz: die Drehachse mal dem Drehwinkel in Radiant, 0 bis π; nicht drei Winkel nacheinander
-robot-meaning-kuka = X Y Z in Millimetern, dann A B C in Grad: A um Z, B um das neue Y, C um das neue X (intrinsisch Z-Y'-X''), R = Rz(A)·Ry(B)·Rx(C), B innerhalb von ±90
-robot-meaning-fanuc = X Y Z in Millimetern, dann W P R in Grad: W um das feste X, dann P um das feste Y, dann R um das feste Z (extrinsisch X-Y-Z), R = Rz(R)·Ry(P)·Rx(W), P innerhalb von ±90
-robot-meaning-abb = x y z in Millimetern, dann ein Einheitsquaternion q1 q2 q3 q4, der Skalar q1 zuerst und nicht negativ, wie pos und orient in RAPID
-robot-meaning-universal-robots = x y z in Metern, dann rx ry rz: die Drehachse mal dem Drehwinkel in Radiant, 0 bis π, wie p[x, y, z, rx, ry, rz] in URScript; nicht Roll, Pitch und Yaw des Bediengeräts
-robot-meaning-yaskawa = X Y Z in Millimetern, dann Rx Ry Rz in Grad: Rx um das feste X, dann Ry um das feste Y, dann Rz um das feste Z (extrinsisch X-Y-Z), R = Rz(Rz)·Ry(Ry)·Rx(Rx), Ry innerhalb von ±90
-robot-meaning-staubli = x y z in Millimetern, dann rx ry rz in Grad: rx um X, ry um das neue Y, rz um das neue Z (intrinsisch X-Y'-Z''), R = Rx(rx)·Ry(ry)·Rz(rz), ry innerhalb von ±90, wie trsf in VAL 3
-robot-meaning-doosan = X Y Z in Millimetern, dann A B C in Grad: A um Z, B um das neue Y, C um das neue Z (intrinsisch Z-Y'-Z''), R = Rz(A)·Ry(B)·Rz(C), B von 0 bis 180, wie posx
-robot-no-such-convention = keine Konvention heißt { $name }
-robot-no-convention = { $found ->
-        [one] { $found } Zahl ohne den Namen einer Konvention
-       *[other] { $found } Zahlen ohne den Namen einer Konvention
-    }
-robot-no-convention-advice = Zuerst die Konvention schreiben, zum Beispiel „kuka 1450 -310 890 10 20 30“: { $names }
-robot-no-number = { $word } ist keine Zahl
-robot-no-number-advice = Zahlen mit Punkt schreiben, durch Leerzeichen getrennt
-robot-pose-too-far = die Position ist { $distance } m entfernt, erwartet werden höchstens { $most } m
-robot-pose-too-far-advice = Ihre Position in { $unit } schreiben, der Einheit von { $convention }
-robot-nozzle-distance = die Düse ist { $distance } mm vom Flansch entfernt, erwartet werden { $from } bis { $to } mm
-robot-nozzle-distance-advice = Ihre Position in { $unit } schreiben, der Einheit von { $convention }; 0 0 0 nur, wenn das Flanschkoordinatensystem der Steuerung schon an der Düse liegt
-robot-count = { $title } hat { $needed } Zahlen ({ $names }), angegeben sind { $found }
-robot-count-advice = In dieser Reihenfolge angeben: { $meaning }
-robot-not-finite = { $name } ist { $value }, erwartet wird eine endliche Zahl
-robot-not-finite-advice = Die Zahlen erneut von der Steuerung ablesen
-robot-not-unit = die Länge des Quaternions ist { $length }, erwartet wird 1
-robot-not-unit-advice = Alle vier Zahlen mit mindestens 4 Nachkommastellen übernehmen und prüfen, welche davon der Skalar ist
-robot-long-rotation = die Länge des Rotationsvektors ist { $length }, erwartet wird höchstens 2π
-robot-long-rotation-advice = Den Rotationsvektor in Radiant angeben; diese Zahlen sehen nach Grad aus
-robot-not-rigid = die 16 Zahlen sind keine starre Transformation: Sie strecken, spiegeln oder enden nicht mit 0 0 0 1
-robot-not-rigid-advice = Eine Drehung und eine Verschiebung angeben, Zeile für Zeile mit mindestens 4 Nachkommastellen; Zeilen und Spalten nicht vertauschen
 
 robot-motion-unknown = Nicht bekannt, ob das Teil still hing
 
 ## Was nicht geprüft wurde
 robot-not-checked = Nicht geprüft: { $what }
-robot-unchecked-arm = Reichweite und Kollisionen
-robot-unchecked-surroundings = Kollisionen mit anderem als Teil und Arm, etwa mit der Halterung des Teils
-robot-unchecked-film = die Schicht, die das Programm aufträgt, weil die Bahn keine Lackschicht nennt
-robot-unchecked-accelerations =
-    { $what ->
-        [joints] Beschleunigungen der Gelenke
-        [rail] Beschleunigung der Schiene
-       *[both] Beschleunigungen von Gelenken und Schiene
-    }
-robot-unchecked-points = der Düsenabstand an { $num } von { $all } Punkten, wo die Kamera keine Oberfläche sah

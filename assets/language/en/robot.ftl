@@ -178,53 +178,8 @@ robot-numbers-not-stored = Numbers of parts cannot be stored, and change when a 
 
 ## Poses and conventions
 robot-unnamed = an unnamed calibration
-robot-convention-matrix = Matrix, 4×4
-robot-convention-quaternion = Quaternion x y z w
-robot-convention-rotation-vector = Rotation vector
-robot-meaning-matrix = 4×4 matrix, row after row: 3×3 rotation with x y z in metres as the fourth column, then 0 0 0 1; it multiplies a column [x y z 1] from the left
-robot-meaning-quaternion = x y z in metres, then a unit quaternion qx qy qz qw with the scalar qw last and not negative
-robot-meaning-rotation-vector = x y z in metres, then rx ry rz: the axis of the rotation times its angle in radians, 0 to π; not three angles one after the other
-robot-meaning-kuka = X Y Z in millimetres, then A B C in degrees: A about Z, B about the new Y, C about the new X (intrinsic Z-Y'-X''), R = Rz(A)·Ry(B)·Rx(C), B within ±90
-robot-meaning-fanuc = X Y Z in millimetres, then W P R in degrees: W about the fixed X, then P about the fixed Y, then R about the fixed Z (extrinsic X-Y-Z), R = Rz(R)·Ry(P)·Rx(W), P within ±90
-robot-meaning-abb = x y z in millimetres, then a unit quaternion q1 q2 q3 q4 with the scalar q1 first and not negative, as in RAPID's pos and orient
-robot-meaning-universal-robots = x y z in metres, then rx ry rz: the axis of the rotation times its angle in radians, 0 to π, as in URScript's p[x, y, z, rx, ry, rz]; not the roll, pitch and yaw of the teach pendant
-robot-meaning-yaskawa = X Y Z in millimetres, then Rx Ry Rz in degrees: Rx about the fixed X, then Ry about the fixed Y, then Rz about the fixed Z (extrinsic X-Y-Z), R = Rz(Rz)·Ry(Ry)·Rx(Rx), Ry within ±90
-robot-meaning-staubli = x y z in millimetres, then rx ry rz in degrees: rx about X, ry about the new Y, rz about the new Z (intrinsic X-Y'-Z''), R = Rx(rx)·Ry(ry)·Rz(rz), ry within ±90, as in VAL 3's trsf
-robot-meaning-doosan = X Y Z in millimetres, then A B C in degrees: A about Z, B about the new Y, C about the new Z (intrinsic Z-Y'-Z''), R = Rz(A)·Ry(B)·Rz(C), B from 0 to 180, as in posx
-robot-no-such-convention = no convention is named { $name }
-robot-no-convention = { $found ->
-        [one] { $found } number without the name of a convention
-       *[other] { $found } numbers without the name of a convention
-    }
-robot-no-convention-advice = Write the convention first, for example "kuka 1450 -310 890 10 20 30": { $names }
-robot-no-number = { $word } is not a number
-robot-no-number-advice = Write numbers with a point, separated by spaces
-robot-pose-too-far = the position is { $distance } m away, expected at most { $most } m
-robot-pose-too-far-advice = Write its position in { $unit }, the unit of { $convention }
-robot-nozzle-distance = the nozzle is { $distance } mm from the flange, expected { $from } to { $to } mm
-robot-nozzle-distance-advice = Write its position in { $unit }, the unit of { $convention }; 0 0 0 only if the controller's flange frame already is at the nozzle
-robot-count = { $title } has { $needed } numbers ({ $names }), { $found } are given
-robot-count-advice = Give them in this order: { $meaning }
-robot-not-finite = { $name } is { $value }, expected a finite number
-robot-not-finite-advice = Read the numbers off the controller again
-robot-not-unit = the quaternion's length is { $length }, expected 1
-robot-not-unit-advice = Copy all four numbers with at least 4 decimals, and check which of them is the scalar
-robot-long-rotation = the rotation vector has length { $length }, expected at most 2π
-robot-long-rotation-advice = Give the rotation vector in radians; these look like degrees
-robot-not-rigid = the 16 numbers are not a rigid transform: they stretch, mirror or do not end in 0 0 0 1
-robot-not-rigid-advice = Give a rotation and a shift, row after row with at least 4 decimals; check rows against columns
 
 robot-motion-unknown = Not known whether the part hung still
 
 ## What was not checked
 robot-not-checked = Not checked: { $what }
-robot-unchecked-arm = reach and collisions
-robot-unchecked-surroundings = collisions with anything but part and arm, such as the part's stand
-robot-unchecked-film = the film that the program leaves, because the path names no coat
-robot-unchecked-accelerations =
-    { $what ->
-        [joints] accelerations of the joints
-        [rail] acceleration of the rail
-       *[both] accelerations of joints and rail
-    }
-robot-unchecked-points = the stand-off at { $num } of { $all } points, where the camera saw no surface

@@ -178,53 +178,8 @@ robot-numbers-not-stored = Los números de las piezas no se pueden guardar y cam
 
 ## Poses and conventions
 robot-unnamed = una calibración sin nombre
-robot-convention-matrix = Matriz 4×4
-robot-convention-quaternion = Cuaternión x y z w
-robot-convention-rotation-vector = Vector de rotación
-robot-meaning-matrix = matriz 4×4, fila a fila: rotación 3×3 con x y z en metros como cuarta columna, después 0 0 0 1; multiplica por la izquierda una columna [x y z 1]
-robot-meaning-quaternion = x y z en metros, después un cuaternión unitario qx qy qz qw, con el escalar qw al final y no negativo
-robot-meaning-rotation-vector = x y z en metros, después rx ry rz: el eje de la rotación por su ángulo en radianes, de 0 a π; no tres ángulos sucesivos
-robot-meaning-kuka = X Y Z en milímetros, después A B C en grados: A alrededor de Z, B alrededor del nuevo Y, C alrededor del nuevo X (intrínseca Z-Y'-X''), R = Rz(A)·Ry(B)·Rx(C), B dentro de ±90
-robot-meaning-fanuc = X Y Z en milímetros, después W P R en grados: W alrededor del X fijo, luego P alrededor del Y fijo, luego R alrededor del Z fijo (extrínseca X-Y-Z), R = Rz(R)·Ry(P)·Rx(W), P dentro de ±90
-robot-meaning-abb = x y z en milímetros, después un cuaternión unitario q1 q2 q3 q4, con el escalar q1 al principio y no negativo, como pos y orient de RAPID
-robot-meaning-universal-robots = x y z en metros, después rx ry rz: el eje de la rotación por su ángulo en radianes, de 0 a π, como p[x, y, z, rx, ry, rz] de URScript; no los ángulos roll, pitch y yaw de la consola
-robot-meaning-yaskawa = X Y Z en milímetros, después Rx Ry Rz en grados: Rx alrededor del X fijo, luego Ry alrededor del Y fijo, luego Rz alrededor del Z fijo (extrínseca X-Y-Z), R = Rz(Rz)·Ry(Ry)·Rx(Rx), Ry dentro de ±90
-robot-meaning-staubli = x y z en milímetros, después rx ry rz en grados: rx alrededor de X, ry alrededor del nuevo Y, rz alrededor del nuevo Z (intrínseca X-Y'-Z''), R = Rx(rx)·Ry(ry)·Rz(rz), ry dentro de ±90, como trsf de VAL 3
-robot-meaning-doosan = X Y Z en milímetros, después A B C en grados: A alrededor de Z, B alrededor del nuevo Y, C alrededor del nuevo Z (intrínseca Z-Y'-Z''), R = Rz(A)·Ry(B)·Rz(C), B de 0 a 180, como posx
-robot-no-such-convention = ninguna convención se llama { $name }
-robot-no-convention = { $found ->
-        [one] { $found } número sin el nombre de una convención
-       *[other] { $found } números sin el nombre de una convención
-    }
-robot-no-convention-advice = Escribir primero la convención, por ejemplo "kuka 1450 -310 890 10 20 30": { $names }
-robot-no-number = { $word } no es un número
-robot-no-number-advice = Escribir los números con punto decimal, separados por espacios
-robot-pose-too-far = la posición está a { $distance } m; se esperan como mucho { $most } m
-robot-pose-too-far-advice = Escribir su posición en { $unit }, la unidad de { $convention }
-robot-nozzle-distance = la boquilla está a { $distance } mm de la brida; se esperan de { $from } a { $to } mm
-robot-nozzle-distance-advice = Escribir su posición en { $unit }, la unidad de { $convention }; 0 0 0 solo si el sistema de la brida del controlador ya está en la boquilla
-robot-count = { $title } tiene { $needed } números ({ $names }) y se dan { $found }
-robot-count-advice = Indicarlos en este orden: { $meaning }
-robot-not-finite = { $name } es { $value }; se espera un número finito
-robot-not-finite-advice = Leer de nuevo los números del controlador
-robot-not-unit = la longitud del cuaternión es { $length }; se espera 1
-robot-not-unit-advice = Copiar los cuatro números con al menos 4 decimales y comprobar cuál es el escalar
-robot-long-rotation = la longitud del vector de rotación es { $length }; se espera 2π como máximo
-robot-long-rotation-advice = Indicar el vector de rotación en radianes; estos números parecen grados
-robot-not-rigid = los 16 números no son una transformación rígida: estiran, reflejan o no terminan en 0 0 0 1
-robot-not-rigid-advice = Indicar una rotación y un desplazamiento, fila a fila con al menos 4 decimales; no confundir filas y columnas
 
 robot-motion-unknown = No se sabe si la pieza colgaba quieta
 
 ## Lo que no se comprobó
 robot-not-checked = Sin comprobar: { $what }
-robot-unchecked-arm = alcance y colisiones
-robot-unchecked-surroundings = colisiones con algo que no sea la pieza o el brazo, como el soporte de la pieza
-robot-unchecked-film = la película que deja el programa, porque la trayectoria no nombra ninguna capa
-robot-unchecked-accelerations =
-    { $what ->
-        [joints] aceleraciones de las articulaciones
-        [rail] aceleración del carril
-       *[both] aceleraciones de las articulaciones y del carril
-    }
-robot-unchecked-points = la distancia de boquilla en { $num } de { $all } puntos, donde la cámara no vio superficie

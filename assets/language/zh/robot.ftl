@@ -170,50 +170,8 @@ robot-numbers-not-stored = 零件编号无法保存，添加或移除零件时�
 
 ## Poses and conventions
 robot-unnamed = 未命名的标定
-robot-convention-matrix = 4×4 矩阵
-robot-convention-quaternion = 四元数 x y z w
-robot-convention-rotation-vector = 旋转矢量
-robot-meaning-matrix = 4×4 矩阵，逐行排列：3×3 旋转，第四列为 x y z，单位为米，最后一行为 0 0 0 1；从左侧乘以列 [x y z 1]
-robot-meaning-quaternion = x y z 单位为米，然后是单位四元数 qx qy qz qw，标量 qw 在最后且不为负
-robot-meaning-rotation-vector = x y z 单位为米，然后是 rx ry rz：旋转轴乘以旋转角，单位为弧度，0 至 π；不是依次旋转的三个角
-robot-meaning-kuka = X Y Z 单位为毫米，然后是 A B C，单位为度：A 绕 Z，B 绕新的 Y，C 绕新的 X，即 Z-Y'-X''，R = Rz(A)·Ry(B)·Rx(C)，B 在 ±90 以内
-robot-meaning-fanuc = X Y Z 单位为毫米，然后是 W P R，单位为度：W 绕固定的 X，然后 P 绕固定的 Y，然后 R 绕固定的 Z，即 X-Y-Z，R = Rz(R)·Ry(P)·Rx(W)，P 在 ±90 以内
-robot-meaning-abb = x y z 单位为毫米，然后是单位四元数 q1 q2 q3 q4，标量 q1 在最前且不为负，与 RAPID 的 pos 和 orient 相同
-robot-meaning-universal-robots = x y z 单位为米，然后是 rx ry rz：旋转轴乘以旋转角，单位为弧度，0 至 π，与 URScript 的 p[x, y, z, rx, ry, rz] 相同；不是示教器上的 roll、pitch 和 yaw
-robot-meaning-yaskawa = X Y Z 单位为毫米，然后是 Rx Ry Rz，单位为度：Rx 绕固定的 X，然后 Ry 绕固定的 Y，然后 Rz 绕固定的 Z，即 X-Y-Z，R = Rz(Rz)·Ry(Ry)·Rx(Rx)，Ry 在 ±90 以内
-robot-meaning-staubli = x y z 单位为毫米，然后是 rx ry rz，单位为度：rx 绕 X，ry 绕新的 Y，rz 绕新的 Z，即 X-Y'-Z''，R = Rx(rx)·Ry(ry)·Rz(rz)，ry 在 ±90 以内，与 VAL 3 的 trsf 相同
-robot-meaning-doosan = X Y Z 单位为毫米，然后是 A B C，单位为度：A 绕 Z，B 绕新的 Y，C 绕新的 Z，即 Z-Y'-Z''，R = Rz(A)·Ry(B)·Rz(C)，B 为 0 至 180，与 posx 相同
-robot-no-such-convention = 没有名为 { $name } 的约定
-robot-no-convention = { $found } 个数值缺少约定的名称
-robot-no-convention-advice = 先写约定，例如 "kuka 1450 -310 890 10 20 30"：{ $names }
-robot-no-number = { $word } 不是数值
-robot-no-number-advice = 数值用小数点，以空格分隔
-robot-pose-too-far = 位置距离为 { $distance } m，应不超过 { $most } m
-robot-pose-too-far-advice = 按 { $convention } 的单位 { $unit } 输入位置
-robot-nozzle-distance = 喷嘴距法兰 { $distance } mm，应为 { $from } 至 { $to } mm
-robot-nozzle-distance-advice = 按 { $convention } 的单位 { $unit } 输入位置；只有控制器的法兰坐标系已在喷嘴处时才用 0 0 0
-robot-count = { $title } 有 { $needed } 个数值 ({ $names })，给出了 { $found } 个
-robot-count-advice = 按此顺序输入：{ $meaning }
-robot-not-finite = { $name } 为 { $value }，应为有限的数值
-robot-not-finite-advice = 重新从控制器读取数值
-robot-not-unit = 四元数的长度为 { $length }，应为 1
-robot-not-unit-advice = 四个数值均保留至少 4 位小数，并检查哪一个是标量
-robot-long-rotation = 旋转向量的长度为 { $length }，应不大于 2π
-robot-long-rotation-advice = 请以弧度给出旋转向量；这些数值看起来是角度
-robot-not-rigid = 这 16 个数值不是刚体变换：有拉伸、镜像，或不以 0 0 0 1 结尾
-robot-not-rigid-advice = 输入旋转和平移，逐行排列，保留至少 4 位小数；检查行与列是否颠倒
 
 robot-motion-unknown = 无法得知零件是否静止
 
 ## 未检查的内容
 robot-not-checked = 未检查：{ $what }
-robot-unchecked-arm = 可达范围和碰撞
-robot-unchecked-surroundings = 与零件和机械臂以外物体（如零件支架）的碰撞
-robot-unchecked-film = 程序形成的漆膜，因为轨迹未注明涂层
-robot-unchecked-accelerations =
-    { $what ->
-        [joints] 关节加速度
-        [rail] 导轨加速度
-       *[both] 关节和导轨的加速度
-    }
-robot-unchecked-points = { $all } 个点中 { $num } 个点的喷距，相机在那里未看到表面

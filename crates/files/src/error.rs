@@ -353,17 +353,13 @@ impl Advice for FileError {
                 "Export the file again from the program that made it".into()
             }
             Self::Malformed { line, .. } => {
-                format!(
-                    "Open the file in a text editor and correct line {line}, or export it again"
-                )
+                format!("Correct line {line} in a text editor, or export the file again")
             }
             Self::TooLong { .. } => {
                 "Choose another file: a table, a description or a calibration is far smaller".into()
             }
             Self::Newer { .. } => "Update Partsight on this computer".into(),
-            Self::NoUserFolder => {
-                format!("Set the environment variable {OWN_FOLDER} to a folder of your own")
-            }
+            Self::NoUserFolder => format!("Set {OWN_FOLDER} to a folder of your own"),
             Self::TooLarge { .. } => {
                 "Thin the cloud out, or cut away what is not the part, and export it again".into()
             }

@@ -19,6 +19,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{euler::Order, robot_pose::Unit};
+use texts::{Described, Language, Message};
 
 #[cfg(test)]
 mod tests;
@@ -103,65 +104,15 @@ impl Convention {
             .find(|convention| convention.name() == name)
     }
 
-    /// The name shown to people.
-    pub fn title(self) -> &'static str {
-        match self {
-            Self::Matrix => "Matrix, 4×4",
-            Self::QuaternionXyzw => "Quaternion x y z w",
-            Self::RotationVector => "Rotation vector",
-            Self::Kuka => "KUKA A B C",
-            Self::Fanuc => "FANUC W P R",
-            Self::Abb => "ABB q1 q2 q3 q4",
-            Self::UniversalRobots => "Universal Robots",
-            Self::Yaskawa => "Yaskawa Rx Ry Rz",
-            Self::Staubli => "Stäubli rx ry rz",
-            Self::Doosan => "Doosan A B C",
-        }
+    /// The name shown to people, in English.
+    pub fn title(self) -> String {
+        self.to_string()
     }
 
-    /// Order, axes and units of the numbers, in full.
-    pub fn meaning(self) -> &'static str {
-        match self {
-            Self::Matrix => {
-                "4×4 matrix, row after row: 3×3 rotation with x y z in metres as the fourth column, then 0 0 0 1; it \
-                 multiplies a column [x y z 1] from the left"
-            }
-            Self::QuaternionXyzw => {
-                "x y z in metres, then a unit quaternion qx qy qz qw with the scalar qw last and not negative"
-            }
-            Self::RotationVector => {
-                "x y z in metres, then rx ry rz: the axis of the rotation times its angle in radians, 0 to π; not three \
-                 angles one after the other"
-            }
-            Self::Kuka => {
-                "X Y Z in millimetres, then A B C in degrees: A about Z, B about the new Y, C about the new X (intrinsic \
-                 Z-Y'-X''), R = Rz(A)·Ry(B)·Rx(C), B within ±90"
-            }
-            Self::Fanuc => {
-                "X Y Z in millimetres, then W P R in degrees: W about the fixed X, then P about the fixed Y, then R about \
-                 the fixed Z (extrinsic X-Y-Z), R = Rz(R)·Ry(P)·Rx(W), P within ±90"
-            }
-            Self::Abb => {
-                "x y z in millimetres, then a unit quaternion q1 q2 q3 q4 with the scalar q1 first and not negative, as \
-                 in RAPID's pos and orient"
-            }
-            Self::UniversalRobots => {
-                "x y z in metres, then rx ry rz: the axis of the rotation times its angle in radians, 0 to π, as in \
-                 URScript's p[x, y, z, rx, ry, rz]; not the roll, pitch and yaw of the teach pendant"
-            }
-            Self::Yaskawa => {
-                "X Y Z in millimetres, then Rx Ry Rz in degrees: Rx about the fixed X, then Ry about the fixed Y, then Rz \
-                 about the fixed Z (extrinsic X-Y-Z), R = Rz(Rz)·Ry(Ry)·Rx(Rx), Ry within ±90"
-            }
-            Self::Staubli => {
-                "x y z in millimetres, then rx ry rz in degrees: rx about X, ry about the new Y, rz about the new Z \
-                 (intrinsic X-Y'-Z''), R = Rx(rx)·Ry(ry)·Rz(rz), ry within ±90, as in VAL 3's trsf"
-            }
-            Self::Doosan => {
-                "X Y Z in millimetres, then A B C in degrees: A about Z, B about the new Y, C about the new Z (intrinsic \
-                 Z-Y'-Z''), R = Rz(A)·Ry(B)·Rz(C), B from 0 to 180, as in posx"
-            }
-        }
+    /// Order, axes and units of the numbers, in full and in English.
+    pub fn meaning(self) -> String {
+        let meaning = self.message().attribute(Language::English, "meaning");
+        meaning.unwrap_or_default()
     }
 
     /// The names of the numbers, in order.
@@ -238,3 +189,11 @@ impl Convention {
         }
     }
 }
+
+impl Described for Convention {
+    fn message(&self) -> Message {
+        Message::new("convention").with("convention", self.name())
+    }
+}
+
+texts::display!(Convention);

@@ -6,10 +6,8 @@ use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::convention::{Convention, Layout};
-use geometry::{
-    error::Advice,
-    rigid::{RigidTransform, from_row_major, row_major},
-};
+use geometry::rigid::{RigidTransform, from_row_major, row_major};
+use texts::{Described, Message};
 
 /// What a number of a pose is counted in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -115,7 +113,7 @@ pub struct RobotPose {
     /// Which convention.
     pub convention: Convention,
     /// What it is: order, axes, units.
-    pub meaning: &'static str,
+    pub meaning: String,
     /// The numbers.
     pub values: Vec<RobotValue>,
     /// Whether they are in gimbal lock.
@@ -144,7 +142,6 @@ impl RobotPose {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ConventionError {
     /// Too few or too many numbers.
-    #[error("{} has {needed} numbers ({}), {found} are given", convention.title(), convention.names().join(" "))]
     Count {
         /// The convention.
         convention: Convention,
@@ -154,7 +151,6 @@ pub enum ConventionError {
         needed: usize,
     },
     /// A number is infinite or NaN.
-    #[error("{name} is {value}, expected a finite number")]
     NotFinite {
         /// Name of the number in the convention.
         name: &'static str,
@@ -162,41 +158,44 @@ pub enum ConventionError {
         value: f64,
     },
     /// The quaternion is not of unit length.
-    #[error("the quaternion's length is {length:.4}, expected 1")]
     NotUnit {
         /// Its length.
         length: f64,
     },
     /// The rotation vector is longer than a full turn: the unit is wrong.
-    #[error("the rotation vector has length {length:.2}, expected at most 2π")]
     LongRotation {
         /// Its length.
         length: f64,
     },
     /// The matrix also stretches or mirrors.
-    #[error(
-        "the 16 numbers are not a rigid transform: they stretch, mirror or do not end in 0 0 0 1"
-    )]
     NotRigid,
 }
 
-impl Advice for ConventionError {
-    fn advice(&self) -> String {
+impl Described for ConventionError {
+    fn message(&self) -> Message {
         match self {
-            Self::Count { convention, .. } => format!("Give them in this order: {}", convention.meaning()),
-            Self::NotFinite { .. } => "Read the numbers off the controller again".into(),
-            Self::NotUnit { .. } => {
-                "Copy all four numbers with at least 4 decimals, and check which of them is the scalar".into()
+            Self::Count {
+                convention,
+                found,
+                needed,
+            } => Message::new("written-count")
+                .with("convention", convention.name())
+                .with("names", &*convention.names().join(" "))
+                .with("needed", *needed as f64)
+                .with("found", *found as f64),
+            Self::NotFinite { name, value } => Message::new("written-not-finite")
+                .with("name", *name)
+                .with("value", &*value.to_string()),
+            Self::NotUnit { length } => Message::new("written-not-unit").with("length", *length),
+            Self::LongRotation { length } => {
+                Message::new("written-long-rotation").with("length", *length)
             }
-            Self::LongRotation { .. } => {
-                "Give the rotation vector in radians; these look like degrees".into()
-            }
-            Self::NotRigid => {
-                "Give a rotation and a shift, row after row with at least 4 decimals; check rows against columns".into()
-            }
+            Self::NotRigid => Message::new("written-not-rigid"),
         }
     }
 }
+
+texts::display!(ConventionError);
 
 /// Tolerance for a unit quaternion, a full turn and a rigid matrix: people copy at least four decimals.
 const COPY_TOLERANCE: f64 = 1e-3;

@@ -6,7 +6,8 @@ use nalgebra::Vector3;
 
 use super::{Convention, ConventionError};
 use files::Row;
-use geometry::{error::Advice, rigid::RigidTransform, units::Metres};
+use geometry::{rigid::RigidTransform, units::Metres};
+use texts::{Described, Message};
 
 /// A pose that a person wrote, and its convention.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,28 +22,23 @@ pub struct WrittenPose {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum WrittenPoseError {
     /// The first word is not the name of a convention.
-    #[error("no convention is named {name:?}")]
     NoSuchConvention {
         /// The first word.
         name: String,
     },
     /// A word stands where a number is expected.
-    #[error("{word:?} is not a number")]
     NoNumber {
         /// The word.
         word: String,
     },
     /// Numbers without a convention, other than the 16 of a matrix.
-    #[error("{found} {} without the name of a convention", if *found == 1 { "number" } else { "numbers" })]
     NoConvention {
         /// Number of numbers.
         found: usize,
     },
     /// The numbers are not a pose in their convention.
-    #[error(transparent)]
     Numbers(#[from] ConventionError),
     /// No cell is this large: the unit is wrong.
-    #[error("the position is {:.0} m away, expected at most {} m", distance.0, FARTHEST)]
     TooFar {
         /// Its distance from the origin.
         distance: Metres,
@@ -50,7 +46,6 @@ pub enum WrittenPoseError {
         convention: Convention,
     },
     /// The nozzle is too near to the flange or too far from it for any gun: the unit is probably wrong.
-    #[error("the nozzle is {:.3} mm from the flange, expected {:.0} to {:.0} mm", distance.mm(), NOZZLE_DISTANCE.start() * 1000.0, NOZZLE_DISTANCE.end() * 1000.0)]
     Nozzle {
         /// Its distance from the flange.
         distance: Metres,
@@ -59,27 +54,45 @@ pub enum WrittenPoseError {
     },
 }
 
-impl Advice for WrittenPoseError {
-    fn advice(&self) -> String {
+impl Described for WrittenPoseError {
+    fn message(&self) -> Message {
+        let in_unit_of = |message: Message, convention: &Convention| {
+            message
+                .with("unit", convention.length_unit().symbol())
+                .with("name", convention.name())
+        };
         match self {
-            Self::NoSuchConvention { .. } | Self::NoConvention { .. } => format!(
-                "Write the convention first, for example \"kuka 1450 -310 890 10 20 30\": {}",
-                Convention::ALL.map(Convention::name).join(", ")
-            ),
-            Self::NoNumber { .. } => "Write numbers with a point, separated by spaces".into(),
-            Self::Numbers(error) => error.advice(),
-            Self::TooFar { convention, .. } => format!(
-                "Write its position in {}, the unit of {}",
-                convention.length_unit().symbol(),
-                convention.name()
-            ),
-            Self::Nozzle { convention, .. } => format!(
-                "Write its position in {}, the unit of {}; 0 0 0 only if the controller's flange frame already is at the nozzle",
-                convention.length_unit().symbol(),
-                convention.name()
-            ),
+            Self::NoSuchConvention { name } => Message::new("written-no-such-convention")
+                .with("name", &*format!("{name:?}"))
+                .with("names", &*names()),
+            Self::NoConvention { found } => Message::new("written-no-convention")
+                .with("found", *found as f64)
+                .with("names", &*names()),
+            Self::NoNumber { word } => {
+                Message::new("written-no-number").with("word", &*format!("{word:?}"))
+            }
+            Self::Numbers(error) => error.message(),
+            Self::TooFar {
+                distance,
+                convention,
+            } => in_unit_of(Message::new("written-too-far"), convention)
+                .with("distance_m", distance.0)
+                .with("most", FARTHEST),
+            Self::Nozzle {
+                distance,
+                convention,
+            } => in_unit_of(Message::new("written-nozzle"), convention)
+                .with("distance_m", distance.0)
+                .with("from_m", *NOZZLE_DISTANCE.start())
+                .with("to_m", *NOZZLE_DISTANCE.end()),
         }
     }
+}
+
+texts::display!(WrittenPoseError);
+
+fn names() -> String {
+    Convention::ALL.map(Convention::name).join(", ")
 }
 
 /// Valid distances of a nozzle from the flange, metres.
@@ -163,6 +176,7 @@ pub fn parse_nozzle(text: &str) -> Result<WrittenPose, WrittenPoseError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use geometry::error::Advice as _;
 
     #[test]
     fn a_convention_and_its_numbers_are_a_pose() {

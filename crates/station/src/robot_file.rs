@@ -13,7 +13,7 @@ use nalgebra::Point3;
 
 use super::{Doubt, Inspected};
 use files::FileError;
-use geometry::{cloud::PointCloud, error::Advice, rigid::RigidTransform, units::counted};
+use geometry::{cloud::PointCloud, error::Advice, rigid::RigidTransform};
 use inspection::library::{Side, SprayPath};
 use robot::{
     Convention, RobotFrame,
@@ -26,6 +26,7 @@ use robot::{
     spray::{BandStatus, CarriedPath, OffThePart, SprayExport, remove_previous_export},
 };
 use stages::{reference::Coverage, segment::MAX_PARTS, stand_off::StandOffParams};
+use texts::{Described, Message};
 
 /// A path to be written for a robot.
 #[derive(Clone, Debug)]
@@ -127,22 +128,17 @@ impl Advice for RobotFileError {
 }
 
 /// Something about a path that was not checked.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unchecked {
     /// No arm is known.
-    #[error("reach and collisions")]
     Arm,
     /// No boxes and no floor of the cell are known.
-    #[error("collisions with anything but part and arm, such as the part's stand")]
     Surroundings,
     /// The coat of a program's path is not known.
-    #[error("the film that the program leaves, because the path names no coat")]
     Film,
     /// Limits that the arm's file lacks: `joints`, `rail` or `joints and rail`.
-    #[error("accelerations of {0}, whose limits are not known")]
     Accelerations(&'static str),
     /// Points in front of which the camera saw no surface.
-    #[error("the stand-off at {num} of {}, where the camera saw no surface", counted(*num_points, "point", "points"))]
     NotSeen {
         /// Their number.
         num: usize,
@@ -151,23 +147,23 @@ pub enum Unchecked {
     },
 }
 
-impl Advice for Unchecked {
-    fn advice(&self) -> String {
+impl Described for Unchecked {
+    fn message(&self) -> Message {
         match self {
-            Self::Arm => {
-                "Write a program and name its arm, with the nozzle's pose on the flange, or watch the robot's first run at low speed".into()
+            Self::Arm => Message::new("unchecked-arm"),
+            Self::Surroundings => Message::new("unchecked-surroundings"),
+            Self::Film => Message::new("unchecked-film"),
+            Self::Accelerations(what) => {
+                Message::new("unchecked-accelerations").with("what", *what)
             }
-            Self::Surroundings => {
-                "Describe the boxes and the floor of the cell in a file, or watch the robot's first run at low speed".into()
-            }
-            Self::Film => "Plan the path again, so that it names its coat".into(),
-            Self::Accelerations(_) => "Add the limits to the arm's file".into(),
-            Self::NotSeen { .. } => {
-                "Capture the part so that the camera sees more of it, or scan it, if the path should aim at it there".into()
-            }
+            Self::NotSeen { num, num_points } => Message::new("unchecked-not-seen")
+                .with("num", *num as f64)
+                .with("num_points", *num_points as f64),
         }
     }
 }
+
+texts::display!(Unchecked);
 
 impl Unchecked {
     /// What is not checked about a path that this arm is to follow.

@@ -22,7 +22,7 @@ use shell::{
     session::{Session, WorkspaceKind},
 };
 use ui::{
-    language::{advised, described, in_short, text},
+    language::{advised, attribute, described, text},
     theme::{ROUNDING, Theme, font, space},
     widgets::{Mark, focus_ring, grouped, labelled, line_mark, sentence, shortened},
 };
@@ -278,7 +278,7 @@ fn words(ui: &mut Ui, row: &ShotRow, is_taken: bool, units: UnitSystem) {
                 advice = advised(&why)
             );
             // The card of the workspace shows the details.
-            let short = text!("shots-left-out", why = in_short(&why));
+            let short = text!("shots-left-out", why = attribute(&why, "short"));
             remark(ui, short, &all);
         }
         ShotFate::Used {

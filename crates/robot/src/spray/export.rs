@@ -78,7 +78,7 @@ struct Json<'a> {
     calibration: &'a str,
     robot_from_camera: [f64; 16],
     convention: Convention,
-    meaning: &'static str,
+    meaning: String,
     band_mm: [f64; 2],
     most_tilt_deg: f64,
     num_points: usize,

@@ -294,7 +294,7 @@ fn every_line_of_an_export_reads_back_to_the_nozzle_in_the_robots_frame() {
         };
         let csv = export.csv();
         for word in [
-            convention.meaning(),
+            &*convention.meaning(),
             "robot's base frame",
             "Cell 2 (00112233)",
             "SIMULATED",

@@ -11,14 +11,13 @@ use super::{
 };
 use crate::{
     cell::dialog_state::{RobotAction, RobotDialog, RobotQuestion},
-    language::robot::convention_title,
     session::Session,
 };
 use geometry::error::Advice as _;
 use robot::Convention;
 use serve::{Answer, ClientEvent, ClientNews, ListenAddress, PoseKind, Protocol, parse_address};
 use ui::{
-    language::text,
+    language::{described, text},
     theme::space,
     user_error::UserError,
     widgets::{self, Mark, drop_down, heading, line_mark, row, text_button},
@@ -109,14 +108,14 @@ fn fields(ui: &mut Ui, dialog: &mut RobotDialog) {
     ui.horizontal(|ui| {
         ui.label(text!("robot-poses-as"));
         if let Some(own) = dialog.protocol.own_convention() {
-            ui.label(convention_title(own));
+            ui.label(described(&own));
             return;
         }
-        let title = convention_title(dialog.answered_in);
+        let title = described(&dialog.answered_in);
         let label = text!("robot-answered-in", convention = &title);
         drop_down(ui, &label, &title, 240.0, |ui| {
             for other in Convention::ALL {
-                let title = convention_title(other);
+                let title = described(&other);
                 ui.selectable_value(&mut dialog.answered_in, other, title);
             }
         });

@@ -8,11 +8,11 @@ use super::{
 };
 use crate::{
     cell::dialog_state::{RobotAction, RobotDialog},
-    language::robot::{convention_meaning, convention_title, written_pose_error},
+    language::robot::convention_meaning,
 };
 use robot::{Convention, calibration::CameraPlace};
 use ui::{
-    language::text,
+    language::{described, text, what_and_advice},
     theme::space,
     user_error::UserError,
     widgets::{Mark, drop_down},
@@ -53,7 +53,7 @@ pub(super) fn ui(ui: &mut Ui, dialog: &mut RobotDialog, caused: &mut Vec<RobotAc
             }
         }
         Err(_) if dialog.numbers.trim().is_empty() => {}
-        Err(error) => error_row(ui, Mark::Bad, &written_pose_error(error).into()),
+        Err(error) => error_row(ui, Mark::Bad, &what_and_advice(error).into()),
     }
     ui.add_space(space::SMALL);
     name(ui, dialog);
@@ -65,11 +65,11 @@ pub(super) fn ui(ui: &mut Ui, dialog: &mut RobotDialog, caused: &mut Vec<RobotAc
 
 fn convention(ui: &mut Ui, convention: &mut Convention) {
     let chosen = *convention;
-    let title = convention_title(chosen);
+    let title = described(&chosen);
     let label = text!("robot-numbers-are-of", convention = &title);
     drop_down(ui, &label, &title, 240.0, |ui| {
         for other in Convention::ALL {
-            ui.selectable_value(convention, other, convention_title(other));
+            ui.selectable_value(convention, other, described(&other));
         }
     });
 }

@@ -11,11 +11,10 @@ use super::{
 use crate::{
     cell::dialog_state::{RobotAction, RobotDialog, RobotFile},
     inspection::source::file_name,
-    language::robot::convention_title,
 };
 use robot::Convention;
 use ui::{
-    language::text,
+    language::{described, text},
     theme::{Theme, space},
     user_error::UserError,
     widgets::{Mark, row, text_button},
@@ -169,8 +168,8 @@ fn figures(ui: &mut Ui, found: &SolvedPairs) {
     let [robot, camera] = found.conventions;
     let text = text!(
         "robot-conventions-are",
-        robot = convention_title(robot),
-        camera = convention_title(camera)
+        robot = described(&robot),
+        camera = described(&camera)
     );
     row(ui, &text!("robot-read-as"), &text);
 }

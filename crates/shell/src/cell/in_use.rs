@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     cell::dialog_state::{RobotAction, RobotDialog, RobotFile, RobotQuestion},
-    language::robot::{calibration_name, convention_meaning, convention_title, written_pose_error},
+    language::robot::{calibration_name, convention_meaning},
     session::Session,
 };
 use geometry::rigid::RigidTransform;
@@ -18,7 +18,7 @@ use robot::{
     hand_eye::Mount,
 };
 use ui::{
-    language::text,
+    language::{described, text, what_and_advice},
     theme::{Theme, space},
     user_error::UserError,
     widgets::{Mark, default_button, heading, row, sentence, text_button},
@@ -153,7 +153,7 @@ fn mount(mount: Mount) -> String {
 pub(super) fn pose(ui: &mut Ui, name: &str, transform: &RigidTransform, convention: Convention) {
     let theme = Theme::of(ui);
     let written: RobotPose = convention.write(transform);
-    heading(ui, &format!("{name} · {}", convention_title(convention)));
+    heading(ui, &format!("{name} · {}", described(&convention)));
     if convention == Convention::Matrix {
         for numbers in written.values.chunks(4) {
             let cells: Vec<String> = numbers.iter().map(|v| format!("{:9.5}", v.value)).collect();
@@ -198,9 +198,7 @@ fn arm(
         .labelled_by(label.id);
         let typed = dialog.typed_arm();
         ui.add_enabled_ui(typed.is_ok(), |ui| {
-            let why_not = typed
-                .err()
-                .map(|error| written_pose_error(&error).join("\n"));
+            let why_not = typed.err().map(|error| what_and_advice(&error).join("\n"));
             let store = text_button(ui, &text!("shell-store"));
             let store = store.on_disabled_hover_text(why_not.unwrap_or_default());
             if store.clicked() {

@@ -4,10 +4,7 @@ use std::{ops::RangeInclusive, path::Path};
 
 use serde::{Deserialize, Serialize};
 
-use crate::{
-    file_dialog::FileFilter, inspection::report_files::ProgramTarget,
-    language::robot::written_pose_error,
-};
+use crate::{file_dialog::FileFilter, inspection::report_files::ProgramTarget};
 use files::file_name;
 use geometry::rigid::RigidTransform;
 use inspection::pipeline::parameters::Parameters as _;
@@ -17,7 +14,10 @@ use robot::{
     parse_nozzle,
     program::{ProgramParams, ProgramSettings, RobotLanguage},
 };
-use ui::{language::text, user_error::UserError};
+use ui::{
+    language::{text, what_and_advice},
+    user_error::UserError,
+};
 
 /// Settings for robot programs; kept with the settings.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -112,8 +112,8 @@ impl ProgramSetup {
         if self.nozzle.trim().is_empty() {
             return Ok(None);
         }
-        let written = parse_nozzle(&self.nozzle)
-            .map_err(|error| UserError::from(written_pose_error(&error)))?;
+        let written =
+            parse_nozzle(&self.nozzle).map_err(|error| UserError::from(what_and_advice(&error)))?;
         Ok(Some(written.pose))
     }
 

@@ -10,7 +10,7 @@ use image::{DynamicImage, ImageFormat};
 use nalgebra::Point3;
 
 use super::{inspected::Inspected, source::Origin};
-use crate::language::robot::{convention_title, not_checked};
+use crate::language::robot::not_checked;
 use files::{file_name, write_atomically};
 use inspection::pipeline::Inspection;
 use records::{
@@ -30,7 +30,7 @@ use station::{
     robot_file::{RobotFile, RobotFileContent, RobotFileError, remove_previous},
 };
 use ui::{
-    language::{text, what_and_advice},
+    language::{described, text, what_and_advice},
     user_error::UserError,
     viewport::{ViewColours, ViewShot},
 };
@@ -155,7 +155,7 @@ pub fn robot_file(file: &RobotFile<'_>) -> Result<WrittenForRobot, UserError> {
             path = path,
             inside = file.carried.num_inside(),
             num = file.carried.num_seen(),
-            convention = convention_title(convention)
+            convention = described(&convention)
         ),
         RobotFileContent::Program { language, .. } if written.num_called > 0 => text!(
             "program-written-parts",

@@ -231,6 +231,7 @@ mod tests {
         fixtures::history_entry,
         history::{Filter, Record},
     };
+    use ui::language::{advised, described};
 
     #[test]
     fn in_english_the_window_says_what_the_library_says() {
@@ -399,7 +400,7 @@ mod tests {
         let title_of = |name: &str| format!("the {name} of today");
         let shown = || {
             let why = past.titled_refusal(title_of).expect("refused");
-            [described(&why), ui::language::advised(&why)]
+            [described(&why), advised(&why)]
         };
         assert_eq!(
             shown()[0],

@@ -50,10 +50,10 @@ pub fn what_and_advice(what: &impl Described) -> [String; 2] {
     [described(what), advised(what)]
 }
 
-/// Returns what the library describes in a few words.
-pub fn in_short(what: &impl Described) -> String {
-    let short = what.message().attribute(Language::current(), "short");
-    short.unwrap_or_else(|| described(what))
+/// Returns another text of what the library describes, such as `short`; its text if it has no such one.
+pub fn attribute(what: &impl Described, name: &str) -> String {
+    let text = what.message().attribute(Language::current(), name);
+    text.unwrap_or_else(|| described(what))
 }
 
 /// Returns a text of the library's catalogue that has no variables.

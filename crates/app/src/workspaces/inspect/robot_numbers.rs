@@ -7,11 +7,11 @@ use geometry::rigid::RigidTransform;
 use robot::{Convention, RobotPose, RobotValue, Unit};
 use shell::{
     inspection::inspected::Inspected,
-    language::robot::{calibration_name, convention_meaning, convention_title},
+    language::robot::{calibration_name, convention_meaning},
     session::Session,
 };
 use ui::{
-    language::text,
+    language::{described, text},
     theme::{Theme, font, space},
     widgets::{drop_down, heading, row},
 };
@@ -66,7 +66,7 @@ fn accepted_pose(inspected: &Inspected) -> Option<RigidTransform> {
 /// Formats the pose for the clipboard: a title, a line with names and units, then the bare numbers.
 pub(super) fn clipboard_text(numbered: &NumberedPose) -> String {
     let NumberedPose { name, frame, pose } = numbered;
-    let title = convention_title(pose.convention);
+    let title = described(&pose.convention);
     let meaning = convention_meaning(pose.convention);
     let rounded: Vec<String> = pose.values.iter().map(RobotValue::rounded).collect();
     let numbers = match pose.convention {
@@ -135,12 +135,12 @@ pub(super) fn ui(
 
 fn choice(ui: &mut Ui, chosen: Convention, actions: &mut Vec<InspectAction>) {
     let mut convention = chosen;
-    let title = convention_title(chosen);
+    let title = described(&chosen);
     let label = text!("inspect-convention-of", name = &title);
     let width = ui.available_width();
     drop_down(ui, &label, &title, width, |ui| {
         for other in Convention::ALL {
-            ui.selectable_value(&mut convention, other, convention_title(other));
+            ui.selectable_value(&mut convention, other, described(&other));
         }
     })
     .on_hover_text(text!("inspect-convention-says"));

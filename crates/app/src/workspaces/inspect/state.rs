@@ -20,14 +20,13 @@ use shell::{
         report_files,
         scan_choice::{ScanOrder, ShotChoice},
     },
-    language::robot::convention_title,
     message::{Event, Message},
     notice::Notice,
     session::{ReinspectionPurpose, Session, Source, WorkspaceKind},
     source::live::LiveAction,
 };
 use ui::{
-    language::text,
+    language::{described, text},
     task::{Running, Task, TaskRunner},
     user_error::UserError,
     viewport::{Colouring, ViewShot},
@@ -425,7 +424,7 @@ fn copy_pose(cx: &mut ShellContext<'_>) {
     let Some(numbered) = numbered(cx.session, &shown.inspected) else {
         return;
     };
-    let title = convention_title(numbered.pose.convention);
+    let title = described(&numbered.pose.convention);
     let what = text!(
         "inspect-pose-copied",
         name = numbered.name,

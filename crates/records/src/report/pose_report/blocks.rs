@@ -19,7 +19,7 @@ const ROBOT: &str = "robot: the robot's base frame";
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct NumberBlock {
     /// Order and units, in full.
-    pub meaning: &'static str,
+    pub meaning: String,
     /// The name of each number.
     pub names: &'static [&'static str],
     /// The numbers.
@@ -154,9 +154,9 @@ pub struct RobotBlock {
     /// The convention that was asked for.
     pub convention: Convention,
     /// Its name for people.
-    pub convention_title: &'static str,
+    pub convention_title: String,
     /// Order, axes and units of its numbers.
-    pub convention_meaning: &'static str,
+    pub convention_meaning: String,
     /// Which cell calibration; null if there is none.
     pub calibration: Option<String>,
     /// Where the camera stands in the robot's base frame; null without a calibration.

@@ -39,7 +39,7 @@ fn robot(sheet: &mut Sheet<'_>, report: &PoseReport, pose: &PoseBlock, area: Are
     };
     let mut y = area.top + 9.0;
     sheet.text(
-        robot.convention_title,
+        &robot.convention_title,
         [area.left, y],
         HEADING,
         Anchor::Left,
@@ -47,7 +47,7 @@ fn robot(sheet: &mut Sheet<'_>, report: &PoseReport, pose: &PoseBlock, area: Are
     if let Some(calibration) = &robot.calibration {
         let style = SMALL;
         let text = format!("calibration: {calibration}");
-        let beside = sheet.faces.width(robot.convention_title, HEADING) + 12.0;
+        let beside = sheet.faces.width(&robot.convention_title, HEADING) + 12.0;
         let text = sheet.faces.fitted(&text, area.width - beside, style);
         sheet.text(&text, [area.left + area.width, y], style, Anchor::Right);
     }
