@@ -21,6 +21,8 @@
 
 mod answer;
 mod client;
+#[cfg(feature = "fixtures")]
+pub mod fixtures;
 mod handle;
 mod inspections;
 mod listen;

@@ -7,13 +7,12 @@ use std::{
     collections::{BTreeSet, VecDeque},
     io::{BufRead as _, BufReader, Read as _, Write as _},
     net::{SocketAddr, TcpStream},
-    ops::ControlFlow,
     sync::{
         Arc, Mutex,
-        atomic::{AtomicBool, AtomicU32, Ordering},
+        atomic::{AtomicBool, Ordering},
         mpsc,
     },
-    thread::{self, JoinHandle},
+    thread,
     time::{Duration, Instant},
 };
 
@@ -21,7 +20,8 @@ use geometry::rigid::RigidTransform;
 use robot::Convention;
 use serve::{
     Answer, Asked, CameraState, CameraStatus, ClientEvent, ClientNews, Found, FrameParts,
-    Inspector, ListenAddress, Listener, PathStep, Problem, Server, ServerSettings, VerdictCode,
+    ListenAddress, Listener, PathStep, Problem, Server, ServerSettings, VerdictCode,
+    fixtures::{self, RunningServer},
 };
 
 /// Timeout with room for a busy machine; what is awaited normally comes at once.
@@ -30,71 +30,24 @@ const PATIENCE: Duration = Duration::from_mins(2);
 /// Every protocol, at any free port.
 const ALL: [&str; 5] = ["ascii=0", "binary=0", "binary-be=0", "eki=0", "urscript=0"];
 
-/// An accepted part, `number` millimetres from the robot, so that answers cannot be mixed up.
+/// An accepted part with a path.
 fn accepted(number: u32) -> Found {
-    let at = |x| RigidTransform::translation(x, 0.25, 1.5);
+    let step = |x, marks, speed| PathStep {
+        robot_from_nozzle: RigidTransform::translation(x, 0.25, 1.5),
+        marks,
+        speed,
+    };
     Found {
-        verdict: VerdictCode::Accepted,
-        captured: Some(Instant::now()),
-        part: "fender".into(),
-        number: 4,
-        marks: Answer::SIMULATED,
-        pose: Some(at(f64::from(number) / 1000.0)),
         path: vec![
-            PathStep {
-                robot_from_nozzle: at(0.007),
-                marks: Answer::GUN_ON,
-                speed: Some(0.25),
-            },
-            PathStep {
-                robot_from_nozzle: at(0.008),
-                marks: 0,
-                speed: None,
-            },
+            step(0.007, Answer::GUN_ON, Some(0.25)),
+            step(0.008, 0, None),
         ],
-        no_path: None,
-        report: String::new(),
-        problem: Problem::default(),
+        ..fixtures::accepted(number)
     }
 }
 
 fn refused(number: u32) -> Found {
-    Found {
-        verdict: VerdictCode::Refused,
-        problem: Problem {
-            reason: "low_score".into(),
-            message: "too low (to do: Look again)".into(),
-        },
-        // The server must not send these.
-        ..accepted(number)
-    }
-}
-
-/// An inspector that returns what it is told to, and counts.
-struct Fake {
-    number: u32,
-    find: Box<dyn FnMut(u32) -> FrameParts + Send>,
-    is_ending: Arc<AtomicBool>,
-    num_inspected: Arc<AtomicU32>,
-}
-
-impl Inspector for Fake {
-    fn inspect(&mut self, asked: &Asked) -> FrameParts {
-        assert!(asked.at <= Instant::now());
-        self.number += 1;
-        self.num_inspected.fetch_add(1, Ordering::SeqCst);
-        (self.find)(self.number)
-    }
-
-    fn answered(&mut self) {}
-
-    fn turn(&mut self) -> ControlFlow<()> {
-        if self.is_ending.load(Ordering::SeqCst) {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
-    }
+    fixtures::refused(accepted(number))
 }
 
 /// A running server.
@@ -102,9 +55,7 @@ struct Service {
     addresses: Vec<SocketAddr>,
     camera: Arc<Mutex<CameraStatus>>,
     events: Arc<Mutex<Vec<ClientEvent>>>,
-    num_inspected: Arc<AtomicU32>,
-    is_ending: Arc<AtomicBool>,
-    thread: Option<JoinHandle<()>>,
+    server: RunningServer,
 }
 
 impl Service {
@@ -124,7 +75,7 @@ impl Service {
         }));
         let events = Arc::new(Mutex::new(Vec::new()));
         let (of_clients, reply) = (Arc::clone(&camera), Arc::clone(&events));
-        let mut server = Server::start(
+        let server = Server::start(
             &listeners,
             settings,
             move || of_clients.lock().expect("whole").clone(),
@@ -132,21 +83,15 @@ impl Service {
         )
         .expect("started");
         let addresses = server.addresses().iter().map(|at| at.address).collect();
-        let is_ending = Arc::new(AtomicBool::new(false));
-        let num_inspected = Arc::new(AtomicU32::new(0));
-        let mut fake = Fake {
-            number: 0,
-            find: Box::new(move |number| find(number).into()),
-            is_ending: Arc::clone(&is_ending),
-            num_inspected: Arc::clone(&num_inspected),
+        let find = move |number, asked: &Asked| {
+            assert!(asked.at <= Instant::now());
+            find(number).into()
         };
         Self {
             addresses,
             camera,
             events,
-            num_inspected,
-            is_ending,
-            thread: Some(thread::spawn(move || server.run(&mut fake))),
+            server: RunningServer::start(server, find, drop),
         }
     }
 
@@ -154,24 +99,11 @@ impl Service {
         Robot::connect(self.addresses[place], ALL[place])
     }
 
-    fn end(&mut self) {
-        self.is_ending.store(true, Ordering::SeqCst);
-        if let Some(thread) = self.thread.take() {
-            thread.join().expect("ended");
-        }
-    }
-
     fn wait_for(&self, news: impl Fn(&ClientNews) -> bool) {
         wait_until(|| {
             let events = self.events.lock().expect("whole");
             events.iter().any(|event| news(&event.news))
         });
-    }
-}
-
-impl Drop for Service {
-    fn drop(&mut self) {
-        self.end();
     }
 }
 
@@ -543,7 +475,7 @@ fn every_protocol_triggers_asks_again_and_fetches_the_path() {
         assert_eq!((beyond.verdict, beyond.flags & 1), (7, 0));
         assert!(beyond.numbers.is_empty());
     }
-    assert_eq!(service.num_inspected.load(Ordering::SeqCst), 5);
+    assert_eq!(service.server.num_inspected(), 5);
 }
 
 #[test]
@@ -681,7 +613,7 @@ fn of_ten_thousand_triggers_by_several_clients_none_is_lost_or_answered_twice() 
     }
     let sequences: BTreeSet<u32> = reply.iter().map(|reply| reply.sequence).collect();
     assert!(sequences.into_iter().eq(1..=10_000));
-    assert_eq!(service.num_inspected.load(Ordering::SeqCst), 10_000);
+    assert_eq!(service.server.num_inspected(), 10_000);
 }
 
 #[test]
@@ -770,7 +702,7 @@ fn hostile_clients_do_not_disturb_a_good_one() {
             }
         }
     });
-    assert_eq!(service.num_inspected.load(Ordering::SeqCst), 200);
+    assert_eq!(service.server.num_inspected(), 200);
     // The places of the hostile clients become free again.
     for place in 0..ALL.len() {
         wait_until(|| {
@@ -924,7 +856,7 @@ fn a_bad_request_is_answered_with_its_reason_and_the_connection_closed() {
         // The client may connect again.
         assert_eq!(service.robot(place).ask("LAST").verdict, 0);
     }
-    assert_eq!(service.num_inspected.load(Ordering::SeqCst), 0);
+    assert_eq!(service.server.num_inspected(), 0);
     service.wait_for(|news| matches!(news, ClientNews::BadRequest(_)));
 }
 
@@ -1005,7 +937,7 @@ fn whichever_side_starts_again_the_other_goes_on() {
     let reply = robot.ask("TRIGGER");
     // The robot restarts before it has read the answer.
     robot.send(b"TRIGGER\n");
-    wait_until(|| service.num_inspected.load(Ordering::SeqCst) == 2);
+    wait_until(|| service.server.num_inspected() == 2);
     drop(robot);
     let mut robot = service.robot(0);
     let last = robot.ask("LAST");
@@ -1013,7 +945,7 @@ fn whichever_side_starts_again_the_other_goes_on() {
     assert!((1..=2).contains(&last.sequence));
     // The server restarts at the same port.
     let address = format!("ascii={}", service.addresses[0]);
-    service.end();
+    service.server.end();
     assert!(robot.is_let_go());
     let service = Service::start(&[address.as_str()], ServerSettings::default(), accepted);
     let mut robot = service.robot(0);
@@ -1037,7 +969,7 @@ fn who_waits_when_the_service_ends_is_told_so() {
     first.send(b"TRIGGER\n");
     assert_eq!(has_begun.recv_timeout(PATIENCE), Ok(1));
     second.send(b"TRIGGER\n");
-    service.is_ending.store(true, Ordering::SeqCst);
+    service.server.ask_to_end();
     go_on.send(()).expect("awaited");
     // Its inspection had begun.
     assert_eq!(first.reply().sequence, 1);
@@ -1045,7 +977,7 @@ fn who_waits_when_the_service_ends_is_told_so() {
     let mut line = String::new();
     let _ = second.stream.read_line(&mut line);
     assert!(line.is_empty() || line.contains(";stopping;"), "{line}");
-    service.end();
+    service.server.end();
 }
 
 #[test]
@@ -1133,5 +1065,5 @@ fn triggers_of_clients_that_have_gone_are_not_inspected() {
     let mut last = service.robot(0);
     go_on.send(()).expect("awaited");
     assert_eq!(last.ask("TRIGGER").sequence, 3);
-    assert_eq!(service.num_inspected.load(Ordering::SeqCst), 3);
+    assert_eq!(service.server.num_inspected(), 3);
 }

@@ -281,7 +281,7 @@ fn who_waits_when_the_service_ends_is_told_so() {
             .text
             .contains("partsight_clients 2\n")
     });
-    service.is_ending.store(true, Ordering::SeqCst);
+    service.server.ask_to_end();
     go_on.send(()).expect("awaited");
     // Its inspection had begun.
     assert_eq!(first.reply().expect("an answer").json()["sequence"], 1);

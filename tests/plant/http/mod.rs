@@ -12,13 +12,9 @@ mod schema;
 
 use std::{
     net::SocketAddr,
-    ops::ControlFlow,
     path::{Path, PathBuf},
-    sync::{
-        Arc, Mutex,
-        atomic::{AtomicBool, AtomicU32, Ordering},
-    },
-    thread::{self, JoinHandle},
+    sync::{Arc, Mutex},
+    thread,
     time::{Duration, Instant},
 };
 
@@ -28,82 +24,36 @@ use partsight::{
     robot::Convention,
     serve::{
         Answer, Asked, CameraState, CameraStatus, ClientEvent, ClientNews, Found, FrameParts,
-        Inspector, PathStep, Problem, Server, ServerSettings, VerdictCode,
+        PathStep, Server, ServerSettings,
     },
 };
+use serve::fixtures::{self, RunningServer};
 
 use self::client::Client;
 
 /// Timeout with room for a busy machine; what is awaited normally comes at once.
 const PATIENCE: Duration = Duration::from_mins(2);
 
-/// An accepted part, `number` millimetres from the robot, so that answers cannot be mixed up.
+/// An accepted part with a path and a report.
 fn accepted(number: u32) -> Found {
-    let at = |x| RigidTransform::translation(x, 0.25, 1.5);
     let step = |x, marks, speed| PathStep {
-        robot_from_nozzle: at(x),
+        robot_from_nozzle: RigidTransform::translation(x, 0.25, 1.5),
         marks,
         speed,
     };
     Found {
-        verdict: VerdictCode::Accepted,
-        captured: Some(Instant::now()),
-        part: "fender".into(),
-        number: 4,
-        marks: Answer::SIMULATED,
-        pose: Some(at(f64::from(number) / 1000.0)),
         path: vec![
             step(0.007, Answer::GUN_ON, Some(0.25)),
             step(0.008, Answer::IN_BAND, None),
         ],
         report: r#"{"schema":1,"status":"ok","pose":{"rms_m":0.5},"robot":{"calibration":"cell"},"ranking":[]}"#
             .into(),
-        no_path: None,
-        problem: Problem::default(),
+        ..fixtures::accepted(number)
     }
 }
 
 fn refused(number: u32) -> Found {
-    Found {
-        verdict: VerdictCode::Refused,
-        problem: Problem {
-            reason: "low_score".into(),
-            message: "too low (to do: Look again)".into(),
-        },
-        // The server must not send these.
-        ..accepted(number)
-    }
-}
-
-/// An inspector that returns what it is told to, and counts.
-struct Fake {
-    number: u32,
-    find: Box<dyn FnMut(u32) -> FrameParts + Send>,
-    is_ending: Arc<AtomicBool>,
-    num_inspected: Arc<AtomicU32>,
-}
-
-impl Inspector for Fake {
-    fn inspect(&mut self, asked: &Asked) -> FrameParts {
-        self.number += 1;
-        self.num_inspected.fetch_add(1, Ordering::SeqCst);
-        let mut found = (self.find)(self.number);
-        // What is expected shows in the answer.
-        found.first.number += (asked.expected.iter())
-            .map(|one| one.part + 100 * one.place)
-            .sum::<u32>();
-        found
-    }
-
-    fn answered(&mut self) {}
-
-    fn turn(&mut self) -> ControlFlow<()> {
-        if self.is_ending.load(Ordering::SeqCst) {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
-    }
+    fixtures::refused(accepted(number))
 }
 
 /// State of a service's camera; `None` makes the program panic when it is asked.
@@ -115,9 +65,7 @@ struct Service {
     address: SocketAddr,
     camera: Camera,
     events: Arc<Mutex<Vec<ClientEvent>>>,
-    num_inspected: Arc<AtomicU32>,
-    is_ending: Arc<AtomicBool>,
-    thread: Option<JoinHandle<()>>,
+    server: RunningServer,
 }
 
 impl Service {
@@ -136,7 +84,7 @@ impl Service {
         })));
         let events = Arc::new(Mutex::new(Vec::new()));
         let (of_clients, reply) = (Arc::clone(&camera), Arc::clone(&events));
-        let mut server = Server::start(
+        let server = Server::start(
             &[],
             settings,
             move || {
@@ -147,22 +95,20 @@ impl Service {
         )
         .expect("started");
         let http = HttpServer::start(http, server.handle()).expect("started");
-        let is_ending = Arc::new(AtomicBool::new(false));
-        let num_inspected = Arc::new(AtomicU32::new(0));
-        let mut fake = Fake {
-            number: 0,
-            find: Box::new(move |number| find(number).into()),
-            is_ending: Arc::clone(&is_ending),
-            num_inspected: Arc::clone(&num_inspected),
+        let find = move |number, asked: &Asked| {
+            let mut found: FrameParts = find(number).into();
+            // What is expected shows in the answer.
+            found.first.number += (asked.expected.iter())
+                .map(|one| one.part + 100 * one.place)
+                .sum::<u32>();
+            found
         };
         Self {
             address: http.address(),
             http: Some(http),
             camera,
             events,
-            num_inspected,
-            is_ending,
-            thread: Some(thread::spawn(move || server.run(&mut fake))),
+            server: RunningServer::start(server, find, drop),
         }
     }
 
@@ -171,7 +117,7 @@ impl Service {
     }
 
     fn num_inspected(&self) -> u32 {
-        self.num_inspected.load(Ordering::SeqCst)
+        self.server.num_inspected()
     }
 
     fn num_events(&self, news: &ClientNews) -> usize {
@@ -180,10 +126,7 @@ impl Service {
     }
 
     fn end(&mut self) {
-        self.is_ending.store(true, Ordering::SeqCst);
-        if let Some(thread) = self.thread.take() {
-            thread.join().expect("ended");
-        }
+        self.server.end();
         self.http = None;
     }
 }

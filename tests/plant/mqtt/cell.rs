@@ -4,91 +4,32 @@ use std::{
     fs,
     io::{BufRead as _, BufReader, Write as _},
     net::TcpStream,
-    ops::ControlFlow,
-    sync::{
-        Arc, Mutex,
-        atomic::{AtomicBool, Ordering},
-    },
-    thread::{self, JoinHandle},
-    time::{Duration, Instant},
+    sync::{Arc, Mutex},
+    time::Duration,
 };
 
 use partsight::{
-    RigidTransform,
     history::Traceability,
     plant::mqtt::{
         BrokerAccess, LibraryMessage, LinkNews, LinkSubject, MqttLink, PoseFormat, Unsent,
     },
     robot::Convention,
-    serve::{
-        Answer, Asked, CameraStatus, Found, FrameParts, InspectionRecord, Inspector, ListenAddress,
-        Listener, PoseKind, Problem, Server, ServerSettings, VerdictCode,
-    },
+    serve::{CameraStatus, Found, ListenAddress, Listener, PoseKind, Server, ServerSettings},
 };
+pub(crate) use serve::fixtures::accepted;
+use serve::fixtures::{self, RunningServer};
 
 use crate::mqtt::broker::{Broker, wait_until};
 
-/// An accepted part, `number` millimetres from the robot.
-pub(crate) fn accepted(number: u32) -> Found {
-    let x = f64::from(number) / 1000.0;
-    Found {
-        verdict: VerdictCode::Accepted,
-        captured: Some(Instant::now()),
-        part: "fender".into(),
-        number: 4,
-        marks: Answer::SIMULATED,
-        pose: Some(RigidTransform::translation(x, 0.25, 1.5)),
-        ..Found::default()
-    }
-}
-
 pub(crate) fn refused(number: u32) -> Found {
-    Found {
-        verdict: VerdictCode::Refused,
-        problem: Problem {
-            reason: "low_score".into(),
-            message: "too low (to do: Look again)".into(),
-        },
-        // The cell must not publish these.
-        ..accepted(number)
-    }
-}
-
-/// An inspector that returns what it is told to, and publishes it.
-struct Fake {
-    number: u32,
-    find: fn(u32) -> Found,
-    link: Arc<MqttLink>,
-    is_ending: Arc<AtomicBool>,
-}
-
-impl Inspector for Fake {
-    fn inspect(&mut self, _asked: &Asked) -> FrameParts {
-        self.number += 1;
-        (self.find)(self.number).into()
-    }
-
-    fn recorded(&mut self, record: InspectionRecord) {
-        self.link.inspected(record);
-    }
-
-    fn answered(&mut self) {}
-
-    fn turn(&mut self) -> ControlFlow<()> {
-        if self.is_ending.load(Ordering::SeqCst) {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
-    }
+    fixtures::refused(accepted(number))
 }
 
 pub(crate) struct Cell {
     pub(crate) link: Arc<MqttLink>,
     pub(crate) boot: u32,
     robot: Option<BufReader<TcpStream>>,
-    is_ending: Arc<AtomicBool>,
-    thread: Option<JoinHandle<()>>,
+    server: RunningServer,
     news: Mutex<Vec<LinkNews>>,
 }
 
@@ -119,7 +60,7 @@ impl Cell {
             max_age,
             ..ServerSettings::default()
         };
-        let mut server =
+        let server =
             Server::start(&[listener], settings, CameraStatus::default, |_| ()).expect("started");
         let boot = server.boot();
         let subject = LinkSubject {
@@ -138,20 +79,18 @@ impl Cell {
             },
         };
         let link = Arc::new(MqttLink::start(&access, subject).expect("started"));
-        let is_ending = Arc::new(AtomicBool::new(false));
         let robot = TcpStream::connect(server.addresses()[0].address).expect("connected");
-        let mut fake = Fake {
-            number: 0,
-            find,
-            link: Arc::clone(&link),
-            is_ending: Arc::clone(&is_ending),
-        };
+        let inspected = Arc::clone(&link);
+        let server = RunningServer::start(
+            server,
+            move |number, _| find(number).into(),
+            move |record| inspected.inspected(record),
+        );
         Self {
             link,
             boot,
             robot: Some(BufReader::new(robot)),
-            is_ending,
-            thread: Some(thread::spawn(move || server.run(&mut fake))),
+            server,
             news: Mutex::default(),
         }
     }
@@ -193,10 +132,7 @@ impl Cell {
     }
 
     fn stop(&mut self) {
-        self.is_ending.store(true, Ordering::SeqCst);
         self.robot = None;
-        if let Some(thread) = self.thread.take() {
-            thread.join().expect("ended");
-        }
+        self.server.end();
     }
 }
