@@ -17,20 +17,6 @@ expect-table-unusable = Die Auftragstabelle ist nicht verwendbar: { $error }
 expect-reading = Die Auftragstabelle { $file } wird gelesen
 expect-watching = Auftragstabelle wird beobachtet
 
-## Warum es nicht bekannt ist
-
-expect-not-given = Es ist kein Auftrag eingegeben
-expect-unknown-order = Auftrag { $order } steht nicht in der Auftragstabelle
-expect-unknown-serial = Seriennummer { $serial } steht nicht in der Auftragstabelle
-expect-serial-not-given = Auftrag { $order } unterscheidet sich je Seriennummer
-expect-other-order = Seriennummer { $serial } gehört zu Auftrag { $other }, nicht { $order }
-expect-several-orders = Mehrere Aufträge haben die Seriennummer { $serial }
-expect-give-order = Den Auftrag eingeben oder scannen
-expect-give-serial = Die Seriennummer scannen
-expect-check-order = Den Auftrag prüfen oder die Tabelle ergänzen lassen
-expect-check-serial = Die Seriennummer prüfen oder die Tabelle ergänzen lassen
-expect-check-both = Auftrag und Seriennummer prüfen
-
 ## Das Ergebnis
 
 expect-num-met = { $num } von { $all } wie erwartet

@@ -17,20 +17,6 @@ expect-table-unusable = The table of orders cannot be used: { $error }
 expect-reading = Reading the table of orders { $file }
 expect-watching = Watching the table of orders
 
-## Why it is not known
-
-expect-not-given = No order is entered
-expect-unknown-order = Order { $order } is not in the table of orders
-expect-unknown-serial = Serial number { $serial } is not in the table of orders
-expect-serial-not-given = Order { $order } differs by serial number
-expect-other-order = Serial number { $serial } is of order { $other }, not { $order }
-expect-several-orders = Several orders have serial number { $serial }
-expect-give-order = Enter or scan the order
-expect-give-serial = Scan the serial number
-expect-check-order = Check the order, or ask for the table to be completed
-expect-check-serial = Check the serial number, or ask for the table to be completed
-expect-check-both = Check the order and the serial number
-
 ## The verdict
 
 expect-num-met = { $num } of { $all } as expected

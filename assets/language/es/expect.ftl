@@ -17,20 +17,6 @@ expect-table-unusable = No se puede usar la tabla de órdenes: { $error }
 expect-reading = Leyendo la tabla de órdenes { $file }
 expect-watching = Se vigila la tabla de órdenes
 
-## Por qué no se sabe
-
-expect-not-given = No se ha introducido ninguna orden
-expect-unknown-order = La orden { $order } no está en la tabla de órdenes
-expect-unknown-serial = El número de serie { $serial } no está en la tabla de órdenes
-expect-serial-not-given = La orden { $order } varía según el número de serie
-expect-other-order = El número de serie { $serial } es de la orden { $other }, no de { $order }
-expect-several-orders = Varias órdenes tienen el número de serie { $serial }
-expect-give-order = Introducir o escanear la orden
-expect-give-serial = Escanear el número de serie
-expect-check-order = Comprobar la orden o pedir que se complete la tabla
-expect-check-serial = Comprobar el número de serie o pedir que se complete la tabla
-expect-check-both = Comprobar la orden y el número de serie
-
 ## El resultado
 
 expect-num-met = { $num } de { $all } según lo esperado

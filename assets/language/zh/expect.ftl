@@ -17,20 +17,6 @@ expect-table-unusable = 无法使用订单表：{ $error }
 expect-reading = 正在读取订单表 { $file }
 expect-watching = 正在监视订单表
 
-## 未知的原因
-
-expect-not-given = 尚未输入订单
-expect-unknown-order = 订单 { $order } 不在订单表中
-expect-unknown-serial = 序列号 { $serial } 不在订单表中
-expect-serial-not-given = 订单 { $order } 的零件因序列号而异
-expect-other-order = 序列号 { $serial } 属于订单 { $other }，而不是 { $order }
-expect-several-orders = 多个订单有序列号 { $serial }
-expect-give-order = 请输入或扫描订单
-expect-give-serial = 请扫描序列号
-expect-check-order = 请核对订单，或请人补充订单表
-expect-check-serial = 请核对序列号，或请人补充订单表
-expect-check-both = 请核对订单和序列号
-
 ## 结果
 
 expect-num-met = { $all } 个中 { $num } 个符合预期

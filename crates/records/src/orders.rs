@@ -20,7 +20,7 @@ use thiserror::Error;
 
 use crate::history::Traceability;
 use files::{FileError, read_text};
-use geometry::error::Advice;
+use geometry::error::Advice as _;
 use inspection::pipeline::{Expected, ExpectedError, ExpectedPart};
 use stages::{rack::Rack, segment::MAX_PARTS};
 use texts::{Described, Message};
@@ -153,28 +153,23 @@ texts::display!(OrdersError, BadCell);
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum OrderError {
     /// Neither an order nor a serial number is given.
-    #[error("no order is given")]
     NotGiven,
     /// The table does not have the order.
-    #[error("order {order} is not in the table of orders")]
     UnknownOrder {
         /// The order.
         order: String,
     },
     /// No row has the serial number, and the order has no row for other serial numbers.
-    #[error("serial number {serial} is not in the table of orders")]
     UnknownSerial {
         /// The serial number.
         serial: String,
     },
     /// The order has rows with serial numbers only, and none is given.
-    #[error("order {order} differs by serial number, and none is given")]
     SerialNotGiven {
         /// The order.
         order: String,
     },
     /// The serial number is that of another order.
-    #[error("serial number {serial} is of order {other}, not {order}")]
     OtherOrder {
         /// The serial number.
         serial: String,
@@ -184,28 +179,44 @@ pub enum OrderError {
         other: String,
     },
     /// Several orders have the serial number, and no order is given.
-    #[error("several orders have serial number {serial}")]
     SeveralOrders {
         /// The serial number.
         serial: String,
     },
     /// The parts of the row cannot be expected.
-    #[error("{0}")]
     Parts(BadCell),
 }
 
-impl Advice for OrderError {
-    fn advice(&self) -> String {
+impl Described for OrderError {
+    fn message(&self) -> Message {
         match self {
-            Self::NotGiven | Self::SeveralOrders { .. } => "Give the order".into(),
-            Self::UnknownOrder { .. } => "Check the order, or add it to the table".into(),
-            Self::UnknownSerial { .. } => "Check the serial number, or add it to the table".into(),
-            Self::SerialNotGiven { .. } => "Give the serial number".into(),
-            Self::OtherOrder { .. } => "Check the order and the serial number".into(),
-            Self::Parts(cell) => cell.advice(),
+            Self::NotGiven => Message::new("order-not-given"),
+            Self::UnknownOrder { order } => {
+                Message::new("order-unknown-order").with("order", &**order)
+            }
+            Self::UnknownSerial { serial } => {
+                Message::new("order-unknown-serial").with("serial", &**serial)
+            }
+            Self::SerialNotGiven { order } => {
+                Message::new("order-serial-not-given").with("order", &**order)
+            }
+            Self::OtherOrder {
+                serial,
+                order,
+                other,
+            } => Message::new("order-other-order")
+                .with("serial", &**serial)
+                .with("order", &**order)
+                .with("other", &**other),
+            Self::SeveralOrders { serial } => {
+                Message::new("order-several").with("serial", &**serial)
+            }
+            Self::Parts(cell) => cell.message(),
         }
     }
 }
+
+texts::display!(OrderError);
 
 /// The table of orders.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -85,7 +85,7 @@ fn the_order_says_what_should_hang_there_and_without_it_nothing_is_captured() {
     press(&mut harness, "Capture");
     open_rack(&mut harness, folder.path());
     assert!(
-        notices(&harness).contains("No order is entered"),
+        notices(&harness).contains("No order is given"),
         "{}",
         notices(&harness)
     );

@@ -31,9 +31,10 @@ use records::{
 use stages::segment::MAX_PARTS;
 use station::Doubt;
 use ui::{
-    language::{text, what_and_advice},
+    language::{advised, described, text},
     task::{Task, TaskContext, TaskError, TaskRunner},
     user_error::UserError,
+    widgets::sentence,
 };
 
 /// What should hang before the camera.
@@ -140,54 +141,12 @@ impl NotKnown {
 
     /// For the user.
     pub(crate) fn in_words(&self) -> UserError {
-        let error = match self {
-            Self::Unread { file } => {
-                let what = text!("expect-reading", file = file);
-                let advice = text!("shell-wait");
-                return UserError { what, advice };
-            }
-            Self::Table(error) => {
-                let [what, advice] = what_and_advice(&**error);
-                let what = text!("expect-table-unusable", error = what);
-                return UserError { what, advice };
-            }
-            Self::Order(error) => error,
-        };
-        let [what, advice] = match error {
-            OrderError::NotGiven => [text!("expect-not-given"), text!("expect-give-order")],
-            OrderError::UnknownOrder { order } => [
-                text!("expect-unknown-order", order = order),
-                text!("expect-check-order"),
-            ],
-            OrderError::UnknownSerial { serial } => [
-                text!("expect-unknown-serial", serial = serial),
-                text!("expect-check-serial"),
-            ],
-            OrderError::SerialNotGiven { order } => [
-                text!("expect-serial-not-given", order = order),
-                text!("expect-give-serial"),
-            ],
-            OrderError::OtherOrder {
-                serial,
-                order,
-                other,
-            } => [
-                text!(
-                    "expect-other-order",
-                    serial = serial,
-                    order = order,
-                    other = other
-                ),
-                text!("expect-check-both"),
-            ],
-            OrderError::SeveralOrders { serial } => [
-                text!("expect-several-orders", serial = serial),
-                text!("expect-give-order"),
-            ],
-            OrderError::Parts(cell) => {
-                let [what, advice] = what_and_advice(cell);
-                [text!("expect-table-unusable", error = what), advice]
-            }
+        let unusable = |error: String| text!("expect-table-unusable", error = error);
+        let [what, advice] = match self {
+            Self::Unread { file } => [text!("expect-reading", file = file), text!("shell-wait")],
+            Self::Table(error) => [unusable(described(&**error)), advised(&**error)],
+            Self::Order(OrderError::Parts(cell)) => [unusable(described(cell)), advised(cell)],
+            Self::Order(error) => [sentence(&described(error)), advised(error)],
         };
         UserError { what, advice }
     }

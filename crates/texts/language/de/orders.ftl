@@ -19,3 +19,18 @@ orders-not-one-line = die Zelle hat Zeilenumbrüche oder mehr als { $limit } Zei
     .advice = Sie kürzen; davor nach einem fehlenden Anführungszeichen suchen
 orders-again = Auftrag und Seriennummer sind die der Zeile { $first }
     .advice = Alle Teile, die zusammen hängen, in eine Zeile schreiben
+
+## Warum nicht bekannt ist, was ein Auftrag erwartet
+
+order-not-given = es ist kein Auftrag eingegeben
+    .advice = Den Auftrag eingeben oder scannen
+order-unknown-order = Auftrag { $order } steht nicht in der Auftragstabelle
+    .advice = Den Auftrag prüfen oder die Tabelle ergänzen lassen
+order-unknown-serial = Seriennummer { $serial } steht nicht in der Auftragstabelle
+    .advice = Die Seriennummer prüfen oder die Tabelle ergänzen lassen
+order-serial-not-given = Auftrag { $order } unterscheidet sich je Seriennummer
+    .advice = Die Seriennummer scannen
+order-other-order = Seriennummer { $serial } gehört zu Auftrag { $other }, nicht { $order }
+    .advice = Auftrag und Seriennummer prüfen
+order-several = mehrere Aufträge haben die Seriennummer { $serial }
+    .advice = { order-not-given.advice }

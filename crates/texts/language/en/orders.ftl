@@ -19,3 +19,23 @@ orders-not-one-line = the cell has line breaks, or more than { $limit } characte
     .advice = Shorten it; look for a missing quotation mark before it
 orders-again = the order and serial number are those of line { $first }
     .advice = Put all parts that hang together into one row
+
+## Why it is not known what an order expects; `command-advice` is for a programmer
+
+order-not-given = no order is given
+    .advice = Enter or scan the order
+    .command-advice = Give the order
+order-unknown-order = order { $order } is not in the table of orders
+    .advice = Check the order, or ask for the table to be completed
+    .command-advice = Check the order, or add it to the table
+order-unknown-serial = serial number { $serial } is not in the table of orders
+    .advice = Check the serial number, or ask for the table to be completed
+    .command-advice = Check the serial number, or add it to the table
+order-serial-not-given = order { $order } differs by serial number, and none is given
+    .advice = Scan the serial number
+    .command-advice = Give the serial number
+order-other-order = serial number { $serial } is of order { $other }, not { $order }
+    .advice = Check the order and the serial number
+order-several = several orders have serial number { $serial }
+    .advice = { order-not-given.advice }
+    .command-advice = { order-not-given.command-advice }

@@ -19,3 +19,18 @@ orders-not-one-line = la celda tiene saltos de línea o más de { $limit } carac
     .advice = Acortarla; buscar antes de ella una comilla que falte
 orders-again = la orden y el número de serie son los de la línea { $first }
     .advice = Poner en una fila todas las piezas que cuelgan juntas
+
+## Por qué no se sabe qué espera una orden
+
+order-not-given = no se ha introducido ninguna orden
+    .advice = Introducir o escanear la orden
+order-unknown-order = la orden { $order } no está en la tabla de órdenes
+    .advice = Comprobar la orden o pedir que se complete la tabla
+order-unknown-serial = el número de serie { $serial } no está en la tabla de órdenes
+    .advice = Comprobar el número de serie o pedir que se complete la tabla
+order-serial-not-given = la orden { $order } varía según el número de serie
+    .advice = Escanear el número de serie
+order-other-order = el número de serie { $serial } es de la orden { $other }, no de { $order }
+    .advice = Comprobar la orden y el número de serie
+order-several = varias órdenes tienen el número de serie { $serial }
+    .advice = { order-not-given.advice }
