@@ -65,7 +65,7 @@ pub(crate) fn inspect(
 ///
 /// The recipe's `segment.max_parts` says how many may hang there. `rack` is the path of a rack file or its text, in the
 /// camera's frame: the accepted parts are then in the order of its places. `expected` has the names of the parts that should
-/// hang there, or `place=name` for a part at a place of the rack. A part that is not expected is refused as `wrong_part`,
+/// hang there, or `place=name` for a part at a place of the rack; without it, those count that the recipe expects. A part that is not expected is refused as `wrong_part`,
 /// `expected_elsewhere` or `not_expected`. Otherwise as `inspect`, whose result is the first of a single part.
 #[pyfunction]
 #[pyo3(signature = (scene, library, recipe = None, *, expected = None, rack = None))]
@@ -91,8 +91,11 @@ pub(crate) fn inspect_all(
     let expected = Expected::new(parts.collect(), Some(&rack), |name| {
         loaded.library.has_part(name)
     });
+    let given = expected.map_err(advised)?;
+    let recipe = library.recipe_or(recipe)?;
+    let expected = recipe.expected_or_own(given, Some(&rack), |name| loaded.library.has_part(name));
     let expected = expected.map_err(advised)?;
-    let recipe = library.recipe_or(recipe)?.in_rack(rack).expecting(expected);
+    let recipe = recipe.in_rack(rack).expecting(expected);
     let found = interruptible(py, |watch| {
         run_all(&scene.capture, &loaded.library, &recipe, watch)
     })?;

@@ -4,8 +4,13 @@ use std::path::PathBuf;
 
 use clap::{Args, builder::NonEmptyStringValueParser};
 
-use super::console::Advised as _;
-use inspection::{library::Library, pipeline::Expected, rack::Rack};
+use super::console::{Advised as _, advised_error};
+use geometry::error::Advice as _;
+use inspection::{
+    library::Library,
+    pipeline::{Expected, NamedRecipe},
+    rack::Rack,
+};
 use records::{history::Traceability, orders::Orders};
 
 /// What should hang there: parts by name, or those of an order.
@@ -23,14 +28,32 @@ pub(super) struct ExpectChoice {
 }
 
 impl ExpectChoice {
-    /// Returns what is expected of these enrolled parts in this rack or wherever they hang, with a table for an order and a serial number.
-    pub(super) fn of(
+    /// Returns the recipe that expects these enrolled parts in this rack or wherever they hang, with a table for an order and a
+    /// serial number; without any, the parts that the recipe expects itself.
+    pub(super) fn applied(
         &self,
+        recipe: &NamedRecipe,
         library: &Library,
         rack: Option<&Rack>,
         trace: &Traceability,
-    ) -> anyhow::Result<Expected> {
+    ) -> anyhow::Result<NamedRecipe> {
         let is_enrolled = |name: &str| library.has_part(name);
+        let given = self.given(rack, trace, is_enrolled)?;
+        match recipe.expected_or_own(given, rack, is_enrolled) {
+            Ok(expected) => Ok(recipe.expecting(expected)),
+            Err(error) => Err(advised_error(
+                format!("recipe {}: {error}", recipe.label.name),
+                error.advice(),
+            )),
+        }
+    }
+
+    fn given(
+        &self,
+        rack: Option<&Rack>,
+        trace: &Traceability,
+        is_enrolled: impl Fn(&str) -> bool,
+    ) -> anyhow::Result<Expected> {
         if let Some(path) = &self.orders {
             let orders = Orders::read(path).advised()?;
             return orders.expected(trace, rack, is_enrolled).advised();

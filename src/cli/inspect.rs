@@ -145,8 +145,7 @@ fn inspect(
     let (place, load) = (args.library).load_placed(&recipe.reference_params(), console)?;
     let robot = args.calibration.frame(console)?;
     let recipe = args.rack.before(recipe, &load.library, robot.as_ref())?;
-    let expected = (args.expect).of(&load.library, Some(&recipe.rack), &trace)?;
-    let recipe = recipe.expecting(expected);
+    let recipe = (args.expect).applied(&recipe, &load.library, Some(&recipe.rack), &trace)?;
     if args.carried.is_forced() && robot.is_none() {
         return Err(no_calibration("--force"));
     }

@@ -15,7 +15,7 @@ use geometry::units::counted;
 use inspection::{
     library::Library,
     pipeline::{NamedRecipe, Recipe, Unwatched, run as inspect, run_all},
-    rack::{RackError, RackFile, RackFrame, ambiguity},
+    rack::{MaxTurn, RackError, RackFile, RackFrame, ambiguity},
 };
 use robot::RobotFrame;
 use stages::{reference::Reference, segment::MAX_PARTS};
@@ -30,6 +30,12 @@ pub(super) struct RackFileChoice {
 }
 
 impl RackFileChoice {
+    /// Reads the file, if one is given.
+    pub(super) fn read(&self) -> anyhow::Result<Option<RackFile>> {
+        let read = self.rack.as_deref().map(RackFile::read);
+        read.transpose().advised()
+    }
+
     /// Returns the recipe before this rack; `robot` is where the camera is, if that is known.
     pub(super) fn before(
         &self,
@@ -37,10 +43,9 @@ impl RackFileChoice {
         library: &Library,
         robot: Option<&RobotFrame>,
     ) -> anyhow::Result<NamedRecipe> {
-        let Some(path) = &self.rack else {
+        let Some(file) = self.read()? else {
             return Ok(recipe);
         };
-        let file = RackFile::read(path).advised()?;
         let base_from_camera = robot.map(|robot| &robot.robot_from_camera);
         let rack = file.for_library(library, base_from_camera).advised()?;
         Ok(recipe.in_rack(rack))
@@ -243,7 +248,7 @@ fn show_file(file: &RackFile, path: &Path, console: &mut Console) {
             place.name.clone(),
             numbers(place.region.centre_m),
             numbers(place.region.size_m),
-            format!("up to {:.0}°", place.max_turn.degrees()),
+            up_to(&place.max_turn),
             if parts.is_empty() {
                 "any".into()
             } else {
@@ -252,4 +257,10 @@ fn show_file(file: &RackFile, path: &Path, console: &mut Console) {
         ]);
     }
     console.table(&table);
+}
+
+fn up_to(turn: &MaxTurn) -> String {
+    let limits = turn.limits().iter();
+    let limits = limits.map(|limit| format!("{:.0}°", limit.degrees()));
+    format!("up to {}", limits.collect::<Vec<_>>().join(" "))
 }

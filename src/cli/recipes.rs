@@ -3,19 +3,21 @@
 use crate::cli::input::parse_name;
 use std::path::{Path, PathBuf};
 
-use clap::{Args, Subcommand};
+use clap::{Args, Subcommand, builder::NonEmptyStringValueParser};
 use serde::Serialize;
 
 use super::{
-    Outcome,
+    LibraryChoice, Outcome,
     console::{Advised as _, Console, Table, advised_error},
+    rack::RackFileChoice,
     recipe::{RecipeChoice, open_named},
 };
 use geometry::units::counted;
 use inspection::{
     library::PartName,
     pipeline::{
-        BUILT_IN, MAX_NOTES, Recipe, RecipeError, RecipeFile, RecipeFolder, Replace,
+        BUILT_IN, Expected, ExpectedError, ExpectedPart, MAX_NOTES, Recipe, RecipeError,
+        RecipeFile, RecipeFolder, Replace,
         parameters::{PARAMETERS, Parameter, num_changed},
     },
 };
@@ -26,6 +28,8 @@ use inspection::{
 Examples:
   partsight recipe save glossy --set accept.min_score=0.85 --notes \"clear coat\"
   partsight recipe save glossy_2 --recipe glossy --set segment.plane_distance=12
+  partsight recipe save shift_a --expect \"left hook=fender,right hook=grille\"
+  partsight recipe show shift_a --rack rack_a.toml
   partsight recipe list
   partsight recipe show glossy
   partsight recipe show glossy_2 --against glossy
@@ -35,7 +39,7 @@ Examples:
   partsight recipe import /media/stick/glossy.toml
   partsight inspect door.pcd --recipe glossy
 
-A recipe is a file with the parameters that differ from their defaults. Yours are in your data folder, beside the
+A recipe is a file with the parameters that differ from their defaults, and maybe the parts that should hang there. Yours are in your data folder, beside the
 library; the window saves and opens the same ones. built-in is the program's own recipe: every parameter at its default.
 A plain word is taken as a recipe's name; give a file with its folder or ending: ./glossy or glossy.toml.")]
 pub(super) struct RecipeArgs {
@@ -51,18 +55,7 @@ enum RecipeCommand {
         #[arg(long)]
         json: bool,
     },
-    /// Show the parameters that differ from their defaults, or from another recipe
-    Show {
-        /// The recipe, by its name or as a file
-        #[arg(value_name = "NAME|FILE")]
-        recipe: String,
-        /// Compare with this recipe
-        #[arg(long, value_name = "NAME|FILE", default_value = BUILT_IN)]
-        against: String,
-        /// Write one line of JSON
-        #[arg(long)]
-        json: bool,
-    },
+    Show(ShowArgs),
     Save(SaveArgs),
     /// Rename a recipe; if it is the default, it stays the default
     Rename {
@@ -106,6 +99,24 @@ enum RecipeCommand {
     },
 }
 
+/// Show the parameters that differ from their defaults, or from another recipe, and the parts that it expects
+#[derive(Debug, Args)]
+struct ShowArgs {
+    /// The recipe, by its name or as a file
+    #[arg(value_name = "NAME|FILE")]
+    recipe: String,
+    /// Compare with this recipe
+    #[arg(long, value_name = "NAME|FILE", default_value = BUILT_IN)]
+    against: String,
+    /// Write one line of JSON
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    library: LibraryChoice,
+    #[command(flatten)]
+    rack: RackFileChoice,
+}
+
 /// Save a recipe: the one named by --recipe, or your default, with the changes given
 #[derive(Debug, Args)]
 struct SaveArgs {
@@ -114,6 +125,9 @@ struct SaveArgs {
     name: PartName,
     #[command(flatten)]
     recipe: RecipeChoice,
+    /// The parts that should hang there, as in inspect --expect; default: those of the recipe that it is based on
+    #[arg(long, value_name = "[PLACE=]PART,...", value_delimiter = ',', value_parser = NonEmptyStringValueParser::new())]
+    expect: Vec<String>,
     /// Anything worth remembering; default: the notes of the recipe that it is based on
     #[arg(long, value_name = "TEXT", value_parser = parse_notes)]
     notes: Option<String>,
@@ -132,15 +146,7 @@ fn parse_notes(text: &str) -> Result<String, String> {
 pub(super) fn run(args: &RecipeArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     match &args.command {
         RecipeCommand::List { json } => list(*json, console),
-        RecipeCommand::Show {
-            recipe,
-            against,
-            json,
-        } => {
-            let [recipe, against] = [recipe, against].map(|given| open_named(Some(given)));
-            show(&recipe?, &against?, *json, console);
-            Ok(())
-        }
+        RecipeCommand::Show(asked) => return show(asked, console),
         RecipeCommand::Save(asked) => save(asked, console),
         RecipeCommand::Rename { name, to } => rename(name, to, console),
         RecipeCommand::Remove { name } => remove(name, console),
@@ -210,6 +216,8 @@ struct ShowLine<'a> {
     notes: &'a str,
     against: &'a str,
     changed: Vec<ChangeLine>,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    expect: &'a [ExpectedPart],
 }
 
 /// A parameter that differs, as text.
@@ -220,7 +228,41 @@ struct ChangeLine {
     against: String,
 }
 
-fn show(file: &RecipeFile, against: &RecipeFile, json: bool, console: &mut Console) {
+fn show(asked: &ShowArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    let file = open_named(Some(&asked.recipe))?;
+    show_file(
+        &file,
+        &open_named(Some(&asked.against))?,
+        asked.json,
+        console,
+    );
+    let expect = &file.recipe.expect;
+    if expect.is_empty() {
+        return Ok(Outcome::Accepted);
+    }
+    let rack = asked.rack.read()?;
+    let load = (asked.library).load_some(&file.recipe.reference_params(), console)?;
+    let check = |parts: &[ExpectedPart]| {
+        let rack = rack.as_ref().map(|file| &file.rack);
+        Expected::new(parts.to_vec(), rack, |name| load.library.has_part(name)).err()
+    };
+    // What is wrong with each part, and only if that is nothing, with all of them.
+    let mut problems: Vec<ExpectedError> = expect.chunks(1).filter_map(check).collect();
+    if problems.is_empty() {
+        problems.extend(check(expect));
+    }
+    problems.dedup();
+    for problem in &problems {
+        console.warn(problem, problem);
+    }
+    Ok(if problems.is_empty() {
+        Outcome::Accepted
+    } else {
+        Outcome::NotAccepted
+    })
+}
+
+fn show_file(file: &RecipeFile, against: &RecipeFile, json: bool, console: &mut Console) {
     let differ = |a: &Recipe, b: &Recipe| {
         let all = PARAMETERS.iter().filter(|p| p.differs(a, b));
         let change = |p: &Parameter| ChangeLine {
@@ -236,6 +278,7 @@ fn show(file: &RecipeFile, against: &RecipeFile, json: bool, console: &mut Conso
         notes: &file.notes,
         against: against.name.as_str(),
         changed: differ(&file.recipe, &against.recipe),
+        expect: &file.recipe.expect,
     };
     if json {
         let line = serde_json::to_string(&line).expect("texts have a JSON form");
@@ -245,8 +288,16 @@ fn show(file: &RecipeFile, against: &RecipeFile, json: bool, console: &mut Conso
     if !line.notes.is_empty() {
         console.entry("notes", &line.notes);
     }
-    if line.changed.is_empty() {
+    if line.expect != against.recipe.expect {
+        let parts = line.expect.iter().cloned().map(String::from);
+        let parts = parts.collect::<Vec<_>>().join(", ");
+        let parts = if parts.is_empty() { "any part" } else { &parts };
+        console.entry("expects", &parts);
+    } else if line.changed.is_empty() {
         return console.entry("same as", &line.against);
+    }
+    if line.changed.is_empty() {
+        return;
     }
     let num = counted(line.changed.len(), "parameter", "parameters");
     console.entry("differs", &format_args!("in {num} from {}", line.against));
@@ -287,10 +338,15 @@ fn keep(file: &RecipeFile, replace: bool, console: &mut Console) -> anyhow::Resu
 
 fn save(asked: &SaveArgs, console: &mut Console) -> anyhow::Result<()> {
     let (from, recipe) = asked.recipe.file()?;
+    let mut recipe = Recipe::clone(&recipe);
+    if !asked.expect.is_empty() {
+        let parts = asked.expect.iter().map(|text| text.as_str().into());
+        recipe.expect = parts.collect();
+    }
     let file = RecipeFile {
         name: asked.name.clone(),
         notes: asked.notes.clone().unwrap_or(from.notes),
-        recipe: Recipe::clone(&recipe),
+        recipe,
     };
     keep(&file, asked.replace, console)
 }

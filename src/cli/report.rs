@@ -14,6 +14,7 @@ use super::{
     LibraryChoice, Outcome,
     calibrate::CalibrationChoice,
     console::{Advised as _, Console, Table},
+    expect::ExpectChoice,
     input::{EmptyCellChoice, OpenedScene, Scenes, before, open_ahead, parse_convention, warn_of},
     plant,
     rack::RackFileChoice,
@@ -152,6 +153,8 @@ fn report(args: &ReportArgs, scenes: Scenes<'_>, console: &mut Console) -> anyho
     let out = args.out.as_deref().unwrap_or(Path::new("."));
     let robot = args.calibration.frame(console)?;
     let recipe = (args.rack).before(recipe, &load.library, robot.as_ref())?;
+    let expect = ExpectChoice::default();
+    let recipe = expect.applied(&recipe, &load.library, Some(&recipe.rack), &trace)?;
     let mut one = Reporter {
         recipe,
         library_identity: load.identity(),

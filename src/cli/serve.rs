@@ -173,8 +173,7 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
         return Err(no_calibration("serve"));
     };
     let recipe = (args.rack).before(recipe, &load.library, Some(&robot))?;
-    let expected = (args.expect).of(&load.library, Some(&recipe.rack), &trace)?;
-    let recipe = recipe.expecting(expected);
+    let recipe = (args.expect).applied(&recipe, &load.library, Some(&recipe.rack), &trace)?;
     let parts = args.numbers.parts(&place, &load, console)?;
     let empty_cell = args.empty_cell.open(console)?;
     let camera = Arc::new(Camera::start(&args.source).advised()?);

@@ -105,6 +105,92 @@ fn a_saved_recipe_is_used_by_name_by_file_and_by_default() {
 }
 
 #[test]
+fn what_a_recipe_expects_counts_until_something_else_is_expected() {
+    let place = Workplace::new();
+    place.with_part("fender");
+    let rack = "schema_version = 1
+[[place]]
+name = \"left hook\"
+centre_mm = [0, 0, 1500]
+size_mm = [3000, 3000, 3000]
+";
+    fs::write(place.path("rack.toml"), rack).expect("written");
+    for (name, expect) in [
+        ("own", "fender"),
+        ("hook", "left hook=fender"),
+        ("no_part", "bonnet"),
+        ("no_place", "right hook=fender"),
+        ("two", "left hook=fender,left hook=fender"),
+    ] {
+        place.accepted(&["recipe", "save", name, "--expect", expect]);
+    }
+    let inspect = |code: i32, more: &[&str]| {
+        let args = ["inspect", "fender.pcd", "--json", "--library", "parts"];
+        place.coded(code, &[&args, more].concat())
+    };
+    let own = inspect(0, &["--recipe", "own"]).json();
+    assert_eq!(own["expected"], serde_json::json!(["fender"]));
+    assert_eq!(own["as_expected"], true);
+    assert_eq!(own["recipe"]["is_changed"], false);
+    let hook = ["--rack", "rack.toml", "--recipe", "hook"];
+    let at_hook = inspect(0, &hook).json();
+    assert_eq!(at_hook["expected_places"], serde_json::json!(["left hook"]));
+    let other = [&hook[..], &["--expect", "fender,fender"]].concat();
+    let other = inspect(1, &other).json();
+    assert_eq!(other["missing"], serde_json::json!(["fender"]));
+    assert_eq!(other.get("expected_places"), None);
+    // Frames of other parts are evaluated, and enrolled.
+    place.accepted(&[
+        "rack",
+        "add",
+        "new.toml",
+        "fender.pcd",
+        "--place",
+        "1",
+        "--recipe",
+        "no_part",
+        "--library",
+        "parts",
+    ]);
+    for (name, why) in [
+        (
+            "no_part",
+            "recipe no_part: bonnet is expected, but not enrolled",
+        ),
+        (
+            "hook",
+            "recipe hook: a part is expected at place \"left hook\", which the rack does not have",
+        ),
+    ] {
+        let error = inspect(2, &["--recipe", name]).err;
+        assert!(error.contains(why), "{error}");
+    }
+    let show = |code: i32, name: &str, more: &[&str]| {
+        let args = ["recipe", "show", name, "--library", "parts"];
+        place.coded(code, &[&args, more].concat())
+    };
+    let shown = show(0, "hook", &["--rack", "rack.toml"]).out;
+    assert!(
+        shown.contains("left hook=fender") && !shown.contains("same as"),
+        "{shown}"
+    );
+    let json = show(0, "hook", &["--json"]).json();
+    assert_eq!(json["expect"], serde_json::json!(["left hook=fender"]));
+    assert_eq!(json["changed"], serde_json::json!([]));
+    for (name, why) in [
+        ("no_part", "bonnet is expected, but not enrolled"),
+        (
+            "no_place",
+            "place \"right hook\", which the rack does not have",
+        ),
+        ("two", "two parts are expected at place \"left hook\""),
+    ] {
+        let warning = show(1, name, &["--rack", "rack.toml"]).err;
+        assert!(warning.contains(why), "{warning}");
+    }
+}
+
+#[test]
 fn a_recipe_segments_what_is_enrolled_and_evaluated() {
     let place = Workplace::new();
     place.accepted(&["simulate", "--part", "fender", "--out", "fender.pcd"]);

@@ -155,6 +155,7 @@ compare-name-taken = Es gibt bereits ein Rezept namens { $name }
 compare-replace-title = Rezept { $name } ersetzen?
 compare-replace-why = Ein anderes Programm hat es geändert, während es hier ausprobiert wurde; dessen Fassung ginge verloren
 compare-replace = Ersetzen
+compare-expects = Erwartet { $parts }
 compare-num-changed = { $count } geändert
 compare-list-changes = Anzeigen
 compare-reset-all = Zurücksetzen

@@ -7,6 +7,8 @@ expect-not-known = Unbekannt
 expect-says = Welche Teile dort hängen sollen: ein anderes wird abgelehnt, und was fehlt, wird angezeigt
 expect-one-more = Eines mehr
 expect-one-less = Eines weniger
+expect-elsewhere-heading = An jedem anderen Platz
+expect-as-recipe = Wie im Rezept { $recipe }
 expect-orders = Aufträge…
 expect-orders-says = Eine Tabelle (CSV) der Aufträge mit den Teilen, die dafür dort hängen
 expect-by-orders = Nach Auftragstabelle
@@ -14,6 +16,7 @@ expect-close-orders = Tabelle schließen
 expect-table = Auftragstabelle
 expect-table-used = Was erwartet wird, steht in { $file }
 expect-table-unusable = Die Auftragstabelle ist nicht verwendbar: { $error }
+expect-recipe-unusable = Rezept { $recipe }: { $error }
 expect-reading = Die Auftragstabelle { $file } wird gelesen
 expect-watching = Auftragstabelle wird beobachtet
 

@@ -155,6 +155,7 @@ compare-name-taken = There is a recipe named { $name } already
 compare-replace-title = Replace recipe { $name }?
 compare-replace-why = Another program changed it while it was on trial here; that version would be lost
 compare-replace = Replace it
+compare-expects = Expects { $parts }
 compare-num-changed = { $count } changed from default
 compare-list-changes = List them
 compare-reset-all = Reset all

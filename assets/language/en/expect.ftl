@@ -7,6 +7,8 @@ expect-not-known = Not known
 expect-says = Which parts should hang there: another one is refused, and it is shown what is missing
 expect-one-more = One more
 expect-one-less = One less
+expect-elsewhere-heading = At any other place
+expect-as-recipe = As in recipe { $recipe }
 expect-orders = Orders…
 expect-orders-says = A table (CSV) of orders with the parts that hang there for each
 expect-by-orders = By table of orders
@@ -14,6 +16,7 @@ expect-close-orders = Close the table
 expect-table = Table of orders
 expect-table-used = What is expected follows from { $file }
 expect-table-unusable = The table of orders cannot be used: { $error }
+expect-recipe-unusable = Recipe { $recipe }: { $error }
 expect-reading = Reading the table of orders { $file }
 expect-watching = Watching the table of orders
 

@@ -176,6 +176,7 @@ compare-name-taken = Ya existe una receta llamada { $name }
 compare-replace-title = ¿Sustituir la receta { $name }?
 compare-replace-why = Otro programa la modificó mientras se probaba aquí; esa versión se perdería
 compare-replace = Sustituir
+compare-expects = Espera { $parts }
 compare-num-changed =
     { $count ->
         [one] { $count } modificado

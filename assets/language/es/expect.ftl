@@ -7,6 +7,8 @@ expect-not-known = Desconocido
 expect-says = Qué piezas deben colgar ahí: otra se rechaza, y se muestra lo que falta
 expect-one-more = Una más
 expect-one-less = Una menos
+expect-elsewhere-heading = En cualquier otro lugar
+expect-as-recipe = Como en la receta { $recipe }
 expect-orders = Órdenes…
 expect-orders-says = Una tabla (CSV) de órdenes con las piezas que cuelgan ahí para cada una
 expect-by-orders = Según la tabla de órdenes
@@ -14,6 +16,7 @@ expect-close-orders = Cerrar la tabla
 expect-table = Tabla de órdenes
 expect-table-used = Lo esperado se toma de { $file }
 expect-table-unusable = No se puede usar la tabla de órdenes: { $error }
+expect-recipe-unusable = Receta { $recipe }: { $error }
 expect-reading = Leyendo la tabla de órdenes { $file }
 expect-watching = Se vigila la tabla de órdenes
 

@@ -154,6 +154,7 @@ compare-name-taken = 已有名为 { $name } 的配方
 compare-replace-title = 替换配方 { $name }？
 compare-replace-why = 在此试用期间，其他程序更改了它；该版本将丢失
 compare-replace = 替换
+compare-expects = 预期 { $parts }
 compare-num-changed = { $count } 项与默认值不同
 compare-list-changes = 列出
 compare-reset-all = 全部重置

@@ -7,6 +7,8 @@ expect-not-known = 未知
 expect-says = 应悬挂哪些零件：其他零件会被拒绝，并显示缺少的零件
 expect-one-more = 增加一个
 expect-one-less = 减少一个
+expect-elsewhere-heading = 在其他任意位置
+expect-as-recipe = 按配方 { $recipe }
 expect-orders = 订单表…
 expect-orders-says = 订单表（CSV），列出每个订单应悬挂的零件
 expect-by-orders = 按订单表
@@ -14,6 +16,7 @@ expect-close-orders = 关闭订单表
 expect-table = 订单表
 expect-table-used = 预期零件取自 { $file }
 expect-table-unusable = 无法使用订单表：{ $error }
+expect-recipe-unusable = 配方 { $recipe }：{ $error }
 expect-reading = 正在读取订单表 { $file }
 expect-watching = 正在监视订单表
 

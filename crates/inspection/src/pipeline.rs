@@ -93,6 +93,10 @@ pub struct Recipe {
     /// Where parts may hang. It depends on where the camera is, and is not part of a recipe's file.
     #[serde(skip_serializing_if = "Rack::is_empty")]
     pub rack: Rack,
+    /// What the recipe itself expects, as its file has it. An inspection takes it only through
+    /// [`expected_or_own`](Self::expected_or_own), which checks it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub expect: Vec<ExpectedPart>,
     /// What should hang there. It differs from frame to frame, and is neither part of the identity nor of a recipe's file.
     #[serde(skip)]
     pub expected: Expected,
@@ -114,6 +118,21 @@ impl Recipe {
     pub fn max_parts(&self) -> usize {
         let known = [self.expected.parts().len(), self.rack.places.len()];
         known.into_iter().fold(self.segment.max_parts, usize::max)
+    }
+
+    /// What should hang there: what the caller expects; if that is nothing, what the recipe does, of enrolled parts and in this
+    /// rack; without one, as for a scan, wherever they hang.
+    pub fn expected_or_own(
+        &self,
+        given: Expected,
+        rack: Option<&Rack>,
+        is_enrolled: impl Fn(&str) -> bool,
+    ) -> Result<Expected, ExpectedError> {
+        if given.is_empty() {
+            Expected::new(self.expect.clone(), rack, is_enrolled)
+        } else {
+            Ok(given)
+        }
     }
 
     /// Names of the rack's places at which nothing of a frame hangs.

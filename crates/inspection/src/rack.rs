@@ -14,12 +14,14 @@
 //! name = "left hook"
 //! centre_mm = [-600, 0, 2200]            # where the middle of the part may be
 //! size_mm = [300, 300, 300]
-//! max_turn_deg = 20
+//! max_turn_deg = 20                      # or, about x, y and z of the place's box: [10, 180, 10]
 //! parts = [                              # without them, each part may hang there, in any orientation
 //!     { name = "fender", angles_deg = [180, 0, 5] },
 //!     { name = "grille" },               # in any orientation
 //! ]
 //! ```
+
+mod edit;
 
 use std::path::{Path, PathBuf};
 
@@ -37,7 +39,7 @@ use geometry::{
     rigid::RigidTransform,
     units::{Metres, Radians},
 };
-pub use stages::rack::{Place, PlacedPart, Rack};
+pub use stages::rack::{MaxTurn, Place, PlacedPart, Rack};
 use stages::segment::MAX_PARTS;
 use texts::{Described, Message};
 
@@ -54,7 +56,7 @@ pub const MAX_TURN: Radians = Radians(std::f64::consts::PI);
 /// Side of a new place: parts on hooks sway and shift by a few centimetres.
 const NEW_PLACE_SIDE: Metres = Metres(0.3);
 /// Turn that a new place allows.
-const NEW_PLACE_TURN: Radians = Radians(20.0_f64.to_radians());
+const NEW_PLACE_TURN: MaxTurn = MaxTurn::Total(Radians(20.0_f64.to_radians()));
 /// Room that a new work volume leaves around a part on each side.
 const VOLUME_MARGIN: Metres = Metres(0.15);
 
@@ -218,7 +220,7 @@ struct WrittenPlace {
     #[serde(default, skip_serializing_if = "are_zero")]
     angles_deg: [f64; 3],
     #[serde(default = "new_place_turn_deg")]
-    max_turn_deg: f64,
+    max_turn_deg: WrittenTurn,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     parts: Vec<WrittenPart>,
 }
@@ -231,14 +233,40 @@ struct WrittenPart {
     angles_deg: Option<[f64; 3]>,
 }
 
+#[derive(Serialize, Deserialize)]
+#[serde(
+    untagged,
+    expecting = "expected a number, or three of them, for x, y and z"
+)]
+enum WrittenTurn {
+    Total(f64),
+    EachAxis([f64; 3]),
+}
+
+impl WrittenTurn {
+    fn of(turn: MaxTurn) -> Self {
+        match turn {
+            MaxTurn::Total(limit) => Self::Total(written_deg(limit.0)),
+            MaxTurn::EachAxis(limits) => Self::EachAxis(limits.map(|limit| written_deg(limit.0))),
+        }
+    }
+
+    fn read(self) -> MaxTurn {
+        match self {
+            Self::Total(limit) => MaxTurn::Total(Radians::from_degrees(limit)),
+            Self::EachAxis(limits) => MaxTurn::EachAxis(limits.map(Radians::from_degrees)),
+        }
+    }
+}
+
 fn are_zero(numbers: &[f64; 3]) -> bool {
     numbers
         .iter()
         .all(|number| number.abs() < f64::MIN_POSITIVE)
 }
 
-fn new_place_turn_deg() -> f64 {
-    written_deg(NEW_PLACE_TURN.0)
+fn new_place_turn_deg() -> WrittenTurn {
+    WrittenTurn::of(NEW_PLACE_TURN)
 }
 
 impl RackFile {
@@ -357,10 +385,12 @@ impl RackFile {
                     over: other.name.clone(),
                 });
             }
-            if !(place.max_turn.0 > 0.0 && place.max_turn <= MAX_TURN) {
+            let limits = place.max_turn.limits();
+            if !limits.iter().all(|turn| turn.0 > 0.0 && *turn <= MAX_TURN) {
+                let found = limits.iter().map(|turn| turn.degrees().to_string());
                 return Err(RackProblem::MaxTurn {
                     place: name.clone(),
-                    found: place.max_turn.degrees().to_string(),
+                    found: found.collect::<Vec<_>>().join(", "),
                 });
             }
         }
@@ -389,12 +419,24 @@ impl RackFile {
         format!("# A rack of Partsight: where parts may hang. Millimetres and degrees.\n{text}")
     }
 
-    /// Writes the file atomically, and returns the rack as the file holds it.
+    /// Writes the file atomically, and returns the rack as the file holds it. Of a rack that is there, comments and all that
+    /// stays the same are kept.
     pub fn write(&self, path: &Path) -> Result<Self, RackError> {
         let text = self.text();
         let as_read = Self::parse(path, &text)?;
+        let changed = self.changed_text(path).and_then(|changed| {
+            let read = Self::parse(path, &changed).ok()?;
+            (read.text() == text).then_some((changed, read))
+        });
+        let (text, as_read) = changed.unwrap_or((text, as_read));
         write_text(path, &text)?;
         Ok(as_read)
+    }
+
+    /// The text of the rack that is in this file, changed to this one.
+    fn changed_text(&self, path: &Path) -> Option<String> {
+        let text = read_text(path, MAX_BYTES).ok()?;
+        edit::changed(&text, &Self::parse(path, &text).ok()?, self)
     }
 
     /// The rack in camera space. `base_from_camera` is where the camera is, if that is known.
@@ -553,7 +595,7 @@ impl WrittenPlace {
             centre_mm,
             size_mm,
             angles_deg,
-            max_turn_deg: written_deg(place.max_turn.0),
+            max_turn_deg: WrittenTurn::of(place.max_turn),
             parts: parts.collect(),
         }
     }
@@ -589,7 +631,7 @@ impl WrittenPlace {
                 angles_deg,
             )
             .map_err(RackProblem::Box)?,
-            max_turn: Radians::from_degrees(max_turn_deg),
+            max_turn: max_turn_deg.read(),
             parts: parts.collect::<Result<_, _>>()?,
             name,
         })

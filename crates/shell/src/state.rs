@@ -1,5 +1,7 @@
 //! State of the window outside the workspaces: the session that they share, and the parts that change it.
 
+use std::path::PathBuf;
+
 use super::{
     notice::{Notice, NoticeTopic},
     rack::ReadRack,
@@ -39,6 +41,8 @@ pub struct State {
     pub orders_watch: OrdersWatch,
     /// Reads the file of a rack.
     pub rack_reading: Task<ReadRack>,
+    /// Writes the file of a rack.
+    pub rack_saving: Task<PathBuf>,
 }
 
 /// Whether the window may close.
@@ -80,6 +84,7 @@ impl State {
             shift_watch: ShiftWatch::new(runner),
             orders_watch: OrdersWatch::new(runner),
             rack_reading: Task::new("rack-reading", runner),
+            rack_saving: Task::new("rack-saving", runner),
         }
     }
 }

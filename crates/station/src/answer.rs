@@ -153,7 +153,7 @@ mod tests {
     use inspection::fixtures::shipped_library;
     use serve::{Answer, Asked, PoseKind};
     use stages::{
-        rack::{Place, Rack},
+        rack::{MaxTurn, Place, Rack},
         scene::scene_from_image,
     };
 
@@ -231,7 +231,7 @@ mod tests {
                 size_m: [4.0; 3],
                 angles_rad: [0.0; 3],
             },
-            max_turn: Radians(1.0),
+            max_turn: MaxTurn::Total(Radians(1.0)),
             parts: Vec::new(),
         };
         Rack {

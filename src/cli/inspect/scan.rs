@@ -21,8 +21,7 @@ pub(super) fn inspect(args: &InspectArgs, console: &mut Console) -> anyhow::Resu
     let trace = args.trace.of_parts(Some(1))?;
     let database = args.recording.database(console)?;
     let load = (args.library).load_some(&recipe.reference_params(), console)?;
-    let expected = (args.expect).of(&load.library, None, &trace)?;
-    let recipe = recipe.expecting(expected);
+    let recipe = (args.expect).applied(&recipe, &load.library, None, &trace)?;
     let (scan, captured_at) = open_scan(&args.scan, &args.poses, &recipe.segment, console)?;
     require_two_to_show_part(&scan).advised()?;
     let recording = (args.recording).start(&load, &trace, database, console)?;

@@ -177,6 +177,8 @@ impl Window {
         let is_shell_idle = self.state.inspector.is_idle()
             && self.state.follower.is_idle()
             && self.state.shift_watch.is_idle()
+            && self.state.rack_reading.running().is_none()
+            && self.state.rack_saving.running().is_none()
             && self.robot.is_idle();
         is_shell_idle && all.all(|workspace| workspace.is_idle(session))
     }

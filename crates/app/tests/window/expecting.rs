@@ -1,24 +1,28 @@
 //! What should hang before the camera: chosen in the menu, or by the table of orders.
 
-use std::{fs, path::Path};
+use std::{fs, path::Path, sync::Arc};
 
+use app::workspaces::inspect::InspectWorkspace;
 use egui::{Key, Role};
-use egui_kittest::kittest::Queryable as _;
-use inspection::rack::RackFile;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use inspection::{pipeline::Recipe, rack::RackFile};
 use shell::{
     action::{Action, DialogRequest},
+    message::Message,
     rack::RackAction,
     roles::RoleAction,
-    settings::Settings,
+    session::WorkspaceKind,
+    settings::{self, Settings},
     state::State,
 };
 
 use super::{
     rack_editor::open_place,
     set_up::{
-        SMALL, WindowHarness, act, open, open_with, plain_options, press, wait_for, wait_until,
+        SMALL, WindowHarness, act, act_in, open, open_with, plain_options, press, wait_for,
+        wait_until,
     },
-    several_parts::open_rack,
+    several_parts::{open_rack, open_three_things},
 };
 
 const ORDERS: &str = "order;serial;parts
@@ -174,24 +178,130 @@ fn a_serial_number_of_other_parts_withdraws_the_verdict() {
     harness.get_by_label_contains("Its order expects other parts");
 }
 
-#[test]
-fn each_place_of_the_rack_expects_a_part_of_its_own() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let mut harness = open();
-    open_place(&mut harness, folder.path());
-    let path = folder.path().join("rack.toml");
-    act(&mut harness, Action::Rack(RackAction::Save(path.clone())));
+/// Uses a rack with a place of the door in the frame of three things, and another beside the frame.
+fn use_two_places(harness: &mut WindowHarness, folder: &Path) {
+    open_place(harness, folder);
+    let path = folder.join("rack.toml");
+    act(harness, Action::Rack(RackAction::Save(path.clone())));
     let mut file = RackFile::read(&path).expect("saved");
     let mut far = file.rack.places[0].clone();
     far.name = "left hook".into();
     far.region.centre_m[0] += 5.0;
     file.rack.places.push(far);
     file.write(&path).expect("written");
-    act(&mut harness, Action::Chosen(DialogRequest::Rack, path));
-    wait_until(&mut harness, |state| {
+    act(harness, Action::Chosen(DialogRequest::Rack, path));
+    wait_until(harness, |state| {
         state.session.rack.in_camera().places.len() == 2
     });
+    act(harness, Action::Rack(RackAction::Toggle));
+}
+
+/// The numbers of the parts in the list, from top to bottom.
+fn numbers_of_rows(harness: &WindowHarness) -> Vec<u8> {
+    let buttons = harness.get_all_by_role(Role::Button);
+    let rows = buttons.filter_map(|button| {
+        let label = button.accesskit_node().label()?;
+        let (number, title) = label.split_once(' ')?;
+        let number = number.parse().ok().filter(|_| title.contains(": "))?;
+        Some((button.rect().top(), number))
+    });
+    let mut rows: Vec<(f32, u8)> = rows.collect();
+    rows.sort_by(|a, b| a.0.total_cmp(&b.0));
+    rows.into_iter().map(|(_, number)| number).collect()
+}
+
+/// Presses these controls of the menu of expected parts one after the other.
+fn choose(harness: &mut WindowHarness, labels: &[&str]) {
+    harness.get_by_label_contains("Expected: ").click();
+    harness.run_steps(4);
+    for label in labels {
+        harness.get_by_label(label).click();
+        harness.run_steps(12);
+    }
+    harness.key_press(Key::Escape);
+    harness.run_steps(4);
+}
+
+#[test]
+fn a_part_is_chosen_for_each_place_of_the_rack() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open();
+    use_two_places(&mut harness, folder.path());
+    let at_left = ["left hook: Any part", "Front door, left (left hook)"];
+    choose(&mut harness, &at_left);
+    harness.get_by_label("Expected: Front door, left (left hook)");
+    open_rack(&mut harness, folder.path());
+    harness.get_by_label("Wrong place: Front door, left, expected at left hook");
+    let moved = [
+        "left hook: Front door, left",
+        "Any part (left hook)",
+        "1: Any part",
+        "Front door, left (1)",
+    ];
+    choose(&mut harness, &moved);
+    harness.get_by_label("Expected: Front door, left (1)");
+    open_rack(&mut harness, folder.path());
+    harness.get_by_label("1 Front door, left: as expected");
+    choose(&mut harness, &["One more: Grille"]);
+    harness.get_by_label("Expected: Front door, left (1) · Grille");
+    // A part that is chosen for a place is not dropped with the rack.
     act(&mut harness, Action::Rack(RackAction::Toggle));
+    press(&mut harness, "No rack");
+    act(&mut harness, Action::Rack(RackAction::Toggle));
+    harness.get_by_label_contains("place \"1\", which the rack does not have");
+    choose(&mut harness, &["Any part"]);
+    harness.get_by_label("Expected: Any part");
+}
+
+#[test]
+fn what_the_recipe_expects_counts_until_parts_are_chosen() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open();
+    let use_recipe = |harness: &mut WindowHarness, expect: &str| {
+        let mut recipe = Recipe::default();
+        recipe.segment.max_parts = 3;
+        recipe.expect = vec![expect.into()];
+        act_in(harness, |_: &mut InspectWorkspace, cx| {
+            cx.send(Message::UseRecipe(Arc::new(recipe.into())));
+        });
+    };
+    use_recipe(&mut harness, "grille");
+    harness.get_by_label("Expected: Grille");
+    open_three_things(&mut harness, folder.path());
+    harness.get_by_label(
+        "Wrong part: Front door, left instead of Grille; Not expected: Radiator support",
+    );
+    choose(&mut harness, &["One more: Front door, left"]);
+    harness.get_by_label("Expected: Front door, left");
+    choose(&mut harness, &["As in recipe built-in"]);
+    harness.get_by_label("Expected: Grille");
+    act(&mut harness, Action::GoTo(WorkspaceKind::Compare));
+    harness.get_by_label("Expects Grille");
+    act(&mut harness, Action::GoTo(WorkspaceKind::Inspect));
+    // It is kept from one start to the next.
+    let kept = folder.path().join("settings.toml");
+    let settings = Settings::of(harness.state().state(), None);
+    settings::save(&kept, &settings).expect("saved");
+    let (read, problem) = settings::load(&kept);
+    assert_eq!((read == settings, problem), (true, None));
+    let before = num_shown(harness.state().state());
+    use_recipe(&mut harness, "left hook=grille");
+    press(&mut harness, "Capture");
+    let why =
+        "Recipe built-in: a part is expected at place \"left hook\", which the rack does not have";
+    assert!(notices(&harness).contains(why), "{}", notices(&harness));
+    assert_eq!(
+        num_shown(harness.state().state()),
+        before,
+        "nothing was inspected"
+    );
+}
+
+#[test]
+fn each_place_of_the_rack_expects_a_part_of_its_own() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open();
+    use_two_places(&mut harness, folder.path());
     let orders = "order;parts
 4711;1=front_door|left hook=grille
 4712;1=grille
@@ -233,6 +343,9 @@ fn each_place_of_the_rack_expects_a_part_of_its_own() {
         for label in labels {
             harness.get_by_label(label);
         }
+        if order == "4711" {
+            assert_eq!(numbers_of_rows(&harness), [1, 4, 2, 3], "place by place");
+        }
     }
     enter_order(&mut harness, "4714");
     harness.get_by_label_contains("place \"hook\", which the rack does not have");
@@ -242,16 +355,6 @@ fn each_place_of_the_rack_expects_a_part_of_its_own() {
 fn parts_are_chosen_with_their_number_and_cleared() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut harness = open();
-    let choose = |harness: &mut WindowHarness, labels: &[&str]| {
-        harness.get_by_label_contains("Expected: ").click();
-        harness.run_steps(4);
-        for label in labels {
-            harness.get_by_label(label).click();
-            harness.run_steps(4);
-        }
-        harness.key_press(Key::Escape);
-        harness.run_steps(4);
-    };
     let more = [
         "One more: Front door, left",
         "One more: Front door, left",

@@ -1,6 +1,6 @@
 //! Where parts may hang: the window of the rack.
 
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use inspection::rack::RackFile;
 use nalgebra::Point3;
 use shell::{
@@ -70,6 +70,11 @@ fn a_place_is_made_of_the_part_in_front_and_a_turned_part_is_refused() {
         shown(&harness),
         ["1 ", "none unknown", "none beside_places"]
     );
+    let add = harness.get_by_label("Add a place for this part");
+    assert!(add.accesskit_node().is_disabled());
+    add.hover();
+    harness.run_steps(30);
+    harness.get_by_label_contains("It hangs at place 1; “Take the part in front”");
     let path = folder.path().join("rack.toml");
     act(&mut harness, Action::Rack(RackAction::Save(path.clone())));
     let saved = RackFile::read(&path).expect("saved");

@@ -8,8 +8,9 @@ use super::{Inspection, Rejection, Unrecognisable, Verdict};
 use stages::{rack::Rack, segment::MAX_PARTS};
 use texts::{Described, Message};
 
-/// A part that should hang there.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// A part that should hang there; as text, `PART` or `PLACE=PART`.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(from = "String", into = "String")]
 pub struct ExpectedPart {
     /// Its name.
     pub name: String,
@@ -24,6 +25,21 @@ impl From<&str> for ExpectedPart {
         Self {
             name: name.unwrap_or(text).trim().to_owned(),
             place: place.map(|place| place.trim().to_owned()),
+        }
+    }
+}
+
+impl From<String> for ExpectedPart {
+    fn from(text: String) -> Self {
+        (&*text).into()
+    }
+}
+
+impl From<ExpectedPart> for String {
+    fn from(ExpectedPart { name, place }: ExpectedPart) -> Self {
+        match place {
+            Some(place) => format!("{place}={name}"),
+            None => name,
         }
     }
 }
@@ -352,7 +368,7 @@ fn take<'a>(
 mod tests {
     use super::*;
     use geometry::{error::Advice as _, oriented_box::OrientedBox, units::Radians};
-    use stages::rack::Place;
+    use stages::rack::{MaxTurn, Place};
 
     fn found(part: &str, rejected: Option<Rejection>) -> Inspection {
         let fault = serde_json::from_str(r#"{"message": ""}"#);
@@ -649,7 +665,7 @@ mod tests {
                 size_m: [1.0; 3],
                 angles_rad: [0.0; 3],
             },
-            max_turn: Radians(1.0),
+            max_turn: MaxTurn::Total(Radians(1.0)),
             parts: Vec::new(),
         };
         let rack = Rack {

@@ -76,11 +76,11 @@ impl Inspection {
                 part,
                 place: name.clone(),
             }),
-            Some(turn) if turn > place.max_turn => Some(Rejection::Turned {
+            Some(turn) if !turn.is_allowed() => Some(Rejection::Turned {
                 part,
                 place: name.clone(),
-                turn,
-                limit: place.max_turn,
+                turn: turn.found,
+                limit: turn.limit,
             }),
             Some(_) => None,
         };

@@ -7,6 +7,7 @@
 //! schema = 1
 //! name = "glossy"
 //! notes = "clear coat, booth 3"
+//! expect = ["fender", "left hook=grille"]    # what should hang there, as in `--expect`
 //!
 //! [parameters]
 //! accept.min_score = "0.85"
@@ -23,7 +24,7 @@ use std::{
 use serde::{Deserialize, Serialize};
 
 use super::{
-    Expected, PoseChoice, Recipe,
+    Expected, ExpectedPart, PoseChoice, Recipe,
     parameters::{Parameters, Setting, changed},
     recipe_error::RecipeError,
 };
@@ -206,6 +207,8 @@ struct Written {
     #[serde(default)]
     notes: String,
     #[serde(default)]
+    expect: Vec<ExpectedPart>,
+    #[serde(default)]
     parameters: toml::Table,
 }
 
@@ -272,6 +275,14 @@ impl<R: Parameters> RecipeFile<R> {
             })?;
             setting.apply(&mut recipe);
         }
+        if let Some(expect) = recipe.expect() {
+            *expect = written.expect;
+        } else if !written.expect.is_empty() {
+            return Err(RecipeError::Garbled {
+                path: path.to_owned(),
+                reason: "unknown field `expect`".into(),
+            });
+        }
         Ok(Self {
             name: written.name,
             notes: written.notes,
@@ -284,10 +295,18 @@ impl<R: Parameters> RecipeFile<R> {
         let string = |text: &str| toml::Value::String(text.to_owned()).to_string();
         let mut text = format!(
             "# A recipe of Partsight: the parameters that differ from the program's own.\n\
-             schema = {SCHEMA}\nname = {}\nnotes = {}\n\n[parameters]\n",
+             schema = {SCHEMA}\nname = {}\nnotes = {}\n",
             string(self.name.as_str()),
             string(&self.notes)
         );
+        let mut recipe = self.recipe.clone();
+        if let Some(expect) = recipe.expect().filter(|expect| !expect.is_empty()) {
+            let parts = expect.iter().cloned();
+            let parts: Vec<String> = parts.map(|part| string(&String::from(part))).collect();
+            // Writing to memory cannot fail.
+            let _ = writeln!(text, "expect = [{}]", parts.join(", "));
+        }
+        text.push_str("\n[parameters]\n");
         for parameter in changed(&self.recipe) {
             let value = string(&parameter.setting_text(&self.recipe));
             // Writing to memory cannot fail.
@@ -343,6 +362,9 @@ mod tests {
     fn what_is_written_reads_the_same_for_every_parameter_at_both_ends_of_its_range() {
         for at_the_end in [false, true] {
             let mut recipe = Recipe::default();
+            if at_the_end {
+                recipe.expect = vec!["fender".into(), "hook \"A = 1\"=grille".into()];
+            }
             for parameter in PARAMETERS {
                 let value = match &parameter.kind {
                     Kind::Number(number) => number.range[usize::from(at_the_end)],
@@ -388,6 +410,33 @@ mod tests {
     }
 
     #[test]
+    fn a_file_expects_parts_until_the_caller_expects_others() {
+        let text = "schema = 1\nname = \"x\"\nexpect = [\"fender\", \"left hook = grille\"]";
+        let recipe = NamedRecipe::from(parsed(text).expect("read"));
+        assert_ne!(recipe.identity(), Recipe::default().identity());
+        assert!(recipe.expected.is_empty(), "not checked yet");
+        let own = |enrolled: &'static str| {
+            recipe.expected_or_own(Expected::default(), None, |name| enrolled.contains(name))
+        };
+        let names = |expected: &Expected| {
+            let parts = expected.parts().iter();
+            parts.map(|part| part.name.clone()).collect::<Vec<_>>()
+        };
+        assert_eq!(
+            names(&own("fender grille").expect("both")),
+            ["fender", "grille"]
+        );
+        let missing = own("fender").expect_err("no grille");
+        assert!(missing.to_string().contains("grille"), "{missing}");
+        let no_rack = recipe.expected_or_own(Expected::default(), Some(Rack::ANYWHERE), |_| true);
+        let no_rack = no_rack.expect_err("no such place");
+        assert!(no_rack.to_string().contains("left hook"), "{no_rack}");
+        let given = Expected::new(vec!["hood".into()], None, |_| true).expect("one");
+        let given = recipe.expected_or_own(given, Some(Rack::ANYWHERE), |_| false);
+        assert_eq!(names(&given.expect("the caller's")), ["hood"]);
+    }
+
+    #[test]
     fn a_file_that_is_no_recipe_is_refused_with_what_is_wrong_and_what_to_do() {
         let with = |line: &str| format!("schema = 1\nname = \"x\"\n[parameters]\n{line}\n");
         let long = "x".repeat(MAX_NOTES + 1);
@@ -398,6 +447,7 @@ mod tests {
             ("schema = 1\nname = \"../x\"", "it contains"),
             ("schema = 1\nname = \"x\"\nparameter = {}", "unknown field"),
             ("schema = [", "r.toml"),
+            ("schema = 1\nname = \"x\"\nexpect = \"fender\"", "line 3"),
             (&with("accept.min_scor = 1"), "nearest is accept.min_score"),
             (&with("accept.min_score = 1.5"), "from 0 to 1"),
             (&with("accept.min_score = nan"), "from 0 to 1"),

@@ -9,7 +9,7 @@ mod table;
 use std::str::FromStr;
 
 pub use self::table::PARAMETERS;
-use super::Recipe;
+use super::{ExpectedPart, Recipe};
 use files::nearest_name;
 use geometry::{
     error::Advice,
@@ -22,11 +22,20 @@ pub trait Parameters: Clone + Default + PartialEq + 'static {
     type Group: Copy + std::fmt::Debug + 'static;
     /// All parameters, group by group.
     const ALL: &'static [Parameter<Self>];
+
+    /// The parts that it expects; `None` if such a set expects none.
+    fn expect(&mut self) -> Option<&mut Vec<ExpectedPart>> {
+        None
+    }
 }
 
 impl Parameters for Recipe {
     type Group = Group;
     const ALL: &'static [Parameter] = PARAMETERS;
+
+    fn expect(&mut self) -> Option<&mut Vec<ExpectedPart>> {
+        Some(&mut self.expect)
+    }
 }
 
 /// Where in the flow a parameter acts.
@@ -433,6 +442,9 @@ pub fn is_valid<R: Parameters>(recipe: &R) -> bool {
         parameter.copy(recipe, &mut copied);
         parameter.set(&mut set, parameter.value(recipe)).is_ok()
     });
+    if let Some((from, to)) = recipe.clone().expect().zip(copied.expect()) {
+        to.clone_from(from);
+    }
     // A choice only copies options that exist.
     is_each_valid && copied == *recipe
 }
@@ -671,7 +683,11 @@ mod tests {
             assert!(is_valid(&with(least)) && is_valid(&with(most)));
             assert!(!is_valid(&with(most + 1.0)), "{}", parameter.key);
         }
-        let mut recipe = Recipe::default();
+        let mut recipe = Recipe {
+            expect: vec!["fender".into()],
+            ..Recipe::default()
+        };
+        assert!(is_valid(&recipe));
         recipe.accept.min_score = f64::NAN;
         assert!(!is_valid(&recipe));
         let mut recipe = Recipe::default();

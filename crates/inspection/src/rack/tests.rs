@@ -18,6 +18,7 @@ name = "right hook"
 centre_mm = [600, 0, 2200]
 size_mm = [300, 300, 300]
 angles_deg = [0, 0, 45]
+max_turn_deg = [10, 180, 7.5]
 "#;
 
 fn parsed(text: &str) -> Result<RackFile, RackError> {
@@ -31,10 +32,16 @@ fn a_file_reads_as_it_is_written() {
     let [left, right] = &file.rack.places[..] else {
         panic!("two places");
     };
-    assert!((left.max_turn.degrees() - 15.0).abs() < 1e-9);
+    assert_eq!(left.max_turn, MaxTurn::Total(Radians::from_degrees(15.0)));
     assert_eq!(left.parts.len(), 2);
     assert_eq!(left.parts[1].angles_rad, None);
-    assert!((right.max_turn.degrees() - 20.0).abs() < 1e-9 && right.parts.is_empty());
+    let each = [10.0, 180.0, 7.5].map(Radians::from_degrees);
+    assert_eq!(
+        (right.max_turn, right.parts.len()),
+        (MaxTurn::EachAxis(each), 0)
+    );
+    let plain = parsed(&FILE.replace("max_turn_deg = [10, 180, 7.5]", "")).expect("a rack");
+    assert_eq!(plain.rack.places[1].max_turn, NEW_PLACE_TURN);
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("rack.toml");
     let written = file.write(&path).expect("written");
@@ -100,6 +107,14 @@ fn a_file_that_is_no_rack_is_refused_with_what_is_wrong_and_what_to_do() {
             "max_turn_deg of place \"a\"",
         ),
         (
+            &with(&place("a", 0.0, "max_turn_deg = [10, 180, 0]")),
+            "max_turn_deg of place \"a\"",
+        ),
+        (
+            &with(&place("a", 0.0, "max_turn_deg = [10, 180]")),
+            "expected a number, or three of them",
+        ),
+        (
             &with(&place(
                 "a",
                 0.0,
@@ -134,4 +149,78 @@ fn a_place_for_a_part_that_is_not_enrolled_is_refused() {
     file.rack.places[0].parts[1].name = "grill".into();
     let error = file.check_parts(is_enrolled).expect_err("no such part");
     assert!(error.to_string().contains("left hook") && error.to_string().contains("grill"));
+}
+
+#[test]
+fn a_file_keeps_its_comments_and_what_stays_the_same() {
+    let text = "# Booth 3
+schema_version = 1
+name = 'rack A'   # as on the sign
+
+# Beside the door.
+[[volume]]
+centre_mm = [0, 100, 2_200.0]
+size_mm = [2400, 1800, 900]
+
+[[place]]   # the left one
+name = \"left hook\"
+centre_mm = [-600, 0, 2200]   # measured
+size_mm = [300, 300, 300]
+angles_deg = [0, 0, 0]
+parts = [   # both sides
+    { name = \"fender\", angles_deg = [180, 0, 5] },   # as it is hung
+    { name = \"grille\" },   # either way
+]
+# The end.
+";
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("rack.toml");
+    std::fs::write(&path, text).expect("written");
+    let mut file = RackFile::read(&path).expect("a rack");
+    let written = |file: &RackFile| {
+        let as_read = file.write(&path).expect("written");
+        assert_eq!(as_read.text(), file.text());
+        std::fs::read_to_string(&path).expect("text")
+    };
+    assert_eq!(written(&file), text);
+    let left = &mut file.rack.places[0];
+    left.region.centre_m[0] = -0.65;
+    left.parts.push(PlacedPart {
+        name: "hood".into(),
+        angles_rad: None,
+    });
+    let changed = text
+        .replace("[-600, 0, 2200]   # m", "[-650.0, 0.0, 2200.0]   # m")
+        .replace("# either way\n", "# either way\n    { name = \"hood\" },\n");
+    assert_eq!(written(&file), changed);
+    file.rack.places[0].parts.remove(1);
+    let removed = changed.replace("    { name = \"grille\" },   # either way\n", "");
+    let now = written(&file);
+    assert_eq!(
+        now.replace("   # either way", ""),
+        removed.replace("   # either way", "")
+    );
+    let mut right = file.rack.places[0].clone();
+    right.name = "right hook".into();
+    right.region.centre_m[0] = 0.6;
+    file.rack.places.push(right);
+    file.rack.volume.push(file.rack.volume[0]);
+    let added = written(&file);
+    for kept in [
+        "# Booth 3",
+        "# Beside the door.",
+        "2_200.0",
+        "# the left one",
+        "# measured",
+        "# both sides",
+    ] {
+        assert!(added.contains(kept), "{kept}: {added}");
+    }
+    assert!(added.contains("name = \"right hook\"") && added.matches("[[volume]]").count() == 2);
+    // A form that cannot be changed is written anew.
+    let inline = "schema_version = 1
+volume = [{ centre_mm = [0, 0, 0], size_mm = [99, 99, 99] }]
+";
+    std::fs::write(&path, inline).expect("written");
+    assert!(written(&file).contains("[[volume]]"));
 }

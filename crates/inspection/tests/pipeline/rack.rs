@@ -9,7 +9,7 @@ use geometry::{
 use inspection::{
     fixtures::shipped_library,
     pipeline::run_all,
-    rack::{Place, PlacedPart, Rack, RackFile, RackFrame},
+    rack::{MaxTurn, Place, PlacedPart, Rack, RackFile, RackFrame},
 };
 use simulate::{RackKind, RackSetup, rack_frame};
 use stages::pose::PoseEstimate;
@@ -169,7 +169,7 @@ fn of_two_poses_of_a_symmetric_part_the_allowed_one_is_found() {
                         size_m: [0.3; 3],
                         angles_rad: [0.0; 3],
                     },
-                    max_turn: Radians(0.3),
+                    max_turn: MaxTurn::Total(Radians(0.3)),
                     parts: vec![PlacedPart {
                         name: object.name().into(),
                         angles_rad: Some(camera_from_part.rotation.euler_angles().into()),
@@ -214,7 +214,7 @@ fn a_rack_in_the_base_frame_is_the_same_in_camera_space() {
         .expect("calibrated")
         .places[0];
     let turn = place.turn(reference, &pose.camera_from_part());
-    assert!(turn.expect("known").0 < 1e-6);
+    assert!(turn.expect("known").found.0 < 1e-6);
     let middle = pose.camera_from_part() * reference.middle().expect("points");
     assert!(place.region.distance(&middle) <= 0.0);
     let elsewhere = RigidTransform::translation(0.0, 0.0, Metres::from_mm(400.0).0);

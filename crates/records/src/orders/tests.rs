@@ -4,7 +4,7 @@ use rand_pcg::Pcg64;
 use super::*;
 use geometry::{oriented_box::OrientedBox, units::Radians};
 use inspection::fixtures::shipped_library;
-use stages::rack::Place;
+use stages::rack::{MaxTurn, Place};
 
 const TABLE: &str = "order;serial;parts\n4711;;front_door;fender\n";
 
@@ -69,7 +69,7 @@ fn a_part_of_an_order_may_have_a_place_of_the_rack() {
                 size_m: [1.0; 3],
                 angles_rad: [0.0; 3],
             },
-            max_turn: Radians(1.0),
+            max_turn: MaxTurn::Total(Radians(1.0)),
             parts: Vec::new(),
         }],
         ..Rack::default()

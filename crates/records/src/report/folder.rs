@@ -6,10 +6,11 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use super::pictures::{Picture, strip, write_png};
+use super::pictures::{Picture, STAGES, strip, write_png};
 use files::{FileError, advice_on, disk, words_of, write_atomically, write_text};
 use geometry::error::Advice;
 use robot::Convention;
+use stages::segment::MAX_PARTS;
 
 /// Why a report could not be written.
 #[derive(Debug, thiserror::Error)]
@@ -36,11 +37,17 @@ impl Advice for ReportError {
     }
 }
 
+/// Name of the picture of all stages.
+const STRIP: &str = "stages";
+/// Most parts that a frame lists: those of a rack's places, and beside them as much as a frame can show.
+const MAX_LISTED: usize = 2 * MAX_PARTS;
+
 /// A folder for the results of inspections, next to the captures or elsewhere.
 ///
 /// Each inspected file gets `STEM.report.json`, a `STEM.STAGE.png` per stage, and `STEM.stages.png` with all of them; of the
 /// other parts of its frame `STEM.NUMBER.STAGE.png`.
-/// Files of an earlier report under these names are replaced; a depth image and its camera never are.
+/// An earlier report under these names is replaced, and its pictures of stages and parts that the new one lacks are removed; a
+/// depth image and its camera never are.
 #[derive(Debug)]
 pub struct ReportFolder {
     path: PathBuf,
@@ -75,18 +82,42 @@ impl ReportFolder {
         let of_parts = pictures.chunk_by(|one, next| one.part == next.part);
         let strips = of_parts.map(|pictures| Picture {
             part: pictures[0].part,
-            stage: "stages",
+            stage: STRIP,
             image: strip(pictures),
         });
         let strips: Vec<Picture> = strips.collect();
         let pictures: Vec<&Picture> = pictures.iter().chain(&strips).collect();
         let stem = self.free_stem(scene, &pictures);
         let json = self.json(&stem);
+        let earlier = if json.exists() {
+            self.pictures_of(&stem)
+        } else {
+            BTreeSet::new()
+        };
         write_text(&json, &format!("{line}\n"))?;
+        let mut written = BTreeSet::new();
         for picture in pictures {
-            write_png(&self.picture(&stem, picture), &picture.image)?;
+            let path = self.picture(&stem, picture);
+            write_png(&path, &picture.image)?;
+            written.insert(path);
+        }
+        for path in earlier.difference(&written) {
+            disk::remove_file(path).map_err(|error| FileError::writing(path, error))?;
         }
         Ok(json)
+    }
+
+    /// The pictures in the folder of the report of this stem, without those of a report whose own stem is that of a part.
+    fn pictures_of(&self, stem: &str) -> BTreeSet<PathBuf> {
+        let of_parts = (1..=MAX_LISTED).map(|number| format!("{stem}.{number}"));
+        let of_parts = of_parts.filter(|stem| !self.json(stem).exists());
+        let stems = of_parts.chain([stem.to_owned()]);
+        let paths = stems.flat_map(|stem| {
+            let path = move |stage: &&str| self.path.join(format!("{stem}.{stage}.png"));
+            STAGES.iter().chain([&STRIP]).map(path).collect::<Vec<_>>()
+        });
+        let is_picture = |path: &PathBuf| path.exists() && !path.with_extension("json").exists();
+        paths.filter(is_picture).collect()
     }
 
     /// Writes the pose report of a scene as `STEM.pose.ENDING` for each ending, and returns the paths.
@@ -168,6 +199,49 @@ fn counted(scene: &Path) -> impl Iterator<Item = String> {
 mod tests {
     use super::*;
     use image::RgbImage;
+
+    #[test]
+    fn a_report_leaves_no_pictures_of_an_earlier_fuller_frame() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let picture = |part, stage| Picture {
+            part,
+            stage,
+            image: RgbImage::new(1, 1),
+        };
+        let parts = [None, Some(2), Some(3)];
+        let all = parts.map(|part| [picture(part, "binary"), picture(part, "contour")]);
+        let all = all.as_flattened();
+        let write = |scene: &str, pictures: &[Picture]| {
+            let mut out = ReportFolder::make(folder.path()).expect("made");
+            out.write(Path::new(scene), "{}", pictures)
+                .expect("written");
+        };
+        let names = || -> BTreeSet<String> {
+            let entries = folder.path().read_dir().expect("a folder");
+            let names = entries.map(|entry| entry.expect("an entry").file_name());
+            names
+                .map(|name| name.to_string_lossy().into_owned())
+                .collect()
+        };
+        // Not of a report: a depth image with its camera, a picture of the user.
+        for name in [
+            "rack.4.contour.png",
+            "rack.4.contour.json",
+            "rack.2.photo.png",
+        ] {
+            std::fs::write(folder.path().join(name), "").expect("written");
+        }
+        write("rack.3.png", &all[..1]);
+        let others = names();
+        write("rack.png", all);
+        write("rack.png", &all[..1]);
+        let added: Vec<String> = names().difference(&others).cloned().collect();
+        assert_eq!(
+            added,
+            ["rack.binary.png", "rack.report.json", "rack.stages.png"]
+        );
+        assert!(others.is_subset(&names()), "{:?}", names());
+    }
 
     #[test]
     fn pictures_of_a_frames_parts_and_of_another_scene_never_share_a_name() {

@@ -30,6 +30,9 @@ pub struct Picture {
     pub image: RgbImage,
 }
 
+/// Names of the stages.
+pub(super) const STAGES: [&str; 4] = ["segmentation", "binary", "contour", "signature"];
+
 pub(super) const DARK: Rgb<u8> = Rgb([24, 27, 32]);
 pub(super) const LIGHT: Rgb<u8> = Rgb([232, 234, 238]);
 pub(super) const DIM: Rgb<u8> = Rgb([96, 104, 116]);
@@ -96,32 +99,25 @@ pub fn write_png(path: &Path, picture: &RgbImage) -> Result<(), FileError> {
 /// Draws the stages that ran, in colours for print: segmentation (of an organised scene), binary image, contour,
 /// signature.
 pub fn stage_pictures(scene: &SceneCloud, inspection: &Inspection) -> Vec<Picture> {
-    let picture = |stage, image: Option<RgbImage>| {
-        image.map(|image| Picture {
-            part: None,
-            stage,
-            image,
-        })
-    };
     let plane = inspection.plane.as_ref();
     let (contour, signature) = (inspection.contour.as_ref(), inspection.signature.as_ref());
-    [
-        picture(
-            "segmentation",
-            coloured(scene, &inspection.segmentation, &ON_PAPER),
-        ),
-        picture("binary", plane.map(binary_picture)),
-        picture(
-            "contour",
-            plane
-                .zip(contour)
-                .map(|(plane, contour)| fan(plane, contour, signature)),
-        ),
-        picture("signature", signature.map(curves)),
-    ]
-    .into_iter()
-    .flatten()
-    .collect()
+    let images = [
+        coloured(scene, &inspection.segmentation, &ON_PAPER),
+        plane.map(binary_picture),
+        plane
+            .zip(contour)
+            .map(|(plane, contour)| fan(plane, contour, signature)),
+        signature.map(curves),
+    ];
+    let pictures = STAGES.into_iter().zip(images);
+    let pictures = pictures.filter_map(|(stage, image)| {
+        Some(Picture {
+            part: None,
+            stage,
+            image: image?,
+        })
+    });
+    pictures.collect()
 }
 
 /// Draws the stages of every part of a frame: those of the part that the report is about, then those of the others, with their

@@ -7,11 +7,12 @@
 //! | --- | --- | --- |
 //! | 0 | 4 | `PSRQ` |
 //! | 4 | 2 | version, 1 |
-//! | 6 | 2 | length: 20, and 4 for each further number |
+//! | 6 | 2 | length: 20, and 4 for each further number, up to 48; up to 80 with places |
 //! | 8 | 2 | 1 trigger, 2 status, 3 last, 4 path, 5 part |
 //! | 10 | 2 | trigger: how many parts are expected, 0 to 8; otherwise 0 |
 //! | 12 | 4 | path and part: number of the point or part from 1, or 0; trigger: number of the first expected part |
 //! | 16 | 4 | path and part: sequence number of the inspection whose path or part is wanted, or 0, or left out; trigger: number of the second expected part, and so on |
+//! | 44 | 4 | trigger, after eight numbers of parts, of which the last may be 0: number of the first part's place, or 0 for any; number of the second part's place, and so on |
 //! | last | 4 | checksum |
 //!
 //! | answer: from | bytes | |
@@ -38,8 +39,10 @@
 //! | 200 | 52 | message, cut off |
 //! | 252 | 4 | checksum |
 
+use std::iter;
+
 use super::{ByteOrder, Parsed, bad_request::BadRequest};
-use crate::answer::{Answer, Request};
+use crate::answer::{Answer, ExpectedNumber, Request};
 use files::crc32;
 use robot::Convention;
 use stages::segment::MAX_PARTS;
@@ -48,8 +51,8 @@ use stages::segment::MAX_PARTS;
 pub(super) const VERSION: u16 = 1;
 /// Length of a request, bytes.
 pub const REQUEST_BYTES: usize = 20;
-/// Length of a request with as many numbers as possible, bytes.
-pub(super) const MAX_REQUEST_BYTES: usize = NUMBERS_AT + 4 * MAX_PARTS + CHECKSUM_BYTES;
+/// Length of a request with as many numbers as possible, those of parts and of their places, bytes.
+pub(super) const MAX_REQUEST_BYTES: usize = NUMBERS_AT + 2 * 4 * MAX_PARTS + CHECKSUM_BYTES;
 /// Where the numbers of a request begin.
 const NUMBERS_AT: usize = 12;
 /// Length of an answer, bytes.
@@ -113,12 +116,21 @@ fn request_in(frame: &[u8], order: ByteOrder) -> Result<Request, BadRequest> {
         Request::Status | Request::Last => 0,
     };
     let numbers = frame[NUMBERS_AT..end].chunks_exact(4);
-    if num_numbers > numbers.len() {
-        return Err(wrong_length());
-    }
-    let numbers = numbers.take(num_numbers);
     let numbers: Vec<u32> = numbers.map(|bytes| u32_of(bytes, 0, order)).collect();
-    request.numbered(&numbers).ok_or_else(wrong_length)
+    let given = numbers.get(..num_numbers).ok_or_else(wrong_length)?;
+    let request = match request {
+        Request::Trigger { .. } => {
+            let places = numbers
+                .iter()
+                .skip(MAX_PARTS)
+                .copied()
+                .chain(iter::repeat(0));
+            let parts = given.iter().zip(places);
+            Request::expecting(parts.map(|(&part, place)| ExpectedNumber { part, place }))
+        }
+        _ => request.numbered(given),
+    };
+    request.ok_or_else(wrong_length)
 }
 
 /// Converts a number's bytes from little-endian to this order, or back.
@@ -218,6 +230,12 @@ pub fn request(request: Request, order: ByteOrder) -> Vec<u8> {
         Request::Trigger { .. } => numbers.len(),
         _ => 0,
     };
+    if let Request::Trigger { expected } = request
+        && expected.iter().any(|one| one.place > 0)
+    {
+        numbers.resize(MAX_PARTS, 0);
+        numbers.extend(expected.map(|one| one.place));
+    }
     numbers.resize(numbers.len().max(1), 0);
     let num_bytes = NUMBERS_AT + 4 * numbers.len() + CHECKSUM_BYTES;
     frame.short(VERSION);
@@ -282,6 +300,51 @@ mod tests {
         (long[6], long[8], long[10]) = (28, 4, 0);
         long.extend([0; 4]);
         assert_eq!(read(long).expect_err("too many").reason(), "length");
+    }
+
+    #[test]
+    fn a_trigger_has_the_places_of_its_parts_behind_eight_numbers_of_parts() {
+        let numbers = |parts: &[(u32, u32)]| {
+            let parts = parts
+                .iter()
+                .map(|&(part, place)| ExpectedNumber { part, place });
+            Request::expecting(parts).expect("not too many")
+        };
+        let most: Vec<(u32, u32)> = (1..=8).map(|number| (number, 9 - number)).collect();
+        for wanted in [
+            numbers(&[(3, 1), (5, 2)]),
+            numbers(&[(3, 0), (5, 2)]),
+            numbers(&most),
+        ] {
+            for order in ORDERS {
+                let frame = request(wanted, order);
+                assert_eq!(frame.len(), 80);
+                assert_eq!(parse(&frame, order), Parsed::read(80, Ok(wanted)));
+            }
+        }
+        // As in the guide; places that are left out are any.
+        let little = ByteOrder::Little;
+        let frame = request(numbers(&[(3, 1), (5, 2)]), little);
+        assert_eq!(frame[6..11], [80, 0, 1, 0, 2]);
+        assert_eq!(
+            [12, 16, 20, 44, 48, 52].map(|at| frame[at]),
+            [3, 5, 0, 1, 2, 0]
+        );
+        assert_eq!(frame[76..], [0x4b, 0x31, 0x04, 0x46]);
+        let mut short = frame[..48].to_vec();
+        short[6] = 52;
+        let read = parse(&sealed(short), little).request.expect("whole");
+        assert_eq!(read, Ok(numbers(&[(3, 1), (5, 0)])));
+        // A controller that never clears its list of numbers.
+        let mut older = frame[..44].to_vec();
+        (older[6], older[20]) = (48, 7);
+        let read = parse(&sealed(older), little).request.expect("whole");
+        assert_eq!(read, Ok(expecting(&[3, 5])));
+        let mut long = frame[..76].to_vec();
+        long[6] = 84;
+        long.extend([0; 4]);
+        let read = parse(&sealed(long), little).request.expect("read");
+        assert_eq!(read.expect_err("too long").reason(), "length");
     }
 
     #[test]

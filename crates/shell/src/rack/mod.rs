@@ -161,6 +161,8 @@ pub enum RackAction {
     Opened(Result<ReadRack, UserError>),
     /// Write the rack in use to this file.
     Save(PathBuf),
+    /// Say that it was written to this file, or why it was not.
+    Saved(Result<PathBuf, UserError>),
     /// Change the rack to this one.
     Edit {
         /// The changed rack.
@@ -180,10 +182,13 @@ pub enum RackAction {
     Undo,
 }
 
-/// Uses the rack whose file has been read by now.
+/// Uses the rack whose file has been read by now, and says whether one was written.
 pub fn update(state: &mut State) {
     if let Some(read) = state.rack_reading.poll() {
         apply(state, RackAction::Opened(read));
+    }
+    if let Some(saved) = state.rack_saving.poll() {
+        apply(state, RackAction::Saved(saved));
     }
 }
 
@@ -206,24 +211,29 @@ pub fn apply(state: &mut State, action: RackAction) -> Option<Effect> {
         });
         return None;
     }
+    if let RackAction::Saved(saved) = action {
+        tell_saved(state, saved);
+        return None;
+    }
     // A file may be chosen after the window was closed.
     let open = state.session.rack_editor.clone();
     let mut editor = open.unwrap_or_else(|| RackEditor::of(&state.session));
     let robot = state.session.robot.clone();
     let changed = match action {
-        RackAction::Toggle | RackAction::Open(_) => Ok(None),
+        RackAction::Toggle | RackAction::Open(_) | RackAction::Saved(_) => Ok(None),
         RackAction::Opened(read) => read.map(|(path, file)| {
             let title = path.display().to_string();
             notify(state, Notice::done(text!("rack-opened", path = title)));
             Some(*file)
         }),
         RackAction::Save(path) => {
-            let written = editor.draft.write(&path).map(|_| {
-                let title = path.display().to_string();
-                notify(state, Notice::done(text!("rack-saved", path = title)));
-                None
+            let file = editor.draft.clone();
+            state.rack_saving.start(text!("rack-saving"), move |_| {
+                let written = file.write(&path);
+                written.map_err(|error| UserError::from(what_and_advice(&error)))?;
+                Ok(path)
             });
-            written.map_err(|error| what_and_advice(&error).into())
+            Ok(None)
         }
         RackAction::Edit { file, continues } => {
             let was_dragged = std::mem::replace(&mut editor.is_dragged, continues);
@@ -277,6 +287,18 @@ pub fn apply(state: &mut State, action: RackAction) -> Option<Effect> {
     }
     state.session.rack_editor = Some(editor);
     None
+}
+
+/// Says where the rack was written, or why it was not.
+fn tell_saved(state: &mut State, saved: Result<PathBuf, UserError>) {
+    match (saved, &mut state.session.rack_editor) {
+        (Ok(path), _) => {
+            let title = path.display().to_string();
+            notify(state, Notice::done(text!("rack-saved", path = title)));
+        }
+        (Err(error), Some(editor)) => editor.problem = Some(error),
+        (Err(error), None) => notify(state, error.into()),
+    }
 }
 
 /// Closes the window of the rack, if it is open.

@@ -14,7 +14,9 @@ use geometry::{
     oriented_box::{MAX_COORDINATE_MM, OrientedBox},
     units::Radians,
 };
-use inspection::rack::{MAX_BOXES, MAX_NAME, MAX_TURN, Place, RackFile, RackFrame, may_be_taken};
+use inspection::rack::{
+    MAX_BOXES, MAX_NAME, MAX_TURN, MaxTurn, Place, RackFile, RackFrame, may_be_taken,
+};
 use stages::segment::MAX_PARTS;
 use ui::{
     language::text,
@@ -200,9 +202,12 @@ fn places(ui: &mut Ui, state: &State, file: &mut RackFile, caused: &mut Vec<Acti
     if let Some(index) = removed {
         file.rack.places.remove(index);
     }
-    let can_add = has_part && file.rack.places.len() < MAX_PARTS;
-    let add = button_if(ui, can_add, &text!("rack-add-place"));
-    if add.on_disabled_hover_text(text!("rack-no-part")).clicked() {
+    let why_not = why_no_new_place(state, file);
+    let add = button_if(ui, why_not.is_none(), &text!("rack-add-place"));
+    if add
+        .on_disabled_hover_text(why_not.unwrap_or_default())
+        .clicked()
+    {
         let name = file.new_place_name();
         caused.push(Action::Rack(RackAction::TakePlace(name)));
     }
@@ -213,6 +218,19 @@ fn places(ui: &mut Ui, state: &State, file: &mut RackFile, caused: &mut Vec<Acti
     }
 }
 
+/// Why no new place can be made of the part in front.
+fn why_no_new_place(state: &State, file: &RackFile) -> Option<String> {
+    if !has_part(state) {
+        return Some(text!("rack-no-part"));
+    }
+    if file.rack.places.len() >= MAX_PARTS {
+        return Some(text!("rack-full", limit = MAX_PARTS));
+    }
+    let shown = state.session.shown.as_ref();
+    let place = shown.and_then(|shown| shown.inspected.inspection.place.as_ref());
+    place.map(|place| text!("rack-has-place", place = place))
+}
+
 fn place_ui(ui: &mut Ui, place: &mut Place) {
     ui.horizontal(|ui| {
         let label = ui.label(text!("shell-name"));
@@ -220,19 +238,7 @@ fn place_ui(ui: &mut Ui, place: &mut Place) {
         ui.add(field.desired_width(180.0)).labelled_by(label.id);
     });
     numbers(ui, &mut place.region);
-    ui.horizontal(|ui| {
-        let name = text!("rack-max-turn");
-        ui.label(&name);
-        let mut degrees = place.max_turn.degrees();
-        let range = 1.0..=MAX_TURN.degrees();
-        let field = DragValue::new(&mut degrees)
-            .range(range)
-            .speed(0.5)
-            .max_decimals(1);
-        if number(ui, field.suffix("°"), &name) {
-            place.max_turn = Radians::from_degrees(degrees);
-        }
-    });
+    max_turn(ui, &mut place.max_turn);
     let mut removed = None;
     for (index, part) in place.parts.iter_mut().enumerate() {
         ui.horizontal(|ui| {
@@ -259,6 +265,43 @@ fn place_ui(ui: &mut Ui, place: &mut Place) {
     if place.parts.is_empty() {
         ui.weak(text!("rack-any-part"));
     }
+}
+
+/// Draws how far a part may be turned: in all, or about each axis.
+fn max_turn(ui: &mut Ui, turn: &mut MaxTurn) {
+    let name = text!("rack-max-turn");
+    ui.horizontal_wrapped(|ui| {
+        ui.label(&name);
+        let mut limit = |limit: &mut Radians, label: &str| {
+            let mut degrees = limit.degrees();
+            let field = DragValue::new(&mut degrees)
+                .range(1.0..=MAX_TURN.degrees())
+                .speed(0.5)
+                .max_decimals(1);
+            if number(ui, field.suffix("°"), label) {
+                *limit = Radians::from_degrees(degrees);
+            }
+        };
+        match turn {
+            MaxTurn::Total(total) => limit(total, &name),
+            MaxTurn::EachAxis(each) => {
+                for (one, axis) in each.iter_mut().zip(["x", "y", "z"]) {
+                    limit(one, &format!("{name} {axis}"));
+                }
+            }
+        }
+        let mut is_each = matches!(turn, MaxTurn::EachAxis(_));
+        let checkbox = ui.checkbox(&mut is_each, text!("rack-each-axis"));
+        if checkbox
+            .on_hover_text(text!("rack-each-axis-says"))
+            .changed()
+        {
+            *turn = match *turn {
+                MaxTurn::Total(total) => MaxTurn::EachAxis([total; 3]),
+                MaxTurn::EachAxis([x, y, z]) => MaxTurn::Total(Radians(x.0.min(y.0).min(z.0))),
+            };
+        }
+    });
 }
 
 /// Draws the numbers of a box.

@@ -1,7 +1,10 @@
 //! Shows what should hang there, and lets the user choose it.
 
+use std::iter;
+
 use egui::{
-    Align, Button, Layout, PopupCloseBehavior, RichText, ScrollArea, Ui, Vec2, WidgetInfo,
+    Align, Button, CollapsingHeader, Layout, PopupCloseBehavior, RichText, ScrollArea, Ui, Vec2,
+    WidgetInfo,
     containers::menu::{MenuButton, MenuConfig},
 };
 
@@ -11,7 +14,8 @@ use crate::{
     inspection::source::file_name,
     session::{Session, UserRole},
 };
-use stages::segment::MAX_PARTS;
+use inspection::{library::PartName, pipeline::ExpectedPart};
+use stages::{rack::Place, segment::MAX_PARTS};
 use ui::{
     language::text,
     theme::{Theme, font, space},
@@ -86,14 +90,25 @@ fn menu(ui: &mut Ui, session: &Session, actions: &mut Vec<Action>) {
         show_scroll_bar(ui);
         let height = (ui.ctx().content_rect().height() - MARGIN).max(4.0 * space::TARGET);
         ScrollArea::vertical().max_height(height).show(ui, |ui| {
+            let places = &session.rack.in_camera().places;
+            for place in places {
+                place_ui(ui, session, place, chosen, actions);
+            }
+            if !places.is_empty() {
+                ui.separator();
+                ui.weak(text!("expect-elsewhere-heading"));
+            }
             for name in session.part_names() {
                 part(ui, session, name.as_str(), chosen, actions);
             }
         });
         ui.separator();
-        let clear = ui.add_enabled_ui(!chosen.is_empty(), |ui| {
-            button(ui, text!("expect-anything"))
-        });
+        let clear = if session.recipe.expect.is_empty() {
+            text!("expect-anything")
+        } else {
+            text!("expect-as-recipe", recipe = &session.recipe.label.name)
+        };
+        let clear = ui.add_enabled_ui(!chosen.is_empty(), |ui| button(ui, clear));
         if clear.inner.clicked() {
             actions.push(Action::Expect(ExpectAction::Parts(Vec::new())));
             ui.close();
@@ -113,11 +128,62 @@ fn button(ui: &mut Ui, text: String) -> egui::Response {
     ui.add_sized(size, Button::new(text))
 }
 
-/// Draws a part with the number of it that is expected, and buttons that change the number.
-fn part(ui: &mut Ui, session: &Session, name: &str, chosen: &[String], actions: &mut Vec<Action>) {
-    let library = session.library.as_ref();
-    let title = library.map_or(name, |library| library.title_of(name));
-    let num = chosen.iter().filter(|known| *known == name).count();
+/// Draws a place of the rack with the part that is expected there and, unfolded, the parts that may hang there.
+fn place_ui(
+    ui: &mut Ui,
+    session: &Session,
+    place: &Place,
+    chosen: &[ExpectedPart],
+    actions: &mut Vec<Action>,
+) {
+    let is_here = |part: &&ExpectedPart| part.place.as_ref() == Some(&place.name);
+    let here = chosen.iter().find(is_here).map(|part| &*part.name);
+    let title = match here {
+        Some(name) => session.title_of(name),
+        None => text!("expect-anything"),
+    };
+    let names = session.part_names().into_iter();
+    let names = names.map(PartName::as_str);
+    let names = names.filter(|name| session.may_hang_at(place, name));
+    let title = format!("{}: {title}", place.name);
+    let header = CollapsingHeader::new(title).id_salt(("place", &place.name));
+    header.show(ui, |ui| {
+        for name in iter::once(None).chain(names.map(Some)) {
+            let title = match name {
+                Some(name) => session.title_of(name),
+                None => text!("expect-anything"),
+            };
+            let size = Vec2::new(ui.available_width(), space::TARGET);
+            let shown = fitted_middle(ui.painter(), &title, &font::body(), size.x);
+            let entry = ui.add_sized(size, Button::selectable(here == name, shown));
+            let label = text!("expect-at-place", part = &title, place = &place.name);
+            entry.widget_info(|| {
+                WidgetInfo::selected(egui::Role::Button, true, here == name, &label)
+            });
+            let others = chosen.iter().filter(|part| !is_here(part)).cloned();
+            let new = name.map(|name| ExpectedPart {
+                name: name.to_owned(),
+                place: Some(place.name.clone()),
+            });
+            let parts: Vec<ExpectedPart> = others.chain(new).collect();
+            if entry.clicked() && parts.len() <= MAX_PARTS {
+                actions.push(Action::Expect(ExpectAction::Parts(parts)));
+            }
+        }
+    });
+}
+
+/// Draws a part with the number of it that is expected at no place of its own, and buttons that change the number.
+fn part(
+    ui: &mut Ui,
+    session: &Session,
+    name: &str,
+    chosen: &[ExpectedPart],
+    actions: &mut Vec<Action>,
+) {
+    let title = &session.title_of(name);
+    let is_it = |part: &ExpectedPart| part.name == name && part.place.is_none();
+    let num = chosen.iter().filter(|part| is_it(part)).count();
     ui.horizontal(|ui| {
         ui.set_min_height(space::TARGET);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -137,9 +203,9 @@ fn part(ui: &mut Ui, session: &Session, name: &str, chosen: &[String], actions: 
             let is_less = change(ui, "−", num > 0, text!("expect-one-less"));
             let mut parts = chosen.to_vec();
             if is_more {
-                parts.push(name.to_owned());
+                parts.push(name.into());
             } else if is_less {
-                let last = parts.iter().rposition(|known| known == name);
+                let last = parts.iter().rposition(is_it);
                 last.map(|last| parts.remove(last));
             }
             if is_more || is_less {

@@ -1,4 +1,4 @@
-//! What should hang before the camera: parts that the user chose, or those of an order.
+//! What should hang before the camera: parts that the user chose, those of an order, or those that the recipe expects.
 //!
 //! With a table of orders, the order and the serial number that are entered say what to expect of the next part. While that is
 //! not known, or a table that was chosen is not read yet, nothing is captured. A part keeps what was expected of it; if its order or serial number turns out to be another
@@ -20,15 +20,16 @@ use crate::{
     source::live,
     state::{State, notify, remove_notices},
 };
+use geometry::error::Advice as _;
 use inspection::{
     library::{PartMeta, PartName},
-    pipeline::{Expected, ExpectedPart},
+    pipeline::{Expected, ExpectedError, ExpectedPart},
 };
 use records::{
     history::Traceability,
     orders::{OrderError, Orders, OrdersError},
 };
-use stages::segment::MAX_PARTS;
+use stages::{rack::Place, segment::MAX_PARTS};
 use station::Doubt;
 use ui::{
     language::{advised, described, text},
@@ -40,8 +41,8 @@ use ui::{
 /// What should hang before the camera.
 #[derive(Debug, Default)]
 pub struct Expecting {
-    /// Names of the parts that the user chose.
-    chosen: Vec<String>,
+    /// The parts that the user chose.
+    chosen: Vec<ExpectedPart>,
     /// The table in use, instead of them.
     orders: Option<OrderTable>,
     /// What Live expects.
@@ -63,7 +64,7 @@ type TableContent = Result<Arc<Orders>, Arc<OrdersError>>;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ExpectAction {
     /// Expect these parts from the next inspection on; none to expect any. With a table of orders, nothing happens.
-    Parts(Vec<String>),
+    Parts(Vec<ExpectedPart>),
     /// Close the table of orders, and expect any part.
     CloseOrders,
 }
@@ -81,8 +82,8 @@ impl Expecting {
         }
     }
 
-    /// Names of the parts that the user chose.
-    pub(super) fn chosen(&self) -> &[String] {
+    /// The parts that the user chose.
+    pub(super) fn chosen(&self) -> &[ExpectedPart] {
         &self.chosen
     }
 
@@ -124,6 +125,15 @@ pub enum NotKnown {
     Table(Arc<OrdersError>),
     /// The table does not say it.
     Order(OrderError),
+    /// The user chose what cannot hang there.
+    Chosen(ExpectedError),
+    /// The recipe expects what cannot hang there.
+    Recipe {
+        /// Its name.
+        name: String,
+        /// Why not.
+        error: ExpectedError,
+    },
 }
 
 impl NotKnown {
@@ -136,6 +146,11 @@ impl NotKnown {
             },
             Self::Table(error) => UserError::of(&**error),
             Self::Order(error) => UserError::of(error),
+            Self::Chosen(error) => UserError::of(error),
+            Self::Recipe { name, error } => UserError {
+                what: format!("recipe {name}: {error}"),
+                advice: error.advice(),
+            },
         }
     }
 
@@ -145,6 +160,11 @@ impl NotKnown {
         let [what, advice] = match self {
             Self::Unread { file } => [text!("expect-reading", file = file), text!("shell-wait")],
             Self::Table(error) => [unusable(described(&**error)), advised(&**error)],
+            Self::Chosen(error) => [described(error), advised(error)],
+            Self::Recipe { name, error } => [
+                text!("expect-recipe-unusable", recipe = name, error = described(error)),
+                advised(error),
+            ],
             Self::Order(OrderError::Parts(cell)) => [unusable(described(cell)), advised(cell)],
             Self::Order(error) => [sentence(&described(error)), advised(error)],
         };
@@ -165,10 +185,16 @@ impl Session {
         };
         let expecting = &self.expecting;
         let Some(table) = &expecting.orders else {
-            let chosen = expecting.chosen.iter().filter(|name| is_enrolled(name));
-            let chosen = chosen.map(|name| name.as_str().into()).collect();
-            let expected = Expected::new(chosen, None, |_| true);
-            return Ok(expected.expect("the menu offers no more"));
+            let parts = expecting.chosen.iter();
+            let chosen = parts.filter(|part| is_enrolled(&part.name)).cloned();
+            let rack = Some(self.rack.in_camera());
+            let chosen = Expected::new(chosen.collect(), rack, is_enrolled);
+            let chosen = chosen.map_err(NotKnown::Chosen)?;
+            let expected = self.recipe.expected_or_own(chosen, rack, is_enrolled);
+            return expected.map_err(|error| NotKnown::Recipe {
+                name: self.recipe.label.name.clone(),
+                error,
+            });
         };
         let unread = || NotKnown::Unread {
             file: file_name(&table.path),
@@ -249,7 +275,7 @@ impl Session {
     }
 
     /// Titles of these parts, each once, with their places or their numbers.
-    pub(super) fn titles_of(&self, parts: &[ExpectedPart]) -> String {
+    pub fn titles_of(&self, parts: &[ExpectedPart]) -> String {
         let mut counts: Vec<(&ExpectedPart, usize)> = Vec::new();
         for part in parts {
             match counts.iter_mut().find(|(known, _)| *known == part) {
@@ -258,16 +284,29 @@ impl Session {
             }
         }
         let titles = counts.into_iter().map(|(part, num)| {
-            let title = title_of(part, |name| match &self.library {
-                Some(library) => library.title_of(name).to_owned(),
-                None => name.to_owned(),
-            });
+            let title = title_of(part, |name| self.title_of(name));
             match num {
                 1 => title,
                 num => format!("{num} × {title}"),
             }
         });
         titles.collect::<Vec<_>>().join(" · ")
+    }
+
+    /// The title of a part.
+    pub(super) fn title_of(&self, name: &str) -> String {
+        match &self.library {
+            Some(library) => library.title_of(name).to_owned(),
+            None => name.to_owned(),
+        }
+    }
+
+    /// True if a place of the rack is for this part, too.
+    pub(super) fn may_hang_at(&self, place: &Place, name: &str) -> bool {
+        let parts = self.library.iter().flat_map(|library| &library.parts);
+        let mut references = parts.filter(|part| part.part_name().as_str() == name);
+        let is_for = |reference: &str| place.parts.iter().any(|part| part.name == reference);
+        place.parts.is_empty() || is_for(name) || references.any(|part| is_for(part.name.as_str()))
     }
 
     /// Names of the enrolled parts, each once.

@@ -21,8 +21,10 @@ use shell::{
 };
 use ui::{
     language::{parameters, text},
-    theme::{Theme, space},
-    widgets::{self, button_width, labelled, line_edit, shortened, show_scroll_bar, text_button},
+    theme::{Theme, font, space},
+    widgets::{
+        self, button_width, labelled, line_edit, shortened, show_scroll_bar, text_button, wrapped,
+    },
 };
 
 /// A longer name is shortened to this many letters.
@@ -51,7 +53,17 @@ pub(super) fn ui(
     if compare.recipes.is_asking {
         question(ui, &compare.tried_recipe(session).label.name, acts);
     }
-    changes(ui, compare, compare.tried_recipe(session), acts);
+    let recipe = compare.tried_recipe(session);
+    if !recipe.expect.is_empty() {
+        let parts = session.titles_of(&recipe.expect);
+        wrapped(
+            ui,
+            &text!("compare-expects", parts = parts),
+            &font::small(),
+            Theme::of(ui).weak_text,
+        );
+    }
+    changes(ui, compare, recipe, acts);
 }
 
 /// Asks whether saving may replace the recipe of another program.

@@ -244,7 +244,14 @@ impl CompareState {
                 }
                 self.change_recipe(recipe, cx);
             }
-            CompareAction::ResetAll => self.change_recipe(Recipe::default(), cx),
+            CompareAction::ResetAll => {
+                let expect = self.tried_recipe(cx.session).expect.clone();
+                let recipe = Recipe {
+                    expect,
+                    ..Recipe::default()
+                };
+                self.change_recipe(recipe, cx);
+            }
             CompareAction::Recipe(action) => self.apply_to_recipes(action, cx),
             // The next job waits until the session has the other recipe.
             CompareAction::Use => return self.use_recipe(cx),

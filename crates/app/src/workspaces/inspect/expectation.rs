@@ -7,14 +7,22 @@ use inspection::pipeline::{Inspection, Rejection};
 use shell::{inspection::inspected::Inspected, session::Session, trace::expecting};
 use ui::language::text;
 
+/// An expected part that nothing hangs in place of.
+pub(super) struct MissingPart {
+    /// Its title, with its place.
+    pub(super) title: String,
+    /// The place of the rack where it should hang.
+    pub(super) place: Option<String>,
+}
+
 /// How a frame compares with what is expected.
 pub(super) struct FrameExpectation {
     /// How many of the expected parts are accepted.
     pub(super) title: String,
     /// Each difference; empty if there is none that is not said of a part by itself.
     pub(super) complaint: String,
-    /// Titles of the parts that nothing hangs in place of, with their places.
-    pub(super) missing: Vec<String>,
+    /// The parts that nothing hangs in place of.
+    pub(super) missing: Vec<MissingPart>,
     /// Number of expected parts.
     pub(super) num_expected: usize,
     /// True if all of them are accepted, and nothing else is an enrolled part.
@@ -38,8 +46,11 @@ impl FrameExpectation {
             return None;
         }
         let missing = expected.missing(&all).into_iter();
-        let missing: Vec<String> = missing
-            .map(|part| expecting::title_of(part, title_of))
+        let missing: Vec<MissingPart> = missing
+            .map(|part| MissingPart {
+                title: expecting::title_of(part, title_of),
+                place: part.place.clone(),
+            })
             .collect();
         let differences = all.iter().filter_map(|one| match one.verdict.rejected()? {
             Rejection::WrongPart { part, expected } => Some(text!(
@@ -57,8 +68,9 @@ impl FrameExpectation {
             Rejection::NotExpected { part } => Some(text!("expect-surplus", part = title_of(part))),
             _ => None,
         });
-        let all_missing = missing.join(" · ");
-        let absent = (!missing.is_empty()).then(|| text!("expect-missing", parts = all_missing));
+        let titles: Vec<&str> = missing.iter().map(|part| &*part.title).collect();
+        let absent =
+            (!titles.is_empty()).then(|| text!("expect-missing", parts = titles.join(" · ")));
         let differences: Vec<String> = differences.chain(absent).collect();
         let mut complaint = differences.join("; ");
         let order = session.trace.of_part(first).order;

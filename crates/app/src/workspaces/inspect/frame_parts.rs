@@ -130,15 +130,25 @@ fn empty_places(shown: &Shown) -> Option<String> {
     is_known.then(|| text!("rack-empty-places", places = empty.join(", ")))
 }
 
-/// The parts of the frame, then those that are missing.
+/// The parts of the frame, then those that are missing; of a rack with places, one place after the other.
 fn rows(shown: &Shown, session: &Session) -> Vec<PartRow> {
     let parts = shown.parts.iter().enumerate();
-    let rows = parts.map(|(index, part)| PartRow::of(index, part, session));
+    let rows = parts.map(|(index, part)| {
+        let place = part.inspection.place.clone();
+        (place, PartRow::of(index, part, session))
+    });
     let expectation = FrameExpectation::of(&shown.parts, session);
     let missing = expectation.into_iter().flat_map(|all| all.missing);
     let missing = (shown.parts.len()..).zip(missing);
-    let missing = missing.map(|(index, title)| PartRow::of_missing(index, title));
-    rows.chain(missing).collect()
+    let missing = missing.map(|(index, part)| (part.place, PartRow::of_missing(index, part.title)));
+    let mut rows: Vec<(Option<String>, PartRow)> = rows.chain(missing).collect();
+    let places = &shown.inspected.recipe.rack.places;
+    rows.sort_by_key(|(at, _)| {
+        let mut places = places.iter();
+        let index = places.position(|place| Some(&place.name) == at.as_ref());
+        index.unwrap_or(usize::MAX)
+    });
+    rows.into_iter().map(|(_, row)| row).collect()
 }
 
 /// Height of the list, with titles and lines below in these fonts.
@@ -167,9 +177,10 @@ fn list(
         .id_salt("parts of the frame")
         .max_height(height)
         .show(ui, |ui| {
-            for (index, row) in rows.iter().enumerate() {
-                if row.ui(ui, index == selected, fonts).clicked() && row.headline.is_some() {
-                    actions.push(InspectAction::SelectPart(index));
+            for row in rows {
+                let is_clicked = row.ui(ui, row.index == selected, fonts).clicked();
+                if is_clicked && row.headline.is_some() {
+                    actions.push(InspectAction::SelectPart(row.index));
                 }
             }
         });
@@ -177,7 +188,8 @@ fn list(
 
 /// A part in the list.
 struct PartRow {
-    number: String,
+    /// Its place in the frame; that of a missing part follows.
+    index: usize,
     title: String,
     /// `None` for a part that is missing.
     headline: Option<Headline>,
@@ -208,7 +220,7 @@ impl PartRow {
         let below: Vec<String> = place.into_iter().chain(figure).chain(why).collect();
         let headline = Headline::of(part, session);
         Self {
-            number: (index + 1).to_string(),
+            index,
             title: headline.title.clone(),
             word: word_of(part).filter(|_| headline.actual.is_none()),
             headline: Some(headline),
@@ -218,7 +230,7 @@ impl PartRow {
 
     fn of_missing(index: usize, title: String) -> Self {
         Self {
-            number: (index + 1).to_string(),
+            index,
             title,
             headline: None,
             word: Some(text!("expect-is-missing")),
@@ -239,7 +251,8 @@ impl PartRow {
             None => (String::new(), theme.warning),
         };
         let word = self.word.clone().unwrap_or(word);
-        let name = format!("{} {}: {word}", self.number, self.title);
+        let number = (self.index + 1).to_string();
+        let name = format!("{number} {}: {word}", self.title);
         response.widget_info(|| {
             WidgetInfo::selected(Role::Button, ui.is_enabled(), is_selected, &name)
         });
@@ -264,7 +277,7 @@ impl PartRow {
         painter.text(
             disc,
             Align2::CENTER_CENTER,
-            &self.number,
+            &number,
             title_font.clone(),
             theme.panel,
         );
