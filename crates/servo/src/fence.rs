@@ -56,6 +56,14 @@ impl Fence {
         }
     }
 
+    /// The fence with the arm kept clear of the same obstacles as the tools.
+    pub(crate) fn completed(mut self) -> Self {
+        if let Some(arm) = &mut self.arm {
+            arm.obstacles.clone_from(&self.obstacles);
+        }
+        self
+    }
+
     /// Points on the flange whose speeds count: the ends of the tools.
     pub(crate) fn ends(&self) -> impl Iterator<Item = Point3<f64>> {
         self.tools.iter().map(|tool| tool.end)
@@ -72,9 +80,7 @@ impl Fence {
         }
         self.placed = Some(*robot_from_part);
         self.obstacles = (self.obstacles.clone()).with_part(&self.part, robot_from_part);
-        if let Some(arm) = &mut self.arm {
-            arm.obstacles = self.obstacles.clone();
-        }
+        *self = std::mem::replace(self, Self::none()).completed();
     }
 
     /// Whether the flange may be here, with the arm's joints near these; returns the joints if the arm is known.
@@ -109,5 +115,34 @@ impl Fence {
         };
         let robot_from_nozzle = robot_from_flange * arm.flange_from_nozzle;
         Ok(Some(arm.joints_near(&robot_from_nozzle, near)?))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::stream::tests::{START, placed};
+
+    #[test]
+    fn the_arm_keeps_clear_of_the_boxes_of_the_fence_before_any_part_is_placed() {
+        let placed = placed();
+        let nozzle = placed.nozzle_pose(&START).expect("finite");
+        let robot_from_flange = nozzle * placed.flange_from_nozzle.inverse();
+        let mut fence = Fence::none();
+        fence.arm = Some(placed);
+        let fence = fence.completed();
+        let check = |fence: &Fence| fence.check(&robot_from_flange, Some(&START));
+        assert!(check(&fence).is_ok());
+        // Something all over the arm's room; no tool is compared with it.
+        let points = (0..10_i16).flat_map(|x| (-5..5_i16).map(move |y| (x, y)));
+        let points = points.flat_map(|(x, y)| (0..20_i16).map(move |z| [x, y, z]));
+        let points: Vec<Point3<f32>> = points
+            .map(|indices| Point3::from(indices.map(|index| f32::from(index) / 10.0)))
+            .collect();
+        let mut fence = fence;
+        let here = RigidTransform::identity();
+        fence.obstacles = Obstacles::default().with_other_part(&points, &here);
+        let reason = check(&fence.completed()).expect_err("too near");
+        assert_eq!(reason.kind(), "too_near");
     }
 }

@@ -50,6 +50,7 @@ mod params;
 mod servo;
 pub mod simulated;
 mod stop;
+pub mod stream;
 mod task;
 mod twist;
 

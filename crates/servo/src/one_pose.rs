@@ -78,7 +78,7 @@ impl OnePose {
             task,
             params: params.checked()?,
             max_move,
-            fence,
+            fence: fence.completed(),
             in_place: None,
             first: None,
             num_moves: 0,

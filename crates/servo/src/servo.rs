@@ -105,7 +105,7 @@ impl Servo {
         Ok(Self {
             task,
             params: params.checked()?,
-            fence,
+            fence: fence.completed(),
             reported: ArmStates::default(),
             sent: ArmStates::default(),
             run: None,
@@ -129,13 +129,13 @@ impl Servo {
     }
 
     /// Brakes, and then stops for good.
-    pub fn stop(&mut self) {
+    pub fn stop(&mut self, reason: StopReason) {
         let now = self
             .run
             .as_ref()
             .and_then(|run| run.last_at)
             .unwrap_or_default();
-        self.hold_for_good(StopReason::ByPerson, now);
+        self.hold_for_good(reason, now);
     }
 
     /// Takes in the newest state of the arm and, if there is one, the newest look, and returns what to do.

@@ -121,6 +121,8 @@ pub enum StopReason {
         /// Longest time allowed.
         limit_s: f64,
     },
+    /// The controller's program has stopped, or no longer follows.
+    RobotStopped,
     /// A person or a program stopped it.
     ByPerson,
 }
@@ -148,6 +150,7 @@ impl StopReason {
             Self::Uncertain { .. } => "uncertain",
             Self::NotSettling { .. } => "not_settling",
             Self::TimeOver { .. } => "time_over",
+            Self::RobotStopped => "robot_stopped",
             Self::ByPerson => "by_person",
         }
     }
@@ -253,6 +256,7 @@ mod tests {
                 turn_rad,
             },
             StopReason::TimeOver { limit_s: 60.0 },
+            StopReason::RobotStopped,
             StopReason::ByPerson,
         ]
     }

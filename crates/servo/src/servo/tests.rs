@@ -315,7 +315,7 @@ fn an_arm_that_is_silent_or_elsewhere_or_a_person_stop_it() {
         Some(StopReason::ArmAstray { .. })
     ));
     let mut rig = Rig::moving();
-    rig.servo.stop();
+    rig.servo.stop(StopReason::ByPerson);
     assert_eq!(rig.stopped(Some), StopReason::ByPerson);
 }
 

@@ -111,6 +111,11 @@ impl SimulatedArm {
         self.flange(&self.joints)
     }
 
+    /// Time between two reports.
+    pub fn period(&self) -> Duration {
+        self.dynamics.period
+    }
+
     /// Number of commands that it could not follow.
     pub fn num_unreachable(&self) -> usize {
         self.num_unreachable

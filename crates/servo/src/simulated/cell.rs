@@ -6,12 +6,12 @@ use nalgebra::{Point3, Translation3, UnitQuaternion, Vector3};
 use rand::{Rng, RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64;
 
-use super::ArmDynamics;
-use crate::{Fence, Look, Target, Task, TaskError, Tool};
+use super::{ArmDynamics, SimulatedArm, SimulatedController, StreamProtocol};
+use crate::{Fence, Look, Target, Task, TaskError, Tool, stream::Stream};
 use geometry::{
     depth_frame::{DepthFrame, Intrinsics},
     oriented_box::OrientedBox,
-    rigid::{PoseDelta, RigidTransform, from_euler_zyx},
+    rigid::{PoseDelta, RigidTransform, from_euler_zyx, pose_error},
     units::{Metres, Radians},
 };
 use inspection::{
@@ -423,6 +423,37 @@ impl<'a> SimulatedCell<'a> {
         } else {
             at
         }
+    }
+
+    /// The controller of its robot, at the start.
+    pub fn controller(&self, protocol: StreamProtocol) -> SimulatedController {
+        let arm = SimulatedArm::new(self.placed.clone(), self.start, self.setup.dynamics);
+        let arm = arm.expect("the start was checked");
+        SimulatedController::new(arm, self.placed.clone(), protocol)
+    }
+
+    /// The computer's side of a protocol of its robot.
+    pub fn stream(&self, protocol: StreamProtocol) -> Box<dyn Stream + Send> {
+        protocol.stream(&self.placed)
+    }
+
+    /// What the inspection of the frame with this number says, taken with the flange here; `None` if it is lost.
+    pub fn look(&self, flange: &RigidTransform, at: Duration, number: u64) -> Option<Look> {
+        let robot_from_camera = flange * self.flange_from_camera;
+        let frame = self.frame(&robot_from_camera, at, self.noise_seed(number))?;
+        Some(self.inspected(&frame, self.dated(at)))
+    }
+
+    /// True error of the camera at the part's middle, or of the nozzle at its mouth, with the flange here.
+    pub fn true_error(&self, flange: &RigidTransform, at: Duration) -> PoseDelta {
+        let part_from_robot = self.robot_from_part_at(at).inverse();
+        if self.setup.target == SimulatedTarget::PathStart {
+            let part_from_nozzle = part_from_robot * flange * self.placed.flange_from_nozzle;
+            return pose_error(&part_from_nozzle, &self.part_from_goal, &Point3::origin());
+        }
+        let camera_from_part = (part_from_robot * flange * self.flange_from_camera).inverse();
+        let wanted = self.part_from_goal.inverse();
+        pose_error(&camera_from_part, &wanted, &self.task.middle)
     }
 
     /// Points of the part's surface, part space.

@@ -5,6 +5,7 @@
 
 mod arm;
 mod cell;
+mod controller;
 mod run;
 
 pub use self::{
@@ -12,5 +13,6 @@ pub use self::{
     cell::{
         CellSetup, Disturbance, HandEyeError, SimulatedCell, SimulatedCellError, SimulatedTarget,
     },
+    controller::{SimulatedController, StreamProtocol},
     run::{RunResult, Sample, run},
 };

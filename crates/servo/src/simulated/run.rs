@@ -4,10 +4,10 @@ use std::{collections::VecDeque, time::Duration};
 
 use nalgebra::{Point3, Vector3};
 
-use super::{SimulatedArm, SimulatedCell, SimulatedTarget};
+use super::{SimulatedArm, SimulatedCell};
 use crate::{Look, Servo, ServoError, ServoParams, Step};
 use geometry::{
-    rigid::{PoseDelta, RigidTransform, pose_error},
+    rigid::{PoseDelta, RigidTransform},
     units::{Metres, Radians},
 };
 
@@ -78,13 +78,9 @@ pub fn run(cell: &SimulatedCell<'_>, params: &ServoParams) -> Result<RunResult, 
         let now = state.at;
         if now >= next_frame {
             next_frame += setup.frame_period;
-            let robot_from_camera = arm.true_flange() * cell.flange_from_camera;
-            let seed = cell.noise_seed(result.num_frames as u64);
+            let look = cell.look(&arm.true_flange(), now, result.num_frames as u64);
             result.num_frames += 1;
-            if let Some(frame) = cell.frame(&robot_from_camera, now, seed) {
-                let look = cell.inspected(&frame, cell.dated(now));
-                arriving.push_back((now + setup.delay, look));
-            }
+            arriving.extend(look.map(|look| (now + setup.delay, look)));
         }
         let look = arriving.pop_front_if(|(at, _)| *at <= now);
         if let Some((_, look)) = &look {
@@ -107,7 +103,7 @@ pub fn run(cell: &SimulatedCell<'_>, params: &ServoParams) -> Result<RunResult, 
         result.samples.push(Sample {
             at: now,
             robot_from_flange,
-            error: true_error(cell, &flange, now),
+            error: cell.true_error(&flange, now),
             is_usable,
             is_held: servo.held().is_some(),
         });
@@ -122,18 +118,6 @@ pub fn run(cell: &SimulatedCell<'_>, params: &ServoParams) -> Result<RunResult, 
     }
     result.num_unreachable = arm.num_unreachable();
     Ok(result)
-}
-
-/// The true error with the flange here.
-fn true_error(cell: &SimulatedCell<'_>, flange: &RigidTransform, now: Duration) -> PoseDelta {
-    let part_from_robot = cell.robot_from_part_at(now).inverse();
-    if cell.setup.target == SimulatedTarget::PathStart {
-        let part_from_nozzle = part_from_robot * flange * cell.placed.flange_from_nozzle;
-        return pose_error(&part_from_nozzle, &cell.part_from_goal, &Point3::origin());
-    }
-    let camera_from_part = (part_from_robot * flange * cell.flange_from_camera).inverse();
-    let wanted = cell.part_from_goal.inverse();
-    pose_error(&camera_from_part, &wanted, &cell.task.middle)
 }
 
 /// Distance of the tools from the part's vertices less their radius, by comparing all.

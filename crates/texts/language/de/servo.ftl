@@ -51,5 +51,7 @@ servo-not-settling = der Roboter wurde angehalten, weil nach { $num_rounds } Kor
     .advice = Das Teil ruhig hängen lassen oder das Totband erhöhen; bewegt sich nichts, die Kalibrierung prüfen
 servo-time-over = der Roboter wurde angehalten, weil das Ziel nicht innerhalb von { FIXED($limit_s, 0) } s erreicht wurde
     .advice = Näher am Ziel starten oder die längste Zeit erhöhen
+servo-robot-stopped = der Roboter wurde angehalten, weil sein Programm nicht mehr läuft oder keine Posen mehr annimmt
+    .advice = Das Programm des Roboters neu starten und dann erneut servoen
 servo-by-person = der Roboter wurde auf Wunsch angehalten
     .advice = Neu starten, wenn die Zelle frei ist

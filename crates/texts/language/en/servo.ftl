@@ -51,5 +51,7 @@ servo-not-settling = the robot was stopped because { MM($shift_m, 1) } mm and { 
     .advice = Let the part hang still, or raise the deadband; if nothing moves, check the calibration
 servo-time-over = the robot was stopped because the target was not reached within { FIXED($limit_s, 0) } s
     .advice = Start nearer to the target, or raise the longest time
+servo-robot-stopped = the robot was stopped because its program has stopped, or no longer takes poses
+    .advice = Start the robot's program again, then servo again
 servo-by-person = the robot was stopped on request
     .advice = Start again when the cell is clear

@@ -51,5 +51,7 @@ servo-not-settling = el robot se detuvo porque quedan { MM($shift_m, 1) } mm y {
     .advice = Deje la pieza quieta o aumente la banda muerta; si nada se mueve, compruebe la calibración
 servo-time-over = el robot se detuvo porque no alcanzó el objetivo en { FIXED($limit_s, 0) } s
     .advice = Empiece más cerca del objetivo o aumente el tiempo máximo
+servo-robot-stopped = el robot se detuvo porque su programa se ha parado o ya no acepta poses
+    .advice = Inicie de nuevo el programa del robot y vuelva a servocontrolar
 servo-by-person = el robot se detuvo a petición
     .advice = Empiece de nuevo cuando la celda esté libre

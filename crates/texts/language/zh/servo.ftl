@@ -51,5 +51,7 @@ servo-not-settling = 机器人已停止，因为经过 { $num_rounds } 次修正
     .advice = 让零件静止，或增大死区；如果没有东西在动，请检查标定
 servo-time-over = 机器人已停止，因为未能在 { FIXED($limit_s, 0) } s 内到达目标
     .advice = 从更靠近目标处开始，或增大最长时间
+servo-robot-stopped = 机器人已停止，因为其程序已停止或不再接受位姿
+    .advice = 重新启动机器人程序，然后再次开始伺服
 servo-by-person = 机器人已按要求停止
     .advice = 工位清空后重新开始

@@ -1,5 +1,5 @@
 use super::*;
-use crate::simulated::{ArmDynamics, CellSetup, Disturbance, HandEyeError};
+use crate::simulated::{ArmDynamics, CellSetup, Disturbance, HandEyeError, SimulatedTarget};
 use inspection::fixtures::shipped_library;
 use simulate::PartKind;
 

@@ -1,0 +1,199 @@
+//! The controller's side of the protocols, at a simulated arm.
+
+use prost::Message as _;
+
+use super::SimulatedArm;
+use crate::stream::{
+    Egm, Rsi, Rtde, Stream, StreamError,
+    egm::{Angles, Header, Pose, Position, RUNNING, Robot, Sensor, State},
+    rsi::Packet,
+    rtde::{INPUTS, OUTPUTS, PLAYING, package, six},
+};
+use robot::{
+    Convention,
+    arm::{Joints, PlacedArm},
+};
+
+/// A protocol of a controller.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StreamProtocol {
+    /// ABB's EGM.
+    Egm,
+    /// KUKA's RSI.
+    Rsi,
+    /// Universal Robots' RTDE.
+    Rtde,
+}
+
+impl StreamProtocol {
+    /// Every protocol.
+    pub const ALL: [Self; 3] = [Self::Egm, Self::Rsi, Self::Rtde];
+
+    /// The computer's side of it, for this arm.
+    pub fn stream(self, arm: &PlacedArm) -> Box<dyn Stream + Send> {
+        match self {
+            Self::Egm => Box::<Egm>::default(),
+            Self::Rsi => Box::new(Rsi::new(arm.clone())),
+            Self::Rtde => Box::<Rtde>::default(),
+        }
+    }
+}
+
+/// A controller with its arm, which speaks a protocol.
+pub struct SimulatedController {
+    /// The arm.
+    pub arm: SimulatedArm,
+    /// Whether its program runs.
+    pub is_running: bool,
+    placed: PlacedArm,
+    start: Joints,
+    protocol: StreamProtocol,
+    /// Number of the last report: in RSI its time stamp.
+    number: u32,
+    /// Bytes of a package of RTDE that is not yet whole.
+    rest: Vec<u8>,
+}
+
+/// The first number of a report.
+const FIRST_NUMBER: u32 = 1000;
+/// Numbers of the recipes of RTDE.
+const RECIPES: [u8; 2] = [1, 2];
+
+impl SimulatedController {
+    /// A controller whose program runs.
+    pub fn new(arm: SimulatedArm, placed: PlacedArm, protocol: StreamProtocol) -> Self {
+        let start = arm
+            .state()
+            .joints
+            .expect("a simulated arm tells its joints");
+        Self {
+            arm,
+            is_running: true,
+            placed,
+            start,
+            protocol,
+            number: FIRST_NUMBER,
+            rest: Vec::new(),
+        }
+    }
+
+    /// Its next report.
+    pub fn report(&mut self) -> Vec<u8> {
+        let state = self.arm.state();
+        let joints = state.joints.expect("a simulated arm tells its joints");
+        let millis = u32::try_from(state.at.as_millis()).unwrap_or(u32::MAX);
+        let degrees = joints.map(f64::to_degrees);
+        match self.protocol {
+            StreamProtocol::Egm => {
+                self.number += 1;
+                let states = if self.is_running { RUNNING } else { [1, 2, 1] };
+                let [motors, motion, program] =
+                    states.map(|state| Some(State { state: Some(state) }));
+                let robot = Robot {
+                    header: Some(Header {
+                        number: Some(self.number),
+                        time: Some(millis),
+                        kind: Some(2),
+                    }),
+                    feedback: Some(Position {
+                        joints: Some(Angles {
+                            values: degrees.to_vec(),
+                        }),
+                        pose: Some(Pose::new(&state.robot_from_flange)),
+                    }),
+                    motors,
+                    motion,
+                    program,
+                };
+                robot.encode_to_vec()
+            }
+            StreamProtocol::Rsi => {
+                self.number += 12;
+                let angles = degrees.iter().zip(1..);
+                let angles = angles.map(|(angle, axis)| format!(" A{axis}=\"{angle:.6}\""));
+                let (angles, number) = (angles.collect::<String>(), self.number);
+                let elements = format!("<AIPos{angles}/><Delay D=\"0\"/><IPOC>{number}</IPOC>");
+                format!("<Rob Type=\"KUKA\">{elements}</Rob>").into_bytes()
+            }
+            StreamProtocol::Rtde => {
+                let written = Convention::UniversalRobots.write(&state.robot_from_flange);
+                let pose = written.values.iter().map(|value| value.value);
+                let mut payload = vec![RECIPES[0]];
+                payload.extend(pose.chain(joints).flat_map(f64::to_be_bytes));
+                let runs = i32::from(self.is_running);
+                payload.extend(PLAYING.to_be_bytes());
+                payload.extend([1, runs].iter().flat_map(|word: &i32| word.to_be_bytes()));
+                package(b'U', &payload)
+            }
+        }
+    }
+
+    /// Takes in what the computer sent, and returns what a controller answers to it.
+    pub fn take(&mut self, bytes: &[u8]) -> Result<Vec<u8>, StreamError> {
+        match self.protocol {
+            StreamProtocol::Egm => {
+                let unreadable = |error: prost::DecodeError| StreamError::Unreadable {
+                    protocol: "EGM",
+                    why: error.to_string(),
+                };
+                let sensor = Sensor::decode(bytes).map_err(unreadable)?;
+                if let Some(pose) = sensor.planned.and_then(|planned| planned.pose) {
+                    self.arm.send(pose.transform()?);
+                }
+            }
+            StreamProtocol::Rsi => {
+                let packet = Packet::read(bytes, b"AKorr")?;
+                if packet.stamp != Some(self.number.into()) {
+                    return Err(StreamError::OutOfOrder {
+                        number: packet.stamp.unwrap_or(0),
+                        last: self.number.into(),
+                    });
+                }
+                let correction = packet.joints.unwrap_or([0.0; 6]);
+                let joints = [0, 1, 2, 3, 4, 5].map(|i| self.start[i] + correction[i]);
+                if let Some(nozzle) = self.placed.nozzle_pose(&joints) {
+                    self.arm
+                        .send(nozzle * self.placed.flange_from_nozzle.inverse());
+                }
+            }
+            StreamProtocol::Rtde => {
+                self.rest.extend_from_slice(bytes);
+                return self.packages();
+            }
+        }
+        Ok(Vec::new())
+    }
+
+    /// Takes the whole packages of RTDE.
+    fn packages(&mut self) -> Result<Vec<u8>, StreamError> {
+        let types = |of: &[(&str, &str, usize)], recipe: u8| {
+            let kinds: Vec<&str> = of.iter().map(|(_, kind, _)| *kind).collect();
+            [&[recipe], kinds.join(",").as_bytes()].concat()
+        };
+        let mut answers = Vec::new();
+        while let Some(head) = self.rest.get(..3) {
+            let length = usize::from(u16::from_be_bytes([head[0], head[1]]));
+            if self.rest.len() < length {
+                break;
+            }
+            let taken: Vec<u8> = self.rest.drain(..length).collect();
+            let (kind, payload) = (taken[2], &taken[3..]);
+            match kind {
+                b'V' | b'S' => answers.extend(package(kind, &[1])),
+                b'O' => answers.extend(package(kind, &types(&OUTPUTS, RECIPES[0]))),
+                b'I' => answers.extend(package(kind, &types(&INPUTS, RECIPES[1]))),
+                b'U' => {
+                    // After the recipe's number and two integers.
+                    let pose = Convention::UniversalRobots.read(&six(&payload[9..]));
+                    let pose = pose.map_err(|error| StreamError::Unreadable {
+                        protocol: "RTDE",
+                        why: error.to_string(),
+                    })?;
+                    self.arm.send(pose);
+                }
+                _ => {}
+            }
+        }
+        Ok(answers)
+    }
+}
