@@ -234,6 +234,11 @@ fn load(given: Option<&Path>) -> anyhow::Result<(PathBuf, CellCalibration)> {
     Ok((path, calibration))
 }
 
+/// Returns where the camera sits: by the named calibration, or the user's own.
+pub(super) fn camera_place(given: Option<&Path>) -> anyhow::Result<CameraPlace> {
+    load(given).map(|(_, calibration)| calibration.camera)
+}
+
 /// Returns the calibration for a scan: a named one is loaded at once and must be valid; the user's own, if any, is read
 /// only when needed.
 pub(super) fn scan_calibration(

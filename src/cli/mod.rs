@@ -32,6 +32,7 @@ mod report;
 mod robot_file;
 mod scan;
 mod serve;
+mod servo;
 mod simulate;
 mod trace;
 mod verdict;
@@ -103,6 +104,7 @@ enum Command {
     Cell(cell::CellArgs),
     Rack(rack::RackArgs),
     Serve(serve::ServeArgs),
+    Servo(servo::ServoArgs),
     Simulate(simulate::SimulateArgs),
     Bench(bench::BenchArgs),
     Evaluate(evaluate::EvaluateArgs),
@@ -184,6 +186,7 @@ fn run_here(cli: Cli) -> Outcome {
         Some(Command::Cell(args)) => cell::run(&args, &mut console),
         Some(Command::Rack(args)) => rack::run(&args, &mut console),
         Some(Command::Serve(args)) => serve::run(&args, &mut console),
+        Some(Command::Servo(args)) => servo::run(&args, &mut console),
         Some(Command::Simulate(args)) => simulate::run(&args, &mut console),
         Some(Command::Bench(args)) => bench::run(&args, &mut console),
         Some(Command::Evaluate(args)) => evaluate::run(&args, &mut console),

@@ -23,6 +23,7 @@ mod motion;
 mod recorder;
 pub mod robot_file;
 mod scenes;
+pub mod servoing;
 
 pub use self::{
     answer::{Answered, Answering},

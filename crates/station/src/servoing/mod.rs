@@ -1,0 +1,159 @@
+//! Servoing a real robot: the sockets, the clock and the threads around a [`Drive`].
+//!
+//! ```text
+//! thread "looks":  frame ─► inspection ─► Look ──┐
+//! this thread:     report of the robot ──► Drive ┴─► answer to the robot
+//! ```
+//!
+//! Reports and frames are dated when they arrive, by one clock.
+
+mod robot_link;
+mod simulated_robot;
+
+pub use self::{
+    robot_link::{LinkError, RobotAddress, RobotLink},
+    simulated_robot::SimulatedRobot,
+};
+
+use std::{
+    net::SocketAddr,
+    ops::ControlFlow,
+    sync::{
+        atomic::{AtomicBool, Ordering},
+        mpsc,
+    },
+    thread,
+    time::{Duration, Instant},
+};
+
+use geometry::rigid::PoseDelta;
+use servo::{
+    Look, Step, StopReason,
+    stream::{Drive, StreamError},
+};
+
+/// What happens on the way.
+#[derive(Clone, Debug)]
+pub enum ServoNews {
+    /// The robot reports for the first time, from this address.
+    Connected(SocketAddr),
+    /// A frame was inspected.
+    Looked {
+        /// What it says about the part.
+        look: Look,
+        /// The error at the pose that was last commanded; `None` until enough looks agree.
+        error: Option<PoseDelta>,
+        /// Why the robot is held, if it is.
+        held: Option<StopReason>,
+    },
+    /// Bytes came that are no report.
+    Problem(StreamError),
+}
+
+/// Without a report for this long, a robot that has begun to move is taken for stopped.
+const SILENCE: Duration = Duration::from_secs(1);
+/// How long answers go on after the target is reached, so that the robot's program ends by itself.
+const AFTERWARDS: Duration = Duration::from_secs(10);
+/// How long a turn waits for the robot.
+const TURN: Duration = Duration::from_millis(20);
+
+/// Drives a robot until it arrives or stops. `now` is the time by which looks are dated. `next_look` takes a frame and inspects it, on a thread of its own; it returns `None` at
+/// the latest soon after the flag is set. `on_news` may end the run.
+pub fn servo(
+    link: &mut RobotLink,
+    drive: &mut Drive,
+    now: &impl Fn() -> Duration,
+    mut next_look: impl FnMut(&AtomicBool) -> Option<Look> + Send,
+    mut on_news: impl FnMut(Option<ServoNews>) -> ControlFlow<()>,
+) -> Result<Step, LinkError> {
+    let is_over = AtomicBool::new(false);
+    let (send, looks) = mpsc::channel();
+    thread::scope(|scope| {
+        scope.spawn(|| {
+            while !is_over.load(Ordering::SeqCst) {
+                // The receiver outlives this thread.
+                let sent = next_look(&is_over).map(|look| send.send(look));
+                if sent.is_none() {
+                    break;
+                }
+            }
+        });
+        let end = exchange(link, drive, now, &looks, &mut on_news);
+        is_over.store(true, Ordering::SeqCst);
+        end
+    })
+}
+
+fn exchange(
+    link: &mut RobotLink,
+    drive: &mut Drive,
+    now: &impl Fn() -> Duration,
+    looks: &mpsc::Receiver<Look>,
+    on_news: &mut impl FnMut(Option<ServoNews>) -> ControlFlow<()>,
+) -> Result<Step, LinkError> {
+    link.send(&drive.opening())?;
+    let mut last_report: Option<Instant> = None;
+    let mut done: Option<(Instant, Step)> = None;
+    loop {
+        let mut flow = on_news(None);
+        for look in looks.try_iter() {
+            let news = ServoNews::Looked {
+                look: look.clone(),
+                error: drive.servo().error().map(|error| error.size()),
+                held: drive.servo().held().cloned(),
+            };
+            drive.look(look);
+            if on_news(Some(news)).is_break() {
+                flow = ControlFlow::Break(());
+            }
+        }
+        if flow.is_break() {
+            drive.stop(StopReason::ByPerson);
+            if last_report.is_none() {
+                return Ok(Step::Stop(StopReason::ByPerson));
+            }
+        }
+        if let Some((since, end)) = &done
+            && since.elapsed() > AFTERWARDS
+        {
+            return Ok(end.clone());
+        }
+        let Some(bytes) = link.receive(TURN)? else {
+            match (last_report.filter(|at| at.elapsed() > SILENCE), &done) {
+                (Some(_), Some((_, end))) => return Ok(end.clone()),
+                (Some(at), None) => {
+                    let gap_s = at.elapsed().as_secs_f64();
+                    return Ok(Step::Stop(StopReason::ArmTimes { gap_s }));
+                }
+                (None, _) => continue,
+            }
+        };
+        let driven = drive.take(&bytes, now());
+        link.send(&driven.send)?;
+        if let Some(problem) = driven.problem {
+            link.refused(&problem)?;
+            if on_news(Some(ServoNews::Problem(problem))).is_break() {
+                drive.stop(StopReason::ByPerson);
+            }
+            continue;
+        }
+        let Some(step) = driven.step else {
+            continue;
+        };
+        if last_report.replace(Instant::now()).is_none()
+            && on_news(Some(ServoNews::Connected(link.reported()))).is_break()
+        {
+            drive.stop(StopReason::ByPerson);
+        }
+        match step {
+            Step::Command(_) => {}
+            Step::Stop(_) => return Ok(step),
+            Step::Done(_) => {
+                done.get_or_insert((Instant::now(), step));
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,135 @@
+use super::*;
+use geometry::units::{Metres, Radians};
+use inspection::{fixtures::shipped_library, library::Library};
+use servo::{
+    Servo, ServoParams,
+    simulated::{
+        ArmDynamics, CellSetup, Disturbance, HandEyeError, SimulatedCell, SimulatedTarget,
+        StreamProtocol,
+    },
+};
+use simulate::PartKind;
+
+/// A start near the target, so that it takes few seconds.
+fn setup() -> CellSetup {
+    CellSetup {
+        kind: PartKind::Fender,
+        target: SimulatedTarget::Standard,
+        noise: 1.0,
+        start: (Metres(0.04), Radians::from_degrees(4.0)),
+        hand_eye: HandEyeError {
+            shift: Metres::from_mm(20.0),
+            turn: Radians::from_degrees(2.0),
+        },
+        frame_period: Duration::from_millis(100),
+        delay: Duration::ZERO,
+        dynamics: ArmDynamics::default(),
+        disturbance: Disturbance::None,
+        seed: 5,
+    }
+}
+
+/// Patient, so that a computer under load disturbs nothing.
+fn patient() -> ServoParams {
+    ServoParams {
+        max_age: Duration::from_secs(2),
+        patience: Duration::from_mins(1),
+        max_time: Duration::from_mins(5),
+        max_lag: Duration::from_secs(2),
+        ..ServoParams::default()
+    }
+}
+
+/// Runs over a protocol; `on_news` gets the number of looks.
+fn run(
+    library: &Library,
+    protocol: StreamProtocol,
+    mut on_news: impl FnMut(usize) -> ControlFlow<()>,
+) -> (Step, PoseDelta) {
+    let cell = SimulatedCell::arrange(setup(), library).expect("a start");
+    let (robot, mut link) =
+        SimulatedRobot::start(cell.controller(protocol), protocol).expect("loopback");
+    let servo = Servo::new(cell.task.clone(), patient(), cell.fence.clone()).expect("sound");
+    let mut drive = Drive::new(cell.stream(protocol), servo);
+    let mut number = 0;
+    let next_look = |_: &AtomicBool| {
+        let (at, flange) = robot.now();
+        number += 1;
+        cell.look(&flange, at, number)
+    };
+    let mut num_looks = 0;
+    let now = || robot.now().0;
+    let end = super::servo(&mut link, &mut drive, &now, next_look, |news| {
+        num_looks += usize::from(matches!(news, Some(ServoNews::Looked { .. })));
+        on_news(num_looks)
+    });
+    let (at, flange) = robot.now();
+    (end.expect("connected"), cell.true_error(&flange, at))
+}
+
+#[test]
+fn a_simulated_robot_is_brought_to_its_target_over_the_network_in_each_protocol() {
+    let library = shipped_library();
+    // They sleep most of the time.
+    thread::scope(|scope| {
+        for protocol in StreamProtocol::ALL {
+            let library = &library;
+            scope.spawn(move || {
+                let (end, error) = run(library, protocol, |_| ControlFlow::Continue(()));
+                assert!(matches!(end, Step::Done(_)), "{protocol:?}: {end:?}");
+                assert!(
+                    error.shift.mm() < 2.0 && error.rotation.degrees() < 0.2,
+                    "{protocol:?}: {error:?}"
+                );
+            });
+        }
+    });
+}
+
+#[test]
+fn a_person_who_stops_it_stops_it() {
+    let stop_at_third = |num| match num {
+        3.. => ControlFlow::Break(()),
+        _ => ControlFlow::Continue(()),
+    };
+    let (end, _) = run(&shipped_library(), StreamProtocol::Egm, stop_at_third);
+    assert_eq!(end, Step::Stop(StopReason::ByPerson));
+}
+
+#[test]
+fn a_robot_that_does_not_answer_and_an_address_that_is_none_are_said() {
+    let nobody: RobotAddress = "ur=127.0.0.1:9".parse().expect("an address");
+    let error = RobotLink::open(&nobody).err().expect("refused");
+    assert!(matches!(error, LinkError::Connect { .. }), "{error}");
+    for text in ["egm", "egm=", "abb=6510", "ur=robot", "rsi=127.0.0.1"] {
+        let error = text.parse::<RobotAddress>().expect_err(text);
+        assert!(
+            matches!(error, LinkError::Address { .. }),
+            "{text}: {error}"
+        );
+    }
+    let ur: RobotAddress = "ur=192.168.1.20".parse().expect("an address");
+    assert_eq!(ur.to_string(), "ur=192.168.1.20:30004");
+    let rsi: RobotAddress = "rsi=49152".parse().expect("a port");
+    assert!(matches!(rsi.stream(None).err(), Some(LinkError::NoArm)));
+}
+
+#[test]
+fn packets_of_others_are_ignored_once_the_robot_has_reported() {
+    let mut link = RobotLink::open(&"egm=0".parse().expect("any port")).expect("loopback");
+    let [robot, other] = [(); 2].map(|()| {
+        let socket = std::net::UdpSocket::bind("127.0.0.1:0").expect("bound");
+        socket.connect(link.address()).expect("loopback");
+        socket
+    });
+    let received = |link: &mut RobotLink| link.receive(Duration::from_secs(5)).expect("open");
+    other.send(b"hello").expect("sent");
+    assert_eq!(received(&mut link).as_deref(), Some(&b"hello"[..]));
+    robot.send(b"first").expect("sent");
+    assert_eq!(received(&mut link).as_deref(), Some(&b"first"[..]));
+    assert_eq!(link.reported(), robot.local_addr().expect("bound"));
+    other.send(b"hostile").expect("sent");
+    assert_eq!(received(&mut link), None);
+    robot.send(b"second").expect("sent");
+    assert_eq!(received(&mut link).as_deref(), Some(&b"second"[..]));
+}
