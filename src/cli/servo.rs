@@ -345,9 +345,8 @@ fn simulated(
     );
     let mut number = 0;
     let next_look = |_: &AtomicBool| {
-        let (at, flange) = robot.now();
         number += 1;
-        cell.look(&flange, at, number)
+        robot.look(|flange, at| cell.look(flange, at, number))
     };
     let now = || robot.now().0;
     let end = servo(&mut link, &mut drive, &now, next_look, |news| {

@@ -28,6 +28,7 @@ mod recipe;
 mod report;
 mod scan;
 mod serve;
+mod servo;
 mod simulate;
 mod sources;
 mod system;

@@ -9,6 +9,7 @@ use crate::stream::{
     rsi::Packet,
     rtde::{INPUTS, OUTPUTS, PLAYING, package, six},
 };
+use geometry::rigid::RigidTransform;
 use robot::{
     Convention,
     arm::{Joints, PlacedArm},
@@ -52,8 +53,14 @@ pub struct SimulatedController {
     number: u32,
     /// Bytes of a package of RTDE that is not yet whole.
     rest: Vec<u8>,
+    /// True once the computer has said that the target is reached.
+    has_arrived: bool,
+    /// The last pose that EGM sent, and how often in a row.
+    same: Option<(RigidTransform, u32)>,
 }
 
+/// In EGM the robot has arrived when it was sent the same pose so often: longer than the servo waits for frames on the way.
+const NUM_SAME: u32 = 200;
 /// The first number of a report.
 const FIRST_NUMBER: u32 = 1000;
 /// Numbers of the recipes of RTDE.
@@ -74,7 +81,14 @@ impl SimulatedController {
             protocol,
             number: FIRST_NUMBER,
             rest: Vec::new(),
+            has_arrived: false,
+            same: None,
         }
+    }
+
+    /// True once its program has ended because the target is reached.
+    pub fn has_arrived(&self) -> bool {
+        self.has_arrived
     }
 
     /// Its next report.
@@ -138,7 +152,12 @@ impl SimulatedController {
                 };
                 let sensor = Sensor::decode(bytes).map_err(unreadable)?;
                 if let Some(pose) = sensor.planned.and_then(|planned| planned.pose) {
-                    self.arm.send(pose.transform()?);
+                    let pose = pose.transform()?;
+                    let same = self.same.filter(|(last, _)| *last == pose);
+                    let num = same.map_or(0, |(_, num)| num) + 1;
+                    self.same = Some((pose, num));
+                    self.has_arrived |= self.is_running && num >= NUM_SAME;
+                    self.arm.send(pose);
                 }
             }
             StreamProtocol::Rsi => {
@@ -149,6 +168,7 @@ impl SimulatedController {
                         last: self.number.into(),
                     });
                 }
+                self.has_arrived |= packet.has_arrived;
                 let correction = packet.joints.unwrap_or([0.0; 6]);
                 let joints = [0, 1, 2, 3, 4, 5].map(|i| self.start[i] + correction[i]);
                 if let Some(nozzle) = self.placed.nozzle_pose(&joints) {
@@ -183,6 +203,7 @@ impl SimulatedController {
                 b'O' => answers.extend(package(kind, &types(&OUTPUTS, RECIPES[0]))),
                 b'I' => answers.extend(package(kind, &types(&INPUTS, RECIPES[1]))),
                 b'U' => {
+                    self.has_arrived |= payload[8] == 1;
                     // After the recipe's number and two integers.
                     let pose = Convention::UniversalRobots.read(&six(&payload[9..]));
                     let pose = pose.map_err(|error| StreamError::Unreadable {

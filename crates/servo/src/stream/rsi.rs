@@ -97,6 +97,8 @@ pub(crate) struct Packet {
     pub(crate) stamp: Option<u64>,
     /// Radians.
     pub(crate) joints: Option<Joints>,
+    /// What the sensor says of the target.
+    pub(crate) has_arrived: bool,
 }
 
 impl Packet {
@@ -111,7 +113,7 @@ impl Packet {
         }
         let mut reader = Reader::from_reader(packet);
         let mut read = Self::default();
-        let mut is_stamp = false;
+        let mut inside = Vec::new();
         loop {
             let event = reader.read_event();
             match event.map_err(|error| unreadable(error.to_string()))? {
@@ -129,9 +131,12 @@ impl Packet {
                     let all = all.and_then(|all| Joints::try_from(all).ok());
                     read.joints = all.map(|all| all.map(f64::to_radians));
                 }
-                Event::Start(tag) => is_stamp = tag.name().as_ref() == b"IPOC",
-                Event::Text(text) if is_stamp => read.stamp = number_in(&text),
-                Event::End(_) => is_stamp = false,
+                Event::Start(tag) => inside = tag.name().as_ref().to_vec(),
+                Event::Text(text) if inside == b"IPOC" => read.stamp = number_in(&text),
+                Event::Text(text) if inside == b"Arrived" => {
+                    read.has_arrived = number_in(&text) == Some(1);
+                }
+                Event::End(_) => inside.clear(),
                 Event::Eof => return Ok(read),
                 _ => {}
             }

@@ -162,7 +162,11 @@ impl NotKnown {
             Self::Table(error) => [unusable(described(&**error)), advised(&**error)],
             Self::Chosen(error) => [described(error), advised(error)],
             Self::Recipe { name, error } => [
-                text!("expect-recipe-unusable", recipe = name, error = described(error)),
+                text!(
+                    "expect-recipe-unusable",
+                    recipe = name,
+                    error = described(error)
+                ),
                 advised(error),
             ],
             Self::Order(OrderError::Parts(cell)) => [unusable(described(cell)), advised(cell)],

@@ -51,7 +51,9 @@ pub enum ServoNews {
 }
 
 /// Without a report for this long, a robot that has begun to move is taken for stopped.
-const SILENCE: Duration = Duration::from_secs(1);
+const SILENCE: Duration = Duration::from_secs(5);
+/// Without a report for this long after the target is reached, its program has ended.
+const SILENCE_AT_END: Duration = Duration::from_secs(1);
 /// How long answers go on after the target is reached, so that the robot's program ends by itself.
 const AFTERWARDS: Duration = Duration::from_secs(10);
 /// How long a turn waits for the robot.
@@ -119,13 +121,14 @@ fn exchange(
             return Ok(end.clone());
         }
         let Some(bytes) = link.receive(TURN)? else {
-            match (last_report.filter(|at| at.elapsed() > SILENCE), &done) {
-                (Some(_), Some((_, end))) => return Ok(end.clone()),
-                (Some(at), None) => {
-                    let gap_s = at.elapsed().as_secs_f64();
+            let silent = last_report.map_or(Duration::ZERO, |at| at.elapsed());
+            match &done {
+                Some((_, end)) if silent > SILENCE_AT_END => return Ok(end.clone()),
+                None if silent > SILENCE => {
+                    let gap_s = silent.as_secs_f64();
                     return Ok(Step::Stop(StopReason::ArmTimes { gap_s }));
                 }
-                (None, _) => continue,
+                _ => continue,
             }
         };
         let driven = drive.take(&bytes, now());

@@ -1,7 +1,7 @@
 //! A simulated robot that moves in real time, and speaks its protocol on this computer's loopback network.
 //!
-//! It waits for the answer to each report, so that a computer that is too slow slows the simulation down instead of disturbing
-//! it. Its clock is the simulated one.
+//! It waits for the answer to each report, and for frames to be inspected, so that a computer that is too slow slows the simulation
+//! down instead of disturbing it. Its clock is the simulated one.
 
 use std::{
     io::{self, Read as _, Write as _},
@@ -20,13 +20,21 @@ use servo::simulated::{SimulatedController, StreamProtocol};
 
 /// A simulated robot. Dropping it ends it.
 pub struct SimulatedRobot {
-    controller: Arc<Mutex<SimulatedController>>,
-    is_over: Arc<AtomicBool>,
+    shared: Arc<Shared>,
     thread: Option<JoinHandle<()>>,
+}
+
+struct Shared {
+    controller: Mutex<SimulatedController>,
+    /// When the last frame was taken that has been inspected.
+    looked_at: Mutex<Duration>,
+    is_over: AtomicBool,
 }
 
 /// How long it waits for an answer: its program then ends, as on a real controller.
 const ANSWER_TIMEOUT: Duration = Duration::from_secs(1);
+/// How far it goes on without a frame that has been inspected.
+const MAX_AHEAD: Duration = Duration::from_millis(300);
 /// Tries to find two free ports that belong together.
 const MAX_TRIES: usize = 50;
 
@@ -61,22 +69,24 @@ impl SimulatedRobot {
                 (link, Cable::Tcp(stream))
             }
         };
-        let controller = Arc::new(Mutex::new(controller));
-        let is_over = Arc::new(AtomicBool::new(false));
-        let (theirs, their_end) = (Arc::clone(&controller), Arc::clone(&is_over));
+        let shared = Arc::new(Shared {
+            controller: Mutex::new(controller),
+            looked_at: Mutex::default(),
+            is_over: AtomicBool::new(false),
+        });
+        let theirs = Arc::clone(&shared);
         let thread = thread::Builder::new()
             .name("simulated robot".into())
             .spawn(move || {
                 // A connection that breaks ends the robot's program; the other side says so.
-                let _ = run(&theirs, cable, &their_end);
+                let _ = run(&theirs, cable);
             });
         let thread = thread.map_err(|source| LinkError::Listen {
             at: link.address(),
             source,
         })?;
         let robot = Self {
-            controller,
-            is_over,
+            shared,
             thread: Some(thread),
         };
         Ok((robot, link))
@@ -84,14 +94,22 @@ impl SimulatedRobot {
 
     /// The simulated time, and where the flange really is.
     pub fn now(&self) -> (Duration, RigidTransform) {
-        let controller = lock(&self.controller);
+        let controller = lock(&self.shared.controller);
         (controller.arm.state().at, controller.arm.true_flange())
+    }
+
+    /// Takes a frame, and says what its inspection finds: `look` gets where the flange really is, and the time.
+    pub fn look<T>(&self, look: impl FnOnce(&RigidTransform, Duration) -> T) -> T {
+        let (at, flange) = self.now();
+        let seen = look(&flange, at);
+        *lock(&self.shared.looked_at) = at;
+        seen
     }
 }
 
 impl Drop for SimulatedRobot {
     fn drop(&mut self) {
-        self.is_over.store(true, Ordering::SeqCst);
+        self.shared.is_over.store(true, Ordering::SeqCst);
         if let Some(thread) = self.thread.take() {
             let _ = thread.join();
         }
@@ -103,11 +121,8 @@ enum Cable {
     Tcp(TcpStream),
 }
 
-fn run(
-    controller: &Mutex<SimulatedController>,
-    mut cable: Cable,
-    is_over: &AtomicBool,
-) -> io::Result<()> {
+fn run(shared: &Shared, mut cable: Cable) -> io::Result<()> {
+    let controller = &shared.controller;
     let mut buffer = vec![0; 65_536];
     if let Cable::Tcp(stream) = &mut cable {
         // The requests that open the connection.
@@ -122,9 +137,13 @@ fn run(
     }
     let period = lock(controller).arm.period();
     let mut next = Instant::now();
-    while !is_over.load(Ordering::SeqCst) {
+    while !shared.is_over.load(Ordering::SeqCst) {
         next = (next + period).max(Instant::now());
         thread::sleep(next.saturating_duration_since(Instant::now()));
+        let looked_at = *lock(&shared.looked_at);
+        if lock(controller).arm.state().at > looked_at + MAX_AHEAD {
+            continue;
+        }
         let report = {
             let mut controller = lock(controller);
             controller.arm.advance();
@@ -143,9 +162,13 @@ fn run(
         if length == 0 {
             break;
         }
-        lock(controller)
+        let mut controller = lock(controller);
+        controller
             .take(&buffer[..length])
             .map_err(io::Error::other)?;
+        if controller.has_arrived() {
+            break;
+        }
     }
     Ok(())
 }

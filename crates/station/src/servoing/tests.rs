@@ -29,17 +29,6 @@ fn setup() -> CellSetup {
     }
 }
 
-/// Patient, so that a computer under load disturbs nothing.
-fn patient() -> ServoParams {
-    ServoParams {
-        max_age: Duration::from_secs(2),
-        patience: Duration::from_mins(1),
-        max_time: Duration::from_mins(5),
-        max_lag: Duration::from_secs(2),
-        ..ServoParams::default()
-    }
-}
-
 /// Runs over a protocol; `on_news` gets the number of looks.
 fn run(
     library: &Library,
@@ -49,13 +38,17 @@ fn run(
     let cell = SimulatedCell::arrange(setup(), library).expect("a start");
     let (robot, mut link) =
         SimulatedRobot::start(cell.controller(protocol), protocol).expect("loopback");
-    let servo = Servo::new(cell.task.clone(), patient(), cell.fence.clone()).expect("sound");
+    let servo = Servo::new(
+        cell.task.clone(),
+        ServoParams::default(),
+        cell.fence.clone(),
+    )
+    .expect("sound");
     let mut drive = Drive::new(cell.stream(protocol), servo);
     let mut number = 0;
     let next_look = |_: &AtomicBool| {
-        let (at, flange) = robot.now();
         number += 1;
-        cell.look(&flange, at, number)
+        robot.look(|flange, at| cell.look(flange, at, number))
     };
     let mut num_looks = 0;
     let now = || robot.now().0;
