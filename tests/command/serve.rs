@@ -491,7 +491,7 @@ fn what_the_service_cannot_start_with_is_said_with_what_to_do() {
     if !place.has_plant() {
         assert!(err(2, &["--http", "8080"]).contains("--features plant"));
     }
-    assert!(err(2, &["--as", "kuka"]).contains("no calibration"));
+    assert!(err(2, &["--as", "kuka"]).contains("where the camera sits"));
     place.accepted(&CALIBRATE);
     let calibrated = ["--as", "kuka", "--calibration", "cell.toml"];
     for (args, words) in [

@@ -1,6 +1,6 @@
 //! Changes of a rack file's text that leave the rest of it as it is: comments, order, and how numbers are written.
 
-use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, Value};
+use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, RawString, Table, Value};
 
 use super::RackFile;
 
@@ -91,40 +91,82 @@ fn new_table(wanted: &Table) -> Option<Table> {
     Some(table)
 }
 
-/// Keeps the elements that stay, with their comments, and puts new ones below them.
+/// An element of an array, and what is written around it.
+struct Element {
+    value: Value,
+    /// From the end of the line before it.
+    before: String,
+    /// Up to the end of its own line, behind the comma.
+    behind: String,
+}
+
+/// Keeps the elements that stay, with the comments before and behind them, and puts new ones below them.
 fn change_array(array: &mut Array, before: &[Value], after: Vec<Value>) {
-    let known: Vec<Value> = array.iter().cloned().collect();
+    let (opening, known, closing) = elements_of(array);
+    let first = known.first().map_or("", |first| &*first.before);
+    let new_line = first.rfind('\n').map(|at| first[at..].to_owned());
+    let elements = after.into_iter().enumerate().map(|(number, value)| {
+        let index = before.iter().position(|was| is_same(was, &value));
+        if let Some(Element {
+            value,
+            before,
+            behind,
+        }) = index.and_then(|index| known.get(index))
+        {
+            return (value.clone(), before.clone(), behind.clone());
+        }
+        let beside = if number == 0 { "" } else { " " };
+        let before = new_line.clone().unwrap_or_else(|| beside.to_owned());
+        (value, before, String::new())
+    });
     let mut changed = array.clone();
     changed.clear();
-    for wanted in after {
-        let index = before.iter().position(|was| is_same(was, &wanted));
-        if let Some(kept) = index.and_then(|index| known.get(index)) {
-            changed.push_formatted(kept.clone());
-            continue;
-        }
-        let first = changed.get(0).and_then(|first| first.decor().prefix());
-        let first = first.and_then(|prefix| prefix.as_str()).unwrap_or_default();
-        let indent = first.rsplit_once('\n').map(|(_, indent)| indent);
-        let mut wanted = wanted;
-        let prefix = match indent {
-            // What is written behind the last element stays there.
-            Some(indent) => {
-                let trailing = changed.trailing().as_str().unwrap_or_default();
-                let behind = trailing.trim_end().to_owned();
-                format!("{behind}\n{indent}")
-            }
-            None if changed.is_empty() => String::new(),
-            None => " ".into(),
-        };
-        if indent.is_some() {
-            changed.set_trailing("\n");
-            changed.set_trailing_comma(true);
-        }
-        wanted.decor_mut().set_prefix(prefix);
-        wanted.decor_mut().set_suffix("");
-        changed.push_formatted(wanted);
+    let mut behind = opening;
+    for (mut value, before, behind_it) in elements {
+        value.decor_mut().set_prefix(format!("{behind}{before}"));
+        value.decor_mut().set_suffix("");
+        changed.push_formatted(value);
+        behind = behind_it;
     }
+    changed.set_trailing(format!("{behind}{closing}"));
+    changed.set_trailing_comma(array.trailing_comma() || closing.contains('\n'));
     *array = changed;
+}
+
+/// What is written behind the opening bracket, the elements, and what is written from the last one's line on.
+fn elements_of(array: &Array) -> (String, Vec<Element>, String) {
+    let text = |raw: Option<&RawString>| {
+        raw.and_then(RawString::as_str)
+            .unwrap_or_default()
+            .to_owned()
+    };
+    let split = |text: String| match text.find('\n') {
+        Some(at) => (text[..at].to_owned(), text[at..].to_owned()),
+        None => (String::new(), text),
+    };
+    let mut between = String::new();
+    let mut opening = None;
+    let mut elements: Vec<Element> = Vec::new();
+    for value in array {
+        let prefix = text(value.decor().prefix());
+        let (behind, before) = split(between + &prefix);
+        match elements.last_mut() {
+            Some(last) => last.behind = behind,
+            None => opening = Some(behind),
+        }
+        between = text(value.decor().suffix());
+        elements.push(Element {
+            value: value.clone(),
+            before,
+            behind: String::new(),
+        });
+    }
+    let (behind, closing) = split(between + &text(Some(array.trailing())));
+    match elements.last_mut() {
+        Some(last) => last.behind = behind,
+        None => opening = Some(behind),
+    }
+    (opening.unwrap_or_default(), elements, closing)
 }
 
 fn values_of(item: &Item) -> Vec<Value> {

@@ -195,11 +195,19 @@ parts = [   # both sides
     assert_eq!(written(&file), changed);
     file.rack.places[0].parts.remove(1);
     let removed = changed.replace("    { name = \"grille\" },   # either way\n", "");
-    let now = written(&file);
-    assert_eq!(
-        now.replace("   # either way", ""),
-        removed.replace("   # either way", "")
+    assert_eq!(written(&file), removed);
+    // Without a comma behind the last one.
+    let bare = removed.replace("{ name = \"hood\" },\n", "{ name = \"hood\" }   # both\n");
+    std::fs::write(&path, &bare).expect("written");
+    file.rack.places[0].parts.push(PlacedPart {
+        name: "grille".into(),
+        angles_rad: None,
+    });
+    let longer = bare.replace(
+        "{ name = \"hood\" }   # both\n",
+        "{ name = \"hood\" },   # both\n    { name = \"grille\" },\n",
     );
+    assert_eq!(written(&file), longer);
     let mut right = file.rack.places[0].clone();
     right.name = "right hook".into();
     right.region.centre_m[0] = 0.6;
