@@ -1105,7 +1105,7 @@ fn a_draft_is_written_when_the_window_closes_and_a_bad_one_is_set_aside() {
     let harness = open_with(USUAL, options());
     assert!(enrol_of(&harness).draft.is_none());
     let shown = notices(&harness);
-    let is_shown = |what: &String| what.starts_with("The draft in ");
+    let is_shown = |what: &String| what.starts_with("The draft is not used: ");
     assert!(shown.iter().any(is_shown), "{shown:?}");
     let aside = folder.path().join("draft.broken-1.json");
     assert_eq!(

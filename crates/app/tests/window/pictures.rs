@@ -4,7 +4,7 @@
 //! these tests report that they are skipped. `UPDATE_SNAPSHOTS=1` redraws the pictures; look at them before you keep
 //! them.
 
-use std::{fs, path::PathBuf, sync::Arc, time::Duration};
+use std::{cell::RefCell, fs, path::PathBuf, sync::Arc, time::Duration};
 
 use app::{
     Window, WindowOptions,
@@ -37,6 +37,7 @@ use shell::{
     roles::RoleAction,
     session::WorkspaceKind,
 };
+use tempfile::TempDir;
 
 use inspection::fixtures::copy_library;
 
@@ -102,10 +103,24 @@ fn inspected_by(library_cache: &LibraryCache) -> Inspected {
 }
 
 fn open_drawn(size: Vec2) -> WindowHarness {
-    open_with(size, inspected(), None)
+    open_with(size, inspected())
 }
 
-fn open_with(size: Vec2, inspected: Inspected, settings: Option<PathBuf>) -> WindowHarness {
+thread_local! {
+    /// The folders of the settings, until the test ends.
+    static FOLDERS: RefCell<Vec<TempDir>> = const { RefCell::new(Vec::new()) };
+}
+
+/// Settings without starts of shifts: then every shift is "since 00:00", at any time of day.
+fn timeless_settings() -> PathBuf {
+    let folder = tempfile::tempdir().expect("a folder");
+    let settings = folder.path().join("settings.toml");
+    fs::write(&settings, "shifts = []").expect("written");
+    FOLDERS.with_borrow_mut(|folders| folders.push(folder));
+    settings
+}
+
+fn open_with(size: Vec2, inspected: Inspected) -> WindowHarness {
     let inspected = Arc::new(inspected);
     let mut harness = Harness::builder()
         .with_size(size)
@@ -114,7 +129,7 @@ fn open_with(size: Vec2, inspected: Inspected, settings: Option<PathBuf>) -> Win
             let options = WindowOptions {
                 // A neutral name, because it is in the picture.
                 cases: Some("cases of the pictures".into()),
-                settings,
+                settings: Some(timeless_settings()),
                 ..plain_options()
             };
             let mut window =
@@ -229,19 +244,16 @@ fn the_operators_view_looks_as_it_did() {
     if !draws_in_software() {
         return;
     }
-    let folder = tempfile::tempdir().expect("a folder");
-    let settings = folder.path().join("settings.toml");
     for (size, is_light, name) in [
         (USUAL, false, "operator"),
         (SMALL, true, "operator_small_light"),
     ] {
         let mut found = inspected();
-        // In the present shift; without starts, every shift is "since 00:00", which has the same width all day.
+        // In the present shift.
         found.entry.record.summary.at = geometry::clock::now();
         // As if the cell was followed: only then its parts are counted.
         found.entry.record.summary.source = "simulated".into();
-        fs::write(&settings, "shifts = []").expect("written");
-        let mut harness = open_with(size, found, Some(settings.clone()));
+        let mut harness = open_with(size, found);
         if is_light {
             act(&mut harness, Action::SwitchTheme);
         }
@@ -397,7 +409,7 @@ fn the_robots_cell_looks_as_it_did() {
         (USUAL, false, "spray_path"),
         (SMALL, true, "spray_path_small_light"),
     ] {
-        let mut harness = open_with(size, inspected_by(&library_cache), None);
+        let mut harness = open_with(size, inspected_by(&library_cache));
         if is_light {
             act(&mut harness, Action::SwitchTheme);
         }
