@@ -82,7 +82,7 @@ fn a_file_that_is_no_rack_is_refused_with_what_is_wrong_and_what_to_do() {
     for (text, what) in [
         ("", "schema_version"),
         ("schema_version = 1", "neither a volume nor a place"),
-        ("schema_version = 2\nnew = 1", "newer than this program"),
+        ("schema_version = 2\nnew = 1", "made by a newer version"),
         (&with("frame = \"flange\""), "unknown variant"),
         (&with("places = 3"), "line 2: unknown field"),
         (&many(MAX_PARTS + 1), "9 places"),

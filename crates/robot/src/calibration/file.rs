@@ -40,6 +40,8 @@ pub struct ReadCalibration {
 /// Content of the file.
 #[derive(Debug, Deserialize)]
 struct Text {
+    #[serde(rename = "schema_version")]
+    _schema_version: u32,
     #[serde(default)]
     name: String,
     #[serde(default)]
