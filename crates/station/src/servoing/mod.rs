@@ -120,7 +120,12 @@ fn exchange(
         {
             return Ok(end.clone());
         }
-        let Some(bytes) = link.receive(TURN)? else {
+        let received = match (link.receive(TURN), &done) {
+            // The robot's program has ended.
+            (Err(LinkError::Lost { .. }), Some((_, end))) => return Ok(end.clone()),
+            (received, _) => received?,
+        };
+        let Some(bytes) = received else {
             let silent = last_report.map_or(Duration::ZERO, |at| at.elapsed());
             match &done {
                 Some((_, end)) if silent > SILENCE_AT_END => return Ok(end.clone()),
@@ -132,7 +137,10 @@ fn exchange(
             }
         };
         let driven = drive.take(&bytes, now());
-        link.send(&driven.send)?;
+        match (link.send(&driven.send), &done) {
+            (Err(LinkError::Lost { .. }), Some((_, end))) => return Ok(end.clone()),
+            (sent, _) => sent?,
+        }
         if let Some(problem) = driven.problem {
             link.refused(&problem)?;
             if on_news(Some(ServoNews::Problem(problem))).is_break() {
