@@ -50,7 +50,7 @@ use servo::{
 use simulate::PartKind;
 use station::{
     CameraScenes,
-    servoing::{LinkError, RobotAddress, RobotLink, ServoNews, SimulatedRobot, servo},
+    servoing::{RobotAddress, RobotLink, ServoNews, SimulatedRobot, servo},
 };
 
 /// Move a robot until the part stands where it should in front of the camera
@@ -339,7 +339,7 @@ fn simulated(
     let servo_run = Servo::new(cell.task.clone(), args.params()?, cell.fence.clone()).advised()?;
     let mut drive = Drive::new(cell.stream(protocol), servo_run);
     let started = SimulatedRobot::start(cell.controller(protocol), protocol);
-    let (robot, mut link) = started.map_err(LinkError::from).advised()?;
+    let (robot, mut link) = started.advised()?;
     console.note(
         &"Simulated: an arm carries the camera; its calibration is wrong by up to 20 mm and 2°",
     );

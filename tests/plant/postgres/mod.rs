@@ -251,7 +251,7 @@ fn what_is_read_from_the_database_is_what_the_history_itself_shows() {
             ..Filter::default()
         },
         Filter {
-            verdict: Some(StoredVerdict::Rejected),
+            verdict: Some(StoredVerdict::Rejected.into()),
             since: Some(moment(4)),
             ..Filter::default()
         },
