@@ -181,9 +181,8 @@ impl ServoArgs {
     fn params(&self) -> anyhow::Result<ServoParams> {
         let mut params = ServoParams::default();
         params.limits.speed = self.speed / 1000.0;
-        let least = 2.0 * params.limits.speed * params.limits.turn_speed;
+        // A robot that goes faster must brake as soon.
         params.limits.acceleration = params.limits.acceleration.max(5.0 * params.limits.speed);
-        params.limits.acceleration = params.limits.acceleration.max(least);
         params.tolerance.shift = Metres::from_mm(self.tolerance);
         params.checked().advised()
     }
@@ -243,6 +242,12 @@ fn real(
     interrupt: &Interrupt,
     console: &mut Console,
 ) -> anyhow::Result<Step> {
+    if source.is_replayed() {
+        return Err(advised_error(
+            format!("{source} is replayed: its frames do not show what hangs there now"),
+            "Give a camera as --source, or try a simulated robot: --simulated",
+        ));
+    }
     let name = args.part.as_str();
     let reference = library.references.iter().find(|one| one.name == name);
     let with_middle = reference.and_then(|one| Some((one, one.middle()?)));

@@ -42,12 +42,21 @@ fn what_cannot_be_servoed_is_refused_with_advice() {
         ];
         place.coded(2, &args.concat()).err
     };
+    let replayed = [
+        "servo",
+        "fender",
+        "--source",
+        "recording:x",
+        "--robot",
+        "egm=0",
+    ];
     let calibrated = |robot: &str| servo(&["--calibration", "cell.toml", "--robot", robot]);
     for (refusal, advice) in [
         (
             place.coded(2, &["servo", "boat", "--simulated"]).err,
             "partsight library list",
         ),
+        (place.coded(2, &replayed).err, "Give a camera as --source"),
         (servo(&["--robot", "abb=6510"]), "egm=192.168.1.10:6510"),
         (calibrated("rsi=0"), "--arm and --nozzle"),
         (calibrated("ur=127.0.0.1:9"), "remote control"),

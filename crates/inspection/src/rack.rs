@@ -436,10 +436,7 @@ impl RackFile {
     /// The text of the rack that is in this file, changed to this one.
     fn changed_text(&self, path: &Path) -> Option<String> {
         let text = read_text(path, MAX_BYTES).ok()?;
-        let changed = edit::changed(&text, &Self::parse(path, &text).ok()?, self)?;
-        // Comments may be lost, the rack may not.
-        let is_same = Self::parse(path, &changed).is_ok_and(|read| read.text() == self.text());
-        is_same.then_some(changed)
+        edit::changed(&text, &Self::parse(path, &text).ok()?, self)
     }
 
     /// The rack in camera space. `base_from_camera` is where the camera is, if that is known.

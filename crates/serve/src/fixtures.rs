@@ -48,7 +48,7 @@ pub struct RunningServer {
     thread: Option<JoinHandle<()>>,
 }
 
-/// Returns what it is told to, and counts.
+/// Returns what `find` finds, and counts the inspections.
 struct FakeInspector<F, R> {
     find: F,
     recorded: R,

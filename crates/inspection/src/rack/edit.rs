@@ -1,4 +1,4 @@
-//! Changes of a rack file's text that leave the rest of it as it is: comments, order, and how numbers are written.
+//! Edits the text of a rack file, and leaves the rest as it is: comments, order, and how numbers are written.
 
 use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, RawString, Table, Value};
 

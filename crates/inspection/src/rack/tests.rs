@@ -168,7 +168,7 @@ centre_mm = [-600, 0, 2200]   # measured
 size_mm = [300, 300, 300]
 angles_deg = [0, 0, 0]
 parts = [   # both sides
-    { name = \"fender\", angles_deg = [180, 0, 5] },   # as it is hung
+    { name = \"fender\", angles_deg = [180, 0, 5] },   # as hung
     { name = \"grille\" },   # either way
 ]
 # The end.

@@ -242,8 +242,13 @@ fn a_report_is_read_as_it_was_written_and_answered_in_kind() {
             off.shift.mm() < 1e-3 && off.rotation.degrees() < 1e-4,
             "{off:?}"
         );
-        let (joints, told) = (state.joints.expect("told"), read.joints.expect("told"));
-        assert!(joints.iter().zip(told).all(|(a, b)| (a - b).abs() < 1e-7));
+        let (joints, reported) = (state.joints.expect("known"), read.joints.expect("reported"));
+        assert!(
+            joints
+                .iter()
+                .zip(reported)
+                .all(|(a, b)| (a - b).abs() < 1e-7)
+        );
         assert!(read.is_following);
 
         let goal = RigidTransform::translation(0.01, 0.0, -0.02) * state.robot_from_flange;

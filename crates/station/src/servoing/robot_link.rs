@@ -3,7 +3,7 @@
 use std::{
     fmt,
     io::{self, ErrorKind, Read as _, Write as _},
-    net::{IpAddr, Ipv4Addr, SocketAddr, TcpStream, UdpSocket},
+    net::{IpAddr, SocketAddr, TcpStream, UdpSocket},
     str::FromStr,
     time::Duration,
 };
@@ -84,21 +84,17 @@ impl FromStr for RobotAddress {
     fn from_str(text: &str) -> Result<Self, LinkError> {
         let wrong = || LinkError::Address { text: text.into() };
         let (protocol, at) = text.split_once('=').ok_or_else(wrong)?;
-        let here = SocketAddr::from((Ipv4Addr::LOCALHOST, 0));
-        match protocol {
-            "egm" => Ok(Self::Egm(here)),
-            "rsi" => Ok(Self::Rsi(here)),
-            "ur" => Ok(Self::UniversalRobots(here)),
-            _ => Err(wrong()),
-        }
-        .and_then(|robot| {
-            let alone = at.parse::<IpAddr>().ok();
-            let address = match (robot, alone) {
-                (Self::UniversalRobots(_), Some(ip)) => Some(SocketAddr::new(ip, RTDE_PORT)),
-                _ => parse_address(at).ok(),
-            };
-            Ok(robot.at(address.ok_or_else(wrong)?))
-        })
+        let robot: fn(SocketAddr) -> Self = match protocol {
+            "egm" => Self::Egm,
+            "rsi" => Self::Rsi,
+            "ur" => Self::UniversalRobots,
+            _ => return Err(wrong()),
+        };
+        let at = match at.parse::<IpAddr>() {
+            Ok(ip) if protocol == "ur" => Some(SocketAddr::new(ip, RTDE_PORT)),
+            _ => parse_address(at).ok(),
+        };
+        Ok(robot(at.ok_or_else(wrong)?))
     }
 }
 

@@ -78,7 +78,7 @@ impl SimulatedRobot {
         let thread = thread::Builder::new()
             .name("simulated robot".into())
             .spawn(move || {
-                // A connection that breaks ends the robot's program; the other side says so.
+                // If the connection breaks, the robot's program ends, and the other side reports it.
                 let _ = run(&theirs, cable);
             });
         let thread = thread.map_err(|source| LinkError::Listen {

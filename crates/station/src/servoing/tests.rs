@@ -91,8 +91,8 @@ fn a_person_who_stops_it_stops_it() {
 
 #[test]
 fn a_robot_that_does_not_answer_and_an_address_that_is_none_are_said() {
-    let nobody: RobotAddress = "ur=127.0.0.1:9".parse().expect("an address");
-    let error = RobotLink::open(&nobody).err().expect("refused");
+    let unused: RobotAddress = "ur=127.0.0.1:9".parse().expect("an address");
+    let error = RobotLink::open(&unused).err().expect("refused");
     assert!(matches!(error, LinkError::Connect { .. }), "{error}");
     for text in ["egm", "egm=", "abb=6510", "ur=robot", "rsi=127.0.0.1"] {
         let error = text.parse::<RobotAddress>().expect_err(text);
