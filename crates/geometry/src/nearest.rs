@@ -166,29 +166,46 @@ impl KdTree {
     /// Calls `visit` with each point within `radius` (metres) of `query`, in no particular order.
     pub fn within(&self, query: &Point3<f32>, radius: f32, mut visit: impl FnMut(Neighbour)) {
         let query = [query.x, query.y, query.z];
-        let mut stack: Vec<usize> = vec![0];
-        while let Some(node) = stack.pop() {
-            let Some(&Split { axis, at }) = self.splits.get(node) else {
-                for i in self.leaf(node) {
-                    let p = self.points[i];
-                    let distance_sq = (0..3).map(|a| (p[a] - query[a]).powi(2)).sum::<f32>();
-                    if distance_sq <= radius * radius {
-                        visit(Neighbour {
-                            index: self.indices[i] as usize,
-                            distance_sq,
-                        });
-                    }
+        self.visit_within(&query, radius * radius, 0, &mut [0.0; 3], &mut visit);
+    }
+
+    /// Descends into each child whose cell reaches into the ball; `offsets` as in [`Self::search`].
+    fn visit_within(
+        &self,
+        query: &[f32; 3],
+        radius_sq: f32,
+        node: usize,
+        offsets: &mut [f32; 3],
+        visit: &mut impl FnMut(Neighbour),
+    ) {
+        let Some(&Split { axis, at }) = self.splits.get(node) else {
+            let leaf = self.leaf(node);
+            for (p, index) in self.points[leaf.clone()].iter().zip(&self.indices[leaf]) {
+                let d = [p[0] - query[0], p[1] - query[1], p[2] - query[2]];
+                let distance_sq = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+                if distance_sq <= radius_sq {
+                    visit(Neighbour {
+                        index: *index as usize,
+                        distance_sq,
+                    });
                 }
-                continue;
-            };
-            let to_plane = query[usize::from(axis)] - at;
-            if to_plane <= radius {
-                stack.push(2 * node + 1);
             }
-            if to_plane >= -radius {
-                stack.push(2 * node + 2);
+            return;
+        };
+        let axis = usize::from(axis);
+        let to_plane = query[axis] - at;
+        let before = offsets[axis];
+        // The high child first: sums over the neighbours depend on their order.
+        for (child, is_far) in [
+            (2 * node + 2, to_plane < 0.0),
+            (2 * node + 1, to_plane > 0.0),
+        ] {
+            offsets[axis] = if is_far { to_plane } else { before };
+            if offsets.iter().map(|o| o * o).sum::<f32>() <= radius_sq {
+                self.visit_within(query, radius_sq, child, offsets, visit);
             }
         }
+        offsets[axis] = before;
     }
 }
 
