@@ -322,22 +322,29 @@ fn blur(image: &[f64], [width, height]: [usize; 2], sigma: f64) -> Vec<f64> {
     let kernel: Vec<f64> = (0..=reach)
         .map(|i| (-0.5 * (i as f64 / sigma).powi(2)).exp())
         .collect();
-    let pass = |from: &[f64], len: usize, num: usize, step: usize, stride: usize| {
-        let mut to = vec![0.0; from.len()];
-        for line in 0..num {
-            for i in 0..len {
-                let value = from[line * stride + i * step];
-                // Most cells have no point.
-                if value == 0.0 {
-                    continue;
-                }
-                for j in i.saturating_sub(reach)..(i + reach + 1).min(len) {
-                    to[line * stride + j * step] += value * kernel[i.abs_diff(j)];
-                }
+    let around = |i: usize, len: usize| i.saturating_sub(reach)..(i + reach + 1).min(len);
+    let mut along = vec![0.0; image.len()];
+    for (from, to) in image.chunks(width).zip(along.chunks_mut(width)) {
+        for (i, value) in from.iter().enumerate() {
+            // Most cells have no point.
+            if *value == 0.0 {
+                continue;
+            }
+            for j in around(i, width) {
+                to[j] += value * kernel[i.abs_diff(j)];
             }
         }
-        to
-    };
-    let rows = pass(image, width, height, 1, width);
-    pass(&rows, height, width, width, 1)
+    }
+    // Whole rows, as their cells are adjacent in memory.
+    let mut both = vec![0.0; image.len()];
+    for (i, from) in along.chunks(width).enumerate() {
+        for j in around(i, height) {
+            let factor = kernel[i.abs_diff(j)];
+            let to = &mut both[j * width..][..width];
+            for (to, value) in to.iter_mut().zip(from) {
+                *to += value * factor;
+            }
+        }
+    }
+    both
 }
