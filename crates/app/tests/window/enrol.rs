@@ -1,5 +1,8 @@
 //! The Enrol workspace, tested by its labels and controls. Needs no graphics adapter.
 
+mod drafts;
+mod drawing;
+
 use std::{fs, path::Path};
 
 use app::{
@@ -24,14 +27,13 @@ use shell::{
     state::State,
 };
 use simulate::{PartKind, PartModel, Side};
-use ui::viewport::DrawnShape;
 
 use inspection::fixtures::copy_library;
 use stages::fixtures::facing_part;
 
 use super::set_up::{
-    SMALL, USUAL, WindowHarness, act, act_in, drop_file, enrol_of, history_of, open_with,
-    plain_options, press, settle, wait_for, wait_until, watch_folder,
+    SMALL, USUAL, WindowHarness, act, drop_file, enrol_of, history_of, open_with, plain_options,
+    press, settle, wait_for, wait_until, watch_folder,
 };
 
 fn open_at(library: &Path, size: Vec2) -> WindowHarness {
@@ -152,6 +154,12 @@ fn enrol(harness: &mut WindowHarness, kind: PartKind, title: &str) {
     capture(harness, kind, Side::Right);
     write(harness, "Title", title);
     press(harness, "Save");
+}
+
+/// Lets the time pass after which a changed draft is saved, and waits for that.
+fn pass_time(harness: &mut WindowHarness) {
+    harness.run_steps(20);
+    settle(harness);
 }
 
 fn write_mesh(path: &Path, kind: PartKind) {
@@ -632,158 +640,6 @@ fn a_library_that_cannot_be_written_is_a_notice_and_the_window_goes_on() {
 }
 
 #[test]
-fn a_box_is_drawn_by_keys_alone() {
-    let library = library();
-    let mut harness = open(library.path());
-    capture(&mut harness, PartKind::BackDoor, Side::Right);
-    let before = num_kept(&harness);
-    harness.get_by_label("Drop").click();
-    harness.get_by_label("Picture of what is kept").focus();
-    harness.run_steps(2);
-    for _ in 0..4 {
-        harness.key_press(Key::ArrowRight);
-        harness.run_steps(2);
-    }
-    harness.key_press_modifiers(Modifiers::SHIFT, Key::ArrowDown);
-    harness.run_steps(2);
-    press_keys(&mut harness, Modifiers::NONE, Key::Enter);
-    let dropped = num_kept(&harness);
-    assert!(dropped < before, "{dropped} of {before}");
-}
-
-#[test]
-fn a_box_drawn_in_the_3d_view_cuts_the_part_and_undo_brings_it_back() {
-    let library = library();
-    let mut harness = open(library.path());
-    capture(&mut harness, PartKind::BackDoor, Side::Right);
-    press(&mut harness, "Show 3-d");
-    let whole = kept(&harness);
-    // Cut the middle of the view from the front, then from the side, where the same box covers fewer points.
-    let mut cut_from = |side: &str| {
-        press(&mut harness, side);
-        press(&mut harness, "Box");
-        press(&mut harness, "Drop");
-        harness.get_by_label_contains("Draw a box. What lies inside is dropped.");
-        let [from, to] = [(0.45, 0.4), (0.55, 0.6)].map(|(x, y)| in_view(&harness, x, y));
-        drag(&mut harness, from, to);
-        let left = kept(&harness);
-        assert!(!left.is_empty() && left.len() < whole.len());
-        assert!(left.iter().all(|i| whole.binary_search(i).is_ok()));
-        press_keys(&mut harness, Modifiers::COMMAND, Key::Z);
-        assert_eq!(kept(&harness), whole);
-        press_keys(&mut harness, Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
-        assert_eq!(kept(&harness), left);
-        press(&mut harness, "Reset all corrections");
-        assert_eq!(kept(&harness), whole);
-        left
-    };
-    let from_the_front = cut_from("Front");
-    assert_ne!(from_the_front, cut_from("Side"));
-
-    // A click or a line is not a box.
-    let at = in_view(&harness, 0.5, 0.5);
-    for to in [Vec2::new(1.0, 1.0), Vec2::new(200.0, 1.0)] {
-        drag(&mut harness, at, at + to);
-        let draft = enrol_of(&harness).draft.as_ref().expect("a draft");
-        assert!(draft.corrections.edits.is_empty());
-    }
-}
-
-#[test]
-fn a_lasso_keeps_or_adds_what_it_goes_around_in_the_view_and_in_the_picture() {
-    let library = library();
-    let mut harness = open(library.path());
-    capture(&mut harness, PartKind::BackDoor, Side::Right);
-    press(&mut harness, "Front");
-    let whole = kept(&harness);
-    press(&mut harness, "Lasso");
-    harness.get_by_label_contains("Draw a lasso. What lies outside is dropped.");
-    // Draw a triangle over the right half of the view.
-    draw_in_view(&mut harness, &[(0.5, 0.3), (0.95, 0.5), (0.5, 0.7)]);
-    let_go(&mut harness);
-    let left = kept(&harness);
-    assert!(!left.is_empty() && left.len() < whole.len() / 2);
-
-    // Add everything around the part, including the wall.
-    press(&mut harness, "Add");
-    let about_all = [(0.2, 0.2), (0.8, 0.2), (0.8, 0.8), (0.2, 0.8)];
-    draw_in_view(&mut harness, &about_all);
-    let_go(&mut harness);
-    assert!(
-        kept(&harness)
-            .iter()
-            .any(|i| whole.binary_search(i).is_err())
-    );
-    assert!(left.iter().all(|i| kept(&harness).binary_search(i).is_ok()));
-
-    press(&mut harness, "Drop");
-    let picture = harness.get_by_label("Picture of what is kept").rect();
-    let before = kept(&harness);
-    let way = [(0.3, 0.3), (0.7, 0.3), (0.5, 0.7)];
-    let way = way.map(|(x, y)| picture.min + picture.size() * Vec2::new(x, y));
-    draw(&mut harness, &way);
-    let_go(&mut harness);
-    let after = kept(&harness);
-    let is_dropped = |x: u32, y: u32| after.binary_search(&(y * 640 + x)).is_err();
-    assert!(after.len() < before.len() && is_dropped(320, 200));
-    let beside = |i: &u32| i % 640 < 180 || i % 640 > 460;
-    assert!(
-        before
-            .iter()
-            .filter(|i| beside(i))
-            .eq(after.iter().filter(|i| beside(i)))
-    );
-}
-
-#[test]
-fn escape_gives_a_lasso_up_and_dragging_turns_the_view_again() {
-    let library = library();
-    let mut harness = open(library.path());
-    capture(&mut harness, PartKind::BackDoor, Side::Right);
-    let whole = kept(&harness);
-    let shape = |harness: &WindowHarness| enrol_of(harness).shape;
-    press_keys(&mut harness, Modifiers::NONE, Key::D);
-    assert_eq!(shape(&harness), Some(DrawnShape::Box));
-    press_keys(&mut harness, Modifiers::NONE, Key::D);
-    assert_eq!(shape(&harness), Some(DrawnShape::Lasso));
-    draw_in_view(&mut harness, &[(0.3, 0.3), (0.7, 0.3), (0.5, 0.7)]);
-    harness.key_press(Key::Escape);
-    harness.run_steps(2);
-    assert_eq!(shape(&harness), None);
-    harness.hover_at(in_view(&harness, 0.3, 0.7));
-    harness.run_steps(2);
-    let_go(&mut harness);
-    assert_eq!(kept(&harness), whole);
-    // A drag rotates the view and cuts nothing.
-    draw_in_view(&mut harness, &[(0.3, 0.3), (0.7, 0.3), (0.5, 0.7)]);
-    let_go(&mut harness);
-    assert_eq!(kept(&harness), whole);
-    assert!(
-        enrol_of(&harness)
-            .draft
-            .as_ref()
-            .is_some_and(|draft| draft.corrections.edits.is_empty())
-    );
-}
-
-#[test]
-fn a_lasso_about_everything_drops_it_all_and_the_card_says_what_is_missing() {
-    let library = library();
-    let mut harness = open(library.path());
-    capture(&mut harness, PartKind::Grille, Side::Left);
-    let whole = kept(&harness);
-    press(&mut harness, "Box");
-    press(&mut harness, "Drop");
-    let [from, to] = [(0.01, 0.01), (0.99, 0.99)].map(|(x, y)| in_view(&harness, x, y));
-    // Start below the controls that lie over the view.
-    drag(&mut harness, from + Vec2::new(0.0, 60.0), to);
-    assert!(kept(&harness).is_empty());
-    harness.get_by_label("Nothing can be saved yet: see above");
-    press(&mut harness, "Undo the last step");
-    assert_eq!(kept(&harness), whole);
-}
-
-#[test]
 fn the_inspected_scene_is_taken_at_one_press_and_captures_stay_with_the_workspace() {
     let library = library();
     let mut harness = open(library.path());
@@ -1004,113 +860,6 @@ fn one_more_reference_needs_no_title_and_is_unsaved_work_without_one() {
     assert_eq!(
         tile.accesskit_node().value().as_deref(),
         Some("Just saved · Reference of: Wing")
-    );
-}
-
-#[test]
-fn a_window_with_an_unsaved_draft_asks_before_it_closes() {
-    let library = library();
-    let mut harness = open(library.path());
-    capture(&mut harness, PartKind::Grille, Side::Right);
-    act(&mut harness, Action::Make(Effect::Close));
-    assert!(harness.query_by_label("Close without saving?").is_none());
-    write(&mut harness, "Title", "Grille");
-    for _ in 0..2 {
-        act(&mut harness, Action::Make(Effect::Close));
-        harness.get_by_label("Close without saving?");
-        harness.get_by_label("Grille, the part in Enrol, is not saved");
-        press(&mut harness, "Keep the window open");
-        assert!(harness.query_by_label("Close without saving?").is_none());
-    }
-    press(&mut harness, "Save");
-    act(&mut harness, Action::Make(Effect::Close));
-    assert!(harness.query_by_label("Close without saving?").is_none());
-}
-
-/// Lets the time pass after which a changed draft is saved, and waits for that.
-fn pass_time(harness: &mut WindowHarness) {
-    harness.run_steps(20);
-    settle(harness);
-}
-
-#[test]
-fn a_draft_outlives_a_program_that_is_killed_until_it_is_discarded_or_saved() {
-    let (library, folder) = (library(), tempfile::tempdir().expect("a folder"));
-    let file = folder.path().join("draft.json");
-    let options = || WindowOptions {
-        library: Some(library.path().to_owned()),
-        settings: Some(folder.path().join("settings.toml")),
-        ..plain_options()
-    };
-    let mut harness = open_with(USUAL, options());
-    act(&mut harness, Action::GoTo(WorkspaceKind::Enrol));
-    capture(&mut harness, PartKind::Grille, Side::Right);
-    pass_time(&mut harness);
-    assert!(!file.exists(), "nobody has worked on it");
-    press(&mut harness, "Background 1, dropped");
-    write(&mut harness, "Title", "Grille");
-    pass_time(&mut harness);
-    assert!(file.exists());
-    let points = kept(&harness);
-    // The window is dropped without being closed properly.
-    drop(harness);
-
-    let mut harness = open_with(USUAL, options());
-    assert_eq!(kept(&harness), points);
-    let draft = enrol_of(&harness).draft.as_ref().expect("a draft");
-    assert_eq!(draft.form.name, "grille");
-    let apply = |harness: &mut WindowHarness, action| {
-        act_in(harness, |enrol: &mut EnrolWorkspace, cx| {
-            enrol.state.apply(action, cx);
-        });
-        pass_time(harness);
-    };
-    apply(&mut harness, EnrolAction::Discard);
-    assert!(!file.exists());
-    apply(&mut harness, EnrolAction::Undo);
-    assert!(file.exists());
-    // With the wall it is not a valid part.
-    apply(&mut harness, EnrolAction::Reset);
-    assert!(file.exists(), "it still has a title");
-    apply(&mut harness, EnrolAction::Save);
-    assert_eq!(names(library.path()), ["grille"]);
-    assert!(!file.exists());
-    drop(harness);
-    let harness = open_with(USUAL, options());
-    assert!(enrol_of(&harness).draft.is_none());
-}
-
-#[test]
-fn a_draft_is_written_when_the_window_closes_and_a_bad_one_is_set_aside() {
-    let (library, folder) = (library(), tempfile::tempdir().expect("a folder"));
-    let file = folder.path().join("draft.json");
-    let options = || WindowOptions {
-        library: Some(library.path().to_owned()),
-        settings: Some(folder.path().join("settings.toml")),
-        ..plain_options()
-    };
-    let mut harness = open_with(USUAL, options());
-    act(&mut harness, Action::GoTo(WorkspaceKind::Enrol));
-    capture(&mut harness, PartKind::Grille, Side::Right);
-    act_in(&mut harness, |enrol: &mut EnrolWorkspace, cx| {
-        let title = Field::Title("Grille".into());
-        enrol.state.apply(EnrolAction::Write(title), cx);
-    });
-    eframe::App::on_exit(harness.state_mut());
-    drop(harness);
-    let text = fs::read_to_string(&file).expect("written");
-    assert!(text.contains("Grille"), "{text}");
-
-    fs::write(&file, &text[..text.len() / 2]).expect("written");
-    let harness = open_with(USUAL, options());
-    assert!(enrol_of(&harness).draft.is_none());
-    let shown = notices(&harness);
-    let is_shown = |what: &String| what.starts_with("The draft is not used: ");
-    assert!(shown.iter().any(is_shown), "{shown:?}");
-    let aside = folder.path().join("draft.broken-1.json");
-    assert_eq!(
-        fs::read_to_string(aside).expect("kept"),
-        text[..text.len() / 2]
     );
 }
 

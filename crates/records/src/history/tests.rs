@@ -17,6 +17,9 @@ use inspection::{
 };
 use stages::{fixtures::small_scene, scan::Shot};
 
+mod kept_frames;
+mod same_part;
+
 const ALL: Retention = Retention {
     keep: KeepFrames::All,
     max_days: 30,
@@ -27,6 +30,13 @@ fn numbers(history: &History, filter: &Filter) -> Vec<i64> {
     let page = history.page(filter, 0, 1000).expect("asked");
     assert_eq!(page.num_matching, page.rows.len());
     page.rows.iter().map(|row| row.number).collect()
+}
+
+/// Creates another inspection of the same part.
+fn again(of: &NewEntry, seconds: i64, verdict: StoredVerdict) -> NewEntry {
+    let mut other = history_entry(seconds, verdict, "grille");
+    other.record.summary.hung = of.record.summary.hung.clone();
+    other
 }
 
 #[test]
@@ -293,113 +303,6 @@ fn plan_of(history: &History, (asked, values): (String, Vec<rusqlite::types::Val
 }
 
 #[test]
-fn frames_go_by_rule_age_and_size_and_marked_ones_stay() {
-    let (folder, mut history) = new_history();
-    let day = 24 * 3600;
-    let keep = |keep| Retention { keep, ..ALL };
-    let mut add = |days: i64, verdict, keep| {
-        let entry = history_entry(days * day, verdict, "grille");
-        let number = history.add(&entry, &keep).expect("written");
-        let frame = history.known(number).expect("there").summary.frame_bytes;
-        (number, frame)
-    };
-    assert!(
-        add(0, StoredVerdict::NoPart, keep(KeepFrames::None))
-            .1
-            .is_none()
-    );
-    let (old, _) = add(1, StoredVerdict::Unknown, keep(KeepFrames::NotAccepted));
-    let (marked, _) = add(2, StoredVerdict::Rejected, ALL);
-    for days in (5..40).step_by(3) {
-        add(days, StoredVerdict::NoPart, keep(KeepFrames::None));
-    }
-    let (next, bytes) = add(40, StoredVerdict::Accepted, ALL);
-    let (newest, _) = add(41, StoredVerdict::Accepted, ALL);
-    history.set_remark(marked, "asked about").expect("written");
-    let is_kept = |history: &History, number| {
-        history
-            .known(number)
-            .expect("there")
-            .summary
-            .frame_bytes
-            .is_some()
-    };
-
-    let swept = history.sweep(&ALL, moment(41 * day)).expect("swept");
-    assert_eq!(swept.num_frames, 1);
-    assert!(!is_kept(&history, old) && is_kept(&history, marked) && is_kept(&history, next));
-
-    let bytes = bytes.expect("kept");
-    let usage = history.usage().expect("asked");
-    assert_eq!(usage.num_frames, 3);
-    assert!(usage.num_bytes_marked > 0 && usage.num_bytes_marked < usage.num_bytes);
-    // Limits below 0.1 GB are clamped, so pretend 60 MB per frame: the limit then fits the marked one and one more.
-    history
-        .file
-        .execute(
-            "UPDATE inspection SET frame_bytes = 60000000 WHERE frame_bytes IS NOT NULL",
-            [],
-        )
-        .expect("changed");
-    let tight = Retention {
-        max_gigabytes: 0.13,
-        ..ALL
-    };
-    history.sweep(&tight, moment(41 * day)).expect("swept");
-    assert!(!is_kept(&history, next) && is_kept(&history, newest) && is_kept(&history, marked));
-    let files = std::fs::read_dir(folder.path().join("history-frames")).expect("listed");
-    // The two frames and their camera.
-    assert_eq!(files.count(), 3, "{bytes}");
-}
-
-#[test]
-fn a_clock_that_is_wrong_removes_no_frames_and_the_age_goes_on_when_it_is_right() {
-    let day = 24 * 3600;
-    let (_folder, mut history) = new_history();
-    let add = |history: &mut History, days: i64, keep| {
-        let entry = history_entry(days * day, StoredVerdict::NoPart, "grille");
-        let retention = Retention { keep, ..ALL };
-        history.add(&entry, &retention).expect("written");
-    };
-    let swept = |history: &mut History, days: i64| {
-        let swept = history.sweep(&ALL, moment(days * day)).expect("swept");
-        swept.num_frames
-    };
-    for days in 1..=20 {
-        add(&mut history, days, KeepFrames::All);
-    }
-    // Ten years ahead, before its first inspection.
-    assert_eq!(swept(&mut history, 3650), 0);
-    // A clock without a battery: the inspection seems years old.
-    add(&mut history, -2000, KeepFrames::All);
-    assert_eq!(swept(&mut history, 21), 0);
-    for days in [3670, 3671] {
-        add(&mut history, days, KeepFrames::All);
-        assert_eq!(swept(&mut history, days), 0);
-    }
-    add(&mut history, 22, KeepFrames::All);
-    assert_eq!(swept(&mut history, 22), 0);
-    for days in 23..=50 {
-        add(&mut history, days, KeepFrames::None);
-    }
-    // The wrong clock made them older by at most a few days.
-    assert_eq!(swept(&mut history, 50), 21);
-
-    // The clock is wrong at every start of the computer until it has asked the network.
-    let (_folder, mut history) = new_history();
-    for days in 1..=20 {
-        add(&mut history, -2000, KeepFrames::All);
-        add(&mut history, days, KeepFrames::All);
-    }
-    assert_eq!(swept(&mut history, 21), 0);
-    for days in 21..=40 {
-        add(&mut history, days, KeepFrames::None);
-    }
-    // A tenth early at most: what is 27 days old stays.
-    assert_eq!(swept(&mut history, 40), 23);
-}
-
-#[test]
 fn only_an_accepted_part_with_the_label_of_another_is_wrongly_accepted() {
     let mut record = history_entry(1, StoredVerdict::Accepted, "fender").record;
     assert!(!record.summary.is_wrongly_accepted());
@@ -436,84 +339,6 @@ fn a_part_that_was_reported_as_wrong_does_not_count_as_ok() {
         let record = history.known(number).expect("there");
         assert_eq!(PartOutcome::from(&record), outcome);
     }
-}
-
-#[test]
-fn the_newest_accepted_parts_keep_their_frames_until_they_are_labelled() {
-    let (_folder, mut history) = new_history();
-    let rule = Retention {
-        keep: KeepFrames::NotAccepted,
-        ..ALL
-    };
-    let num = ACCEPTED_KEPT as i64 + 3;
-    for seconds in 0..num {
-        let entry = history_entry(seconds, StoredVerdict::Accepted, "grille");
-        history.add(&entry, &rule).expect("written");
-    }
-    let refused = history_entry(0, StoredVerdict::Rejected, "grille");
-    let refused = history.add(&refused, &rule).expect("written");
-    // Another program keeps all frames; this one does not know.
-    let all = history_entry(0, StoredVerdict::Accepted, "grille");
-    let all = history.add(&all, &ALL).expect("written");
-    // What was wrongly accepted is said two parts later.
-    let truth = Truth::Part("fender".into());
-    history.set_label(1, Some(&truth)).expect("labelled");
-    let swept = history.sweep(&rule, moment(num)).expect("swept");
-    assert_eq!(swept.num_frames, 2);
-    let has_frame = |history: &History, number| {
-        let summary = history.known(number).expect("there").summary;
-        summary.frame_bytes.is_some()
-    };
-    let kept = [1, 2, 3, 4, num, refused, all].map(|number| has_frame(&history, number));
-    assert_eq!(kept, [true, false, false, true, true, true, true]);
-    // Where space is short they go first, although others are older.
-    let least = Retention {
-        max_gigabytes: 0.1,
-        ..rule
-    };
-    let bytes = 110_000_000 - history.usage().expect("read").num_bytes as i64;
-    history
-        .file
-        .execute(
-            "UPDATE inspection SET frame_bytes = ? WHERE number = ?",
-            [bytes, num],
-        )
-        .expect("grown");
-    history.sweep(&least, moment(num)).expect("swept");
-    assert!(!has_frame(&history, num) && has_frame(&history, all));
-    assert!(has_frame(&history, refused));
-}
-
-#[test]
-fn frames_without_a_row_go_and_rows_without_a_frame_say_so() {
-    let (folder, mut history) = new_history();
-    let number = history
-        .add(&history_entry(1, StoredVerdict::NoPart, "grille"), &ALL)
-        .expect("written");
-    let other = history
-        .add(&history_entry(2, StoredVerdict::NoPart, "grille"), &ALL)
-        .expect("written");
-    let frame = history
-        .known(number)
-        .expect("there")
-        .detail
-        .frame
-        .expect("kept");
-    let frames = history.frames_folder().to_owned();
-    std::fs::remove_file(frames.join(&frame.file)).expect("removed");
-    let stray = frames.join("20260301T060000000-1-999.png");
-    std::fs::write(&stray, "half a frame").expect("written");
-    // While another program has it open nothing is a stray, since its row may be about to be written.
-    let second = open_history(folder.path());
-    assert!(stray.exists());
-    drop((history, second));
-
-    let history = open_history(folder.path());
-    assert!(!stray.exists());
-    assert_eq!(history.known(number).expect("there").detail.frame, None);
-    let kept = history.known(other).expect("there");
-    assert!(history.scene(&kept).expect("read").is_some());
-    assert_eq!(history.usage().expect("asked").num_frames, 1);
 }
 
 #[test]
@@ -569,195 +394,6 @@ fn the_table_has_a_line_for_each_row_and_as_many_fields_as_its_head() {
     });
     failed.expect_err("not whole");
     assert_eq!(std::fs::read_to_string(&path).expect("text"), table);
-}
-
-/// Creates another inspection of the same part.
-fn again(of: &NewEntry, seconds: i64, verdict: StoredVerdict) -> NewEntry {
-    let mut other = history_entry(seconds, verdict, "grille");
-    other.record.summary.hung = of.record.summary.hung.clone();
-    other
-}
-
-#[test]
-fn a_part_counts_once_however_often_it_was_inspected_and_nothing_of_it_is_lost() {
-    let (folder, mut history) = new_history();
-    let part = history_entry(1, StoredVerdict::Accepted, "grille");
-    let other = history_entry(2, StoredVerdict::Rejected, "grille");
-    for entry in [
-        &part,
-        &again(&part, 3, StoredVerdict::Rejected),
-        &other,
-        &again(&part, 4, StoredVerdict::Accepted),
-    ] {
-        history.add(entry, &ALL).expect("written");
-    }
-    let all = Filter::default();
-    let page = history.page(&all, 0, 10).expect("asked");
-    assert_eq!((page.num_matching, page.num_all), (2, 2));
-    let rows: Vec<_> = page
-        .rows
-        .iter()
-        .map(|row| (row.number, row.num_below))
-        .collect();
-    assert_eq!(rows, [(3, 0), (1, 2)]);
-    let accepted = Filter {
-        verdict: Some(StoredVerdict::Accepted.into()),
-        ..all.clone()
-    };
-    assert_eq!(numbers(&history, &accepted), [1]);
-    let with_below = Filter {
-        with_below: true,
-        ..all.clone()
-    };
-    assert_eq!(numbers(&history, &with_below), [4, 2, 3, 1]);
-    let below = history.below(1).expect("asked");
-    let below: Vec<_> = below
-        .iter()
-        .map(|r| (r.summary.number, r.summary.verdict))
-        .collect();
-    assert_eq!(
-        below,
-        [(2, StoredVerdict::Rejected), (4, StoredVerdict::Accepted)]
-    );
-    let mut exported = 0;
-    let counted = history.each(&all, |_| {
-        exported += 1;
-        Ok::<(), HistoryError>(())
-    });
-    counted.expect("listed");
-    assert_eq!(exported, 2);
-    // Each inspection keeps its own frame.
-    assert_eq!(history.usage().expect("asked").num_frames, 4);
-    drop(history);
-    assert_eq!(
-        open_history(folder.path())
-            .usage()
-            .expect("asked")
-            .num_frames,
-        4
-    );
-}
-
-#[test]
-fn a_refusal_gives_way_to_an_acceptance_and_an_acceptance_stands() {
-    let (_folder, mut history) = new_history();
-    let part = history_entry(1, StoredVerdict::Unknown, "grille");
-    history.add(&part, &ALL).expect("written");
-    history.set_remark(1, "a new grille").expect("written");
-    history
-        .add(&again(&part, 2, StoredVerdict::Rejected), &ALL)
-        .expect("written");
-    assert_eq!(numbers(&history, &Filter::default()), [1]);
-    history
-        .add(&again(&part, 3, StoredVerdict::Accepted), &ALL)
-        .expect("written");
-    history
-        .add(&again(&part, 4, StoredVerdict::Rejected), &ALL)
-        .expect("written");
-    let page = history.page(&Filter::default(), 0, 10).expect("asked");
-    let [row] = page.rows.as_slice() else {
-        panic!("{page:?}");
-    };
-    assert_eq!(
-        (row.number, row.num_below, row.verdict),
-        (3, 3, StoredVerdict::Accepted)
-    );
-    // A remark on the part is found with it; the first result is unchanged.
-    assert_eq!(row.remark, "a new grille");
-    let text = "new".into();
-    let found = Filter {
-        text,
-        ..Filter::default()
-    };
-    assert_eq!(numbers(&history, &found), [3]);
-    history.set_remark(1, "the new grille").expect("written");
-    assert_eq!(
-        history.known(3).expect("there").summary.remark,
-        "the new grille"
-    );
-    let first = history.known(1).expect("there").summary;
-    assert_eq!(
-        (first.verdict, first.parent),
-        (StoredVerdict::Unknown, Some(3))
-    );
-}
-
-#[test]
-fn a_part_stays_a_part_of_its_source_when_a_repeated_inspection_stands_for_it() {
-    let (_folder, mut history) = new_history();
-    let waiting = HistoryBuffer::new(None);
-    let mut part = history_entry(1, StoredVerdict::Rejected, "grille");
-    part.record.summary.source = "kinect".into();
-    let mut repeated = again(&part, 2, StoredVerdict::Accepted);
-    repeated.record.summary.source = "Kinect frame 12".into();
-    for (ticket, entry) in (1..).zip([&part, &repeated]) {
-        history.add(entry, &ALL).expect("written");
-        waiting.add(ticket, entry.clone(), Instant::now());
-    }
-    let of_camera = Filter {
-        source: Some("kinect".into()),
-        ..Filter::default()
-    };
-    assert_eq!(numbers(&history, &of_camera), [2]);
-    let page = waiting.page(&of_camera, 0, 10).expect("asked");
-    assert_eq!(page.num_matching, 1);
-    assert_eq!(page.rows[0].verdict, StoredVerdict::Accepted);
-}
-
-#[test]
-fn what_stands_for_its_part_does_so_above_what_was_written_before_unless_that_alone_accepts_it() {
-    use StoredVerdict::{Accepted, Rejected};
-
-    let standing = |of: &NewEntry, seconds, verdict| {
-        let mut entry = again(of, seconds, verdict);
-        entry.stands_for_part = true;
-        entry.record.summary.trace.serial = format!("TL-{seconds}");
-        entry
-    };
-    let parts = [(1, Accepted), (3, Accepted), (5, Rejected)];
-    let [one, two, three] =
-        parts.map(|(seconds, verdict)| history_entry(seconds, verdict, "grille"));
-    let entries = [
-        one.clone(),
-        standing(&one, 2, Accepted),
-        two.clone(),
-        standing(&two, 4, Rejected),
-        three.clone(),
-        standing(&three, 6, Rejected),
-    ];
-    let (_folder, mut history) = new_history();
-    // Those that wait in memory are listed in the same way.
-    let buffer = HistoryBuffer::default();
-    for (ticket, entry) in entries.into_iter().enumerate() {
-        history.add(&entry, &ALL).expect("written");
-        buffer.add(ticket as u64, entry, std::time::Instant::now());
-    }
-    let all = Filter::default();
-    let written = history.page(&all, 0, 9).expect("asked");
-    let waiting = buffer.page(&all, 0, 9).expect("asked");
-    for page in [written, waiting] {
-        let row = |row: &Summary| {
-            (
-                row.scene.to_string(),
-                row.num_below,
-                row.trace.serial.clone(),
-            )
-        };
-        let rows: Vec<_> = page.rows.iter().map(row).collect();
-        let expected = [
-            ("frame 6", "TL-6"),
-            ("frame 3", "TL-4"),
-            ("frame 2", "TL-2"),
-        ];
-        let expected = expected.map(|(scene, serial)| (scene.to_owned(), 1, serial.to_owned()));
-        assert_eq!(rows, expected);
-    }
-    // What is traced later is found with the part.
-    let found = Filter {
-        text: "tl-4".into(),
-        ..all
-    };
-    assert_eq!(numbers(&history, &found), [3]);
 }
 
 #[test]
