@@ -91,8 +91,6 @@ inspect-angle-counts = { $count ->
 inspect-path-fits = Die Bahn passt auch ohne die Pose
 inspect-path-needs-pose = Das Roboterprogramm muss die Pose auf die Bahn anwenden
 inspect-stand-off-of = Düsenabstand { $mean } von { $nearest } bis { $farthest }
-inspect-no-surface = das eingelernte Teil hat keine Oberfläche mit Normalen
-inspect-none-meets = keine der { $num } angenommenen Düsenpositionen zeigt auf das Teil
 
 ## The pose for the robot
 

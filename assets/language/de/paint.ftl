@@ -123,16 +123,8 @@ paint-not-calibrated = Zuerst die Zelle kalibrieren, oben unter Roboter…
 paint-checking-reach = Reichweite des Arms wird geprüft
 paint-reaches-all = { $arm } erreicht alle { $all } Punkte
 paint-reaches-some = { $arm } erreicht { $missed } von { $all } Punkten nicht
-paint-out-of-reach = außer Reichweite
-paint-joint-limit = Achse { $joint } über ihrer Grenze
-paint-near-singularity = nahe einer Singularität
-paint-joint-too-fast = Achse { $joint } zu schnell
-paint-rail-too-fast = Schiene zu schnell
-paint-joint-acceleration = Achse { $joint } beschleunigt zu langsam
-paint-rail-acceleration = Schiene beschleunigt zu langsam
 paint-acceleration-advice = Mit kleinerer Ausflussrate planen, langsamer fahren, wo zu langsam beschleunigt wird, oder Ecken mit größerem Radius fahren
 paint-joints-advice = Einen anderen Winkel der Düse versuchen, mehr Neigung der Pistole, einen anderen Ort des Sockels oder weniger Geschwindigkeit
-paint-arm-folds-over = der Arm müsste umschlagen
 paint-collisions = Kollisionen
 paint-collisions-not-checked = nicht geprüft
 paint-no-collisions-reached = keine, wo er hinreicht
@@ -142,50 +134,6 @@ paint-num-collisions =
         [0] keine
         [one] { $count } Punkt
        *[other] { $count } Punkte
-    }
-paint-near-other-part =
-    { $body ->
-        [gun] Pistole zu nah an einem anderen Teil
-        [wrist] Handgelenk zu nah an einem anderen Teil
-        [forearm] Unterarm zu nah an einem anderen Teil
-       *[upper-arm] Oberarm zu nah an einem anderen Teil
-    }
-paint-near-part =
-    { $body ->
-        [gun] Pistole zu nah am Teil
-        [wrist] Handgelenk zu nah am Teil
-        [forearm] Unterarm zu nah am Teil
-       *[upper-arm] Oberarm zu nah am Teil
-    }
-paint-near-floor =
-    { $body ->
-        [gun] Pistole zu nah am Boden
-        [wrist] Handgelenk zu nah am Boden
-        [forearm] Unterarm zu nah am Boden
-       *[upper-arm] Oberarm zu nah am Boden
-    }
-paint-near-box =
-    { $body ->
-        [gun] Pistole zu nah an { $name }
-        [wrist] Handgelenk zu nah an { $name }
-        [forearm] Unterarm zu nah an { $name }
-       *[upper-arm] Oberarm zu nah an { $name }
-    }
-paint-near-upper-arm =
-    { $body ->
-        [gun] Pistole zu nah am Oberarm
-       *[wrist] Handgelenk zu nah am Oberarm
-    }
-paint-near-forearm =
-    { $body ->
-        [wrist] Handgelenk zu nah am Unterarm
-       *[gun] Pistole zu nah am Unterarm
-    }
-paint-near-base-column =
-    { $body ->
-        [gun] Pistole zu nah am Sockel
-        [forearm] Unterarm zu nah am Sockel
-       *[wrist] Handgelenk zu nah am Sockel
     }
 paint-show-unreached = Nächsten zeigen
 paint-rail-moves = Entlang der Bahn ist seine Schiene zwischen { $from } und { $to } mm

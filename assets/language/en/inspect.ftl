@@ -91,8 +91,6 @@ inspect-angle-counts = { $count ->
 inspect-path-fits = The path fits without the pose
 inspect-path-needs-pose = The robot program must apply the pose to the path
 inspect-stand-off-of = Stand-off { $mean } of { $nearest } to { $farthest }
-inspect-no-surface = the enrolled part has no surface with normals
-inspect-none-meets = none of { $num } assumed nozzle positions points at the part
 
 ## The pose for the robot
 

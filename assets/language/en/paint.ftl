@@ -123,16 +123,8 @@ paint-not-calibrated = Calibrate the cell first, with Robot… at the top
 paint-checking-reach = Checking the arm's reach
 paint-reaches-all = { $arm } reaches all { $all } points
 paint-reaches-some = { $arm } misses { $missed } of { $all } points
-paint-out-of-reach = out of reach
-paint-joint-limit = joint { $joint } beyond its limit
-paint-near-singularity = near a singularity
-paint-joint-too-fast = joint { $joint } too fast
-paint-rail-too-fast = rail too fast
-paint-joint-acceleration = joint { $joint } accelerates too slowly
-paint-rail-acceleration = rail accelerates too slowly
 paint-acceleration-advice = Plan with a lower paint flow, run slower where it accelerates too slowly, or round the corners in a larger radius
 paint-joints-advice = Try another angle of the nozzle, more tilt of the gun, another place of the base, or a lower speed
-paint-arm-folds-over = the arm would fold over
 paint-collisions = Collisions
 paint-collisions-not-checked = not checked
 paint-no-collisions-reached = none where it reaches
@@ -142,50 +134,6 @@ paint-num-collisions =
         [0] none
         [one] { $count } point
        *[other] { $count } points
-    }
-paint-near-other-part =
-    { $body ->
-        [gun] gun too near to another part
-        [wrist] wrist too near to another part
-        [forearm] forearm too near to another part
-       *[upper-arm] upper arm too near to another part
-    }
-paint-near-part =
-    { $body ->
-        [gun] gun too near to the part
-        [wrist] wrist too near to the part
-        [forearm] forearm too near to the part
-       *[upper-arm] upper arm too near to the part
-    }
-paint-near-floor =
-    { $body ->
-        [gun] gun too near to the floor
-        [wrist] wrist too near to the floor
-        [forearm] forearm too near to the floor
-       *[upper-arm] upper arm too near to the floor
-    }
-paint-near-box =
-    { $body ->
-        [gun] gun too near to { $name }
-        [wrist] wrist too near to { $name }
-        [forearm] forearm too near to { $name }
-       *[upper-arm] upper arm too near to { $name }
-    }
-paint-near-upper-arm =
-    { $body ->
-        [gun] gun too near to the upper arm
-       *[wrist] wrist too near to the upper arm
-    }
-paint-near-forearm =
-    { $body ->
-        [wrist] wrist too near to the forearm
-       *[gun] gun too near to the forearm
-    }
-paint-near-base-column =
-    { $body ->
-        [gun] gun too near to the base column
-        [forearm] forearm too near to the base column
-       *[wrist] wrist too near to the base column
     }
 paint-show-unreached = Show next
 paint-rail-moves = Along the path its rail is between { $from } and { $to } mm

@@ -91,8 +91,6 @@ inspect-angle-counts = { $count ->
 inspect-path-fits = La trayectoria sirve sin la pose
 inspect-path-needs-pose = El programa del robot debe aplicar la pose a la trayectoria
 inspect-stand-off-of = Distancia de boquilla { $mean }, de { $nearest } a { $farthest }
-inspect-no-surface = la pieza registrada no tiene superficie con normales
-inspect-none-meets = ninguna de las { $num } posiciones de boquilla supuestas apunta a la pieza
 
 ## The pose for the robot
 

@@ -123,16 +123,8 @@ paint-not-calibrated = Primero calibre la celda, arriba en Robot…
 paint-checking-reach = Comprobando el alcance del brazo
 paint-reaches-all = { $arm } alcanza los { $all } puntos
 paint-reaches-some = { $arm } no alcanza { $missed } de { $all } puntos
-paint-out-of-reach = fuera de alcance
-paint-joint-limit = eje { $joint } más allá de su límite
-paint-near-singularity = cerca de una singularidad
-paint-joint-too-fast = eje { $joint } demasiado rápido
-paint-rail-too-fast = carril demasiado rápido
-paint-joint-acceleration = eje { $joint } acelera demasiado despacio
-paint-rail-acceleration = el carril acelera demasiado despacio
 paint-acceleration-advice = Planifique con menos caudal de pintura, reduzca la velocidad donde acelera demasiado despacio, o redondee las esquinas con un radio mayor
 paint-joints-advice = Pruebe otro ángulo de la boquilla, más inclinación de la pistola, otro lugar de la base o menos velocidad
-paint-arm-folds-over = el brazo tendría que voltearse
 paint-collisions = Colisiones
 paint-collisions-not-checked = no comprobadas
 paint-no-collisions-reached = ninguna donde alcanza
@@ -142,50 +134,6 @@ paint-num-collisions =
         [0] ninguna
         [one] { $count } punto
        *[other] { $count } puntos
-    }
-paint-near-other-part =
-    { $body ->
-        [gun] pistola demasiado cerca de otra pieza
-        [wrist] muñeca demasiado cerca de otra pieza
-        [forearm] antebrazo demasiado cerca de otra pieza
-       *[upper-arm] brazo superior demasiado cerca de otra pieza
-    }
-paint-near-part =
-    { $body ->
-        [gun] pistola demasiado cerca de la pieza
-        [wrist] muñeca demasiado cerca de la pieza
-        [forearm] antebrazo demasiado cerca de la pieza
-       *[upper-arm] brazo superior demasiado cerca de la pieza
-    }
-paint-near-floor =
-    { $body ->
-        [gun] pistola demasiado cerca del suelo
-        [wrist] muñeca demasiado cerca del suelo
-        [forearm] antebrazo demasiado cerca del suelo
-       *[upper-arm] brazo superior demasiado cerca del suelo
-    }
-paint-near-box =
-    { $body ->
-        [gun] pistola demasiado cerca de { $name }
-        [wrist] muñeca demasiado cerca de { $name }
-        [forearm] antebrazo demasiado cerca de { $name }
-       *[upper-arm] brazo superior demasiado cerca de { $name }
-    }
-paint-near-upper-arm =
-    { $body ->
-        [gun] pistola demasiado cerca del brazo superior
-       *[wrist] muñeca demasiado cerca del brazo superior
-    }
-paint-near-forearm =
-    { $body ->
-        [wrist] muñeca demasiado cerca del antebrazo
-       *[gun] pistola demasiado cerca del antebrazo
-    }
-paint-near-base-column =
-    { $body ->
-        [gun] pistola demasiado cerca de la columna de la base
-        [forearm] antebrazo demasiado cerca de la columna de la base
-       *[wrist] muñeca demasiado cerca de la columna de la base
     }
 paint-show-unreached = Mostrar el siguiente
 paint-rail-moves = A lo largo de la trayectoria su carril está entre { $from } y { $to } mm

@@ -90,8 +90,6 @@ inspect-angle-counts = { $count ->
 inspect-path-fits = 无需位姿即可使用该轨迹
 inspect-path-needs-pose = 机器人程序必须将位姿应用于轨迹
 inspect-stand-off-of = 喷距 { $mean }，范围 { $nearest } 至 { $farthest }
-inspect-no-surface = 已注册零件没有带法向的表面
-inspect-none-meets = { $num } 个假定喷嘴位置均未指向零件
 
 ## The pose for the robot
 

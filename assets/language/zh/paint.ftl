@@ -123,16 +123,8 @@ paint-not-calibrated = 请先在上方“机器人…”中标定工位
 paint-checking-reach = 正在检查可达范围
 paint-reaches-all = { $arm } 可达全部 { $all } 个点
 paint-reaches-some = { $arm } 有 { $missed } 个点不可达，共 { $all } 个
-paint-out-of-reach = 超出范围
-paint-joint-limit = 关节 { $joint } 超出限位
-paint-near-singularity = 接近奇异点
-paint-joint-too-fast = 关节 { $joint } 太快
-paint-rail-too-fast = 导轨太快
-paint-joint-acceleration = 关节 { $joint } 加速太慢
-paint-rail-acceleration = 导轨加速太慢
 paint-acceleration-advice = 用更小的涂料流量规划，在加速太慢处降低速度，或加大拐角半径
 paint-joints-advice = 尝试喷嘴的其他角度、更大的喷枪倾斜、底座的其他位置或更低的速度
-paint-arm-folds-over = 机械臂需要翻转
 paint-collisions = 碰撞
 paint-collisions-not-checked = 未检查
 paint-no-collisions-reached = 可达处无
@@ -141,50 +133,6 @@ paint-num-collisions =
     { $count ->
         [0] 无
        *[other] { $count } 个点
-    }
-paint-near-other-part =
-    { $body ->
-        [gun] 喷枪离另一零件太近
-        [wrist] 手腕离另一零件太近
-        [forearm] 前臂离另一零件太近
-       *[upper-arm] 上臂离另一零件太近
-    }
-paint-near-part =
-    { $body ->
-        [gun] 喷枪离零件太近
-        [wrist] 手腕离零件太近
-        [forearm] 前臂离零件太近
-       *[upper-arm] 上臂离零件太近
-    }
-paint-near-floor =
-    { $body ->
-        [gun] 喷枪离地面太近
-        [wrist] 手腕离地面太近
-        [forearm] 前臂离地面太近
-       *[upper-arm] 上臂离地面太近
-    }
-paint-near-box =
-    { $body ->
-        [gun] 喷枪离 { $name } 太近
-        [wrist] 手腕离 { $name } 太近
-        [forearm] 前臂离 { $name } 太近
-       *[upper-arm] 上臂离 { $name } 太近
-    }
-paint-near-upper-arm =
-    { $body ->
-        [gun] 喷枪离上臂太近
-       *[wrist] 手腕离上臂太近
-    }
-paint-near-forearm =
-    { $body ->
-        [wrist] 手腕离前臂太近
-       *[gun] 喷枪离前臂太近
-    }
-paint-near-base-column =
-    { $body ->
-        [gun] 喷枪离底座太近
-        [forearm] 前臂离底座太近
-       *[wrist] 手腕离底座太近
     }
 paint-show-unreached = 显示下一个
 paint-rail-moves = 沿轨迹导轨位于 { $from } 至 { $to } mm 之间

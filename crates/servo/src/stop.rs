@@ -179,7 +179,7 @@ impl From<PointProblem> for StopReason {
         use robot::arm::Body;
         match problem {
             PointProblem::JointLimit { joint, .. } => Self::JointLimit { joint },
-            PointProblem::NearSingularity(_) => Self::Singular,
+            PointProblem::NearSingularity { .. } => Self::Singular,
             PointProblem::Collision { body, obstacle } => {
                 let body = match body {
                     Body::Gun => "gun",

@@ -24,6 +24,7 @@
 pub mod ray;
 
 use nalgebra::{Isometry3, Point3, Vector3};
+use serde::Serialize;
 
 use self::ray::{Ray, ReferenceSurface};
 use crate::reference::Reference;
@@ -34,7 +35,7 @@ use geometry::{
 };
 
 /// Parameters of [`stand_off`].
-#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct StandOffParams {
     /// d₀, the distance at which the path was taught, 0.02..1 m.
@@ -106,18 +107,19 @@ impl StandOff {
 }
 
 /// Reason why there is no stand-off.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
 pub enum StandOffError {
     /// The reference is a flat shape, or a cloud without normals.
-    #[error("the enrolled part has no surface with normals")]
     NoSurface,
     /// The part is nowhere near where the path was taught.
-    #[error("none of {num_taught} assumed nozzle positions points at the part")]
     NoneMeets {
         /// Number of rays taught.
         num_taught: usize,
     },
 }
+
+texts::described!(StandOffError: "stand-off" by "kind");
 
 /// Minimum cosine between normal and line of sight: flatter surfaces are not painted from the camera's side.
 const LEAST_SEEN: f64 = 0.3;

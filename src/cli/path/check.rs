@@ -248,11 +248,10 @@ fn problem_lines(points: &[PointCheck]) -> Vec<String> {
         if let Some((at, worst)) = problems.max_by(|a, b| by_figure(a.1, b.1)) {
             let reason = worst.reason();
             ranges.push(if num == 1 {
-                format!("point {first}: {}", worst.describe())
+                format!("point {first}: {worst}")
             } else if worst.figure().is_none() {
                 format!("points {first}–{last}: {reason} ({num} points)")
             } else {
-                let worst = worst.describe();
                 format!("points {first}–{last}: {reason} ({num} points; worst at {at}: {worst})")
             });
             match totals.iter_mut().find(|(known, _)| *known == reason) {
@@ -402,8 +401,8 @@ mod tests {
             "joint 5 too fast: 4 of 10 points",
             "out of reach: 3 of 10 points",
             "points 2–4: out of reach (3 points)",
-            "points 5–7: joint 5 too fast (3 points; worst at 6: joint 5 would need 310 degrees/s)",
-            "point 9: joint 5 would need 190 degrees/s",
+            "points 5–7: joint 5 too fast (3 points; worst at 6: joint 5 would need 310°/s)",
+            "point 9: joint 5 would need 190°/s",
         ];
         assert_eq!(problem_lines(&points), wanted);
         // One range needs no totals.

@@ -61,7 +61,10 @@ pub(super) fn check_accelerations(
 ) {
     let found = problems_of(placed, points, checked);
     for (point, problem) in checked.iter_mut().zip(found) {
-        let is_open = matches!(point.problem, None | Some(PointProblem::NearSingularity(_)));
+        let is_open = matches!(
+            point.problem,
+            None | Some(PointProblem::NearSingularity { .. })
+        );
         if is_open && problem.is_some() {
             point.problem = problem;
         }

@@ -278,6 +278,10 @@ impl Check<'_> {
                 _ => (Way::Planned, None),
             };
             let problem = here.or(on_the_way);
+            let near_singularity = || {
+                let singularity = singular?;
+                Some(PointProblem::NearSingularity { singularity })
+            };
             checked.push(PointCheck {
                 joints: Some(candidate.joints),
                 robot_from_nozzle,
@@ -285,7 +289,7 @@ impl Check<'_> {
                 tilt: candidate.tilt[0].hypot(candidate.tilt[1]),
                 rail,
                 way,
-                problem: problem.or(singular.map(PointProblem::NearSingularity)),
+                problem: problem.or_else(near_singularity),
             });
         }
         slow_moves(placed, points, &mut checked, params);

@@ -47,7 +47,7 @@ impl PlacedArm {
             return Err(PointProblem::ConfigurationChange);
         }
         if let Some(singularity) = solver.singularity(&joints) {
-            return Err(PointProblem::NearSingularity(singularity));
+            return Err(PointProblem::NearSingularity { singularity });
         }
         match solver.collision(&joints) {
             Some(collision) => Err(collision),

@@ -9,6 +9,7 @@ use rs_opw_kinematics::{
     kinematics_impl::OPWKinematics,
     parameters::opw_kinematics::Parameters,
 };
+use serde::Serialize;
 
 use super::{
     Arm, PlacedArm, PointProblem,
@@ -20,7 +21,8 @@ use geometry::{rigid::RigidTransform, segment::Segment};
 pub type Joints = [f64; 6];
 
 /// A pose in which the arm cannot move in some direction.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Singularity {
     /// The wrist is straight: joints 4 and 6 turn about one line.
     Wrist,
@@ -28,17 +30,6 @@ pub enum Singularity {
     Elbow,
     /// The middle of the wrist is on the axis of joint 1.
     Shoulder,
-}
-
-impl Singularity {
-    /// A description for people.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Wrist => "wrist straight",
-            Self::Elbow => "arm stretched",
-            Self::Shoulder => "wrist above joint 1",
-        }
-    }
 }
 
 /// Sine of 2°: nearer to a wrist or elbow singularity, joints would have to be too fast.

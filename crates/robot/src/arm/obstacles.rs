@@ -28,7 +28,7 @@
 use std::{path::Path, sync::Arc};
 
 use nalgebra::{Point3, Translation3, Vector3};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::ArmError;
 use files::{file_name, read_text};
@@ -48,7 +48,8 @@ const MAX_BOXES: usize = 200;
 const MAX_NAME: usize = 60;
 
 /// A body of gun or arm.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Body {
     /// From the flange to the nozzle's mouth.
     Gun,
@@ -60,20 +61,9 @@ pub enum Body {
     UpperArm,
 }
 
-impl Body {
-    /// Name for people.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Gun => "gun",
-            Self::Wrist => "wrist",
-            Self::Forearm => "forearm",
-            Self::UpperArm => "upper arm",
-        }
-    }
-}
-
 /// An obstacle.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(tag = "obstacle", content = "name", rename_all = "snake_case")]
 pub enum Obstacle {
     /// The part to be painted.
     Part,

@@ -1,12 +1,16 @@
 //! The problems of a path's points.
 
+use serde::Serialize;
+
 use super::{
     kinematics::Singularity,
     obstacles::{Body, Obstacle},
 };
+use texts::{Described, Language};
 
 /// Why the arm cannot run a point of a path.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
 pub enum PointProblem {
     /// The arm is too short, or its wrist would be too near to its own base.
     OutOfReach,
@@ -18,7 +22,10 @@ pub enum PointProblem {
         angle: f64,
     },
     /// The arm reaches it, but near a pose in which joints would have to be too fast.
-    NearSingularity(Singularity),
+    NearSingularity {
+        /// The pose that it is near.
+        singularity: Singularity,
+    },
     /// On the way from the previous point, a joint would have to be faster than it can.
     TooFast {
         /// The joint, from 1.
@@ -58,74 +65,14 @@ pub enum PointProblem {
     },
 }
 
-impl PointProblem {
-    /// Describes the problem in words, without the point.
-    pub fn describe(&self) -> String {
-        match self {
-            Self::OutOfReach => "out of reach".into(),
-            Self::JointLimit { joint, angle } => {
-                format!("joint {joint} would need {:.0} degrees", angle.to_degrees())
-            }
-            Self::NearSingularity(which) => format!("near a singularity: {}", which.name()),
-            Self::TooFast { joint, speed } => {
-                format!(
-                    "joint {joint} would need {:.0} degrees/s",
-                    speed.to_degrees()
-                )
-            }
-            Self::RailTooFast { speed } => {
-                format!("the rail would need {:.0} mm/s", 1000.0 * speed)
-            }
-            Self::JointAcceleration {
-                joint,
-                acceleration,
-                limit,
-            } => format!(
-                "joint {joint} would need {:.0} degrees/s² and has {:.0}",
-                acceleration.to_degrees(),
-                limit.to_degrees()
-            ),
-            Self::RailAcceleration {
-                acceleration,
-                limit,
-            } => format!(
-                "the rail would need {:.0} mm/s² and has {:.0}",
-                1000.0 * acceleration,
-                1000.0 * limit
-            ),
-            Self::ConfigurationChange => "the arm would have to fold over".into(),
-            Self::Collision { body, obstacle } => {
-                let body = body.name();
-                match obstacle {
-                    Obstacle::Part => format!("the {body} is too near to the part"),
-                    Obstacle::OtherPart => {
-                        format!("the {body} is too near to another part that hangs there")
-                    }
-                    Obstacle::Floor => format!("the {body} is too near to the floor"),
-                    Obstacle::Box(name) => format!("the {body} is too near to the box {name}"),
-                    Obstacle::UpperArm => format!("the {body} is too near to the upper arm"),
-                    Obstacle::Forearm => format!("the {body} is too near to the forearm"),
-                    Obstacle::BaseColumn => format!("the {body} is too near to the base column"),
-                }
-            }
-        }
-    }
+texts::described!(PointProblem: "point" by "kind");
 
-    /// Names the problem in words without its figures, which differ from point to point.
+impl PointProblem {
+    /// The problem without its figures, which differ from point to point, in the language of this thread.
     pub fn reason(&self) -> String {
-        match self {
-            Self::JointLimit { joint, .. } => format!("joint {joint} beyond its limit"),
-            Self::TooFast { joint, .. } => format!("joint {joint} too fast"),
-            Self::RailTooFast { .. } => "rail too fast".into(),
-            Self::JointAcceleration { joint, .. } => {
-                format!("joint {joint} accelerates too slowly")
-            }
-            Self::RailAcceleration { .. } => "rail accelerates too slowly".into(),
-            Self::OutOfReach
-            | Self::NearSingularity(_)
-            | Self::ConfigurationChange
-            | Self::Collision { .. } => self.describe(),
-        }
+        let (message, language) = (self.message(), Language::current());
+        let reason = message.attribute(language, "reason");
+        reason.unwrap_or_else(|| message.text(language))
     }
 
     /// The figure of a problem that has one; of two with the same reason, the greater is the worse.
@@ -136,7 +83,7 @@ impl PointProblem {
             Self::JointAcceleration { acceleration, .. }
             | Self::RailAcceleration { acceleration, .. } => Some(*acceleration),
             Self::OutOfReach
-            | Self::NearSingularity(_)
+            | Self::NearSingularity { .. }
             | Self::ConfigurationChange
             | Self::Collision { .. } => None,
         }
@@ -155,7 +102,7 @@ impl PointProblem {
         matches!(
             self,
             Self::JointLimit { .. }
-                | Self::NearSingularity(_)
+                | Self::NearSingularity { .. }
                 | Self::TooFast { .. }
                 | Self::ConfigurationChange
         )
@@ -166,7 +113,7 @@ impl PointProblem {
         match self {
             Self::OutOfReach => "out_of_reach",
             Self::JointLimit { .. } => "joint_limit",
-            Self::NearSingularity(_) => "near_singularity",
+            Self::NearSingularity { .. } => "near_singularity",
             Self::TooFast { .. } => "too_fast",
             Self::RailTooFast { .. } => "rail_too_fast",
             Self::JointAcceleration { .. } => "joint_acceleration",

@@ -146,7 +146,9 @@ fn each_reason_is_named() {
     let problem = check(&bare, &[point]).points[0].problem.clone();
     assert_eq!(
         problem,
-        Some(PointProblem::NearSingularity(Singularity::Wrist))
+        Some(PointProblem::NearSingularity {
+            singularity: Singularity::Wrist
+        })
     );
 }
 

@@ -11,7 +11,7 @@ use inspection::{
 };
 use records::history::{KeepFrames, SceneTitle, StoredVerdict, Summary};
 use simulate::ObjectKind;
-use stages::{pose::Stopped, stand_off::StandOffError};
+use stages::pose::Stopped;
 use ui::language::{Language, text};
 
 /// Says whether an inspection was accepted, for whatever reason it was not.
@@ -154,16 +154,6 @@ pub fn stopped(stopped: Stopped) -> String {
     }
 }
 
-/// Explains why there is no stand-off.
-pub fn stand_off_error(error: &StandOffError) -> String {
-    match error {
-        StandOffError::NoSurface => text!("inspect-no-surface"),
-        StandOffError::NoneMeets { num_taught } => {
-            text!("inspect-none-meets", num = *num_taught)
-        }
-    }
-}
-
 /// States the side that a part is painted from.
 pub fn painted_from(side: Side) -> String {
     match side {
@@ -240,9 +230,6 @@ mod tests {
         }
         for keep in KeepFrames::ALL {
             assert_eq!(keep_frames(keep), keep.title());
-        }
-        for kind in ObjectKind::ALL {
-            assert_eq!(object(kind), kind.name());
         }
         let name = |why: Stopped| why.name().replace('_', " ");
         for why in [

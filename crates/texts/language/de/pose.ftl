@@ -32,6 +32,11 @@ pose-off-scale = was die Kamera sieht, ist { PERCENT($by, 0) } % { $is_larger ->
 pose-loose = die Pose ist nicht bestimmt: { free-motion }
 pose-unsettled = die Pose bewegte sich nach { $num_iterations } Iterationen noch
 
+## Warum es keinen Abstand gibt
+
+stand-off-no-surface = das eingelernte Teil hat keine Oberfläche mit Normalen
+stand-off-none-meets = keine der { $num_taught } angenommenen Düsenpositionen zeigt auf das Teil
+
 ## Parts of these texts
 
 free-motion = { $motion ->

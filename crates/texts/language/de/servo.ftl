@@ -29,15 +29,7 @@ servo-too-near = der Roboter wurde angehalten, weil { $body ->
         [forearm] sein Unterarm
         [upper_arm] sein Oberarm
        *[tool] sein Werkzeug
-    } { $obstacle ->
-        [part] dem Teil
-        [other_part] einem anderen hängenden Teil
-        [floor] dem Boden
-        [upper_arm] dem Oberarm
-        [forearm] dem Unterarm
-        [base_column] der Grundsäule
-       *[box] dem Quader { $name }
-    } zu nahe käme
+    } { near-obstacle } zu nahe käme
     .advice = Das Teil anders aufhängen, von einer anderen Seite starten oder die Hindernisse und ihren Mindestabstand prüfen
 servo-out-of-reach = der Roboter wurde angehalten, weil der Arm den Weg zum Ziel nicht erreicht
     .advice = Das Teil näher zur Mitte der Reichweite hängen oder mit einer anderen Stellung des Arms starten

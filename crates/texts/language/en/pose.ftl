@@ -35,6 +35,11 @@ pose-loose = the pose is unconstrained: { free-motion }
 pose-unsettled = the pose was still moving after { $num_iterations } iterations
     .command-advice = Run it again with the pose found as its start
 
+## Why there is no stand-off
+
+stand-off-no-surface = the enrolled part has no surface with normals
+stand-off-none-meets = none of { $num_taught } assumed nozzle positions points at the part
+
 ## Parts of these texts
 
 free-motion = { $motion ->

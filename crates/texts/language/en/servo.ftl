@@ -29,15 +29,7 @@ servo-too-near = the robot was stopped because its { $body ->
         [forearm] forearm
         [upper_arm] upper arm
        *[tool] tool
-    } would come too near to { $obstacle ->
-        [part] the part
-        [other_part] another part that hangs there
-        [floor] the floor
-        [upper_arm] the upper arm
-        [forearm] the forearm
-        [base_column] the base column
-       *[box] the box { $name }
-    }
+    } would come too near to { near-obstacle }
     .advice = Hang the part elsewhere, start from another side, or check the obstacles and their least distance
 servo-out-of-reach = the robot was stopped because the arm does not reach the way to the target
     .advice = Hang the part nearer to the middle of the arm's reach, or start with another configuration

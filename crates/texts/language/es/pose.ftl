@@ -32,6 +32,11 @@ pose-off-scale = lo que ve la cámara es un { PERCENT($by, 0) } % más { $is_lar
 pose-loose = la pose no está determinada: { free-motion }
 pose-unsettled = la pose seguía moviéndose tras { $num_iterations } iteraciones
 
+## Por qué no hay distancia
+
+stand-off-no-surface = la pieza registrada no tiene superficie con normales
+stand-off-none-meets = ninguna de las { $num_taught } posiciones de boquilla supuestas apunta a la pieza
+
 ## Parts of these texts
 
 free-motion = { $motion ->

@@ -29,15 +29,7 @@ servo-too-near = el robot se detuvo porque { $body ->
         [forearm] su antebrazo
         [upper_arm] su brazo
        *[tool] su herramienta
-    } se acercaría demasiado { $obstacle ->
-        [part] a la pieza
-        [other_part] a otra pieza colgada
-        [floor] al suelo
-        [upper_arm] al brazo
-        [forearm] al antebrazo
-        [base_column] a la columna de la base
-       *[box] a la caja { $name }
-    }
+    } se acercaría demasiado { near-obstacle }
     .advice = Cuelgue la pieza en otro sitio, empiece desde otro lado o compruebe los obstáculos y su distancia mínima
 servo-out-of-reach = el robot se detuvo porque el brazo no alcanza el camino hasta el objetivo
     .advice = Cuelgue la pieza más cerca del centro del alcance o empiece con otra configuración del brazo

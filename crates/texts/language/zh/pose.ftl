@@ -32,6 +32,11 @@ pose-off-scale = 相机看到的部件比参考{ $is_larger ->
 pose-loose = 位姿未被约束：{ free-motion }
 pose-unsettled = 经过 { $num_iterations } 次迭代后位姿仍在变化
 
+## 为何没有喷距
+
+stand-off-no-surface = 已注册零件没有带法向的表面
+stand-off-none-meets = { $num_taught } 个假定喷嘴位置均未指向零件
+
 ## Parts of these texts
 
 free-motion = { $motion ->

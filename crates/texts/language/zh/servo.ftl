@@ -29,15 +29,7 @@ servo-too-near = 机器人已停止，因为其{ $body ->
         [forearm] 前臂
         [upper_arm] 上臂
        *[tool] 工具
-    }将过于靠近{ $obstacle ->
-        [part] 零件
-        [other_part] 挂着的另一个零件
-        [floor] 地面
-        [upper_arm] 上臂
-        [forearm] 前臂
-        [base_column] 底座立柱
-       *[box] 长方体“{ $name }”
-    }
+    }将过于靠近{ near-obstacle }
     .advice = 将零件挂在别处，从另一侧开始，或检查障碍物及其最小距离
 servo-out-of-reach = 机器人已停止，因为手臂到不了通往目标的路径
     .advice = 将零件挂得更靠近可达范围的中间，或以手臂的另一种构型开始

@@ -3,13 +3,10 @@
 use egui::{Align2, Rect, RichText, Sense, Ui, pos2, vec2};
 
 use robot::spray::{BandStatus, CarriedPath, MOST_TILT, SurfaceHit};
-use shell::{
-    inspection::{inspected::Inspected, unit_system::UnitSystem},
-    language::results::stand_off_error,
-};
+use shell::inspection::{inspected::Inspected, unit_system::UnitSystem};
 use stages::stand_off::{StandOff, StandOffParams};
 use ui::{
-    language::text,
+    language::{described, text},
     theme::{ROUNDING, Theme, font, space},
     widgets::{Scale, heading, row, sentence},
 };
@@ -27,7 +24,7 @@ pub(super) fn ui(ui: &mut Ui, inspected: &Inspected, units: UnitSystem) {
     match found {
         Ok(found) => figures(ui, found, &inspected.recipe.stand_off, units),
         Err(error) => {
-            ui.weak(sentence(&stand_off_error(error)));
+            ui.weak(sentence(&described(error)));
         }
     }
 }

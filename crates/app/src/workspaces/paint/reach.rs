@@ -17,8 +17,8 @@ use inspection::library::Side;
 use robot::{
     RobotFrame,
     arm::{
-        ArmError, Body, CheckParams, FilmRoom, Obstacle, Obstacles, PathCheck, PlaceSuggestion,
-        PointProblem, check_path, suggest_base, suggest_rail,
+        ArmError, CheckParams, FilmRoom, Obstacles, PathCheck, PlaceSuggestion, check_path,
+        suggest_base, suggest_rail,
     },
     program::{RobotLanguage, arm_points},
     spray::{CarriedPath, OffThePart, carry, off_the_part},
@@ -85,7 +85,7 @@ impl Reach {
         let mut reasons: Vec<(String, usize)> = Vec::new();
         let problems = self.check.points.iter().map(|point| &point.problem);
         for problem in problems.flatten() {
-            let reason = reason(problem);
+            let reason = problem.reason();
             match reasons.iter_mut().find(|(known, _)| *known == reason) {
                 Some((_, count)) => *count += 1,
                 None => reasons.push((reason, 1)),
@@ -93,38 +93,6 @@ impl Reach {
         }
         reasons.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
         reasons
-    }
-}
-
-fn reason(problem: &PointProblem) -> String {
-    match problem {
-        PointProblem::OutOfReach => text!("paint-out-of-reach"),
-        PointProblem::JointLimit { joint, .. } => text!("paint-joint-limit", joint = *joint),
-        PointProblem::NearSingularity(_) => text!("paint-near-singularity"),
-        PointProblem::TooFast { joint, .. } => text!("paint-joint-too-fast", joint = *joint),
-        PointProblem::RailTooFast { .. } => text!("paint-rail-too-fast"),
-        PointProblem::JointAcceleration { joint, .. } => {
-            text!("paint-joint-acceleration", joint = *joint)
-        }
-        PointProblem::RailAcceleration { .. } => text!("paint-rail-acceleration"),
-        PointProblem::ConfigurationChange => text!("paint-arm-folds-over"),
-        PointProblem::Collision { body, obstacle } => {
-            let body = match body {
-                Body::Gun => "gun",
-                Body::Wrist => "wrist",
-                Body::Forearm => "forearm",
-                Body::UpperArm => "upper-arm",
-            };
-            match obstacle {
-                Obstacle::Part => text!("paint-near-part", body = body),
-                Obstacle::OtherPart => text!("paint-near-other-part", body = body),
-                Obstacle::Floor => text!("paint-near-floor", body = body),
-                Obstacle::Box(name) => text!("paint-near-box", body = body, name = name),
-                Obstacle::UpperArm => text!("paint-near-upper-arm", body = body),
-                Obstacle::Forearm => text!("paint-near-forearm", body = body),
-                Obstacle::BaseColumn => text!("paint-near-base-column", body = body),
-            }
-        }
     }
 }
 
@@ -358,36 +326,4 @@ pub(super) fn write_program(
         is_simulated: path.is_simulated,
         is_forced: false,
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn in_english_the_window_names_a_problem_as_the_commands_do() {
-        for problem in [
-            PointProblem::OutOfReach,
-            PointProblem::JointLimit {
-                joint: 5,
-                angle: 3.0,
-            },
-            PointProblem::TooFast {
-                joint: 3,
-                speed: 5.0,
-            },
-            PointProblem::RailTooFast { speed: 2.0 },
-            PointProblem::JointAcceleration {
-                joint: 2,
-                acceleration: 9.0,
-                limit: 4.0,
-            },
-            PointProblem::RailAcceleration {
-                acceleration: 9.0,
-                limit: 4.0,
-            },
-        ] {
-            assert_eq!(reason(&problem), problem.reason());
-        }
-    }
 }

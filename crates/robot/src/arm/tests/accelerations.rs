@@ -368,7 +368,7 @@ fn a_rail_that_starts_at_once_needs_more_than_one_that_speeds_up() {
         limit: 2.5,
     };
     assert_eq!(
-        problem.describe(),
+        problem.to_string(),
         "the rail would need 3000 mm/s² and has 2500"
     );
     assert_eq!(problem.kind(), "rail_acceleration");
@@ -412,10 +412,7 @@ fn a_joint_that_cannot_accelerate_is_named_with_its_limit() {
         acceleration: 20.0_f64.to_radians(),
         limit: 10.0_f64.to_radians(),
     };
-    assert_eq!(
-        problem.describe(),
-        "joint 3 would need 20 degrees/s² and has 10"
-    );
+    assert_eq!(problem.to_string(), "joint 3 would need 20°/s² and has 10");
     assert_eq!(problem.kind(), "joint_acceleration");
     assert!(problem.is_acceleration() && !PointProblem::OutOfReach.is_acceleration());
 }

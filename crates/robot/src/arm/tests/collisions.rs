@@ -71,7 +71,7 @@ fn a_box_beside_the_gun_is_run_into_as_far_as_gun_and_clearance_reach() {
         found.num_collisions()
     )));
     let problem = gun_at("post");
-    assert_eq!(problem.describe(), "the gun is too near to the box post");
+    assert_eq!(problem.to_string(), "gun too near to the box post");
     assert_eq!(problem.kind(), "collision");
     // A wider clearance finds more.
     let mut wider = blocked.clone();

@@ -37,7 +37,9 @@ fn a_pose_that_the_arm_must_not_take_is_refused_for_its_reason() {
     let pose = arm.nozzle_pose(&straight).expect("finite");
     assert!(matches!(
         arm.joints_near(&pose, &straight),
-        Err(PointProblem::NearSingularity(Singularity::Wrist))
+        Err(PointProblem::NearSingularity {
+            singularity: Singularity::Wrist
+        })
     ));
     let flipped = [0.0, 0.3, 0.1, 0.0, 1.0, 0.0];
     let pose = arm.nozzle_pose(&flipped).expect("finite");

@@ -102,7 +102,7 @@ fn a_rail_that_is_too_slow_says_so_and_never_moves_faster_than_it_can() {
     };
     assert!(speed > 1.0);
     let problem = PointProblem::RailTooFast { speed: 1.25 };
-    assert_eq!(problem.describe(), "the rail would need 1250 mm/s");
+    assert_eq!(problem.to_string(), "the rail would need 1250 mm/s");
     assert_eq!(problem.kind(), "rail_too_fast");
 }
 

@@ -32,7 +32,7 @@ fn a_wrist_that_is_folded_into_the_upper_arm_is_named() {
     let found = check(&placed, &[point]);
     assert_eq!(found.points[0].problem, Some(wanted.clone()));
     assert_eq!(found.num_collisions(), 1);
-    assert_eq!(wanted.describe(), "the wrist is too near to the upper arm");
+    assert_eq!(wanted.to_string(), "wrist too near to the upper arm");
     // The axes are 191 mm apart, minus the radii of both bodies: a thinner arm is clear.
     placed.arm.radii = [0.08, 0.08, 0.08];
     assert_eq!(check(&placed, &[point]).num_collisions(), 0);
@@ -50,7 +50,7 @@ fn a_gun_that_is_swung_into_the_base_column_is_named() {
         body: Body::Gun,
         obstacle: Obstacle::BaseColumn,
     };
-    assert_eq!(wanted.describe(), "the gun is too near to the base column");
+    assert_eq!(wanted.to_string(), "gun too near to the base column");
     let solver = Solver::new(&placed, 0.0);
     // Leaning far forward and folded under itself, with the gun level and through joint 1 at the height of the foot.
     let inwards = [0.0, 80.0, 60.0, 0.0, 50.0, 0.0];
@@ -91,10 +91,7 @@ fn a_forearm_that_lies_across_the_base_column_is_named() {
         body: Body::Forearm,
         obstacle: Obstacle::BaseColumn,
     };
-    assert_eq!(
-        wanted.describe(),
-        "the forearm is too near to the base column"
-    );
+    assert_eq!(wanted.to_string(), "forearm too near to the base column");
     // 150 mm of the column and 130 mm of the forearm, in any direction.
     for turn in [-170.0, 0.0, 90.0] {
         let mut joints = across;
@@ -130,7 +127,7 @@ fn a_gun_that_is_folded_back_along_the_forearm_is_named() {
         body: Body::Gun,
         obstacle: Obstacle::Forearm,
     };
-    assert_eq!(wanted.describe(), "the gun is too near to the forearm");
+    assert_eq!(wanted.to_string(), "gun too near to the forearm");
     let found = Solver::new(&placed, 0.0).collision(&back);
     assert_eq!(found, Some(wanted.clone()));
     assert_eq!(Solver::new(&placed, 0.0).collision(&away), None);
