@@ -3,6 +3,7 @@
 mod again;
 mod export;
 mod moments;
+mod runs;
 pub(super) mod show;
 
 use std::{
@@ -42,6 +43,7 @@ Examples:
   partsight history export --since 2026-03-01 --csv march.csv
   partsight history export --verdict not-accepted --cases tried && partsight evaluate tried
   partsight history keep all --days 30 --gigabytes 50
+  partsight history runs --since today            # runs of visual servoing; run 3 --json has the curve of one
 
 Each row is one hung part; for a followed source, with the verdict that counted. A part that was inspected again while it
 hung there, with another recipe or library or because its verdict changed, stays one row, with its re-inspections below it
@@ -82,6 +84,16 @@ pub(super) enum Command {
     },
     /// Show or change which frames are kept, and for how long
     Keep(KeepArgs),
+    /// Show runs of visual servoing, the newest first
+    Runs(runs::RunsArgs),
+    /// Show everything about one run of visual servoing
+    Run {
+        /// Number of the run
+        number: i64,
+        /// Write one line of JSON with its curve, and nothing else, to standard output
+        #[arg(long)]
+        json: bool,
+    },
     #[command(flatten)]
     Plant(plant::HistoryCommand),
 }
@@ -247,6 +259,10 @@ pub(super) fn run(args: &HistoryArgs, console: &mut Console) -> anyhow::Result<O
                 note_if_unknown(part, library, console);
             }
             Ok(Outcome::Accepted)
+        }
+        Command::Runs(asked) => runs::list(&open_to_read(&folder, console)?, asked, console),
+        Command::Run { number, json } => {
+            runs::show(&open_to_read(&folder, console)?, *number, *json, console)
         }
         Command::Keep(asked) => keep(&mut open(&folder, console)?, asked, console),
         Command::Plant(command) => plant::history(command, &mut open(&folder, console)?, console),

@@ -10,7 +10,9 @@ use super::{
 };
 use inspection::library::LibraryLoad;
 use records::{
-    history::{HistoryError, HistoryEvent, HungId, NewEntry, Traceability, users_folder},
+    history::{
+        HistoryError, HistoryEvent, HungId, NewEntry, ServoRecord, Traceability, users_folder,
+    },
     report::segmentation_picture,
 };
 use station::{Inspected, LibraryNames, Losses, Recorder};
@@ -133,6 +135,11 @@ impl HistoryRecorder {
         self.tell(console);
     }
 
+    /// Adds a run of servoing.
+    pub(super) fn add_servo_run(&self, record: ServoRecord) {
+        self.recorder.add_servo_run(record);
+    }
+
     /// Shows the new events of the history.
     pub(super) fn tell(&self, console: &Console) {
         for news in self.recorder.take_news() {
@@ -157,8 +164,10 @@ impl HistoryRecorder {
     }
 }
 
-/// Returns a warning for each reason why inspections or frames are not in the history.
+/// Returns a warning for each reason why inspections, frames or a run of servoing are not in the history.
 fn warnings_of(losses: Losses) -> Vec<String> {
+    let run = losses.lacks_servo_run;
+    let run = run.then(|| "warning: the run is not in the history".to_owned());
     let losses = [
         (losses.num_unwritten, "not in the history"),
         (losses.num_slow, "not in the history: the disk is too slow"),
@@ -170,6 +179,7 @@ fn warnings_of(losses: Losses) -> Vec<String> {
     let losses = losses.into_iter().filter(|(num, _)| *num > 0);
     losses
         .map(|(num, what)| format!("warning: {} {what}", inspections_are(num)))
+        .chain(run)
         .collect()
 }
 

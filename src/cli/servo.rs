@@ -1,56 +1,34 @@
 //! `partsight servo`: moves a robot by what the camera sees of a part.
 
-use std::{
-    ops::ControlFlow,
-    path::PathBuf,
-    sync::atomic::{AtomicBool, Ordering},
-    time::{Duration, Instant},
-};
+use std::path::PathBuf;
 
 use clap::Args;
-use nalgebra::Point3;
 use serde_json::json;
 
 use super::{
     LibraryChoice, Outcome,
     calibrate::camera_place,
-    console::{Advised as _, Console, advised_error, with_advice},
+    console::{Advised as _, Console, with_advice},
     follow::parse_source,
-    input::{
-        EmptyCellChoice, open_scene, parse_name, parse_nozzle_pose, scene_of, warn_of, within,
-    },
+    input::{EmptyCellChoice, open_scene, parse_name, parse_nozzle_pose, warn_of, within},
     interrupt::Interrupt,
     program::CellChoice,
     recipe::RecipeChoice,
+    record::{HistoryChoice, HistoryRecorder},
 };
-use capture::{BackpressurePolicy, Feed, FeedItem, FeedState, SourceSpec};
-use geometry::{
-    error::Advice as _,
-    rigid::PoseDelta,
-    units::{Metres, Radians},
-};
-use inspection::{
-    library::{Library, PartName},
-    pipeline::{Expected, NamedRecipe, Unwatched, run as inspect},
-};
-use records::report::SCHEMA;
+use capture::{BackpressurePolicy, Feed, SourceSpec};
+use geometry::{error::Advice as _, rigid::PoseDelta, units::Metres};
+use inspection::{library::PartName, pipeline::NamedRecipe};
+use records::{history::Traceability, report::SCHEMA};
 use robot::{
     WrittenPose,
-    arm::{Arm, GUN_RADIUS, PlacedArm},
+    arm::{Arm, PlacedArm},
     program::ProgramParams,
 };
-use servo::{
-    Arrival, Fence, Look, Servo, ServoParams, Step, Target, Task, Tool,
-    simulated::{
-        ArmDynamics, CellSetup, Disturbance, HandEyeError, SimulatedCell, SimulatedTarget,
-        StreamProtocol,
-    },
-    stream::Drive,
-};
-use simulate::PartKind;
-use station::{
-    CameraScenes,
-    servoing::{RobotAddress, RobotLink, ServoNews, SimulatedRobot, servo},
+use servo::{Arrival, ServoParams, Step, simulated::StreamProtocol};
+use station::servoing::{
+    RealRobot, RobotAddress, ServoJob, ServoNews, ServoOrder, ServoOutcome, ServoSetup,
+    ServoTarget, check_source, servo_real, servo_simulated,
 };
 
 /// Move a robot until the part stands where it should in front of the camera
@@ -122,6 +100,11 @@ pub(super) struct ServoArgs {
     recipe: RecipeChoice,
     #[command(flatten)]
     empty_cell: EmptyCellChoice,
+    #[command(flatten)]
+    history: HistoryChoice,
+    /// Do not write the run to the history
+    #[arg(long, conflicts_with = "history")]
+    no_history: bool,
     /// Write one line of JSON per frame and one for the end, and nothing else, to standard output
     #[arg(long)]
     json: bool,
@@ -133,58 +116,85 @@ fn parse_robot(text: &str) -> Result<RobotAddress, String> {
 }
 
 fn parse_protocol(text: &str) -> Result<StreamProtocol, String> {
-    match text {
-        "egm" => Ok(StreamProtocol::Egm),
-        "rsi" => Ok(StreamProtocol::Rsi),
-        "ur" => Ok(StreamProtocol::Rtde),
-        _ => Err("expected egm, rsi or ur".into()),
-    }
+    StreamProtocol::named(text).ok_or_else(|| "expected egm, rsi or ur".into())
 }
 
-/// How wrong the simulated calibration is at most.
-const SIMULATED_HAND_EYE: HandEyeError = HandEyeError {
-    shift: Metres(0.02),
-    turn: Radians(0.035),
-};
-/// Radius around the camera that is kept clear.
-const CAMERA_RADIUS: f64 = 0.06;
-/// How long the camera's thread waits for a frame before it looks whether the run is over.
-const TURN: Duration = Duration::from_millis(100);
-
 pub(super) fn run(args: &ServoArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    if let Some(source) = &args.source {
+        check_source(source).advised()?;
+    }
     let recipe = args.recipe.recipe()?;
     let load = (args.library).load_some(&recipe.reference_params(), console)?;
-    let name = args.part.as_str();
-    if !load.library.has_part(name) {
-        return Err(advised_error(
-            format!("{name} is not enrolled"),
-            "See the parts with partsight library list",
-        ));
-    }
     let interrupt = Interrupt::listen()?;
-    let end = match (&args.robot, &args.source) {
-        (Some(robot), Some(source)) => real(
-            args,
-            robot,
-            source,
-            &load.library,
-            &recipe,
-            &interrupt,
-            console,
-        )?,
-        _ => simulated(args, &load.library, &interrupt, console)?,
+    let part = load.parts.iter().find(|part| part.name == args.part);
+    let job = ServoJob {
+        part: args.part.as_str(),
+        title: part.map_or(args.part.as_str(), |part| part.shown_title()),
+        library: &load.library,
+        longest_step: None,
     };
+    let outcome = match (&args.robot, &args.source) {
+        (Some(robot), Some(source)) => {
+            real(args, &job, (*robot, source), &recipe, &interrupt, console)?
+        }
+        _ => {
+            let protocol = args.simulated.unwrap_or(StreamProtocol::Egm);
+            console.note(
+                &"Simulated: an arm carries the camera; its calibration is wrong by up to 20 mm and 2°",
+            );
+            let params = args.params()?;
+            let outcome = servo_simulated(&job, &params, protocol, args.seed, |news| {
+                show_news(news, args, console);
+                order(&interrupt, console)
+            });
+            outcome.advised()?
+        }
+    };
+    if !args.no_history
+        && let Some(record) = outcome.record
+    {
+        let trace = Traceability::default();
+        let recorder = HistoryRecorder::start(&args.history, &load, &trace, None, console)?;
+        if let Some(recorder) = recorder {
+            recorder.add_servo_run(record);
+            recorder.finish(console);
+        }
+    }
+    let end = outcome.end.advised()?;
+    if let Some(left) = &outcome.true_error {
+        console.note(&format_args!("True error at the end: {}", words(left)));
+    }
     Ok(shown(&end, args, console))
 }
 
 impl ServoArgs {
     fn params(&self) -> anyhow::Result<ServoParams> {
-        let mut params = ServoParams::default();
-        params.limits.speed = self.speed / 1000.0;
-        // A robot that goes faster must brake as soon.
-        params.limits.acceleration = params.limits.acceleration.max(5.0 * params.limits.speed);
-        params.tolerance.shift = Metres::from_mm(self.tolerance);
-        params.checked().advised()
+        ServoParams::limited(self.speed / 1000.0, Metres::from_mm(self.tolerance)).advised()
+    }
+
+    /// Reads the files that the options name.
+    fn setup(&self, console: &Console) -> anyhow::Result<ServoSetup> {
+        let camera = camera_place(self.calibration.as_deref())?;
+        let scenes = self.seen_as.iter().map(|path| {
+            let (scene, warnings) = open_scene(path).advised()?;
+            warn_of(path, &warnings, console);
+            Ok((path.display().to_string(), scene))
+        });
+        let scenes = scenes.collect::<anyhow::Result<Vec<_>>>()?;
+        Ok(ServoSetup {
+            camera,
+            calibration: None,
+            target: if scenes.is_empty() {
+                ServoTarget::StandardPosition
+            } else {
+                ServoTarget::SeenAs(scenes)
+            },
+            flange_from_nozzle: self.nozzle.as_ref().map(|nozzle| nozzle.pose),
+            placed: self.placed()?,
+            clearance: Metres::from_mm(self.clearance),
+            volume: None,
+            params: self.params()?,
+        })
     }
 
     fn placed(&self) -> anyhow::Result<Option<PlacedArm>> {
@@ -195,211 +205,40 @@ impl ServoArgs {
         let placed = self.cell.place(arm, nozzle.pose, &ProgramParams::default());
         placed.map(Some)
     }
-
-    /// What the camera should see: the standard position, or the part as in the frames.
-    fn target(
-        &self,
-        task: &Task,
-        library: &Library,
-        recipe: &NamedRecipe,
-        console: &Console,
-    ) -> anyhow::Result<Target> {
-        if self.seen_as.is_empty() {
-            return Ok(Target::standard_position());
-        }
-        let mut looks = Vec::new();
-        for path in &self.seen_as {
-            let (scene, warnings) = open_scene(path).advised()?;
-            warn_of(path, &warnings, console);
-            let inspection = inspect(&scene, library, recipe, &Unwatched)?;
-            let look = Look::new(task, &inspection, Duration::ZERO);
-            if let Err(reason) = &look.seen {
-                let shown = path.display();
-                console.advise(&format_args!("{shown}: {reason}"), &reason.advice());
-            }
-            looks.push(look);
-        }
-        let target = Target::recorded(&looks, &task.middle);
-        target.ok_or_else(|| {
-            advised_error(
-                format!(
-                    "{} is not accepted in at least half of these frames, in the same place",
-                    task.part
-                ),
-                "Take the frames again, with the whole part in the picture and the camera at rest",
-            )
-        })
-    }
 }
 
 /// Servos a real robot.
 fn real(
     args: &ServoArgs,
-    robot: &RobotAddress,
-    source: &SourceSpec,
-    library: &Library,
+    job: &ServoJob<'_>,
+    (address, source): (RobotAddress, &SourceSpec),
     recipe: &NamedRecipe,
     interrupt: &Interrupt,
     console: &mut Console,
-) -> anyhow::Result<Step> {
-    if source.is_replayed() {
-        return Err(advised_error(
-            format!("{source} is replayed: its frames do not show what hangs there now"),
-            "Give a camera as --source, or try a simulated robot: --simulated",
-        ));
-    }
-    let name = args.part.as_str();
-    let reference = library.references.iter().find(|one| one.name == name);
-    let with_middle = reference.and_then(|one| Some((one, one.middle()?)));
-    let Some((reference, middle)) = with_middle else {
-        return Err(advised_error(
-            format!("{name} has several references"),
-            "Name the one that hangs there: partsight library list",
-        ));
+) -> anyhow::Result<ServoOutcome> {
+    let setup = args.setup(console)?;
+    let robot = RealRobot {
+        address,
+        source,
+        feed: Feed::start(source.clone(), BackpressurePolicy::Newest, || ()).advised()?,
+        setup: &setup,
+        path: None,
+        empty_cell: args.empty_cell.open(console)?,
+        recipe,
     };
-    let expected = Expected::new(vec![name.into()], None, |_| true).advised()?;
-    let recipe = recipe.clone().expecting(expected);
-    let camera = camera_place(args.calibration.as_deref())?;
-    let mut task = Task {
-        part: name.to_owned(),
-        reference: name.to_owned(),
-        middle,
-        camera,
-        target: Target::standard_position(),
-    };
-    task.target = args.target(&task, library, &recipe, console)?;
-    let task = task.checked().advised()?;
-    let placed = args.placed()?;
-    let stream = robot.stream(placed.as_ref()).advised()?;
-    let fence = fence(args, &task, placed, &reference.cloud.points);
-    let servo_run = Servo::new(task.clone(), args.params()?, fence).advised()?;
-    let mut drive = Drive::new(stream, servo_run);
-    let empty_cell = args.empty_cell.open(console)?;
-    let feed = Feed::start(source.clone(), BackpressurePolicy::Newest, || ()).advised()?;
-    let mut link = RobotLink::open(robot).advised()?;
-    let at = link.address();
-    console.note(&format_args!("Waiting for the robot: {}", robot.at(at)));
-    let started = Instant::now();
-    let mut scenes = CameraScenes::new(empty_cell);
-    let quiet = Console::new();
-    let next_look = |is_over: &AtomicBool| loop {
-        if is_over.load(Ordering::SeqCst) || feed.status().state.is_over() {
-            return None;
-        }
-        let Some(FeedItem::Captured(captured)) = feed.wait(TURN) else {
-            continue;
-        };
-        let taken_at = captured.arrived.saturating_duration_since(started);
-        let scene = scene_of(captured, &mut scenes, &quiet);
-        // It is never cancelled.
-        let inspection = inspect(&scene, library, &recipe, &Unwatched).ok()?;
-        return Some(Look::new(&task, &inspection, taken_at));
-    };
-    let now = || started.elapsed();
-    let mut lost: Option<String> = None;
-    let end = servo(&mut link, &mut drive, &now, next_look, |news| {
-        if let FeedState::Failed(error) | FeedState::Lost { error } = feed.status().state {
-            let words = error.to_string();
-            if lost.as_ref() != Some(&words) {
-                console.warn(&words, &*error);
-                lost = Some(words);
-            }
-        }
-        show_news(news, args.json, console);
-        flow(interrupt, console)
+    let outcome = servo_real(job, robot, |news| {
+        show_news(news, args, console);
+        order(interrupt, console)
     });
-    end.advised()
+    outcome.advised()
 }
 
-/// Servos a simulated robot.
-fn simulated(
-    args: &ServoArgs,
-    library: &Library,
-    interrupt: &Interrupt,
-    console: &mut Console,
-) -> anyhow::Result<Step> {
-    let name = args.part.as_str();
-    let kind = PartKind::ALL.into_iter().find(|kind| kind.name() == name);
-    let Some(kind) = kind else {
-        let known = PartKind::ALL.map(PartKind::name).join(", ");
-        return Err(advised_error(
-            format!("the simulated cell has no {name}"),
-            format!("Choose one of {known}"),
-        ));
-    };
-    let setup = CellSetup {
-        kind,
-        target: SimulatedTarget::Standard,
-        noise: 1.0,
-        start: (Metres(0.25), Radians::from_degrees(25.0)),
-        hand_eye: SIMULATED_HAND_EYE,
-        frame_period: TURN,
-        delay: Duration::ZERO,
-        dynamics: ArmDynamics::default(),
-        disturbance: Disturbance::None,
-        seed: args.seed,
-    };
-    let protocol = args.simulated.unwrap_or(StreamProtocol::Egm);
-    let cell = SimulatedCell::arrange(setup, library)?;
-    let servo_run = Servo::new(cell.task.clone(), args.params()?, cell.fence.clone()).advised()?;
-    let mut drive = Drive::new(cell.stream(protocol), servo_run);
-    let started = SimulatedRobot::start(cell.controller(protocol), protocol);
-    let (robot, mut link) = started.advised()?;
-    console.note(
-        &"Simulated: an arm carries the camera; its calibration is wrong by up to 20 mm and 2°",
-    );
-    let mut number = 0;
-    let next_look = |_: &AtomicBool| {
-        number += 1;
-        robot.look(|flange, at| cell.look(flange, at, number))
-    };
-    let now = || robot.now().0;
-    let end = servo(&mut link, &mut drive, &now, next_look, |news| {
-        show_news(news, args.json, console);
-        flow(interrupt, console)
-    });
-    let end = end.advised()?;
-    let (at, flange) = robot.now();
-    let left = cell.true_error(&flange, at);
-    console.note(&format_args!("True error at the end: {}", words(&left)));
-    Ok(end)
-}
-
-fn flow(interrupt: &Interrupt, console: &Console) -> ControlFlow<()> {
+fn order(interrupt: &Interrupt, console: &Console) -> ServoOrder {
     if interrupt.came() || !console.is_writable() {
-        ControlFlow::Break(())
+        ServoOrder::Stop
     } else {
-        ControlFlow::Continue(())
+        ServoOrder::GoOn
     }
-}
-
-/// What every commanded pose is kept clear of.
-fn fence(args: &ServoArgs, task: &Task, placed: Option<PlacedArm>, part: &[Point3<f32>]) -> Fence {
-    let mut fence = Fence::none();
-    if let Some(placed) = &placed {
-        fence.obstacles = placed.obstacles.clone();
-    }
-    fence.obstacles.clearance = args.clearance / 1000.0;
-    if let Some(nozzle) = &args.nozzle {
-        fence.tools.push(Tool {
-            end: Point3::from(nozzle.pose.translation.vector),
-            radius: GUN_RADIUS,
-        });
-    }
-    if let robot::calibration::CameraPlace::OnFlange {
-        flange_from_camera, ..
-    } = &task.camera
-    {
-        fence.tools.push(Tool {
-            end: Point3::from(flange_from_camera.translation.vector),
-            radius: CAMERA_RADIUS,
-        });
-    }
-    fence.arm = placed;
-    if !task.is_part_held() {
-        fence.part = part.to_vec();
-    }
-    fence
 }
 
 fn words(error: &PoseDelta) -> String {
@@ -410,14 +249,24 @@ fn words(error: &PoseDelta) -> String {
     )
 }
 
-fn show_news(news: Option<ServoNews>, is_json: bool, console: &mut Console) {
+fn show_news(news: Option<ServoNews>, args: &ServoArgs, console: &mut Console) {
     match news {
         None => {}
+        Some(ServoNews::TargetFrame { name, reason }) => {
+            console.advise(&format_args!("{name}: {reason}"), &reason.advice());
+        }
+        Some(ServoNews::Begins { robot, .. }) if args.robot.is_some() => {
+            console.note(&format_args!("Waiting for the robot: {robot}"));
+        }
+        Some(ServoNews::Begins { .. }) => {}
+        Some(ServoNews::Camera(error)) => console.warn(&error, &*error),
         Some(ServoNews::Connected(peer)) => console.note(&format_args!("Robot: {peer}")),
         Some(ServoNews::Problem(problem)) => console.warn(&problem, &problem),
-        Some(ServoNews::Looked { look, error, held }) => {
+        Some(ServoNews::Looked {
+            look, error, held, ..
+        }) => {
             let why = look.seen.as_ref().err().or(held.as_ref());
-            if is_json {
+            if args.json {
                 console.line(&json!({
                     "schema": SCHEMA,
                     "frame_s": look.taken_at.as_secs_f64(),

@@ -20,6 +20,48 @@ fn a_simulated_robot_is_brought_to_its_target_and_the_lines_say_how() {
     assert!(error(end).expect("an error") < 0.001, "{end}");
     assert!(end["bounds_m"].as_f64().expect("bounds") < 0.008, "{end}");
     assert!(ran.err.contains("True error at the end"), "{}", ran.err);
+    // The history has the run with its curve, and no inspection.
+    let line = |args: &[&str]| -> Value {
+        let ran = place.accepted(args);
+        serde_json::from_str(ran.out.trim()).expect("a line of JSON")
+    };
+    let run = line(&["history", "run", "1", "--json"]);
+    assert_eq!(
+        (&run["arrived"], &run["simulated"]),
+        (&true.into(), &true.into())
+    );
+    assert_eq!(
+        (&run["part"], &run["robot"]),
+        (&"fender".into(), &"rsi".into())
+    );
+    assert_eq!(
+        (&run["error_m"], &run["bounds_m"]),
+        (&end["error_m"], &end["bounds_m"])
+    );
+    let curve = run["curve"].as_array().expect("a curve");
+    assert!(
+        curve.len() > 10 && curve.len() <= frames.len(),
+        "{}",
+        curve.len()
+    );
+    assert_eq!(line(&["history", "runs", "--json"])["number"], 1);
+    let listed = place.accepted(&["history", "list", "--json"]);
+    assert_eq!(listed.out, "");
+    let shown = place.accepted(&["history", "run", "1"]).out;
+    assert!(shown.contains("standard position"), "{shown}");
+    let table = place.accepted(&["history", "runs", "--csv", "runs.csv"]);
+    assert!(table.out.contains("Wrote 1 runs"), "{}", table.out);
+    let unknown = place.coded(2, &["history", "run", "7"]).err;
+    assert!(unknown.contains("partsight history runs"), "{unknown}");
+    place.accepted(&[
+        "servo",
+        "fender",
+        "--simulated",
+        "--no-history",
+        "--seed",
+        "2",
+    ]);
+    assert_eq!(line(&["history", "runs", "--json"])["number"], 1);
 }
 
 #[test]

@@ -6,11 +6,12 @@ use capture::fixtures::moment;
 use geometry::rigid::{from_euler_zyx, row_major};
 use image::RgbImage;
 use inspection::pipeline::{Recipe, RecipeLabel, Refusal, Rejection, Unrecognisable};
+use servo::{ServoState, StopReason};
 use stages::{fixtures::small_scene, segment::NoPart};
 
 use crate::history::{
-    History, HungId, InspectionDetail, NewEntry, Record, RobotMarks, SceneTitle, StoredVerdict,
-    Summary, Traceability,
+    History, HungId, InspectionDetail, NewEntry, Record, RobotMarks, SceneTitle, ServoRecord,
+    ServoRun, ServoSample, ServoTargetKind, StoredVerdict, Summary, Traceability,
 };
 
 /// A history entry for an inspection at that time.
@@ -71,6 +72,53 @@ pub fn history_entry(seconds: i64, verdict: StoredVerdict, part: &str) -> NewEnt
         scene: Some(small_scene(seconds as u16)),
         shots: Vec::new(),
         stands_for_part: false,
+    }
+}
+
+/// A run of servoing at that time: one that reached its target, or stopped for this reason.
+pub fn servo_record(seconds: i64, part: &str, stopped: Option<StopReason>) -> ServoRecord {
+    let sample = |at: u8, error: Option<f64>, state, held: Option<&StopReason>| ServoSample {
+        at_s: 0.1 * f64::from(at),
+        error_m: error,
+        error_rad: error.map(|error| 1.5 * error),
+        state,
+        held: held.map(|reason| reason.kind().to_owned()),
+    };
+    let mut curve: Vec<ServoSample> = (0..3)
+        .map(|at| sample(at, None, ServoState::Looking, None))
+        .collect();
+    let falling = |at: u8| 0.26 * (-0.12 * f64::from(at)).exp();
+    curve.extend((3..45).map(|at| sample(at, Some(falling(at)), ServoState::Moving, None)));
+    let end = match &stopped {
+        None => ServoState::Checking,
+        Some(_) => ServoState::Holding,
+    };
+    curve.extend((45..52).map(|at| sample(at, Some(0.0009), end, stopped.as_ref())));
+    let bounds = stopped.is_none().then_some([0.0021, 0.0031]);
+    ServoRecord {
+        run: ServoRun {
+            number: 0,
+            at: moment(seconds),
+            part: part.into(),
+            title: part.replace('_', " "),
+            target: ServoTargetKind::StandardPosition,
+            robot: "egm".into(),
+            source: "simulated".into(),
+            is_simulated: true,
+            stopped,
+            error_m: Some(0.0009),
+            error_rad: Some(0.00135),
+            bounds_m: bounds.map(|[shift, _]| shift),
+            bounds_rad: bounds.map(|[_, turn]| turn),
+            is_approximate: false,
+            took_s: 5.2,
+            num_looks: 52,
+            speed_m_s: 0.2,
+            tolerance_m: 0.008,
+            tolerance_rad: 0.0175,
+            program: "0.1.0".into(),
+        },
+        curve,
     }
 }
 

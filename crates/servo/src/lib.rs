@@ -61,7 +61,7 @@ pub use self::{
     look::{Look, SeenPart},
     one_pose::{OnePose, OnePoseAnswer},
     params::{Limits, ServoError, ServoParams},
-    servo::{Servo, Step},
+    servo::{Servo, ServoState, Standing, Step},
     stop::StopReason,
     task::{Goal, Target, Task, TaskError},
     twist::Twist,

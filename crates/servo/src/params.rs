@@ -131,6 +131,16 @@ impl Advice for ServoError {
 }
 
 impl ServoParams {
+    /// The default parameters with another speed, m/s, and tolerance.
+    pub fn limited(speed: f64, tolerance: Metres) -> Result<Self, ServoError> {
+        let mut params = Self::default();
+        params.limits.speed = speed;
+        // A robot that goes faster must brake as soon.
+        params.limits.acceleration = params.limits.acceleration.max(5.0 * speed);
+        params.tolerance.shift = tolerance;
+        params.checked()
+    }
+
     /// Returns the parameters if all are within their ranges.
     pub fn checked(self) -> Result<Self, ServoError> {
         let limits = &self.limits;

@@ -17,6 +17,7 @@
 use std::time::Duration;
 
 use nalgebra::Point3;
+use serde::{Deserialize, Serialize};
 
 use crate::{
     Arrival, Fence, Goal, Look, SeenPart, ServoError, ServoParams, StopReason, Task, Twist,
@@ -42,6 +43,35 @@ pub enum Step {
     Done(Box<Arrival>),
 }
 
+/// What a run is doing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ServoState {
+    /// It waits until enough looks agree.
+    Looking,
+    /// The robot moves towards the target.
+    Moving,
+    /// The next step waits until it is allowed.
+    Waiting,
+    /// The robot is held, see [`Servo::held`].
+    Holding,
+    /// Looks at rest show whether the target is reached.
+    Checking,
+}
+
+/// Where a run stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Standing {
+    /// The flange, where it was sent last.
+    pub robot_from_flange: RigidTransform,
+    /// The flange at the target; `None` until enough looks agree.
+    pub robot_from_goal: Option<RigidTransform>,
+    /// The part in what it is fixed to, see [`Task::part_in_place`]; `None` before it is seen.
+    pub part_in_place: Option<RigidTransform>,
+    /// What it is doing.
+    pub state: ServoState,
+}
+
 /// A run of servoing.
 #[derive(Clone, Debug)]
 pub struct Servo {
@@ -55,8 +85,28 @@ pub struct Servo {
     part: PartTrack,
     hold: Option<Hold>,
     phase: Phase,
+    steps: Option<Steps>,
     num_rounds: usize,
     end: Option<Step>,
+}
+
+/// Motion in steps, each of which waits until it is allowed.
+#[derive(Clone, Copy, Debug)]
+struct Steps {
+    longest: PoseDelta,
+    /// Where the step that is allowed began; none while it waits.
+    from: Option<RigidTransform>,
+}
+
+impl Steps {
+    /// Ends the step that is allowed, if the robot would come to rest here and that is far enough.
+    fn end_at(&mut self, braked: &RigidTransform) {
+        let longest = &self.longest;
+        self.from = self.from.filter(|from| {
+            let length = pose_error(from, braked, &Point3::origin());
+            is_within(&length, longest)
+        });
+    }
 }
 
 /// What begins with the first state of the arm.
@@ -112,8 +162,48 @@ impl Servo {
             part: PartTrack::default(),
             hold: None,
             phase: Phase::Approaching,
+            steps: None,
             num_rounds: 0,
             end: None,
+        })
+    }
+
+    /// Moves in steps from now on, each at most this long, and only after [`Self::allow_step`]. The time in which a step waits
+    /// does not count.
+    pub fn move_in_steps(&mut self, longest: PoseDelta) {
+        self.steps = Some(Steps {
+            longest,
+            from: None,
+        });
+    }
+
+    /// Allows the step that waits.
+    pub fn allow_step(&mut self) {
+        if let (Some(steps), Some(run)) = (&mut self.steps, &self.run) {
+            steps.from.get_or_insert(run.mover.robot_from_flange);
+        }
+    }
+
+    fn is_waiting(&self) -> bool {
+        self.steps.is_some_and(|steps| steps.from.is_none())
+    }
+
+    /// Where the run stands; `None` before the first state of the arm.
+    pub fn standing(&self) -> Option<Standing> {
+        let run = self.run.as_ref()?;
+        let goal = self.part.goal.as_ref();
+        let state = match (&self.hold, &self.phase, goal) {
+            (Some(_), ..) => ServoState::Holding,
+            (None, Phase::Looking(_), _) => ServoState::Checking,
+            (None, Phase::Approaching, None) => ServoState::Looking,
+            (None, Phase::Approaching, Some(_)) if self.is_waiting() => ServoState::Waiting,
+            (None, Phase::Approaching, Some(_)) => ServoState::Moving,
+        };
+        Some(Standing {
+            robot_from_flange: run.mover.robot_from_flange,
+            robot_from_goal: goal.map(|goal| goal.robot_from_flange),
+            part_in_place: self.part.in_place,
+            state,
         })
     }
 
@@ -153,6 +243,9 @@ impl Servo {
             }
         });
         let dt = self.time_step(&run, now);
+        if self.is_waiting() {
+            run.started_at = now.min(run.started_at + Duration::from_secs_f64(dt));
+        }
         self.reported.push(arm);
         self.refuse_astray(&run, arm);
         if let Some(look) = look
@@ -353,6 +446,9 @@ impl Servo {
             return;
         }
         let limits = self.params.limits;
+        if let Some(steps) = &mut self.steps {
+            steps.end_at(&mover.braked(&limits));
+        }
         let may_move = self.hold.is_none() && matches!(self.phase, Phase::Approaching);
         let goal = self.part.goal.filter(|_| may_move);
         let mut wanted = Twist::ZERO;
@@ -360,7 +456,7 @@ impl Servo {
             let error = Task::error_at(&mover.robot_from_flange, &goal);
             if is_within(&error.size(), &half(&self.params.deadband)) {
                 self.phase = Phase::Looking(RestLooks::default());
-            } else {
+            } else if !self.is_waiting() {
                 let control = &goal.flange_from_control;
                 wanted = mover.towards(&error, control, self.params.gain, &limits);
             }

@@ -1,13 +1,15 @@
 //! Why servoing holds or stops.
 
-use serde::Serialize;
+use std::borrow::Cow;
+
+use serde::{Deserialize, Serialize};
 
 use inspection::pipeline::Refusal;
 use robot::arm::{Obstacle, PointProblem};
 use texts::{Described, Message};
 
 /// Why the robot stops. `Display` gives the reason, `Advice` what to do next.
-#[derive(Clone, Debug, PartialEq, thiserror::Error, Serialize)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum StopReason {
     /// The inspection accepted no part.
@@ -81,9 +83,9 @@ pub enum StopReason {
     /// Tool or arm would come too near to something.
     TooNear {
         /// What of the robot: `tool`, `gun`, `wrist`, `forearm` or `upper_arm`.
-        body: &'static str,
+        body: Cow<'static, str>,
         /// To what: `part`, `other_part`, `floor`, `box`, `upper_arm`, `forearm` or `base_column`.
-        obstacle: &'static str,
+        obstacle: Cow<'static, str>,
         /// Name of a box; empty for others.
         name: String,
     },
@@ -167,8 +169,8 @@ impl StopReason {
             Obstacle::BaseColumn => ("base_column", String::new()),
         };
         Self::TooNear {
-            body,
-            obstacle,
+            body: body.into(),
+            obstacle: obstacle.into(),
             name,
         }
     }
@@ -279,6 +281,16 @@ mod tests {
                 assert!(!message.text(language).starts_with("servo-"));
                 assert!(!message.advice(language).is_empty(), "{reason:?}");
             }
+        }
+    }
+
+    #[test]
+    fn a_reason_that_was_stored_is_read_as_it_was() {
+        for reason in examples() {
+            let stored = serde_json::to_string(&reason).expect("numbers and text");
+            assert!(stored.contains(reason.kind()), "{stored}");
+            let read: StopReason = serde_json::from_str(&stored).expect(&stored);
+            assert_eq!(read, reason);
         }
     }
 

@@ -2,7 +2,7 @@
 
 use std::{io, path::PathBuf, sync::Arc};
 
-use records::history::{HistoryBuffer, HistoryEvent, NewEntry, Writer};
+use records::history::{HistoryBuffer, HistoryEvent, NewEntry, ServoRecord, Writer};
 
 /// Records inspections.
 pub struct Recorder {
@@ -20,6 +20,8 @@ pub struct Losses {
     pub num_slow: usize,
     /// Written without frames, because the disk is too slow.
     pub num_bare: usize,
+    /// True if a run of servoing was not written, because the history could not be written.
+    pub lacks_servo_run: bool,
 }
 
 impl Recorder {
@@ -37,6 +39,11 @@ impl Recorder {
     pub fn add(&mut self, entry: NewEntry) {
         self.num += 1;
         self.writer.add(self.num, entry);
+    }
+
+    /// Adds a run of servoing. Never waits.
+    pub fn add_servo_run(&self, record: ServoRecord) {
+        self.writer.add_servo_run(record);
     }
 
     /// Takes what happened to the history since the last call.
@@ -63,6 +70,7 @@ impl Losses {
             num_unwritten: history.num_waiting() + history.num_lost(),
             num_slow,
             num_bare,
+            lacks_servo_run: history.num_servo_runs_waiting() > 0,
         }
     }
 }

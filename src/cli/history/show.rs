@@ -21,7 +21,7 @@ use records::history::{
 use texts::Language;
 
 /// Version of the JSON lines.
-const SCHEMA: u32 = 1;
+pub(super) const SCHEMA: u32 = 1;
 
 /// A row as `--json` writes it.
 #[derive(Debug, Serialize)]

@@ -22,6 +22,7 @@ use super::{
     hung::HungId,
     open::{FILE, OpenedHistory},
     retention::{PruneResult, Retention, Usage},
+    servo_run::ServoRecord,
     store::History,
     traceability::TraceChange,
     waiting::wait,
@@ -31,6 +32,8 @@ use inspection::library::Truth;
 
 /// Delay before a failed write is retried.
 const PAUSE: Duration = Duration::from_secs(20);
+/// Most runs of servoing that wait in memory; beyond it the oldest are dropped.
+const MAX_SERVO_RUNS: usize = 100;
 /// Number of inspections between two sweeps of frames; opening sweeps too.
 const SWEEP_EVERY: u32 = 25;
 
@@ -54,6 +57,10 @@ struct Inner {
     waiting: VecDeque<NewEntry>,
     /// Changes of traceability that arrived after the rows of their part were written, oldest first.
     untraced: VecDeque<(HungId, TraceChange)>,
+    /// Runs of servoing that are not written yet, oldest first.
+    servo_runs: VecDeque<ServoRecord>,
+    /// Number of runs of servoing that have waited: a waiting one is listed with its negative.
+    num_servo_runs: i64,
     /// Highest number of a row, written or waiting; a waiting one is listed with its negative.
     last: i64,
     num_lost: usize,
@@ -155,6 +162,25 @@ impl HistoryBuffer {
             number = written.map_or(number, |(_, written)| written);
         }
         self.tell(HistoryEvent::Added { ticket, number });
+    }
+
+    /// Adds a run of servoing, to the file or to the waiting ones.
+    pub fn add_servo_run(&self, mut record: ServoRecord, now: Instant) {
+        let mut inner = self.lock();
+        inner.num_servo_runs += 1;
+        record.run.number = -inner.num_servo_runs;
+        inner.servo_runs.push_back(record);
+        let num_lost = inner.servo_runs.len().saturating_sub(MAX_SERVO_RUNS);
+        inner.servo_runs.drain(..num_lost);
+        if self.place.is_some() && inner.next_try.is_none_or(|at| at <= now) {
+            self.write_waiting(&mut inner, now);
+        }
+        self.tell(HistoryEvent::FilesChanged);
+    }
+
+    /// Returns the number of runs of servoing that are not written yet.
+    pub fn num_servo_runs_waiting(&self) -> usize {
+        self.lock().servo_runs.len()
     }
 
     /// Changes the traceability of all inspections of a part after its verdict, written or waiting.
@@ -357,8 +383,8 @@ impl HistoryBuffer {
         }
     }
 
-    /// Writes all waiting inspections, the oldest first, then the late traceability of written ones. Returns the number of
-    /// each inspection before and after.
+    /// Writes all waiting inspections, the oldest first, then the late traceability of written ones and the runs of servoing.
+    /// Returns the number of each inspection before and after.
     fn write_waiting(&self, inner: &mut Inner, now: Instant) -> Vec<(i64, i64)> {
         let has_failed = inner.next_try.is_some();
         let mut numbers = Vec::new();
@@ -394,6 +420,15 @@ impl HistoryBuffer {
                 self.failed(inner, &error, now);
                 return numbers;
             }
+        }
+        while let Some(history) = inner.history.as_mut()
+            && let Some(record) = inner.servo_runs.front()
+        {
+            if let Err(error) = history.add_servo_run(record) {
+                self.failed(inner, &error, now);
+                return numbers;
+            }
+            inner.servo_runs.pop_front();
         }
         if has_failed && inner.waiting.is_empty() {
             inner.next_try = None;

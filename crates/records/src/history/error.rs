@@ -102,6 +102,12 @@ pub enum HistoryError {
         /// The number asked for.
         number: i64,
     },
+    /// There is no run of servoing with this number.
+    #[error("there is no servo run {number} in the history")]
+    NoSuchServoRun {
+        /// The number asked for.
+        number: i64,
+    },
     /// There is no inspection of this part.
     #[error("{}: the history has no inspection of this part, so its true label is not set there", path.display())]
     NoSuchPart {
@@ -189,6 +195,9 @@ impl Advice for HistoryError {
             Self::Table(error) => error.advice(),
             Self::NoSuchInspection { .. } => {
                 "Use one of the numbers that `partsight history list` shows".into()
+            }
+            Self::NoSuchServoRun { .. } => {
+                "Use one of the numbers that `partsight history runs` shows".into()
             }
             Self::NoSuchPart { .. } => {
                 "If the history was moved or replaced, put the former file back and set the true label in History".into()

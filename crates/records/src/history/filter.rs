@@ -66,6 +66,26 @@ impl Filter {
 
     /// Returns the SQL condition, `1` if there is none, and its values.
     pub fn condition(&self) -> (String, Vec<Value>) {
+        let (mut parts, mut values) = self.common_conditions();
+        if let Some(verdict) = self.verdict {
+            let (condition, verdict) = match verdict {
+                VerdictFilter::Only(verdict) => ("verdict = ?", verdict),
+                VerdictFilter::NotAccepted => ("verdict <> ?", StoredVerdict::Accepted),
+            };
+            parts.push(condition.to_owned());
+            values.push(verdict.name().to_owned().into());
+        }
+        if !self.with_below {
+            parts.push("parent IS NULL".into());
+        }
+        if parts.is_empty() {
+            parts.push("1".into());
+        }
+        (parts.join(" AND "), values)
+    }
+
+    /// Returns the SQL conditions on columns that inspections and runs of servoing have in common, and their values.
+    pub(super) fn common_conditions(&self) -> (Vec<String>, Vec<Value>) {
         let mut parts: Vec<String> = Vec::new();
         let mut values = Vec::new();
         let mut add = |part: &str, value: Value| {
@@ -77,13 +97,6 @@ impl Filter {
         }
         if let Some(until) = self.until {
             add("at < ?", until.as_microsecond().into());
-        }
-        if let Some(verdict) = self.verdict {
-            let (condition, verdict) = match verdict {
-                VerdictFilter::Only(verdict) => ("verdict = ?", verdict),
-                VerdictFilter::NotAccepted => ("verdict <> ?", StoredVerdict::Accepted),
-            };
-            add(condition, verdict.name().to_owned().into());
         }
         if let Some(part) = &self.part {
             add("part = ?", part.clone().into());
@@ -100,13 +113,15 @@ impl Filter {
             parts.push(format!("({any})"));
             values.extend(texts.into_iter().map(Value::from));
         }
-        if !self.with_below {
-            parts.push("parent IS NULL".into());
-        }
-        if parts.is_empty() {
-            parts.push("1".into());
-        }
-        (parts.join(" AND "), values)
+        (parts, values)
+    }
+
+    /// Returns whether each word of the filter is found in this text.
+    pub(super) fn has_words_of(&self, search: &str) -> bool {
+        self.words().all(|word| {
+            let mut texts = self.found_by(word).into_iter();
+            texts.any(|text| search.contains(&text))
+        })
     }
 
     /// Returns whether an inspection matches the filter.
@@ -125,9 +140,6 @@ impl Filter {
                 .source
                 .as_ref()
                 .is_none_or(|source| row.source == *source)
-            && self.words().all(|word| {
-                let mut texts = self.found_by(word).into_iter();
-                texts.any(|text| search.contains(&text))
-            })
+            && self.has_words_of(&search)
     }
 }

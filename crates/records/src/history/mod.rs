@@ -1,7 +1,8 @@
 //! The history: a database of past inspections, and their kept frames.
 //!
 //! ```text
-//! history.sqlite        every inspection: verdict, pose, times, recipe, library, a small picture, remark, true label
+//! history.sqlite        every inspection: verdict, pose, times, recipe, library, a small picture, remark, true label;
+//!                       every run of servoing: target, end, curve
 //! history-frames/       frames that the retention rule keeps: depth PNGs as in recordings, other clouds as PCD
 //! history.lock          held by every program that has the history open
 //! ```
@@ -32,6 +33,7 @@ mod rows;
 mod scene_title;
 mod schema;
 mod sending;
+mod servo_run;
 mod shots;
 mod store;
 mod table;
@@ -62,6 +64,7 @@ pub use self::{
     outcomes::PartOutcome,
     retention::{ACCEPTED_KEPT, KeepFrames, PruneResult, Retention, Usage},
     scene_title::SceneTitle,
+    servo_run::{ServoRecord, ServoRun, ServoSample, ServoTargetKind, write_servo_table},
     shots::{ShotRecord, read_shots},
     store::{History, Page},
     table::write_table,

@@ -3,7 +3,7 @@
 use rusqlite::{Connection, TransactionBehavior};
 
 /// The version that this program writes and reads. Files of development builds have lower ones and are set aside.
-pub(super) const VERSION: u32 = 7;
+pub(super) const VERSION: u32 = 8;
 
 /// Application id that distinguishes our files from those of other programs: `PsHi`.
 pub(super) const APPLICATION: i32 = i32::from_be_bytes(*b"PsHi");
@@ -60,6 +60,33 @@ const TABLES: &str = "
         thumbnail BLOB,                             -- PNG
         origin TEXT,                                -- how the window can have the scene again
         frame TEXT                                  -- FrameRecord as JSON
+    );
+    CREATE TABLE servo_run (
+        number INTEGER PRIMARY KEY AUTOINCREMENT,   -- never used again
+        at INTEGER NOT NULL,                        -- microseconds since 1970, UTC
+        part TEXT NOT NULL,
+        title TEXT NOT NULL,                        -- of the part, then
+        target TEXT NOT NULL,                       -- standard_position, camera_pose, path_start
+        robot TEXT NOT NULL,                        -- protocol and address
+        source TEXT NOT NULL,
+        simulated INTEGER NOT NULL,
+        stopped TEXT,                               -- StopReason as JSON; none: the target was reached
+        error_m REAL,
+        error_rad REAL,
+        bounds_m REAL,
+        bounds_rad REAL,
+        approximate INTEGER NOT NULL,
+        took_s REAL NOT NULL,
+        num_looks INTEGER NOT NULL,
+        speed_m_s REAL NOT NULL,
+        tolerance_m REAL NOT NULL,
+        tolerance_rad REAL NOT NULL,
+        program TEXT NOT NULL,                      -- version of the program
+        search TEXT NOT NULL                        -- in lower case, what a filter's words are looked for in
+    );
+    CREATE TABLE servo_curve (
+        number INTEGER PRIMARY KEY REFERENCES servo_run (number) ON DELETE CASCADE,
+        json TEXT NOT NULL                          -- list of ServoSample
     );
     -- Holds every column that a filter asks for, in the order of the list: no filter reads the rows themselves.
     CREATE INDEX listed ON inspection (parent, at, number, verdict, part, simulated, search);

@@ -37,14 +37,24 @@ pub struct History {
 }
 
 /// Some rows of a list, with totals.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Page {
+#[derive(Clone, Debug, PartialEq)]
+pub struct Page<R = Summary> {
     /// The rows, newest first.
-    pub rows: Vec<Summary>,
+    pub rows: Vec<R>,
     /// Number of matching rows; they are parts, unless the filter includes re-inspections.
     pub num_matching: usize,
     /// Number of all parts.
     pub num_all: usize,
+}
+
+impl<R> Default for Page<R> {
+    fn default() -> Self {
+        Self {
+            rows: Vec::new(),
+            num_matching: 0,
+            num_all: 0,
+        }
+    }
 }
 
 impl History {

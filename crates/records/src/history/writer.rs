@@ -16,6 +16,7 @@ use super::{
     entry::{NewEntry, StoredVerdict},
     hung::HungId,
     retention::Retention,
+    servo_run::ServoRecord,
     traceability::TraceChange,
 };
 use inspection::library::Truth;
@@ -108,6 +109,11 @@ impl Writer {
             counts.scenes.fetch_sub(num_scenes, Ordering::Relaxed);
             keeper.add(ticket, entry, Instant::now());
         });
+    }
+
+    /// Queues a run of servoing. Never waits.
+    pub fn add_servo_run(&self, record: ServoRecord) {
+        self.post(move |keeper| keeper.add_servo_run(record, Instant::now()));
     }
 
     /// Queues a change of a part's traceability after its verdict.

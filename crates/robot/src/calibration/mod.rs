@@ -22,7 +22,7 @@ use files::crc32;
 use geometry::{
     error::Advice,
     rigid::{PoseDelta, RigidTransform, row_major},
-    units::Metres,
+    units::{Metres, Radians},
 };
 
 pub use self::{
@@ -265,6 +265,18 @@ impl CellCalibration {
         Ok(RobotFrame {
             robot_from_camera: self.robot_from_camera(given)?,
             name: self.shown_with_identity(),
+        })
+    }
+
+    /// How far off the camera's place is at most, 95 %, where the targets stood; none if it was entered by hand, or is not
+    /// bounded.
+    pub fn bounds(&self) -> Option<PoseDelta> {
+        let Origin::HandEye(fit) = &self.origin else {
+            return None;
+        };
+        Some(PoseDelta {
+            shift: Metres::from_mm(fit.bound_mm?),
+            rotation: Radians::from_degrees(fit.bound_degrees?),
         })
     }
 

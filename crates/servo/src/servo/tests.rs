@@ -427,12 +427,54 @@ fn it_keeps_its_distance_from_the_part() {
         let mut rig = Rig::new(world, start, fence);
         let end = rig.run(millis(20_000), Some);
         match end {
-            Some(Step::Stop(StopReason::TooNear {
-                obstacle: "part", ..
-            })) => assert!(is_near),
+            Some(Step::Stop(StopReason::TooNear { obstacle, .. })) if obstacle == "part" => {
+                assert!(is_near);
+            }
             Some(Step::Done(_)) => assert!(!is_near),
             other => panic!("{other:?}"),
         }
+    }
+}
+
+#[test]
+fn in_steps_it_moves_only_as_far_as_each_is_allowed_and_the_time_between_does_not_count() {
+    let longest = PoseDelta {
+        shift: Metres(0.05),
+        rotation: Radians(0.09),
+    };
+    // It brakes once it is too long.
+    let about = PoseDelta {
+        shift: Metres(1.1 * longest.shift.0),
+        rotation: Radians(1.1 * longest.rotation.0),
+    };
+    for (world, start) in worlds(0.0, 0.0, 3) {
+        let mut rig = Rig::new(world, start, Fence::none());
+        rig.servo.move_in_steps(longest);
+        let state = |rig: &Rig| rig.servo.standing().expect("begun").state;
+        let mut num_steps = 0;
+        let end = loop {
+            let before = rig.flange;
+            // Far longer than all of it may take.
+            assert_eq!(rig.run(millis(40_000), Some), None);
+            let moved = pose_error(&before, &rig.flange, &Point3::origin());
+            assert!(moved.shift.0 == 0.0 && state(&rig) == ServoState::Waiting);
+            rig.servo.allow_step();
+            num_steps += 1;
+            let end = rig.run(millis(8_000), Some);
+            let moved = pose_error(&before, &rig.flange, &Point3::origin());
+            assert!(
+                moved.shift.0 > 0.0 && is_within(&moved, &about),
+                "{moved:?}"
+            );
+            if let Some(end) = end {
+                break end;
+            }
+        };
+        let Step::Done(arrival) = end else {
+            panic!("{end:?}");
+        };
+        assert!(num_steps > 1, "{num_steps}");
+        assert!(arrival.took < millis(8_000) * num_steps, "{arrival:?}");
     }
 }
 

@@ -1,6 +1,7 @@
 //! The controller's side of the protocols, at a simulated arm.
 
 use prost::Message as _;
+use serde::{Deserialize, Serialize};
 
 use super::SimulatedArm;
 use crate::stream::{
@@ -16,7 +17,8 @@ use robot::{
 };
 
 /// A protocol of a controller.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum StreamProtocol {
     /// ABB's EGM.
     Egm,
@@ -29,6 +31,22 @@ pub enum StreamProtocol {
 impl StreamProtocol {
     /// Every protocol.
     pub const ALL: [Self; 3] = [Self::Egm, Self::Rsi, Self::Rtde];
+
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Egm => "egm",
+            Self::Rsi => "rsi",
+            Self::Rtde => "ur",
+        }
+    }
+
+    /// The protocol of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL
+            .into_iter()
+            .find(|protocol| protocol.name() == name)
+    }
 
     /// The computer's side of it, for this arm.
     pub fn stream(self, arm: &PlacedArm) -> Box<dyn Stream + Send> {

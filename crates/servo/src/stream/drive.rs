@@ -53,6 +53,11 @@ impl Drive {
         self.look = Some(look);
     }
 
+    /// Allows the step that waits, see [`Servo::move_in_steps`].
+    pub fn allow_step(&mut self) {
+        self.servo.allow_step();
+    }
+
     /// Brakes, and then stops for good.
     pub fn stop(&mut self, reason: StopReason) {
         self.servo.stop(reason);

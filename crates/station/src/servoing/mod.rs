@@ -8,17 +8,21 @@
 //! Reports and frames are dated when they arrive, by one clock.
 
 mod robot_link;
+mod run;
+mod setup;
 mod simulated_robot;
 
 pub use self::{
     robot_link::{LinkError, RobotAddress, RobotLink},
+    run::{RealRobot, ServoJob, ServoOutcome, ServoRunError, servo_real, servo_simulated},
+    setup::{PreparedTask, ServoSetup, ServoTarget, SetupError, check_source, reference_of},
     simulated_robot::SimulatedRobot,
 };
 
 use std::{
     net::SocketAddr,
-    ops::ControlFlow,
     sync::{
+        Arc,
         atomic::{AtomicBool, Ordering},
         mpsc,
     },
@@ -26,15 +30,32 @@ use std::{
     time::{Duration, Instant},
 };
 
+use capture::CaptureError;
 use geometry::rigid::PoseDelta;
 use servo::{
-    Look, Step, StopReason,
+    Look, Standing, Step, StopReason, Task,
     stream::{Drive, StreamError},
 };
 
 /// What happens on the way.
 #[derive(Clone, Debug)]
 pub enum ServoNews {
+    /// A frame of the target shows no pose to move by.
+    TargetFrame {
+        /// Its name.
+        name: String,
+        /// Why not.
+        reason: StopReason,
+    },
+    /// This is what is moved where; the robot is waited for.
+    Begins {
+        /// What is moved where.
+        task: Arc<Task>,
+        /// Where this computer listens, or the robot does.
+        robot: RobotAddress,
+    },
+    /// The camera is lost, or cannot be used.
+    Camera(Arc<CaptureError>),
     /// The robot reports for the first time, from this address.
     Connected(SocketAddr),
     /// A frame was inspected.
@@ -45,9 +66,38 @@ pub enum ServoNews {
         error: Option<PoseDelta>,
         /// Why the robot is held, if it is.
         held: Option<StopReason>,
+        /// Where the run stands; `None` before the robot follows.
+        standing: Option<Standing>,
+        /// Time from the frame to its look.
+        delay: Duration,
+        /// When the frame was taken, from the robot's first report on; `None` before it.
+        at: Option<Duration>,
     },
     /// Bytes came that are no report.
     Problem(StreamError),
+}
+
+/// What a person or a program wants.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ServoOrder {
+    /// Go on.
+    GoOn,
+    /// Make the step that waits.
+    Step,
+    /// Brake, and stop for good.
+    Stop,
+}
+
+impl ServoOrder {
+    /// Passes it on; returns true if the robot stops.
+    fn give(self, drive: &mut Drive) -> bool {
+        match self {
+            Self::GoOn => {}
+            Self::Step => drive.allow_step(),
+            Self::Stop => drive.stop(StopReason::ByPerson),
+        }
+        self == Self::Stop
+    }
 }
 
 /// Without a report for this long, a robot that has begun to move is taken for stopped.
@@ -60,13 +110,13 @@ const AFTERWARDS: Duration = Duration::from_secs(10);
 const TURN: Duration = Duration::from_millis(20);
 
 /// Drives a robot until it arrives or stops. `now` is the time by which looks are dated. `next_look` takes a frame and inspects it, on a thread of its own; it returns `None` at
-/// the latest soon after the flag is set. `on_news` may end the run.
+/// the latest soon after the flag is set. `on_news` is asked every few milliseconds.
 pub fn servo(
     link: &mut RobotLink,
     drive: &mut Drive,
     now: &impl Fn() -> Duration,
     mut next_look: impl FnMut(&AtomicBool) -> Option<Look> + Send,
-    mut on_news: impl FnMut(Option<ServoNews>) -> ControlFlow<()>,
+    mut on_news: impl FnMut(Option<ServoNews>) -> ServoOrder,
 ) -> Result<Step, LinkError> {
     let is_over = AtomicBool::new(false);
     let (send, looks) = mpsc::channel();
@@ -91,29 +141,28 @@ fn exchange(
     drive: &mut Drive,
     now: &impl Fn() -> Duration,
     looks: &mpsc::Receiver<Look>,
-    on_news: &mut impl FnMut(Option<ServoNews>) -> ControlFlow<()>,
+    on_news: &mut impl FnMut(Option<ServoNews>) -> ServoOrder,
 ) -> Result<Step, LinkError> {
     link.send(&drive.opening())?;
     let mut last_report: Option<Instant> = None;
+    let mut began: Option<Duration> = None;
     let mut done: Option<(Instant, Step)> = None;
     loop {
-        let mut flow = on_news(None);
+        let mut stops = on_news(None).give(drive);
         for look in looks.try_iter() {
             let news = ServoNews::Looked {
                 look: look.clone(),
                 error: drive.servo().error().map(|error| error.size()),
                 held: drive.servo().held().cloned(),
+                standing: drive.servo().standing(),
+                delay: now().saturating_sub(look.taken_at),
+                at: began.map(|began| look.taken_at.saturating_sub(began)),
             };
             drive.look(look);
-            if on_news(Some(news)).is_break() {
-                flow = ControlFlow::Break(());
-            }
+            stops |= on_news(Some(news)).give(drive);
         }
-        if flow.is_break() {
-            drive.stop(StopReason::ByPerson);
-            if last_report.is_none() {
-                return Ok(Step::Stop(StopReason::ByPerson));
-            }
+        if stops && last_report.is_none() {
+            return Ok(Step::Stop(StopReason::ByPerson));
         }
         if let Some((since, end)) = &done
             && since.elapsed() > AFTERWARDS
@@ -143,18 +192,15 @@ fn exchange(
         }
         if let Some(problem) = driven.problem {
             link.refused(&problem)?;
-            if on_news(Some(ServoNews::Problem(problem))).is_break() {
-                drive.stop(StopReason::ByPerson);
-            }
+            on_news(Some(ServoNews::Problem(problem))).give(drive);
             continue;
         }
         let Some(step) = driven.step else {
             continue;
         };
-        if last_report.replace(Instant::now()).is_none()
-            && on_news(Some(ServoNews::Connected(link.reported()))).is_break()
-        {
-            drive.stop(StopReason::ByPerson);
+        if last_report.replace(Instant::now()).is_none() {
+            began = Some(now());
+            on_news(Some(ServoNews::Connected(link.reported()))).give(drive);
         }
         match step {
             Step::Command(_) => {}

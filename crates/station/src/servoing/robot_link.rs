@@ -12,7 +12,10 @@ use files::words_of;
 use geometry::error::Advice;
 use robot::arm::PlacedArm;
 use serve::parse_address;
-use servo::stream::{Egm, Rsi, Rtde, Stream, StreamError};
+use servo::{
+    simulated::StreamProtocol,
+    stream::{Egm, Rsi, Rtde, Stream, StreamError},
+};
 
 /// How a controller is reached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,12 +38,21 @@ const MAX_PACKET: usize = 65_536;
 const CONNECT_TIMEOUT: Duration = Duration::from_secs(5);
 
 impl RobotAddress {
-    /// The name of its protocol on the command line.
-    pub fn name(&self) -> &'static str {
+    /// An address of a controller of this protocol.
+    pub fn of(protocol: StreamProtocol, at: SocketAddr) -> Self {
+        match protocol {
+            StreamProtocol::Egm => Self::Egm(at),
+            StreamProtocol::Rsi => Self::Rsi(at),
+            StreamProtocol::Rtde => Self::UniversalRobots(at),
+        }
+    }
+
+    /// Its protocol.
+    pub fn protocol(&self) -> StreamProtocol {
         match self {
-            Self::Egm(_) => "egm",
-            Self::Rsi(_) => "rsi",
-            Self::UniversalRobots(_) => "ur",
+            Self::Egm(_) => StreamProtocol::Egm,
+            Self::Rsi(_) => StreamProtocol::Rsi,
+            Self::UniversalRobots(_) => StreamProtocol::Rtde,
         }
     }
 
@@ -54,11 +66,7 @@ impl RobotAddress {
     /// The same protocol at another address.
     #[must_use]
     pub fn at(self, at: SocketAddr) -> Self {
-        match self {
-            Self::Egm(_) => Self::Egm(at),
-            Self::Rsi(_) => Self::Rsi(at),
-            Self::UniversalRobots(_) => Self::UniversalRobots(at),
-        }
+        Self::of(self.protocol(), at)
     }
 
     /// What speaks its protocol. RSI needs the arm.
@@ -74,7 +82,7 @@ impl RobotAddress {
 
 impl fmt::Display for RobotAddress {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}={}", self.name(), self.address())
+        write!(f, "{}={}", self.protocol().name(), self.address())
     }
 }
 
@@ -84,17 +92,12 @@ impl FromStr for RobotAddress {
     fn from_str(text: &str) -> Result<Self, LinkError> {
         let wrong = || LinkError::Address { text: text.into() };
         let (protocol, at) = text.split_once('=').ok_or_else(wrong)?;
-        let robot: fn(SocketAddr) -> Self = match protocol {
-            "egm" => Self::Egm,
-            "rsi" => Self::Rsi,
-            "ur" => Self::UniversalRobots,
-            _ => return Err(wrong()),
-        };
+        let protocol = StreamProtocol::named(protocol).ok_or_else(wrong)?;
         let at = match at.parse::<IpAddr>() {
-            Ok(ip) if protocol == "ur" => Some(SocketAddr::new(ip, RTDE_PORT)),
+            Ok(ip) if protocol == StreamProtocol::Rtde => Some(SocketAddr::new(ip, RTDE_PORT)),
             _ => parse_address(at).ok(),
         };
-        Ok(robot(at.ok_or_else(wrong)?))
+        Ok(Self::of(protocol, at.ok_or_else(wrong)?))
     }
 }
 

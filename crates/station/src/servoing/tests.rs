@@ -2,7 +2,7 @@ use super::*;
 use geometry::units::{Metres, Radians};
 use inspection::{fixtures::shipped_library, library::Library};
 use servo::{
-    Servo, ServoParams,
+    Servo, ServoParams, ServoState,
     simulated::{
         ArmDynamics, CellSetup, Disturbance, HandEyeError, SimulatedCell, SimulatedTarget,
         StreamProtocol,
@@ -33,7 +33,7 @@ fn setup() -> CellSetup {
 fn run(
     library: &Library,
     protocol: StreamProtocol,
-    mut on_news: impl FnMut(usize) -> ControlFlow<()>,
+    mut on_news: impl FnMut(usize) -> ServoOrder,
 ) -> (Step, PoseDelta) {
     let cell = SimulatedCell::arrange(setup(), library).expect("a start");
     let (robot, mut link) =
@@ -68,7 +68,7 @@ fn a_simulated_robot_is_brought_to_its_target_over_the_network_in_each_protocol(
         for protocol in StreamProtocol::ALL {
             let library = &library;
             scope.spawn(move || {
-                let (end, error) = run(library, protocol, |_| ControlFlow::Continue(()));
+                let (end, error) = run(library, protocol, |_| ServoOrder::GoOn);
                 assert!(matches!(end, Step::Done(_)), "{protocol:?}: {end:?}");
                 assert!(
                     error.shift.mm() < 2.0 && error.rotation.degrees() < 0.2,
@@ -82,11 +82,116 @@ fn a_simulated_robot_is_brought_to_its_target_over_the_network_in_each_protocol(
 #[test]
 fn a_person_who_stops_it_stops_it() {
     let stop_at_third = |num| match num {
-        3.. => ControlFlow::Break(()),
-        _ => ControlFlow::Continue(()),
+        3.. => ServoOrder::Stop,
+        _ => ServoOrder::GoOn,
     };
     let (end, _) = run(&shipped_library(), StreamProtocol::Egm, stop_at_third);
     assert_eq!(end, Step::Stop(StopReason::ByPerson));
+}
+
+#[test]
+fn a_run_leaves_its_row_with_its_curve() {
+    let library = shipped_library();
+    let job = ServoJob {
+        part: "fender",
+        title: "Fender, left",
+        library: &library,
+        longest_step: None,
+    };
+    let mut news = Vec::new();
+    let outcome = servo_simulated(
+        &job,
+        &ServoParams::default(),
+        StreamProtocol::Egm,
+        1,
+        |said| {
+            news.extend(said);
+            ServoOrder::GoOn
+        },
+    );
+    let outcome = outcome.expect("a start");
+    assert!(matches!(news.first(), Some(ServoNews::Begins { .. })));
+    let Ok(Step::Done(arrival)) = outcome.end else {
+        panic!("{:?}", outcome.end);
+    };
+    let record = outcome.record.expect("a row");
+    let run = &record.run;
+    assert_eq!(
+        (run.title.as_str(), run.target.name()),
+        ("Fender, left", "standard_position")
+    );
+    assert!(run.stopped.is_none() && run.is_simulated, "{run:?}");
+    assert_eq!(run.error_m, Some(arrival.error.shift.0));
+    assert_eq!(run.bounds_rad, Some(arrival.bounds.rotation.0));
+    assert_eq!(
+        (run.took_s, run.num_looks),
+        (arrival.took.as_secs_f64(), record.curve.len())
+    );
+    let states: Vec<ServoState> = record.curve.iter().map(|sample| sample.state).collect();
+    assert_eq!(states[0], ServoState::Looking);
+    assert!(states.contains(&ServoState::Moving) && states.contains(&ServoState::Checking));
+    let errors: Vec<f64> = record
+        .curve
+        .iter()
+        .filter_map(|sample| sample.error_m)
+        .collect();
+    assert!(
+        errors[0] > 0.05 && errors[errors.len() - 1] < 0.003,
+        "{errors:?}"
+    );
+    assert!(record.curve.is_sorted_by_key(|sample| sample.at_s));
+}
+
+#[test]
+fn in_steps_the_robot_waits_for_each_order_and_a_stopped_run_has_its_row_too() {
+    let library = shipped_library();
+    let job = ServoJob {
+        part: "fender",
+        title: "Fender, left",
+        library: &library,
+        longest_step: Some(PoseDelta {
+            shift: Metres(0.05),
+            rotation: Radians::from_degrees(5.0),
+        }),
+    };
+    let (mut num_waiting, mut num_moving) = (0, 0);
+    let outcome = servo_simulated(
+        &job,
+        &ServoParams::default(),
+        StreamProtocol::Egm,
+        1,
+        |news| {
+            let Some(ServoNews::Looked {
+                standing: Some(standing),
+                ..
+            }) = news
+            else {
+                return ServoOrder::GoOn;
+            };
+            match standing.state {
+                ServoState::Moving => num_moving += 1,
+                ServoState::Waiting => num_waiting += 1,
+                _ => {}
+            }
+            match num_waiting {
+                5 => ServoOrder::Step,
+                10 => ServoOrder::Stop,
+                _ => ServoOrder::GoOn,
+            }
+        },
+    );
+    let outcome = outcome.expect("a start");
+    assert_eq!(
+        outcome.end.expect("connected"),
+        Step::Stop(StopReason::ByPerson)
+    );
+    assert!(
+        num_moving > 0 && num_waiting >= 10,
+        "{num_moving} {num_waiting}"
+    );
+    let record = outcome.record.expect("a row");
+    assert_eq!(record.run.stopped, Some(StopReason::ByPerson));
+    assert!(record.run.error_m.expect("known") > 0.01 && record.run.bounds_m.is_none());
 }
 
 #[test]

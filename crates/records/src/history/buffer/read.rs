@@ -8,6 +8,7 @@ use crate::history::{
     filter::Filter,
     hung::HungId,
     outcomes::PartOutcome,
+    servo_run::{ServoRecord, ServoRun},
     store::{History, Page},
     waiting::waiting_rows,
 };
@@ -36,6 +37,50 @@ impl HistoryBuffer {
             num_matching: num_above + below.num_matching,
             num_all: num_waiting + below.num_all,
         })
+    }
+
+    /// Returns runs of servoing, waiting ones above written ones.
+    pub fn servo_runs(
+        &self,
+        filter: &Filter,
+        offset: usize,
+        most: usize,
+    ) -> Result<Page<ServoRun>, HistoryError> {
+        let mut inner = self.lock();
+        self.look(&mut inner);
+        let waiting = inner.servo_runs.iter().rev().map(|record| &record.run);
+        let matching: Vec<&ServoRun> = waiting.filter(|run| filter.passes_servo(run)).collect();
+        let num_above = matching.len();
+        let above = matching.into_iter().skip(offset).take(most);
+        let mut rows: Vec<ServoRun> = above.cloned().collect();
+        let below = match &inner.history {
+            Some(history) => {
+                let offset = offset.saturating_sub(num_above);
+                history.servo_runs(filter, offset, most - rows.len())?
+            }
+            None => Page::default(),
+        };
+        rows.extend(below.rows);
+        Ok(Page {
+            rows,
+            num_matching: num_above + below.num_matching,
+            num_all: inner.servo_runs.len() + below.num_all,
+        })
+    }
+
+    /// Returns a run of servoing in full; it is an error if it does not exist.
+    pub fn servo_run(&self, number: i64) -> Result<ServoRecord, HistoryError> {
+        let mut inner = self.lock();
+        self.look(&mut inner);
+        let mut waiting = inner.servo_runs.iter();
+        match (
+            waiting.find(|record| record.run.number == number),
+            &inner.history,
+        ) {
+            (Some(record), _) => Ok(record.clone()),
+            (None, Some(history)) => history.servo_run(number),
+            (None, None) => Err(HistoryError::NoSuchServoRun { number }),
+        }
     }
 
     /// Returns an inspection in full.

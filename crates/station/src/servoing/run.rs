@@ -1,0 +1,408 @@
+//! A run of servoing for every front end: what is set up around [`servo`], and the row of the history that it leaves.
+
+use std::{
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
+    time::{Duration, Instant},
+};
+
+use jiff::Timestamp;
+
+use super::{
+    LinkError, PreparedTask, RobotAddress, RobotLink, ServoNews, ServoOrder, ServoSetup,
+    SetupError, SimulatedRobot, check_source, reference_of, servo,
+};
+use crate::CameraScenes;
+use ::servo::{
+    Fence, Look, Servo, ServoError, ServoParams, Step, StopReason, Target, Task,
+    simulated::{
+        ArmDynamics, CellSetup, Disturbance, HandEyeError, SimulatedCell, SimulatedCellError,
+        SimulatedTarget, StreamProtocol,
+    },
+    stream::{Drive, Stream},
+};
+use capture::{CaptureError, Feed, FeedItem, FeedState, SourceSpec};
+use geometry::{
+    error::Advice,
+    rigid::PoseDelta,
+    units::{Metres, Radians},
+};
+use inspection::{
+    library::{Library, SprayPath},
+    pipeline::{NamedRecipe, Unwatched, run as inspect},
+};
+use records::history::{ServoRecord, ServoRun, ServoSample, ServoTargetKind};
+use simulate::PartKind;
+use stages::scene::EmptyCell;
+
+/// What every run is told.
+pub struct ServoJob<'a> {
+    /// The part.
+    pub part: &'a str,
+    /// Its title.
+    pub title: &'a str,
+    /// The library.
+    pub library: &'a Library,
+    /// The longest step, if each waits for [`ServoOrder::Step`].
+    pub longest_step: Option<PoseDelta>,
+}
+
+/// A real robot with its camera.
+pub struct RealRobot<'a> {
+    /// How its controller is reached.
+    pub address: RobotAddress,
+    /// The camera.
+    pub source: &'a SourceSpec,
+    /// Its frames.
+    pub feed: Feed,
+    /// Target, limits, and what is kept clear.
+    pub setup: &'a ServoSetup,
+    /// The part's stored spray path, if there is one.
+    pub path: Option<&'a SprayPath>,
+    /// The empty cell, if it was captured.
+    pub empty_cell: Option<Arc<EmptyCell>>,
+    /// The recipe of the inspections.
+    pub recipe: &'a NamedRecipe,
+}
+
+/// How a run ended.
+pub struct ServoOutcome {
+    /// [`Step::Done`] or [`Step::Stop`], or why the connection broke.
+    pub end: Result<Step, LinkError>,
+    /// Its row in the history; `None` if the robot never reported.
+    pub record: Option<ServoRecord>,
+    /// The true error at the end, in simulation.
+    pub true_error: Option<PoseDelta>,
+}
+
+/// Why a run cannot begin.
+#[derive(Debug, thiserror::Error)]
+pub enum ServoRunError {
+    /// The part cannot be servoed to.
+    #[error(transparent)]
+    Setup(#[from] SetupError),
+    /// The simulated cell lacks the part.
+    #[error("the simulated cell has no {part}")]
+    NotSimulated {
+        /// Its name.
+        part: String,
+    },
+    /// The simulated cell cannot be arranged.
+    #[error(transparent)]
+    Cell(#[from] SimulatedCellError),
+    /// A parameter is out of its range.
+    #[error(transparent)]
+    Params(#[from] ServoError),
+    /// The robot cannot be reached.
+    #[error(transparent)]
+    Link(#[from] LinkError),
+}
+
+impl Advice for ServoRunError {
+    fn advice(&self) -> String {
+        match self {
+            Self::Setup(error) => error.advice(),
+            Self::NotSimulated { .. } => {
+                let known = PartKind::ALL.map(PartKind::name).join(", ");
+                format!("Choose one of {known}")
+            }
+            Self::Cell(_) => {
+                "Try another seed or another part, of the library that comes with the program"
+                    .into()
+            }
+            Self::Params(error) => error.advice(),
+            Self::Link(error) => error.advice(),
+        }
+    }
+}
+
+/// How wrong the simulated calibration is at most.
+const SIMULATED_HAND_EYE: HandEyeError = HandEyeError {
+    shift: Metres(0.02),
+    turn: Radians(0.035),
+};
+/// How long the camera's thread waits for a frame before it looks whether the run is over.
+const TURN: Duration = Duration::from_millis(100);
+
+impl ServoJob<'_> {
+    fn drive(
+        &self,
+        stream: Box<dyn Stream + Send>,
+        task: &Task,
+        params: &ServoParams,
+        fence: Fence,
+    ) -> Result<Drive, ServoError> {
+        let mut servo = Servo::new(task.clone(), params.clone(), fence)?;
+        if let Some(longest) = self.longest_step {
+            servo.move_in_steps(longest);
+        }
+        Ok(Drive::new(stream, servo))
+    }
+
+    /// The row without what the run itself knows.
+    fn row(&self, task: &Task, params: &ServoParams, robot: String, source: String) -> ServoRun {
+        let target = match task.target {
+            Target::Nozzle { .. } => ServoTargetKind::PathStart,
+            target if target == Target::standard_position() => ServoTargetKind::StandardPosition,
+            Target::SeenAt { .. } => ServoTargetKind::CameraPose,
+        };
+        let tolerance = &params.tolerance;
+        ServoRun {
+            number: 0,
+            at: Timestamp::UNIX_EPOCH,
+            part: self.part.to_owned(),
+            title: self.title.to_owned(),
+            target,
+            robot,
+            source,
+            is_simulated: false,
+            stopped: None,
+            error_m: None,
+            error_rad: None,
+            bounds_m: None,
+            bounds_rad: None,
+            is_approximate: false,
+            took_s: 0.0,
+            num_looks: 0,
+            speed_m_s: params.limits.speed,
+            tolerance_m: tolerance.shift.0,
+            tolerance_rad: tolerance.rotation.0,
+            program: env!("CARGO_PKG_VERSION").to_owned(),
+        }
+    }
+}
+
+impl ServoNews {
+    /// The point of the curve, if this is a look of a run.
+    pub fn sample(&self) -> Option<ServoSample> {
+        let Self::Looked {
+            look,
+            error,
+            held,
+            standing: Some(standing),
+            at: Some(at),
+            ..
+        } = self
+        else {
+            return None;
+        };
+        let why = look.seen.as_ref().err().or(held.as_ref());
+        Some(ServoSample {
+            at_s: at.as_secs_f64(),
+            error_m: error.map(|error| error.shift.0),
+            error_rad: error.map(|error| error.rotation.0),
+            state: standing.state,
+            held: why.map(|why| why.kind().to_owned()),
+        })
+    }
+}
+
+/// What a run leaves behind.
+#[derive(Default)]
+struct Log {
+    /// When the robot first reported, by both clocks.
+    began: Option<(Timestamp, Duration)>,
+    curve: Vec<ServoSample>,
+}
+
+impl Log {
+    fn note(&mut self, news: &ServoNews, now: Duration) {
+        if let ServoNews::Connected(_) = news {
+            self.began = Some((geometry::clock::now(), now));
+        }
+        self.curve.extend(news.sample());
+    }
+
+    /// Completes the row; `None` if the robot never reported.
+    fn record(
+        self,
+        row: ServoRun,
+        end: &Result<Step, LinkError>,
+        error: Option<PoseDelta>,
+        now: Duration,
+    ) -> Option<ServoRecord> {
+        let (at, began) = self.began?;
+        let micro = at.as_microsecond();
+        let arrival = match end {
+            Ok(Step::Done(arrival)) => Some(arrival),
+            Ok(Step::Stop(_) | Step::Command(_)) | Err(_) => None,
+        };
+        let error = arrival.map(|arrival| arrival.error).or(error);
+        let bounds = arrival.map(|arrival| arrival.bounds);
+        let took = arrival.map_or(now.saturating_sub(began), |arrival| arrival.took);
+        let run = ServoRun {
+            // Rounded as in the file.
+            at: Timestamp::from_microsecond(micro).unwrap_or(at),
+            stopped: match end {
+                Ok(Step::Done(_)) => None,
+                Ok(Step::Stop(reason)) => Some(reason.clone()),
+                Ok(Step::Command(_)) | Err(_) => Some(StopReason::RobotStopped),
+            },
+            error_m: error.map(|error| error.shift.0),
+            error_rad: error.map(|error| error.rotation.0),
+            bounds_m: bounds.map(|bounds| bounds.shift.0),
+            bounds_rad: bounds.map(|bounds| bounds.rotation.0),
+            is_approximate: arrival.is_some_and(|arrival| arrival.is_approximate),
+            took_s: took.as_secs_f64(),
+            num_looks: self.curve.len(),
+            ..row
+        };
+        Some(ServoRecord {
+            run,
+            curve: self.curve,
+        })
+    }
+}
+
+/// Drives a robot, and notes what happens.
+fn logged(
+    row: ServoRun,
+    link: &mut RobotLink,
+    drive: &mut Drive,
+    now: &impl Fn() -> Duration,
+    next_look: impl FnMut(&AtomicBool) -> Option<Look> + Send,
+    mut on_news: impl FnMut(Option<ServoNews>) -> ServoOrder,
+) -> ServoOutcome {
+    let mut log = Log::default();
+    let end = servo(link, drive, now, next_look, |news| {
+        if let Some(news) = &news {
+            log.note(news, now());
+        }
+        on_news(news)
+    });
+    let error = drive.servo().error().map(|error| error.size());
+    ServoOutcome {
+        record: log.record(row, &end, error, now()),
+        end,
+        true_error: None,
+    }
+}
+
+/// Servos a real robot until it arrives or stops.
+pub fn servo_real(
+    job: &ServoJob<'_>,
+    robot: RealRobot<'_>,
+    mut on_news: impl FnMut(Option<ServoNews>) -> ServoOrder,
+) -> Result<ServoOutcome, ServoRunError> {
+    check_source(robot.source)?;
+    let prepared = robot
+        .setup
+        .prepare(job.part, robot.path, job.library, robot.recipe)?;
+    let PreparedTask {
+        task,
+        fence,
+        recipe,
+        refused,
+    } = prepared;
+    for (name, reason) in refused {
+        on_news(Some(ServoNews::TargetFrame { name, reason }));
+    }
+    let params = robot.setup.params();
+    let stream = robot.address.stream(robot.setup.placed.as_ref())?;
+    let mut drive = job.drive(stream, &task, &params, fence)?;
+    let mut link = RobotLink::open(&robot.address)?;
+    on_news(Some(ServoNews::Begins {
+        task: Arc::new(task.clone()),
+        robot: robot.address.at(link.address()),
+    }));
+    let started = Instant::now();
+    let source = robot.source.to_string();
+    let row = job.row(&task, &params, robot.address.to_string(), source);
+    let mut scenes = CameraScenes::new(robot.empty_cell);
+    let feed = &robot.feed;
+    let next_look = |is_over: &AtomicBool| loop {
+        if is_over.load(Ordering::SeqCst) || feed.status().state.is_over() {
+            return None;
+        }
+        let Some(FeedItem::Captured(captured)) = feed.wait(TURN) else {
+            continue;
+        };
+        let taken_at = captured.arrived.saturating_duration_since(started);
+        let scene = scenes.next(captured.image);
+        // It is never cancelled.
+        let inspection = inspect(&scene, job.library, &recipe, &Unwatched).ok()?;
+        return Some(Look::new(&task, &inspection, taken_at));
+    };
+    let now = || started.elapsed();
+    let mut lost: Option<Arc<CaptureError>> = None;
+    Ok(logged(
+        row,
+        &mut link,
+        &mut drive,
+        &now,
+        next_look,
+        |news| {
+            let mut order = ServoOrder::GoOn;
+            if let FeedState::Failed(error) | FeedState::Lost { error } = feed.status().state
+                && lost
+                    .as_ref()
+                    .is_none_or(|known| known.to_string() != error.to_string())
+            {
+                lost = Some(Arc::clone(&error));
+                order = on_news(Some(ServoNews::Camera(error)));
+            }
+            match on_news(news) {
+                ServoOrder::GoOn => order,
+                later => later,
+            }
+        },
+    ))
+}
+
+/// Servos a simulated robot, in this protocol, from a start of this seed.
+pub fn servo_simulated(
+    job: &ServoJob<'_>,
+    params: &ServoParams,
+    protocol: StreamProtocol,
+    seed: u64,
+    mut on_news: impl FnMut(Option<ServoNews>) -> ServoOrder,
+) -> Result<ServoOutcome, ServoRunError> {
+    reference_of(job.library, job.part)?;
+    let kind = PartKind::ALL
+        .into_iter()
+        .find(|kind| kind.name() == job.part);
+    let kind = kind.ok_or_else(|| ServoRunError::NotSimulated {
+        part: job.part.to_owned(),
+    })?;
+    let setup = CellSetup {
+        kind,
+        target: SimulatedTarget::Standard,
+        noise: 1.0,
+        start: (Metres(0.25), Radians::from_degrees(25.0)),
+        hand_eye: SIMULATED_HAND_EYE,
+        frame_period: TURN,
+        delay: Duration::ZERO,
+        dynamics: ArmDynamics::default(),
+        disturbance: Disturbance::None,
+        seed,
+    };
+    let cell = SimulatedCell::arrange(setup, job.library)?;
+    let stream = cell.stream(protocol);
+    let mut drive = job.drive(stream, &cell.task, params, cell.fence.clone())?;
+    let (robot, mut link) = SimulatedRobot::start(cell.controller(protocol), protocol)?;
+    on_news(Some(ServoNews::Begins {
+        task: Arc::new(cell.task.clone()),
+        robot: RobotAddress::of(protocol, link.address()),
+    }));
+    let row = ServoRun {
+        is_simulated: true,
+        ..job.row(
+            &cell.task,
+            params,
+            protocol.name().into(),
+            "simulated".into(),
+        )
+    };
+    let mut number = 0;
+    let next_look = |_: &AtomicBool| {
+        number += 1;
+        robot.look(|flange, at| cell.look(flange, at, number))
+    };
+    let now = || robot.now().0;
+    let mut outcome = logged(row, &mut link, &mut drive, &now, next_look, on_news);
+    let (at, flange) = robot.now();
+    outcome.true_error = Some(cell.true_error(&flange, at));
+    Ok(outcome)
+}

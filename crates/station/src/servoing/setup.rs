@@ -1,0 +1,304 @@
+//! What servoing has to know besides the part, and the task and the fence that follow for a part: once for streams of poses and
+//! for single moves.
+
+use std::time::Duration;
+
+use nalgebra::Point3;
+
+use capture::SourceSpec;
+use geometry::{
+    error::Advice,
+    oriented_box::OrientedBox,
+    rigid::{PoseDelta, RigidTransform},
+    units::Metres,
+};
+use inspection::{
+    library::{Library, SprayPath},
+    pipeline::{Expected, ExpectedError, NamedRecipe, Unwatched, run as inspect},
+};
+use robot::{
+    arm::{GUN_RADIUS, PlacedArm},
+    calibration::CameraPlace,
+    spray::{OffThePart, off_the_part},
+};
+use servo::{Fence, Look, ServoParams, StopReason, Target, Task, TaskError, Tool};
+use stages::{reference::Reference, scene::SceneCloud};
+
+/// Where the part should be, for any part.
+pub enum ServoTarget {
+    /// At its standard position.
+    StandardPosition,
+    /// Where it is in these scenes, which have names.
+    SeenAs(Vec<(String, SceneCloud)>),
+    /// The nozzle at the first point of its spray path.
+    PathStart,
+}
+
+/// What servoing has to know besides the part.
+pub struct ServoSetup {
+    /// The camera's place.
+    pub camera: CameraPlace,
+    /// Bounds of the calibration, 95 %, if they are known.
+    pub calibration: Option<PoseDelta>,
+    /// Where the part should be.
+    pub target: ServoTarget,
+    /// The nozzle on the flange, if there is one.
+    pub flange_from_nozzle: Option<RigidTransform>,
+    /// The arm with its obstacles, if it is known.
+    pub placed: Option<PlacedArm>,
+    /// Least distance from part and obstacles.
+    pub clearance: Metres,
+    /// Work volume in the base frame; anywhere without one.
+    pub volume: Option<OrientedBox>,
+    /// Limits and tolerances.
+    pub params: ServoParams,
+}
+
+/// A part that can be servoed to.
+pub struct PreparedTask {
+    /// What is moved where.
+    pub task: Task,
+    /// Where the robot may be.
+    pub fence: Fence,
+    /// The recipe, which expects the part.
+    pub recipe: NamedRecipe,
+    /// The scenes of the target that show no pose to move by, and why not.
+    pub refused: Vec<(String, StopReason)>,
+}
+
+/// Why a part cannot be servoed to.
+#[derive(Debug, thiserror::Error)]
+pub enum SetupError {
+    /// The part is not enrolled.
+    #[error("{part} is not enrolled")]
+    NotEnrolled {
+        /// Its name.
+        part: String,
+    },
+    /// The part has several references, or one without points.
+    #[error("{part} has several references")]
+    SeveralReferences {
+        /// Its name.
+        part: String,
+    },
+    /// The frames were taken earlier.
+    #[error("{from} is replayed: its frames do not show what hangs there now")]
+    Replayed {
+        /// The source.
+        from: String,
+    },
+    /// The scenes of the target show no common pose.
+    #[error(
+        "{part} is not accepted in at least half of the frames of the target, in the same place"
+    )]
+    NotRecorded {
+        /// The part.
+        part: String,
+    },
+    /// The part has no spray path.
+    #[error("{part} has no spray path")]
+    NoPath {
+        /// The part.
+        part: String,
+    },
+    /// The path does not aim at the part.
+    #[error(transparent)]
+    OffThePart(#[from] OffThePart),
+    /// There is no nozzle that could go to the start of a path.
+    #[error("where the nozzle sits on the flange is not known")]
+    NoNozzle,
+    /// It is not known how exact the calibration is.
+    #[error(
+        "how exact the calibration is, is not known: its numbers were entered by hand, or the pairs do not bound them"
+    )]
+    NoBounds,
+    /// The part cannot be expected.
+    #[error(transparent)]
+    Expected(#[from] ExpectedError),
+    /// The task cannot be done.
+    #[error(transparent)]
+    Task(#[from] TaskError),
+}
+
+impl SetupError {
+    /// A name for programs.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::NotEnrolled { .. } => "not_enrolled",
+            Self::SeveralReferences { .. } => "several_references",
+            Self::Replayed { .. } => "replayed",
+            Self::NotRecorded { .. } => "not_recorded",
+            Self::NoPath { .. } => "no_path",
+            Self::OffThePart(_) => "off_the_part",
+            Self::NoNozzle => "no_nozzle",
+            Self::NoBounds => "no_calibration_bounds",
+            Self::Expected(_) => "not_expected",
+            Self::Task(_) => "no_task",
+        }
+    }
+}
+
+impl Advice for SetupError {
+    fn advice(&self) -> String {
+        match self {
+            Self::NotEnrolled { .. } => "See the parts with partsight library list".into(),
+            Self::SeveralReferences { .. } => {
+                "Name the one that hangs there: partsight library list".into()
+            }
+            Self::Replayed { .. } => {
+                "Give a camera as --source; to try it without one: partsight servo --simulated"
+                    .into()
+            }
+            Self::NotRecorded { .. } => {
+                "Take the frames again, with the whole part in the picture and the camera at rest"
+                    .into()
+            }
+            Self::NoPath { part } => {
+                format!("Store one with partsight library path {part} YOUR_PATH.csv, or plan one with partsight path plan {part}")
+            }
+            Self::OffThePart(off) => off.advice(),
+            Self::NoNozzle => "Give its pose with --nozzle".into(),
+            Self::NoBounds => {
+                "Calibrate from pairs of poses (partsight calibrate hand-eye), which also tells how exact it is, or servo to the standard position or to --seen-as".into()
+            }
+            Self::Expected(error) => error.advice(),
+            Self::Task(error) => error.advice(),
+        }
+    }
+}
+
+/// Radius around the camera that is kept clear.
+const CAMERA_RADIUS: f64 = 0.06;
+/// How far the start of a path may be away: the nozzle is much nearer to the part than the camera.
+const MAX_WAY_TO_PATH: Metres = Metres(1.2);
+
+/// Refuses a source whose frames do not show what hangs there now.
+pub fn check_source(source: &SourceSpec) -> Result<(), SetupError> {
+    if source.is_replayed() {
+        let from = source.to_string();
+        return Err(SetupError::Replayed { from });
+    }
+    Ok(())
+}
+
+/// The reference with a name, and its middle.
+pub fn reference_of<'a>(
+    library: &'a Library,
+    part: &str,
+) -> Result<(&'a Reference, Point3<f64>), SetupError> {
+    let part = part.to_owned();
+    if !library.has_reference(&part) {
+        return Err(SetupError::NotEnrolled { part });
+    }
+    let mut references = library.references.iter();
+    let reference = references.find(|one| one.enrolled_as == part);
+    let with_middle = reference.and_then(|one| Some((one, one.middle()?)));
+    with_middle.ok_or(SetupError::SeveralReferences { part })
+}
+
+impl ServoSetup {
+    /// Limits and tolerances for this target.
+    pub fn params(&self) -> ServoParams {
+        let mut params = self.params.clone();
+        if let ServoTarget::PathStart = self.target {
+            params.max_error.shift = MAX_WAY_TO_PATH;
+        }
+        params
+    }
+
+    /// What is moved where for this reference of the library; `path` is its stored spray path.
+    pub fn prepare(
+        &self,
+        name: &str,
+        path: Option<&SprayPath>,
+        library: &Library,
+        recipe: &NamedRecipe,
+    ) -> Result<PreparedTask, SetupError> {
+        let (reference, middle) = reference_of(library, name)?;
+        let expected = Expected::new(vec![name.into()], None, |_| true)?;
+        let recipe = recipe.expecting(expected);
+        let mut task = Task {
+            part: reference.name.clone(),
+            reference: name.to_owned(),
+            middle,
+            camera: self.camera,
+            target: Target::standard_position(),
+        };
+        let mut refused = Vec::new();
+        match &self.target {
+            ServoTarget::StandardPosition => {}
+            ServoTarget::SeenAs(scenes) => {
+                let looks = scenes.iter().filter_map(|(scene_name, scene)| {
+                    let inspection = inspect(scene, library, &recipe, &Unwatched).ok()?;
+                    let look = Look::new(&task, &inspection, Duration::ZERO);
+                    if let Err(reason) = &look.seen {
+                        refused.push((scene_name.clone(), reason.clone()));
+                    }
+                    Some(look)
+                });
+                // Frames of another part are those of its own target.
+                let looks =
+                    looks.filter(|look| !matches!(look.seen, Err(StopReason::AnotherPart { .. })));
+                let looks: Vec<Look> = looks.collect();
+                let target = Target::recorded(&looks, &task.middle);
+                let part = name.to_owned();
+                task.target = target.ok_or(SetupError::NotRecorded { part })?;
+            }
+            ServoTarget::PathStart => {
+                let part = name.to_owned();
+                let path = path.ok_or(SetupError::NoPath { part })?;
+                task.target = self.path_start(path, reference, &recipe)?;
+            }
+        }
+        Ok(PreparedTask {
+            fence: self.fence(&task, reference),
+            task: task.checked()?,
+            recipe,
+            refused,
+        })
+    }
+
+    fn path_start(
+        &self,
+        path: &SprayPath,
+        reference: &Reference,
+        recipe: &NamedRecipe,
+    ) -> Result<Target, SetupError> {
+        if let Some(off) = off_the_part(path, reference) {
+            return Err(off.into());
+        }
+        let nozzle = self.flange_from_nozzle.ok_or(SetupError::NoNozzle)?;
+        let bounds = self.calibration.ok_or(SetupError::NoBounds)?;
+        Ok(Target::path_start(path, nozzle, bounds, &recipe.stand_off)?)
+    }
+
+    /// What every commanded pose is kept clear of.
+    fn fence(&self, task: &Task, reference: &Reference) -> Fence {
+        let mut fence = Fence::none();
+        fence.volume = self.volume;
+        if let Some(placed) = &self.placed {
+            fence.obstacles = placed.obstacles.clone();
+        }
+        fence.obstacles.clearance = self.clearance.0;
+        let mut keep_clear = |pose: &RigidTransform, radius| {
+            fence.tools.push(Tool {
+                end: Point3::from(pose.translation.vector),
+                radius,
+            });
+        };
+        if let Some(nozzle) = &self.flange_from_nozzle {
+            keep_clear(nozzle, GUN_RADIUS);
+        }
+        if let CameraPlace::OnFlange {
+            flange_from_camera, ..
+        } = &task.camera
+        {
+            keep_clear(flange_from_camera, CAMERA_RADIUS);
+        }
+        fence.arm.clone_from(&self.placed);
+        if !task.is_part_held() {
+            fence.part.clone_from(&reference.cloud.points);
+        }
+        fence
+    }
+}
