@@ -9,6 +9,7 @@
 //! ```
 //!
 //! A rack is several parts that hang side by side: [`rack_frame`] arranges the cell around all of them, with a truth for each.
+//! A [`SimulatedLine`] carries parts past the camera, with the truth at every time and the counts of an encoder.
 //! [`Surroundings::Booth`] replaces the lower two inputs by a paint booth, seen by a camera on the robot's flange.
 
 mod assembly;
@@ -18,6 +19,7 @@ mod cell;
 mod clutter;
 #[cfg(any(test, feature = "fixtures"))]
 pub mod fixtures;
+mod line;
 mod object;
 mod part;
 mod parts;
@@ -38,6 +40,7 @@ mod variation;
 
 pub use cell::{CellSetup, PartPose, SimulatedObject, Surroundings};
 pub use clutter::Clutter;
+pub use line::{LineEncoder, LinePart, LineSetup, SimulatedLine};
 pub use object::ObjectKind;
 pub use part::{PartKind, PartModel, Side};
 pub use placement::{PoseRange, SampledPose};
