@@ -199,10 +199,20 @@ fn rejections_of_others(part: &str) -> [Rejection; 7] {
 }
 
 /// Those that several frames give.
-fn rejections_of_frames(part: &str) -> [Rejection; 4] {
+fn rejections_of_frames(part: &str) -> [Rejection; 6] {
     let [num_agreeing, num_frames, needed] = [2, 5, 4];
     [
         Rejection::NotSteady { part: part.into() },
+        Rejection::Passing {
+            part: part.into(),
+            num_frames,
+            needed,
+        },
+        Rejection::Smeared {
+            part: part.into(),
+            smear: Metres(0.0166),
+            limit: Metres(0.012),
+        },
         Rejection::FewFrames {
             part: part.into(),
             num_frames,

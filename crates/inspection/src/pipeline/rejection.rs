@@ -245,6 +245,26 @@ pub enum Rejection {
         /// Best match.
         part: String,
     },
+    /// A line carries it, and too few frames have shown the whole of it so far.
+    Passing {
+        /// Best match.
+        part: String,
+        /// Frames so far.
+        num_frames: usize,
+        /// Frames needed.
+        needed: usize,
+    },
+    /// The line is too fast for the camera's exposure.
+    Smeared {
+        /// Best match.
+        part: String,
+        /// Way of the part during an exposure.
+        #[serde(rename = "smear_m")]
+        smear: Metres,
+        /// Greatest way that is accepted.
+        #[serde(rename = "limit_m")]
+        limit: Metres,
+    },
     /// It hangs still, and too few frames were seen since.
     FewFrames {
         /// Best match.

@@ -27,7 +27,7 @@ pub use self::{
     mean_pose::{MeanPose, PoseTolerance, mean_pose},
     spots::{nothing_there, spots_of},
     steady::{MotionDetector, MotionState, SteadyParams},
-    two_frames::{refuse_moving, refuse_unless_again},
+    two_frames::{poses_agree, refuse_moving, refuse_unless_again},
 };
 use super::{AcceptParams, Inspection, Rejection, Verdict};
 use stages::{field_of_view::FieldOfView, scene::SceneCloud};

@@ -8,10 +8,10 @@ use nalgebra::Point3;
 use super::{ConsensusParams, PoseTolerance};
 use crate::pipeline::{Inspection, Rejection, Verdict};
 use geometry::{
-    rigid::pose_error,
+    rigid::{RigidTransform, pose_error},
     units::{Metres, Radians},
 };
-use stages::pose::PoseEstimate;
+use stages::pose::{PoseEstimate, Uncertainty};
 
 /// Refuses an accepted part because it moves.
 pub fn refuse_moving(inspection: &mut Inspection) {
@@ -98,15 +98,26 @@ fn is_near(a: &Inspection, b: &Inspection, middle: Point3<f64>) -> Option<bool> 
     let (Some(of_a), Some(of_b)) = (a.found_pose(), b.found_pose()) else {
         return Some(a.found_pose().is_none() && b.found_pose().is_none());
     };
-    let apart = pose_error(&of_a.camera_from_part(), &of_b.camera_from_part(), &middle);
-    let (shift, turn) = if let [Some(a), Some(b)] = [of_a, of_b].map(PoseEstimate::bounds) {
+    let pose = |of: &PoseEstimate| (of.camera_from_part(), of.bounds());
+    Some(poses_agree(&pose(of_a), &pose(of_b), &middle))
+}
+
+/// Whether two poses of one part, with their bounds, lie no further apart than both may be off together. `middle` is the middle
+/// of the part, part space, metres.
+pub fn poses_agree(
+    a: &(RigidTransform, Option<Uncertainty>),
+    b: &(RigidTransform, Option<Uncertainty>),
+    middle: &Point3<f64>,
+) -> bool {
+    let apart = pose_error(&a.0, &b.0, middle);
+    let (shift, turn) = if let (Some(a), Some(b)) = (a.1, b.1) {
         (Metres(a.shift.0 + b.shift.0), Radians(a.turn.0 + b.turn.0))
     } else {
         // A method that gives no bounds.
         let PoseTolerance { shift, turn } = ConsensusParams::default().tolerance;
         (shift, turn)
     };
-    Some(apart.shift <= shift && apart.rotation <= turn)
+    apart.shift <= shift && apart.rotation <= turn
 }
 
 #[cfg(test)]
@@ -119,7 +130,6 @@ mod tests {
         library::Library,
         pipeline::{Recipe, Unwatched, run},
     };
-    use geometry::rigid::RigidTransform;
     use simulate::{PartKind, SensorNoise, fixtures::HangingPart};
     use stages::{reference::Reference, scene::scene_from_frame};
 
