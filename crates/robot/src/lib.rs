@@ -25,6 +25,7 @@ mod convention;
 mod euler;
 pub mod frame_poses;
 pub mod hand_eye;
+pub mod line;
 pub mod paint;
 pub mod pairs;
 pub mod part_target;

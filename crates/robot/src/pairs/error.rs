@@ -36,6 +36,12 @@ pub enum PairsError {
         /// The first error in it.
         found: String,
     },
+    /// The file has no counts.
+    #[error("{}: no counts", path.display())]
+    NoCounts {
+        /// The file.
+        path: PathBuf,
+    },
     /// The file has no poses.
     #[error("{}: no poses", path.display())]
     NoPoses {
@@ -65,6 +71,12 @@ pub enum LineProblem {
         /// What the numbers are, for the message.
         expected: String,
     },
+    /// A count is not a whole number.
+    #[error("{found} is no count of an encoder")]
+    NotWhole {
+        /// The number in the line.
+        found: f64,
+    },
     /// The numbers are not a pose in their convention.
     #[error(transparent)]
     Pose(#[from] ConventionError),
@@ -92,12 +104,18 @@ impl Advice for PairsError {
             Self::Line { problem, .. } => match problem {
                 LineProblem::Pose(error) => error.advice(),
                 LineProblem::NoSuchConvention { .. } => format!("Use one of {}", names()),
+                LineProblem::NotWhole { .. } => {
+                    "Write the count as the controller shows it: a whole number of at most 32 bits".into()
+                }
                 LineProblem::NoNumber { .. } | LineProblem::Count { .. } => {
                     "Correct this line in a text editor; a name may stand in its first cell, and a comment begins with #".into()
                 }
             },
             Self::BadJson { .. } => {
                 r#"Write {"robot": "kuka", "camera": "matrix", "pairs": [{"name": "p1", "robot": [...], "camera": [...]}]}"#.into()
+            }
+            Self::NoCounts { .. } => {
+                "Write one line for each frame; partsight calibrate line --help shows how".into()
             }
             Self::NoPoses { .. } => {
                 "Write one line for each pose; partsight calibrate hand-eye --help shows how".into()

@@ -16,6 +16,8 @@
 //! {"robot": "kuka", "camera": "matrix", "pairs": [{"name": "front", "robot": [6 numbers], "camera": [16 numbers]}]}
 //! ```
 //!
+//! A table of counts of an encoder has one line per frame, with its name and its count.
+//!
 //! A file of robot poses alone, for captures in which Partsight finds the camera's pose itself, has the same lines
 //! without the camera's numbers; the name is then that of the capture.
 
@@ -198,6 +200,38 @@ pub fn read_arm_poses(
         })
     });
     Ok((poses.collect::<Result<_, PairsError>>()?, robot))
+}
+
+/// A count of an encoder.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FrameCount {
+    /// Name of its frame, if the file gives one.
+    pub frame: Option<String>,
+    /// The count, as the counter showed it.
+    pub count: i64,
+}
+
+/// Reads a table of counts: the name of each frame, which may be left out, and its count.
+pub fn read_counts(path: &Path) -> Result<Vec<FrameCount>, PairsError> {
+    /// Greatest count: of a 32-bit counter without a sign.
+    const MAX_COUNT: f64 = u32::MAX as f64;
+    let text = read_text(path, MAX_BYTES)?;
+    let rows = rows(&text, path, 1, || "the count of the encoder".to_owned());
+    let rows = rows.or_else(|error| match error {
+        PairsError::NoPoses { path } => Err(PairsError::NoCounts { path }),
+        error => Err(error),
+    })?;
+    let counts = rows.into_iter().map(|row| {
+        let found = row.numbers[0];
+        if found.fract() != 0.0 || found.abs() > MAX_COUNT {
+            return Err(row.problem(path, LineProblem::NotWhole { found }));
+        }
+        Ok(FrameCount {
+            frame: row.given_name,
+            count: found as i64,
+        })
+    });
+    counts.collect()
 }
 
 /// Finds the conventions of the robot's and the camera's poses.
