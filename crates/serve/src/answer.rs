@@ -22,6 +22,8 @@ pub enum Request {
     Trigger {
         /// The parts that should hang there, then none; all none if nothing is expected.
         expected: ExpectedNumbers,
+        /// What the encoder of the line shows; `None` if it was not sent.
+        count: Option<u32>,
     },
     /// Send the camera's state, and the last verdict without its numbers.
     Status,
@@ -66,6 +68,7 @@ impl Request {
     /// A trigger that expects nothing.
     pub const TRIGGER: Self = Self::Trigger {
         expected: [ExpectedNumber { part: 0, place: 0 }; MAX_PARTS],
+        count: None,
     };
 
     /// The word in text protocols, and the code in binary frames.
@@ -108,7 +111,16 @@ impl Request {
         for (index, part) in parts.into_iter().enumerate() {
             *expected.get_mut(index)? = part;
         }
-        Some(Self::Trigger { expected })
+        let count = None;
+        Some(Self::Trigger { expected, count })
+    }
+
+    /// A trigger at this count of the line's encoder; other requests stay as they are.
+    pub fn at_count(self, count: Option<u32>) -> Self {
+        match self {
+            Self::Trigger { expected, .. } => Self::Trigger { expected, count },
+            other => other,
+        }
     }
 
     /// The request with these numbers; `None` if it does not take as many.
@@ -138,7 +150,7 @@ impl Request {
                 index: number,
                 sequence,
             } => vec![number, sequence.unwrap_or(0)],
-            Self::Trigger { expected } => expected.iter().map(|one| one.part).collect(),
+            Self::Trigger { expected, .. } => expected.iter().map(|one| one.part).collect(),
             Self::Status | Self::Last => Vec::new(),
         };
         while numbers.pop_if(|number| *number == 0).is_some() {}
@@ -340,6 +352,21 @@ pub struct PathStep {
     pub speed: Option<f64>,
 }
 
+/// Where and when a part on a line has the pose that is sent. All are 0 or `None` while it has no pose.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct OnLine {
+    /// Number of the part on the line, from 1.
+    pub number: u32,
+    /// The count at which it has the pose: the one that was sent; `None` if none was.
+    pub count: Option<u32>,
+    /// When it has the pose: when the trigger came or, without a count, when the frame was taken.
+    pub at: Option<Instant>,
+    /// 95 % bound of the pose's error at the part's middle, millimetres.
+    pub bound_mm: f64,
+    /// Speed of the line, mm/s; negative while the count falls.
+    pub speed_mm_s: f64,
+}
+
 /// The result of an inspection.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Found {
@@ -359,6 +386,8 @@ pub struct Found {
     pub path: Vec<PathStep>,
     /// Why the stored path is not given; `None` also if none is stored.
     pub no_path: Option<Problem>,
+    /// Where it is on the line, of a camera beside one.
+    pub on_line: Option<OnLine>,
     /// The inspection as a JSON line; empty if there was none.
     pub report: String,
     /// Why there is no pose.
@@ -381,6 +410,7 @@ impl Found {
         self.marks &= !Answer::OF_ACCEPTED;
         self.pose = None;
         self.path.clear();
+        self.on_line = self.on_line.map(|_| OnLine::default());
         self.problem = problem;
     }
 }
@@ -517,6 +547,10 @@ pub struct Answer {
     pub points: u32,
     /// Number of the part in its frame, from 1; 0 if nothing recognisable hangs there.
     pub index: u32,
+    /// Where the part is on the line, of a camera beside one.
+    pub on_line: Option<OnLine>,
+    /// Time from the moment of that pose to the answer, at most [`MAX_COUNT`] milliseconds.
+    pub on_line_since_ms: Option<u32>,
     /// Number of parts of the frame, refused ones included.
     pub num_parts: u32,
     /// Speed from this point to the next, mm/s.
@@ -554,6 +588,14 @@ impl Answer {
     pub(super) fn age_or_none(&self) -> i32 {
         self.age_ms
             .and_then(|age| i32::try_from(age).ok())
+            .unwrap_or(-1)
+    }
+
+    /// Milliseconds from the moment of the pose on a line to the answer; -1 without one.
+    pub(super) fn on_line_since_or_none(&self) -> i32 {
+        let since = self.on_line_since_ms;
+        since
+            .and_then(|since| i32::try_from(since).ok())
             .unwrap_or(-1)
     }
 
@@ -604,6 +646,7 @@ impl Answer {
             index: u32::try_from(index + 1).map_or(num_parts, |index| index.min(num_parts)),
             num_parts,
             problem,
+            on_line: found.on_line.map(|_| OnLine::default()),
             ..Self::default()
         };
         if let Request::Part { index, .. } = request {
@@ -630,6 +673,12 @@ impl Answer {
                 }
                 Request::Part { index: 0, .. } => {}
                 Request::Part { .. } => answer.pose = found.pose,
+            }
+            if answer.pose.is_some() {
+                answer.on_line = found.on_line;
+                let since = found.on_line.and_then(|on_line| on_line.at);
+                let since = since.map(|then| at.now.saturating_duration_since(then));
+                answer.on_line_since_ms = since.map(in_milliseconds);
             }
         }
         answer
@@ -717,6 +766,7 @@ mod tests {
                 speed: Some(0.25),
             }],
             no_path: None,
+            on_line: None,
             report: "{}".into(),
             problem: Problem::default(),
         }

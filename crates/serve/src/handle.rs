@@ -76,8 +76,9 @@ impl ServerHandle {
         expected: ExpectedNumbers,
         is_withdrawn: impl Fn() -> bool + Send + 'static,
     ) -> Vec<Answer> {
-        let request = Request::Trigger { expected };
-        let inspected = triggered(expected, &self.jobs, Box::new(is_withdrawn));
+        let count = None;
+        let request = Request::Trigger { expected, count };
+        let inspected = triggered((expected, count), &self.jobs, Box::new(is_withdrawn));
         let at = self.shared.situation();
         match inspected {
             Ok(inspected) => inspected.answers(request, &at),

@@ -58,15 +58,18 @@ pub struct Asked {
     pub by_clock: Timestamp,
     /// Numbers of the parts that should hang there, and zeros.
     pub expected: ExpectedNumbers,
+    /// What the encoder of the line showed, if it was sent.
+    pub count: Option<u32>,
 }
 
 impl Asked {
-    /// Returns the present time on both clocks, and no expectation.
+    /// Returns the present time on both clocks, no expectation and no count.
     pub fn now() -> Self {
         Self {
             at: Instant::now(),
             by_clock: geometry::clock::now(),
             expected: ExpectedNumbers::default(),
+            count: None,
         }
     }
 }
@@ -526,8 +529,8 @@ pub(super) fn answer_to(
     is_withdrawn: impl Fn() -> bool + Send + 'static,
 ) -> Answer {
     let inspected = match request {
-        Request::Trigger { expected } => {
-            let triggered = triggered(expected, jobs, Box::new(is_withdrawn));
+        Request::Trigger { expected, count } => {
+            let triggered = triggered((expected, count), jobs, Box::new(is_withdrawn));
             *own = triggered.as_ref().ok().map(Arc::clone);
             triggered.map(|inspected| (inspected, 0))
         }
@@ -570,7 +573,7 @@ pub(super) fn inspection_of(
 
 /// Requests an inspection of a frame captured from now on, and waits for it. An error is a verdict with its reason.
 pub(super) fn triggered(
-    expected: ExpectedNumbers,
+    (expected, count): (ExpectedNumbers, Option<u32>),
     jobs: &SyncSender<Job>,
     is_withdrawn: Box<dyn Fn() -> bool + Send>,
 ) -> Result<Arc<Inspected>, (VerdictCode, Problem)> {
@@ -578,6 +581,7 @@ pub(super) fn triggered(
     let job = Job {
         asked: Asked {
             expected,
+            count,
             ..Asked::now()
         },
         is_withdrawn,

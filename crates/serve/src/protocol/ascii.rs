@@ -5,8 +5,9 @@
 //! ```
 //!
 //! The fields: request, verdict, sequence, boot, age in ms (-1: no frame), camera, part, number, flags, point, points,
-//! speed in mm/s, the numbers of the convention, reason, message. Every answer has every field; without a pose the numbers
-//! are empty.
+//! speed in mm/s, the numbers of the convention, reason, message; of a part on a line also its number there, the count, the
+//! time since then in ms, the bound in mm and the speed of the line in mm/s. Every answer has every field; without a pose the
+//! numbers are empty.
 
 use super::{MAX_MESSAGE, plain};
 use crate::answer::{Answer, Request};
@@ -38,6 +39,16 @@ pub(super) fn write(answer: &Answer, convention: Convention) -> String {
     }
     fields.push(plain(&answer.problem.reason, MAX_MESSAGE));
     fields.push(plain(&answer.problem.message, MAX_MESSAGE));
+    if let Some(on_line) = &answer.on_line {
+        let count = on_line.count.map(|count| count.to_string());
+        fields.extend([
+            on_line.number.to_string(),
+            count.unwrap_or_default(),
+            answer.on_line_since_or_none().to_string(),
+            format!("{:.2}", on_line.bound_mm),
+            format!("{:.2}", on_line.speed_mm_s),
+        ]);
+    }
     let mut line = fields.join(";");
     line.push('\n');
     line
@@ -54,7 +65,7 @@ mod tests {
 
     use super::*;
     use crate::{
-        answer::{Problem, VerdictCode},
+        answer::{OnLine, Problem, VerdictCode},
         protocol::tests::refused,
     };
     use geometry::rigid::{RigidTransform, from_euler_zyx, pose_error};
@@ -108,6 +119,26 @@ mod tests {
                 "{line}"
             );
         }
+    }
+
+    #[test]
+    fn a_part_on_a_line_has_its_number_count_time_and_bound_behind_the_other_fields() {
+        let (answer, _) = accepted();
+        let plain = write(&answer, Convention::Kuka);
+        let on_line = Answer {
+            on_line: Some(OnLine {
+                number: 12,
+                count: Some(4_294_967_290),
+                at: None,
+                bound_mm: 3.456,
+                speed_mm_s: -99.5,
+            }),
+            on_line_since_ms: Some(215),
+            ..answer
+        };
+        let line = write(&on_line, Convention::Kuka);
+        let behind = line.strip_prefix(plain.trim_end_matches('\n'));
+        assert_eq!(behind, Some(";12;4294967290;215;3.46;-99.50\n"));
     }
 
     #[test]

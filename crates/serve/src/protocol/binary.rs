@@ -7,19 +7,20 @@
 //! | --- | --- | --- |
 //! | 0 | 4 | `PSRQ` |
 //! | 4 | 2 | version, 1 |
-//! | 6 | 2 | length: 20, and 4 for each further number, up to 48; up to 80 with places |
+//! | 6 | 2 | length: 20, and 4 for each further number, up to 48; up to 80 with places; 84 with a count |
 //! | 8 | 2 | 1 trigger, 2 status, 3 last, 4 path, 5 part |
 //! | 10 | 2 | trigger: how many parts are expected, 0 to 8; otherwise 0 |
 //! | 12 | 4 | path and part: number of the point or part from 1, or 0; trigger: number of the first expected part |
 //! | 16 | 4 | path and part: sequence number of the inspection whose path or part is wanted, or 0, or left out; trigger: number of the second expected part, and so on |
 //! | 44 | 4 | trigger, after eight numbers of parts, of which the last may be 0: number of the first part's place, or 0 for any; number of the second part's place, and so on |
+//! | 76 | 4 | trigger, after eight places, of which the last may be 0: count of the line's encoder |
 //! | last | 4 | checksum |
 //!
 //! | answer: from | bytes | |
 //! | --- | --- | --- |
 //! | 0 | 4 | `PSAN` |
 //! | 4 | 2 | version, 1 |
-//! | 6 | 2 | length, 256 |
+//! | 6 | 2 | length, 256; 284 of a part on a line |
 //! | 8 | 2 | code of the request; 0: it could not be read |
 //! | 10 | 2 | verdict |
 //! | 12 | 4 | boot |
@@ -38,6 +39,15 @@
 //! | 176 | 24 | reason |
 //! | 200 | 52 | message, cut off |
 //! | 252 | 4 | checksum |
+//!
+//! | answer about a line: from | bytes | |
+//! | --- | --- | --- |
+//! | 252 | 4 | number of the part on the line; 0 without a pose |
+//! | 256 | 4 | count at which it has the pose: the one that was sent |
+//! | 260 | 4 | time since then in ms, signed; -1: no pose |
+//! | 264 | 8 | bound of the pose in mm |
+//! | 272 | 8 | speed of the line in mm/s |
+//! | 280 | 4 | checksum |
 
 use std::iter;
 
@@ -51,12 +61,14 @@ use stages::segment::MAX_PARTS;
 pub(super) const VERSION: u16 = 1;
 /// Length of a request, bytes.
 pub const REQUEST_BYTES: usize = 20;
-/// Length of a request with as many numbers as possible, those of parts and of their places, bytes.
-pub(super) const MAX_REQUEST_BYTES: usize = NUMBERS_AT + 2 * 4 * MAX_PARTS + CHECKSUM_BYTES;
+/// Length of a request with as many numbers as possible, those of parts and of their places, and a count, bytes.
+pub(super) const MAX_REQUEST_BYTES: usize = NUMBERS_AT + 4 * (2 * MAX_PARTS + 1) + CHECKSUM_BYTES;
 /// Where the numbers of a request begin.
 const NUMBERS_AT: usize = 12;
 /// Length of an answer, bytes.
 pub const ANSWER_BYTES: usize = 256;
+/// Number of the bytes that an answer about a line has more.
+const ON_LINE_BYTES: usize = 28;
 /// Maximum number of a pose's reals.
 pub const MAX_NUMBERS: usize = 7;
 
@@ -126,7 +138,9 @@ fn request_in(frame: &[u8], order: ByteOrder) -> Result<Request, BadRequest> {
                 .copied()
                 .chain(iter::repeat(0));
             let parts = given.iter().zip(places);
-            Request::expecting(parts.map(|(&part, place)| ExpectedNumber { part, place }))
+            let parts = parts.map(|(&part, place)| ExpectedNumber { part, place });
+            let count = numbers.get(2 * MAX_PARTS).copied();
+            Request::expecting(parts).map(|request| request.at_count(count))
         }
         _ => request.numbered(given),
     };
@@ -163,7 +177,8 @@ pub(super) fn write(answer: &Answer, convention: Convention, order: ByteOrder) -
     };
     frame.bytes.extend(ANSWER_MAGIC);
     frame.short(VERSION);
-    frame.short(ANSWER_BYTES as u16);
+    let more = answer.on_line.map_or(0, |_| ON_LINE_BYTES);
+    frame.short((ANSWER_BYTES + more) as u16);
     frame.short(answer.request.map_or(0, |request| request.name().1));
     frame.short(answer.verdict.code());
     frame.long(answer.boot);
@@ -183,6 +198,13 @@ pub(super) fn write(answer: &Answer, convention: Convention, order: ByteOrder) -
     frame.text(&answer.part, 64);
     frame.text(&answer.problem.reason, 24);
     frame.text(&answer.problem.message, 52);
+    if let Some(on_line) = &answer.on_line {
+        frame.long(on_line.number);
+        frame.long(on_line.count.unwrap_or(0));
+        frame.long(answer.on_line_since_or_none().cast_unsigned());
+        frame.real(on_line.bound_mm);
+        frame.real(on_line.speed_mm_s);
+    }
     let checksum = crc32(&frame.bytes);
     frame.long(checksum);
     frame.bytes
@@ -230,11 +252,12 @@ pub fn request(request: Request, order: ByteOrder) -> Vec<u8> {
         Request::Trigger { .. } => numbers.len(),
         _ => 0,
     };
-    if let Request::Trigger { expected } = request
-        && expected.iter().any(|one| one.place > 0)
+    if let Request::Trigger { expected, count } = request
+        && (count.is_some() || expected.iter().any(|one| one.place > 0))
     {
         numbers.resize(MAX_PARTS, 0);
         numbers.extend(expected.map(|one| one.place));
+        numbers.extend(count);
     }
     numbers.resize(numbers.len().max(1), 0);
     let num_bytes = NUMBERS_AT + 4 * numbers.len() + CHECKSUM_BYTES;
@@ -256,7 +279,7 @@ mod tests {
 
     use super::*;
     use crate::{
-        answer::{Problem, VerdictCode},
+        answer::{OnLine, Problem, VerdictCode},
         protocol::tests::refused,
     };
     use geometry::rigid::{from_euler_zyx, pose_error};
@@ -341,10 +364,43 @@ mod tests {
         let read = parse(&sealed(older), little).request.expect("whole");
         assert_eq!(read, Ok(expecting(&[3, 5])));
         let mut long = frame[..76].to_vec();
-        long[6] = 84;
-        long.extend([0; 4]);
+        long[6] = 88;
+        long.extend([0; 8]);
         let read = parse(&sealed(long), little).request.expect("read");
         assert_eq!(read.expect_err("too long").reason(), "length");
+    }
+
+    #[test]
+    fn a_count_stands_behind_the_places_and_what_is_known_of_a_line_behind_the_answer() {
+        for wanted in [Request::TRIGGER, expecting(&[3, 5])] {
+            for (order, count) in ORDERS.into_iter().zip([0, u32::MAX]) {
+                let wanted = wanted.at_count(Some(count));
+                let frame = request(wanted, order);
+                assert_eq!(parse(&frame, order), Parsed::read(84, Ok(wanted)));
+            }
+        }
+        for order in ORDERS {
+            let plain = write(&refused(), Convention::Kuka, order);
+            let answer = Answer {
+                on_line: Some(OnLine {
+                    number: 12,
+                    count: Some(70_000),
+                    at: None,
+                    bound_mm: 3.5,
+                    speed_mm_s: -99.5,
+                }),
+                on_line_since_ms: Some(215),
+                ..refused()
+            };
+            let frame = write(&answer, Convention::Kuka, order);
+            assert_eq!((frame.len(), u16_of(&frame, 6, order)), (284, 284));
+            assert_eq!(frame[8..252], plain[8..252]);
+            let long = |at| u32_of(&frame, at, order);
+            assert_eq!([252, 256, 260].map(long), [12, 70_000, 215]);
+            let reals = [264, 272].map(|at| real(&frame, at, order));
+            assert!((reals[0] - 3.5).abs() < 1e-9 && (reals[1] + 99.5).abs() < 1e-9);
+            assert_eq!(long(280), crc32(&frame[..280]));
+        }
     }
 
     #[test]

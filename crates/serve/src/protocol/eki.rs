@@ -14,7 +14,7 @@ use super::{
     ascii::name_of,
     bad_request::BadRequest,
     is_filler,
-    line::{named, of_name, words_of},
+    line::{named, number_of_count, of_name, words_of},
     plain,
 };
 use crate::answer::{Answer, Request};
@@ -73,7 +73,9 @@ fn request(bytes: &[u8]) -> Result<Request, BadRequest> {
         Request::Status | Request::Last => Vec::new(),
     };
     let numbered = named(word.as_bytes(), numbers.into_iter());
-    numbered.ok_or_else(|| BadRequest::unknown(bytes))?
+    let request = numbered.ok_or_else(|| BadRequest::unknown(bytes))??;
+    let count = filled("Count").map(number_of_count).transpose()?;
+    Ok(request.at_count(count))
 }
 
 /// Returns the trimmed text between an element's tags.
@@ -108,8 +110,19 @@ pub(super) fn write(answer: &Answer) -> String {
         let numbers = numbers.map(|value| format!("{}=\"{}\"", value.name, value.rounded()));
         format!("<Pose {}/>", numbers.collect::<Vec<_>>().join(" "))
     });
+    let on_line = answer.on_line.map(|on_line| {
+        let (count, since) = (on_line.count.unwrap_or(0), answer.on_line_since_or_none());
+        format!(
+            "<Line Number=\"{}\" Count=\"{}\" Since=\"{since}\" Bound=\"{:.2}\" Speed=\"{:.2}\"/>",
+            on_line.number,
+            count.cast_signed(),
+            on_line.bound_mm,
+            on_line.speed_mm_s
+        )
+    });
     let (elements, pose) = (elements.concat(), pose.unwrap_or_default());
-    format!("<Partsight>{elements}{pose}</Partsight>\n")
+    let on_line = on_line.unwrap_or_default();
+    format!("<Partsight>{elements}{pose}{on_line}</Partsight>\n")
 }
 
 fn escaped(text: &str) -> String {
@@ -154,6 +167,14 @@ mod tests {
             (
                 "<Robot><Request>PATH</Request><Point>4</Point><Sequence>0</Sequence></Robot>",
                 Request::path(4, 0),
+            ),
+            (
+                "<Robot><Request>TRIGGER</Request><Expected></Expected><Count>-7</Count></Robot>",
+                Request::TRIGGER.at_count(Some(u32::MAX - 6)),
+            ),
+            (
+                "<Robot><Request>STATUS</Request><Count>9</Count></Robot>",
+                Request::Status,
             ),
             (
                 "<Robot><Request>LAST</Request><Point>0</Point><Sequence>0</Sequence></Robot>",

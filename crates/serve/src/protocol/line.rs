@@ -1,6 +1,6 @@
 //! A request as a line of text: `TRIGGER` or, if the parts number 3 and 5 are expected, `TRIGGER 3 5` or, at the first and the
 //! second place of the rack, `TRIGGER 1=3 2=5`; `STATUS`, `LAST`, `PATH`, `PATH 3` or, of the inspection number 41,
-//! `PATH 3 41`; `PART` likewise.
+//! `PATH 3 41`; `PART` likewise. `ENC=123456` behind `TRIGGER` is the count of a line's encoder.
 //!
 //! A line ends with LF, CR or both. Case does not matter. Empty lines, and blanks and zeros around a request, are ignored.
 
@@ -42,13 +42,23 @@ pub(super) fn named<'a>(
     numbers: impl Iterator<Item = &'a [u8]>,
 ) -> Option<Result<Request, BadRequest>> {
     let request = of_name(word)?;
-    let numbers: Vec<&[u8]> = numbers.collect();
+    let mut numbers: Vec<&[u8]> = numbers.collect();
+    let mut count = None;
+    if let Request::Trigger { .. } = request {
+        let counts = numbers.extract_if(.., |word| count_in(word).is_some());
+        count = counts.filter_map(count_in).last();
+    }
+    let count = match count.map(number_of_count).transpose() {
+        Ok(count) => count,
+        Err(why) => return Some(Err(why)),
+    };
     // As many as it takes, whatever they are.
     request.numbered(&vec![0; numbers.len()])?;
     let numbers = numbers.into_iter();
     if let Request::Trigger { .. } = request {
         let parts: Result<Vec<ExpectedNumber>, _> = numbers.map(expected_in).collect();
-        return parts.map(Request::expecting).transpose();
+        let request = parts.map(Request::expecting).transpose();
+        return request.map(|request| request.map(|request| request.at_count(count)));
     }
     let numbers: Result<Vec<u32>, _> = numbers.map(number_in).collect();
     (numbers.map(|numbers| request.numbered(&numbers))).transpose()
@@ -67,6 +77,24 @@ fn expected_in(text: &[u8]) -> Result<ExpectedNumber, BadRequest> {
     };
     let part = number_in(part)?;
     Ok(ExpectedNumber { part, place })
+}
+
+/// The count of `ENC=COUNT`.
+fn count_in(word: &[u8]) -> Option<&[u8]> {
+    const NAME: &[u8] = b"ENC=";
+    let name = word.get(..NAME.len())?;
+    name.eq_ignore_ascii_case(NAME).then(|| &word[NAME.len()..])
+}
+
+/// Reads a count of a signed or an unsigned counter of up to 32 bits. Some controllers count in reals, such as `7.0`.
+pub(super) fn number_of_count(text: &[u8]) -> Result<u32, BadRequest> {
+    let number = std::str::from_utf8(text).ok();
+    let number = number.and_then(|text| text.parse::<f64>().ok());
+    let range = f64::from(i32::MIN)..=f64::from(u32::MAX);
+    let number = number.filter(|number| number.fract() == 0.0 && range.contains(number));
+    // A negative count is that of a counter of 32 bits.
+    let number = number.map(|number| number as i64 as u32);
+    number.ok_or_else(|| BadRequest::no_number(text))
 }
 
 fn number_in(text: &[u8]) -> Result<u32, BadRequest> {
@@ -108,6 +136,19 @@ mod tests {
             ),
             ("TRIGGER 1=3 2=5\n", placed([(3, 1), (5, 2)])),
             ("trigger;2=16777215;7\n", placed([(16_777_215, 2), (7, 0)])),
+            (
+                "TRIGGER ENC=123456\n",
+                Request::TRIGGER.at_count(Some(123_456)),
+            ),
+            ("TRIGGER ENC=7.0\n", Request::TRIGGER.at_count(Some(7))),
+            (
+                "trigger 3 enc=-2 5\n",
+                expecting(&[3, 5]).at_count(Some(u32::MAX - 1)),
+            ),
+            (
+                "TRIGGER ENC=4294967295\n",
+                Request::TRIGGER.at_count(Some(u32::MAX)),
+            ),
             ("status\r", Request::Status),
             ("Last\n", Request::Last),
             ("PATH\n", Request::path(0, 0)),
@@ -145,6 +186,10 @@ mod tests {
             ("START\n", "unknown_request"),
             ("TRIGGER 1 2 3 4 5 6 7 8 9\n", "unknown_request"),
             ("TRIGGER x\n", "no_point"),
+            ("TRIGGER ENC=\n", "no_point"),
+            ("TRIGGER ENC=4294967296\n", "no_point"),
+            ("TRIGGER ENC=1.5\n", "no_point"),
+            ("STATUS ENC=1\n", "unknown_request"),
             ("TRIGGER 1=\n", "no_point"),
             ("TRIGGER =3\n", "no_point"),
             ("TRIGGER 1=2=3\n", "no_point"),

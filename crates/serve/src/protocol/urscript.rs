@@ -5,7 +5,8 @@
 //! ```
 //!
 //! The numbers: count of those that follow, verdict, sequence, boot, age in ms (-1: no frame), camera, flags, number of the
-//! part, point, points, speed in mm/s; with a pose also x, y, z in metres and the rotation vector. Without a pose the list
+//! part, point, points, speed in mm/s; with a pose also x, y, z in metres and the rotation vector, and of a part on a line its
+//! number there, the count (signed), the time since then in ms, the bound in mm and the speed in mm/s. Without a pose the list
 //! ends earlier and the function returns a smaller count, so that a program cannot take missing numbers for a pose.
 
 use crate::answer::Answer;
@@ -27,6 +28,15 @@ pub(super) fn write(answer: &Answer) -> String {
     if let Some(pose) = &answer.pose {
         let written = Convention::UniversalRobots.write(pose);
         numbers.extend(written.values.iter().map(RobotValue::rounded));
+        if let Some(on_line) = &answer.on_line {
+            numbers.extend([
+                on_line.number.to_string(),
+                on_line.count.unwrap_or(0).cast_signed().to_string(),
+                answer.on_line_since_or_none().to_string(),
+                format!("{:.2}", on_line.bound_mm),
+                format!("{:.2}", on_line.speed_mm_s),
+            ]);
+        }
     }
     format!("({}, {})\n", numbers.len(), numbers.join(", "))
 }
