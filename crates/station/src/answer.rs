@@ -59,22 +59,33 @@ impl Answered {
     }
 }
 
-fn parts_of<'a>(
+pub(super) fn parts_of<'a>(
     subject: &'a Subject,
     scene: &'a Arc<SceneCloud>,
     inspections: &'a [Inspection],
     recipe: &'a NamedRecipe,
     robot: &'a RobotFrame,
 ) -> Vec<Inspected<'a>> {
-    let part = |inspection| Inspected {
+    let part = |inspection| inspected_of(subject, scene, inspection, recipe, robot);
+    inspections.iter().map(part).collect()
+}
+
+/// A part as it is shown and recorded.
+pub(super) fn inspected_of<'a>(
+    subject: &'a Subject,
+    scene: &'a Arc<SceneCloud>,
+    inspection: &'a Inspection,
+    recipe: &'a NamedRecipe,
+    robot: &'a RobotFrame,
+) -> Inspected<'a> {
+    Inspected {
         subject,
         scene,
         inspection,
         recipe,
         robot: Some(robot),
         is_forced: false,
-    };
-    inspections.iter().map(part).collect()
+    }
 }
 
 impl Answering<'_> {
@@ -121,7 +132,7 @@ impl Answering<'_> {
 
 impl Answering<'_> {
     /// The results for the parts of a frame of this time, and for the expected ones that are missing.
-    fn found(&self, parts: &[Inspected<'_>], captured_at: Instant) -> FrameParts {
+    pub(super) fn found(&self, parts: &[Inspected<'_>], captured_at: Instant) -> FrameParts {
         let expected = &parts[0].recipe.expected;
         let all = parts.iter();
         let mut all: Vec<Found> = all

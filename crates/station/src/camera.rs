@@ -333,6 +333,14 @@ impl Camera {
         })
     }
 
+    /// The newest frame that nobody has taken, if there is one. Does not wait.
+    pub fn newest(&self) -> Option<Captured> {
+        match self.opened().feed.wait(Duration::ZERO) {
+            Some(FeedItem::Captured(captured)) => Some(captured),
+            Some(FeedItem::Skipped(_)) | None => None,
+        }
+    }
+
     /// Refuses the accepted parts of a frame that move. `at` is the camera's time of the frame. If the scene was still until
     /// then, a frame at least 150 ms later must show each part in the same place; if that is not known, because the source
     /// has just begun or is slow, one at least 900 ms later. `again` inspects that frame, `middle_of` is the middle of a

@@ -19,6 +19,7 @@ mod doubt;
 mod finder;
 mod follow;
 mod inspected;
+mod line;
 mod motion;
 mod recorder;
 pub mod robot_file;
@@ -32,6 +33,7 @@ pub use self::{
     finder::{NumberedPart, PartFinder},
     follow::PartFollower,
     inspected::{CaptureFacts, Inspected, LibraryNames, ScanFacts, Subject},
+    line::{CountLog, Followed, FollowedFrame, LineFollower, LinePose, LineTracker, Moment},
     recorder::{Losses, Recorder},
     scenes::CameraScenes,
 };

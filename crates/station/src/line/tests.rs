@@ -1,0 +1,387 @@
+use std::{sync::Arc, time::Instant};
+
+use capture::SourceSpec;
+use geometry::{rigid::pose_error, units::Radians};
+use inspection::{
+    fixtures::shipped_library,
+    pipeline::{NamedRecipe, Recipe, Unwatched, run},
+};
+use nalgebra::{Translation3, Unit, UnitQuaternion};
+use records::history::Traceability;
+use robot::line::{Counter, DEFAULT_EXPOSURE};
+use serve::{Asked, ExpectedNumbers, OnLine, PoseKind, VerdictCode};
+use simulate::{CellSetup, PartKind, PartPose, PoseRange, Side};
+use stages::scene::{SceneCloud, scene_from_frame};
+
+use super::*;
+use crate::{Answering, Camera, NumberedPart, PartFinder, Subject};
+
+const PER_COUNT_M: f64 = 0.0001;
+
+fn line(change: impl FnOnce(&mut LineCalibration)) -> LineCalibration {
+    let mut line = LineCalibration {
+        direction: Unit::new_normalize(Vector3::new(-1.0, 0.02, 0.1)),
+        direction_bound: Radians(0.002),
+        way_per_count: Metres(PER_COUNT_M),
+        scale_bound: 0.002,
+        counter: Counter::Bits32,
+        residual: Metres(0.001),
+        num_poses: 12,
+        way: Metres(0.6),
+        part: "fender".into(),
+        made_at: jiff::Timestamp::UNIX_EPOCH,
+        slip: 0.005,
+        exposure: 0.01,
+    };
+    change(&mut line);
+    line
+}
+
+/// A frame by itself accepts the part of this inspection, at another place each time.
+struct Seen {
+    scene: Arc<SceneCloud>,
+    inspection: Inspection,
+    middle: Point3<f64>,
+}
+
+impl Seen {
+    fn new() -> Self {
+        let library = shipped_library();
+        let mut setup = CellSetup::with_part(PartKind::Fender, Side::Left, 0, 3);
+        setup.pose = PartPose::Drawn(PoseRange::facing());
+        let frame = simulate::frame(&setup).frame;
+        let scene = scene_from_frame(&frame);
+        let inspection = run(&scene, &library, &Recipe::default(), &Unwatched).expect("run");
+        assert!(inspection.verdict.is_accepted() && !inspection.touches_edge());
+        let middle = inspection
+            .best_reference(&library)
+            .and_then(|one| one.middle());
+        Self {
+            scene: Arc::new(scene),
+            inspection,
+            middle: middle.expect("points"),
+        }
+    }
+
+    fn pose(&self) -> RigidTransform {
+        self.inspection
+            .found_pose()
+            .expect("accepted")
+            .camera_from_part()
+    }
+
+    /// The inspection of a frame with the part moved so.
+    fn at(&self, moved: RigidTransform) -> Inspection {
+        let mut inspection = self.inspection.clone();
+        let pose = moved * self.pose();
+        if let Some(Ok(found)) = &mut inspection.pose {
+            found.target_from_source = pose.inverse();
+        }
+        inspection
+    }
+}
+
+fn moment(seconds: f64, count: Option<f64>) -> Moment {
+    Moment {
+        at: Duration::from_secs_f64(seconds),
+        count,
+    }
+}
+
+/// The frames at 5 a second of parts that start at these ways, in metres, and of a line of this speed; `off` moves a part beside
+/// its place on the line, and `lost` is the share of the way that the encoder loses, if there is one.
+struct Run<'a> {
+    line: LineCalibration,
+    starts: &'a [f64],
+    speed: f64,
+    lost: Option<f64>,
+    off: &'a dyn Fn(f64) -> RigidTransform,
+}
+
+/// What was recorded: the time, the number, and why it was refused.
+type Row = (f64, Option<u32>, Option<Rejection>);
+
+impl Run<'_> {
+    /// Runs for this time. Also returns the last pose of the first part that counts, with its true one then.
+    fn rows(self, seen: &Seen, seconds: f64) -> (Vec<Row>, Option<(LinePose, RigidTransform)>) {
+        let mut tracker = LineTracker::new(self.line.clone());
+        let (mut rows, mut last) = (Vec::new(), None);
+        for k in 0..(5.0 * seconds) as u32 {
+            let now = f64::from(k) / 5.0;
+            let way = self.speed * now;
+            let count = self
+                .lost
+                .map(|lost| (way * (1.0 - lost) / PER_COUNT_M).floor());
+            let place = |start: &f64| {
+                let along = Translation3::from(self.line.direction.into_inner() * (start + way));
+                along * (self.off)(now)
+            };
+            // The camera sees a metre of the line.
+            let in_view = self
+                .starts
+                .iter()
+                .filter(|start| (-0.5..0.5).contains(&(**start + way)));
+            let places: Vec<RigidTransform> = in_view.map(place).collect();
+            let mut found: Vec<Inspection> = places.iter().map(|at| seen.at(*at)).collect();
+            let entry = |_, one: &Inspection, number: Option<u32>| {
+                (now, number, one.verdict.rejected().cloned())
+            };
+            let (followed, recorded) =
+                tracker.see(moment(now, count), &mut found, |_| Some(seen.middle), entry);
+            for (inspection, followed) in found.iter().zip(&followed) {
+                let is_accepted = inspection.verdict.is_accepted();
+                assert_eq!(is_accepted, followed.pose.is_some());
+            }
+            if let (Some(followed), Some(place)) = (followed.first(), places.first()) {
+                let pose = followed.pose.filter(|_| followed.number == Some(1));
+                last = pose.map(|pose| (pose, place * seen.pose())).or(last);
+            }
+            rows.extend(recorded);
+        }
+        rows.extend(tracker.end());
+        (rows, last)
+    }
+}
+
+fn still(_: f64) -> RigidTransform {
+    RigidTransform::identity()
+}
+
+#[test]
+fn parts_that_a_line_carries_are_recorded_once_each_and_have_a_pose_at_every_count() {
+    let seen = Seen::new();
+    for (lost, slip) in [(Some(0.0), 0.005), (Some(0.01), 0.01), (None, 0.005)] {
+        let run = Run {
+            line: line(|line| line.slip = slip),
+            starts: &[-0.45, -1.0, -1.5],
+            speed: 0.1,
+            lost,
+            off: &still,
+        };
+        let carrier = run.line.clone();
+        let (rows, last) = run.rows(&seen, 40.0);
+        let numbers: Vec<Option<u32>> = rows.iter().map(|row| row.1).collect();
+        assert_eq!(numbers, [Some(1), Some(2), Some(3)], "{lost:?}: {rows:?}");
+        // Within three seconds of coming in: at 0, 5 and 10 s.
+        for ((at, ..), came_in) in rows.iter().zip([0.0, 5.0, 10.0]) {
+            assert!((0.5..=2.0).contains(&(at - came_in)), "{lost:?}: {rows:?}");
+        }
+        let (pose, truth) = last.expect("it counted");
+        assert!((pose.speed - 0.1).abs() < 0.002, "{pose:?}");
+        let way = 0.4;
+        let then = carrier.carried(&truth, way);
+        let (found, bounds) = match pose.moment.count {
+            Some(count) => {
+                let count = count + way * (1.0 - lost.unwrap_or(0.0)) / PER_COUNT_M;
+                pose.at_count(count, &carrier).expect("counted")
+            }
+            None => pose.after(way / 0.1, &carrier),
+        };
+        let off = pose_error(&found, &then, &seen.middle).shift;
+        assert!(
+            off <= bounds.shift,
+            "{lost:?}: {off} beyond {}",
+            bounds.shift
+        );
+        assert!(off.mm() < 5.0, "{lost:?}: {off}");
+    }
+}
+
+#[test]
+fn a_part_that_swings_is_moving_and_recorded_once_without_a_number() {
+    let seen = Seen::new();
+    for lost in [Some(0.0), None] {
+        for phase in 0..4 {
+            let swing = |seconds: f64| {
+                let angle = std::f64::consts::TAU * seconds / 1.9 + f64::from(phase) * 0.8;
+                let hook = seen.pose() * seen.middle - Vector3::y() * 0.8;
+                Translation3::from(hook.coords)
+                    * UnitQuaternion::from_axis_angle(&Vector3::z_axis(), 0.05 * angle.sin())
+                    * Translation3::from(-hook.coords)
+            };
+            let run = Run {
+                line: line(|_| ()),
+                starts: &[-0.45],
+                speed: 0.1,
+                lost,
+                off: &swing,
+            };
+            let (rows, last) = run.rows(&seen, 12.0);
+            let [(_, None, Some(Rejection::NotSteady { .. }))] = &rows[..] else {
+                panic!("{lost:?} at phase {phase}: {rows:?}");
+            };
+            assert_eq!(last, None);
+        }
+    }
+}
+
+#[test]
+fn a_line_that_stands_carries_its_parts_nowhere_and_one_too_fast_for_the_exposure_smears_them() {
+    let seen = Seen::new();
+    let run = |speed: f64, exposure: f64| {
+        let run = Run {
+            line: line(|line| line.exposure = exposure),
+            starts: &[-0.45],
+            speed,
+            lost: Some(0.0),
+            off: &still,
+        };
+        run.rows(&seen, 4.0).0
+    };
+    let standing = run(0.0, DEFAULT_EXPOSURE);
+    assert!(matches!(standing[..], [(_, Some(1), None)]), "{standing:?}");
+    let fast = run(0.25, 0.01);
+    assert!(matches!(fast[..], [(_, Some(1), None)]), "{fast:?}");
+    let smeared = run(0.25, 0.06);
+    let [(_, None, Some(Rejection::Smeared { smear, .. }))] = &smeared[..] else {
+        panic!("{smeared:?}");
+    };
+    assert!((smear.mm() - 15.0).abs() < 0.5, "{smear}");
+}
+
+#[test]
+fn parts_side_by_side_have_a_number_each_and_one_that_is_missed_for_a_while_keeps_its_own() {
+    let seen = Seen::new();
+    let carrier = line(|_| ());
+    let mut tracker = LineTracker::new(carrier.clone());
+    let mut numbers = Vec::new();
+    for k in 0..40 {
+        let now = f64::from(k) / 5.0;
+        let way = 0.1 * now - 0.4;
+        // Both hidden for two seconds, then found in the other order.
+        let starts: &[f64] = match k {
+            15..25 => &[],
+            25.. => &[way - 0.3, way],
+            _ => &[way, way - 0.3],
+        };
+        let place = |way: &f64| Translation3::from(carrier.direction.into_inner() * *way).into();
+        let places: Vec<RigidTransform> = starts.iter().map(place).collect();
+        let mut found: Vec<Inspection> = places.into_iter().map(|at| seen.at(at)).collect();
+        let count = Some(0.1 * now / PER_COUNT_M);
+        let (followed, recorded) = tracker.see(
+            moment(now, count),
+            &mut found,
+            |_| Some(seen.middle),
+            |_, _, number| number,
+        );
+        numbers.extend(recorded);
+        if k >= 25 {
+            let after: Vec<Option<u32>> = followed.iter().map(|one| one.number).collect();
+            assert_eq!(after, [Some(2), Some(1)], "frame {k}");
+        }
+    }
+    assert_eq!(numbers, [Some(1), Some(2)]);
+    assert_eq!(tracker.end(), []);
+}
+
+#[test]
+fn an_answer_has_the_pose_that_the_part_had_at_the_count_that_was_sent() {
+    let (seen, library, recipe) = (Seen::new(), shipped_library(), NamedRecipe::default());
+    let source: SourceSpec = "simulated:fender".parse().expect("a source");
+    let camera = Camera::start(&source).expect("started");
+    let parts = (1..).zip(&library.references);
+    let parts = parts.map(|(number, _)| NumberedPart {
+        number,
+        ..NumberedPart::default()
+    });
+    let finder = PartFinder {
+        parts: parts.collect(),
+        robot: robot::RobotFrame {
+            robot_from_camera: RigidTransform::translation(1.0, 2.0, 3.0),
+            name: "cell 1".into(),
+        },
+        kind: PoseKind::RobotFromPart,
+    };
+    let answering = Answering {
+        camera: &camera,
+        finder: &finder,
+        library: &library,
+        recipe: &recipe,
+        expected: ExpectedNumbers::default(),
+        at_most: Duration::from_secs(1),
+        is_ending: &|| false,
+    };
+    let follower: LineFollower<()> = LineFollower::new(line(|_| ()));
+    let bounds = seen.inspection.found_pose().and_then(|pose| pose.bounds());
+    // The frame was taken 0.2 s after the trigger, at count 5000; its line moves at 0.1 m/s, 1000 counts a second.
+    let captured_at = Instant::now();
+    let before = captured_at
+        .checked_sub(Duration::from_millis(200))
+        .expect("up longer");
+    let frame = |count: Option<f64>| {
+        let followed = Followed {
+            number: Some(7),
+            is_new: false,
+            pose: Some(LinePose {
+                moment: moment(10.0, count),
+                camera_from_part: seen.pose(),
+                bounds: bounds.expect("bounds"),
+                speed: 0.1,
+                speed_bound: 0.002,
+                rate: 1.0,
+            }),
+        };
+        let image = capture::Image::Cloud(seen.scene.cloud.clone());
+        let captured = capture::Captured::now(1, "frame".into(), image);
+        let subject = Subject::of_capture(&captured, &source, 0);
+        FollowedFrame::of(
+            subject,
+            Arc::clone(&seen.scene),
+            seen.inspection.clone(),
+            followed,
+            captured_at,
+        )
+    };
+    let answered = |sent: Option<u32>, count: Option<f64>| {
+        let asked = Asked {
+            at: before,
+            count: sent,
+            ..Asked::now()
+        };
+        let read = sent.map(i64::from);
+        answering.answered_at(
+            &asked,
+            read,
+            frame(count),
+            &follower,
+            &Traceability::default(),
+        )
+    };
+    let calibration = follower.line();
+    for (count, way, bound) in [(Some(4800), -0.02, 0.0), (None, 0.0, 0.0)] {
+        for known in [Some(5000.0), None] {
+            let answered = answered(count, known);
+            let found = &answered.found.first;
+            assert_eq!(found.verdict, VerdictCode::Accepted, "{:?}", found.problem);
+            let there = calibration.carried(&seen.pose(), way);
+            let pose = found.pose.expect("accepted");
+            let off = pose_error(&pose, &finder.robot.robot_from_part(&there), &seen.middle);
+            assert!(off.shift.0 < 1e-9, "{count:?}, {known:?}: {}", off.shift);
+            let on_line = found.on_line.expect("on a line");
+            assert_eq!((on_line.number, on_line.count), (7, count));
+            assert_eq!(
+                on_line.at,
+                Some(if count.is_some() { before } else { captured_at })
+            );
+            assert!((on_line.speed_mm_s - 100.0).abs() < 1e-9);
+            let least = bounds.expect("bounds").shift.mm();
+            assert!(on_line.bound_mm >= least + bound && on_line.bound_mm < least + 1.0);
+            // What the camera saw of the part comes along.
+            let moved = answered.inspections[0].readings().expect("points")[0]
+                - seen.inspection.readings().expect("points")[0];
+            assert!(
+                (f64::from(moved.norm()) - way.abs()).abs() < 1e-4,
+                "{moved}"
+            );
+        }
+    }
+    let mut refused = frame(Some(5000.0));
+    refused.refuse_first();
+    let asked = Asked::now();
+    let answered =
+        answering.answered_at(&asked, None, refused, &follower, &Traceability::default());
+    let found = answered.found.first;
+    assert_eq!((found.verdict, found.pose), (VerdictCode::Refused, None));
+    assert_eq!(found.problem.reason, "moving");
+    assert_eq!(found.on_line, Some(OnLine::default()));
+}
