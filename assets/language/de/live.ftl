@@ -66,4 +66,5 @@ live-on-floor = Am Boden
 live-plank = Brett davor
 live-line-runs = Linie läuft, ein Teil alle { $seconds } s
 live-racks-run = Linie läuft, drei Teile nebeneinander alle { $seconds } s
+live-conveyor-runs = Linie läuft ohne Halt mit { $speed } mm/s
 live-nothing = Nichts

@@ -66,4 +66,5 @@ live-on-floor = On the floor
 live-plank = A plank in front
 live-line-runs = The line runs, a part every { $seconds } s
 live-racks-run = The line runs, three parts side by side every { $seconds } s
+live-conveyor-runs = The line runs without a stop at { $speed } mm/s
 live-nothing = Nothing

@@ -66,4 +66,5 @@ live-on-floor = En el suelo
 live-plank = Una tabla delante
 live-line-runs = La línea avanza, una pieza cada { $seconds } s
 live-racks-run = La línea avanza, tres piezas lado a lado cada { $seconds } s
+live-conveyor-runs = La línea avanza sin parar a { $speed } mm/s
 live-nothing = Nada

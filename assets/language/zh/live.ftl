@@ -54,4 +54,5 @@ live-on-floor = 地面上
 live-plank = 前方有木板
 live-line-runs = 产线运行，每 { $seconds } s 一件
 live-racks-run = 产线运行，每 { $seconds } s 并排三件
+live-conveyor-runs = 产线不停运行，{ $speed } mm/s
 live-nothing = 无

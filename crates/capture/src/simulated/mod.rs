@@ -19,8 +19,8 @@ use super::{
 };
 use geometry::rigid::RigidTransform;
 use simulate::{
-    CellSetup, FrameTruth, PartKind, PartPose, RackKind, RackSetup, SensorNoise, SimulatedFrame,
-    SimulatedObject, StandingCell, StandingRack,
+    CellSetup, FrameTruth, LineSetup, PartKind, PartPose, RackKind, RackSetup, SensorNoise,
+    SimulatedFrame, SimulatedLine, SimulatedObject, StandingCell, StandingRack,
 };
 
 /// The simulated cell as a camera.
@@ -46,14 +46,17 @@ impl SimulatedCell {
     }
 
     /// Returns the frame with this number, from 1: always the same for the same settings. The truth has no labels; there is none
-    /// of a rack, which shows several parts.
+    /// of a rack or a line that runs without a stop, which show several parts.
     pub fn frame(&mut self, number: u64) -> (Image, Option<FrameTruth>) {
         let seconds = number.saturating_sub(1) as f64 / self.spec.frames_per_second;
         let moment = match self.spec.scene {
             CellScene::Line { every } | CellScene::Rack { every } => {
                 Some(ConveyorState::at(seconds, every))
             }
-            CellScene::Part(_) | CellScene::Object(_) | CellScene::Empty => None,
+            CellScene::Conveyor { .. }
+            | CellScene::Part(_)
+            | CellScene::Object(_)
+            | CellScene::Empty => None,
         };
         let visit = moment.map_or(0, |moment| moment.visit);
         let cell = match self.cell.take() {
@@ -81,6 +84,7 @@ impl SimulatedCell {
                 let moved = placed(&RigidTransform::identity(), RACK_START_DISTANCE_M);
                 (rack.frame(|_| Some(moved), &noise), None)
             }
+            ArrangedCell::Conveyor(line) => (line.frame(seconds, &noise), None),
         };
         self.cell = Some((visit, cell));
         (Image::Depth(frame), truth)
@@ -102,6 +106,7 @@ impl SimulatedCell {
 enum ArrangedCell {
     One(StandingCell),
     Rack(StandingRack),
+    Conveyor(SimulatedLine),
 }
 
 impl ArrangedCell {
@@ -114,6 +119,14 @@ impl ArrangedCell {
         };
         let subject = match spec.scene {
             CellScene::Rack { .. } => return Self::rack(spec, visit),
+            CellScene::Conveyor { speed } => {
+                let setup = LineSetup {
+                    speed,
+                    seed: spec.seed,
+                    ..LineSetup::default()
+                };
+                return Self::Conveyor(SimulatedLine::arrange(&setup));
+            }
             CellScene::Line { .. } => {
                 // Begin with a front door, as everywhere the program shows one part.
                 let first = PartKind::FrontDoor as u64;
@@ -184,10 +197,18 @@ impl DepthSource for SimulatedCell {
         self.number = number;
         let (image, truth) = self.frame(number);
         let name = format!("{FRAME}{number}");
-        Ok(NextCapture::Captured(Captured {
+        let mut captured = Captured {
             truth: truth.map(Arc::new),
             ..Captured::now(number, name, image)
-        }))
+        };
+        if let (CellScene::Conveyor { .. }, Some(started)) = (self.spec.scene, self.started) {
+            // A busy computer draws a frame late; the parts were there when it was due.
+            let due = started
+                + Duration::from_secs_f64((number - 1) as f64 / self.spec.frames_per_second);
+            let late = captured.arrived.saturating_duration_since(due);
+            captured.taken_at -= late;
+        }
+        Ok(NextCapture::Captured(captured))
     }
 }
 

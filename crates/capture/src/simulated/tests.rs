@@ -122,3 +122,11 @@ fn racks_come_in_from_outside_hang_still_and_leave() {
     assert!(differing(&empty, &here) > 20_000);
     assert!(differing(&depths(6.0), &depths(9.0)) > 20_000);
 }
+
+#[test]
+fn the_line_without_a_stop_shows_other_depths_in_every_frame_and_the_same_again() {
+    let mut line = cell("simulated,noise=0,fps=1,speed=200:conveyor");
+    let mut frame = |number| line.frame(number).0;
+    let (first, later) = (frame(12), frame(13));
+    assert!(first != later && frame(12) == first);
+}

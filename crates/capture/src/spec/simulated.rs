@@ -58,6 +58,11 @@ pub enum CellScene {
         /// Seconds from one rack to the next; 4 to 3600.
         every: f64,
     },
+    /// A conveyor line that runs without a stop: the eight parts pass one behind the other.
+    Conveyor {
+        /// Speed, m/s; 0.005 to 1.
+        speed: f64,
+    },
     /// One part, hanging still.
     Part(PartKind),
     /// An object that is not an enrolled part, hanging still.
@@ -70,6 +75,8 @@ pub enum CellScene {
 pub const NUM_ON_RACK: usize = 3;
 /// Default time from one part or rack of the line to the next, seconds.
 const DEFAULT_INTERVAL_S: f64 = 8.0;
+/// Default speed of the line that runs without a stop, m/s.
+const DEFAULT_SPEED: f64 = 0.1;
 /// Frame rate of a Kinect.
 const DEFAULT_FPS: f64 = 30.0;
 
@@ -140,6 +147,7 @@ const CLUTTER: [(&str, Clutter); 3] = [
 
 const LINE: &str = "line";
 const RACK: &str = "rack";
+const CONVEYOR: &str = "conveyor";
 const EMPTY: &str = "empty";
 
 impl CellScene {
@@ -148,17 +156,20 @@ impl CellScene {
         match self {
             Self::Line { .. } => LINE,
             Self::Rack { .. } => RACK,
+            Self::Conveyor { .. } => CONVEYOR,
             Self::Part(kind) => kind.name(),
             Self::Object(kind) => kind.name(),
             Self::Empty => EMPTY,
         }
     }
 
-    fn read(what: Option<&str>, every: Option<f64>) -> Option<Self> {
+    fn read(what: Option<&str>, every: Option<f64>, speed: Option<f64>) -> Option<Self> {
         let every = every.unwrap_or(DEFAULT_INTERVAL_S);
+        let speed = speed.unwrap_or(DEFAULT_SPEED);
         Some(match what {
             None | Some(LINE) => Self::Line { every },
             Some(RACK) => Self::Rack { every },
+            Some(CONVEYOR) => Self::Conveyor { speed },
             Some(EMPTY) => Self::Empty,
             Some(name) => match PartKind::from_name(name) {
                 Some(kind) => Self::Part(kind),
@@ -169,13 +180,16 @@ impl CellScene {
 }
 
 impl SimulatedSpec {
-    pub(super) const OPTIONS: &str = "side model pose noise clutter seed fps every";
+    pub(super) const OPTIONS: &str = "side model pose noise clutter seed fps every speed";
 
     /// Title to show to the operator.
     pub fn title(&self) -> String {
         let hung = match self.scene {
             CellScene::Line { .. } => "the line runs".into(),
             CellScene::Rack { .. } => "the line runs, with racks".into(),
+            CellScene::Conveyor { speed } => {
+                format!("the line runs without a stop at {:.0} mm/s", 1000.0 * speed)
+            }
             CellScene::Part(kind) if kind.is_sided() => {
                 format!("{}, {}", kind.title(), self.side.name())
             }
@@ -196,11 +210,13 @@ impl SimulatedSpec {
         };
         let whole = |word: &str| word.parse::<u64>().ok();
         let every = options.value("every", "seconds, from 4 to 3600", within(4.0, 3600.0))?;
+        let speed = options.value("speed", "mm/s, from 5 to 1000", within(5.0, 1000.0))?;
+        let speed = speed.map(|speed| speed / 1000.0);
         let clutter = |word: &str| {
             let named = CLUTTER.iter().find(|(name, _)| *name == word);
             named.map(|(_, clutter)| *clutter)
         };
-        let scene = CellScene::read(what, every).ok_or_else(|| SpecError::BadValue {
+        let scene = CellScene::read(what, every, speed).ok_or_else(|| SpecError::BadValue {
             what: "what hangs in the cell",
             found: what.unwrap_or_default().to_owned(),
             expected: hung_names(),
@@ -273,6 +289,9 @@ impl SimulatedSpec {
             CellScene::Line { every } | CellScene::Rack { every } if !is_default(every) => {
                 write!(f, ",every={every}:{}", self.scene.name())
             }
+            CellScene::Conveyor { speed } if speed.to_bits() != DEFAULT_SPEED.to_bits() => {
+                write!(f, ",speed={}:{CONVEYOR}", 1000.0 * speed)
+            }
             scene => write!(f, ":{}", scene.name()),
         }
     }
@@ -282,7 +301,7 @@ impl SimulatedSpec {
 fn hung_names() -> String {
     let parts = PartKind::ALL.map(PartKind::name);
     let objects = ObjectKind::ALL.map(ObjectKind::name);
-    [&[LINE, RACK, EMPTY], &parts[..], &objects[..]]
+    [&[LINE, RACK, CONVEYOR, EMPTY], &parts[..], &objects[..]]
         .concat()
         .join(", ")
 }

@@ -146,6 +146,12 @@ fn scene_title(scene: CellScene) -> String {
     match scene {
         CellScene::Line { every } => text!("live-line-runs", seconds = format!("{every:.0}")),
         CellScene::Rack { every } => text!("live-racks-run", seconds = format!("{every:.0}")),
+        CellScene::Conveyor { speed } => {
+            text!(
+                "live-conveyor-runs",
+                speed = format!("{:.0}", 1000.0 * speed)
+            )
+        }
         CellScene::Part(kind) => kind.title().to_owned(),
         CellScene::Object(kind) => text!("shell-not-enrolled", what = object(kind)),
         CellScene::Empty => text!("live-nothing"),
