@@ -53,8 +53,10 @@ pub(crate) struct RestMean {
 }
 
 impl RestLooks {
-    /// Adds a look. If it is farther from the first one than both may be off, the part has moved: it becomes the first.
-    pub(crate) fn push(&mut self, error: Twist, seen: SeenPart) {
+    /// Adds a look. If it is farther from the first one than both may be off, the part has moved: it becomes the first, and the
+    /// distance is returned.
+    pub(crate) fn push(&mut self, error: Twist, seen: SeenPart) -> Option<PoseDelta> {
+        let mut moved = None;
         if let Some((first, first_seen)) = self.looks.first() {
             let apart = error.plus(&first.scaled(-1.0)).size();
             let (a, b) = (&seen.bounds, &first_seen.bounds);
@@ -64,9 +66,11 @@ impl RestLooks {
             };
             if !is_within(&apart, &both) {
                 self.looks.clear();
+                moved = Some(apart);
             }
         }
         self.looks.push((error, seen));
+        moved
     }
 
     pub(crate) fn len(&self) -> usize {

@@ -13,6 +13,7 @@ use crate::{
     twist::{is_within, part_way},
 };
 use geometry::rigid::{PoseDelta, RigidTransform, pose_error};
+use robot::arm::Joints;
 
 /// What the robot should do.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,6 +42,8 @@ pub struct OnePose {
     /// The part's pose in what it is fixed to, at the last request.
     in_place: Option<RigidTransform>,
     first: Option<ArmState>,
+    /// Where the robot was sent last.
+    sent: Option<RigidTransform>,
     num_moves: usize,
 }
 
@@ -56,14 +59,25 @@ impl OnePose {
         max_move: PoseDelta,
         fence: Fence,
     ) -> Result<Self, ServoError> {
+        Self::check_longest(&max_move)?;
+        Ok(Self {
+            task,
+            params: params.checked()?,
+            max_move,
+            fence: fence.completed(),
+            in_place: None,
+            first: None,
+            sent: None,
+            num_moves: 0,
+        })
+    }
+
+    /// Refuses a longest move that is out of its range.
+    pub fn check_longest(max_move: &PoseDelta) -> Result<(), ServoError> {
+        let PoseDelta { shift, rotation } = max_move;
         for (what, value, low, high) in [
-            ("the longest move, mm", max_move.shift.mm(), 1.0, 500.0),
-            (
-                "the longest move, °",
-                max_move.rotation.degrees(),
-                0.1,
-                45.0,
-            ),
+            ("the longest move, mm", shift.mm(), 1.0, 500.0),
+            ("the longest move, °", rotation.degrees(), 0.1, 45.0),
         ] {
             if !(low..=high).contains(&value) {
                 return Err(ServoError {
@@ -74,15 +88,7 @@ impl OnePose {
                 });
             }
         }
-        Ok(Self {
-            task,
-            params: params.checked()?,
-            max_move,
-            fence: fence.completed(),
-            in_place: None,
-            first: None,
-            num_moves: 0,
-        })
+        Ok(())
     }
 
     /// Answers a request: the looks at frames that were taken between two states of the arm.
@@ -100,16 +106,11 @@ impl OnePose {
         after: &ArmState,
     ) -> Result<OnePoseAnswer, StopReason> {
         let first = *self.first.get_or_insert(*before);
-        let moved = pose_error(
-            &before.robot_from_flange,
-            &after.robot_from_flange,
-            &Point3::origin(),
-        );
-        if !is_within(&moved, &self.params.deadband) {
-            return Err(StopReason::ArmAstray {
-                shift_m: moved.shift.0,
-                turn_rad: moved.rotation.0,
-            });
+        let flange = &after.robot_from_flange;
+        stays_within(&before.robot_from_flange, flange, &self.params.deadband)?;
+        if let Some(sent) = &self.sent {
+            // Its base or tool is another one, or it was stopped on the way.
+            stays_within(sent, flange, &self.params.max_astray)?;
         }
         if looks.is_empty() {
             let age = after.at.saturating_sub(before.at);
@@ -117,12 +118,16 @@ impl OnePose {
                 age_s: age.as_secs_f64(),
             });
         }
-        let flange = &after.robot_from_flange;
         let mut at_rest = RestLooks::default();
         let mut goal = None;
         for look in looks {
             let (of_look, seen) = self.goal_of(look, before, after)?;
-            at_rest.push(of_look.error, seen);
+            if let Some(apart) = at_rest.push(of_look.error, seen) {
+                return Err(StopReason::Moved {
+                    shift_m: apart.shift.0,
+                    turn_rad: apart.rotation.0,
+                });
+            }
             goal = Some(of_look);
         }
         let mean = at_rest.mean(&self.task.calibration_bounds(), &self.task.middle);
@@ -146,8 +151,9 @@ impl OnePose {
             * goal.flange_from_control.inverse();
         let control = Point3::from(goal.flange_from_control.translation.vector);
         let robot_from_flange = self.limited(flange, &wanted, &control);
-        self.refuse_endless(&robot_from_flange, &wanted, &error)?;
         self.check_way(flange, &robot_from_flange, after)?;
+        self.refuse_endless(&robot_from_flange, &wanted, &error)?;
+        self.sent = Some(robot_from_flange);
         Ok(OnePoseAnswer::Move {
             robot_from_flange,
             error,
@@ -236,16 +242,36 @@ impl OnePose {
         })
     }
 
+    /// Checks the straight way, in the arm's configuration if its joints are reported, else in any that reaches it.
     fn check_way(
         &self,
         from: &RigidTransform,
         to: &RigidTransform,
         arm: &ArmState,
     ) -> Result<(), StopReason> {
+        let placed = self.fence.arm.as_ref().filter(|_| arm.joints.is_none());
+        let Some(placed) = placed else {
+            return self.check_way_from(from, to, arm.joints);
+        };
+        let mut blocked = StopReason::OutOfReach;
+        for joints in placed.joints_at(&(from * placed.flange_from_nozzle)) {
+            match self.check_way_from(from, to, Some(joints)) {
+                Ok(()) => return Ok(()),
+                Err(reason) => blocked = reason,
+            }
+        }
+        Err(blocked)
+    }
+
+    fn check_way_from(
+        &self,
+        from: &RigidTransform,
+        to: &RigidTransform,
+        mut joints: Option<Joints>,
+    ) -> Result<(), StopReason> {
         let way = pose_error(from, to, &Point3::origin());
         let steps = (way.shift.0 / WAY_STEP.0).max(way.rotation.0 / WAY_STEP.1);
         let steps = steps.ceil().max(1.0) as usize;
-        let mut joints = arm.joints;
         for step in 1..=steps {
             let share = step as f64 / steps as f64;
             let pose = part_way(from, to, &Point3::origin(), share);
@@ -253,6 +279,22 @@ impl OnePose {
         }
         Ok(())
     }
+}
+
+/// Refuses an arm that is farther than this from where it should be.
+fn stays_within(
+    wanted: &RigidTransform,
+    found: &RigidTransform,
+    limit: &PoseDelta,
+) -> Result<(), StopReason> {
+    let off = pose_error(wanted, found, &Point3::origin());
+    if is_within(&off, limit) {
+        return Ok(());
+    }
+    Err(StopReason::ArmAstray {
+        shift_m: off.shift.0,
+        turn_rad: off.rotation.0,
+    })
 }
 
 #[cfg(test)]

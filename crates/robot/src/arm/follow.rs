@@ -12,6 +12,16 @@ impl PlacedArm {
         Solver::new(self, 0.0).forward(joints)
     }
 
+    /// All joints within their limits that bring the nozzle to a pose, with a rail at its zero.
+    pub fn joints_at(&self, robot_from_nozzle: &RigidTransform) -> Vec<Joints> {
+        let solver = Solver::new(self, 0.0);
+        let solutions = solver.solutions(robot_from_nozzle, None);
+        let within = solutions.iter();
+        within
+            .flat_map(|joints| solver.within_limits(joints))
+            .collect()
+    }
+
     /// The joints nearest to `near` that bring the nozzle to a pose in the same configuration, with a rail at its zero, or why
     /// the arm must not go there. The way to it is not checked: give poses that follow each other closely.
     pub fn joints_near(

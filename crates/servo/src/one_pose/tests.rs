@@ -1,8 +1,16 @@
 use std::time::Duration;
 
+use proptest::prelude::*;
+
 use super::*;
-use crate::task::tests::{World, worlds};
-use geometry::units::{Metres, Radians};
+use crate::{
+    stream::tests::{START, placed},
+    task::tests::{World, worlds},
+};
+use geometry::{
+    oriented_box::OrientedBox,
+    units::{Metres, Radians},
+};
 
 const MAX_MOVE: PoseDelta = PoseDelta {
     shift: Metres(0.1),
@@ -103,7 +111,6 @@ fn it_stays_if_the_arm_moved_the_frame_is_not_from_then_or_nothing_is_seen() {
         _ => "moves",
     };
     let (before, after) = (state(&start, 0), state(&start, 100));
-    assert_eq!(answer(&looks, &before, &after), "moves");
     assert_eq!(answer(&looks, &before, &state(&moved, 100)), "arm_astray");
     assert_eq!(answer(&[], &before, &after), "lost");
     assert_eq!(answer(&looks, &state(&start, 60), &after), "frame_times");
@@ -118,16 +125,20 @@ fn it_stays_if_the_arm_moved_the_frame_is_not_from_then_or_nothing_is_seen() {
         answer(&[looks[0].clone(), refused], &before, &after),
         "ambiguous"
     );
+    assert_eq!(answer(&looks, &before, &after), "moves");
 }
 
 #[test]
 fn a_part_that_was_pushed_between_two_requests_is_said_once_and_then_followed() {
     let (mut world, start) = worlds(0.0, 0.0, 1).remove(0);
     let mut run = new(&world);
-    assert!(matches!(
-        ask(&mut run, &world, &start, 0),
-        OnePoseAnswer::Move { .. }
-    ));
+    let OnePoseAnswer::Move {
+        robot_from_flange: start,
+        ..
+    } = ask(&mut run, &world, &start, 0)
+    else {
+        panic!("it is far");
+    };
     world.part_in_place = RigidTransform::translation(0.0, 0.05, 0.0) * world.part_in_place;
     assert!(matches!(
         ask(&mut run, &world, &start, 1000),
@@ -137,6 +148,28 @@ fn a_part_that_was_pushed_between_two_requests_is_said_once_and_then_followed() 
         ask(&mut run, &world, &start, 2000),
         OnePoseAnswer::Move { .. }
     ));
+}
+
+#[test]
+fn a_robot_that_is_not_where_it_was_sent_stays_until_a_new_run() {
+    let (world, start) = worlds(0.0, 0.0, 1).remove(0);
+    let mut run = new(&world);
+    let OnePoseAnswer::Move {
+        robot_from_flange, ..
+    } = ask(&mut run, &world, &start, 0)
+    else {
+        panic!("it is far");
+    };
+    // As if its base were turned.
+    let elsewhere = RigidTransform::translation(0.0, 0.04, 0.0) * robot_from_flange;
+    for number in 1..3 {
+        assert!(matches!(
+            ask(&mut run, &world, &elsewhere, 1000 * number),
+            OnePoseAnswer::Stay(StopReason::ArmAstray { shift_m, .. }) if (shift_m - 0.04).abs() < 1e-9
+        ));
+    }
+    let answer = ask(&mut new(&world), &world, &elsewhere, 4000);
+    assert!(matches!(answer, OnePoseAnswer::Move { .. }));
 }
 
 #[test]
@@ -162,4 +195,111 @@ fn corrections_that_lead_nowhere_end() {
         matches!(reason, StopReason::NotSettling { .. }),
         "{reason:?}"
     );
+}
+
+#[test]
+fn looks_of_one_request_that_disagree_are_a_part_that_swings() {
+    let (world, start) = worlds(0.0, 0.0, 1).remove(0);
+    let mut swung = world.clone();
+    swung.part_in_place = RigidTransform::translation(0.0, 0.006, 0.0) * world.part_in_place;
+    let looks = [look(&world, &start, 20), look(&swung, &start, 60)];
+    let answer = new(&world).answer(&looks, [&state(&start, 0), &state(&start, 100)]);
+    assert!(
+        matches!(answer, OnePoseAnswer::Stay(StopReason::Moved { shift_m, .. }) if (0.005..0.007).contains(&shift_m)),
+        "{answer:?}"
+    );
+}
+
+#[test]
+fn the_way_stays_within_the_volume() {
+    let (world, start) = worlds(0.0, 0.0, 1).remove(0);
+    let OnePoseAnswer::Move {
+        robot_from_flange, ..
+    } = ask(&mut new(&world), &world, &start, 0)
+    else {
+        panic!("it is far");
+    };
+    let mut fence = Fence::none();
+    let from = start.translation.vector;
+    let way = (robot_from_flange.translation.vector - from).amax();
+    // A cube around the start that reaches this much farther than the way.
+    let around = |reach: f64| {
+        Some(OrientedBox {
+            centre_m: from.into(),
+            size_m: [2.0 * (way + reach); 3],
+            angles_rad: [0.0; 3],
+        })
+    };
+    let mut answer = |volume| {
+        fence.volume = volume;
+        let (task, params) = (world.task.clone(), ServoParams::default());
+        let run = OnePose::new(task, params, MAX_MOVE, fence.clone());
+        ask(&mut run.expect("sound"), &world, &start, 0)
+    };
+    assert!(matches!(answer(around(0.02)), OnePoseAnswer::Move { .. }));
+    let outside = answer(around(-0.005));
+    assert!(
+        matches!(outside, OnePoseAnswer::Stay(StopReason::OutsideVolume { beyond_m }) if beyond_m > 0.0 && beyond_m < 0.01),
+        "{outside:?}"
+    );
+}
+
+#[test]
+fn without_reported_joints_some_configuration_of_the_arm_must_reach_the_way() {
+    let (world, _) = worlds(0.0, 0.0, 1).remove(0);
+    let placed = placed();
+    let nozzle = placed.nozzle_pose(&START).expect("finite");
+    let from = nozzle * placed.flange_from_nozzle.inverse();
+    let mut fence = Fence::none();
+    fence.arm = Some(placed);
+    let (task, params) = (world.task.clone(), ServoParams::default());
+    let run = OnePose::new(task, params, MAX_MOVE, fence).expect("sound");
+    let arm = state(&from, 0);
+    let near = RigidTransform::translation(0.0, 0.0, 0.05) * from;
+    assert_eq!(run.check_way(&from, &near, &arm), Ok(()));
+    let far = RigidTransform::translation(6.0, 0.0, 0.0) * from;
+    let blocked = run.check_way(&from, &far, &arm).expect_err("too far");
+    assert!(
+        ["out_of_reach", "joint_limit", "singular"].contains(&blocked.kind()),
+        "{blocked:?}"
+    );
+    let beyond = run.check_way(&far, &far, &arm);
+    assert_eq!(beyond, Err(StopReason::OutOfReach));
+}
+
+proptest! {
+    /// Whatever the looks are and whenever they were taken: it moves only if every one of them was accepted at this request.
+    #[test]
+    fn no_move_follows_from_a_look_that_was_not_accepted(
+        requests in proptest::collection::vec(
+            proptest::collection::vec((any::<bool>(), 0_u64..130, -0.02..0.02_f64), 0..5), 1..8),
+        seed in 0_u64..50,
+        kind in 0_usize..4,
+    ) {
+        let (world, start) = worlds(0.02, 0.035, seed).remove(kind);
+        let (mut run, mut flange) = (new(&world), start);
+        for (number, looks) in (0_u64..).zip(&requests) {
+            let at = 1000 * number;
+            let looks: Vec<Look> = looks.iter().map(|&(is_accepted, after, push)| {
+                let mut pushed = world.clone();
+                pushed.part_in_place = RigidTransform::translation(push, 0.0, 0.0) * world.part_in_place;
+                let mut look = look(&pushed, &flange, at + after);
+                if !is_accepted {
+                    look.seen = Err(StopReason::NoBounds { part: "door".into() });
+                }
+                look
+            }).collect();
+            let may_move = !looks.is_empty() && looks.iter().all(|look| look.seen.is_ok() && look.taken_at <= Duration::from_millis(at + 100));
+            match run.answer(&looks, [&state(&flange, at), &state(&flange, at + 100)]) {
+                OnePoseAnswer::Move { robot_from_flange, .. } => {
+                    prop_assert!(may_move, "{looks:?}");
+                    let by = pose_error(&flange, &robot_from_flange, &Point3::origin());
+                    prop_assert!(by.shift.0 <= MAX_MOVE.shift.0 + 1e-9 && by.rotation.0 <= MAX_MOVE.rotation.0 + 1e-9);
+                    flange = robot_from_flange;
+                }
+                OnePoseAnswer::Done(_) => prop_assert!(may_move, "{looks:?}"),
+                OnePoseAnswer::Stay(_) => {}
+            }
+        }
+    }
 }

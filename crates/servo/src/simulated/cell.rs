@@ -425,11 +425,15 @@ impl<'a> SimulatedCell<'a> {
         }
     }
 
+    /// Its arm, at the start.
+    pub fn arm(&self) -> SimulatedArm {
+        let arm = SimulatedArm::new(self.placed.clone(), self.start, self.setup.dynamics);
+        arm.expect("the start was checked")
+    }
+
     /// The controller of its robot, at the start.
     pub fn controller(&self, protocol: StreamProtocol) -> SimulatedController {
-        let arm = SimulatedArm::new(self.placed.clone(), self.start, self.setup.dynamics);
-        let arm = arm.expect("the start was checked");
-        SimulatedController::new(arm, self.placed.clone(), protocol)
+        SimulatedController::new(self.arm(), self.placed.clone(), protocol)
     }
 
     /// The computer's side of a protocol of its robot.

@@ -7,6 +7,7 @@ mod arm;
 mod cell;
 mod controller;
 mod run;
+mod single_moves;
 
 pub use self::{
     arm::{ArmDynamics, SimulatedArm},
@@ -15,4 +16,5 @@ pub use self::{
     },
     controller::{SimulatedController, StreamProtocol},
     run::{RunResult, Sample, run},
+    single_moves::run_in_single_moves,
 };

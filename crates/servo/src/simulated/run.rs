@@ -35,6 +35,8 @@ pub struct RunResult {
     pub samples: Vec<Sample>,
     /// Number of frames inspected.
     pub num_frames: usize,
+    /// Number of single moves; 0 of a run that streams poses.
+    pub num_moves: usize,
     /// Least distance of tools and flange from the part's true surface, metres.
     pub least_distance: f64,
     /// Number of commands that the arm could not follow.
@@ -50,36 +52,94 @@ pub struct RunResult {
 /// Ends a run that neither arrives nor stops; the servo's own longest time must be shorter.
 const LONGEST: Duration = Duration::from_secs(200);
 
+/// A run so far.
+pub(super) struct Observed<'c, 'a> {
+    cell: &'c SimulatedCell<'a>,
+    surface: Vec<Point3<f64>>,
+    pub(super) result: RunResult,
+}
+
+impl<'c, 'a> Observed<'c, 'a> {
+    pub(super) fn new(cell: &'c SimulatedCell<'a>) -> Self {
+        let mut watched = vec![Point3::origin()];
+        watched.extend(cell.fence.tools.iter().map(|tool| tool.end));
+        Self {
+            cell,
+            surface: cell.surface(),
+            result: RunResult {
+                end: Step::Stop(crate::StopReason::ByPerson),
+                samples: Vec::new(),
+                num_frames: 0,
+                num_moves: 0,
+                least_distance: f64::INFINITY,
+                num_unreachable: 0,
+                hangs: true,
+                period: cell.setup.dynamics.period.as_secs_f64(),
+                watched,
+            },
+        }
+    }
+
+    /// What the next frame shows; `None` if it is lost.
+    pub(super) fn look(&mut self, arm: &SimulatedArm) -> Option<Look> {
+        let number = self.result.num_frames as u64;
+        self.result.num_frames += 1;
+        self.cell.look(&arm.true_flange(), arm.state().at, number)
+    }
+
+    /// Notes where the arm is, and where it is sent; `None`: where it was sent before.
+    pub(super) fn sample(
+        &mut self,
+        arm: &SimulatedArm,
+        sent: Option<RigidTransform>,
+        is_usable: bool,
+        is_held: bool,
+    ) {
+        let (state, flange) = (arm.state(), arm.true_flange());
+        if self.result.samples.len().is_multiple_of(8) {
+            let part = self.cell.robot_from_part_at(state.at);
+            let distance = least_distance(self.cell, &flange, &part, &self.surface);
+            self.result.least_distance = self.result.least_distance.min(distance);
+        }
+        let before = self
+            .result
+            .samples
+            .last()
+            .map(|last| last.robot_from_flange);
+        self.result.samples.push(Sample {
+            at: state.at,
+            robot_from_flange: sent.or(before).unwrap_or(state.robot_from_flange),
+            error: self.cell.true_error(&flange, state.at),
+            is_usable,
+            is_held,
+        });
+    }
+
+    pub(super) fn ended(mut self, end: Step, arm: &SimulatedArm) -> RunResult {
+        self.result.end = end;
+        self.result.hangs = self.cell.hangs(arm.state().at);
+        self.result.num_unreachable = arm.num_unreachable();
+        self.result
+    }
+}
+
 /// Runs the servo in a cell until it arrives or stops.
 pub fn run(cell: &SimulatedCell<'_>, params: &ServoParams) -> Result<RunResult, ServoError> {
     let setup = &cell.setup;
     let mut servo = Servo::new(cell.task.clone(), params.clone(), cell.fence.clone())?;
-    let arm = SimulatedArm::new(cell.placed.clone(), cell.start, setup.dynamics);
-    let mut arm = arm.expect("the cell has checked the start");
-    let surface = cell.surface();
+    let mut arm = cell.arm();
     let mut arriving: VecDeque<(Duration, Look)> = VecDeque::new();
     let mut next_frame = Duration::ZERO;
-    let mut watched = vec![Point3::origin()];
-    watched.extend(cell.fence.tools.iter().map(|tool| tool.end));
-    let mut result = RunResult {
-        end: Step::Stop(crate::StopReason::ByPerson),
-        samples: Vec::new(),
-        num_frames: 0,
-        least_distance: f64::INFINITY,
-        num_unreachable: 0,
-        hangs: true,
-        period: setup.dynamics.period.as_secs_f64(),
-        watched,
-    };
+    let mut observed = Observed::new(cell);
     let mut is_usable = true;
+    let mut end = Step::Stop(crate::StopReason::ByPerson);
     while arm.state().at < LONGEST {
         arm.advance();
         let state = arm.state();
         let now = state.at;
         if now >= next_frame {
             next_frame += setup.frame_period;
-            let look = cell.look(&arm.true_flange(), now, result.num_frames as u64);
-            result.num_frames += 1;
+            let look = observed.look(&arm);
             arriving.extend(look.map(|look| (now + setup.delay, look)));
         }
         let look = arriving.pop_front_if(|(at, _)| *at <= now);
@@ -87,37 +147,17 @@ pub fn run(cell: &SimulatedCell<'_>, params: &ServoParams) -> Result<RunResult, 
             is_usable = look.seen.is_ok();
         }
         let step = servo.step(look.as_ref().map(|(_, look)| look), &state);
-        let flange = arm.true_flange();
-        if result.samples.len().is_multiple_of(8) {
-            let part = cell.robot_from_part_at(now);
-            let distance = least_distance(cell, &flange, &part, &surface);
-            result.least_distance = result.least_distance.min(distance);
-        }
-        let robot_from_flange = match &step {
-            Step::Command(pose) => *pose,
-            Step::Stop(_) | Step::Done(_) => result
-                .samples
-                .last()
-                .map_or(state.robot_from_flange, |last| last.robot_from_flange),
-        };
-        result.samples.push(Sample {
-            at: now,
-            robot_from_flange,
-            error: cell.true_error(&flange, now),
-            is_usable,
-            is_held: servo.held().is_some(),
-        });
-        match step {
-            Step::Command(pose) => arm.send(pose),
-            end @ (Step::Stop(_) | Step::Done(_)) => {
-                result.end = end;
-                result.hangs = cell.hangs(now);
-                break;
-            }
+        let is_held = servo.held().is_some();
+        if let Step::Command(pose) = step {
+            observed.sample(&arm, Some(pose), is_usable, is_held);
+            arm.send(pose);
+        } else {
+            observed.sample(&arm, None, is_usable, is_held);
+            end = step;
+            break;
         }
     }
-    result.num_unreachable = arm.num_unreachable();
-    Ok(result)
+    Ok(observed.ended(end, &arm))
 }
 
 /// Distance of the tools from the part's vertices less their radius, by comparing all.

@@ -7,6 +7,7 @@ use geometry::rigid::{from_euler_zyx, pose_error};
 use inspection::library::PathPoint;
 
 /// A world in which everything is known, for tests of servoing without pictures.
+#[derive(Clone)]
 pub(crate) struct World {
     pub(crate) task: Task,
     /// True place of the camera: on the flange, or in the base frame.
