@@ -11,12 +11,12 @@ use serde::{Deserialize, Serialize};
 
 use geometry::{
     error::Advice,
-    rigid::{RigidTransform, row_major},
+    rigid::{PoseDelta, RigidTransform, row_major},
 };
 use stages::segment::MAX_PARTS;
 
 /// A client's request.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Request {
     /// Capture a frame from now on, and inspect it.
     Trigger {
@@ -43,6 +43,19 @@ pub enum Request {
         /// The sequence number of any part of the frame; `None` for that of the client's own last trigger.
         sequence: Option<u32>,
     },
+    /// Say where the robot, which is at rest, should go next so that the part stands where it should.
+    Servo(ServoRequest),
+}
+
+/// What a robot at rest says when it asks for its next move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ServoRequest {
+    /// The number of the part; 0 for none.
+    pub part: u32,
+    /// True if this begins a new run, whatever went before.
+    pub is_start: bool,
+    /// Pose of the flange in the base frame.
+    pub robot_from_flange: RigidTransform,
 }
 
 /// A part that is expected in a frame, by numbers.
@@ -79,13 +92,19 @@ impl Request {
             Self::Last => ("LAST", 3),
             Self::Path { .. } => ("PATH", 4),
             Self::Part { .. } => ("PART", 5),
+            Self::Servo(_) => ("SERVO", 6),
         }
     }
 
     /// Finds a request whose name, in a text or in a frame, fulfils `is_it`; its numbers are 0.
     pub(super) fn find(is_it: impl Fn((&str, u16)) -> bool) -> Option<Self> {
         let (path, part) = (Self::path(0, 0), Self::part(0, 0));
-        let mut all = [Self::TRIGGER, Self::Status, Self::Last, path, part].into_iter();
+        let servo = Self::Servo(ServoRequest {
+            part: 0,
+            is_start: false,
+            robot_from_flange: RigidTransform::identity(),
+        });
+        let mut all = [Self::TRIGGER, Self::Status, Self::Last, path, part, servo].into_iter();
         all.find(|request| is_it(request.name()))
     }
 
@@ -130,6 +149,8 @@ impl Request {
                 let parts = numbers.iter();
                 Self::expecting(parts.map(|&part| ExpectedNumber { part, place: 0 }))
             }
+            // Its pose is read by the protocol, in the convention of the port.
+            (Self::Servo(_), _) => None,
             (_, []) => Some(self),
             (Self::Path { .. }, [point]) => Some(Self::path(*point, 0)),
             (Self::Path { .. }, [point, sequence]) => Some(Self::path(*point, *sequence)),
@@ -151,6 +172,7 @@ impl Request {
                 sequence,
             } => vec![number, sequence.unwrap_or(0)],
             Self::Trigger { expected, .. } => expected.iter().map(|one| one.part).collect(),
+            Self::Servo(servo) => vec![servo.part],
             Self::Status | Self::Last => Vec::new(),
         };
         while numbers.pop_if(|number| *number == 0).is_some() {}
@@ -179,6 +201,12 @@ pub enum VerdictCode {
     Full = 6,
     /// The request could not be read or asks for something that is not there.
     BadRequest = 7,
+    /// To a robot that servoes: go to the pose, and ask again at rest.
+    Move = 8,
+    /// To a robot that servoes: the target is reached.
+    Done = 9,
+    /// To a robot that servoes: stay where you are.
+    Stay = 10,
 }
 
 impl VerdictCode {
@@ -193,6 +221,9 @@ impl VerdictCode {
             Self::Error => "error",
             Self::Full => "full",
             Self::BadRequest => "bad_request",
+            Self::Move => "move",
+            Self::Done => "done",
+            Self::Stay => "stay",
         }
     }
 
@@ -311,6 +342,15 @@ impl Problem {
         )
     }
 
+    /// The server looks at parts, but moves no robot.
+    pub(super) fn no_servoing() -> Self {
+        Self::new(
+            "no_servoing",
+            "this server answers no SERVO",
+            "Ask a partsight serve that runs without the window",
+        )
+    }
+
     /// The maximum number of clients is connected.
     pub(super) fn full(max_clients: usize) -> Self {
         Self::new(
@@ -370,7 +410,8 @@ pub struct OnLine {
 /// The result of an inspection.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Found {
-    /// [`VerdictCode::Accepted`], [`VerdictCode::Refused`], [`VerdictCode::NoPart`] or [`VerdictCode::Error`].
+    /// [`VerdictCode::Accepted`], [`VerdictCode::Refused`], [`VerdictCode::NoPart`] or [`VerdictCode::Error`]; to a robot that
+    /// servoes [`VerdictCode::Move`], [`VerdictCode::Done`], [`VerdictCode::Stay`] or [`VerdictCode::Error`].
     pub verdict: VerdictCode,
     /// When the frame was captured; none without a frame.
     pub captured: Option<Instant>,
@@ -380,8 +421,11 @@ pub struct Found {
     pub number: u32,
     /// Any of [`Answer::APPROXIMATE`], [`Answer::SIMULATED`] and [`Answer::MOTION_UNCHECKED`].
     pub marks: u16,
-    /// The pose in the robot's base frame. Sent only while the verdict is accepted.
+    /// The pose in the robot's base frame: of the part, sent only while the verdict is accepted, or of the flange, to a robot
+    /// that should move there.
     pub pose: Option<RigidTransform>,
+    /// To a robot that servoes: the error that is left, and at the target its bounds.
+    pub servo_error: Option<RemainingError>,
     /// The part's stored spray path, moved by that pose.
     pub path: Vec<PathStep>,
     /// Why the stored path is not given; `None` also if none is stored.
@@ -392,6 +436,25 @@ pub struct Found {
     pub report: String,
     /// Why there is no pose.
     pub problem: Problem,
+}
+
+/// How far a robot that servoes is from its target.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RemainingError {
+    /// The error that is left.
+    pub error: PoseDelta,
+    /// Its bounds, 95 %; none before the target is reached.
+    pub bounds: Option<PoseDelta>,
+}
+
+impl RemainingError {
+    /// Error and angle, and their bounds, 0 for none: millimetres and degrees.
+    pub(super) fn figures(&self) -> [f64; 4] {
+        let figures = |delta: &PoseDelta| [delta.shift.mm(), delta.rotation.degrees()];
+        let [mm, degrees] = figures(&self.error);
+        let [bound_mm, bound_degrees] = self.bounds.as_ref().map_or([0.0; 2], figures);
+        [mm, degrees, bound_mm, bound_degrees]
+    }
 }
 
 impl Found {
@@ -555,8 +618,10 @@ pub struct Answer {
     pub num_parts: u32,
     /// Speed from this point to the next, mm/s.
     pub speed_mm_s: Option<f64>,
-    /// Pose in the robot's base frame; only with an accepted verdict.
+    /// Pose in the robot's base frame; only with an accepted verdict, or for a robot that should move there.
     pub pose: Option<RigidTransform>,
+    /// To [`Request::Servo`]: the error that is left.
+    pub servo_error: Option<RemainingError>,
     /// Why there is no pose; in an answer to a status request, the camera's problem.
     pub problem: Problem,
 }
@@ -659,7 +724,7 @@ impl Answer {
         if let (Request::Status, Some(problem)) = (request, &at.camera.problem) {
             answer.problem = problem.clone();
         }
-        // The only place where numbers get into an answer.
+        // Here and in `take_move` alone, numbers get into an answer.
         if answer.verdict == VerdictCode::Accepted {
             let num_points = u32::try_from(found.path.len()).unwrap_or(u32::MAX);
             match request {
@@ -671,7 +736,7 @@ impl Answer {
                     answer.points = num_points;
                     answer.take_point(point, found);
                 }
-                Request::Part { index: 0, .. } => {}
+                Request::Part { index: 0, .. } | Request::Servo(_) => {}
                 Request::Part { .. } => answer.pose = found.pose,
             }
             if answer.pose.is_some() {
@@ -681,7 +746,18 @@ impl Answer {
                 answer.on_line_since_ms = since.map(in_milliseconds);
             }
         }
+        if let Request::Servo(_) = request {
+            answer.take_move(found);
+        }
         answer
+    }
+
+    fn take_move(&mut self, found: &Found) {
+        match self.verdict {
+            VerdictCode::Move => (self.pose, self.servo_error) = (found.pose, found.servo_error),
+            VerdictCode::Done => self.servo_error = found.servo_error,
+            _ => {}
+        }
     }
 
     fn take_point(&mut self, point: u32, found: &Found) {
@@ -718,30 +794,37 @@ pub(super) fn judged(
     age: Option<Duration>,
     max_age: Duration,
 ) -> (VerdictCode, Problem) {
-    if found.verdict != VerdictCode::Accepted {
-        return (found.verdict, found.problem.clone());
-    }
+    let advice = match found.verdict {
+        VerdictCode::Accepted => "TRIGGER again; if a path takes longer to fetch, raise --max-age",
+        VerdictCode::Move | VerdictCode::Done => {
+            "SERVO again; if the computer takes so long, close what else uses it"
+        }
+        _ => return (found.verdict, found.problem.clone()),
+    };
+    let has_pose = found.pose.is_some() || found.verdict == VerdictCode::Done;
     let is_fresh = age.is_some_and(|age| age <= max_age);
     let poses = found.path.iter().map(|step| &step.robot_from_nozzle);
     let mut poses = poses.chain(&found.pose);
     let is_finite = poses.all(|pose| row_major(pose).iter().all(|number| number.is_finite()));
     if !is_fresh {
         let what = format!("the frame is older than {} s", max_age.as_secs_f64());
-        let advice = "TRIGGER again; if a path takes longer to fetch, raise --max-age";
         (VerdictCode::Stale, Problem::new("stale", &what, advice))
-    } else if found.pose.is_none() || !is_finite {
+    } else if !has_pose || !is_finite {
         let what = "the part was accepted without a pose";
         let advice = "Start the server without --pose none, and TRIGGER again";
         (VerdictCode::Refused, Problem::new("no_pose", what, advice))
     } else {
-        (VerdictCode::Accepted, found.problem.clone())
+        (found.verdict, found.problem.clone())
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use geometry::rigid::from_euler_zyx;
+    use geometry::{
+        rigid::from_euler_zyx,
+        units::{Metres, Radians},
+    };
 
     /// The answer about the first part.
     fn answer_of(request: Request, inspected: &Inspected, at: &Situation) -> Answer {
@@ -760,6 +843,7 @@ mod tests {
             number: 3,
             marks: Answer::SIMULATED,
             pose: Some(pose()),
+            servo_error: None,
             path: vec![PathStep {
                 robot_from_nozzle: pose(),
                 marks: Answer::GUN_ON,
@@ -796,6 +880,15 @@ mod tests {
             index,
             sequence: None,
         }
+    }
+
+    /// A robot that servoes.
+    fn servo() -> Request {
+        Request::Servo(ServoRequest {
+            part: 3,
+            is_start: false,
+            robot_from_flange: pose(),
+        })
     }
 
     const ALL: [Request; 8] = [
@@ -905,6 +998,82 @@ mod tests {
             assert!(has_no_numbers(request, &answer), "{request:?}");
             assert_eq!(answer.problem.reason, "stale");
             assert_eq!(answer.part, "fender");
+        }
+    }
+
+    #[test]
+    fn a_robot_that_servoes_gets_a_pose_only_to_move_there_and_nobody_else_gets_it() {
+        let start = Instant::now();
+        let error = Some(RemainingError {
+            error: PoseDelta {
+                shift: Metres(0.1),
+                rotation: Radians(0.1),
+            },
+            bounds: None,
+        });
+        let all = (0..=10).map(|code| {
+            let verdicts = [
+                VerdictCode::None,
+                VerdictCode::Accepted,
+                VerdictCode::Refused,
+                VerdictCode::NoPart,
+                VerdictCode::Stale,
+                VerdictCode::Error,
+                VerdictCode::Full,
+                VerdictCode::BadRequest,
+                VerdictCode::Move,
+                VerdictCode::Done,
+                VerdictCode::Stay,
+            ];
+            let verdict = verdicts[code];
+            assert_eq!(usize::from(verdict.code()), code);
+            verdict
+        });
+        for verdict in all {
+            let looked = inspected(
+                4,
+                Found {
+                    verdict,
+                    servo_error: error,
+                    path: Vec::new(),
+                    ..found(start)
+                },
+            );
+            let answer = answer_of(servo(), &looked, &situation(start));
+            let (is_move, is_done) = (verdict == VerdictCode::Move, verdict == VerdictCode::Done);
+            assert_eq!(answer.pose.is_some(), is_move, "{verdict:?}");
+            assert_eq!(
+                answer.servo_error.is_some(),
+                is_move || is_done,
+                "{verdict:?}"
+            );
+            let late = situation(start + Duration::from_secs(11));
+            let late = answer_of(servo(), &looked, &late);
+            assert_eq!((late.pose, late.servo_error), (None, None), "{verdict:?}");
+            if is_move || is_done {
+                assert_eq!(
+                    (late.verdict, &*late.problem.reason),
+                    (VerdictCode::Stale, "stale")
+                );
+                for request in ALL {
+                    assert!(
+                        answer_of(request, &looked, &situation(start))
+                            .pose
+                            .is_none()
+                    );
+                }
+            }
+        }
+        let endless = RigidTransform::translation(f64::NAN, 0.0, 0.0);
+        for pose in [None, Some(endless)] {
+            let verdict = VerdictCode::Move;
+            let wrong = Found {
+                verdict,
+                pose,
+                ..found(start)
+            };
+            let answer = answer_of(servo(), &inspected(4, wrong), &situation(start));
+            assert_eq!((answer.verdict, answer.pose), (VerdictCode::Refused, None));
         }
     }
 

@@ -8,10 +8,10 @@ use std::{
 };
 
 use super::{
-    answer::{Answer, Inspected, Problem, VerdictCode},
+    answer::{Answer, Problem, VerdictCode},
     listen::Listener,
     protocol::bad_request::BadRequest,
-    server::{ClientNews, Job, LINGER, Shared, WRITE_TIMEOUT, answer_to},
+    server::{ClientMemory, ClientNews, Job, LINGER, Shared, WRITE_TIMEOUT, answer_to},
 };
 
 /// Read timeout, after which a silent client's time limits are checked.
@@ -68,10 +68,10 @@ impl Client {
         // When the pending incomplete request began.
         let mut begun: Option<Instant> = None;
         let mut is_silent = true;
-        // What this client's last trigger led to.
-        let mut own: Option<Arc<Inspected>> = None;
+        let mut memory = ClientMemory::new(&self.shared);
         while !self.shared.is_stopping() {
-            let parsed = self.listener.at.protocol.parse(&bytes);
+            let Listener { at, convention } = self.listener;
+            let parsed = at.protocol.parse(&bytes, convention);
             if parsed.used > 0 {
                 bytes.drain(..parsed.used);
                 begun = (!bytes.is_empty()).then(Instant::now);
@@ -84,8 +84,8 @@ impl Client {
                     }
                     let stream = Arc::clone(&self.stream);
                     let is_withdrawn = move || is_closed(&stream);
-                    let answer =
-                        answer_to(request, &self.shared, &self.jobs, &mut own, is_withdrawn);
+                    let (shared, jobs) = (&self.shared, &self.jobs);
+                    let answer = answer_to(request, shared, jobs, &mut memory, is_withdrawn);
                     self.send(&answer)?;
                     last_answer = Instant::now();
                     continue;

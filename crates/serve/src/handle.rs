@@ -10,7 +10,8 @@ use serde_json::{Map, Value};
 use super::{
     answer::{Answer, ExpectedNumbers, LibraryStatus, PathStep, Problem, Request, VerdictCode},
     server::{
-        ClientNews, ClientSlot, Job, ServerSettings, Shared, answer_to, inspection_of, triggered,
+        ClientMemory, ClientNews, ClientSlot, Job, ServerSettings, Shared, answer_to,
+        inspection_of, triggered,
     },
     tally::Tally,
 };
@@ -66,7 +67,8 @@ impl ServerHandle {
         request: Request,
         is_withdrawn: impl Fn() -> bool + Send + 'static,
     ) -> Answer {
-        answer_to(request, &self.shared, &self.jobs, &mut None, is_withdrawn)
+        let mut client = ClientMemory::new(&self.shared);
+        answer_to(request, &self.shared, &self.jobs, &mut client, is_withdrawn)
     }
 
     /// Inspects a frame, and answers about each of its parts, or what there is instead of one. It blocks as

@@ -59,8 +59,8 @@ impl Inspections {
         })
     }
 
-    /// Numbers the parts of the next frame, which becomes the last one.
-    pub(super) fn add(&mut self, found: FrameParts) -> Arc<Inspected> {
+    /// Numbers the parts of a frame that is not asked for again.
+    pub(super) fn number(&mut self, found: FrameParts) -> Arc<Inspected> {
         let inspected = Arc::new(Inspected {
             sequence: self.sequence % MAX_COUNT + 1,
             boot: self.boot,
@@ -68,6 +68,12 @@ impl Inspections {
             revoked: OnceLock::new(),
         });
         self.sequence = inspected.sequence_of(inspected.found.others.len());
+        inspected
+    }
+
+    /// Numbers the parts of the next frame, which becomes the last one.
+    pub(super) fn add(&mut self, found: FrameParts) -> Arc<Inspected> {
+        let inspected = self.number(found);
         self.kept.push_back(Arc::clone(&inspected));
         let mut num_surplus = self.kept.len().saturating_sub(NUM_KEPT);
         // What a client holds stays, so that it can be revoked.

@@ -35,7 +35,8 @@ pub use self::server::bound;
 pub use self::{
     answer::{
         Answer, CameraState, CameraStatus, ExpectedNumber, ExpectedNumbers, Found, FrameParts,
-        LibraryStatus, MAX_COUNT, OnLine, PathStep, PoseKind, Problem, Request, VerdictCode,
+        LibraryStatus, MAX_COUNT, OnLine, PathStep, PoseKind, Problem, RemainingError, Request,
+        ServoRequest, VerdictCode,
     },
     handle::ServerHandle,
     listen::{ListenAddress, ListenError, Listener, OpenToNetwork, parse_address},

@@ -8,7 +8,7 @@ use std::{
     ops::ControlFlow,
     sync::{
         Arc, Mutex,
-        atomic::{AtomicBool, AtomicUsize, Ordering},
+        atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering},
         mpsc::{self, Receiver, SyncSender},
     },
     thread::{self, JoinHandle},
@@ -21,7 +21,7 @@ use thiserror::Error;
 use super::{
     answer::{
         Answer, CameraStatus, ExpectedNumbers, Found, FrameParts, Inspected, LibraryStatus,
-        Problem, Request, Situation, VerdictCode, judged,
+        Problem, Request, ServoRequest, Situation, VerdictCode, judged,
     },
     client::Client,
     handle::ServerHandle,
@@ -78,6 +78,12 @@ impl Asked {
 pub trait Inspector {
     /// Captures a frame after the trigger and inspects it.
     fn inspect(&mut self, asked: &Asked) -> FrameParts;
+
+    /// Looks at the part while the robot is at rest, and says where it should go next. `client` is the number of the
+    /// connection: a run of servoing belongs to one, and ends with it.
+    fn servo(&mut self, _request: &ServoRequest, _client: u64, _asked: &Asked) -> Found {
+        Found::error(Problem::no_servoing())
+    }
 
     /// Passes on a part of the last inspection with its number, for receivers other than the client. Called for each part
     /// right after the answer was sent; has to return soon.
@@ -226,6 +232,8 @@ pub(super) struct Shared {
     pub(super) settings: ServerSettings,
     is_stopping: AtomicBool,
     num_clients: AtomicUsize,
+    /// Number of clients since the start.
+    num_known: AtomicU64,
     /// Connections without a request so far, and since when, the oldest first.
     silent: Mutex<VecDeque<(Instant, Arc<TcpStream>)>>,
     pub(super) inspections: Mutex<Inspections>,
@@ -302,9 +310,28 @@ impl Drop for ClientSlot {
     }
 }
 
-/// A trigger that waits for its inspection.
+/// What the server knows of a client from one request to the next.
+pub(super) struct ClientMemory {
+    /// Its number, which no other client has.
+    number: u64,
+    /// What its last trigger led to.
+    own: Option<Arc<Inspected>>,
+}
+
+impl ClientMemory {
+    pub(super) fn new(shared: &Shared) -> Self {
+        Self {
+            number: shared.num_known.fetch_add(1, Ordering::SeqCst),
+            own: None,
+        }
+    }
+}
+
+/// A trigger that waits for its inspection, or a robot for its next move.
 pub(super) struct Job {
     asked: Asked,
+    /// The robot that servoes, and the number of its client.
+    servo: Option<(ServoRequest, u64)>,
     /// True once the client has closed its connection: nobody reads the answer.
     is_withdrawn: Box<dyn Fn() -> bool + Send>,
     reply: SyncSender<Result<Arc<Inspected>, Unanswered>>,
@@ -337,6 +364,7 @@ impl Server {
                 settings,
                 is_stopping: AtomicBool::new(false),
                 num_clients: AtomicUsize::new(0),
+                num_known: AtomicU64::new(0),
                 silent: Mutex::default(),
                 inspections: Mutex::new(Inspections::start()),
                 tally: Mutex::default(),
@@ -398,6 +426,15 @@ impl Server {
         // Or clients that give up would hold up those that wait.
         if (job.is_withdrawn)() {
             let _ = job.reply.send(Err(Unanswered::Withdrawn));
+            return;
+        }
+        if let Some((request, client)) = &job.servo {
+            let found = guarded(|| inspector.servo(request, *client, &job.asked));
+            let found = found.unwrap_or_else(|fault| Found::error(Problem::of("fault", &fault)));
+            let inspected = lock(&self.shared.inspections).number(found.into());
+            // The run ends with a client that has disconnected.
+            let _ = job.reply.send(Ok(inspected));
+            inspector.answered();
             return;
         }
         let found = guarded(|| inspector.inspect(&job.asked));
@@ -519,24 +556,29 @@ fn turn_away(mut stream: &TcpStream, listener: Listener, shared: &Shared) {
     drop(written);
 }
 
-/// Answers a client's request; for a trigger it blocks until the inspection is done. `own` is the inspection of the client's last
-/// trigger; `is_withdrawn` returns true once the client does not wait for an answer any more.
+/// Answers a client's request; for one that needs a frame it blocks until the inspection is done. `is_withdrawn` returns true
+/// once the client does not wait for an answer any more.
 pub(super) fn answer_to(
     request: Request,
     shared: &Shared,
     jobs: &SyncSender<Job>,
-    own: &mut Option<Arc<Inspected>>,
+    client: &mut ClientMemory,
     is_withdrawn: impl Fn() -> bool + Send + 'static,
 ) -> Answer {
     let inspected = match request {
         Request::Trigger { expected, count } => {
             let triggered = triggered((expected, count), jobs, Box::new(is_withdrawn));
-            *own = triggered.as_ref().ok().map(Arc::clone);
+            client.own = triggered.as_ref().ok().map(Arc::clone);
             triggered.map(|inspected| (inspected, 0))
+        }
+        Request::Servo(servo) => {
+            let servo = Some((servo, client.number));
+            let looked = inspected_for(Asked::now(), servo, jobs, Box::new(is_withdrawn));
+            looked.map(|inspected| (inspected, 0))
         }
         Request::Status | Request::Last => Ok((shared.last(), 0)),
         Request::Path { sequence, .. } | Request::Part { sequence, .. } => {
-            let known = inspection_of(sequence, own.as_ref(), shared);
+            let known = inspection_of(sequence, client.own.as_ref(), shared);
             known.map_err(|problem| (VerdictCode::BadRequest, problem))
         }
     };
@@ -577,13 +619,25 @@ pub(super) fn triggered(
     jobs: &SyncSender<Job>,
     is_withdrawn: Box<dyn Fn() -> bool + Send>,
 ) -> Result<Arc<Inspected>, (VerdictCode, Problem)> {
+    let asked = Asked {
+        expected,
+        count,
+        ..Asked::now()
+    };
+    inspected_for(asked, None, jobs, is_withdrawn)
+}
+
+/// As [`triggered`], also for a robot that servoes.
+fn inspected_for(
+    asked: Asked,
+    servo: Option<(ServoRequest, u64)>,
+    jobs: &SyncSender<Job>,
+    is_withdrawn: Box<dyn Fn() -> bool + Send>,
+) -> Result<Arc<Inspected>, (VerdictCode, Problem)> {
     let (reply, inspected) = mpsc::sync_channel(1);
     let job = Job {
-        asked: Asked {
-            expected,
-            count,
-            ..Asked::now()
-        },
+        asked,
+        servo,
         is_withdrawn,
         reply,
     };
@@ -624,10 +678,10 @@ mod tests {
         let path = |sequence| Request::Path { point: 1, sequence };
         let handle = server.handle();
         let answer = |request| {
-            let mut own = Some(Arc::clone(&own));
-            answer_to(request, &server.shared, &server.hand_over, &mut own, || {
-                false
-            })
+            let mut client = ClientMemory::new(&server.shared);
+            client.own = Some(Arc::clone(&own));
+            let (shared, jobs) = (&server.shared, &server.hand_over);
+            answer_to(request, shared, jobs, &mut client, || false)
         };
         let with_numbers = [Request::Last, path(None), path(Some(1))];
         for request in with_numbers {

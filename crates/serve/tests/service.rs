@@ -135,7 +135,7 @@ struct Reply {
     reason: String,
 }
 
-const VERDICTS: [&str; 8] = [
+const VERDICTS: [&str; 11] = [
     "none",
     "accepted",
     "refused",
@@ -144,6 +144,9 @@ const VERDICTS: [&str; 8] = [
     "error",
     "full",
     "bad_request",
+    "move",
+    "done",
+    "stay",
 ];
 const CAMERAS: [&str; 4] = ["opening", "running", "lost", "over"];
 
@@ -256,7 +259,7 @@ fn request(protocol: &str, word: &str, point: u32) -> Vec<u8> {
 
 /// A request as a binary frame with these numbers.
 fn frame(protocol: &str, word: &str, numbers: &[u32]) -> Vec<u8> {
-    let words = ["TRIGGER", "STATUS", "LAST", "PATH", "PART"];
+    let words = ["TRIGGER", "STATUS", "LAST", "PATH", "PART", "SERVO"];
     let code = place_of(word, &words) + 1;
     let mut frame = b"PSRQ".to_vec();
     let is_big = protocol == "binary-be";
@@ -843,6 +846,18 @@ fn a_bad_request_is_answered_with_its_reason_and_the_connection_closed() {
             "incomplete",
         ),
         (4, b"PATH x\n".to_vec(), "no_point"),
+        (0, b"SERVO 3 1200 -400\n".to_vec(), "bad_pose"),
+        (0, [b"SERVO 3", &[b' '; 600][..]].concat(), "too_long"),
+        (0, b"SERVO 3 1200 -400 1900 0".to_vec(), "incomplete"),
+        (1, frame("binary", "SERVO", &[3]), "length"),
+        (1, frame("binary", "SERVO", &[3; 15]), "bad_pose"),
+        (2, frame("binary-be", "SERVO", &[u32::MAX; 15]), "bad_pose"),
+        (
+            3,
+            b"<Robot><Request>SERVO</Request><Expected>3</Expected></Robot>".to_vec(),
+            "bad_pose",
+        ),
+        (4, b"SERVO 3 p[nan,0,0,0,0,0]\n".to_vec(), "bad_pose"),
     ] {
         let mut robot = service.robot(place);
         robot.send(&bytes);
@@ -858,6 +873,22 @@ fn a_bad_request_is_answered_with_its_reason_and_the_connection_closed() {
     }
     assert_eq!(service.server.num_inspected(), 0);
     service.wait_for(|news| matches!(news, ClientNews::BadRequest(_)));
+}
+
+#[test]
+fn a_server_that_moves_no_robot_says_so_and_the_connection_stays_open() {
+    let service = Service::start(&ALL, ServerSettings::default(), accepted);
+    let mut robot = service.robot(0);
+    robot.send(b"SERVO 3 1200 -400 1900 0 0 0\n");
+    let mut line = String::new();
+    robot.stream.read_line(&mut line).expect("a line");
+    assert!(line.starts_with("SERVO;error;1;"), "{line}");
+    assert!(line.contains(";no_servoing;"), "{line}");
+    assert_eq!(line.matches(';').count(), 23, "{line}");
+    // It is no inspection that anyone asks for.
+    assert_eq!(robot.ask("LAST").verdict, 0);
+    let triggered = robot.ask("TRIGGER");
+    assert_eq!((triggered.verdict, triggered.sequence), (1, 2));
 }
 
 #[test]

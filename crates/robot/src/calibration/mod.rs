@@ -30,6 +30,9 @@ pub use self::{
     file::{ReadCalibration, SCHEMA_VERSION, default_path},
 };
 
+/// Least and greatest distance of camera or flange from the origin of the robot's base: no cell is larger, and none sits nearer.
+pub const CELL_DISTANCES: [Metres; 2] = [Metres(0.02), Metres(20.0)];
+
 /// What a calibration without a name is called.
 pub const UNNAMED: &str = "an unnamed calibration";
 
@@ -187,8 +190,6 @@ impl Advice for UnitDoubt {
 impl CameraPlace {
     /// Returns the transform whose unit of length is doubtful, if there is one.
     pub fn unit_doubt(&self) -> Option<UnitDoubt> {
-        // No cell is larger, and no camera or flange sits nearer to the robot's base.
-        let in_cell = [Metres(0.02), Metres(20.0)];
         let on_flange = [Metres(0.002), Metres(3.0)];
         let doubt = |name, transform: &RigidTransform, [least, most]: [Metres; 2]| {
             let distance = Metres(transform.translation.vector.norm());
@@ -200,12 +201,12 @@ impl CameraPlace {
         };
         let camera = self.mount().camera_transform();
         match self {
-            Self::Fixed { robot_from_camera } => doubt(camera, robot_from_camera, in_cell),
+            Self::Fixed { robot_from_camera } => doubt(camera, robot_from_camera, CELL_DISTANCES),
             Self::OnFlange {
                 flange_from_camera,
                 capture_pose,
             } => doubt(camera, flange_from_camera, on_flange)
-                .or_else(|| doubt("robot_from_flange", capture_pose.as_ref()?, in_cell)),
+                .or_else(|| doubt("robot_from_flange", capture_pose.as_ref()?, CELL_DISTANCES)),
         }
     }
 

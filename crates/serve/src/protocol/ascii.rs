@@ -5,9 +5,10 @@
 //! ```
 //!
 //! The fields: request, verdict, sequence, boot, age in ms (-1: no frame), camera, part, number, flags, point, points,
-//! speed in mm/s, the numbers of the convention, reason, message; of a part on a line also its number there, the count, the
-//! time since then in ms, the bound in mm and the speed of the line in mm/s. Every answer has every field; without a pose the
-//! numbers are empty.
+//! speed in mm/s, the numbers of the convention, reason, message. Every answer has every field; without a pose the numbers
+//! are empty. Of a part on a line five more follow: its number there, the count, the time since then in ms, the bound in mm and
+//! the speed of the line in mm/s. An answer to `SERVO` has four more: the error that is left in mm and degrees, and its bounds;
+//! empty where there are none.
 
 use super::{MAX_MESSAGE, plain};
 use crate::answer::{Answer, Request};
@@ -49,9 +50,20 @@ pub(super) fn write(answer: &Answer, convention: Convention) -> String {
             format!("{:.2}", on_line.speed_mm_s),
         ]);
     }
+    if let Some(Request::Servo(_)) = answer.request {
+        match &answer.servo_error {
+            Some(error) => fields.extend(error.figures().map(figure)),
+            None => fields.extend([const { String::new() }; 4]),
+        }
+    }
     let mut line = fields.join(";");
     line.push('\n');
     line
+}
+
+/// A figure of an error: millimetres or degrees.
+pub(super) fn figure(figure: f64) -> String {
+    format!("{figure:.4}")
 }
 
 /// The word for a request.
@@ -65,10 +77,13 @@ mod tests {
 
     use super::*;
     use crate::{
-        answer::{OnLine, Problem, VerdictCode},
+        answer::{OnLine, Problem, RemainingError, ServoRequest, VerdictCode},
         protocol::tests::refused,
     };
-    use geometry::rigid::{RigidTransform, from_euler_zyx, pose_error};
+    use geometry::{
+        rigid::{PoseDelta, RigidTransform, from_euler_zyx, pose_error},
+        units::{Metres, Radians},
+    };
 
     fn accepted() -> (Answer, RigidTransform) {
         let pose = from_euler_zyx([0.4, -0.2, 1.3, 1.2005, -0.4, 1.9]);
@@ -152,6 +167,41 @@ mod tests {
         assert_eq!(fields[12..19], [""; 7]);
         assert_eq!(fields[19], "low_score");
         assert!(fields[20].starts_with("it scores, <0.5>"));
+    }
+
+    #[test]
+    fn a_robot_that_servoes_gets_four_more_fields() {
+        let request = Some(Request::Servo(ServoRequest {
+            part: 3,
+            is_start: false,
+            robot_from_flange: RigidTransform::identity(),
+        }));
+        let stay = Answer {
+            request,
+            verdict: VerdictCode::Stay,
+            ..refused()
+        };
+        let line = write(&stay, Convention::Kuka);
+        let fields: Vec<&str> = line.trim_end().split(';').collect();
+        assert_eq!((fields.len(), fields[0], fields[1]), (24, "SERVO", "stay"));
+        assert_eq!(
+            (&fields[12..18], &fields[20..]),
+            (&[""; 6][..], &[""; 4][..])
+        );
+        let left = PoseDelta {
+            shift: Metres(0.0005),
+            rotation: Radians::from_degrees(0.02),
+        };
+        let done = Answer {
+            verdict: VerdictCode::Done,
+            servo_error: Some(RemainingError {
+                error: left,
+                bounds: Some(left),
+            }),
+            ..stay
+        };
+        let line = write(&done, Convention::Kuka);
+        assert!(line.ends_with(";0.5000;0.0200;0.5000;0.0200\n"), "{line}");
     }
 
     #[test]

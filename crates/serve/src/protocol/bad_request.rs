@@ -37,6 +37,12 @@ pub enum BadRequest {
         /// The text found, in printable characters.
         found: String,
     },
+    /// The numbers of a robot that servoes are not the pose of its flange.
+    #[error("not a pose of the flange: {why}")]
+    BadPose {
+        /// Why not.
+        why: String,
+    },
     /// The frame does not begin with the expected bytes.
     #[error("the frame does not begin with PSRQ")]
     Magic,
@@ -86,6 +92,11 @@ impl BadRequest {
         Self::NoNumber { found }
     }
 
+    pub(super) fn no_real(found: &[u8]) -> Self {
+        let why = format!("{:?} is no number", shown(found));
+        Self::BadPose { why }
+    }
+
     pub(super) fn not_xml(found: &[u8]) -> Self {
         let found = shown(found);
         Self::NotXml { found }
@@ -98,6 +109,7 @@ impl BadRequest {
             Self::Incomplete { .. } => "incomplete",
             Self::Unknown { .. } => "unknown_request",
             Self::NoNumber { .. } => "no_point",
+            Self::BadPose { .. } => "bad_pose",
             Self::Magic => "magic",
             Self::Version { .. } => "version",
             Self::Length { .. } => "length",
@@ -115,7 +127,10 @@ impl Advice for BadRequest {
     fn advice(&self) -> String {
         match self {
             Self::TooLong { .. } | Self::Unknown { .. } => {
-                "Send TRIGGER, STATUS, LAST, PATH or PART, in the protocol of this port".into()
+                "Send TRIGGER, STATUS, LAST, PATH, PART or SERVO, in the protocol of this port".into()
+            }
+            Self::BadPose { .. } => {
+                "Send SERVO with the number of the part and the pose of the flange, without tool, in the base frame and the convention of this port".into()
             }
             Self::Incomplete { .. } => "Send the complete request, with its terminator".into(),
             Self::NoNumber { .. } => "Send PATH or PART alone, or with the number of a point or a part from 1 and, if need be, the sequence number of a trigger's answer; TRIGGER alone, or with the numbers of the expected parts, each as PART or PLACE=PART".into(),

@@ -8,13 +8,19 @@
 //! | 0 | 4 | `PSRQ` |
 //! | 4 | 2 | version, 1 |
 //! | 6 | 2 | length: 20, and 4 for each further number, up to 48; up to 80 with places; 84 with a count |
-//! | 8 | 2 | 1 trigger, 2 status, 3 last, 4 path, 5 part |
+//! | 8 | 2 | 1 trigger, 2 status, 3 last, 4 path, 5 part, 6 servo |
 //! | 10 | 2 | trigger: how many parts are expected, 0 to 8; otherwise 0 |
 //! | 12 | 4 | path and part: number of the point or part from 1, or 0; trigger: number of the first expected part |
 //! | 16 | 4 | path and part: sequence number of the inspection whose path or part is wanted, or 0, or left out; trigger: number of the second expected part, and so on |
 //! | 44 | 4 | trigger, after eight numbers of parts, of which the last may be 0: number of the first part's place, or 0 for any; number of the second part's place, and so on |
 //! | 76 | 4 | trigger, after eight places, of which the last may be 0: count of the line's encoder |
 //! | last | 4 | checksum |
+//!
+//! | request of a robot that servoes, 76 bytes: from | bytes | |
+//! | --- | --- | --- |
+//! | 10 | 2 | 1: a new run begins; otherwise 0 |
+//! | 12 | 4 | number of the part |
+//! | 16 | 56 | seven reals: the numbers of the flange's pose in the convention, then zeros |
 //!
 //! | answer: from | bytes | |
 //! | --- | --- | --- |
@@ -48,11 +54,13 @@
 //! | 264 | 8 | bound of the pose in mm |
 //! | 272 | 8 | speed of the line in mm/s |
 //! | 280 | 4 | checksum |
+//! An answer to a robot that servoes has a message of 16 bytes, and behind it, from 216, four reals: the error that is left in mm
+//! and degrees, and its bounds; all 0 where there are none.
 
 use std::iter;
 
-use super::{ByteOrder, Parsed, bad_request::BadRequest};
-use crate::answer::{Answer, ExpectedNumber, Request};
+use super::{ByteOrder, Parsed, bad_request::BadRequest, servo_request};
+use crate::answer::{Answer, ExpectedNumber, RemainingError, Request};
 use files::crc32;
 use robot::Convention;
 use stages::segment::MAX_PARTS;
@@ -65,6 +73,10 @@ pub const REQUEST_BYTES: usize = 20;
 pub(super) const MAX_REQUEST_BYTES: usize = NUMBERS_AT + 4 * (2 * MAX_PARTS + 1) + CHECKSUM_BYTES;
 /// Where the numbers of a request begin.
 const NUMBERS_AT: usize = 12;
+/// Where the flange's pose begins in the request of a robot that servoes.
+const POSE_AT: usize = 16;
+/// Length of the request of a robot that servoes, bytes.
+const SERVO_BYTES: usize = POSE_AT + 8 * MAX_NUMBERS + CHECKSUM_BYTES;
 /// Length of an answer, bytes.
 pub const ANSWER_BYTES: usize = 256;
 /// Number of the bytes that an answer about a line has more.
@@ -76,7 +88,7 @@ const REQUEST_MAGIC: [u8; 4] = *b"PSRQ";
 const ANSWER_MAGIC: [u8; 4] = *b"PSAN";
 const CHECKSUM_BYTES: usize = 4;
 
-pub(super) fn parse(bytes: &[u8], order: ByteOrder) -> Parsed {
+pub(super) fn parse(bytes: &[u8], convention: Convention, order: ByteOrder) -> Parsed {
     let begun = bytes.len().min(REQUEST_MAGIC.len());
     if bytes[..begun] != REQUEST_MAGIC[..begun] {
         return Parsed::bad(BadRequest::Magic);
@@ -89,7 +101,7 @@ pub(super) fn parse(bytes: &[u8], order: ByteOrder) -> Parsed {
         Err(why) => return Parsed::bad(why),
     };
     match bytes.get(..num_bytes) {
-        Some(frame) => Parsed::read(num_bytes, request_in(frame, order)),
+        Some(frame) => Parsed::read(num_bytes, request_in(frame, convention, order)),
         None => Parsed::skipped(0),
     }
 }
@@ -109,7 +121,11 @@ fn length_in(begin: &[u8], order: ByteOrder) -> Result<usize, BadRequest> {
     }
 }
 
-fn request_in(frame: &[u8], order: ByteOrder) -> Result<Request, BadRequest> {
+fn request_in(
+    frame: &[u8],
+    convention: Convention,
+    order: ByteOrder,
+) -> Result<Request, BadRequest> {
     let end = frame.len() - CHECKSUM_BYTES;
     let expected = crc32(&frame[..end]);
     let found = u32_of(frame, end, order);
@@ -121,11 +137,21 @@ fn request_in(frame: &[u8], order: ByteOrder) -> Result<Request, BadRequest> {
     let request = request.ok_or_else(|| BadRequest::unknown(code.to_string().as_bytes()))?;
     let found = u16_of(frame, 6, order);
     let wrong_length = || BadRequest::Length { found };
+    if let Request::Servo(_) = request {
+        let reals = frame[POSE_AT..end].chunks_exact(8);
+        let reals: Vec<f64> = reals.map(|bytes| f64_of(bytes, order)).collect();
+        let is_whole = frame.len() == SERVO_BYTES;
+        let numbers = reals.get(..convention.names().len());
+        let numbers = numbers.filter(|_| is_whole).ok_or_else(wrong_length)?;
+        let part = u32_of(frame, NUMBERS_AT, order);
+        let is_start = u16_of(frame, 10, order) != 0;
+        return servo_request(part, is_start, numbers, convention);
+    }
     let num_numbers = match request {
         Request::Trigger { .. } => usize::from(u16_of(frame, 10, order)),
         Request::Path { .. } | Request::Part { .. } => (end - NUMBERS_AT) / 4,
         // They ignore the numbers.
-        Request::Status | Request::Last => 0,
+        Request::Status | Request::Last | Request::Servo(_) => 0,
     };
     let numbers = frame[NUMBERS_AT..end].chunks_exact(4);
     let numbers: Vec<u32> = numbers.map(|bytes| u32_of(bytes, 0, order)).collect();
@@ -164,6 +190,10 @@ fn u32_of(bytes: &[u8], at: usize, order: ByteOrder) -> u32 {
     u32::from_le_bytes(ordered(bytes, order))
 }
 
+fn f64_of(bytes: &[u8], order: ByteOrder) -> f64 {
+    f64::from_le_bytes(ordered(std::array::from_fn(|i| bytes[i]), order))
+}
+
 pub(super) fn write(answer: &Answer, convention: Convention, order: ByteOrder) -> Vec<u8> {
     let pose = answer.pose.as_ref().map(|pose| convention.write(pose));
     let numbers = pose.map_or_else(Vec::new, |pose| pose.numbers());
@@ -197,7 +227,16 @@ pub(super) fn write(answer: &Answer, convention: Convention, order: ByteOrder) -
     }
     frame.text(&answer.part, 64);
     frame.text(&answer.problem.reason, 24);
-    frame.text(&answer.problem.message, 52);
+    if let Some(Request::Servo(_)) = answer.request {
+        frame.text(&answer.problem.message, 16);
+        let error = answer.servo_error.as_ref().map(RemainingError::figures);
+        for figure in error.unwrap_or_default() {
+            frame.real(figure);
+        }
+        frame.zeros(4);
+    } else {
+        frame.text(&answer.problem.message, 52);
+    }
     if let Some(on_line) = &answer.on_line {
         frame.long(on_line.number);
         frame.long(on_line.count.unwrap_or(0));
@@ -241,7 +280,7 @@ impl FrameWriter {
     }
 }
 
-/// Encodes a request as a frame.
+/// Encodes a request as a frame; one of a robot that servoes without its pose, so that it is refused.
 pub fn request(request: Request, order: ByteOrder) -> Vec<u8> {
     let mut frame = FrameWriter {
         bytes: REQUEST_MAGIC.to_vec(),
@@ -279,10 +318,17 @@ mod tests {
 
     use super::*;
     use crate::{
-        answer::{OnLine, Problem, VerdictCode},
+        answer::{OnLine, Problem, ServoRequest, VerdictCode},
         protocol::tests::refused,
     };
-    use geometry::rigid::{from_euler_zyx, pose_error};
+    use geometry::{
+        rigid::{PoseDelta, RigidTransform, from_euler_zyx, pose_error},
+        units::{Metres, Radians},
+    };
+
+    fn parse(bytes: &[u8], order: ByteOrder) -> Parsed {
+        super::parse(bytes, Convention::Abb, order)
+    }
 
     const ORDERS: [ByteOrder; 2] = [ByteOrder::Little, ByteOrder::Big];
 
@@ -368,6 +414,79 @@ mod tests {
         long.extend([0; 8]);
         let read = parse(&sealed(long), little).request.expect("read");
         assert_eq!(read.expect_err("too long").reason(), "length");
+    }
+
+    /// The request of a robot that servoes, little-endian, with this length in its head.
+    fn servo_frame(num_bytes: u16, start: u16, reals: [f64; 7]) -> Vec<u8> {
+        let mut frame = b"PSRQ\x01\x00".to_vec();
+        for short in [num_bytes, 6, start] {
+            frame.extend(short.to_le_bytes());
+        }
+        frame.extend(3_u32.to_le_bytes());
+        frame.extend(reals.iter().flat_map(|real| real.to_le_bytes()));
+        frame.truncate(usize::from(num_bytes) - 4);
+        sealed(frame)
+    }
+
+    #[test]
+    fn a_robot_that_servoes_sends_seven_reals_and_gets_the_error_behind_a_short_message() {
+        let little = ByteOrder::Little;
+        let flange = [1200.0, -400.0, 1900.0, 1.0, 0.0, 0.0, 0.0];
+        let request = ServoRequest {
+            part: 3,
+            is_start: true,
+            robot_from_flange: RigidTransform::translation(1.2, -0.4, 1.9),
+        };
+        let frame = servo_frame(76, 1, flange);
+        let wanted = Request::Servo(request);
+        assert_eq!(parse(&frame, little), Parsed::read(76, Ok(wanted)));
+        assert_eq!(parse(&frame[..75], little), Parsed::skipped(0));
+        // Six numbers and a zero.
+        let kuka = servo_frame(76, 0, [1200.0, -400.0, 1900.0, 0.0, 0.0, 0.0, 0.0]);
+        let read = super::parse(&kuka, Convention::Kuka, little);
+        let goes_on = Request::Servo(ServoRequest {
+            is_start: false,
+            ..request
+        });
+        assert_eq!(read, Parsed::read(76, Ok(goes_on)));
+        let not_unit = [1200.0, -400.0, 1900.0, 1.0, 1.0, 0.0, 0.0];
+        let unknown = [f64::NAN, -400.0, 1900.0, 1.0, 0.0, 0.0, 0.0];
+        for (frame, reason) in [
+            (servo_frame(72, 0, flange), "length"),
+            (servo_frame(20, 0, flange), "length"),
+            (servo_frame(76, 0, not_unit), "bad_pose"),
+            (servo_frame(76, 0, unknown), "bad_pose"),
+            (servo_frame(76, 0, [0.0; 7]), "bad_pose"),
+            (super::request(wanted, little), "length"),
+        ] {
+            let read = parse(&frame, little).request.expect("whole");
+            assert_eq!(read.expect_err("refused").reason(), reason);
+        }
+        let delta = |mm, degrees| PoseDelta {
+            shift: Metres::from_mm(mm),
+            rotation: Radians::from_degrees(degrees),
+        };
+        let answer = Answer {
+            request: Some(wanted),
+            verdict: VerdictCode::Done,
+            servo_error: Some(RemainingError {
+                error: delta(0.5, 0.25),
+                bounds: Some(delta(2.0, 0.125)),
+            }),
+            ..refused()
+        };
+        for order in ORDERS {
+            let frame = write(&answer, Convention::Abb, order);
+            assert_eq!(frame.len(), ANSWER_BYTES);
+            assert_eq!([8, 10, 40].map(|at| u16_of(&frame, at, order)), [6, 9, 0]);
+            assert_eq!(frame[200..216], *b"it scores; <0.5>");
+            let figures = [216, 224, 232, 240].map(|at| real(&frame, at, order));
+            for (figure, wanted) in figures.iter().zip([0.5, 0.25, 2.0, 0.125]) {
+                assert!((figure - wanted).abs() < 1e-9, "{figures:?}");
+            }
+            assert_eq!(frame[248..252], [0; 4]);
+            assert_eq!(u32_of(&frame, 252, order), crc32(&frame[..252]));
+        }
     }
 
     #[test]

@@ -6,16 +6,16 @@
 //! <Partsight><Request>TRIGGER</Request><Verdict>accepted</Verdict><Code>1</Code>…<Pose X="1200.500" …/>…</Partsight>
 //! ```
 //!
-//! Only the form that EKI sends with the guide's configuration is read, not every equivalent XML: no attributes, comments
-//! or references. The pose is an element of EKI's type FRAME; without a pose it is missing.
+//! Only the form that EKI sends with the guide's configuration is read, not every equivalent XML: no comments or references, and
+//! attributes of the pose alone. The pose is an element of EKI's type FRAME; without a pose it is missing.
 
 use super::{
     MAX_MESSAGE, Parsed,
-    ascii::name_of,
+    ascii::{figure, name_of},
     bad_request::BadRequest,
     is_filler,
-    line::{named, number_of_count, of_name, words_of},
-    plain,
+    line::{named, number_in, number_of_count, of_name, real_in, words_of},
+    plain, servo_request,
 };
 use crate::answer::{Answer, Request};
 use robot::Convention;
@@ -62,6 +62,18 @@ fn request(bytes: &[u8]) -> Result<Request, BadRequest> {
     let of = |tag| content_of(inner, tag).unwrap_or_default().as_bytes();
     let filled = |tag| Some(of(tag)).filter(|number| !number.is_empty());
     let request = of_name(word.as_bytes()).ok_or_else(|| BadRequest::unknown(word.as_bytes()))?;
+    if let Request::Servo(_) = request {
+        let is_start = number_in(filled("Start").unwrap_or(b"0"))? != 0;
+        let names = Convention::Kuka.names().iter();
+        let numbers = names.map(|name| real_in(attribute(inner, "Pose", name).as_bytes()));
+        let numbers = numbers.collect::<Result<Vec<f64>, _>>()?;
+        return servo_request(
+            number_in(of("Expected"))?,
+            is_start,
+            &numbers,
+            Convention::Kuka,
+        );
+    }
     let numbers: Vec<&[u8]> = match request {
         Request::Trigger { .. } => words_of(of("Expected")).collect(),
         Request::Path { .. } | Request::Part { .. } => {
@@ -70,7 +82,7 @@ fn request(bytes: &[u8]) -> Result<Request, BadRequest> {
                 (point, Some(sequence)) => vec![point.unwrap_or(b"0"), sequence],
             }
         }
-        Request::Status | Request::Last => Vec::new(),
+        Request::Status | Request::Last | Request::Servo(_) => Vec::new(),
     };
     let numbered = named(word.as_bytes(), numbers.into_iter());
     let request = numbered.ok_or_else(|| BadRequest::unknown(bytes))??;
@@ -83,6 +95,20 @@ fn content_of<'a>(text: &'a str, tag: &str) -> Option<&'a str> {
     let (_, rest) = text.split_once(&format!("<{tag}>"))?;
     let (content, _) = rest.split_once(&format!("</{tag}>"))?;
     Some(content.trim())
+}
+
+/// Returns the trimmed value of an element's attribute; empty if it is missing.
+fn attribute<'a>(text: &'a str, tag: &str, name: &str) -> &'a str {
+    let element = text.split_once(&format!("<{tag} "));
+    let attributes = element.and_then(|(_, rest)| rest.split_once('>'));
+    let values = attributes.map_or("", |(attributes, _)| attributes);
+    let mut pairs = values.split('"');
+    while let (Some(found), Some(value)) = (pairs.next(), pairs.next()) {
+        if found.trim().strip_suffix('=').map(str::trim) == Some(name) {
+            return value.trim();
+        }
+    }
+    ""
 }
 
 pub(super) fn write(answer: &Answer) -> String {
@@ -120,9 +146,18 @@ pub(super) fn write(answer: &Answer) -> String {
             on_line.speed_mm_s
         )
     });
-    let (elements, pose) = (elements.concat(), pose.unwrap_or_default());
-    let on_line = on_line.unwrap_or_default();
-    format!("<Partsight>{elements}{pose}{on_line}</Partsight>\n")
+    let error = answer.servo_error.map(|error| {
+        let tags = ["Error", "ErrorTurn", "Bound", "BoundTurn"].into_iter();
+        let figures = tags.zip(error.figures().map(figure));
+        let elements = figures.map(|(tag, figure)| format!("<{tag}>{figure}</{tag}>"));
+        elements.collect::<String>()
+    });
+    let further = [pose, on_line, error].map(Option::unwrap_or_default);
+    format!(
+        "<Partsight>{}{}</Partsight>\n",
+        elements.concat(),
+        further.concat()
+    )
 }
 
 fn escaped(text: &str) -> String {
@@ -137,10 +172,13 @@ mod tests {
 
     use super::*;
     use crate::{
-        answer::{ExpectedNumber, Problem, VerdictCode},
+        answer::{ExpectedNumber, Problem, RemainingError, ServoRequest, VerdictCode},
         protocol::tests::refused,
     };
-    use geometry::rigid::{from_euler_zyx, pose_error};
+    use geometry::{
+        rigid::{PoseDelta, RigidTransform, from_euler_zyx, pose_error},
+        units::{Metres, Radians},
+    };
 
     fn only(text: &str) -> Result<Request, BadRequest> {
         let parsed = parse(text.as_bytes());
@@ -205,6 +243,67 @@ mod tests {
         let first = parse(two);
         assert_eq!((first.used, first.request), (38, Some(Ok(Request::Last))));
         assert_eq!(parse(&two[38..]).request, Some(Ok(Request::Status)));
+    }
+
+    #[test]
+    fn a_robot_that_servoes_sends_its_flange_as_attributes_and_gets_the_error_behind_the_pose() {
+        let pose = "<Pose X=\"1200.0\" Y=\"-400.0\" Z=\"1900.0\" A=\"0.0\" B=\"0\" C=\"0\"";
+        let servo = |rest: &str| format!("<Robot><Request>SERVO</Request>{rest}</Robot>");
+        let request = ServoRequest {
+            part: 3,
+            is_start: false,
+            robot_from_flange: RigidTransform::translation(1.2, -0.4, 1.9),
+        };
+        for end in ["/>", "></Pose>"] {
+            let text = servo(&format!(
+                "<Expected>3</Expected><Start>0</Start>{pose}{end}"
+            ));
+            assert_eq!(only(&text), Ok(Request::Servo(request)), "{text}");
+        }
+        let is_start = true;
+        let text = servo(&format!("{pose}/><Start>1</Start><Expected>3</Expected>"));
+        let starts = Request::Servo(ServoRequest {
+            is_start,
+            ..request
+        });
+        assert_eq!(only(&text), Ok(starts));
+        for (rest, reason) in [
+            ("<Expected>3</Expected>".to_owned(), "bad_pose"),
+            (
+                "<Expected>3</Expected><Pose X=\"1200\"/>".into(),
+                "bad_pose",
+            ),
+            ("<Expected>3</Expected><Pose X=\"\"\"/>".into(), "bad_pose"),
+            (format!("{pose}/>"), "no_point"),
+            (format!("<Expected>2=3</Expected>{pose}/>"), "no_point"),
+            (
+                format!("<Start>x</Start><Expected>3</Expected>{pose}/>"),
+                "no_point",
+            ),
+        ] {
+            let text = servo(&rest);
+            assert_eq!(only(&text).expect_err(&text).reason(), reason, "{text}");
+        }
+        let answer = Answer {
+            request: Some(Request::Servo(request)),
+            verdict: VerdictCode::Move,
+            pose: Some(request.robot_from_flange),
+            servo_error: Some(RemainingError {
+                error: PoseDelta {
+                    shift: Metres(0.0875),
+                    rotation: Radians::from_degrees(4.25),
+                },
+                bounds: None,
+            }),
+            ..refused()
+        };
+        let text = write(&answer);
+        assert!(
+            text.contains("<Code>8</Code>") && text.contains("<Pose X=\"1200.000\""),
+            "{text}"
+        );
+        let end = "/><Error>87.5000</Error><ErrorTurn>4.2500</ErrorTurn><Bound>0.0000</Bound><BoundTurn>0.0000</BoundTurn></Partsight>\n";
+        assert!(text.ends_with(end), "{text}");
     }
 
     #[test]

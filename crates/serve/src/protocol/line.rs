@@ -1,16 +1,20 @@
 //! A request as a line of text: `TRIGGER` or, if the parts number 3 and 5 are expected, `TRIGGER 3 5` or, at the first and the
 //! second place of the rack, `TRIGGER 1=3 2=5`; `STATUS`, `LAST`, `PATH`, `PATH 3` or, of the inspection number 41,
 //! `PATH 3 41`; `PART` likewise. `ENC=123456` behind `TRIGGER` is the count of a line's encoder.
+//! `SERVO 3 1450 -310 890 10 20 30`, or `SERVO START 3 …`: of part 3 with the flange there.
 //!
 //! A line ends with LF, CR or both. Case does not matter. Empty lines, and blanks and zeros around a request, are ignored.
 
-use super::{Parsed, bad_request::BadRequest, is_filler};
+use super::{Parsed, bad_request::BadRequest, is_filler, servo_request};
 use crate::answer::{ExpectedNumber, Request};
+use robot::Convention;
 
 /// Maximum length of a line, bytes; every request is shorter.
-const MAX_LINE: usize = 128;
+const MAX_LINE: usize = 256;
+/// The word of a request that begins a new run of servoing.
+const START: &[u8] = b"START";
 
-pub(super) fn parse(bytes: &[u8]) -> Parsed {
+pub(super) fn parse(bytes: &[u8], convention: Convention) -> Parsed {
     let start = bytes.iter().position(|&byte| !is_filler(byte));
     let Some(start) = start else {
         return Parsed::skipped(bytes.len());
@@ -18,15 +22,20 @@ pub(super) fn parse(bytes: &[u8]) -> Parsed {
     let line = &bytes[start..];
     let end = line.iter().position(|byte| matches!(byte, b'\n' | b'\r'));
     match end {
-        Some(end) if end <= MAX_LINE => Parsed::read(start + end + 1, request(&line[..end])),
+        Some(end) if end <= MAX_LINE => {
+            Parsed::read(start + end + 1, request(&line[..end], convention))
+        }
         None if line.len() <= MAX_LINE => Parsed::skipped(start),
         _ => Parsed::bad(BadRequest::TooLong { limit: MAX_LINE }),
     }
 }
 
-fn request(line: &[u8]) -> Result<Request, BadRequest> {
+fn request(line: &[u8], convention: Convention) -> Result<Request, BadRequest> {
     let mut words = words_of(line);
     let word = words.next().unwrap_or_default();
+    if let Some(Request::Servo(_)) = of_name(word) {
+        return servo(words, convention);
+    }
     named(word, words).ok_or_else(|| BadRequest::unknown(line))?
 }
 
@@ -34,6 +43,28 @@ fn request(line: &[u8]) -> Result<Request, BadRequest> {
 pub(super) fn words_of(text: &[u8]) -> impl Iterator<Item = &[u8]> {
     let words = text.split(|&byte| is_filler(byte) || byte == b';');
     words.filter(|word| !word.is_empty())
+}
+
+/// Reads `3 1450 -310 890 10 20 30`, or the same behind `START`. The pose may be in brackets with commas, as a program of Universal Robots writes one.
+fn servo<'a>(
+    words: impl Iterator<Item = &'a [u8]>,
+    convention: Convention,
+) -> Result<Request, BadRequest> {
+    let words = words.flat_map(|word| word.split(|byte| matches!(byte, b',' | b'[' | b']')));
+    let mut words = words.filter(|word| !word.is_empty() && *word != b"p");
+    let first = words.next().unwrap_or_default();
+    let is_start = first.eq_ignore_ascii_case(START);
+    let part = if is_start { words.next() } else { Some(first) };
+    let part = number_in(part.unwrap_or_default())?;
+    let numbers = words.map(real_in).collect::<Result<Vec<f64>, _>>()?;
+    servo_request(part, is_start, &numbers, convention)
+}
+
+/// Reads a number of a pose.
+pub(super) fn real_in(text: &[u8]) -> Result<f64, BadRequest> {
+    let number = std::str::from_utf8(text).ok();
+    let number = number.and_then(|text| text.parse().ok());
+    number.ok_or_else(|| BadRequest::no_real(text))
 }
 
 /// Finds a request by its word and the numbers after it; `None` if the word is no request, or does not take as many numbers.
@@ -97,7 +128,7 @@ pub(super) fn number_of_count(text: &[u8]) -> Result<u32, BadRequest> {
     number.ok_or_else(|| BadRequest::no_number(text))
 }
 
-fn number_in(text: &[u8]) -> Result<u32, BadRequest> {
+pub(super) fn number_in(text: &[u8]) -> Result<u32, BadRequest> {
     let number = std::str::from_utf8(text).ok();
     let number = number.and_then(|text| text.parse().ok());
     number.ok_or_else(|| BadRequest::no_number(text))
@@ -106,6 +137,12 @@ fn number_in(text: &[u8]) -> Result<u32, BadRequest> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::answer::ServoRequest;
+    use geometry::rigid::RigidTransform;
+
+    fn parse(bytes: &[u8]) -> Parsed {
+        super::parse(bytes, Convention::UniversalRobots)
+    }
 
     fn only(text: &str) -> Result<Request, BadRequest> {
         let parsed = parse(text.as_bytes());
@@ -162,6 +199,41 @@ mod tests {
             ("\r\n \0\0TRIGGER \0\n", Request::TRIGGER),
         ] {
             assert_eq!(only(text), Ok(request), "{text:?}");
+        }
+    }
+
+    #[test]
+    fn a_robot_that_servoes_names_its_part_and_the_pose_of_its_flange() {
+        let wanted = |is_start| {
+            Request::Servo(ServoRequest {
+                part: 3,
+                is_start,
+                robot_from_flange: RigidTransform::translation(1.2, -0.4, 1.9),
+            })
+        };
+        for (text, is_start) in [
+            ("SERVO 3 1.2 -0.4 1.9 0 0 0\n", false),
+            ("servo;start;3;1.2;-0.4;1.9;0;0;0\n", true),
+            ("SERVO 3 p[1.2,-0.4,1.9,0,0,0]\n", false),
+            ("SERVO START 3 p[1.2, -4e-1, 1.9, 0.0, 0.0, 0.0]\n", true),
+        ] {
+            assert_eq!(only(text), Ok(wanted(is_start)), "{text:?}");
+        }
+        for (text, reason) in [
+            ("SERVO\n", "no_point"),
+            ("SERVO START\n", "no_point"),
+            ("SERVO -3 1.2 -0.4 1.9 0 0 0\n", "no_point"),
+            ("SERVO 3\n", "bad_pose"),
+            ("SERVO 3 1.2 -0.4 1.9 0 0\n", "bad_pose"),
+            ("SERVO 3 1.2 -0.4 1.9 0 0 0 0\n", "bad_pose"),
+            ("SERVO 3 1.2 -0.4 1.9 0 0 x\n", "bad_pose"),
+            ("SERVO 3 1.2 -0.4 nan 0 0 0\n", "bad_pose"),
+            ("SERVO 3 1.2 -0.4 1e999 0 0 0\n", "bad_pose"),
+            ("SERVO 3 1200 -400 1900 0 0 0\n", "bad_pose"),
+            ("SERVO 3 0 0 0 0 0 0\n", "bad_pose"),
+            ("SERVO 3 1.2 -0.4 1.9 0 0 90\n", "bad_pose"),
+        ] {
+            assert_eq!(only(text).expect_err(text).reason(), reason, "{text:?}");
         }
     }
 

@@ -3,7 +3,7 @@
 //! | protocol | request | answer | pose |
 //! | --- | --- | --- | --- |
 //! | [`Ascii`](Protocol::Ascii) | a line | a line of fields | any convention |
-//! | [`Binary`](Protocol::Binary) | 20 or 24 bytes | 256 bytes | conventions of up to seven numbers |
+//! | [`Binary`](Protocol::Binary) | 20 to 80 bytes | 256 bytes | conventions of up to seven numbers |
 //! | [`Eki`](Protocol::Eki) | an XML element | an XML element | KUKA |
 //! | [`UrScript`](Protocol::UrScript) | a line | a list of numbers in parentheses | Universal Robots |
 //!
@@ -21,8 +21,8 @@ mod line;
 mod urscript;
 
 use self::bad_request::BadRequest;
-use super::answer::{Answer, Request};
-use robot::Convention;
+use super::answer::{Answer, Request, ServoRequest};
+use robot::{Convention, calibration::CELL_DISTANCES};
 
 /// A protocol between client and server.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,11 +76,11 @@ impl Protocol {
         }
     }
 
-    /// Parses the request at the start of the bytes received so far.
-    pub fn parse(self, bytes: &[u8]) -> Parsed {
+    /// Parses the request at the start of the bytes received so far; a pose in it is in this convention.
+    pub fn parse(self, bytes: &[u8], convention: Convention) -> Parsed {
         match self {
-            Self::Ascii | Self::UrScript => line::parse(bytes),
-            Self::Binary(order) => binary::parse(bytes, order),
+            Self::Ascii | Self::UrScript => line::parse(bytes, convention),
+            Self::Binary(order) => binary::parse(bytes, convention, order),
             Self::Eki => eki::parse(bytes),
         }
     }
@@ -96,8 +96,30 @@ impl Protocol {
     }
 }
 
+/// The request of a robot at rest whose flange has the pose of these numbers.
+fn servo_request(
+    part: u32,
+    is_start: bool,
+    numbers: &[f64],
+    convention: Convention,
+) -> Result<Request, BadRequest> {
+    let bad = |why: String| BadRequest::BadPose { why };
+    let read = convention.read(numbers);
+    let robot_from_flange = read.map_err(|error| bad(error.to_string()))?;
+    let [least, most] = CELL_DISTANCES;
+    let distance = robot_from_flange.translation.vector.norm();
+    if !(least.0..=most.0).contains(&distance) {
+        return Err(bad(format!("it is {distance:.3} m from the base's origin")));
+    }
+    Ok(Request::Servo(ServoRequest {
+        part,
+        is_start,
+        robot_from_flange,
+    }))
+}
+
 /// The result of parsing the start of a client's bytes.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Parsed {
     /// Number of bytes at the start that were used up.
     pub used: usize,
@@ -228,7 +250,7 @@ mod tests {
             for protocol in Protocol::ALL {
                 let mut rest = bytes.as_slice();
                 for _ in 0..=bytes.len() {
-                    let Parsed { used, request } = protocol.parse(rest);
+                    let Parsed { used, request } = protocol.parse(rest, Convention::Abb);
                     prop_assert!(used <= rest.len());
                     match request {
                         Some(Ok(_)) => prop_assert!(used > 0),
@@ -258,13 +280,14 @@ mod tests {
             ];
             for (protocol, bytes) in requests {
                 let cut = cut % bytes.len();
-                let begun = protocol.parse(&bytes[..cut]);
+                let parse = |bytes: &[u8]| protocol.parse(bytes, Convention::Abb);
+                let begun = parse(&bytes[..cut]);
                 // Either half of CR LF ends a line.
                 if protocol == Protocol::Ascii && cut + 1 == bytes.len() {
                     continue;
                 }
                 prop_assert_eq!(begun.request, None, "{} of {}", cut, protocol.name());
-                let whole = protocol.parse(&bytes);
+                let whole = parse(&bytes);
                 prop_assert_eq!(whole.request, Some(Ok(wanted)));
             }
         }

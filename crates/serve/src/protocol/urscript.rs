@@ -7,8 +7,11 @@
 //! The numbers: count of those that follow, verdict, sequence, boot, age in ms (-1: no frame), camera, flags, number of the
 //! part, point, points, speed in mm/s; with a pose also x, y, z in metres and the rotation vector, and of a part on a line its
 //! number there, the count (signed), the time since then in ms, the bound in mm and the speed in mm/s. Without a pose the list
-//! ends earlier and the function returns a smaller count, so that a program cannot take missing numbers for a pose.
+//! ends earlier and the function returns a smaller count, so that a program cannot take missing numbers for a pose. An answer
+//! to `SERVO` that moves, or is at the target, has four more numbers before the pose: the error that is left in mm and degrees,
+//! and its bounds (0: none).
 
+use super::ascii::figure;
 use crate::answer::Answer;
 use robot::{Convention, RobotValue};
 
@@ -25,6 +28,9 @@ pub(super) fn write(answer: &Answer) -> String {
         answer.points.to_string(),
         format!("{:.1}", answer.speed_mm_s.unwrap_or(0.0)),
     ];
+    if let Some(error) = &answer.servo_error {
+        numbers.extend(error.figures().map(figure));
+    }
     if let Some(pose) = &answer.pose {
         let written = Convention::UniversalRobots.write(pose);
         numbers.extend(written.values.iter().map(RobotValue::rounded));
@@ -46,8 +52,14 @@ mod tests {
     use nalgebra::Point3;
 
     use super::*;
-    use crate::{answer::VerdictCode, protocol::tests::refused};
-    use geometry::rigid::{from_euler_zyx, pose_error};
+    use crate::{
+        answer::{RemainingError, VerdictCode},
+        protocol::tests::refused,
+    };
+    use geometry::{
+        rigid::{PoseDelta, from_euler_zyx, pose_error},
+        units::{Metres, Radians},
+    };
 
     /// Parses as the function does: the numbers between the parentheses.
     fn read(text: &str) -> Vec<f64> {
@@ -90,6 +102,27 @@ mod tests {
             .expect("a pose");
         let off = pose_error(&found, &pose, &Point3::origin());
         assert!(off.shift.mm() < 0.01 && off.rotation.degrees() < 0.001);
+        let left = PoseDelta {
+            shift: Metres(0.0875),
+            rotation: Radians::from_degrees(4.25),
+        };
+        let moves = Answer {
+            verdict: VerdictCode::Move,
+            servo_error: Some(RemainingError {
+                error: left,
+                bounds: None,
+            }),
+            ..accepted
+        };
+        let numbers = read(&write(&moves));
+        assert_eq!((numbers.len(), numbers[0], numbers[1]), (21, 20.0, 8.0));
+        let figures = numbers[11..15].iter().zip([87.5, 4.25, 0.0, 0.0]);
+        assert!(
+            figures.clone().all(|(a, b)| (a - b).abs() < 1e-3),
+            "{numbers:?}"
+        );
+        let there = Convention::UniversalRobots.read(&numbers[15..]);
+        assert_eq!(there, Ok(found));
         let numbers = read(&write(&refused()));
         let head = vec![
             10.0,
