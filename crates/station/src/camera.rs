@@ -341,6 +341,31 @@ impl Camera {
         }
     }
 
+    /// Passes on as many successive frames as are wanted, all captured after a request; one alone if the source does not show
+    /// motion, in which case it returns false.
+    pub fn frames_after(
+        &self,
+        asked: &Asked,
+        num: usize,
+        at_most: Duration,
+        is_ending: impl Fn() -> bool,
+        mut each: impl FnMut(Captured),
+    ) -> Result<bool, NoFrame> {
+        let first = self.frame_after(asked, at_most, &is_ending)?;
+        let mut last = first.arrived;
+        each(first);
+        let opened = self.opened();
+        if opened.motion.is_none() {
+            return Ok(false);
+        }
+        for _ in 1..num {
+            let next = opened.wait(at_most, &is_ending, |captured| Ok(captured.arrived > last))?;
+            last = next.arrived;
+            each(next);
+        }
+        Ok(true)
+    }
+
     /// Refuses the accepted parts of a frame that move. `at` is the camera's time of the frame. If the scene was still until
     /// then, a frame at least 150 ms later must show each part in the same place; if that is not known, because the source
     /// has just begun or is slow, one at least 900 ms later. `again` inspects that frame, `middle_of` is the middle of a

@@ -5,18 +5,21 @@
 //! this thread:     report of the robot ──► Drive ┴─► answer to the robot
 //! ```
 //!
-//! Reports and frames are dated when they arrive, by one clock.
+//! Reports and frames are dated when they arrive, by one clock. Robots that ask for single moves come through the server instead
+//! (`single_moves.rs`); the task of a part is the same for both (`setup.rs`).
 
 mod robot_link;
 mod run;
 mod setup;
 mod simulated_robot;
+mod single_moves;
 
 pub use self::{
     robot_link::{LinkError, RobotAddress, RobotLink},
     run::{RealRobot, ServoJob, ServoOutcome, ServoRunError, servo_real, servo_simulated},
     setup::{PreparedTask, ServoSetup, ServoTarget, SetupError, check_source, reference_of},
     simulated_robot::SimulatedRobot,
+    single_moves::{RestFrames, RestWatch, ServoParts, SingleMoves},
 };
 
 use std::{

@@ -302,3 +302,101 @@ impl ServoSetup {
         fence
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use geometry::{rigid::pose_error, units::Radians};
+    use inspection::fixtures::shipped_library;
+    use robot::spray::default_path;
+    use simulate::{CellSetup, PartKind, Side, frame};
+    use stages::{scene::scene_from_frame, stand_off::StandOffParams};
+
+    fn setup(target: ServoTarget) -> ServoSetup {
+        ServoSetup {
+            camera: CameraPlace::OnFlange {
+                flange_from_camera: RigidTransform::translation(0.1, 0.0, 0.1),
+                capture_pose: None,
+            },
+            calibration: Some(PoseDelta {
+                shift: Metres(0.001),
+                rotation: Radians(0.002),
+            }),
+            target,
+            flange_from_nozzle: Some(RigidTransform::translation(0.0, 0.0, 0.3)),
+            placed: None,
+            clearance: Metres(0.05),
+            volume: None,
+            params: ServoParams::default(),
+        }
+    }
+
+    fn scene(kind: PartKind, seed: u64) -> (String, SceneCloud) {
+        let simulated = frame(&CellSetup::with_part(kind, Side::Left, 0, seed));
+        (format!("{kind:?}"), scene_from_frame(&simulated.frame))
+    }
+
+    #[test]
+    fn frames_of_several_parts_are_each_the_target_of_their_own() {
+        let (library, recipe) = (shipped_library(), NamedRecipe::default());
+        let scenes = [PartKind::Fender, PartKind::Grille].map(|kind| scene(kind, 1));
+        let seen_as = setup(ServoTarget::SeenAs(scenes.into()));
+        let prepare = |part| seen_as.prepare(part, None, &library, &recipe);
+        let fender = prepare("fender").expect("seen");
+        let Target::SeenAt { camera_from_part } = fender.task.target else {
+            panic!("{:?}", fender.task.target);
+        };
+        let here = RigidTransform::identity();
+        let off = pose_error(&camera_from_part, &here, &fender.task.middle);
+        assert!(off.shift.mm() > 1.0, "where it was seen: {off:?}");
+        assert_eq!(fender.refused.len(), 1, "the grille");
+        // The camera and the nozzle.
+        assert_eq!(fender.fence.tools.len(), 2);
+        assert!(!fender.fence.part.is_empty());
+        assert!(prepare("grille").is_ok());
+        let error = prepare("front_door").err().expect("not seen");
+        assert_eq!(error.kind(), "not_recorded");
+        let error = prepare("boat").err().expect("not enrolled");
+        assert_eq!(error.kind(), "not_enrolled");
+    }
+
+    #[test]
+    fn the_start_of_a_path_needs_the_path_the_nozzle_and_the_bounds_of_the_calibration() {
+        let (library, recipe) = (shipped_library(), NamedRecipe::default());
+        let path_of = |part| {
+            let (reference, _) = reference_of(&library, part).expect("enrolled");
+            default_path(reference, &StandOffParams::default()).expect("a surface")
+        };
+        let path = path_of("fender");
+        let start = || setup(ServoTarget::PathStart);
+        let kind = |setup: ServoSetup, path| {
+            let prepared = setup.prepare("fender", path, &library, &recipe);
+            prepared.err().map(|error| {
+                assert!(!error.advice().is_empty());
+                error.kind()
+            })
+        };
+        assert_eq!(kind(start(), Some(&path)), None);
+        assert_eq!(kind(start(), None), Some("no_path"));
+        let beside = path.points().iter().map(|point| {
+            let mut point = *point;
+            point.nozzle.x += 3.0;
+            point
+        });
+        let far = SprayPath::new(beside.collect()).expect("a point");
+        assert_eq!(kind(start(), Some(&far)), Some("off_the_part"));
+        let mut without = start();
+        without.flange_from_nozzle = None;
+        assert_eq!(kind(without, Some(&path)), Some("no_nozzle"));
+        let mut without = start();
+        without.calibration = None;
+        assert_eq!(kind(without, Some(&path)), Some("no_calibration_bounds"));
+        assert!(
+            start().params().max_error.shift
+                > setup(ServoTarget::StandardPosition)
+                    .params()
+                    .max_error
+                    .shift
+        );
+    }
+}

@@ -1,0 +1,265 @@
+//! Servoing in single moves, for robots that ask: a run of one client after the other, and its answers.
+
+use std::time::{Duration, Instant};
+
+use super::{PreparedTask, ServoSetup, SetupError};
+use crate::{Camera, NoFrame, PartFinder};
+use capture::Captured;
+use geometry::rigid::{PoseDelta, RigidTransform};
+use inspection::{
+    library::Library,
+    pipeline::{NamedRecipe, Unwatched, run as inspect},
+};
+use serve::{Answer, Asked, Found, Problem, RemainingError, ServoRequest, VerdictCode};
+use servo::{ArmState, Look, OnePose, OnePoseAnswer, SeenPart, ServoError, StopReason};
+use stages::scene::SceneCloud;
+
+/// Moves robots at rest, one move at a time, by what the camera sees in between.
+pub struct SingleMoves {
+    setup: ServoSetup,
+    max_move: PoseDelta,
+    /// All looks and poses are dated from here.
+    since: Instant,
+    run: Option<Run>,
+}
+
+/// A run of a client.
+struct Run {
+    client: u64,
+    part: u32,
+    prepared: PreparedTask,
+    moves: OnePose,
+}
+
+/// What the frames show that were taken while a robot stood still.
+pub struct RestFrames {
+    /// When each arrived, and what it shows of the part.
+    pub looks: Vec<(Instant, Result<SeenPart, StopReason>)>,
+    /// When the first was captured.
+    pub captured: Instant,
+    /// Any of [`Answer::SIMULATED`] and [`Answer::MOTION_UNCHECKED`].
+    pub marks: u16,
+}
+
+/// A camera that looks at a part while a robot stands still.
+pub struct RestWatch<'a> {
+    /// The camera.
+    pub camera: &'a Camera,
+    /// The library, prepared for the recipe.
+    pub library: &'a Library,
+    /// How long each frame is waited for.
+    pub at_most: Duration,
+    /// Returns true once the service is ending.
+    pub is_ending: &'a dyn Fn() -> bool,
+}
+
+impl RestWatch<'_> {
+    /// Takes frames and inspects them; `scene_of` makes scenes of them.
+    pub fn looks(
+        &self,
+        prepared: &PreparedTask,
+        asked: &Asked,
+        num: usize,
+        mut scene_of: impl FnMut(Captured) -> SceneCloud,
+    ) -> Result<RestFrames, NoFrame> {
+        let (task, recipe) = (&prepared.task, &prepared.recipe);
+        let (mut looks, mut first, mut is_simulated) = (Vec::new(), None, false);
+        let (at_most, is_ending) = (self.at_most, self.is_ending);
+        let is_checked =
+            (self.camera).frames_after(asked, num, at_most, is_ending, |captured| {
+                let arrived = captured.arrived;
+                first.get_or_insert(self.camera.captured_at(&captured));
+                is_simulated |= captured.is_simulated;
+                let inspection = inspect(&scene_of(captured), self.library, recipe, &Unwatched);
+                let inspection = inspection.expect("never cancelled");
+                looks.push((arrived, Look::new(task, &inspection, Duration::ZERO).seen));
+            })?;
+        let mark = |is: bool, mark| if is { mark } else { 0 };
+        Ok(RestFrames {
+            looks,
+            captured: first.unwrap_or(asked.at),
+            marks: mark(is_simulated, Answer::SIMULATED)
+                | mark(!is_checked, Answer::MOTION_UNCHECKED),
+        })
+    }
+}
+
+/// The parts that robots name by their numbers.
+#[derive(Clone, Copy)]
+pub struct ServoParts<'a> {
+    /// Numbers and paths.
+    pub finder: &'a PartFinder,
+    /// The library, prepared for the recipe.
+    pub library: &'a Library,
+    /// The recipe.
+    pub recipe: &'a NamedRecipe,
+}
+
+impl SingleMoves {
+    /// Moves are at most `max_move` long.
+    pub fn new(setup: ServoSetup, max_move: PoseDelta) -> Result<Self, ServoError> {
+        setup.params().checked()?;
+        OnePose::check_longest(&max_move)?;
+        Ok(Self {
+            setup,
+            max_move,
+            since: Instant::now(),
+            run: None,
+        })
+    }
+
+    /// Ends the run: the library is another one.
+    pub fn end_run(&mut self) {
+        self.run = None;
+    }
+
+    /// Answers a robot at rest. `look` takes as many frames as it is told, captured after this time, or one if the source gives
+    /// one alone for a trigger, and inspects them with the recipe of the task.
+    pub fn answer(
+        &mut self,
+        request: &ServoRequest,
+        client: u64,
+        asked: &Asked,
+        parts: ServoParts<'_>,
+        look: impl FnOnce(&PreparedTask, &Asked, usize) -> Result<RestFrames, NoFrame>,
+    ) -> Found {
+        let params = self.setup.params();
+        let since = self.since;
+        let run = match self.run_of(request, client, parts) {
+            Ok(run) => run,
+            Err(problem) => return Found::error(problem),
+        };
+        // Arm and camera swing on for a moment.
+        let at_rest = Asked {
+            at: asked.at + params.settle,
+            by_clock: asked.by_clock + params.settle,
+            ..*asked
+        };
+        let frames = match look(&run.prepared, &at_rest, params.num_final) {
+            Ok(frames) => frames,
+            Err(why) => return Found::error((&why).into()),
+        };
+        let dated = |at: Instant| at.saturating_duration_since(since);
+        let looks = frames.looks.into_iter();
+        let looks = looks.map(|(arrived, seen)| Look {
+            taken_at: dated(arrived),
+            seen,
+        });
+        let looks: Vec<Look> = looks.collect();
+        let stands = |at: Duration| state(&request.robot_from_flange, at);
+        let states = [dated(at_rest.at), dated(Instant::now())].map(stands);
+        let answer = run.moves.answer(&looks, [&states[0], &states[1]]);
+        let found = Found {
+            captured: Some(frames.captured),
+            part: run.prepared.task.part.clone(),
+            number: run.part,
+            marks: frames.marks,
+            ..Found::default()
+        };
+        let (found, is_over) = with_answer(found, answer);
+        if is_over {
+            self.run = None;
+        }
+        found
+    }
+
+    /// The client's run, or a new one if this is its first request, for another part, or for a new start.
+    fn run_of(
+        &mut self,
+        request: &ServoRequest,
+        client: u64,
+        parts: ServoParts<'_>,
+    ) -> Result<&mut Run, Problem> {
+        let goes_on =
+            |run: &Run| run.client == client && run.part == request.part && !request.is_start;
+        let run = match self.run.take().filter(goes_on) {
+            Some(run) => run,
+            None => self.begun(request.part, client, parts)?,
+        };
+        Ok(self.run.insert(run))
+    }
+
+    fn begun(&self, part: u32, client: u64, parts: ServoParts<'_>) -> Result<Run, Problem> {
+        let ServoParts {
+            finder,
+            library,
+            recipe,
+        } = parts;
+        let mut numbered = finder.parts.iter().zip(&library.references);
+        let known = numbered.find(|(numbered, _)| part > 0 && numbered.number == part);
+        let Some((numbered, reference)) = known else {
+            return Err((&NoFrame::UnknownNumber { number: part }).into());
+        };
+        let (name, path) = (&reference.enrolled_as, numbered.path.as_ref());
+        let prepared = self.setup.prepare(name, path, library, recipe);
+        let problem = |error: SetupError| Problem::of(error.kind(), &error);
+        let prepared = prepared.map_err(problem)?;
+        let (task, fence) = (prepared.task.clone(), prepared.fence.clone());
+        let moves = OnePose::new(task, self.setup.params(), self.max_move, fence);
+        let moves = moves.map_err(|error| Problem::of("parameter", &error))?;
+        Ok(Run {
+            client,
+            part,
+            prepared,
+            moves,
+        })
+    }
+}
+
+/// A robot that stands still with its flange here.
+fn state(robot_from_flange: &RigidTransform, at: Duration) -> ArmState {
+    ArmState {
+        at,
+        robot_from_flange: *robot_from_flange,
+        joints: None,
+    }
+}
+
+/// Puts an answer into the result for the client; also returns whether the run is over.
+fn with_answer(found: Found, answer: OnePoseAnswer) -> (Found, bool) {
+    match answer {
+        OnePoseAnswer::Move {
+            robot_from_flange,
+            error,
+        } => {
+            let found = Found {
+                verdict: VerdictCode::Move,
+                pose: Some(robot_from_flange),
+                servo_error: Some(RemainingError {
+                    error,
+                    bounds: None,
+                }),
+                ..found
+            };
+            (found, false)
+        }
+        OnePoseAnswer::Done(arrival) => {
+            let approximate = if arrival.is_approximate {
+                Answer::APPROXIMATE
+            } else {
+                0
+            };
+            let found = Found {
+                verdict: VerdictCode::Done,
+                marks: found.marks | approximate,
+                servo_error: Some(RemainingError {
+                    error: arrival.error,
+                    bounds: Some(arrival.bounds),
+                }),
+                ..found
+            };
+            (found, true)
+        }
+        OnePoseAnswer::Stay(reason) => {
+            let found = Found {
+                verdict: VerdictCode::Stay,
+                problem: Problem::of(reason.kind(), &reason),
+                ..found
+            };
+            (found, false)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;
