@@ -11,6 +11,7 @@ use serde::Serialize;
 
 use geometry::{
     parallel::{map_each, num_cores},
+    rigid::PoseDelta,
     units::{Metres, Radians},
 };
 use inspection::library::Library;
@@ -18,7 +19,7 @@ use servo::{
     ServoParams, Step,
     simulated::{
         ArmDynamics, CellSetup, Disturbance, HandEyeError, RunResult, SimulatedCell,
-        SimulatedTarget, run,
+        SimulatedTarget, run, run_in_single_moves,
     },
 };
 use simulate::PartKind;
@@ -34,17 +35,42 @@ pub enum ServoSuite {
     Disturbed,
     /// The nozzle to the start of a path, the calibration wrong by up to 1 mm and 0.1°.
     PathStart,
+    /// The first runs of the first suite, in single moves.
+    SingleMoves,
+    /// The first runs of the second suite, in single moves.
+    DisturbedSingleMoves,
 }
 
 impl ServoSuite {
     /// All suites.
-    pub const ALL: [Self; 3] = [Self::Camera, Self::Disturbed, Self::PathStart];
+    pub const ALL: [Self; 5] = [
+        Self::Camera,
+        Self::Disturbed,
+        Self::PathStart,
+        Self::SingleMoves,
+        Self::DisturbedSingleMoves,
+    ];
+
+    /// True for runs in single moves.
+    pub fn is_single(self) -> bool {
+        matches!(self, Self::SingleMoves | Self::DisturbedSingleMoves)
+    }
+
+    /// The suite of the same runs in which poses are streamed.
+    fn streamed(self) -> Self {
+        match self {
+            Self::SingleMoves => Self::Camera,
+            Self::DisturbedSingleMoves => Self::Disturbed,
+            suite => suite,
+        }
+    }
 
     /// Number of runs of this suite for this number of runs of the first.
     pub fn num_runs(self, num_runs: usize) -> usize {
         match self {
             Self::Camera => num_runs,
-            Self::Disturbed => num_runs.div_ceil(2),
+            Self::Disturbed | Self::SingleMoves => num_runs.div_ceil(2),
+            Self::DisturbedSingleMoves => num_runs.div_ceil(4),
             Self::PathStart => num_runs.div_ceil(8),
         }
     }
@@ -90,6 +116,8 @@ pub struct ServoRun {
     pub took_s: f64,
     /// Number of frames.
     pub num_frames: usize,
+    /// Number of single moves; 0 of a run that streams poses.
+    pub num_moves: usize,
     /// True if what hung there at the end was the part.
     pub hangs: bool,
     /// The greatest speed, acceleration, angular speed and angular acceleration of the commanded poses, as shares of their
@@ -109,6 +137,11 @@ pub struct ServoRun {
 
 /// A true error beyond that of the start by which a run has diverged, millimetres.
 const DIVERGED_MM: f64 = 100.0;
+/// The longest single move.
+const LONGEST_MOVE: PoseDelta = PoseDelta {
+    shift: Metres(0.1),
+    rotation: Radians(10.0 * std::f64::consts::PI / 180.0),
+};
 /// Rounding of differences between poses.
 const ROUNDING: f64 = 1e-6;
 
@@ -138,8 +171,7 @@ impl ServoRun {
 
     fn of(result: &RunResult, cell: &SimulatedCell<'_>, params: &ServoParams) -> Option<Self> {
         let [start, end] = result.errors()?;
-        let figures =
-            |error: &geometry::rigid::PoseDelta| [error.shift.mm(), error.rotation.degrees()];
+        let figures = |error: &PoseDelta| [error.shift.mm(), error.rotation.degrees()];
         let (arrival, reason) = match &result.end {
             Step::Done(arrival) => (Some(arrival), None),
             Step::Stop(reason) => (None, Some(reason)),
@@ -164,6 +196,7 @@ impl ServoRun {
             bounds: arrival.map(|arrival| figures(&arrival.bounds)),
             took_s: result.samples.last()?.at.as_secs_f64(),
             num_frames: result.num_frames,
+            num_moves: result.num_moves,
             hangs: result.hangs,
             shares: [
                 speed / limits.speed,
@@ -209,12 +242,17 @@ pub fn servo_cases(
 }
 
 fn case(suite: ServoSuite, number: u64, first_seed: u64, library: &Library) -> ServoCase {
-    let seed = first_seed + 100_000 * suite as u64 + number;
-    let setup = setup(suite, number, seed);
+    let seed = first_seed + 100_000 * suite.streamed() as u64 + number;
+    let setup = setup(suite.streamed(), number, seed);
     let params = servo_params();
     let arranged = SimulatedCell::arrange(setup, library).ok();
     let done = arranged.and_then(|cell| {
-        let result = run(&cell, &params).ok()?;
+        let result = if suite.is_single() {
+            run_in_single_moves(&cell, &params, LONGEST_MOVE)
+        } else {
+            run(&cell, &params)
+        };
+        let result = result.ok()?;
         ServoRun::of(&result, &cell, &params)
     });
     ServoCase {
@@ -240,10 +278,8 @@ fn setup(suite: ServoSuite, number: u64, seed: u64) -> CellSetup {
             SimulatedTarget::Standard,
             disturbances[number as usize % disturbances.len()],
         ),
-        ServoSuite::Camera if (turn / 2).is_multiple_of(2) => {
-            (SimulatedTarget::Standard, Disturbance::None)
-        }
-        ServoSuite::Camera => (SimulatedTarget::Recorded, Disturbance::None),
+        _ if (turn / 2).is_multiple_of(2) => (SimulatedTarget::Standard, Disturbance::None),
+        _ => (SimulatedTarget::Recorded, Disturbance::None),
     };
     let hand_eye = match suite {
         ServoSuite::PathStart => HandEyeError {
@@ -295,11 +331,26 @@ mod tests {
     }
 
     #[test]
+    fn in_single_moves_they_end_there_too() {
+        let library = enrol_standard_parts(&EnrolParams::default()).expect("eight parts");
+        let cases = servo_cases(ServoSuite::SingleMoves, 4, 3_000_000, &library, || ());
+        for case in &cases {
+            let run = case.run.as_ref().expect("a start");
+            assert!(run.is_done, "{case:?}");
+            assert!(run.end[0] < 2.5 && run.end[1] < 0.25, "{case:?}");
+            assert!((2..15).contains(&run.num_moves), "{case:?}");
+            assert!(!run.is_beyond() && !run.has_diverged() && !run.touches());
+            assert_eq!(run.num_unreachable, 0, "{case:?}");
+        }
+    }
+
+    #[test]
     fn a_part_that_is_gone_or_another_stops_the_robot() {
         let library = enrol_standard_parts(&EnrolParams::default()).expect("eight parts");
-        let cases = servo_cases(ServoSuite::Disturbed, 7, 3_000_000, &library, || ());
+        let both = [ServoSuite::Disturbed, ServoSuite::DisturbedSingleMoves];
+        let cases = both.map(|suite| servo_cases(suite, 7, 3_000_000, &library, || ()));
         let params = servo_params();
-        for case in &cases {
+        for case in cases.iter().flatten() {
             let run = case.run.as_ref().expect("a start");
             assert!(!run.is_wrong(&params), "{case:?}");
             assert!(!run.is_beyond(), "{case:?}");

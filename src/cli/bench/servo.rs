@@ -21,7 +21,8 @@ const NUM_RUNS: u64 = 64;
 
 #[derive(Debug, Args)]
 pub(super) struct ServoArgs {
-    /// Runs to camera poses; half as many more are disturbed, and an eighth as many go to the start of a path
+    /// Runs to camera poses; half as many more are disturbed, an eighth as many go to the start of a path; half of those to camera
+    /// poses and of the disturbed ones are repeated in single moves
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=10_000))]
     runs: Option<u64>,
     /// Seed of the first frame
@@ -71,6 +72,7 @@ fn show(cases: &[ServoCase], console: &mut Console) {
         "turn: median, 95 %",
         "bound",
         "time: median, 95 %",
+        "moves: median, 95 %",
     ]);
     for (name, noise, runs) in groups(cases) {
         table.row(row(name, noise, &runs));
@@ -89,6 +91,14 @@ fn show(cases: &[ServoCase], console: &mut Console) {
         (
             "start of a path",
             of_suite(cases, |suite| suite == ServoSuite::PathStart),
+        ),
+        (
+            "in single moves",
+            of_suite(cases, |suite| suite == ServoSuite::SingleMoves),
+        ),
+        (
+            "in single moves, disturbed",
+            of_suite(cases, |suite| suite == ServoSuite::DisturbedSingleMoves),
         ),
     ] {
         let mut reasons: BTreeMap<&str, usize> = BTreeMap::new();
@@ -136,14 +146,21 @@ fn of_suite(cases: &[ServoCase], is: impl Fn(ServoSuite) -> bool) -> Vec<&ServoR
 }
 
 /// Name, noise and runs of each line of the table: by target and noise, or by what goes wrong.
-type Group<'a> = (&'static str, String, Vec<&'a ServoRun>);
+type Group<'a> = (String, String, Vec<&'a ServoRun>);
 
 fn groups(cases: &[ServoCase]) -> Vec<Group<'_>> {
     let mut groups: Vec<Group<'_>> = Vec::new();
     for case in cases {
         let (name, noise) = match case.suite {
-            ServoSuite::Disturbed => (case.disturbance.name(), "× 1, × 3".to_owned()),
+            ServoSuite::Disturbed | ServoSuite::DisturbedSingleMoves => {
+                (case.disturbance.name(), "× 1, × 3".to_owned())
+            }
             _ => (case.target.name(), format!("× {:.0}", case.noise)),
+        };
+        let name = if case.suite.is_single() {
+            format!("{name}, single moves")
+        } else {
+            name.to_owned()
         };
         let known = groups
             .iter()
@@ -157,7 +174,7 @@ fn groups(cases: &[ServoCase]) -> Vec<Group<'_>> {
     groups
 }
 
-fn row(name: &str, noise: String, runs: &[&ServoRun]) -> [String; 11] {
+fn row(name: String, noise: String, runs: &[&ServoRun]) -> [String; 12] {
     let params = servo_params();
     let done: Vec<&&ServoRun> = runs.iter().filter(|run| run.is_done).collect();
     let at = |share: f64, of: &dyn Fn(&ServoRun) -> f64, decimals: usize| {
@@ -170,7 +187,7 @@ fn row(name: &str, noise: String, runs: &[&ServoRun]) -> [String; 11] {
     let bound =
         |index: usize| move |run: &ServoRun| run.bounds.map_or(f64::NAN, |bounds| bounds[index]);
     [
-        name.to_owned(),
+        name,
         noise,
         runs.len().to_string(),
         done.len().to_string(),
@@ -184,5 +201,6 @@ fn row(name: &str, noise: String, runs: &[&ServoRun]) -> [String; 11] {
         both(&|run| run.end[1], 3) + "°",
         at(0.5, &bound(1), 2) + "°",
         both(&|run| run.took_s, 1) + " s",
+        both(&|run| run.num_moves as f64, 0),
     ]
 }
