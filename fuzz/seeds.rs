@@ -7,7 +7,7 @@ use partsight::{
     CellSetup, DepthFrame, Grid, Intrinsics, LibraryFolder, PartKind, PointCloud, RigidTransform,
     Side,
     capture::{NextCapture, Recorder},
-    files::{save_cloud, write_depth_png},
+    files::{crc32, save_cloud, write_depth_png},
     geometry::rigid::row_major,
     open_source,
     paint::built_in_coat,
@@ -15,6 +15,7 @@ use partsight::{
     robot::calibration::{CameraPlace, CellCalibration, Origin},
     simulated_frame,
 };
+use serve::{ByteOrder, Request, binary_request};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -37,6 +38,7 @@ pub(crate) fn fill(root: &Path) -> Outcome {
     for (target, fill) in [
         ("open", open as fn(&Path) -> Outcome),
         ("texts", texts),
+        ("requests", requests),
         ("inspect", inspect),
     ] {
         let folder = root.join(target);
@@ -167,6 +169,51 @@ fn texts(folder: &Path) -> Outcome {
         ("sequence", "# timestamp filename\n1305031102.160400 depth/0.png\n".to_owned()),
     ] {
         fs::write(folder.join(name), text)?;
+    }
+    Ok(())
+}
+
+/// Requests of robots in every protocol.
+fn requests(folder: &Path) -> Outcome {
+    for (name, text) in [
+        ("trigger", "TRIGGER\r\nTRIGGER 3 5\nTRIGGER 1=3 2=5\n"),
+        ("path", "STATUS\nLAST\nPATH 12 41\nPART 2\n"),
+        (
+            "servo",
+            "SERVO 3 1450 -310 890 10 20 30\nSERVO START 3 1450 -310 890 1 0 0 0\n",
+        ),
+        ("servo-ur", "SERVO 3 p[1.45, -0.31, 0.89, 0.1, 0.2, 0.3]\n"),
+        (
+            "eki",
+            "<Robot><Request>TRIGGER</Request><Point>0</Point><Expected>2=3 5</Expected></Robot>",
+        ),
+        (
+            "eki-servo",
+            "<Robot><Request>SERVO</Request><Expected>3</Expected><Start>1</Start><Pose X=\"1450\" Y=\"-310\" Z=\"890\" A=\"10\" B=\"20\" C=\"30\"></Pose></Robot>",
+        ),
+    ] {
+        fs::write(folder.join(name), text)?;
+    }
+    for (order, name) in [(ByteOrder::Little, "little"), (ByteOrder::Big, "big")] {
+        let wanted = Request::path(12, 41);
+        fs::write(folder.join(name), binary_request(wanted, order))?;
+        let number = |little: &[u8]| -> Vec<u8> {
+            let mut bytes = little.to_vec();
+            if order == ByteOrder::Big {
+                bytes.reverse();
+            }
+            bytes
+        };
+        let mut frame = b"PSRQ".to_vec();
+        for short in [1_u16, 76, 6, 1] {
+            frame.extend(number(&short.to_le_bytes()));
+        }
+        frame.extend(number(&3_u32.to_le_bytes()));
+        for real in [1450.0_f64, -310.0, 890.0, 1.0, 0.0, 0.0, 0.0] {
+            frame.extend(number(&real.to_le_bytes()));
+        }
+        frame.extend(number(&crc32(&frame).to_le_bytes()));
+        fs::write(folder.join(format!("{name}-servo")), frame)?;
     }
     Ok(())
 }

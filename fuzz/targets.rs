@@ -16,6 +16,7 @@ use partsight::{
     paint::{Coat, read_stripe},
     pipeline::{RecipeFile, Unrecognisable},
     robot::{
+        Convention,
         arm::{Arm, Obstacles},
         calibration::CellCalibration,
         frame_poses::read_frame_poses,
@@ -23,6 +24,7 @@ use partsight::{
     },
     run, scene_from_image,
 };
+use serve::{Protocol, Request};
 
 /// Runs the readers of clouds, meshes and depth images; the content decides which.
 pub(crate) fn open(bytes: &[u8]) {
@@ -61,6 +63,32 @@ pub(crate) fn texts(bytes: &[u8]) {
     let spec = format!("recording:{}", folder.path().display());
     if let Ok(partsight::SourceSpec::Recording(spec)) = spec.parse() {
         let _ = Replay::open(&spec);
+    }
+}
+
+/// Reads requests of robots one after the other, in every protocol and convention, as the server does.
+pub(crate) fn requests(bytes: &[u8]) {
+    for (protocol, convention) in Protocol::ALL
+        .into_iter()
+        .flat_map(|protocol| Convention::ALL.map(|convention| (protocol, convention)))
+    {
+        let mut rest = bytes;
+        loop {
+            let parsed = protocol.parse(rest, convention);
+            match parsed.request {
+                Some(Ok(request)) => {
+                    assert!(parsed.used > 0, "{request:?}");
+                    if let Request::Servo(servo) = request {
+                        let shift = servo.robot_from_flange.translation.vector.norm();
+                        assert!((0.02..=20.0).contains(&shift), "{servo:?}");
+                    }
+                }
+                Some(Err(_)) => break,
+                None if parsed.used == 0 => break,
+                None => {}
+            }
+            rest = &rest[parsed.used..];
+        }
     }
 }
 

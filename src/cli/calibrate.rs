@@ -234,9 +234,9 @@ fn load(given: Option<&Path>) -> anyhow::Result<(PathBuf, CellCalibration)> {
     Ok((path, calibration))
 }
 
-/// Returns where the camera sits: by the named calibration, or the user's own.
-pub(super) fn camera_place(given: Option<&Path>) -> anyhow::Result<CameraPlace> {
-    load(given).map(|(_, calibration)| calibration.camera)
+/// Returns the named calibration, or the user's own.
+pub(super) fn cell_calibration(given: Option<&Path>) -> anyhow::Result<CellCalibration> {
+    load(given).map(|(_, calibration)| calibration)
 }
 
 /// Returns the calibration for a scan: a named one is loaded at once and must be valid; the user's own, if any, is read
@@ -274,6 +274,11 @@ pub(super) fn no_calibration(needed_by: &str) -> anyhow::Error {
 }
 
 impl CalibrationChoice {
+    /// The named file.
+    pub(super) fn path(&self) -> Option<&Path> {
+        self.calibration.as_deref()
+    }
+
     /// Returns the robot's frame; `None` without a calibration. A named calibration must exist and be valid; the user's
     /// own is used if possible, with a warning otherwise.
     pub(super) fn frame(&self, console: &Console) -> anyhow::Result<Option<RobotFrame>> {

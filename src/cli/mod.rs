@@ -33,6 +33,7 @@ mod robot_file;
 mod scan;
 mod serve;
 mod servo;
+mod servo_choice;
 mod simulate;
 mod trace;
 mod verdict;

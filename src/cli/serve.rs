@@ -27,12 +27,20 @@ use super::{
     rack::RackFileChoice,
     recipe::RecipeChoice,
     record::RecordingChoice,
+    servo_choice::ServoChoice,
     trace::TraceChoice,
 };
 use capture::{OpenNiSpec, Pace, RealsenseSpec, RecordingSpec, SourceSpec};
+use geometry::{
+    rigid::PoseDelta,
+    units::{Metres, Radians},
+};
 use inspection::{library::LibraryLoad, pipeline::MirrorTally};
 use serve::{ClientEvent, ListenAddress, Listener, Protocol, Server, ServerSettings};
-use station::{Camera, CameraScenes, NumberedPart, PartFinder};
+use station::{
+    Camera, CameraScenes, NumberedPart, PartFinder,
+    servoing::{SetupError, SingleMoves, check_source},
+};
 
 /// Answer robots and PLCs that ask over TCP for an inspection and a pose
 #[derive(Debug, Args)]
@@ -51,7 +59,8 @@ Protocols, each on its own port; docs/guide/robots_that_ask.md describes them in
   urscript             lists of numbers for Universal Robots; poses as universal-robots
 Requests: TRIGGER inspects a frame captured from then on (TRIGGER 3 5: these parts are expected), PART 2 answers with the
 second part of that frame, LAST repeats the first answer, STATUS gives the state of the camera, and PATH the points of the
-spray path of the part that the same client triggered, for where it hangs.
+spray path of the part that the same client triggered, for where it hangs. SERVO 3 1450 -310 890 10 20 30 asks, for part 3
+with the flange at rest there, where the robot should go next until the part stands where it should (docs/guide/servo.md).
 A part that moves is refused with the reason moving: the scene must have been still for 0.9 s, and a second frame, 150 ms
 later, must show the part in the same place.
 With --expect, or --orders and --order, a TRIGGER that names no parts expects those. TRIGGER 1=3 2=5 expects them at the first
@@ -108,7 +117,17 @@ pub(super) struct ServeArgs {
     recording: RecordingChoice,
     #[command(flatten)]
     mqtt: MqttChoice,
+    /// Longest move of a robot that servoes, mm (10 to 300); it turns by up to a tenth of a degree for each
+    #[arg(long, value_name = "MM", default_value_t = 100.0, value_parser = |text: &str| within(text, &(10.0..=300.0)), help_heading = SERVOING)]
+    longest_move: f64,
+    #[command(flatten, next_help_heading = SERVOING)]
+    servo: ServoChoice,
 }
+
+/// Heading of the options for robots that servo.
+const SERVOING: &str = "Servoing (SERVO)";
+/// Degrees that a longest move of a millimetre may turn.
+const DEGREES_PER_MM: f64 = 0.1;
 
 /// Where to listen if no protocol is asked for.
 const USUAL: ListenAddress = ListenAddress {
@@ -124,6 +143,19 @@ impl ServeArgs {
         } else {
             self.listen.clone()
         }
+    }
+
+    /// What robots that servo are answered with, or why they are not.
+    fn servoing(&self, console: &Console) -> anyhow::Result<Result<SingleMoves, SetupError>> {
+        if let Err(why) = check_source(&self.source) {
+            return Ok(Err(why));
+        }
+        let setup = self.servo.setup(self.calibration.path(), console)?;
+        let max_move = PoseDelta {
+            shift: Metres::from_mm(self.longest_move),
+            rotation: Radians::from_degrees(DEGREES_PER_MM * self.longest_move),
+        };
+        SingleMoves::new(setup, max_move).map(Ok).advised()
     }
 }
 
@@ -172,6 +204,7 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
     let Some(robot) = args.calibration.frame(console)? else {
         return Err(no_calibration("serve"));
     };
+    let servoing = args.servoing(console)?;
     let recipe = (args.rack).before(recipe, &load.library, Some(&robot))?;
     let recipe = (args.expect).applied(&recipe, &load.library, Some(&recipe.rack), &trace)?;
     let parts = args.numbers.parts(&place, &load, console)?;
@@ -203,6 +236,7 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
             robot,
             kind: args.numbers.kind(),
         },
+        servoing,
         trace,
         scenes: CameraScenes::new(empty_cell),
         source: args.source.clone(),

@@ -7,28 +7,25 @@ use serde_json::json;
 
 use super::{
     LibraryChoice, Outcome,
-    calibrate::camera_place,
     console::{Advised as _, Console, with_advice},
     follow::parse_source,
-    input::{EmptyCellChoice, open_scene, parse_name, parse_nozzle_pose, warn_of, within},
+    input::{EmptyCellChoice, parse_name, within},
     interrupt::Interrupt,
-    program::CellChoice,
     recipe::RecipeChoice,
     record::{HistoryChoice, HistoryRecorder},
+    servo_choice::ServoChoice,
 };
 use capture::{BackpressurePolicy, Feed, SourceSpec};
-use geometry::{error::Advice as _, rigid::PoseDelta, units::Metres};
-use inspection::{library::PartName, pipeline::NamedRecipe};
-use records::{history::Traceability, report::SCHEMA};
-use robot::{
-    WrittenPose,
-    arm::{Arm, PlacedArm},
-    program::ProgramParams,
+use geometry::{error::Advice as _, rigid::PoseDelta};
+use inspection::{
+    library::{LibraryPlace, PartName},
+    pipeline::NamedRecipe,
 };
+use records::{history::Traceability, report::SCHEMA};
 use servo::{Arrival, ServoParams, Step, simulated::StreamProtocol};
 use station::servoing::{
-    RealRobot, RobotAddress, ServoJob, ServoNews, ServoOrder, ServoOutcome, ServoSetup,
-    ServoTarget, check_source, servo_real, servo_simulated,
+    RealRobot, RobotAddress, ServoJob, ServoNews, ServoOrder, ServoOutcome, check_source,
+    reference_of, servo_real, servo_simulated,
 };
 
 /// Move a robot until the part stands where it should in front of the camera
@@ -40,6 +37,7 @@ Examples:
   partsight servo fender --source kinect --robot ur=192.168.1.20 --speed 100
   partsight servo fender --source kinect --robot rsi=192.168.1.10:49152 --arm kr16.toml --nozzle \"kuka 0 0 200 0 0 0\"
   partsight servo fender --source kinect --robot egm=6510 --seen-as ready_1.png --seen-as ready_2.png
+  partsight servo fender --source kinect --robot egm=6510 --target path-start --nozzle \"kuka 0 0 200 0 0 0\"
 
 Robots:
   egm=IP:PORT   ABB's Externally Guided Motion; this computer listens there
@@ -58,7 +56,7 @@ pub(super) struct ServoArgs {
     #[arg(long, value_name = "PROTOCOL=ADDRESS", value_parser = parse_robot, required_unless_present = "simulated", requires = "source")]
     robot: Option<RobotAddress>,
     /// Move a simulated robot with a camera instead, in this protocol
-    #[arg(long, value_name = "PROTOCOL", value_parser = parse_protocol, num_args = 0..=1, default_missing_value = "egm", conflicts_with_all = ["robot", "source"])]
+    #[arg(long, value_name = "PROTOCOL", value_parser = parse_protocol, num_args = 0..=1, default_missing_value = "egm", conflicts_with_all = ["robot", "source", "target", "seen_as", "arm", "nozzle", "volume"])]
     simulated: Option<StreamProtocol>,
     /// Seed of the simulated start
     #[arg(long, value_name = "N", default_value_t = 1, requires = "simulated")]
@@ -66,34 +64,14 @@ pub(super) struct ServoArgs {
     /// The camera (partsight capture --help)
     #[arg(long, value_name = "SOURCE", value_parser = parse_source)]
     source: Option<SourceSpec>,
-    /// Frames of the part, taken where the camera should stand; default: the part's standard position, as at its enrolment
-    #[arg(long, value_name = "FILE", conflicts_with = "simulated")]
-    seen_as: Vec<PathBuf>,
     /// Where the camera sits, as written by `calibrate`; default: your own calibration
     #[arg(long, value_name = "FILE", conflicts_with = "simulated")]
     calibration: Option<PathBuf>,
-    /// The arm, which is then kept within its reach and clear of part and obstacles: a name, or a TOML file; RSI needs it
-    #[arg(
-        long,
-        value_name = "ARM",
-        requires = "nozzle",
-        conflicts_with = "simulated"
-    )]
-    arm: Option<String>,
-    /// Pose of the nozzle on the flange, as `kuka X Y Z A B C`, or the 16 numbers of a matrix: it is kept clear of the part
-    #[arg(long, value_name = "POSE", value_parser = parse_nozzle_pose, allow_hyphen_values = true, conflicts_with = "simulated")]
-    nozzle: Option<WrittenPose>,
     #[command(flatten)]
-    cell: CellChoice,
-    /// Least distance from part and obstacles, mm (5 to 500)
-    #[arg(long, value_name = "MM", default_value_t = 50.0, value_parser = |text: &str| within(text, &(5.0..=500.0)))]
-    clearance: f64,
+    choice: ServoChoice,
     /// Greatest speed of flange, camera and nozzle, mm/s (5 to 1000)
     #[arg(long, value_name = "MM/S", default_value_t = 200.0, value_parser = |text: &str| within(text, &(5.0..=1000.0)))]
     speed: f64,
-    /// Greatest error at the end with its bounds, mm (0.5 to 50)
-    #[arg(long, value_name = "MM", default_value_t = ServoParams::default().tolerance.shift.mm(), value_parser = |text: &str| within(text, &(0.5..=50.0)))]
-    tolerance: f64,
     #[command(flatten)]
     library: LibraryChoice,
     #[command(flatten)]
@@ -124,7 +102,7 @@ pub(super) fn run(args: &ServoArgs, console: &mut Console) -> anyhow::Result<Out
         check_source(source).advised()?;
     }
     let recipe = args.recipe.recipe()?;
-    let load = (args.library).load_some(&recipe.reference_params(), console)?;
+    let (place, load) = (args.library).load_placed(&recipe.reference_params(), console)?;
     let interrupt = Interrupt::listen()?;
     let part = load.parts.iter().find(|part| part.name == args.part);
     let job = ServoJob {
@@ -134,9 +112,14 @@ pub(super) fn run(args: &ServoArgs, console: &mut Console) -> anyhow::Result<Out
         longest_step: None,
     };
     let outcome = match (&args.robot, &args.source) {
-        (Some(robot), Some(source)) => {
-            real(args, &job, (*robot, source), &recipe, &interrupt, console)?
-        }
+        (Some(robot), Some(source)) => real(
+            args,
+            (&job, &place),
+            (*robot, source),
+            &recipe,
+            &interrupt,
+            console,
+        )?,
         _ => {
             let protocol = args.simulated.unwrap_or(StreamProtocol::Egm);
             console.note(
@@ -169,60 +152,29 @@ pub(super) fn run(args: &ServoArgs, console: &mut Console) -> anyhow::Result<Out
 
 impl ServoArgs {
     fn params(&self) -> anyhow::Result<ServoParams> {
-        ServoParams::limited(self.speed / 1000.0, Metres::from_mm(self.tolerance)).advised()
-    }
-
-    /// Reads the files that the options name.
-    fn setup(&self, console: &Console) -> anyhow::Result<ServoSetup> {
-        let camera = camera_place(self.calibration.as_deref())?;
-        let scenes = self.seen_as.iter().map(|path| {
-            let (scene, warnings) = open_scene(path).advised()?;
-            warn_of(path, &warnings, console);
-            Ok((path.display().to_string(), scene))
-        });
-        let scenes = scenes.collect::<anyhow::Result<Vec<_>>>()?;
-        Ok(ServoSetup {
-            camera,
-            calibration: None,
-            target: if scenes.is_empty() {
-                ServoTarget::StandardPosition
-            } else {
-                ServoTarget::SeenAs(scenes)
-            },
-            flange_from_nozzle: self.nozzle.as_ref().map(|nozzle| nozzle.pose),
-            placed: self.placed()?,
-            clearance: Metres::from_mm(self.clearance),
-            volume: None,
-            params: self.params()?,
-        })
-    }
-
-    fn placed(&self) -> anyhow::Result<Option<PlacedArm>> {
-        let (Some(arm), Some(nozzle)) = (&self.arm, &self.nozzle) else {
-            return Ok(None);
-        };
-        let arm = Arm::named(arm).advised()?;
-        let placed = self.cell.place(arm, nozzle.pose, &ProgramParams::default());
-        placed.map(Some)
+        ServoParams::limited(self.speed / 1000.0, self.choice.tolerance()).advised()
     }
 }
 
 /// Servos a real robot.
 fn real(
     args: &ServoArgs,
-    job: &ServoJob<'_>,
+    (job, place): (&ServoJob<'_>, &LibraryPlace),
     (address, source): (RobotAddress, &SourceSpec),
     recipe: &NamedRecipe,
     interrupt: &Interrupt,
     console: &mut Console,
 ) -> anyhow::Result<ServoOutcome> {
-    let setup = args.setup(console)?;
+    reference_of(job.library, job.part).advised()?;
+    let path = place.spray_path(job.part).advised()?;
+    let mut setup = (args.choice).setup(args.calibration.as_deref(), console)?;
+    setup.params = args.params()?;
     let robot = RealRobot {
         address,
         source,
         feed: Feed::start(source.clone(), BackpressurePolicy::Newest, || ()).advised()?,
         setup: &setup,
-        path: None,
+        path: path.as_ref(),
         empty_cell: args.empty_cell.open(console)?,
         recipe,
     };

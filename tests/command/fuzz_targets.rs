@@ -17,6 +17,7 @@ fn every_target_takes_its_seeds() {
     for (name, target) in [
         ("open", targets::open as fn(&[u8])),
         ("texts", targets::texts),
+        ("requests", targets::requests),
         ("inspect", targets::inspect),
     ] {
         let mut num = 0;

@@ -322,6 +322,62 @@ fn a_file_for_a_trigger_shows_no_motion_and_answer_line_and_history_say_so() {
     assert_eq!(record["line"], line);
 }
 
+#[test]
+fn a_robot_that_servoes_is_told_where_to_go_and_leaves_no_row() {
+    let place = Workplace::new();
+    let source = ["--source", "simulated,fps=10:fender", "--as", "kuka"];
+    let listen = [
+        "--listen",
+        "ascii=0",
+        "--number",
+        "fender=7",
+        "--longest-move",
+        "50",
+    ];
+    let mut service = Service::start(&place, &[&source[..], &listen[..]].concat());
+    let mut robot = service.connect("ascii");
+    let answer = asked(&mut robot, "SERVO START 7 900 0 1100 0 90 0\n");
+    let fields: Vec<&str> = answer.split(';').collect();
+    assert_eq!(
+        (fields.len(), fields[0], fields[1]),
+        (24, "SERVO", "move"),
+        "{answer}"
+    );
+    assert_eq!(
+        (fields[6], fields[7], fields[8]),
+        ("fender", "7", "5"),
+        "{answer}"
+    );
+    let number = |field: &str| field.parse::<f64>().expect("a number");
+    let shift = [(12, 900.0), (13, 0.0), (14, 1100.0)].map(|(at, from)| number(fields[at]) - from);
+    let shift = shift.iter().map(|by| by * by).sum::<f64>().sqrt();
+    assert!(shift > 1.0 && shift < 50.1, "{answer}");
+    assert!(
+        number(fields[20]) > 1.0 && fields[22..] == ["0.0000", "0.0000"],
+        "{answer}"
+    );
+    let unknown = asked(&mut robot, "SERVO 8 900 0 1100 0 90 0\n");
+    assert!(
+        unknown.contains(";error;") && unknown.contains(";unknown_number;"),
+        "{unknown}"
+    );
+    let (code, out, messages) = service.interrupt();
+    assert_eq!(code, Some(0), "{messages}");
+    let lines: Vec<Value> = out
+        .lines()
+        .map(|line| serde_json::from_str(line).expect("a line of JSON"))
+        .collect();
+    assert_eq!(
+        (&lines[0]["servo"], &lines[0]["part"]),
+        (&"move".into(), &"fender".into())
+    );
+    assert_eq!(lines[1]["reason_kind"], "unknown_number");
+    let metres = lines[0]["error_m"].as_f64().expect("an error");
+    assert!((1000.0 * metres - number(fields[20])).abs() < 1e-3, "{out}");
+    let listed = place.accepted(&["history", "list", "--json"]).lines();
+    assert!(listed.is_empty(), "{listed:?}");
+}
+
 /// Serves without a history.
 const WITHOUT_HISTORY: [&str; 7] = [
     "--source",
@@ -394,11 +450,16 @@ fn a_replayed_source_is_warned_of_and_its_answers_are_marked() {
     let fields: Vec<&str> = answer.split(';').collect();
     assert!(matches!(fields[1], "no_part" | "refused"), "{answer}");
     assert_eq!((fields[6], fields[8]), ("", "4"), "{answer}");
+    let servoed = asked(&mut robot, "SERVO 1 900 0 1100 0 90 0\n");
+    assert!(
+        servoed.starts_with("SERVO;error;") && servoed.contains(";replayed;"),
+        "{servoed}"
+    );
     let (code, out, messages) = service.interrupt();
     assert_eq!(code, Some(0), "{messages}");
     let warning = "warning: recording,pace=20:frames is replayed";
     assert_eq!(messages.matches(warning).count(), 1, "{messages}");
-    let line = out.lines().last().expect("a line");
+    let line = out.lines().rev().nth(1).expect("that of the last trigger");
     let line: Value = serde_json::from_str(line).expect("a line of JSON");
     assert_eq!(line["simulated"], false, "a camera saw it: {line}");
     assert_eq!(line["replayed"], true, "{line}");
@@ -503,6 +564,10 @@ fn what_the_service_cannot_start_with_is_said_with_what_to_do() {
             "already given",
         ),
         (&["--max-age", "0"], "expected a number"),
+        (&["--longest-move", "1"], "expected a number"),
+        (&["--volume", "0,0,0"], "two opposite corners"),
+        (&["--arm", "irb4600"], "--nozzle"),
+        (&["--seen-as", "missing.png"], "missing.png"),
     ] {
         let args = if args.contains(&"--as") {
             [args, &calibrated[2..]].concat()

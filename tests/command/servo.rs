@@ -93,6 +93,17 @@ fn what_cannot_be_servoed_is_refused_with_advice() {
         "egm=0",
     ];
     let calibrated = |robot: &str| servo(&["--calibration", "cell.toml", "--robot", robot]);
+    let to_path = |more: &[&str]| {
+        let target = [
+            "--calibration",
+            "cell.toml",
+            "--robot",
+            "egm=0",
+            "--target",
+            "path-start",
+        ];
+        servo(&[&target[..], more].concat())
+    };
     for (refusal, advice) in [
         (
             place.coded(2, &["servo", "boat", "--simulated"]).err,
@@ -102,6 +113,26 @@ fn what_cannot_be_servoed_is_refused_with_advice() {
         (servo(&["--robot", "abb=6510"]), "egm=192.168.1.10:6510"),
         (calibrated("rsi=0"), "--arm and --nozzle"),
         (calibrated("ur=127.0.0.1:9"), "remote control"),
+        (
+            servo(&["--robot", "egm=0", "--volume", "0,0,0,1"]),
+            "two opposite corners",
+        ),
+        (
+            servo(&["--robot", "egm=0", "--volume", "0 0 0 1 2 1"]),
+            "to do",
+        ),
+        (
+            servo(&[
+                "--robot",
+                "egm=0",
+                "--target",
+                "path-start",
+                "--seen-as",
+                "x.png",
+            ]),
+            "cannot be used with",
+        ),
+        (to_path(&[]), "partsight library path fender"),
     ] {
         assert!(refusal.contains(advice), "{refusal}");
     }

@@ -24,13 +24,17 @@ use inspection::{
 };
 use records::{
     history::{HungId, Traceability},
-    report::InspectionLine,
+    report::{InspectionLine, SCHEMA},
 };
+use serde_json::json;
 use serve::{
     Asked, ClientEvent, ClientNews, Found, FrameParts, InspectionRecord, Inspector, Problem,
-    VerdictCode,
+    ServoRequest, VerdictCode,
 };
-use station::{Answered, Answering, Camera, CameraScenes, NoFrame, PartFinder, Subject};
+use station::{
+    Answered, Answering, Camera, CameraScenes, NoFrame, PartFinder, Subject,
+    servoing::{RestWatch, ServoParts, SetupError, SingleMoves},
+};
 
 /// The inspections of a service, on the thread that runs its server.
 pub(super) struct ServeSession<'a> {
@@ -40,6 +44,8 @@ pub(super) struct ServeSession<'a> {
     pub(super) library: Library,
     pub(super) recipe: NamedRecipe,
     pub(super) finder: PartFinder,
+    /// Robots that servo, or why they are not answered.
+    pub(super) servoing: Result<SingleMoves, SetupError>,
     pub(super) trace: Traceability,
     pub(super) scenes: CameraScenes,
     pub(super) source: SourceSpec,
@@ -90,6 +96,12 @@ impl Inspector for ServeSession<'_> {
         }
     }
 
+    fn servo(&mut self, request: &ServoRequest, client: u64, asked: &Asked) -> Found {
+        let found = self.next_move(request, client, asked);
+        self.show_move(&found);
+        found
+    }
+
     fn recorded(&mut self, record: InspectionRecord) {
         let answer = record.answer();
         if answer.verdict == VerdictCode::Error && matches!(self.format, OutputFormat::Json) {
@@ -132,6 +144,58 @@ impl Inspector for ServeSession<'_> {
 }
 
 impl ServeSession<'_> {
+    fn next_move(&mut self, request: &ServoRequest, client: u64, asked: &Asked) -> Found {
+        let servoing = match &mut self.servoing {
+            Ok(servoing) => servoing,
+            Err(why) => return Found::error(Problem::of(why.kind(), why)),
+        };
+        let parts = ServoParts {
+            finder: &self.finder,
+            library: &self.library,
+            recipe: &self.recipe,
+        };
+        let interrupt = &self.interrupt;
+        let watch = RestWatch {
+            camera: &self.camera,
+            library: &self.library,
+            at_most: self.frame_timeout,
+            is_ending: &|| interrupt.came(),
+        };
+        let (scenes, console) = (&mut self.scenes, &*self.console);
+        servoing.answer(request, client, asked, parts, |prepared, asked, num| {
+            watch.looks(prepared, asked, num, |captured| {
+                scene_of(captured, scenes, console)
+            })
+        })
+    }
+
+    /// Shows what a robot that servoes is told.
+    fn show_move(&mut self, found: &Found) {
+        let error = found.servo_error.map(|error| error.error);
+        let Problem { reason, message } = &found.problem;
+        let verdict = found.verdict.name();
+        if matches!(self.format, OutputFormat::Json) {
+            self.console.line(&json!({
+                "schema": SCHEMA,
+                "servo": verdict,
+                "part": found.part,
+                "error_m": error.map(|error| error.shift.0),
+                "error_rad": error.map(|error| error.rotation.0),
+                "reason_kind": Some(reason).filter(|reason| !reason.is_empty()),
+                "reason": Some(message).filter(|message| !message.is_empty()),
+            }));
+        } else if let Some(error) = error {
+            let (mm, degrees) = (error.shift.mm(), error.rotation.degrees());
+            self.console.note(&format_args!(
+                "SERVO {}: {verdict}, {mm:.1} mm and {degrees:.2}° are left",
+                found.part
+            ));
+        } else {
+            self.console
+                .note(&format_args!("SERVO {}: {verdict}, {message}", found.part));
+        }
+    }
+
     /// The result of a trigger after which nothing can be inspected; shows why.
     fn without_frame(&self, why: &NoFrame) -> FrameParts {
         self.console
@@ -172,6 +236,9 @@ impl ServeSession<'_> {
         }
         self.finder.parts = parts;
         self.library = load.library;
+        if let Ok(servoing) = &mut self.servoing {
+            servoing.end_run();
+        }
     }
 
     /// Reports each cause of a missing camera once, and when the camera is back. A camera that fails before it ever ran

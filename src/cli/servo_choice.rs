@@ -1,0 +1,126 @@
+//! What servoing needs to know besides the part, as options of `servo` and `serve`.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::{
+    calibrate::cell_calibration,
+    console::{Advised as _, Console, with_advice},
+    input::{Choice, choice, open_scene, parse_nozzle_pose, warn_of, within},
+    program::CellChoice,
+};
+use geometry::{oriented_box::OrientedBox, units::Metres};
+use robot::{
+    WrittenPose,
+    arm::{Arm, PlacedArm},
+    program::ProgramParams,
+};
+use servo::ServoParams;
+use station::servoing::{ServoSetup, ServoTarget};
+
+/// Where the part should be, and what the robot is kept clear of.
+#[derive(Debug, Args)]
+pub(super) struct ServoChoice {
+    /// Where the part should be; default: at its standard position
+    #[arg(long, value_parser = choice(&TARGETS), conflicts_with = "seen_as")]
+    target: Option<NamedTarget>,
+    /// Frames of the part, taken where the camera should stand, instead of its standard position; may be given several times
+    #[arg(long, value_name = "FILE")]
+    seen_as: Vec<PathBuf>,
+    /// The arm, which is then kept within its reach and clear of part and obstacles: a name, or a TOML file
+    #[arg(long, value_name = "ARM", requires = "nozzle")]
+    arm: Option<String>,
+    /// Pose of the nozzle on the flange, as `kuka X Y Z A B C`, or the 16 numbers of a matrix: it is kept clear of the part
+    #[arg(long, value_name = "POSE", value_parser = parse_nozzle_pose, allow_hyphen_values = true)]
+    nozzle: Option<WrittenPose>,
+    #[command(flatten)]
+    cell: CellChoice,
+    /// Least distance from part and obstacles, mm (5 to 500)
+    #[arg(long, value_name = "MM", default_value_t = 50.0, value_parser = |text: &str| within(text, &(5.0..=500.0)))]
+    clearance: f64,
+    /// Box of the base frame that flange, camera and nozzle never leave: two opposite corners, mm
+    #[arg(long, value_name = "X,Y,Z,X,Y,Z", value_parser = parse_volume, allow_hyphen_values = true)]
+    volume: Option<OrientedBox>,
+    /// Greatest error at the end with its bounds, mm (0.5 to 50)
+    #[arg(long, value_name = "MM", default_value_t = ServoParams::default().tolerance.shift.mm(), value_parser = |text: &str| within(text, &(0.5..=50.0)))]
+    tolerance: f64,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum NamedTarget {
+    StandardPosition,
+    PathStart,
+}
+
+#[rustfmt::skip]
+const TARGETS: [Choice<NamedTarget>; 2] = [
+    ("standard-position", "The camera where it was when the part was enrolled", NamedTarget::StandardPosition),
+    ("path-start", "The nozzle at the first point of the part's spray path; needs --nozzle, and a calibration from pairs", NamedTarget::PathStart),
+];
+
+fn parse_volume(text: &str) -> Result<OrientedBox, String> {
+    let numbers = text.split([',', ' ']).filter(|number| !number.is_empty());
+    let numbers: Option<Vec<f64>> = numbers.map(|number| number.parse().ok()).collect();
+    let Some([a, b, c, d, e, f]) = numbers.and_then(|numbers| <[f64; 6]>::try_from(numbers).ok())
+    else {
+        return Err("expected X,Y,Z,X,Y,Z: two opposite corners, mm".into());
+    };
+    let sides = [[a, d], [b, e], [c, f]];
+    let centre = sides.map(|[from, to]| f64::midpoint(from, to));
+    let size = sides.map(|[from, to]| (to - from).abs());
+    OrientedBox::of_file("volume", centre, size, [0.0; 3]).map_err(|error| with_advice(&error))
+}
+
+impl ServoChoice {
+    /// Reads the files that the options name.
+    pub(super) fn setup(
+        &self,
+        calibration: Option<&Path>,
+        console: &Console,
+    ) -> anyhow::Result<ServoSetup> {
+        let calibration = cell_calibration(calibration)?;
+        let mut params = ServoParams::default();
+        params.tolerance.shift = Metres::from_mm(self.tolerance);
+        Ok(ServoSetup {
+            camera: calibration.camera,
+            calibration: calibration.bounds(),
+            target: self.target(console)?,
+            flange_from_nozzle: self.nozzle.as_ref().map(|nozzle| nozzle.pose),
+            placed: self.placed()?,
+            clearance: Metres::from_mm(self.clearance),
+            volume: self.volume,
+            params,
+        })
+    }
+
+    /// The greatest error at the end.
+    pub(super) fn tolerance(&self) -> Metres {
+        Metres::from_mm(self.tolerance)
+    }
+
+    fn placed(&self) -> anyhow::Result<Option<PlacedArm>> {
+        let (Some(arm), Some(nozzle)) = (&self.arm, &self.nozzle) else {
+            return Ok(None);
+        };
+        let arm = Arm::named(arm).advised()?;
+        let placed = (self.cell).place(arm, nozzle.pose, &ProgramParams::default());
+        placed.map(Some)
+    }
+
+    fn target(&self, console: &Console) -> anyhow::Result<ServoTarget> {
+        if self.seen_as.is_empty() {
+            return Ok(match self.target {
+                Some(NamedTarget::PathStart) => ServoTarget::PathStart,
+                Some(NamedTarget::StandardPosition) | None => ServoTarget::StandardPosition,
+            });
+        }
+        let scenes = self.seen_as.iter().map(|path| {
+            let (scene, warnings) = open_scene(path).advised()?;
+            warn_of(path, &warnings, console);
+            Ok((path.display().to_string(), scene))
+        });
+        let scenes: anyhow::Result<Vec<_>> = scenes.collect();
+        Ok(ServoTarget::SeenAs(scenes?))
+    }
+}
