@@ -566,7 +566,6 @@ fn what_the_service_cannot_start_with_is_said_with_what_to_do() {
         (&["--max-age", "0"], "expected a number"),
         (&["--longest-move", "1"], "expected a number"),
         (&["--volume", "0,0,0"], "two opposite corners"),
-        (&["--arm", "irb4600"], "--nozzle"),
         (&["--seen-as", "missing.png"], "missing.png"),
     ] {
         let args = if args.contains(&"--as") {
