@@ -217,9 +217,9 @@ pub fn read_counts(path: &Path) -> Result<Vec<FrameCount>, PairsError> {
     const MAX_COUNT: f64 = u32::MAX as f64;
     let text = read_text(path, MAX_BYTES)?;
     let rows = rows(&text, path, 1, || "the count of the encoder".to_owned());
-    let rows = rows.or_else(|error| match error {
-        PairsError::NoPoses { path } => Err(PairsError::NoCounts { path }),
-        error => Err(error),
+    let rows = rows.map_err(|error| match error {
+        PairsError::NoPoses { path } => PairsError::NoCounts { path },
+        error => error,
     })?;
     let counts = rows.into_iter().map(|row| {
         let found = row.numbers[0];
