@@ -4,6 +4,7 @@ mod bounds;
 mod calibration;
 mod confusions;
 mod history;
+mod line;
 #[cfg(feature = "window")]
 mod live;
 mod paint;
@@ -59,6 +60,7 @@ Examples:
   partsight bench paint --coat primer
   partsight bench serve --json serve.json
   partsight bench servo --runs 200 --json servo.json
+  partsight bench line --runs 50 --json line.json
   partsight bench soak --frames 1000000 --plot soak.png
 
 Each part is enrolled from one frontal capture of the standard car, then seen in sets of simulated frames. Without a
@@ -126,6 +128,8 @@ enum Bench {
     Serve(FrameChoice),
     /// Simulated runs of visual servoing: where they end, how long they take, why they stop, and whether limits are kept
     Servo(servo::ServoArgs),
+    /// Simulated lines whose parts pass the camera: whether each is found once and in time, and the errors of poses at later counts
+    Line(line::LineArgs),
     /// Small frames, one after the other, through all that inspect --source does: latency, memory, threads and open files; exit code 1 if the memory grows by more than 2 % after the warm-up
     Soak(soak::SoakArgs),
 }
@@ -152,6 +156,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
         Some(Bench::Paint(args)) => paint::run(args, console),
         Some(Bench::Serve(args)) => serve::run(args, console),
         Some(Bench::Servo(args)) => servo::run(args, console),
+        Some(Bench::Line(args)) => line::run(args, console),
         Some(Bench::Soak(args)) => soak::run(args, console),
     }
 }

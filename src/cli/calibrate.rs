@@ -2,6 +2,7 @@
 
 mod captures;
 mod hand_eye;
+mod line;
 mod show;
 
 use std::path::{Path, PathBuf};
@@ -17,6 +18,7 @@ use robot::{
     RobotFrame, WrittenPose,
     calibration::{CalibrationError, CameraPlace, CellCalibration, Origin, default_path},
     hand_eye::Mount,
+    line::LineCalibration,
 };
 
 /// Calibrate where the camera sits in the robot's cell: by hand, or from pairs of robot and camera poses
@@ -29,6 +31,7 @@ Examples:
   partsight calibrate capture-pose \"kuka 900 0 1100 0 90 0\"
   partsight calibrate show --as fanuc
   partsight calibrate confirm --calibration cell.toml
+  partsight calibrate line fender frames/*.png --counts counts.csv
 
 The calibration is a text file, by default cell.toml in your data folder, where the other commands find it.
 Conventions: matrix (16 numbers, metres), quaternion-xyzw, rotation-vector, kuka, fanuc, abb, universal-robots,
@@ -44,6 +47,7 @@ enum CalibrateCommand {
     Set(SetArgs),
     CapturePose(CapturePoseArgs),
     Confirm(ConfirmArgs),
+    Line(line::LineArgs),
     Show(show::ShowArgs),
 }
 
@@ -141,6 +145,7 @@ pub(super) fn run(args: &CalibrateArgs, console: &mut Console) -> anyhow::Result
         CalibrateCommand::Set(args) => set(args, console),
         CalibrateCommand::CapturePose(args) => capture_pose(args, console),
         CalibrateCommand::Confirm(args) => confirm(args, console),
+        CalibrateCommand::Line(args) => line::run(args, console),
         CalibrateCommand::Show(args) => show::run(args, console),
     }
 }
@@ -263,6 +268,23 @@ pub(super) struct CalibrationChoice {
     /// matrix
     #[arg(long, value_name = "POSE", value_parser = parse_robot_pose, allow_hyphen_values = true)]
     robot_pose: Option<WrittenPose>,
+}
+
+/// The line that carries the parts past the camera, for a command that follows them.
+#[derive(Debug, Args)]
+pub(super) struct LineChoice {
+    /// The line that carries the parts past the camera without a stop, as written by `calibrate line`; without it, a part that
+    /// moves is refused
+    #[arg(long = "line", value_name = "FILE", requires = "source")]
+    file: Option<PathBuf>,
+}
+
+impl LineChoice {
+    /// Reads the file of the line, if one is named.
+    pub(super) fn load(&self) -> anyhow::Result<Option<LineCalibration>> {
+        let line = self.file.as_deref().map(LineCalibration::load);
+        line.transpose().advised()
+    }
 }
 
 /// The error of what needs a calibration that there is not.

@@ -15,7 +15,7 @@ use clap::Args;
 use self::session::{InspectSession, Opened};
 use super::{
     LibraryChoice, Outcome,
-    calibrate::{CalibrationChoice, no_calibration},
+    calibrate::{CalibrationChoice, LineChoice, no_calibration},
     console::{Advised as _, Console},
     expect::ExpectChoice,
     follow::{follow, parse_source},
@@ -31,7 +31,7 @@ use super::{
 use capture::{FeedItem, SourceSpec};
 use inspection::pipeline::MirrorTally;
 use records::report::ReportFolder;
-use station::{CameraScenes, NewFrame, PartFollower, Subject};
+use station::{CameraScenes, LineTracker, NewFrame, PartFollower, Subject};
 
 /// Recognise the part in captured scenes and say where it is
 #[derive(Debug, Args)]
@@ -54,6 +54,7 @@ Examples:
   partsight inspect --scan frames/ --poses poses.json --json
   partsight inspect --source simulated
   partsight inspect --source watch:/mnt/scanner --json
+  partsight inspect --source kinect --line line.toml
 
 Files: PCD, PLY, XYZ or CSV text, or a 16-bit depth PNG with its intrinsics in a JSON beside it.
 Clouds are in metres, unless --units says otherwise. The JSON has width, height, fx, fy, cx, cy and metres_per_unit, and
@@ -66,7 +67,8 @@ If the library is empty or cannot be loaded, nothing is inspected: one error, no
 With --source: follows a camera, a recording or a folder until it ends, until --frames were inspected, or until Ctrl-C.
 A live camera gives its newest frame, and those in between are dropped; every frame of a recording or folder is inspected.
 A frame of a part that moves is not accepted. At the start of a source, a frame is shown up to 0.9 s later, once another
-one shows whether its part hangs still.
+one shows whether its part hangs still. With --line, parts pass without a stop: a part is accepted once several frames show it
+where the line carried it, and is recorded once.
 Exit codes as with files; 1 also if no frame came. Possible sources: partsight capture --help
 With --scan: one verdict on all frames together; partsight help scan explains how to give their poses. camera_from_part
 is then the pose in the camera's frame of the first used shot, and base_from_part the pose in the robot's base frame.
@@ -104,6 +106,8 @@ pub(super) struct InspectArgs {
     empty_cell: EmptyCellChoice,
     #[command(flatten)]
     calibration: CalibrationChoice,
+    #[command(flatten)]
+    line: LineChoice,
     #[command(flatten)]
     carried: carried_path::CarriedPathChoice,
     /// Write one line of JSON per file, and nothing else, to standard output
@@ -160,6 +164,7 @@ fn inspect(
     let report = args.report.as_deref().map(ReportFolder::make);
     let report = report.transpose().advised()?;
     let empty_cell = args.empty_cell.open(console)?;
+    let line = args.line.load()?;
     let publisher = publisher
         .map(|publisher| publisher.start(&load, &trace, console))
         .transpose()?;
@@ -181,8 +186,9 @@ fn inspect(
         report,
         recording,
         followed: (args.source.as_ref())
-            .filter(|source| source.is_followed())
+            .filter(|source| source.is_followed() && line.is_none())
             .map(|_| PartFollower::default()),
+        line: line.map(LineTracker::new),
         publisher,
         mirrored: MirrorTally::default(),
         waiting: VecDeque::new(),
@@ -195,7 +201,9 @@ fn inspect(
     if let Some(suspicion) = one.mirrored.suspicion() {
         console.warn(&suspicion, &suspicion);
     }
-    for kept in one.followed.take().map_or_else(Vec::new, PartFollower::end) {
+    let still_held = one.followed.take().map_or_else(Vec::new, PartFollower::end);
+    let on_line = one.line.take().map_or_else(Vec::new, LineTracker::end);
+    for kept in still_held.into_iter().chain(on_line) {
         one.keep(kept, console);
     }
     // Before the publisher, which may wait for the broker.

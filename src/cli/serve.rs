@@ -16,7 +16,7 @@ use clap::Args;
 use self::session::ServeSession;
 use super::{
     LibraryChoice, Outcome,
-    calibrate::{CalibrationChoice, no_calibration},
+    calibrate::{CalibrationChoice, LineChoice, no_calibration},
     console::{Advised as _, Console, with_advice},
     expect::ExpectChoice,
     input::{EmptyCellChoice, within},
@@ -38,7 +38,7 @@ use geometry::{
 use inspection::{library::LibraryLoad, pipeline::MirrorTally};
 use serve::{ClientEvent, ListenAddress, Listener, Protocol, Server, ServerSettings};
 use station::{
-    Camera, CameraScenes, NumberedPart, PartFinder,
+    Camera, CameraScenes, LineFollower, NumberedPart, PartFinder,
     servoing::{SetupError, SingleMoves, check_source},
 };
 
@@ -50,6 +50,7 @@ Examples:
   partsight serve --source kinect --listen eki=192.168.1.10:54600
   partsight serve --source kinect --listen ascii=30100 --listen urscript=192.168.1.10:30102 --as abb
   partsight serve --source simulated:fender --as kuka --calibration cell.toml --json
+  partsight serve --source kinect --as kuka --calibration cell.toml --line line.toml
   printf 'TRIGGER\\n' | nc 127.0.0.1 30100
 
 Protocols, each on its own port; docs/guide/robots_that_ask.md describes them in full:
@@ -63,6 +64,8 @@ spray path of the part that the same client triggered, for where it hangs. SERVO
 with the flange at rest there, where the robot should go next until the part stands where it should (docs/guide/servo.md).
 A part that moves is refused with the reason moving: the scene must have been still for 0.9 s, and a second frame, 150 ms
 later, must show the part in the same place.
+With --line, parts pass without a stop: each is followed and recorded once, and TRIGGER ENC=123456 answers with its pose at
+that count of the line's encoder.
 With --expect, or --orders and --order, a TRIGGER that names no parts expects those. TRIGGER 1=3 2=5 expects them at the first
 and the second place of the --rack.
 Every answer has a verdict, the age of its frame and a sequence number. Poses are given only for an accepted part whose
@@ -108,6 +111,8 @@ pub(super) struct ServeArgs {
     empty_cell: EmptyCellChoice,
     #[command(flatten)]
     calibration: CalibrationChoice,
+    #[command(flatten)]
+    line: LineChoice,
     /// Write one line of JSON per trigger, and nothing else, to standard output
     #[arg(long)]
     json: bool,
@@ -209,6 +214,7 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
     let recipe = (args.expect).applied(&recipe, &load.library, Some(&recipe.rack), &trace)?;
     let parts = args.numbers.parts(&place, &load, console)?;
     let empty_cell = args.empty_cell.open(console)?;
+    let line = args.line.load()?;
     let camera = Arc::new(Camera::start(&args.source).advised()?);
     let interrupt = Interrupt::listen()?;
     let (mut server, events) = start(args, &listeners, &camera)?;
@@ -240,6 +246,7 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
         trace,
         scenes: CameraScenes::new(empty_cell),
         source: args.source.clone(),
+        line: line.map(LineFollower::new),
         frame_timeout: Duration::from_secs_f64(args.frame_timeout),
         format,
         recording,

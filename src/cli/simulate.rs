@@ -1,6 +1,7 @@
 //! `partsight simulate`: writes a frame of the simulated cell, or many of them as cases with their truth.
 
 mod cases;
+mod line;
 mod rack;
 mod scan;
 
@@ -32,6 +33,7 @@ Examples:
   partsight simulate --part grille --pose \"0 0 15deg 0 0 1.2\" --out grille.pcd
   partsight simulate --cases tried --num 40 --placement facing,placed,hard
   partsight simulate --part fender --scan frames --shots 8
+  partsight simulate --line passing
   partsight simulate --rack 3 --rack-kind touching --seed 4 --out rack.png --truth rack.truth.json
   partsight simulate --cases tried --part objects,empty --num 9 --clutter on-floor
   partsight simulate --cases booth --booth --num 80
@@ -42,7 +44,7 @@ Only the left doors and the left fender are shipped: a right one is not recognis
 pub(super) struct SimulateArgs {
     /// What hangs in the cell; objects stands for the eight things that are not shipped parts. With --cases several may
     /// be given; default: all parts
-    #[arg(long, value_name = "NAME", value_delimiter = ',', required_unless_present_any = ["cases", "rack"], value_parser = PossibleValuesParser::new(subject_names()))]
+    #[arg(long, value_name = "NAME", value_delimiter = ',', required_unless_present_any = ["cases", "rack", "line"], value_parser = PossibleValuesParser::new(subject_names()))]
     part: Vec<String>,
     /// Side of the car, for doors and fenders
     #[arg(long, value_parser = choice(&SIDES), default_value = "left")]
@@ -86,7 +88,7 @@ pub(super) struct SimulateArgs {
     #[arg(long, value_name = "KIND", value_parser = choice(&RACKS), default_value = "apart", requires = "rack", conflicts_with_all = ["part", "cases"])]
     rack_kind: RackKind,
     /// The file: .pcd (organised), .png (16-bit depth, intrinsics in a .json beside it), .ply or .xyz (points only)
-    #[arg(long, value_name = "FILE", required_unless_present_any = ["cases", "scan"])]
+    #[arg(long, value_name = "FILE", required_unless_present_any = ["cases", "scan", "line"])]
     out: Option<PathBuf>,
     /// Write what is known about the frame as JSON: the part, its pose, how much of it is seen
     #[arg(long, value_name = "FILE")]
@@ -101,6 +103,10 @@ pub(super) struct SimulateArgs {
     /// With --scan: number of frames
     #[arg(long, value_name = "N", default_value_t = 8, requires = "scan", value_parser = parse_shots)]
     shots: usize,
+    /// Instead of one file: write frames of a part that passes on a line into this folder, with counts.csv, the counts of the
+    /// line's encoder, for partsight calibrate line
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["part", "side", "pose", "placement", "booth", "out", "truth", "cases", "scan", "rack"])]
+    line: Option<PathBuf>,
     /// With --cases: total number of cases; their seeds are consecutive
     #[arg(long, value_name = "N", default_value_t = 40, requires = "cases", value_parser = clap::value_parser!(u64).range(1..=100_000))]
     num: u64,
@@ -213,6 +219,9 @@ const PLACEMENTS: [Choice<Placement>; 3] = [
 pub(super) fn run(args: &SimulateArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     if let Some(folder) = &args.cases {
         return cases::run(folder, args, console);
+    }
+    if let Some(folder) = &args.line {
+        return line::run(folder, args, console);
     }
     if let Some(folder) = &args.scan {
         return scan::run(folder, args, console);

@@ -19,6 +19,7 @@ mod kill;
 #[path = "../kit/mod.rs"]
 mod kit;
 mod library;
+mod line;
 mod packaging;
 mod paint;
 mod program;

@@ -7,6 +7,7 @@ pub mod bounds;
 pub mod calibration;
 mod evaluation;
 mod history;
+pub mod line;
 pub mod paint;
 mod process_usage;
 mod processor_time;

@@ -12,7 +12,10 @@ use crate::cli::{
 use capture::may_be_capture;
 use files::{file_name, in_counting_order};
 use geometry::error::Advice as _;
-use inspection::pipeline::{self, Recipe, Unwatched};
+use inspection::{
+    library::Library,
+    pipeline::{self, Recipe, Unwatched},
+};
 use robot::{
     Convention,
     hand_eye::{PosePair, Target},
@@ -55,32 +58,45 @@ pub(super) fn pairs_of_captures(
     let mut seen: Vec<(PosePair, ObservedTarget)> = Vec::new();
     for (pose, file) in poses.iter().zip(&files) {
         console.begin(&file.display());
-        let (scene, warnings) = open_scene(file).advised()?;
-        warn_of(file, &warnings, console);
-        let inspection = pipeline::run(&scene, &library, &Recipe::default(), &Unwatched)?;
-        match seen_part(&inspection, &scene, &library) {
-            Ok(part) => {
-                let pair = PosePair {
-                    name: match &pose.capture {
-                        Some(_) => pose.place.clone(),
-                        None => format!("{} ({})", file_name(file), pose.place),
-                    },
-                    robot_from_flange: pose.robot_from_flange,
-                    camera_from_target: part.camera_from_target,
-                };
-                seen.push((pair, part));
-            }
-            Err(error) => {
-                console.advise(
-                    &format_args!("left out {}: {error}", file.display()),
-                    &error.advice(),
-                );
-            }
+        if let Some(part) = seen_in(file, &library, false, console)? {
+            let pair = PosePair {
+                name: match &pose.capture {
+                    Some(_) => pose.place.clone(),
+                    None => format!("{} ({})", file_name(file), pose.place),
+                },
+                robot_from_flange: pose.robot_from_flange,
+                camera_from_target: part.camera_from_target,
+            };
+            seen.push((pair, part));
         }
         console.done();
     }
     console.end_progress();
     Ok(of_one_part(seen, console))
+}
+
+/// Inspects a capture; if no enrolled part is seen there well enough, or if it must be whole and is not, names and leaves it out.
+pub(super) fn seen_in(
+    file: &Path,
+    library: &Library,
+    must_be_whole: bool,
+    console: &Console,
+) -> anyhow::Result<Option<ObservedTarget>> {
+    let (scene, warnings) = open_scene(file).advised()?;
+    warn_of(file, &warnings, console);
+    let inspection = pipeline::run(&scene, library, &Recipe::default(), &Unwatched)?;
+    let seen = match seen_part(&inspection, &scene, library) {
+        Ok(_) if must_be_whole && inspection.touches_edge() => Err((
+            "the part is cut off by the edge of the picture".to_owned(),
+            "Take frames that show all of it".to_owned(),
+        )),
+        Ok(part) => Ok(part),
+        Err(error) => Err((error.to_string(), error.advice())),
+    };
+    if let Err((why, advice)) = &seen {
+        console.advise(&format_args!("left out {}: {why}", file.display()), advice);
+    }
+    Ok(seen.ok())
 }
 
 /// Returns the captures of the poses: by name, or all of the folder in counting order.

@@ -3,6 +3,7 @@
 use std::{
     collections::VecDeque,
     fmt::Display,
+    mem,
     path::{Path, PathBuf},
     sync::Arc,
     time::{Duration, Instant},
@@ -34,7 +35,7 @@ use stages::{
     reference::Reference,
     scene::{EmptyCell, SceneCloud},
 };
-use station::{CameraScenes, Inspected, PartFollower, Subject};
+use station::{CameraScenes, Inspected, LineTracker, Moment, PartFollower, Subject};
 
 /// State shared by all files or frames of a call.
 pub(super) struct InspectSession {
@@ -53,6 +54,8 @@ pub(super) struct InspectSession {
     pub(super) recording: Option<HistoryRecorder>,
     /// Set for a source whose frames show one part after the other.
     pub(super) followed: Option<PartFollower<KeptInspection>>,
+    /// Set for a source whose parts a line carries.
+    pub(super) line: Option<LineTracker<KeptInspection>>,
     pub(super) publisher: Option<Publisher>,
     pub(super) mirrored: MirrorTally,
     /// Frames of a followed source that are not shown yet, in order.
@@ -163,9 +166,20 @@ impl InspectSession {
         opened: Opened<'_>,
         console: &mut Console,
     ) -> anyhow::Result<Outcome> {
-        let frame = self.inspected(opened)?;
+        let mut frame = self.inspected(opened)?;
         for part in &frame.parts {
             self.mirrored.add(&part.verdict);
+        }
+        if let Some(mut line) = self.line.take() {
+            let kept = self.on_line(&mut frame, &mut line, console);
+            self.line = Some(line);
+            let line = self.show(&frame, console);
+            for kept in kept {
+                self.keep(kept, console);
+            }
+            let pictures = self.pictures(&frame);
+            self.write_report(&frame.path, &line, pictures)?;
+            return Ok(self.outcome(&frame));
         }
         if self.followed.is_some() {
             // Earlier frames first: the part that they show may be recorded now.
@@ -190,6 +204,48 @@ impl InspectSession {
         }
         // A refused part keeps its outcome even if its program was forced.
         Ok(written.map_or(outcome, |written| outcome.max(written)))
+    }
+
+    /// Refuses the parts of a frame that do not count on the line. Returns what to store and publish.
+    fn on_line(
+        &self,
+        frame: &mut InspectedFrame,
+        line: &mut LineTracker<KeptInspection>,
+        console: &Console,
+    ) -> Vec<KeptInspection> {
+        let taken_at = frame
+            .subject
+            .capture
+            .as_ref()
+            .map(|capture| capture.taken_at);
+        let at = taken_at.map(|taken_at| taken_at.as_duration());
+        let moment = Moment {
+            at: at.and_then(|at| at.try_into().ok()).unwrap_or_default(),
+            count: None,
+        };
+        let mut parts = mem::take(&mut frame.parts);
+        let (followed, kept) = line.see(
+            moment,
+            &mut parts,
+            |part| middle_of(part, &self.library),
+            |_, part, _| self.kept(frame, &frame.subject, part, HungId::new()),
+        );
+        frame.parts = parts;
+        let new = frame
+            .parts
+            .iter()
+            .zip(&followed)
+            .filter(|(_, one)| one.is_new);
+        for (part, followed) in new {
+            if let (Some(number), Some(pose)) = (followed.number, &followed.pose) {
+                console.note(&format_args!(
+                    "{} is part {number} on the line, at {:.0} mm/s",
+                    part.verdict.guess().unwrap_or_default(),
+                    1000.0 * pose.speed
+                ));
+            }
+        }
+        kept
     }
 
     fn outcome(&self, frame: &InspectedFrame) -> Outcome {

@@ -23,16 +23,17 @@ use inspection::{
     pipeline::{MirrorTally, NamedRecipe},
 };
 use records::{
-    history::{HungId, Traceability},
+    history::{HungId, NewEntry, Traceability},
     report::{InspectionLine, SCHEMA},
 };
 use serde_json::json;
 use serve::{
-    Asked, ClientEvent, ClientNews, Found, FrameParts, InspectionRecord, Inspector, Problem,
-    ServoRequest, VerdictCode,
+    Asked, ClientEvent, ClientNews, ExpectedNumbers, Found, FrameParts, InspectionRecord,
+    Inspector, Problem, ServoRequest, VerdictCode,
 };
 use station::{
-    Answered, Answering, Camera, CameraScenes, NoFrame, PartFinder, Subject,
+    Answered, Answering, Camera, CameraScenes, Inspected, LineFollower, NoFrame, PartFinder,
+    Subject,
     servoing::{RestWatch, ServoParts, SetupError, SingleMoves},
 };
 
@@ -49,6 +50,8 @@ pub(super) struct ServeSession<'a> {
     pub(super) trace: Traceability,
     pub(super) scenes: CameraScenes,
     pub(super) source: SourceSpec,
+    /// The line that carries the parts, and what is recorded of each.
+    pub(super) line: Option<LineFollower<Option<NewEntry>>>,
     pub(super) frame_timeout: Duration,
     pub(super) format: OutputFormat,
     pub(super) recording: Option<HistoryRecorder>,
@@ -70,6 +73,11 @@ pub(super) struct ServeSession<'a> {
 
 impl Inspector for ServeSession<'_> {
     fn inspect(&mut self, asked: &Asked) -> FrameParts {
+        if let Some(mut line) = self.line.take() {
+            let found = self.inspect_on_line(asked, &mut line);
+            self.line = Some(line);
+            return found;
+        }
         let interrupt = &self.interrupt;
         let captured = (self.camera).frame_after(asked, self.frame_timeout, || interrupt.came());
         let captured = match captured {
@@ -130,6 +138,7 @@ impl Inspector for ServeSession<'_> {
         }
         self.look_at_camera();
         self.look_at_output();
+        self.follow_line();
         if let Some(recording) = &self.recording {
             recording.tell(self.console);
         }
@@ -141,6 +150,11 @@ impl Inspector for ServeSession<'_> {
             ControlFlow::Continue(())
         }
     }
+}
+
+/// The entry of a part for the history, if there is one. Each part on a line is another one.
+fn entry_of(recording: Option<&HistoryRecorder>, part: &Inspected<'_>) -> Option<NewEntry> {
+    recording.map(|recording| recording.entry(part, HungId::new()))
 }
 
 impl ServeSession<'_> {
@@ -196,6 +210,85 @@ impl ServeSession<'_> {
         }
     }
 
+    /// The answer to a trigger about the parts on a line.
+    fn inspect_on_line(
+        &mut self,
+        asked: &Asked,
+        line: &mut LineFollower<Option<NewEntry>>,
+    ) -> FrameParts {
+        let interrupt = &self.interrupt;
+        let is_ending = || interrupt.came();
+        let answering = Answering {
+            camera: &self.camera,
+            finder: &self.finder,
+            library: &self.library,
+            recipe: &self.recipe,
+            expected: asked.expected,
+            at_most: self.frame_timeout,
+            is_ending: &is_ending,
+        };
+        let (camera, source, at_most) = (&self.camera, &self.source, self.frame_timeout);
+        let next = || {
+            let captured = camera.frame_after(asked, at_most, is_ending)?;
+            let num_dropped = camera.feed_status().num_dropped;
+            let subject = Subject::of_capture(&captured, source, num_dropped);
+            Ok((captured, subject))
+        };
+        let (scenes, console) = (&mut self.scenes, &*self.console);
+        let scene_of = |captured| Arc::new(scene_of(captured, scenes, console));
+        let recording = self.recording.as_ref();
+        let entry = |part: &Inspected<'_>| entry_of(recording, part);
+        let (answered, recorded) =
+            answering.answer_on_line(asked, line, &self.trace, next, scene_of, entry);
+        self.record(recorded);
+        match answered {
+            Ok(answered) => self.last.insert(answered).found.clone(),
+            Err(why) => self.without_frame(&why),
+        }
+    }
+
+    /// Follows the parts on the line between the triggers, so that none is missed and a trigger need not wait.
+    fn follow_line(&mut self) {
+        let Some(line) = &mut self.line else { return };
+        let Some(captured) = self.camera.newest() else {
+            return;
+        };
+        let subject = Subject::of_capture(&captured, &self.source, 0);
+        let answering = Answering {
+            camera: &self.camera,
+            finder: &self.finder,
+            library: &self.library,
+            recipe: &self.recipe,
+            expected: ExpectedNumbers::default(),
+            at_most: self.frame_timeout,
+            is_ending: &|| false,
+        };
+        let (scenes, console) = (&mut self.scenes, &*self.console);
+        let scene_of = |captured| Arc::new(scene_of(captured, scenes, console));
+        let recording = self.recording.as_ref();
+        let entry = |part: &Inspected<'_>| entry_of(recording, part);
+        let followed = guarded(|| {
+            answering
+                .follow(captured, subject, line, scene_of, entry)
+                .map(|seen| seen.1)
+        });
+        match followed {
+            Ok(Ok(recorded)) => self.record(recorded),
+            Ok(Err(why)) => {
+                self.without_frame(&why);
+            }
+            Err(fault) => self.console.warn(&fault, &fault),
+        }
+    }
+
+    fn record(&mut self, entries: Vec<Option<NewEntry>>) {
+        if let Some(recording) = &mut self.recording {
+            for entry in entries.into_iter().flatten() {
+                recording.add(entry, self.console);
+            }
+        }
+    }
+
     /// The result of a trigger after which nothing can be inspected; shows why.
     fn without_frame(&self, why: &NoFrame) -> FrameParts {
         self.console
@@ -217,7 +310,8 @@ impl ServeSession<'_> {
             .inspected(name, line, &parts, &self.library, self.console);
         for part in &parts {
             self.mirrored.add(&part.inspection.verdict);
-            if let Some(recording) = &mut self.recording {
+            // Parts on a line are recorded as they pass, whether anything triggers or not.
+            if let (Some(recording), None) = (&mut self.recording, &self.line) {
                 // Only the client knows whether it is the same part again.
                 let entry = recording.entry(part, HungId::new());
                 recording.add(entry, self.console);
@@ -279,7 +373,9 @@ impl ServeSession<'_> {
     }
 
     /// Writes what is left. Returns why the service had to end, if it had to.
-    pub(super) fn finish(self) -> anyhow::Result<Outcome> {
+    pub(super) fn finish(mut self) -> anyhow::Result<Outcome> {
+        let left = self.line.take().map(LineFollower::end);
+        self.record(left.unwrap_or_default());
         let console = self.console;
         if let Some(suspicion) = self.mirrored.suspicion() {
             console.warn(&suspicion, &suspicion);

@@ -1,0 +1,89 @@
+//! A line that carries parts past the camera.
+
+use std::fs;
+
+use crate::workplace::Workplace;
+
+/// The value of a key of a TOML file.
+fn number(text: &str, key: &str) -> f64 {
+    let line = text
+        .lines()
+        .find_map(|line| line.strip_prefix(key)?.strip_prefix(" = "));
+    line.expect(key).parse().expect("a number")
+}
+
+#[test]
+fn a_line_is_calibrated_from_frames_and_counts_and_refused_with_what_to_do() {
+    let shop = Workplace::new();
+    let made = shop.accepted(&["simulate", "--line", "passing"]);
+    let told = made
+        .out
+        .split("partsight ")
+        .nth(1)
+        .expect("what to do next");
+    let part = told.split_whitespace().nth(2).expect("the part").to_owned();
+    let frames: Vec<String> = (1..=12)
+        .map(|k| format!("passing/frame-{k:02}.png"))
+        .collect();
+    let with = |counts: &str, more: &[&str]| {
+        let mut args = vec!["calibrate", "line", &part];
+        args.extend(frames.iter().map(String::as_str));
+        args.extend(["--counts", counts]);
+        args.extend(more);
+        shop.run(&args)
+    };
+    let ran = with("passing/counts.csv", &[]);
+    assert_eq!(ran.code, 0, "{}{}", ran.out, ran.err);
+    assert!(ran.out.contains("mm for each count"), "{}", ran.out);
+    let text = fs::read_to_string(shop.path("line.toml")).expect("written");
+    // The simulated encoder counts a tenth of a millimetre.
+    let per_count = number(&text, "mm_per_count");
+    let bound = number(&text, "scale_bound_percent");
+    assert!(
+        (per_count / 0.1 - 1.0).abs() < 0.02 && bound < 2.0,
+        "{text}"
+    );
+
+    let written = fs::read_to_string(shop.path("passing/counts.csv")).expect("counts");
+    let counts: String = (written.lines())
+        .filter(|line| !line.starts_with('#'))
+        .map(|line| format!("{}; 7\n", line.split(';').next().expect("a name")))
+        .collect();
+    shop.write("still.csv", &counts);
+    let ran = with("still.csv", &["--out", "none.toml"]);
+    assert_eq!(ran.code, 2, "{}", ran.err);
+    assert!(
+        ran.err.contains("do not change") && ran.err.contains("to do"),
+        "{}",
+        ran.err
+    );
+    assert!(!shop.path("none.toml").exists());
+    shop.write("few.csv", "frame-01.png; 1\n");
+    let ran = with("few.csv", &[]);
+    assert!(
+        ran.code == 2 && ran.err.contains("no count of frame-02.png"),
+        "{}",
+        ran.err
+    );
+    shop.write("bad.csv", "frame-01.png; 1.5\n");
+    let ran = with("bad.csv", &[]);
+    assert!(
+        ran.code == 2 && ran.err.contains("is no count of an encoder"),
+        "{}",
+        ran.err
+    );
+
+    // A file that was edited is not used.
+    shop.write(
+        "edited.toml",
+        &text.replace("counter_bits = 32", "counter_bits = 16"),
+    );
+    let source = ["--source", "simulated:conveyor", "--frames", "1"];
+    let args = [&["inspect"], &source[..], &["--line", "edited.toml"]].concat();
+    let ran = shop.run(&args);
+    assert!(
+        ran.code == 2 && ran.err.contains("its checksum does not match"),
+        "{}",
+        ran.err
+    );
+}
