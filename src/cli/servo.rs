@@ -111,27 +111,20 @@ pub(super) fn run(args: &ServoArgs, console: &mut Console) -> anyhow::Result<Out
         library: &load.library,
         longest_step: None,
     };
-    let outcome = match (&args.robot, &args.source) {
-        (Some(robot), Some(source)) => real(
-            args,
-            (&job, &place),
-            (*robot, source),
-            &recipe,
-            &interrupt,
-            console,
-        )?,
-        _ => {
-            let protocol = args.simulated.unwrap_or(StreamProtocol::Egm);
-            console.note(
-                &"Simulated: an arm carries the camera; its calibration is wrong by up to 20 mm and 2°",
-            );
-            let params = args.params()?;
-            let outcome = servo_simulated(&job, &params, protocol, args.seed, |news| {
-                show_news(news, args, console);
-                order(&interrupt, console)
-            });
-            outcome.advised()?
-        }
+    let outcome = if let (Some(robot), Some(source)) = (&args.robot, &args.source) {
+        let part = (&job, &place);
+        real(args, part, (*robot, source), &recipe, &interrupt, console)?
+    } else {
+        let protocol = args.simulated.unwrap_or(StreamProtocol::Egm);
+        console.note(
+            &"Simulated: an arm carries the camera; its calibration is wrong by up to 20 mm and 2°",
+        );
+        let params = args.params()?;
+        let outcome = servo_simulated(&job, &params, protocol, args.seed, |news| {
+            show_news(news, args, console);
+            order(&interrupt, console)
+        });
+        outcome.advised()?
     };
     if !args.no_history
         && let Some(record) = outcome.record
@@ -203,14 +196,13 @@ fn words(error: &PoseDelta) -> String {
 
 fn show_news(news: Option<ServoNews>, args: &ServoArgs, console: &mut Console) {
     match news {
-        None => {}
         Some(ServoNews::TargetFrame { name, reason }) => {
             console.advise(&format_args!("{name}: {reason}"), &reason.advice());
         }
         Some(ServoNews::Begins { robot, .. }) if args.robot.is_some() => {
             console.note(&format_args!("Waiting for the robot: {robot}"));
         }
-        Some(ServoNews::Begins { .. }) => {}
+        None | Some(ServoNews::Begins { .. }) => {}
         Some(ServoNews::Camera(error)) => console.warn(&error, &*error),
         Some(ServoNews::Connected(peer)) => console.note(&format_args!("Robot: {peer}")),
         Some(ServoNews::Problem(problem)) => console.warn(&problem, &problem),

@@ -54,6 +54,7 @@ shell-enrol = Einlernen
 shell-compare = Vergleich
 shell-align = Ausrichten
 shell-paint = Lackieren
+shell-servo = Servo
 shell-history = Verlauf
 shell-operator = Bediener
 shell-engineer = Einrichter

@@ -54,6 +54,7 @@ shell-enrol = Enrol
 shell-compare = Compare
 shell-align = Align
 shell-paint = Paint
+shell-servo = Servo
 shell-history = History
 shell-operator = Operator
 shell-engineer = Engineer

@@ -54,6 +54,7 @@ shell-enrol = Registro
 shell-compare = Comparar
 shell-align = Alinear
 shell-paint = Pintar
+shell-servo = Servo
 shell-history = Historial
 shell-operator = Operador
 shell-engineer = Técnico

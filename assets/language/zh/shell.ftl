@@ -48,6 +48,7 @@ shell-enrol = 注册
 shell-compare = 比较
 shell-align = 配准
 shell-paint = 喷涂
+shell-servo = 伺服
 shell-history = 历史
 shell-operator = 操作员
 shell-engineer = 工程师

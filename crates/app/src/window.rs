@@ -12,6 +12,7 @@ use super::workspaces::{
     history::HistoryWorkspace,
     inspect::{InspectWorkspace, WorkCounts},
     paint::PaintWorkspace,
+    servo::ServoWorkspace,
 };
 use files::file_of;
 use inspection::pipeline::{RecipeFolder, open_recipe};
@@ -151,8 +152,7 @@ impl Window {
             });
         // Coats are kept beside the recipes.
         let coats = recipes.as_ref().map(|path| path.with_file_name("coats"));
-        let draft = settings.as_ref();
-        let draft = draft.map(|path| path.with_file_name("draft.json"));
+        let draft = (settings.as_ref()).map(|path| path.with_file_name("draft.json"));
         let remembered_live = remembered.live;
         let mut window = Self {
             memory: Memory::new(settings, remembered.clone(), &runner),
@@ -169,6 +169,7 @@ impl Window {
                 Box::new(CompareWorkspace::new(cases, recipes.clone(), &runner)),
                 Box::new(AlignWorkspace::new(&gpu, &runner)),
                 Box::new(PaintWorkspace::new(&gpu, coats, &runner)),
+                Box::new(ServoWorkspace::new(&gpu, &runner)),
                 Box::new(HistoryWorkspace::new(history_writer, kept, &runner)),
             ],
             messages: Vec::new(),

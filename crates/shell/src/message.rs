@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     action::Action,
-    cell::{AnswerSetup, program_setup::ProgramSetup},
+    cell::{AnswerSetup, ServoSettings, program_setup::ProgramSetup},
     inspection::{
         inspected::{InspectJob, Inspected},
         library_cache::LibraryView,
@@ -45,6 +45,8 @@ pub enum Message {
     UseAnswering(AnswerSetup),
     /// Write robot programs for this arm and gun.
     UseProgramSetup(ProgramSetup),
+    /// Servo with these settings.
+    UseServoSettings(ServoSettings),
     /// The library was changed: use it. If Live is on, it starts over; else inspect `saved`, or the scene in front unless
     /// another inspection is running.
     LibraryChanged {

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::shift::{ShiftParts, ShiftStarts};
 use crate::{
-    cell::{AnswerSetup, program_setup::ProgramSetup},
+    cell::{AnswerSetup, ServoSettings, program_setup::ProgramSetup},
     inspection::{
         inspected::{InspectJob, InspectRequest, Inspected},
         library_cache::LibraryView,
@@ -57,6 +57,8 @@ pub struct Session {
     pub convention: Convention,
     /// The arm and the gun of robot programs.
     pub program: ProgramSetup,
+    /// What is servoed.
+    pub servo: ServoSettings,
     /// Where parts may hang.
     pub rack: RackInUse,
     /// The window in which the rack is edited, while it is open: every part of a frame is found, so that each can get a place.
@@ -364,18 +366,21 @@ pub enum WorkspaceKind {
     Align,
     /// Spray paths over enrolled parts, and their film.
     Paint,
+    /// Moves a robot by what the camera sees of a part.
+    Servo,
     /// Past inspections.
     History,
 }
 
 impl WorkspaceKind {
     /// All workspaces, in the order of the rail and of the number keys.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Inspect,
         Self::Enrol,
         Self::Compare,
         Self::Align,
         Self::Paint,
+        Self::Servo,
         Self::History,
     ];
 
@@ -387,6 +392,7 @@ impl WorkspaceKind {
             Self::Compare => text!("shell-compare"),
             Self::Align => text!("shell-align"),
             Self::Paint => text!("shell-paint"),
+            Self::Servo => text!("shell-servo"),
             Self::History => text!("shell-history"),
         }
     }

@@ -16,7 +16,7 @@ use super::{
     state::State,
 };
 use crate::{
-    cell::{AnswerSetup, program_setup::ProgramSetup},
+    cell::{AnswerSetup, ServoSettings, program_setup::ProgramSetup},
     inspection::{library_cache::LibraryCache, unit_system::UnitSystem},
     rack::RackInUse,
     source::live::LiveState,
@@ -57,6 +57,8 @@ pub struct Settings {
     pub convention: Convention,
     /// The arm and the gun of robot programs.
     pub program: ProgramSetup,
+    /// What is servoed.
+    pub servo: ServoSettings,
     /// The workspace in front.
     pub workspace: WorkspaceKind,
     /// The library chosen in the window; `None` for the one that the command line would find.
@@ -104,6 +106,7 @@ impl Default for Settings {
             language: None,
             convention: Convention::default(),
             program: ProgramSetup::default(),
+            servo: ServoSettings::default(),
             workspace: WorkspaceKind::default(),
             library: None,
             recent: Vec::new(),
@@ -136,6 +139,7 @@ impl Settings {
             language: state.session.chosen_language,
             convention: state.session.convention,
             program: state.session.program.clone(),
+            servo: state.session.servo.clone(),
             workspace: state.session.workspace,
             library: state.session.chosen_library.clone(),
             recent: state.session.recent.clone(),
@@ -173,6 +177,7 @@ impl Settings {
             },
             convention: self.convention,
             program: self.program,
+            servo: self.servo,
             chosen_library: self.library,
             recent: self.recent,
             source: self.source,
@@ -300,6 +305,8 @@ fn read(path: &Path) -> Result<ReadSettings, FileError> {
     }
     let replaced = settings.program.replace_unusable().into_iter();
     bad_keys.extend(replaced.map(|key| format!("program.{key}")));
+    let replaced = settings.servo.replace_unusable().into_iter();
+    bad_keys.extend(replaced.map(|key| format!("servo.{key}")));
     Ok(ReadSettings { settings, bad_keys })
 }
 

@@ -8,7 +8,7 @@ use egui::{
     vec2,
 };
 use egui_plot::{
-    AxisHints, GridInput, GridMark, HoverPosition, Line, LineStyle, Plot, PlotPoints,
+    AxisHints, GridInput, GridMark, HoverPosition, Line, LineStyle, Plot, PlotPoint, PlotPoints,
     PlotTransform, PlotUi,
 };
 use jiff::Zoned;
@@ -314,6 +314,99 @@ pub fn over_time(
     }
 }
 
+/// A quantity that should fall below a limit, over seconds.
+pub struct FallingCurve<'a> {
+    /// What is shown, with its unit.
+    pub title: &'a str,
+    /// Seconds and values; those that are not above 0 leave a gap.
+    pub points: &'a [[f64; 2]],
+    /// The limit, and its name.
+    pub limit: (f64, &'a str),
+    /// Sign of the unit.
+    pub unit: &'static str,
+    /// Colour of the curve.
+    pub colour: Color32,
+}
+
+/// The values that the axis of a falling curve spans at least, powers of ten around its limit.
+const LEAST_POWERS: [f64; 2] = [1.5, 1.0];
+
+impl FallingCurve<'_> {
+    /// Draws it on a logarithmic axis, with a dashed line at the limit.
+    pub fn show(self, ui: &mut Ui, rect: Rect) {
+        let theme = Theme::of(ui);
+        let Self {
+            title,
+            points,
+            limit: (limit, limit_name),
+            unit,
+            colour,
+        } = self;
+        let label = ui.interact(rect, ui.unique_id().with(title), Sense::hover());
+        label.widget_info(|| WidgetInfo::labeled(egui::Role::Label, true, title));
+        ui.painter().rect_filled(rect, ROUNDING, theme.panel);
+        let known = move || points.iter().filter(|[_, value]| *value > 0.0);
+        let middle = limit.log10();
+        let [below, above] = LEAST_POWERS;
+        let range = known().fold(
+            [middle - below, middle + above],
+            |[low, high], [_, value]| [low.min(value.log10()), high.max(value.log10())],
+        );
+        let last = points.last().map_or(0.0, |[at, _]| *at).max(1.0);
+        let axes = Axes {
+            title: vec![(title.to_owned(), colour)],
+            across: Axis::new([0.0, last], seconds(last)),
+            up: Axis::powers(range, power_of_ten),
+            font: font::small(),
+            read: Some(Box::new(move |at| {
+                let near = known().min_by(|a, b| (a[0] - at).abs().total_cmp(&(b[0] - at).abs()));
+                near.map_or_else(String::new, |[at, value]| {
+                    format!("{at:.1} s: {value:.2} {unit}")
+                })
+            })),
+        };
+        let shown = axes.show(ui, rect.shrink(space::MEDIUM), move |plot| {
+            let line = PlotPoints::from(vec![[0.0, middle], [last, middle]]);
+            let dashed = LineStyle::Dashed { length: 6.0 };
+            plot.line(
+                Line::new("", line)
+                    .color(theme.reference_series)
+                    .width(1.4)
+                    .style(dashed),
+            );
+            let values = points.iter().map(|[at, value]| [*at, value.log10()]);
+            let values: Vec<[f64; 2]> = values.filter(|[_, value]| value.is_finite()).collect();
+            plot.line(Line::new("", values).color(colour).width(1.6));
+        });
+        // Above the right end of the limit, where the curve has fallen below it.
+        let at = shown.position_from_point(&PlotPoint::new(last, middle));
+        let colour = theme.reference_series;
+        ui.painter().text(
+            at - vec2(4.0, 2.0),
+            Align2::RIGHT_BOTTOM,
+            limit_name,
+            font::small(),
+            colour,
+        );
+    }
+}
+
+/// Writes a power of ten as a plain number.
+fn power_of_ten(power: i32) -> String {
+    let decimals = power.min(0).unsigned_abs() as usize;
+    format!("{:.decimals$}", 10_f64.powi(power))
+}
+
+/// Marks up to about six whole seconds.
+fn seconds(last: f64) -> Vec<(f64, String)> {
+    let steps = [1.0, 2.0, 5.0, 10.0, 20.0, 60.0, 120.0];
+    let step = steps.into_iter().find(|step| last / step <= 6.0);
+    let step = step.unwrap_or(600.0);
+    let marks = (0..=6_u8).map(|k| f64::from(k) * step);
+    let marks = marks.take_while(|at| *at <= last);
+    marks.map(|at| (at, format!("{at:.0} s"))).collect()
+}
+
 /// Marks every `step`th moment by its date and time: with seconds if two marks in a row would read the same, and only once
 /// if they still do.
 fn dates(at: &[Zoned], step: usize) -> Vec<(f64, String)> {
@@ -386,6 +479,20 @@ mod tests {
     use jiff::{Timestamp, tz::TimeZone};
 
     use super::*;
+
+    #[test]
+    fn powers_of_ten_are_plain_numbers_and_seconds_are_marked_up_to_six_times() {
+        let powers: Vec<String> = (-2..=2).map(power_of_ten).collect();
+        assert_eq!(powers, ["0.01", "0.1", "1", "10", "100"]);
+        for (last, expected) in [
+            (1.0, &["0 s", "1 s"][..]),
+            (7.4, &["0 s", "2 s", "4 s", "6 s"]),
+            (61.0, &["0 s", "20 s", "40 s", "60 s"]),
+        ] {
+            let marks: Vec<String> = seconds(last).into_iter().map(|(_, text)| text).collect();
+            assert_eq!(marks, expected);
+        }
+    }
 
     #[test]
     fn moments_within_a_minute_are_marked_with_seconds_and_each_mark_reads_once() {

@@ -15,7 +15,7 @@ use crate::cli::{
     console::{Advised as _, Console, Table, marked_simulated},
 };
 use geometry::{
-    error::Advice as _,
+    error::Advice,
     units::{Metres, Radians},
 };
 use jiff::Timestamp;
@@ -71,7 +71,7 @@ fn line_of(run: &ServoRun, curve: Option<&[ServoSample]>) -> String {
         run,
         arrived: stopped.is_none(),
         message: stopped.map(ToString::to_string),
-        advice: stopped.map(|reason| reason.advice()),
+        advice: stopped.map(Advice::advice),
         curve,
     };
     serde_json::to_string(&line).expect("numbers and text have a JSON form")

@@ -3,6 +3,7 @@
 use std::any::Any;
 
 use super::Window;
+use records::history::HistoryBuffer;
 use shell::{
     action::{Action, Effect},
     cell::RobotCell,
@@ -35,6 +36,11 @@ impl Window {
             let workspace = (workspace as &mut dyn Any).downcast_mut()?;
             Some(act(workspace, cx))
         })?
+    }
+
+    /// The history in use.
+    pub fn history(&self) -> &HistoryBuffer {
+        self.services.library_cache.history()
     }
 
     /// The robot's cell, with its dialog.
@@ -121,6 +127,7 @@ impl Window {
                 }
             }
             Message::UseProgramSetup(setup) => self.state.session.program = setup,
+            Message::UseServoSettings(setup) => self.state.session.servo = setup,
             Message::Act(action) => self.act(action, ctx),
             Message::ShowPast(inspected) => self.state.show_past(inspected),
             Message::AskEngineer => {

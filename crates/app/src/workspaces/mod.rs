@@ -6,3 +6,4 @@ pub mod enrol;
 pub mod history;
 pub mod inspect;
 pub mod paint;
+pub mod servo;

@@ -321,6 +321,7 @@ enum Scenery {
     Operator,
     Help,
     Robot,
+    RealRobot,
     Cell,
     Source,
     Library,
@@ -328,11 +329,13 @@ enum Scenery {
 }
 
 /// In this order in one window: a draft and Live change what the others show.
-const SCENERIES: [Scenery; 15] = [
+const SCENERIES: [Scenery; 17] = [
     Scenery::Workspace(WorkspaceKind::Enrol),
     Scenery::Workspace(WorkspaceKind::Compare),
     Scenery::Workspace(WorkspaceKind::Align),
     Scenery::Workspace(WorkspaceKind::Paint),
+    Scenery::Workspace(WorkspaceKind::Servo),
+    Scenery::RealRobot,
     Scenery::Workspace(WorkspaceKind::History),
     Scenery::Workspace(WorkspaceKind::Inspect),
     Scenery::Operator,
@@ -372,6 +375,10 @@ fn arrange(harness: &mut WindowHarness, scenery: Scenery) {
         Scenery::Operator => act(harness, Action::Role(RoleAction::Switch)),
         Scenery::Help => act(harness, Action::ToggleHelp),
         Scenery::Robot => act(harness, Action::Make(Effect::Robot(RobotAction::Toggle))),
+        Scenery::RealRobot => {
+            go(harness, WorkspaceKind::Servo);
+            press(harness, "KUKA");
+        }
         Scenery::Cell => {
             let spec = capture::SimulatedSpec::default();
             act(harness, Action::Live(LiveAction::SetUp(Some(spec))));
@@ -397,7 +404,7 @@ fn leave(harness: &mut WindowHarness, scenery: Scenery) {
             harness.key_press(egui::Key::Escape);
             settle(harness);
         }
-        Scenery::Workspace(_) | Scenery::Draft | Scenery::Live => {
+        Scenery::Workspace(_) | Scenery::RealRobot | Scenery::Draft | Scenery::Live => {
             act(harness, Action::GoTo(WorkspaceKind::Inspect));
         }
     }

@@ -19,6 +19,7 @@ mod pictures;
 mod rack_editor;
 pub(crate) mod robot;
 mod roles;
+mod servo;
 mod set_up;
 mod several_parts;
 mod shots;

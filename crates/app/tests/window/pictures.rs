@@ -6,6 +6,7 @@
 
 use std::{cell::RefCell, fs, path::PathBuf, sync::Arc, time::Duration};
 
+use ::servo::StopReason;
 use app::{
     Window, WindowOptions,
     workspaces::{
@@ -42,7 +43,7 @@ use tempfile::TempDir;
 use inspection::fixtures::copy_library;
 
 use super::{
-    enrol, expecting, live, paint, rack_editor, robot,
+    enrol, expecting, live, paint, rack_editor, robot, servo,
     set_up::{SMALL, USUAL, WindowHarness, act, act_in, plain_options, press, settle},
     several_parts,
     shots::ScanFolder,
@@ -320,6 +321,63 @@ fn a_rack_that_is_not_as_its_order_expects_looks_as_it_did() {
         compare(&mut harness, name);
         act(&mut harness, Action::Role(RoleAction::Switch));
         compare(&mut harness, &name.replace("order", "order_operator"));
+    }
+}
+
+#[test]
+fn servoing_looks_as_it_did() {
+    if !draws_in_software() {
+        return;
+    }
+    for (size, is_light, name) in [(USUAL, false, "servo"), (SMALL, true, "servo_small_light")] {
+        let mut harness = open_drawn(size);
+        if is_light {
+            act(&mut harness, Action::SwitchTheme);
+        }
+        act(&mut harness, Action::GoTo(WorkspaceKind::Servo));
+        if is_light {
+            // Before the first run, with what a real robot needs.
+            press(&mut harness, "KUKA");
+        } else {
+            servo::show_run(&mut harness);
+        }
+        compare(&mut harness, name);
+    }
+}
+
+#[test]
+fn runs_in_the_history_look_as_they_did() {
+    if !draws_in_software() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut history = records::fixtures::open_history(folder.path());
+    let moved = StopReason::Moved {
+        shift_m: 0.05,
+        turn_rad: 0.02,
+    };
+    for (seconds, stopped) in [(0, None), (86_400, Some(moved)), (90_000, None)] {
+        let record = records::fixtures::servo_record(seconds, "fender", stopped);
+        history.add_servo_run(&record).expect("written");
+    }
+    drop(history);
+    for (size, is_light, name) in [
+        (USUAL, false, "servo_runs"),
+        (SMALL, true, "servo_runs_small_light"),
+    ] {
+        let options = WindowOptions {
+            history: Some(folder.path().to_owned()),
+            settings: Some(timeless_settings()),
+            ..plain_options()
+        };
+        let mut harness = super::set_up::open_with(size, options);
+        if is_light {
+            act(&mut harness, Action::SwitchTheme);
+        }
+        act(&mut harness, Action::GoTo(WorkspaceKind::History));
+        press(&mut harness, "Servo runs");
+        harness.get_by_label_contains("Run 2: fender").click();
+        compare(&mut harness, name);
     }
 }
 

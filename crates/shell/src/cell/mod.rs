@@ -13,6 +13,7 @@ mod dialog_state;
 mod from_pairs;
 mod in_use;
 pub mod program_setup;
+mod servo_settings;
 pub mod state;
 pub mod work;
 
@@ -22,6 +23,7 @@ pub use self::{
     answering::{Answering, AnsweringStatus, LastAnswer},
     cell_check::{CellChecks, CheckFolderContent},
     dialog_state::{CheckAction, RobotAction, RobotDialog, RobotFile, RobotPage},
+    servo_settings::ServoSettings,
     state::RobotCell,
     work::{CellInUse, RobotResult, SolvedPairs},
 };

@@ -61,13 +61,14 @@ fn picture_keys() -> [[String; 2]; 3] {
 }
 
 /// Keys of the workspaces, in the order of the rail.
-const RAIL_KEYS: [Key; 6] = [
+const RAIL_KEYS: [Key; 7] = [
     Key::Num1,
     Key::Num2,
     Key::Num3,
     Key::Num4,
     Key::Num5,
     Key::Num6,
+    Key::Num7,
 ];
 
 /// Part of the window's height that the list leaves free, for heading, button, edges, and a notice above it, logical pixels.

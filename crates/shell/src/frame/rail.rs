@@ -95,6 +95,14 @@ fn sign(painter: &Painter, workspace: WorkspaceKind, centre: Pos2, stroke: Strok
                 painter.line(wave.collect(), stroke);
             }
         }
+        WorkspaceKind::Servo => {
+            for [x, y] in [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]] {
+                let corner = |dx: f32, dy: f32| at(x * (8.0 - dx), y * (7.0 - dy));
+                let bracket = vec![corner(4.0, 0.0), corner(0.0, 0.0), corner(0.0, 4.0)];
+                painter.line(bracket, stroke);
+            }
+            painter.circle_filled(centre, 2.4, stroke.color);
+        }
         WorkspaceKind::History => {
             for y in [-6.0, 0.0, 6.0] {
                 painter.line_segment([at(-8.0, y), at(8.0, y)], stroke);

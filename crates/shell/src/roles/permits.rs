@@ -15,7 +15,8 @@ pub(crate) fn is_operators(workspace: WorkspaceKind) -> bool {
         WorkspaceKind::Enrol
         | WorkspaceKind::Compare
         | WorkspaceKind::Align
-        | WorkspaceKind::Paint => false,
+        | WorkspaceKind::Paint
+        | WorkspaceKind::Servo => false,
     }
 }
 

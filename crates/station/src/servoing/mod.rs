@@ -42,6 +42,10 @@ use servo::{
 
 /// What happens on the way.
 #[derive(Clone, Debug)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "nearly all are looks, each passed on once"
+)]
 pub enum ServoNews {
     /// A frame of the target shows no pose to move by.
     TargetFrame {

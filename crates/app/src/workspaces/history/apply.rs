@@ -46,6 +46,10 @@ pub enum HistoryAction {
     Label(i64, Option<Truth>),
     /// Show the statistics (`true`) or the list.
     Statistics(bool),
+    /// Show the runs of servoing (`true`) or the inspections.
+    ServoRuns(bool),
+    /// Select this run of servoing.
+    SelectRun(i64),
     /// Open the window of the retention rule or change the rule in it; `None` closes it.
     Rule(Option<Retention>),
     /// Apply this retention rule.
@@ -132,6 +136,8 @@ impl HistoryState {
                 }
             }
             HistoryAction::Select(number) => self.select(number, cx),
+            HistoryAction::Step(direction) if self.runs.is_some() => self.step_run(direction, cx),
+            HistoryAction::OpenSelected | HistoryAction::AgainSelected if self.runs.is_some() => {}
             HistoryAction::Step(direction) => {
                 let at = self.listed().and_then(|number| self.place_of(number));
                 let to = match (at, direction) {
@@ -166,8 +172,14 @@ impl HistoryState {
                 } else {
                     StatisticsView::Closed
                 };
+                self.runs = None;
                 self.look(cx);
             }
+            HistoryAction::ServoRuns(are_shown) => {
+                self.statistics = StatisticsView::Closed;
+                self.show_runs(are_shown, cx);
+            }
+            HistoryAction::SelectRun(number) => self.look_at_run(Some(number), cx),
             HistoryAction::Rule(rule) => self.rule = rule,
             HistoryAction::Keep(rule) => {
                 self.rule = None;
@@ -224,7 +236,9 @@ impl HistoryState {
             }
             Event::Escape => {
                 let is_in_front = cx.session.workspace == WorkspaceKind::History;
-                if is_in_front && cx.session.role == UserRole::Operator {
+                if is_in_front && self.runs.is_some() {
+                    self.show_runs(false, cx);
+                } else if is_in_front && cx.session.role == UserRole::Operator {
                     cx.send(Message::Act(Action::GoTo(WorkspaceKind::Inspect)));
                 }
             }
@@ -253,6 +267,11 @@ impl HistoryState {
             Some(Ok(found)) if self.statistics.is_open() => {
                 self.statistics = StatisticsView::Counted(found);
             }
+            Some(Err(error)) => cx.notify(error),
+            Some(_) | None => {}
+        }
+        match self.finding.poll() {
+            Some(Ok(found)) if self.runs.is_some() => self.runs = Some(*found),
             Some(Err(error)) => cx.notify(error),
             Some(_) | None => {}
         }
@@ -340,8 +359,13 @@ impl HistoryState {
         let title = text!("shell-writing", file = file_name(&path));
         let filter = self.filter.at(&geometry::clock::zoned_now());
         let keeper = Arc::clone(cx.services.library_cache.history());
+        let are_runs = self.runs.is_some();
         self.exporting.start(title, move |_| {
-            let written = export::write(&filter, file, &path, &keeper)?;
+            let written = if are_runs {
+                export::write_runs(&filter, &path, &keeper)?
+            } else {
+                export::write(&filter, file, &path, &keeper)?
+            };
             Ok(Notice::done(written))
         });
     }

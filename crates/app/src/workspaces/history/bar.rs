@@ -26,7 +26,9 @@ pub(super) fn ui(
         let (label, hint) = (text!("history-find"), text!("history-find-hint"));
         text_field(ui, &mut filter.text, &label, hint, 170.0);
         days(ui, &mut filter);
-        verdicts(ui, &mut filter);
+        if history.runs.is_none() {
+            verdicts(ui, &mut filter);
+        }
         parts(ui, history, session, &mut filter);
         let is_filtered = *known != ListFilter::default();
         if is_filtered && text_button(ui, &text!("history-show-all")).clicked() {
@@ -37,8 +39,13 @@ pub(super) fn ui(
         ui.horizontal(|ui| typed(ui, &mut filter));
     }
     ui.horizontal(|ui| {
-        let (matching, count) = (history.page.num_matching, history.num_rows());
-        let counted = text!("history-counted", matching = matching, count = count);
+        let counted = if let Some(runs) = &history.runs {
+            let (matching, count) = (runs.page.num_matching, runs.page.num_all);
+            text!("servoing-runs-counted", matching = matching, count = count)
+        } else {
+            let (matching, count) = (history.page.num_matching, history.num_rows());
+            text!("history-counted", matching = matching, count = count)
+        };
         ui.weak(&counted)
             .widget_info(|| WidgetInfo::labeled(egui::Role::Label, true, &counted));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -63,19 +70,26 @@ fn action_buttons(ui: &mut Ui, history: &HistoryState, actions: &mut Vec<History
             HistoryFile::Cases,
         ),
     ];
-    for (label, says, file) in ways {
+    // Runs become no cases.
+    let are_runs = history.runs.is_some();
+    for (label, says, file) in ways.into_iter().take(if are_runs { 1 } else { 2 }) {
         if text_button(ui, &label).on_hover_text(says).clicked() {
             actions.push(HistoryAction::Ask(file));
         }
     }
     let is_shown = history.statistics.is_open();
-    let label = text!("history-statistics");
-    let button = Button::selectable(is_shown, &label).frame_when_inactive(true);
-    let shown = labelled(ui, button, &label);
-    shown.widget_info(|| WidgetInfo::selected(egui::Role::Button, true, is_shown, &label));
-    let says = text!("history-statistics-hint");
-    if shown.on_hover_text(says).clicked() {
+    let (label, says) = (
+        text!("history-statistics"),
+        text!("history-statistics-hint"),
+    );
+    if toggle(ui, is_shown, &label, says) {
         actions.push(HistoryAction::Statistics(!is_shown));
+    }
+    if are_runs || history.num_servo_runs > 0 {
+        let (label, says) = (text!("servoing-runs"), text!("servoing-runs-hint"));
+        if toggle(ui, are_runs, &label, says) {
+            actions.push(HistoryAction::ServoRuns(!are_runs));
+        }
     }
     let frames = text_button(ui, &text!("history-frames-button"));
     let says = text!("history-frames-button-hint");
@@ -83,6 +97,14 @@ fn action_buttons(ui: &mut Ui, history: &HistoryState, actions: &mut Vec<History
         let rule = history.kept.0;
         actions.push(HistoryAction::Rule(Some(rule)));
     }
+}
+
+/// Draws a button that shows something else in place of the list; returns whether it was pressed.
+fn toggle(ui: &mut Ui, is_shown: bool, label: &str, says: String) -> bool {
+    let button = Button::selectable(is_shown, label).frame_when_inactive(true);
+    let shown = labelled(ui, button, label);
+    shown.widget_info(|| WidgetInfo::selected(egui::Role::Button, true, is_shown, label));
+    shown.on_hover_text(says).clicked()
 }
 
 fn text_field(ui: &mut Ui, text: &mut String, label: &str, hint: String, width: f32) {

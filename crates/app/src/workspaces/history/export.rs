@@ -5,7 +5,7 @@ use std::path::Path;
 use super::HistoryFile;
 use records::{
     cases::{CaseFolder, PastCases, TruthFrom},
-    history::{Filter, HistoryBuffer, write_table},
+    history::{Filter, HistoryBuffer, write_servo_table, write_table},
 };
 use ui::{language::text, user_error::UserError};
 
@@ -25,6 +25,20 @@ pub(super) fn write(
         }
         HistoryFile::Cases => write_cases(filter, path, history),
     }
+}
+
+/// Writes the runs of servoing that match the filter, the oldest first; describes what was written.
+pub(super) fn write_runs(
+    filter: &Filter,
+    path: &Path,
+    history: &HistoryBuffer,
+) -> Result<String, UserError> {
+    let page = history.servo_runs(filter, 0, i64::MAX as usize);
+    let page = page.map_err(|error| UserError::of(&error))?;
+    let num = write_servo_table(path, page.rows.iter().rev());
+    let num = num.map_err(|error| UserError::of(&error))?;
+    let path = path.display().to_string();
+    Ok(text!("servoing-wrote", count = num, path = path))
 }
 
 /// As `partsight history export --cases` does.

@@ -11,6 +11,7 @@ mod keeping;
 mod label;
 mod list;
 mod reopen;
+mod servo_runs;
 mod state;
 mod statistics;
 mod work;
@@ -22,6 +23,7 @@ use egui::{CentralPanel, Frame, Key, Margin, Modifiers, Ui};
 pub use self::{
     apply::{Direction, HistoryAction, HistoryFile, HistoryJob},
     filter::{DateRange, ListFilter},
+    servo_runs::RunsView,
     state::HistoryState,
     statistics::{ReasonGroup, Statistics, StatisticsView, Tally},
     work::{HistoryQuery, HistoryResult, OpenedInspection},
@@ -117,18 +119,29 @@ impl Workspace for HistoryWorkspace {
             ..
         } = self;
         let session = cx.session;
-        if state.num_rows() == 0 && state.problem.is_none() {
+        if state.num_rows() == 0 && state.num_servo_runs == 0 && state.problem.is_none() {
             empty(ui);
             return;
         }
         let mut actions = Vec::new();
-        side_panel(ui, "details", DETAILS, Margin::same(16), |ui| {
-            details.ui(ui, state, session, &mut actions);
-        });
+        side_panel(
+            ui,
+            "details",
+            DETAILS,
+            Margin::same(16),
+            |ui| match &state.runs {
+                Some(runs) => servo_runs::details(ui, runs, session.units),
+                None => details.ui(ui, state, session, &mut actions),
+            },
+        );
         CentralPanel::default()
             .frame(Frame::new().inner_margin(Margin::same(16)))
             .show(ui, |ui| {
-                if state.statistics.is_open() {
+                if let Some(runs) = &state.runs {
+                    bar::ui(ui, state, session, &mut actions);
+                    ui.add_space(space::SMALL);
+                    servo_runs::list(ui, runs, session.units, &mut actions);
+                } else if state.statistics.is_open() {
                     bar::ui(ui, state, session, &mut actions);
                     ui.add_space(space::SMALL);
                     statistics::ui(ui, &state.statistics, session.units);

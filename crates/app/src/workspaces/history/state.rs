@@ -12,6 +12,7 @@ use super::{
     apply::{HistoryAction, HistoryFile, HistoryJob},
     drift::Drift,
     filter::ListFilter,
+    servo_runs::RunsView,
     statistics::{self, Statistics, StatisticsView, most_accepted},
     work::{self, HistoryQuery, HistoryResult, OpenedInspection, former_title},
 };
@@ -51,6 +52,10 @@ pub struct HistoryState {
     pub parts: Option<BTreeMap<String, String>>,
     /// The statistics shown in place of the list, if any.
     pub statistics: StatisticsView,
+    /// The runs of servoing shown in place of the inspections, if they are.
+    pub runs: Option<RunsView>,
+    /// Number of all runs of servoing, as far as known.
+    pub num_servo_runs: usize,
     /// The visible rows.
     pub(super) visible: Range<usize>,
     /// Number of the selected inspection.
@@ -98,6 +103,7 @@ pub struct HistoryState {
     pub(super) held: Option<HistoryAction>,
     pub(super) looking: Task<Box<HistoryResult>>,
     pub(super) counting: Task<Box<Statistics>>,
+    pub(super) finding: Task<Box<RunsView>>,
     pub(super) exporting: Task<Notice>,
     pub(super) dialog: FileDialog<HistoryFile>,
 }
@@ -148,6 +154,8 @@ impl HistoryState {
             far_row: None,
             parts: None,
             statistics: StatisticsView::Closed,
+            runs: None,
+            num_servo_runs: 0,
             visible: 0..0,
             selected: None,
             selection: Selection::Newest,
@@ -173,6 +181,7 @@ impl HistoryState {
             held: None,
             looking: Task::new("look", runner),
             counting: Task::new("statistics", runner),
+            finding: Task::new("servo-runs", runner),
             exporting: Task::new("history-write", runner),
             dialog: FileDialog::default(),
         }
@@ -218,6 +227,7 @@ impl HistoryState {
         let is_written = self.unwritten.is_empty() && self.num_asked == 0;
         let is_at_work = self.looking.running().is_some()
             || self.counting.running().is_some()
+            || self.finding.running().is_some()
             || self.exporting.running().is_some();
         is_written && !self.is_stale && !is_at_work
     }
@@ -319,7 +329,9 @@ impl HistoryState {
             kept,
             frames,
             parts,
+            num_servo_runs,
         } = looked;
+        self.num_servo_runs = num_servo_runs;
         // The newest of the list is shown instead, unless the hidden one is about to be repeated.
         let is_hidden = !is_listed && self.selected == asked.selected && self.then.is_none();
         // Count those still being written.
@@ -415,6 +427,7 @@ impl HistoryState {
             Ok(Box::new(found.map_err(|error| UserError::of(&error))?))
         });
         self.count(cx);
+        self.look_at_run(None, cx);
     }
 
     /// Counts the parts that match the filter, while statistics are shown.

@@ -44,6 +44,8 @@ pub struct HistoryResult {
     pub frames: Option<PathBuf>,
     /// Names and titles of the parts in the history, if wanted.
     pub parts: Option<BTreeMap<String, String>>,
+    /// Number of all runs of servoing.
+    pub num_servo_runs: usize,
 }
 
 /// An inspection with its picture.
@@ -104,6 +106,7 @@ pub(super) fn look(
         is_listed,
         kept: history.kept()?,
         frames: history.frames_folder(),
+        num_servo_runs: history.servo_runs(&Filter::default(), 0, 0)?.num_all,
         parts: if request.with_parts {
             Some(parts(history)?)
         } else {

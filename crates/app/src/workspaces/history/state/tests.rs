@@ -56,6 +56,7 @@ impl Bench {
             kept: Default::default(),
             frames: None,
             parts: None,
+            num_servo_runs: 0,
         };
         bench.history.receive(looked, &mut bench.shell.context());
         let looking = bench.history.looking.running();
@@ -168,6 +169,7 @@ fn the_part_on_the_screen_is_opened_as_the_wrong_one_once_it_is_written_and_stay
         kept: Default::default(),
         frames: None,
         parts: None,
+        num_servo_runs: 0,
     };
     let mut receive = |record, number| {
         bench
