@@ -118,7 +118,7 @@ pub(super) fn run(
                 },
                 "joint_move": point.way == Way::Joints,
                 "rail_mm": moving.map(|_| 1000.0 * point.rail),
-                "problem": point.problem.as_ref().map(PointProblem::describe),
+                "problem": point.problem.as_ref().map(ToString::to_string),
                 "problem_kind": point.problem.as_ref().map(PointProblem::kind),
             })
         });
