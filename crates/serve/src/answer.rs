@@ -135,6 +135,7 @@ impl Request {
     }
 
     /// A trigger at this count of the line's encoder; other requests stay as they are.
+    #[must_use]
     pub fn at_count(self, count: Option<u32>) -> Self {
         match self {
             Self::Trigger { expected, .. } => Self::Trigger { expected, count },

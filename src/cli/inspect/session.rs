@@ -218,7 +218,7 @@ impl InspectSession {
             .capture
             .as_ref()
             .map(|capture| capture.taken_at);
-        let at = taken_at.map(|taken_at| taken_at.as_duration());
+        let at = taken_at.map(jiff::Timestamp::as_duration);
         let moment = Moment {
             at: at.and_then(|at| at.try_into().ok()).unwrap_or_default(),
             count: None,
@@ -520,6 +520,7 @@ mod tests {
             report: Some(ReportFolder::make(folder.path()).expect("made")),
             recording: None,
             followed: None,
+            line: None,
             publisher: None,
             mirrored: MirrorTally::default(),
             waiting: VecDeque::new(),

@@ -65,7 +65,7 @@ const MAX_SPEED: f64 = 0.5;
 /// Way after which a part that was not seen again has left, metres.
 const GONE_WAY_M: f64 = 2.5;
 /// Time after which it has left where the speed is not known.
-const GONE_TIME: Duration = Duration::from_secs(60);
+const GONE_TIME: Duration = Duration::from_mins(1);
 /// Time for which the speed of a line is taken for known.
 const SPEED_LASTS: Duration = Duration::from_secs(10);
 /// Number of frames in which something that is not accepted must be where the line carried it, to be more than a reflection.
@@ -380,16 +380,13 @@ impl<E> Track<E> {
         let moved = sighting.place - last.place;
         let along = moved.dot(&line.direction);
         let across = (moved - line.direction.into_inner() * along).norm();
-        let off = match way_between(line, &last.moment, moment, speed) {
-            Some(way) => {
-                let reach = SAME_PLACE_M + SAME_PLACE_SHARE * way.abs();
-                let off = (along - way).abs();
-                (off <= reach).then_some(off)?
-            }
-            None => {
-                let seconds = (moment.at.saturating_sub(last.moment.at)).as_secs_f64();
-                (along.abs() <= SAME_PLACE_M + MAX_SPEED * seconds).then_some(along.abs())?
-            }
+        let off = if let Some(way) = way_between(line, &last.moment, moment, speed) {
+            let reach = SAME_PLACE_M + SAME_PLACE_SHARE * way.abs();
+            let off = (along - way).abs();
+            (off <= reach).then_some(off)?
+        } else {
+            let seconds = (moment.at.saturating_sub(last.moment.at)).as_secs_f64();
+            (along.abs() <= SAME_PLACE_M + MAX_SPEED * seconds).then_some(along.abs())?
         };
         (across <= SAME_PLACE_M).then(|| off.hypot(across))
     }

@@ -4,6 +4,7 @@ use capture::SourceSpec;
 use geometry::{rigid::pose_error, units::Radians};
 use inspection::{
     fixtures::shipped_library,
+    library::Library,
     pipeline::{NamedRecipe, Recipe, Unwatched, run},
 };
 use nalgebra::{Translation3, Unit, UnitQuaternion};
@@ -11,7 +12,11 @@ use records::history::Traceability;
 use robot::line::{Counter, DEFAULT_EXPOSURE};
 use serve::{Asked, ExpectedNumbers, OnLine, PoseKind, VerdictCode};
 use simulate::{CellSetup, PartKind, PartPose, PoseRange, Side};
-use stages::scene::{SceneCloud, scene_from_frame};
+use stages::{
+    pose::PoseEstimate,
+    reference::Reference,
+    scene::{SceneCloud, scene_from_frame},
+};
 
 use super::*;
 use crate::{Answering, Camera, NumberedPart, PartFinder, Subject};
@@ -55,7 +60,7 @@ impl Seen {
         assert!(inspection.verdict.is_accepted() && !inspection.touches_edge());
         let middle = inspection
             .best_reference(&library)
-            .and_then(|one| one.middle());
+            .and_then(Reference::middle);
         Self {
             scene: Arc::new(scene),
             inspection,
@@ -274,24 +279,29 @@ fn parts_side_by_side_have_a_number_each_and_one_that_is_missed_for_a_while_keep
     assert_eq!(tracker.end(), []);
 }
 
-#[test]
-fn an_answer_has_the_pose_that_the_part_had_at_the_count_that_was_sent() {
-    let (seen, library, recipe) = (Seen::new(), shipped_library(), NamedRecipe::default());
-    let source: SourceSpec = "simulated:fender".parse().expect("a source");
-    let camera = Camera::start(&source).expect("started");
+/// Numbers the parts of a library from 1.
+fn finder(library: &Library) -> PartFinder {
     let parts = (1..).zip(&library.references);
     let parts = parts.map(|(number, _)| NumberedPart {
         number,
         ..NumberedPart::default()
     });
-    let finder = PartFinder {
+    PartFinder {
         parts: parts.collect(),
         robot: robot::RobotFrame {
             robot_from_camera: RigidTransform::translation(1.0, 2.0, 3.0),
             name: "cell 1".into(),
         },
         kind: PoseKind::RobotFromPart,
-    };
+    }
+}
+
+#[test]
+fn an_answer_has_the_pose_that_the_part_had_at_the_count_that_was_sent() {
+    let (seen, library, recipe) = (Seen::new(), shipped_library(), NamedRecipe::default());
+    let source: SourceSpec = "simulated:fender".parse().expect("a source");
+    let camera = Camera::start(&source).expect("started");
+    let finder = finder(&library);
     let answering = Answering {
         camera: &camera,
         finder: &finder,
@@ -302,7 +312,7 @@ fn an_answer_has_the_pose_that_the_part_had_at_the_count_that_was_sent() {
         is_ending: &|| false,
     };
     let follower: LineFollower<()> = LineFollower::new(line(|_| ()));
-    let bounds = seen.inspection.found_pose().and_then(|pose| pose.bounds());
+    let bounds = seen.inspection.found_pose().and_then(PoseEstimate::bounds);
     // The frame was taken 0.2 s after the trigger, at count 5000; its line moves at 0.1 m/s, 1000 counts a second.
     let captured_at = Instant::now();
     let before = captured_at
@@ -348,7 +358,7 @@ fn an_answer_has_the_pose_that_the_part_had_at_the_count_that_was_sent() {
         )
     };
     let calibration = follower.line();
-    for (count, way, bound) in [(Some(4800), -0.02, 0.0), (None, 0.0, 0.0)] {
+    for (count, way) in [(Some(4800), -0.02), (None, 0.0)] {
         for known in [Some(5000.0), None] {
             let answered = answered(count, known);
             let found = &answered.found.first;
@@ -365,7 +375,7 @@ fn an_answer_has_the_pose_that_the_part_had_at_the_count_that_was_sent() {
             );
             assert!((on_line.speed_mm_s - 100.0).abs() < 1e-9);
             let least = bounds.expect("bounds").shift.mm();
-            assert!(on_line.bound_mm >= least + bound && on_line.bound_mm < least + 1.0);
+            assert!((least..least + 1.0).contains(&on_line.bound_mm));
             // What the camera saw of the part comes along.
             let moved = answered.inspections[0].readings().expect("points")[0]
                 - seen.inspection.readings().expect("points")[0];
