@@ -24,8 +24,8 @@ const MIN_SPAN_S: f64 = 0.6;
 const MIN_SPAN_UNCOUNTED_S: f64 = 1.0;
 /// Frames from longer ago do not count, seconds.
 const WINDOW_S: f64 = 3.0;
-/// Share of the frames that must agree.
-const MIN_AGREEING: f64 = 0.75;
+/// Share of the frames that must agree: of fewer than ten all, since a few frames may meet a swing at like places.
+const MIN_AGREEING: f64 = 0.9;
 /// Share by which a line may become faster or slower, where there are no counts.
 const SPEED_CHANGE: f64 = 0.1;
 /// Difference of two speeds that is no swing, m/s.
