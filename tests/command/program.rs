@@ -323,7 +323,7 @@ fn accelerations_are_checked_where_their_limits_are_known() {
     // At the first and the last point the arm stops: only the corner needs acceleration.
     arm(10);
     let ran = check(1, "arm.toml", &[]);
-    assert!(ran.out.contains("degrees/s² and has 10"), "{}", ran.out);
+    assert!(ran.out.contains("°/s² and has 10"), "{}", ran.out);
     assert!(ran.out.contains("to do: lower the speed"), "{}", ran.out);
     let line = check(1, "arm.toml", &["--json"]).json();
     let kinds = [0, 1, 2].map(|i: usize| &line["points"][i]["problem_kind"]);

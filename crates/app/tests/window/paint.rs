@@ -258,7 +258,7 @@ fn an_arm_is_chosen_its_reach_shown_and_the_program_exported() {
         let chosen = PaintAction::Chosen(PaintFile::Obstacles, boxes);
         paint.state.apply(chosen, cx);
     });
-    harness.get_by_label_contains("too near to lamp");
+    harness.get_by_label_contains("too near to the box lamp");
     press(&mut harness, "Obstacles: boxes.toml");
     press(&mut harness, "Only the part");
     assert_eq!(session(&harness).obstacles, None);

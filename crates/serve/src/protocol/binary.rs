@@ -569,7 +569,7 @@ mod tests {
             // Each byte counts.
             for at in 0..REQUEST_BYTES {
                 let mut changed = whole.clone();
-                changed[at] ^= 0x40;
+                changed[at] ^= 0x80;
                 let expected = match at {
                     0..4 => "magic",
                     4..6 => "version",

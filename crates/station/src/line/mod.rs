@@ -70,6 +70,8 @@ const GONE_TIME: Duration = Duration::from_mins(1);
 const SPEED_LASTS: Duration = Duration::from_secs(10);
 /// Number of frames in which something that is not accepted must be where the line carried it, to be more than a reflection.
 const MIN_REFUSED: usize = 3;
+/// Way for which the line must have carried it: what stands beside the line stays near its place for less.
+const MIN_CARRIED_M: f64 = 0.3;
 /// Most sightings of a part that are kept.
 const MAX_SIGHTINGS: usize = 12;
 
@@ -83,6 +85,8 @@ struct Track<E> {
     /// How many frames have shown it, and whether any accepted it.
     num_seen: usize,
     was_accepted: bool,
+    /// The way for which the line has carried it, metres.
+    carried: f64,
 }
 
 /// A part in one frame.
@@ -174,6 +178,10 @@ impl<E> LineTracker<E> {
             .filter(|(_, at)| sighting.moment.at <= *at + SPEED_LASTS);
         let track = &mut self.tracks[track];
         let is_accepted = sighting.accepted.is_some();
+        if let Some(last) = track.sightings.back() {
+            let moved = (sighting.place - last.place).dot(&self.line.direction);
+            track.carried += moved;
+        }
         track.sightings.push_back(sighting);
         if track.sightings.len() > MAX_SIGHTINGS {
             track.sightings.pop_front();
@@ -356,6 +364,7 @@ impl<E> Default for Track<E> {
             held: None,
             num_seen: 0,
             was_accepted: false,
+            carried: 0.0,
         }
     }
 }
@@ -393,7 +402,8 @@ impl<E> Track<E> {
 
     /// What is recorded of a part that leaves.
     fn unrecorded(self) -> Option<E> {
-        let is_real = self.was_accepted || self.num_seen >= MIN_REFUSED;
+        let is_carried = self.num_seen >= MIN_REFUSED && self.carried.abs() >= MIN_CARRIED_M;
+        let is_real = self.was_accepted || is_carried;
         self.held.filter(|_| is_real)
     }
 }

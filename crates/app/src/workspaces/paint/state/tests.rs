@@ -670,7 +670,7 @@ fn boxes_of_the_cell_are_kept_clear_of_named_and_drawn() {
     let reach = bench.reached();
     assert!(reach.check.num_collisions() > 0);
     let mut reasons = reach.reasons().into_iter();
-    assert!(reasons.any(|(reason, _)| reason.ends_with("too near to hanger")));
+    assert!(reasons.any(|(reason, _)| reason.ends_with("too near to the box hanger")));
     assert_eq!(edges(&reach), 12);
     let program = bench.data.path().join("paint.src");
     bench.run(PaintAction::Chosen(PaintFile::Program, program.clone()));
