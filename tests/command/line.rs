@@ -45,10 +45,11 @@ fn a_line_is_calibrated_from_frames_and_counts_and_refused_with_what_to_do() {
     );
 
     let written = fs::read_to_string(shop.path("passing/counts.csv")).expect("counts");
-    let counts: String = (written.lines())
+    let counts: Vec<String> = (written.lines())
         .filter(|line| !line.starts_with('#'))
         .map(|line| format!("{}; 7\n", line.split(';').next().expect("a name")))
         .collect();
+    let counts = counts.concat();
     shop.write("still.csv", &counts);
     let ran = with("still.csv", &["--out", "none.toml"]);
     assert_eq!(ran.code, 2, "{}", ran.err);
