@@ -381,8 +381,8 @@ mod tests {
         let condition = Condition::of(&filter, Some(&cell));
         assert_eq!(
             condition.sql,
-            "verdict = $1 AND simulated::integer::bigint = $2 AND (strpos(search, $3) > 0) \
-            AND (strpos(search, $4) > 0) AND (strpos(search, $5) > 0) AND parent IS NULL AND there.cell = $6"
+            "simulated::integer::bigint = $1 AND (strpos(search, $2) > 0) AND (strpos(search, $3) > 0) \
+            AND (strpos(search, $4) > 0) AND verdict = $5 AND parent IS NULL AND there.cell = $6"
         );
         assert_eq!(condition.values.len(), 6);
     }
