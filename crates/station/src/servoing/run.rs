@@ -1,4 +1,4 @@
-//! A run of servoing for every front end: what is set up around [`servo`], and the row of the history that it leaves.
+//! A run of servoing for every front end: what is set up around [`servo()`], and the row of the history that it leaves.
 
 use std::{
     sync::{
