@@ -113,7 +113,10 @@ pub(super) struct FilterArgs {
     /// With this verdict
     #[arg(long, value_parser = choice(&VERDICTS), value_name = "VERDICT")]
     verdict: Option<VerdictFilter>,
-    /// With these words in the name of part, scene or source, in the remark or in the true label
+    /// In the rack of this name
+    #[arg(long, value_name = "NAME")]
+    rack: Option<String>,
+    /// With these words in the name of part, scene, source or rack, in the remark or in the true label
     #[arg(long, value_name = "TEXT")]
     text: Option<String>,
     /// Only simulated inspections (true), or only those of a camera (false)
@@ -141,6 +144,7 @@ impl FilterArgs {
             part: self.part.clone(),
             verdict: self.verdict,
             is_simulated: self.simulated,
+            rack: self.rack.clone(),
             with_below: self.reinspections,
             text: self.text.clone().unwrap_or_default(),
             ..Filter::default()

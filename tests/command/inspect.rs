@@ -295,6 +295,36 @@ fn each_place_of_a_rack_may_expect_a_part_of_its_own() {
 }
 
 #[test]
+fn the_history_lists_what_hung_in_a_rack_by_its_name() {
+    let place = Workplace::new();
+    for part in ["front_door", "trunk_lid"] {
+        place.with_part(part);
+    }
+    two_parts(&place, "both.png");
+    let library = ["--library", "parts", "--history", "history"];
+    let add = ["rack", "add", "left.toml", "both.png", "--each"];
+    place.accepted(&[&add[..], &library[..2]].concat());
+    let inspect = ["inspect", "both.png"];
+    place.accepted(&[&inspect[..], &library, &["--rack", "left.toml"]].concat());
+    place.accepted(&[&inspect[..], &library].concat());
+    let listed = |options: &[&str]| {
+        let list = ["history", "list", "--history", "history", "--json"];
+        place.accepted(&[&list[..], options].concat()).lines()
+    };
+    for (options, num) in [
+        (&[][..], 3),
+        (&["--rack", "left"], 2),
+        (&["--rack", "LEFT"], 0),
+        (&["--text", "LEFT"], 2),
+    ] {
+        let rows = listed(options);
+        assert_eq!(rows.len(), num, "{options:?}: {rows:?}");
+        let in_rack = rows.iter().filter(|row| row["rack"] == "left").count();
+        assert_eq!(in_rack, 2.min(num), "{options:?}: {rows:?}");
+    }
+}
+
+#[test]
 fn the_table_of_orders_says_what_should_hang_there() {
     let place = Workplace::new();
     for part in ["front_door", "trunk_lid", "grille"] {

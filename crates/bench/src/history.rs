@@ -194,6 +194,7 @@ fn entry(
                 hung: HungId::new(),
                 parent: None,
                 num_below: 0,
+                rack: None,
             },
             detail: InspectionDetail {
                 nearest: Some(part.name().into()),

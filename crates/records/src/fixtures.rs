@@ -52,6 +52,7 @@ pub fn history_entry(seconds: i64, verdict: StoredVerdict, part: &str) -> NewEnt
                 hung: HungId::new(),
                 parent: None,
                 num_below: 0,
+                rack: None,
             },
             detail: InspectionDetail {
                 nearest: Some(part.to_owned()),

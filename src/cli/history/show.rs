@@ -52,6 +52,9 @@ struct RowLine<'a> {
     /// `serial`, `order` and `operator`, as far as known.
     #[serde(flatten)]
     trace: &'a Traceability,
+    /// Name of the rack, if it hung in one that has a name.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rack: Option<&'a str>,
     /// Name of the cell, if there are several cells.
     #[serde(skip_serializing_if = "Option::is_none")]
     cell: Option<&'a str>,
@@ -79,6 +82,7 @@ impl<'a> RowLine<'a> {
             mirror_of: row.mirror_of(),
             robot_doubts: row.robot_marks().robot_doubts,
             trace: &row.trace,
+            rack: row.rack.as_deref(),
             cell,
         }
     }
@@ -281,7 +285,7 @@ fn record_table(from: ReadFrom<'_>, record: &Record) -> Table {
     row("verdict", summary.verdict.title().to_lowercase());
     row("part", summary.part.clone().unwrap_or_default());
     row("place", detail.place().unwrap_or_default());
-    row("rack", detail.rack().unwrap_or_default());
+    row("rack", summary.rack.clone().unwrap_or_default());
     if summary.part != detail.nearest && summary.score.is_none_or(|[score, _]| is_like(score)) {
         row("nearest", detail.nearest.clone().unwrap_or_default());
     }

@@ -61,6 +61,7 @@ const FIRST: &str = "
         reason_kind text,
         robot_doubts text,
         motion_checked boolean,
+        rack text,                                   -- name of the rack that it hung in
         time timestamptz GENERATED ALWAYS AS (to_timestamp(at / 1000000.0::double precision)) STORED,
         received timestamptz NOT NULL DEFAULT now(),
         changed timestamptz NOT NULL DEFAULT now(),

@@ -125,6 +125,8 @@ pub struct Summary {
     pub parent: Option<i64>,
     /// Number of re-inspections below this one, if it stands for the part.
     pub num_below: usize,
+    /// Name of the rack; `None` if there was none, or it had no name.
+    pub rack: Option<String>,
 }
 
 impl Summary {
@@ -169,6 +171,7 @@ impl Summary {
             trace,
             verdict,
             reason,
+            rack,
             ..
         } = self;
         let part = part.as_deref().unwrap_or("");
@@ -185,7 +188,7 @@ impl Summary {
                 text.push_str(stored);
             }
         }
-        for (_, known) in trace.known() {
+        for known in trace.known().map(|(_, known)| known).chain(rack.as_deref()) {
             text.push('\n');
             text.push_str(known);
         }
@@ -338,6 +341,7 @@ impl NewEntry {
             hung: about.hung,
             parent: None,
             num_below: 0,
+            rack: text_of(&about.line, "rack"),
         };
         let detail = InspectionDetail {
             nearest,
@@ -385,6 +389,12 @@ impl NewEntry {
             (true, true) | (false, false) => self.stands_for_part,
         }
     }
+}
+
+/// Returns a text of a line of JSON.
+fn text_of(line: &str, field: &str) -> Option<String> {
+    let line: serde_json::Value = serde_json::from_str(line).ok()?;
+    line.get(field)?.as_str().map(str::to_owned)
 }
 
 /// Shrinks a picture by nearest neighbour, which keeps flat colours flat and the PNG small.
@@ -437,17 +447,7 @@ impl InspectionDetail {
 
     /// Returns the place of the rack at which the part hung; `None` if it hung at none, or there was no rack.
     pub fn place(&self) -> Option<String> {
-        self.text_of("place")
-    }
-
-    /// Returns the name of the rack; `None` if there was none, or it had no name.
-    pub fn rack(&self) -> Option<String> {
-        self.text_of("rack")
-    }
-
-    fn text_of(&self, field: &str) -> Option<String> {
-        let line: serde_json::Value = serde_json::from_str(&self.line).ok()?;
-        line.get(field)?.as_str().map(str::to_owned)
+        text_of(&self.line, "place")
     }
 
     /// Returns how far off the pose may be; `None` if the line has no bounds or the pose is unconstrained.

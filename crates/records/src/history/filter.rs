@@ -20,9 +20,11 @@ pub struct Filter {
     pub is_simulated: Option<bool>,
     /// Only from this source.
     pub source: Option<String>,
+    /// Only in a rack of this name.
+    pub rack: Option<String>,
     /// Includes the re-inspections; otherwise the list has one row per part.
     pub with_below: bool,
-    /// Words that must each occur in the title, in the name of part, scene or source, in the remark, the true label or
+    /// Words that must each occur in the title, in the name of part, scene, source or rack, in the remark, the true label or
     /// the traceability; case is ignored.
     pub text: String,
     /// Texts that a list shows, in lower case, each with what the search text has for it: a verdict, a kind of refusal,
@@ -74,6 +76,10 @@ impl Filter {
             };
             parts.push(condition.to_owned());
             values.push(verdict.name().to_owned().into());
+        }
+        if let Some(rack) = &self.rack {
+            parts.push("rack = ?".into());
+            values.push(rack.clone().into());
         }
         if !self.with_below {
             parts.push("parent IS NULL".into());
@@ -140,6 +146,7 @@ impl Filter {
                 .source
                 .as_ref()
                 .is_none_or(|source| row.source == *source)
+            && (self.rack.is_none() || self.rack == row.rack)
             && self.has_words_of(&search)
     }
 }

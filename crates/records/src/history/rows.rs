@@ -17,7 +17,7 @@ use inspection::pipeline::{Recipe, RecipeLabel, RefusalKind};
 
 /// The columns of a list row.
 pub(super) const COLUMNS: &str = "number, at, scene, simulated_frame, num_shots, source, simulated, verdict, part, title, \
-    reason_kind, robot_doubts, motion_checked, score, margin, total_ms, remark, label, frame_bytes, hung, parent, serial, job_order, operator, \
+    reason_kind, robot_doubts, motion_checked, rack, score, margin, total_ms, remark, label, frame_bytes, hung, parent, serial, job_order, operator, \
     (SELECT count(*) FROM inspection AS other WHERE other.parent = inspection.number) AS num_below";
 
 /// The columns of the rest of an inspection, with its recipe.
@@ -70,8 +70,8 @@ pub(super) fn insert(
     file.execute(
         "INSERT INTO inspection (at, scene, simulated_frame, num_shots, source, simulated, verdict, part, title, score,
             margin, total_ms, remark, label, frame_bytes, search, hung, parent, serial, job_order, operator, reason_kind,
-            robot_doubts, motion_checked)
-            VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+            robot_doubts, motion_checked, rack)
+            VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
         params![
             summary.at.as_microsecond(),
             scene,
@@ -97,6 +97,7 @@ pub(super) fn insert(
             summary.reason.as_ref().map(RefusalKind::name),
             summary.noted.robot_doubts.join(" "),
             summary.noted.motion_checked,
+            summary.rack,
         ],
     )?;
     let number = file.last_insert_rowid();
@@ -244,6 +245,7 @@ pub(super) fn summary_of(row: &Row<'_>) -> rusqlite::Result<Summary> {
         hung: HungId(row.get("hung")?),
         parent: row.get("parent")?,
         num_below: row.get::<_, i64>("num_below")? as usize,
+        rack: row.get("rack")?,
     })
 }
 

@@ -3,7 +3,7 @@
 use rusqlite::{Connection, TransactionBehavior};
 
 /// The version that this program writes and reads. Files of development builds have lower ones and are set aside.
-pub(super) const VERSION: u32 = 8;
+pub(super) const VERSION: u32 = 9;
 
 /// Application id that distinguishes our files from those of other programs: `PsHi`.
 pub(super) const APPLICATION: i32 = i32::from_be_bytes(*b"PsHi");
@@ -44,7 +44,8 @@ const TABLES: &str = "
         operator TEXT NOT NULL DEFAULT '',
         reason_kind TEXT,                           -- the kind of refusal, here too so that statistics need not read detail
         robot_doubts TEXT NOT NULL DEFAULT '',      -- why no robot might act on the pose, words separated by blanks
-        motion_checked INTEGER                      -- 0: no other frame showed whether the part hung still
+        motion_checked INTEGER,                     -- 0: no other frame showed whether the part hung still
+        rack TEXT                                   -- name of the rack that it hung in
     );
     CREATE TABLE detail (
         number INTEGER PRIMARY KEY REFERENCES inspection (number) ON DELETE CASCADE,
@@ -89,7 +90,7 @@ const TABLES: &str = "
         json TEXT NOT NULL                          -- list of ServoSample
     );
     -- Holds every column that a filter asks for, in the order of the list: no filter reads the rows themselves.
-    CREATE INDEX listed ON inspection (parent, at, number, verdict, part, simulated, search);
+    CREATE INDEX listed ON inspection (parent, at, number, verdict, part, simulated, rack, search);
     -- The narrowest: how many there are is counted in it.
     CREATE INDEX counted ON inspection (parent, simulated);
     CREATE INDEX hung ON inspection (hung);

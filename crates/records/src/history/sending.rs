@@ -38,7 +38,7 @@ pub enum ColumnKind {
 pub type Column = (&'static str, ColumnKind);
 
 /// All columns of `inspection`; the first is the key.
-pub const INSPECTION_COLUMNS: [Column; 25] = [
+pub const INSPECTION_COLUMNS: [Column; 26] = [
     ("number", Integer),
     ("at", Integer),
     ("scene", Text),
@@ -64,6 +64,7 @@ pub const INSPECTION_COLUMNS: [Column; 25] = [
     ("reason_kind", Text),
     ("robot_doubts", Text),
     ("motion_checked", Boolean),
+    ("rack", Text),
 ];
 
 /// All columns of `detail`; the first is the key.

@@ -14,7 +14,7 @@ use texts::Language;
 const HEAD: &str = "number,time,scene,source,simulated,verdict,part,nearest,score,margin,reason,total_ms,\
     label,remark,recipe,library,program,parent,reinspections,\
     m00,m01,m02,m03,m10,m11,m12,m13,m20,m21,m22,m23,m30,m31,m32,m33,recipe_name,recipe_changed,\
-    serial,order,operator,reason_kind,robot_doubts,motion_checked";
+    serial,order,operator,reason_kind,robot_doubts,motion_checked,rack";
 
 /// Writes the inspections that `each` passes on into this file, and returns their number. If one cannot be read, the
 /// file stays as it was.
@@ -94,9 +94,10 @@ fn write_row(writer: &mut dyn Write, record: &Record, columns: &str) -> io::Resu
     let motion_checked = marks
         .motion_checked
         .map_or("", |is| if is { "true" } else { "false" });
+    let rack = quoted(summary.rack.as_deref().unwrap_or(""));
     writeln!(
         writer,
-        "{},{},{},{},{},{},{},{},{score},{margin},{},{:.3},{},{},{},{},{},{},{}{pose},{recipe},{serial},{order},{operator},{kind},{doubts},{motion_checked}{columns}",
+        "{},{},{},{},{},{},{},{},{score},{margin},{},{:.3},{},{},{},{},{},{},{}{pose},{recipe},{serial},{order},{operator},{kind},{doubts},{motion_checked},{rack}{columns}",
         summary.number,
         summary.at,
         quoted(&summary.scene.to_string()),

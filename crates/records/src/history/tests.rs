@@ -47,6 +47,7 @@ fn what_is_written_comes_back_whole_also_after_closing() {
         robot_doubts: vec!["old".into(), "moving".into()],
         motion_checked: Some(false),
     };
+    written.record.summary.rack = Some("rack A".into());
     assert_eq!(history.add(&written, &ALL).expect("written"), 1);
     history.set_remark(1, " a dent, below ").expect("written");
     let label = Truth::Part("back_door".into());
@@ -130,6 +131,8 @@ fn every_filter_lets_through_what_a_plain_look_at_the_rows_does() {
         let mut entry = history_entry(random.random_range(0..500), verdict, part);
         entry.record.summary.is_simulated = random.random();
         entry.record.summary.source = ["kinect", "kinect:B"][random.random_range(0..2)].into();
+        entry.record.summary.rack =
+            [None, Some("A"), Some("Rack Tür")][random.random_range(0..3)].map(str::to_owned);
         entry.record.summary.remark = ["", "Beule Ö", "dent 50%"][random.random_range(0..3)].into();
         entry.scene = None;
         let number = history.add(&entry, &Retention::default()).expect("written");
@@ -154,6 +157,7 @@ fn every_filter_lets_through_what_a_plain_look_at_the_rows_does() {
                 }),
             is_simulated: random.random_bool(0.3).then(|| random.random()),
             source: random.random_bool(0.2).then(|| "kinect".to_owned()),
+            rack: random.random_bool(0.2).then(|| "A".to_owned()),
             with_below: random.random(),
             text: [
                 "",
@@ -165,7 +169,8 @@ fn every_filter_lets_through_what_a_plain_look_at_the_rows_does() {
                 "_door frame",
                 "nothing",
                 "Tür frame",
-            ][random.random_range(0..9)]
+                "rack",
+            ][random.random_range(0..10)]
             .into(),
             shown: vec![["tür".into(), "door".into()]],
         };

@@ -109,6 +109,7 @@ impl ListFilter {
             verdict: self.verdict,
             is_simulated: None,
             source: None,
+            rack: None,
             with_below: false,
             text: self.text.clone(),
             shown,
