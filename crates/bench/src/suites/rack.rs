@@ -153,7 +153,7 @@ impl RackFigures {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::suites::{SuiteLibraries, TUNING_SEED, run_suite};
+    use crate::suites::{MEASURING_SEED, SuiteLibraries, TUNING_SEED, run_suite};
     use inspection::{
         library::EnrolParams,
         pipeline::{Recipe, Unwatched, run_all},
@@ -191,6 +191,21 @@ mod tests {
                 let is_left = !case.subject.ends_with("_right");
                 assert_eq!(case.expected.is_some(), is_left, "{case:?}");
             }
+        }
+    }
+
+    #[test]
+    fn a_stool_beside_large_parts_is_told_as_unknown_and_the_bar_that_they_hang_on_is_not() {
+        let libraries = libraries();
+        for (suite, index) in [(Suite::RackForeign, 1), (Suite::RackOnBar, 0)] {
+            let frames = suite.frames(2, MEASURING_SEED);
+            let library = libraries.of(suite);
+            let recipe = Recipe::default();
+            let result = run_suite(suite, &frames[index..=index], library, &recipe, |_| {});
+            let stools = result.cases.iter().filter(|case| case.subject == "stool");
+            assert_eq!(stools.clone().count(), index);
+            assert!(stools.clone().all(|case| case.is_unknown), "{result:?}");
+            assert_eq!(result.num(|case| case.surplus.is_some()), 0, "{result:?}");
         }
     }
 
