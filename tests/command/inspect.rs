@@ -295,6 +295,44 @@ fn each_place_of_a_rack_may_expect_a_part_of_its_own() {
 }
 
 #[test]
+fn of_two_car_models_that_fit_equally_well_the_expected_one_is_found_and_never_the_other() {
+    let place = Workplace::new();
+    for model in ["0", "1"] {
+        let file = format!("{model}.pcd");
+        let simulate = ["simulate", "--part", "grille", "--model", model];
+        let facing = ["--pose", "0 0 0 0 0 1.4", "--out", &file];
+        place.accepted(&[&simulate[..], &facing].concat());
+        let name = format!("grille_{model}");
+        place.accepted(&["enrol", &file, "--name", &name, "--library", "parts"]);
+    }
+    // The score of the second frame is higher as the other model.
+    for (model, other, seed, best) in [("0", "1", "2", "0"), ("1", "0", "3", "0")] {
+        let simulate = ["simulate", "--part", "grille", "--model", model];
+        let placed = [
+            "--placement",
+            "facing",
+            "--seed",
+            seed,
+            "--out",
+            "hung.png",
+        ];
+        place.accepted(&[&simulate[..], &placed].concat());
+        let inspect = ["inspect", "hung.png", "--library", "parts", "--no-history"];
+        let found = |options: &[&str]| {
+            let line = place.run(&[&inspect[..], &["--json"], options].concat());
+            let line = line.json();
+            let part = line["part"].as_str().unwrap_or_default().to_owned();
+            (part, line["accepted"].as_bool())
+        };
+        let grille = |model: &str| format!("grille_{model}");
+        assert_eq!(found(&[]), (grille(best), Some(false)));
+        let right = found(&["--expect", &grille(model)]);
+        assert_eq!(right, (grille(model), Some(true)));
+        assert_eq!(found(&["--expect", &grille(other)]).1, Some(false));
+    }
+}
+
+#[test]
 fn the_history_lists_what_hung_in_a_rack_by_its_name() {
     let place = Workplace::new();
     for part in ["front_door", "trunk_lid"] {

@@ -235,6 +235,7 @@ mod tests {
                     seen_m2: random.random_range(0.01..0.1),
                     edge_m: random.random_range(0.05..0.5),
                     shape: 1.0,
+                    close: None,
                     outside: random.random_range(0.0..0.5),
                     relief_m: random.random_range(0.0..0.01),
                     outline_m: random.random_range(0.0..0.04),

@@ -119,5 +119,6 @@ fn surface_of<'a>(inspection: &'a Inspection, scene: &'a SceneCloud) -> Option<S
             signature: inspection.signature.as_ref()?,
         },
         rack: Rack::ANYWHERE,
+        expected: &[],
     })
 }

@@ -19,7 +19,7 @@ mod prepared_scene;
 
 pub(crate) use self::evidence::facing_view;
 use self::{
-    candidate::ReferenceCandidate,
+    candidate::{MAX_ODDS_OF_RIVALS, ReferenceCandidate},
     evidence::most_score,
     outline_ends::outline_of,
     outline_shift::edges_of_part,
@@ -80,6 +80,8 @@ pub struct Scene<'a> {
     pub query: Query<'a>,
     /// Where parts may hang: of two poses that fit alike, one that is allowed there is found.
     pub rack: &'a Rack,
+    /// Names of the parts that should hang there; of two that look alike, the expected one is found.
+    pub expected: &'a [String],
 }
 
 /// Steps below a twentieth of a millimetre at the last scale say nothing: the bounds of a pose are a millimetre and more.
@@ -222,6 +224,7 @@ pub fn confirm(
         }
         sort_by_score(&mut tried);
     }
+    seen.put_expected_first(&mut tried, references);
     if let Some(first) = tried.first_mut()
         && let Some((index, candidate)) = first.finished()
     {
@@ -337,6 +340,43 @@ impl PreparedScene<'_> {
         });
     }
 
+    /// Looks closely at those of which the best may be told only by its score, where some of them are expected and some are not,
+    /// and puts the expected one first that leads over all the others.
+    fn put_expected_first(&self, tried: &mut [Tried<'_>], references: &[Reference]) {
+        let best = tried.first().map_or(0.0, |first| odds(first.score));
+        let num_within = |tried: &[Tried<'_>], least: f64| {
+            let within = tried.iter().take_while(|tried| odds(tried.score) > least);
+            within.count()
+        };
+        // What is put first is less likely than the best, and so are its own rivals.
+        let num_rivals = num_within(tried, best / MAX_ODDS_OF_RIVALS.powi(2));
+        let num_firsts = num_within(tried, best / MAX_ODDS_OF_RIVALS);
+        let rivals = &mut tried[..num_rivals];
+        let is_expected = |tried: &Tried<'_>| self.scene.expected.contains(&tried.entry.part);
+        let num_expected = rivals.iter().filter(|tried| is_expected(tried)).count();
+        if num_expected == 0 || num_expected == num_rivals {
+            return;
+        }
+        for tried in &mut *rivals {
+            if let Some((index, candidate)) = tried.finished() {
+                let pose = candidate.refined.target_from_source;
+                let close = self.look_closely(&references[index], candidate.view, &pose);
+                candidate.evidence.close = close;
+            }
+        }
+        let lead = |one: &Tried<'_>, other: &Tried<'_>| {
+            let evidence = |tried: &Tried<'_>| Some(tried.candidate.as_ref()?.evidence);
+            evidence(one)?.lead_over(&evidence(other)?)
+        };
+        let leads = |one: &Tried<'_>| {
+            let mut others = rivals.iter().filter(|other| !is_expected(other));
+            is_expected(one) && others.all(|other| lead(one, other).is_some_and(|lead| lead > 0.0))
+        };
+        if let Some(place) = rivals[..num_firsts].iter().position(leads) {
+            rivals[..=place].rotate_right(1);
+        }
+    }
+
     /// Refines the first, if its score is above `least`, and the others if they may become the first when scores grow by
     /// `most_gained` at most and the first may be accepted.
     fn refine_above(
@@ -409,6 +449,11 @@ impl Tried<'_> {
 
 fn sort_by_score(tried: &mut [Tried<'_>]) {
     tried.sort_by(|a, b| b.score.total_cmp(&a.score));
+}
+
+/// How many times more probable than not a match with this score is.
+fn odds(score: f64) -> f64 {
+    score / (1.0 - score).max(f64::EPSILON)
 }
 
 /// Poses that score less are not refined.

@@ -8,7 +8,7 @@ use super::{
     pose::{
         AlignParams, PoseError, PoseEstimate, align_to,
         closest::Correspondence,
-        quality::{FitQuality, NUM_LOOKED_FOR, Tolerance, look_for, measure_fit},
+        quality::{FitQuality, NUM_LOOKED_FOR, PIXEL_REACH, Tolerance, look_for, measure_fit},
         refine::Search,
     },
     reference::Reference,
@@ -51,7 +51,14 @@ pub fn locate(
         let closest = Correspondence::of_each(&measured, &target, pose, Search::Tree);
         let seen_from = pose.inverse();
         Ok(FitQuality {
-            sight: look_for(&target, &seen_from, scene.scene, tolerance, NUM_LOOKED_FOR),
+            sight: look_for(
+                &target,
+                &seen_from,
+                scene.scene,
+                tolerance,
+                NUM_LOOKED_FOR,
+                PIXEL_REACH,
+            ),
             ..measure_fit(&measured, &closest, &target, tolerance)
         })
     };

@@ -100,6 +100,7 @@ mod tests {
             seen_m2: 0.3,
             edge_m: 2.0,
             shape: 1.0,
+            close: None,
             outside: 0.0,
             relief_m: 0.0,
             outline_m: 0.0,

@@ -151,6 +151,7 @@ fn by_outline(
         part,
         query,
         rack,
+        expected: &[],
     };
     let (confirmed, _) = confirm(&scene, references, &ranking, &recipe.confirm, 0.0);
     confirmed.entries.first().map(|entry| entry.reference)

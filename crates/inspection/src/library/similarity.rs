@@ -207,6 +207,7 @@ fn captured_scores(
         part,
         query,
         rack,
+        expected: &[],
     };
     Some(confirmed(&scene, others, &ranking))
 }
@@ -267,6 +268,7 @@ fn scores(reference: &Reference, coverage: Coverage, others: &[Reference]) -> Ve
         },
         query,
         rack: Rack::ANYWHERE,
+        expected: &[],
     };
     let mut scores = confirmed(&scene, others, &ranking);
     for (pair, other) in scores.iter_mut().zip(others) {

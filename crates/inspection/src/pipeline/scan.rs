@@ -236,6 +236,7 @@ fn edges_on_part(shot: &ScannedShot, inspection: &Inspection, tree: &KdTree) -> 
         part,
         query,
         rack: Rack::ANYWHERE,
+        expected: &[],
     });
     let in_base = own
         .points
@@ -453,6 +454,7 @@ fn evidence(
         // A single frame may cut the part off; for all frames together, `outside` covers it.
         cut: 0.0,
         facing: fit.facing,
+        close: None,
         ..*of_frame
     };
     (evidence, sight)

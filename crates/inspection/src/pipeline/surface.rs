@@ -114,6 +114,8 @@ fn recognise(
         signature,
     };
     let references = &library.references;
+    let expected = recipe.expected.parts().iter();
+    let expected: Vec<String> = expected.map(|part| part.name.clone()).collect();
     let mut ranking = clock.time(Stage::Rank, || rank(&query, references, &recipe.rank))?;
     let Some(first) = ranking.entries.first_mut() else {
         return Ok(Err(Unrecognisable::EmptyLibrary));
@@ -133,6 +135,7 @@ fn recognise(
                 part,
                 query,
                 rack,
+                expected: &expected,
             };
             let located = clock.time(Stage::Pose, || {
                 locate(&scene, reference, &params, &is_cancelled)
@@ -166,6 +169,7 @@ fn recognise(
                 part,
                 query,
                 rack,
+                expected: &expected,
             };
             let (ranking, pose) = clock.time(Stage::Pose, || {
                 confirm(&scene, references, &ranking, &params, least_score)

@@ -437,6 +437,7 @@ mod tests {
             cut: 0.0,
             facing: 1.0,
             shape: 1.0,
+            close: None,
         }
     }
 

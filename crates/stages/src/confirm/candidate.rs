@@ -7,6 +7,7 @@ use nalgebra::{Isometry2, Isometry3, Translation3, Unit, UnitQuaternion, Vector3
 use super::{
     COST_LIMIT, FIRST, FIRST_OF_A_PIECE, HOPELESS, PreparedScene, SECOND, THIRD,
     evidence::{Evidence, facing, facing_view},
+    odds,
     piece_search::{PieceSample, Start},
 };
 use crate::{
@@ -72,14 +73,11 @@ impl ReferenceCandidate {
 
 /// A pose of a piece whose odds are this many times those of another one may still be the wrong one: of two that differ by less,
 /// the default recipe accepts neither.
-const MAX_ODDS_OF_RIVALS: f64 = 4.0;
+pub(super) const MAX_ODDS_OF_RIVALS: f64 = 4.0;
 
 impl ReferenceCandidate {
     fn is_nearly_as_likely_as(&self, other: &Self) -> bool {
-        let odds = |one: &Self| {
-            let score = one.evidence.score();
-            score / (1.0 - score).max(f64::EPSILON)
-        };
+        let odds = |one: &Self| odds(one.evidence.score());
         odds(self) * MAX_ODDS_OF_RIVALS >= odds(other)
     }
 }

@@ -19,12 +19,12 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::PreparedScene;
+use super::{PreparedScene, odds};
 use crate::{
     pose::{
         closest::Correspondence,
-        quality::{FitQuality, look_for, measure_fit},
-        refine::{AlignmentSource, AlignmentTarget},
+        quality::{FitQuality, PIXEL_REACH, VisibilityShares, look_for, measure_fit},
+        refine::{AlignmentSource, AlignmentTarget, Search},
     },
     reference::Reference,
 };
@@ -64,6 +64,19 @@ pub struct Evidence {
     pub facing: f64,
     /// What the ranking scored: how alike the whole shapes are, 0..1.
     pub shape: f64,
+    /// `None` unless it was held against a part that looks alike.
+    pub close: Option<CloseLook>,
+}
+
+/// What every reading of a part says of its reference.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct CloseLook {
+    /// As [`Evidence::relief_m`] over patches of 3 cm, with the noise.
+    pub relief_m: f64,
+    /// Mean distance of the readings to the reference, metres; more than 10 mm count as 10 mm.
+    pub distance_m: f64,
+    /// As [`Evidence::missing`], of every point of the reference and with a pixel of play instead of two.
+    pub missing: f64,
 }
 
 /// Distances beyond this count as this, metres.
@@ -73,7 +86,13 @@ const AT_CUT: f64 = 0.015;
 /// An edge this close to the reference's lies on it, metres.
 const ON_EDGE: f64 = 0.02;
 /// Side of a patch, metres: some 40 points of a door, and less than the radius of anything pressed into a sheet.
-const PATCH: f32 = 0.12;
+pub(super) const PATCH: f32 = 0.12;
+/// The same of a close look, which takes every reading.
+const CLOSE_PATCH: f32 = 0.03;
+/// A close look counts larger distances as this, metres.
+const CLOSE_FAR: f64 = 0.01;
+/// Readings that a close look takes are at most twice this.
+const NUM_CLOSE: usize = 30_000;
 /// Fewer points than this make no mean.
 const LEAST_IN_PATCH: f64 = 6.0;
 /// What is left of the noise in the mean over a patch, as measured on parts that were enrolled: neighbouring readings
@@ -103,6 +122,7 @@ impl PreparedScene<'_> {
             scene.scene,
             tolerance,
             num_looked_for,
+            PIXEL_REACH,
         );
         let is_beyond = |at: &Point3<f32>| reference.cut.depth_inside(&at.cast()) < AT_CUT;
         let shared = || {
@@ -123,12 +143,10 @@ impl PreparedScene<'_> {
         let noise = |p: &Point3<f32>| scene.part.noise_at_1m.0 * f64::from(p.z * p.z);
         let noise_sq = shared_points.iter().map(|p| noise(p).powi(2)).sum::<f64>();
         let noise_sq = noise_sq / shared_points.len().max(1) as f64;
-        let relief_sq = relief(&shared_closest, &target).powi(2);
+        let relief_sq = relief(&shared_closest, &target, PATCH).powi(2);
         let evidence = Evidence {
             off: 1.0 - fit.overlap,
-            missing: sight.map_or(0.0, |s| {
-                s.missing / (s.confirmed + s.missing).max(f64::MIN_POSITIVE)
-            }),
+            missing: sight.map_or(0.0, |sight| missing_share(&sight)),
             hidden: sight.map_or(0.0, |s| s.hidden),
             outside: sight.map_or(0.0, |s| s.outside),
             relief_m: (relief_sq - NOISE_LEFT * NOISE_LEFT * noise_sq)
@@ -143,9 +161,47 @@ impl PreparedScene<'_> {
             cut: self.cut_share(),
             facing: mean_facing(&shared_closest, &target, target_from_source),
             shape: 0.0,
+            close: None,
         };
         (fit, evidence)
     }
+
+    /// Looks closely at one reference at a pose.
+    pub(super) fn look_closely(
+        &self,
+        reference: &Reference,
+        view: usize,
+        target_from_source: &RigidTransform,
+    ) -> Option<CloseLook> {
+        let target = reference.target(view)?;
+        let all = &self.scene.part.cloud.points;
+        let step = (all.len() / NUM_CLOSE).max(1);
+        let points: Vec<Point3<f32>> = all.iter().step_by(step).copied().collect();
+        let mut closest =
+            Correspondence::of_each(&points, &target, target_from_source, Search::Field);
+        closest.retain(|closest| reference.cut.depth_inside(&closest.at.cast()) >= AT_CUT);
+        let distance = |closest: &Correspondence| {
+            let distance = closest
+                .target
+                .map_or(CLOSE_FAR, |n| f64::from(n.distance_sq).sqrt());
+            distance.min(CLOSE_FAR)
+        };
+        let distance: f64 = closest.iter().map(distance).sum();
+        let camera_from_target = target_from_source.inverse();
+        let (scene, tolerance) = (self.scene.scene, self.tolerance);
+        let every = target.cloud.points.len();
+        let sight = look_for(&target, &camera_from_target, scene, tolerance, every, 1)?;
+        Some(CloseLook {
+            relief_m: relief(&closest, &target, CLOSE_PATCH),
+            distance_m: distance / closest.len().max(1) as f64,
+            missing: missing_share(&sight),
+        })
+    }
+}
+
+/// Share of a reference that the camera looks through, of what it sees or looks through.
+fn missing_share(sight: &VisibilityShares) -> f64 {
+    sight.missing / (sight.confirmed + sight.missing).max(f64::MIN_POSITIVE)
 }
 
 /// Mean cosine between the reference's surface and the rays that see it.
@@ -166,13 +222,13 @@ fn mean_facing(
     sum / num.max(1.0)
 }
 
-/// Root mean square of the patches' mean signed distances.
-pub(super) fn relief(closest: &[Correspondence], target: &AlignmentTarget<'_>) -> f64 {
+/// Root mean square of the mean signed distances of patches of this side, metres.
+pub(super) fn relief(closest: &[Correspondence], target: &AlignmentTarget<'_>, side: f32) -> f64 {
     let mut patches: Vec<([i32; 3], f64)> = closest
         .iter()
         .filter_map(|closest| {
             let near = closest.on_surface(target, FAR * FAR)?;
-            let patch = closest.at.coords.map(|x| (x / PATCH).floor() as i32);
+            let patch = closest.at.coords.map(|x| (x / side).floor() as i32);
             Some((patch.into(), near.off))
         })
         .collect();
@@ -249,8 +305,6 @@ const LEAST_EDGE: f64 = 0.15;
 const MAX_BEYOND: f64 = 0.6;
 /// Share of the outline that may be cut in the shape of a whole part.
 const MOST_CUT: f64 = 0.1;
-/// Weights of the differences of two references: missing share, relief, shift and median shift of the outline in metres.
-const TWIN_WEIGHTS: [f64; 4] = [629.0, 2657.0, 510.0, 501.0];
 /// What a perfect fit of a part that is hardly seen scores.
 const HARDLY_SEEN: f64 = 0.4;
 
@@ -293,26 +347,21 @@ impl Evidence {
     }
 
     /// How much more probable this reference is than another one for the same part, -1..1: the difference of their
-    /// probabilities, given that one of the two is right. `None` unless the outlines of both were compared to the end.
+    /// probabilities, given that one of the two is right. `None` unless both were looked at closely.
     ///
-    /// The scores of two good fits say little about which is the better one; their differences do. Fitted to 705 simulated
-    /// frames of a part of one of four car models, all enrolled, whose scores were too close: hung askew, behind a plank, with
-    /// three times a Kinect's noise, and in a booth. Fitted to either half, a lead of 0.6 in the other half was right 597
-    /// times and wrong 7 times.
+    /// The scores of two good fits say little about which is the better one; every reading together does. Fitted to 646
+    /// simulated frames of a part of one of four car models, all enrolled, whose scores were too close: hung askew or with care,
+    /// behind a plank, with three times a Kinect's noise, on the floor and in a booth. Fitted to the frames of one set of
+    /// models, a lead of 0.6 in those of the other was right 577 times and wrong 4 times.
     pub fn lead_over(&self, other: &Self) -> Option<f64> {
-        let figures = |of: &Self| {
-            Some([
-                of.missing,
-                of.relief_m,
-                of.outline_shift_m?,
-                of.outline_median_m?,
-            ])
-        };
-        let pairs = figures(other)?.into_iter().zip(figures(self)?);
-        let weighted = pairs.zip(TWIN_WEIGHTS);
-        let log_odds: f64 = weighted
-            .map(|((theirs, own), weight)| weight * (theirs - own))
-            .sum();
+        let (own, others) = (self.close?, other.close?);
+        // Of a piece with little outline, the rest decides.
+        let shifts = self.outline_shift_m.zip(other.outline_shift_m);
+        let log_odds = (odds(self.score()) / odds(other.score())).ln()
+            + 1250.0 * (others.relief_m - own.relief_m)
+            + 13_300.0 * (others.distance_m - own.distance_m)
+            + 126.0 * (others.missing - own.missing)
+            + 360.0 * shifts.map_or(0.0, |(own, others)| others - own);
         Some((log_odds / 2.0).tanh())
     }
 
@@ -401,6 +450,7 @@ mod tests {
                 cut: 0.0,
                 facing,
                 shape: 1.0,
+                close: None,
             };
             prop_assert!(found.score() <= most_score(area, own));
             let perfect = Evidence {

@@ -7,7 +7,7 @@ use nalgebra::{Isometry3, Point3};
 
 use super::{
     NOISE_OF_JOINT, POSES_APART, SECOND, Scene, THIRD,
-    evidence::{facing, facing_view, outline_distance, relief},
+    evidence::{PATCH, facing, facing_view, outline_distance, relief},
     outline_ends::outline_of,
     prepared_scene::centre_of,
 };
@@ -130,7 +130,7 @@ fn finished(
         noise_at_1m: Metres(0.0),
     };
     let fit: FitQuality = measure_fit(&part.source.surface, &closest, &target, tolerance);
-    let relief_sq = relief(&closest, &target).powi(2) - NOISE_OF_JOINT * NOISE_OF_JOINT;
+    let relief_sq = relief(&closest, &target, PATCH).powi(2) - NOISE_OF_JOINT * NOISE_OF_JOINT;
     let num_views = part.cameras.len();
     let bounds = uncertainty(&part.source, &closest, &target, &pose, &THIRD[2], num_views);
     let squarest = part.cameras.iter().map(|camera| {

@@ -200,6 +200,7 @@ mod tests {
             part: &part,
             query,
             rack: Rack::ANYWHERE,
+            expected: &[],
         };
         outline_of(&scene).cut_share
     }

@@ -138,7 +138,7 @@ pub const NUM_LOOKED_FOR: usize = 2000;
 /// A surface seen at a flatter angle than this (cosine) is often lost by the camera, so its absence is no evidence.
 pub const LEAST_FACING: f64 = 0.3;
 /// Pixels around the expected one that may show the surface: the pose is not perfect and edges are ragged.
-const PIXEL_REACH: i64 = 2;
+pub const PIXEL_REACH: i64 = 2;
 
 /// Looks for some of the target's points in the scene's depth image; `None` when the scene has none.
 pub fn look_for(
@@ -147,6 +147,7 @@ pub fn look_for(
     scene: &SceneCloud,
     tolerance: Tolerance,
     num_looked_for: usize,
+    pixel_reach: i64,
 ) -> Option<VisibilityShares> {
     let camera = scene.intrinsics?;
     let normals = target.cloud.normals.as_deref()?;
@@ -175,8 +176,8 @@ pub fn look_for(
         let reach = tolerance.at_depth(at.z) / facing;
         // Of the readings around, the one nearest in depth to what is expected.
         let mut nearest: Option<f64> = None;
-        for dv in [0, -PIXEL_REACH, PIXEL_REACH] {
-            for du in [0, -PIXEL_REACH, PIXEL_REACH] {
+        for dv in [0, -pixel_reach, pixel_reach] {
+            for du in [0, -pixel_reach, pixel_reach] {
                 if !inside(u + du, v + dv) {
                     continue;
                 }

@@ -39,6 +39,7 @@ pub(super) fn pose_warning(reference: &Reference, coverage: Coverage) -> Option<
         part: &SegmentedPart::whole(&seen),
         query,
         rack: Rack::ANYWHERE,
+        expected: &[],
     };
     let (confirmed, pose) = confirm(&scene, references, &ranking, &ConfirmParams::default(), 0.0);
     let (found, pose) = (confirmed.entries.first()?, pose.ok()?);
