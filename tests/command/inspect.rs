@@ -308,14 +308,7 @@ fn of_two_car_models_that_fit_equally_well_the_expected_one_is_found_and_never_t
     // The score of the second frame is higher as the other model.
     for (model, other, seed, best) in [("0", "1", "2", "0"), ("1", "0", "3", "0")] {
         let simulate = ["simulate", "--part", "grille", "--model", model];
-        let placed = [
-            "--placement",
-            "facing",
-            "--seed",
-            seed,
-            "--out",
-            "hung.png",
-        ];
+        let placed = ["--placement", "facing", "--seed", seed, "--out", "hung.png"];
         place.accepted(&[&simulate[..], &placed].concat());
         let inspect = ["inspect", "hung.png", "--library", "parts", "--no-history"];
         let found = |options: &[&str]| {

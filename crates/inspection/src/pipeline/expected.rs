@@ -59,8 +59,8 @@ impl fmt::Display for ExpectedPart {
 /// What hangs at a place for which a part is expected is held against that part; what hangs elsewhere, against the parts that
 /// may hang at any place.
 ///
-/// It never turns a refusal for lack of evidence into an acceptance: where the expected part is the best match, it settles
-/// ties with parts that are alike and not expected, and it refuses parts that are not expected.
+/// It never turns a refusal for lack of evidence into an acceptance: where the expected part fits about as well as
+/// the best match, it settles ties with parts that are alike and not expected, and it refuses parts that are not expected.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(from = "Written", into = "Written")]
 pub struct Expected(Vec<ExpectedPart>);

@@ -274,7 +274,7 @@ pub(super) fn verdict(
 /// The least lead over a part of another name, 0..1, and that part.
 ///
 /// A part that is not expected is compared with an expected one more closely. Only then: where nothing is expected, a part
-/// of which a twin is enrolled is refused rather than taken for its twin in two ties of a hundred.
+/// of which a twin is enrolled is refused rather than taken for its twin in a few ties of a thousand.
 fn margin<'a>(
     best: &ConfirmedMatch,
     ranking: &'a ConfirmedRanking,

@@ -62,7 +62,8 @@ impl ConfirmedMatch {
 /// The compared references, best first.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ConfirmedRanking {
-    /// One entry per compared reference, in descending order of score; those that were not examined come last.
+    /// One entry per compared reference, in descending order of score, but an expected one before those that look like it;
+    /// those that were not examined come last.
     pub entries: Vec<ConfirmedMatch>,
 }
 

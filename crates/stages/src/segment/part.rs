@@ -236,7 +236,7 @@ fn is_of_a_size(cluster: &Cluster, least_area: f64) -> bool {
 }
 
 /// Least width and depth of a body, metres, and its least width as a share of its length: bars, hooks and strips of a wall are
-/// narrower or flatter, and a stool is not. In 580 simulated and real frames it holds for a bar with hooks that crossed, and for
+/// narrower or flatter, and a stool is not. In 760 simulated and real frames it holds for a bar with hooks that crossed, and for
 /// nothing else that is clutter.
 const BODY_WIDTH: f64 = 0.25;
 const BODY_DEPTH: f64 = 0.12;
