@@ -295,6 +295,7 @@ impl Inspection {
             recipe: &self.recipe,
             robot: None,
             is_forced: false,
+            on_line: None,
         }
     }
 }

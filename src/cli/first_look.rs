@@ -30,6 +30,7 @@ pub(super) fn run(library: &LibraryChoice, console: &mut Console) -> anyhow::Res
         recipe: &recipe,
         robot: None,
         is_forced: false,
+        on_line: None,
     };
     console.line(&"Simulated: no camera was read. A front door hangs in the simulated cell; this is what was found.");
     console.line(&"");

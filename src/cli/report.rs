@@ -223,6 +223,7 @@ impl Reporter<'_> {
             recipe: &self.recipe,
             robot: self.robot.as_ref(),
             is_forced: self.args.force,
+            on_line: None,
         });
         match self.write(path, &scene, &inspection, &report, console) {
             Ok(written) => {

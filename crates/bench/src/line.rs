@@ -20,7 +20,7 @@ use inspection::{
     library::{Library, enrolment_pose},
     pipeline::{Inspection, Recipe, Unwatched, run_all},
 };
-use robot::line::{CountedPose, Counter, LineCalibration, LineFitError, fit};
+use robot::line::{CountedPose, Counter, LineCalibration, LineFitError, OnLine, fit};
 use simulate::{LineEncoder, LineSetup, PartKind, SensorNoise, SimulatedLine};
 use stages::scene::scene_from_frame;
 use station::{CountLog, LinePose, LineTracker};
@@ -298,8 +298,8 @@ impl LineCase {
                 .map(|one| number_of(watched, one, now))
                 .collect();
             let (followed, recorded) =
-                tracker.see(moment, &mut found, middle_of, |index, _, number| {
-                    (places[index], number)
+                tracker.see(moment, &mut found, middle_of, |index, _, on_line| {
+                    (places[index], on_line)
                 });
             self.record(&recorded);
             for (index, followed) in followed.iter().enumerate() {
@@ -329,11 +329,11 @@ impl LineCase {
     }
 
     /// Counts what was recorded of each part.
-    fn record(&mut self, recorded: &[(Option<u64>, Option<u32>)]) {
-        for (at, number) in recorded {
+    fn record(&mut self, recorded: &[(Option<u64>, Option<OnLine>)]) {
+        for (at, on_line) in recorded {
             let part = at.and_then(|at| self.parts.get_mut(at as usize));
             match (part, at) {
-                (Some(part), _) if number.is_some() => part.num_numbers += 1,
+                (Some(part), _) if on_line.is_some() => part.num_numbers += 1,
                 (Some(part), _) => part.num_refused += 1,
                 // A part beyond those that count.
                 (None, Some(_)) => {}

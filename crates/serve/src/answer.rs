@@ -13,6 +13,7 @@ use geometry::{
     error::Advice,
     rigid::{PoseDelta, RigidTransform, row_major},
 };
+use robot::line::OnLine;
 use stages::segment::MAX_PARTS;
 
 /// A client's request.
@@ -393,21 +394,6 @@ pub struct PathStep {
     pub speed: Option<f64>,
 }
 
-/// Where and when a part on a line has the pose that is sent. All are 0 or `None` while it has no pose.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct OnLine {
-    /// Number of the part on the line, from 1.
-    pub number: u32,
-    /// The count at which it has the pose: the one that was sent; `None` if none was.
-    pub count: Option<u32>,
-    /// When it has the pose: when the trigger came or, without a count, when the frame was taken.
-    pub at: Option<Instant>,
-    /// 95 % bound of the pose's error at the part's middle, millimetres.
-    pub bound_mm: f64,
-    /// Speed of the line, mm/s; negative while the count falls.
-    pub speed_mm_s: f64,
-}
-
 /// The result of an inspection.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Found {
@@ -431,8 +417,10 @@ pub struct Found {
     pub path: Vec<PathStep>,
     /// Why the stored path is not given; `None` also if none is stored.
     pub no_path: Option<Problem>,
-    /// Where it is on the line, of a camera beside one.
+    /// Where it is on the line, of a camera beside one: at the count that was sent or, if none was, in the frame.
     pub on_line: Option<OnLine>,
+    /// When it is there, if it has a pose.
+    pub on_line_since: Option<Instant>,
     /// The inspection as a JSON line; empty if there was none.
     pub report: String,
     /// Why there is no pose.
@@ -475,6 +463,7 @@ impl Found {
         self.pose = None;
         self.path.clear();
         self.on_line = self.on_line.map(|_| OnLine::default());
+        self.on_line_since = None;
         self.problem = problem;
     }
 }
@@ -742,7 +731,7 @@ impl Answer {
             }
             if answer.pose.is_some() {
                 answer.on_line = found.on_line;
-                let since = found.on_line.and_then(|on_line| on_line.at);
+                let since = found.on_line_since;
                 let since = since.map(|then| at.now.saturating_duration_since(then));
                 answer.on_line_since_ms = since.map(in_milliseconds);
             }
@@ -852,6 +841,7 @@ mod tests {
             }],
             no_path: None,
             on_line: None,
+            on_line_since: None,
             report: "{}".into(),
             problem: Problem::default(),
         }

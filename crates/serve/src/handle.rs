@@ -18,7 +18,7 @@ use super::{
 use geometry::error::lock;
 
 /// Fields of an inspection's JSON line that contain poses, or data from which a pose follows.
-const POSE_FIELDS: [&str; 3] = ["pose", "robot", "scan"];
+const POSE_FIELDS: [&str; 4] = ["pose", "robot", "scan", "on_line"];
 
 /// Queries a server: the same inspections, rules and limits as for its listeners.
 #[derive(Clone)]

@@ -35,7 +35,7 @@ pub use self::server::bound;
 pub use self::{
     answer::{
         Answer, CameraState, CameraStatus, ExpectedNumber, ExpectedNumbers, Found, FrameParts,
-        LibraryStatus, MAX_COUNT, OnLine, PathStep, PoseKind, Problem, RemainingError, Request,
+        LibraryStatus, MAX_COUNT, PathStep, PoseKind, Problem, RemainingError, Request,
         ServoRequest, VerdictCode,
     },
     handle::ServerHandle,

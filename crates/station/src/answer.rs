@@ -55,7 +55,11 @@ impl Answered {
     /// The parts, to be shown and recorded. `robot` is the frame of the numbers that were sent.
     pub fn parts<'a>(&'a self, robot: &'a RobotFrame) -> Vec<Inspected<'a>> {
         let (subject, scene) = (&self.subject, &self.scene);
-        parts_of(subject, scene, &self.inspections, &self.recipe, robot)
+        let mut parts = parts_of(subject, scene, &self.inspections, &self.recipe, robot);
+        for (part, found) in parts.iter_mut().zip(self.found.iter()) {
+            part.on_line = found.on_line.filter(|_| found.pose.is_some());
+        }
+        parts
     }
 }
 
@@ -85,6 +89,7 @@ pub(super) fn inspected_of<'a>(
         recipe,
         robot: Some(robot),
         is_forced: false,
+        on_line: None,
     }
 }
 

@@ -17,7 +17,7 @@ use jiff::SignedDuration;
 use nalgebra::Point3;
 use thiserror::Error;
 
-use super::motion::{MotionWatch, time_of};
+use super::motion::{MotionWatch, since_epoch, time_of};
 use capture::{
     BackpressurePolicy, CaptureError, Captured, Feed, FeedItem, FeedState, FeedStatus, SourceSpec,
 };
@@ -96,6 +96,17 @@ impl NewFrame {
                 let age = Duration::try_from(age).unwrap_or_default();
                 let written = Instant::now().checked_sub(age);
                 written.map_or(captured.arrived, |at| at.min(captured.arrived))
+            }
+        }
+    }
+
+    /// When a trigger came, by the clock of the frames: this computer's or, of a replayed frame, that of the recording.
+    fn asked_at(self, asked: &Asked, captured: &Captured) -> Duration {
+        match self {
+            Self::SecondArrived | Self::WrittenAfter => since_epoch(asked.by_clock),
+            Self::SecondReplayed | Self::SecondOfMany => {
+                let before = captured.arrived.saturating_duration_since(asked.at);
+                time_of(captured).saturating_sub(before)
             }
         }
     }
@@ -419,6 +430,11 @@ impl Camera {
     /// The time of capture, from which the frame's age is computed.
     pub fn captured_at(&self, captured: &Captured) -> Instant {
         self.opened().rule.captured_at(captured)
+    }
+
+    /// When a trigger came, by the clock of this frame, which was captured after it.
+    pub(super) fn asked_at(&self, asked: &Asked, captured: &Captured) -> Duration {
+        self.opened().rule.asked_at(asked, captured)
     }
 
     fn restart_if_over(&self) -> Result<(), NoFrame> {

@@ -208,6 +208,7 @@ mod tests {
             recipe: &NamedRecipe::default(),
             robot: is_calibrated.then_some(&robot),
             is_forced: false,
+            on_line: None,
         };
         inspected.doubts()
     }

@@ -254,6 +254,7 @@ mod tests {
             recipe: &NamedRecipe::default(),
             robot: Some(&finder.robot),
             is_forced: false,
+            on_line: None,
         };
         finder.found(&inspected, Instant::now())
     }

@@ -15,7 +15,7 @@ use records::{
     history::{HungId, InspectionContext, NewEntry, SceneTitle, Traceability},
     report::{CaptureLine, InspectionLine, ScanLine},
 };
-use robot::RobotFrame;
+use robot::{RobotFrame, line::OnLine};
 use stages::{
     scan::{self, Scan, Shot},
     scene::SceneCloud,
@@ -209,6 +209,8 @@ pub struct Inspected<'a> {
     pub robot: Option<&'a RobotFrame>,
     /// True to give the pose of an accepted part in that frame despite doubts.
     pub is_forced: bool,
+    /// Where the part is on the line that carries it, if it has its pose there.
+    pub on_line: Option<OnLine>,
 }
 
 impl<'a> Inspected<'a> {
@@ -268,6 +270,7 @@ impl<'a> Inspected<'a> {
         };
         let mut line = InspectionLine::of(&subject.scene, inspection)
             .in_robot(robot, inspection, doubts)
+            .on_line(self.on_line)
             .expecting(&recipe.expected, None);
         line.recipe = Some(recipe.into());
         line.rack = Some(&*recipe.rack.name).filter(|name| !name.is_empty());
@@ -380,6 +383,7 @@ mod tests {
                 recipe: &self.recipe,
                 robot: Some(&self.robot),
                 is_forced: false,
+                on_line: None,
             }
         }
 
@@ -464,6 +468,7 @@ mod tests {
         let forced = |found: &Found, robot| {
             let inspected = Inspected {
                 is_forced: true,
+                on_line: None,
                 robot,
                 ..found.inspected(&old)
             };

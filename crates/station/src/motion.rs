@@ -11,11 +11,13 @@ use std::{
         atomic::{AtomicBool, Ordering},
     },
     thread::{self, JoinHandle},
-    time::Duration,
+    time::{Duration, SystemTime},
 };
 
+use jiff::Timestamp;
+
 use capture::{CaptureError, Captured, Feed, FeedItem};
-use geometry::error::lock;
+use geometry::{clock, error::lock};
 use inspection::pipeline::live::{MotionDetector, MotionState, SteadyParams};
 use stages::scene::scene_from_image;
 
@@ -49,7 +51,17 @@ struct LastSeen {
 
 /// A frame's own time: the camera's or, of a recording, that of its camera.
 pub(super) fn time_of(captured: &Captured) -> Duration {
-    Duration::try_from(captured.taken_at.as_duration()).unwrap_or_default()
+    since_epoch(captured.taken_at)
+}
+
+/// A time as that of frames.
+pub(super) fn since_epoch(at: Timestamp) -> Duration {
+    Duration::try_from(at.as_duration()).unwrap_or_default()
+}
+
+/// The time of frames as one of the calendar.
+pub(super) fn timestamp(at: Duration) -> Timestamp {
+    clock::timestamp(SystemTime::UNIX_EPOCH + at)
 }
 
 impl MotionWatch {

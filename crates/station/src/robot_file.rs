@@ -493,6 +493,7 @@ mod tests {
                     recipe: &self.recipe,
                     robot: Some(&self.frame),
                     is_forced: false,
+                    on_line: None,
                 }),
                 beside: &[],
                 camera_from_part: self

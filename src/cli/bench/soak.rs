@@ -238,6 +238,7 @@ fn record<'a>(
         recipe,
         robot: None,
         is_forced: false,
+        on_line: None,
     }
 }
 

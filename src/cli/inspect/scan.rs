@@ -52,6 +52,7 @@ pub(super) fn inspect(args: &InspectArgs, console: &mut Console) -> anyhow::Resu
         recipe: &recipe,
         robot: Some(&robot),
         is_forced: args.carried.is_forced(),
+        on_line: None,
     };
     let title = format!(
         "{}, {used} of {frames} frames, as seen from {}",

@@ -29,7 +29,7 @@ use records::{
     history::{HungId, NewEntry, Traceability},
     report::{InspectionLine, Picture, ReportFolder, frame_pictures},
 };
-use robot::RobotFrame;
+use robot::{RobotFrame, line::OnLine};
 use serve::Found;
 use stages::{
     reference::Reference,
@@ -71,6 +71,8 @@ pub(super) struct InspectedFrame {
     subject: Subject,
     /// Of its parts, at least one.
     parts: Vec<Inspection>,
+    /// Where each is on a line; empty without one.
+    on_line: Vec<Option<OnLine>>,
     /// Time of the frame, by the camera.
     at: Duration,
     /// When it was captured, of a source.
@@ -195,7 +197,8 @@ impl InspectSession {
         let pictures = self.pictures(&frame);
         // After the verdict is shown, which must not wait for it, and before the exports, any of which may fail.
         for part in &frame.parts {
-            let kept = self.kept(&frame, &frame.subject, part, HungId::new());
+            let part = self.record(&frame, &frame.subject, part);
+            let kept = self.kept(&frame, &part, HungId::new());
             self.keep(kept, console);
         }
         let written = self.write_robot_file(&frame, console)?;
@@ -213,14 +216,9 @@ impl InspectSession {
         line: &mut LineTracker<KeptInspection>,
         console: &Console,
     ) -> Vec<KeptInspection> {
-        let taken_at = frame
-            .subject
-            .capture
-            .as_ref()
-            .map(|capture| capture.taken_at);
-        let at = taken_at.map(jiff::Timestamp::as_duration);
+        let capture = frame.subject.capture.as_ref();
         let moment = Moment {
-            at: at.and_then(|at| at.try_into().ok()).unwrap_or_default(),
+            at: capture.map_or(Duration::ZERO, |capture| line.exposed_at(capture.taken_at)),
             count: None,
         };
         let mut parts = mem::take(&mut frame.parts);
@@ -228,20 +226,24 @@ impl InspectSession {
             moment,
             &mut parts,
             |part| middle_of(part, &self.library),
-            |_, part, _| self.kept(frame, &frame.subject, part, HungId::new()),
+            |_, part, on_line| {
+                let part = Inspected {
+                    on_line,
+                    ..self.record(frame, &frame.subject, part)
+                };
+                self.kept(frame, &part, HungId::new())
+            },
         );
-        frame.parts = parts;
-        let new = frame
-            .parts
-            .iter()
-            .zip(&followed)
-            .filter(|(_, one)| one.is_new);
-        for (part, followed) in new {
-            if let (Some(number), Some(pose)) = (followed.number, &followed.pose) {
+        let on_line = followed.iter().map(|one| one.on_line(line.line()));
+        (frame.parts, frame.on_line) = (parts, on_line.collect());
+        let parts = frame.parts.iter().zip(&frame.on_line).zip(&followed);
+        for ((part, on_line), _) in parts.filter(|(_, one)| one.is_new) {
+            if let Some(here) = on_line {
                 console.note(&format_args!(
-                    "{} is part {number} on the line, at {:.0} mm/s",
+                    "{} is part {} on the line, at {:.0} mm/s",
                     part.verdict.guess().unwrap_or_default(),
-                    1000.0 * pose.speed
+                    here.number,
+                    here.speed_mm_s
                 ));
             }
         }
@@ -287,6 +289,7 @@ impl InspectSession {
             scene,
             subject,
             parts,
+            on_line: Vec::new(),
             at: (self.followed.as_ref()).map_or(Duration::ZERO, PartFollower::at),
             captured,
         })
@@ -344,7 +347,8 @@ impl InspectSession {
         };
         if let Some(mut followed) = self.followed.take() {
             followed.settled(frame.at, |index, hung| {
-                self.kept(&frame, &frame.subject, &frame.parts[index], hung)
+                let part = self.record(&frame, &frame.subject, &frame.parts[index]);
+                self.kept(&frame, &part, hung)
             });
             self.followed = Some(followed);
         }
@@ -366,9 +370,12 @@ impl InspectSession {
             _ => subject.scene.clone(),
         };
         let parts = frame.parts.iter();
-        let parts: Vec<Inspected<'_>> = parts
+        let mut parts: Vec<Inspected<'_>> = parts
             .map(|part| self.record(frame, subject, part))
             .collect();
+        for (part, on_line) in parts.iter_mut().zip(&frame.on_line) {
+            part.on_line = *on_line;
+        }
         let accepted = parts
             .iter()
             .filter(|one| one.inspection.verdict.is_accepted());
@@ -393,6 +400,7 @@ impl InspectSession {
             recipe: &self.recipe,
             robot: self.robot.as_ref(),
             is_forced: self.is_forced,
+            on_line: None,
         }
     }
 
@@ -405,16 +413,14 @@ impl InspectSession {
     fn kept(
         &self,
         frame: &InspectedFrame,
-        subject: &Subject,
-        inspection: &Inspection,
+        inspected: &Inspected<'_>,
         hung: HungId,
     ) -> KeptInspection {
-        let inspected = self.record(frame, subject, inspection);
         KeptInspection {
-            entry: (self.recording.as_ref()).map(|recording| recording.entry(&inspected, hung)),
+            entry: (self.recording.as_ref()).map(|recording| recording.entry(inspected, hung)),
             found: (self.publisher.as_ref())
                 .zip(frame.captured)
-                .map(|(publisher, captured)| publisher.found(&inspected, captured)),
+                .map(|(publisher, captured)| publisher.found(inspected, captured)),
         }
     }
 
@@ -436,7 +442,8 @@ impl InspectSession {
                     is_motion_unchecked: !is_still,
                     ..frame.subject.clone()
                 };
-                self.kept(frame, &subject, inspection, hung)
+                let part = self.record(frame, &subject, inspection);
+                self.kept(frame, &part, hung)
             },
         );
         self.followed = Some(followed);

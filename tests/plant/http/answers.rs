@@ -5,7 +5,10 @@ use std::{
     time::{Duration, Instant},
 };
 
-use partsight::serve::{CameraState, CameraStatus, Found, FrameParts, Problem, ServerSettings};
+use partsight::{
+    robot::line::OnLine,
+    serve::{CameraState, CameraStatus, Found, FrameParts, Problem, ServerSettings},
+};
 use serde_json::{Value, json};
 
 use super::{Service, accepted, client::Reply, http_settings, patient, refused, schema, tokens};
@@ -293,6 +296,44 @@ fn assert_described(reply: &Reply, method: &str, path: &str, document: &Value) {
     if let Err(why) = schema::check(&value, schema, document) {
         panic!("{method} {path}, {}: {why}\n{value}", reply.status);
     }
+}
+
+#[test]
+fn a_part_on_a_line_is_answered_with_where_it_is_there_and_one_without_a_pose_is_not() {
+    let here = OnLine {
+        number: 12,
+        count: Some(4_294_967_290),
+        at: "2026-03-01T08:00:00.25Z".parse().expect("a time"),
+        bound_mm: 3.5,
+        speed_mm_s: -99.5,
+    };
+    let ago = Duration::from_millis(200);
+    let since = Instant::now().checked_sub(ago).expect("up longer");
+    let service = Service::start(move |number| FrameParts {
+        first: Found {
+            on_line: Some(here),
+            on_line_since: Some(since),
+            ..accepted(number)
+        },
+        others: vec![Found {
+            on_line: Some(OnLine::default()),
+            ..refused(2)
+        }],
+    });
+    let mut client = service.client();
+    let document = client.get("/v1/openapi.json").json();
+    let reply = client.trigger();
+    assert_described(&reply, "POST", "/v1/trigger", &document);
+    let mut answer = reply.json();
+    let since = answer["on_line"]["since_ms"].take();
+    assert!(since.as_u64().is_some_and(|since| since >= 200), "{since}");
+    let expected = json!({
+        "number": 12, "count": 4_294_967_290_u32, "at": "2026-03-01T08:00:00.25Z", "bound_mm": 3.5, "speed_mm_s": -99.5,
+        "since_ms": null,
+    });
+    assert_eq!(answer["on_line"], expected);
+    assert_eq!(answer["parts"][1]["on_line"], Value::Null);
+    assert_eq!(client.get("/v1/status").json()["on_line"], Value::Null);
 }
 
 #[test]

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use geometry::rigid::row_major;
-use robot::{Convention, RobotPose};
+use robot::{Convention, RobotPose, line::OnLine};
 use serve::{
     Answer, CameraState, ExpectedNumber, ExpectedNumbers, LibraryStatus, PathStep, Problem,
     VerdictCode,
@@ -74,8 +74,19 @@ pub(super) struct AnswerBody {
     points: u32,
     /// The pose in the robot's base frame; null unless the part was accepted and the frame is fresh.
     pose: Option<PoseBody>,
+    /// Where the part is on the line of a camera beside one; null without a pose.
+    on_line: Option<OnLineBody>,
     /// Why there is no pose; of the status why the camera gives nothing; null if there is nothing to say.
     problem: Option<Problem>,
+}
+
+/// A part on a line where it has its pose.
+#[derive(Debug, JsonSchema, Serialize)]
+struct OnLineBody {
+    #[serde(flatten)]
+    on_line: OnLine,
+    /// Milliseconds since it was there, at most 16777215.
+    since_ms: u32,
 }
 
 /// A pose in the robot's base frame.
@@ -108,6 +119,8 @@ impl AnswerBody {
                 in_convention: convention.write(&pose),
                 transform: row_major(&pose),
             }),
+            on_line: (answer.on_line.zip(answer.on_line_since_ms))
+                .map(|(on_line, since_ms)| OnLineBody { on_line, since_ms }),
             problem: (answer.problem != Problem::default()).then(|| answer.problem.clone()),
         }
     }

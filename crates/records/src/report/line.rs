@@ -6,7 +6,7 @@ use serde::Serialize;
 use crate::history::Traceability;
 use geometry::rigid::row_major;
 use inspection::pipeline::{Expected, Inspection, RecipeBlock, Timings, Verdict, places_of};
-use robot::RobotFrame;
+use robot::{RobotFrame, line::OnLine};
 
 /// Version of the JSON lines.
 pub const SCHEMA: u32 = 1;
@@ -79,6 +79,9 @@ struct PartLine<'a> {
     /// The same pose for the robot, if the cell is calibrated and a robot may act on it.
     #[serde(skip_serializing_if = "Option::is_none")]
     robot: Option<RobotLine<'a>>,
+    /// Where it is on the line that carries it, if it has its pose there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    on_line: Option<OnLine>,
     ranking: Vec<RankLine<'a>>,
     timings_ms: Option<TimingsLine>,
     /// Why a robot may not act on the pose although the cell is calibrated and the part was accepted.
@@ -271,6 +274,13 @@ impl<'a> InspectionLine<'a> {
             expected: (!expected.is_empty()).then_some(ExpectedLine { expected, of_frame }),
             ..self
         }
+    }
+
+    /// Adds where the part is on the line that carries it.
+    #[must_use]
+    pub fn on_line(mut self, on_line: Option<OnLine>) -> Self {
+        self.first.on_line = on_line;
+        self
     }
 
     /// Creates the line of an inspection of this scene.

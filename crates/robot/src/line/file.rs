@@ -22,7 +22,8 @@ const HEAD: &str = "\
 # Partsight: how a line moves past the camera, and how its encoder counts. Written by partsight calibrate line.
 #
 # slip_percent: greatest share of the way that the encoder loses or gains. exposure_ms: time in which the camera exposes a
-# frame; if you do not know it, one frame period. These two may be edited; for all others, calibrate again.
+# frame; if you do not know it, one frame period. delay_ms: time from the exposure of a frame to its arrival. These three may be
+# edited; for all others, calibrate again.
 ";
 
 /// Content of the file.
@@ -39,6 +40,8 @@ struct Text {
     checksum: String,
     slip_percent: f64,
     exposure_ms: f64,
+    #[serde(default)]
+    delay_ms: f64,
 }
 
 /// The numbers by which poses are carried.
@@ -92,10 +95,10 @@ impl Advice for LineFileError {
             }
             Self::File(error) => error.advice(),
             Self::Bad { .. } => {
-                "Correct slip_percent or exposure_ms in a text editor, or calibrate the line again: partsight calibrate line".into()
+                "Correct slip_percent, exposure_ms or delay_ms in a text editor, or calibrate the line again: partsight calibrate line".into()
             }
             Self::Edited { .. } => {
-                "Calibrate the line again: partsight calibrate line. Only slip_percent and exposure_ms may be edited".into()
+                "Calibrate the line again: partsight calibrate line. Only slip_percent, exposure_ms and delay_ms may be edited".into()
             }
         }
     }
@@ -154,6 +157,7 @@ impl LineCalibration {
             made_at: read.made_at,
             slip: within("slip_percent", read.slip_percent, 0.0, 10.0)? / 100.0,
             exposure: within("exposure_ms", read.exposure_ms, 0.0, 1000.0)? / 1000.0,
+            delay: within("delay_ms", read.delay_ms, 0.0, 2000.0)? / 1000.0,
         })
     }
 
@@ -177,6 +181,7 @@ impl LineCalibration {
             numbers,
             slip_percent: 100.0 * self.slip,
             exposure_ms: 1000.0 * self.exposure,
+            delay_ms: 1000.0 * self.delay,
         };
         let text = toml::to_string(&text).expect("numbers and text have a TOML form");
         write_text(path, &format!("{HEAD}\n{text}"))?;
@@ -205,6 +210,7 @@ mod tests {
             made_at: "2026-03-01T08:00:00Z".parse().expect("a time"),
             slip: 0.01,
             exposure: 0.008,
+            delay: 0.12,
         };
         line.save(&path).expect("written");
         let again = LineCalibration::load(&path).expect("read");
@@ -224,7 +230,9 @@ mod tests {
         let edited = with("counter_bits = 16", "counter_bits = 32");
         assert!(matches!(edited, Err(LineFileError::Edited { .. })));
         let slower = with("exposure_ms = 8.0", "exposure_ms = 20.0").expect("may be edited");
-        assert!((slower.exposure - 0.02).abs() < 1e-12);
+        assert!((slower.exposure - 0.02).abs() < 1e-12 && (slower.delay - 0.12).abs() < 1e-12);
+        let prompt = with("delay_ms = 120.0", "").expect("may be left out");
+        assert!(prompt.delay == 0.0);
         let negative = with("exposure_ms = 8.0", "exposure_ms = -1.0").expect_err("out of range");
         assert!(negative.to_string().contains("exposure_ms"), "{negative}");
         let missing = LineCalibration::load(&folder.path().join("none.toml")).expect_err("none");

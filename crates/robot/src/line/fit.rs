@@ -204,6 +204,7 @@ pub fn fit(
         made_at: jiff::Timestamp::UNIX_EPOCH,
         slip: DEFAULT_SLIP,
         exposure: DEFAULT_EXPOSURE,
+        delay: 0.0,
     })
 }
 

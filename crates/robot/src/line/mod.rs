@@ -8,6 +8,7 @@ mod fit;
 
 use jiff::Timestamp;
 use nalgebra::{Translation3, Unit, Vector3};
+use serde::Serialize;
 
 use geometry::{
     rigid::RigidTransform,
@@ -47,6 +48,25 @@ pub struct LineCalibration {
     pub slip: f64,
     /// Time in which a frame is exposed, from the first light of its first row to the last of its last, seconds.
     pub exposure: f64,
+    /// Time from the exposure of a frame to the time that the camera gives it, seconds.
+    pub delay: f64,
+}
+
+/// A part on a line where it has its pose.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+pub struct OnLine {
+    /// Number of the part on the line, from 1; 0 while it has no pose.
+    pub number: u32,
+    /// What the encoder shows there; null if it is not known.
+    pub count: Option<u32>,
+    /// When it is there, by the camera's clock.
+    #[cfg_attr(feature = "cli", schemars(with = "String"))]
+    pub at: Timestamp,
+    /// 95 % bound of the pose's error at the part's middle, millimetres.
+    pub bound_mm: f64,
+    /// Speed of the line, mm/s; negative while the count falls.
+    pub speed_mm_s: f64,
 }
 
 /// Share of the way that an encoder may lose or gain, unless the file says otherwise.

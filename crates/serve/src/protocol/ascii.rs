@@ -77,13 +77,14 @@ mod tests {
 
     use super::*;
     use crate::{
-        answer::{OnLine, Problem, RemainingError, ServoRequest, VerdictCode},
+        answer::{Problem, RemainingError, ServoRequest, VerdictCode},
         protocol::tests::refused,
     };
     use geometry::{
         rigid::{PoseDelta, RigidTransform, from_euler_zyx, pose_error},
         units::{Metres, Radians},
     };
+    use robot::line::OnLine;
 
     fn accepted() -> (Answer, RigidTransform) {
         let pose = from_euler_zyx([0.4, -0.2, 1.3, 1.2005, -0.4, 1.9]);
@@ -144,7 +145,7 @@ mod tests {
             on_line: Some(OnLine {
                 number: 12,
                 count: Some(4_294_967_290),
-                at: None,
+                at: jiff::Timestamp::default(),
                 bound_mm: 3.456,
                 speed_mm_s: -99.5,
             }),

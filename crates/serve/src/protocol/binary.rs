@@ -318,13 +318,14 @@ mod tests {
 
     use super::*;
     use crate::{
-        answer::{OnLine, Problem, ServoRequest, VerdictCode},
+        answer::{Problem, ServoRequest, VerdictCode},
         protocol::tests::refused,
     };
     use geometry::{
         rigid::{PoseDelta, RigidTransform, from_euler_zyx, pose_error},
         units::{Metres, Radians},
     };
+    use robot::line::OnLine;
 
     fn parse(bytes: &[u8], order: ByteOrder) -> Parsed {
         super::parse(bytes, Convention::Abb, order)
@@ -504,7 +505,7 @@ mod tests {
                 on_line: Some(OnLine {
                     number: 12,
                     count: Some(70_000),
-                    at: None,
+                    at: jiff::Timestamp::default(),
                     bound_mm: 3.5,
                     speed_mm_s: -99.5,
                 }),

@@ -159,6 +159,7 @@ impl Inspected {
             recipe: &self.recipe,
             robot,
             is_forced: false,
+            on_line: None,
         }
     }
 
@@ -472,6 +473,7 @@ impl FinishedInspection {
             recipe: &recipe,
             robot: robot.as_deref(),
             is_forced: false,
+            on_line: None,
         };
         let picture = figures.segmentation.as_ref();
         let entry = entry_of(&recorded, &origin, shown, Traceability::default(), picture);

@@ -1,6 +1,7 @@
 //! Follows the parts on a line before a camera, and answers triggers about them.
 
 use std::{
+    iter,
     sync::Arc,
     time::{Duration, Instant},
 };
@@ -9,13 +10,13 @@ use super::{CountLog, Followed, LineTracker, Moment, set_pose};
 use crate::{
     Answered, Answering, Inspected, NoFrame, Subject,
     answer::{inspected_of, parts_of},
-    motion::time_of,
+    motion::{since_epoch, timestamp},
 };
 use capture::Captured;
 use inspection::pipeline::{Inspection, NamedRecipe, Rejection, Unwatched, run_all};
 use records::history::Traceability;
-use robot::line::LineCalibration;
-use serve::{Asked, OnLine};
+use robot::line::{LineCalibration, OnLine};
+use serve::Asked;
 use stages::scene::SceneCloud;
 
 /// The parts on a line and its counts. `E` is what is recorded of a part.
@@ -75,7 +76,8 @@ impl Answering<'_> {
     ) -> Result<(FollowedFrame, Vec<E>), NoFrame> {
         let expected = (self.finder).expected(&self.expected, &self.recipe.rack, self.library)?;
         let recipe = self.recipe.expecting(expected);
-        let (captured_at, at) = (self.camera.captured_at(&captured), time_of(&captured));
+        let captured_at = self.camera.captured_at(&captured);
+        let at = line.tracker.exposed_at(captured.taken_at);
         let scene = scene_of(captured);
         let mut inspections =
             run_all(&scene, self.library, &recipe, &Unwatched).expect("not cancelled");
@@ -85,7 +87,12 @@ impl Answering<'_> {
             moment,
             &mut inspections,
             |part| part.best_reference(self.library)?.middle(),
-            |_, part, _| entry(&inspected_of(&subject, &scene, part, &recipe, robot)),
+            |_, part, on_line| {
+                entry(&Inspected {
+                    on_line,
+                    ..inspected_of(&subject, &scene, part, &recipe, robot)
+                })
+            },
         );
         let frame = FollowedFrame {
             subject,
@@ -98,9 +105,9 @@ impl Answering<'_> {
         Ok((frame.in_order(line.tracker.line()), recorded))
     }
 
-    /// Answers a trigger with the poses of the parts on a line when it came, at the count that was sent with it. It takes
-    /// frames until a part counts, nothing hangs there, or the time is over. Also returns what to record. `next` captures a
-    /// frame after the trigger.
+    /// Answers a trigger with the poses of the parts on a line when it came, at the count that was sent with it; without a
+    /// count, with those of the frame. It takes frames until a part counts, nothing hangs there, or the time is over. Also
+    /// returns what to record. `next` captures a frame after the trigger.
     pub fn answer_on_line<E>(
         &self,
         asked: &Asked,
@@ -112,32 +119,35 @@ impl Answering<'_> {
     ) -> (Result<Answered, NoFrame>, Vec<E>) {
         let until = Instant::now() + self.at_most;
         let mut recorded = Vec::new();
-        let mut count = None;
+        let mut sent = None;
         loop {
             let seen = next().and_then(|(captured, subject)| {
-                // The trigger came before the frame, by the camera's clock as well.
-                let before = captured.arrived.saturating_duration_since(asked.at);
-                let at = time_of(&captured).saturating_sub(before);
-                count = count.or_else(|| Some(line.counts.read(at, asked.count?.into())));
-                self.follow(captured, subject, line, &mut scene_of, &entry)
+                let sent = *sent.get_or_insert_with(|| {
+                    let at = self.camera.asked_at(asked, &captured);
+                    let count = asked.count.map(|count| line.counts.read(at, count.into()));
+                    let count = count.map(|count| count as f64);
+                    Moment { at, count }
+                });
+                let followed = self.follow(captured, subject, line, &mut scene_of, &entry)?;
+                Ok((sent, followed))
             });
-            let (frame, records) = match seen {
+            let (sent, (frame, records)) = match seen {
                 Ok(seen) => seen,
                 Err(why) => return (Err(why), recorded),
             };
             recorded.extend(records);
             if frame.is_settled() || Instant::now() >= until || (self.is_ending)() {
-                let answered = self.answered_at(asked, count, frame, line, trace);
+                let answered = self.answered_at(asked, &sent, frame, line, trace);
                 return (Ok(answered), recorded);
             }
         }
     }
 
-    /// The answer about a frame, with the poses carried back to when the trigger came.
+    /// The answer about a frame, with the poses carried to the moment of the trigger if it sent a count.
     pub(super) fn answered_at<E>(
         &self,
         asked: &Asked,
-        count: Option<i64>,
+        sent: &Moment,
         frame: FollowedFrame,
         line: &LineFollower<E>,
         trace: &Traceability,
@@ -151,22 +161,19 @@ impl Answering<'_> {
             captured_at,
         } = frame;
         let calibration = line.tracker.line();
-        let since = captured_at
-            .saturating_duration_since(asked.at)
-            .as_secs_f64();
-        let mut on_line = vec![OnLine::default(); inspections.len()];
+        let mut on_line = vec![None; inspections.len()];
         for ((inspection, followed), on_line) in
             inspections.iter_mut().zip(&followed).zip(&mut on_line)
         {
-            let Some((pose, number)) = followed.pose.as_ref().zip(followed.number) else {
+            let here = followed.on_line(calibration);
+            let Some((here, pose)) = here.zip(followed.pose.as_ref()) else {
                 continue;
             };
-            let at_trigger = asked.count.is_some();
-            let (carried, bounds) = match count {
-                _ if !at_trigger => (pose.camera_from_part, pose.bounds),
-                Some(count) => (pose.at_count(count as f64, calibration))
-                    .unwrap_or_else(|| pose.after(-since, calibration)),
-                None => pose.after(-since, calibration),
+            let since = sent.at.as_secs_f64() - pose.moment.at.as_secs_f64();
+            let (carried, bounds) = match sent.count {
+                None => (pose.camera_from_part, pose.bounds),
+                Some(count) => (pose.at_count(count, calibration))
+                    .unwrap_or_else(|| pose.after(since, calibration)),
             };
             set_pose(inspection, &carried, bounds);
             let moved = carried.translation.vector - pose.camera_from_part.translation.vector;
@@ -176,25 +183,32 @@ impl Answering<'_> {
                     *point += moved.cast::<f32>();
                 }
             }
-            *on_line = OnLine {
-                number,
-                count: asked.count,
-                at: Some(if at_trigger { asked.at } else { captured_at }),
-                bound_mm: bounds.shift.mm(),
-                speed_mm_s: 1000.0 * pose.speed,
-            };
+            *on_line = Some(if sent.count.is_some() {
+                OnLine {
+                    count: asked.count,
+                    at: timestamp(sent.at),
+                    bound_mm: bounds.shift.mm(),
+                    ..here
+                }
+            } else {
+                OnLine {
+                    count: None,
+                    ..here
+                }
+            });
         }
         let robot = &self.finder.robot;
-        let parts = parts_of(&subject, &scene, &inspections, &recipe, robot);
+        let mut parts = parts_of(&subject, &scene, &inspections, &recipe, robot);
+        for (part, on_line) in parts.iter_mut().zip(on_line) {
+            part.on_line = on_line;
+        }
         let mut found = self.found(&parts, captured_at);
         // Missing parts stand behind those of the frame.
-        for (index, found) in found.iter_mut().enumerate() {
-            let here = on_line.get(index).copied().unwrap_or_default();
-            found.on_line = Some(if found.pose.is_some() {
-                here
-            } else {
-                OnLine::default()
-            });
+        let of_frame = parts.iter().map(|part| part.on_line);
+        for (found, on_line) in found.iter_mut().zip(of_frame.chain(iter::repeat(None))) {
+            let here = on_line.filter(|_| found.pose.is_some());
+            found.on_line_since = here.map(|here| instant_of(since_epoch(here.at), asked, sent));
+            found.on_line = Some(here.unwrap_or_default());
         }
         found.first.report = Inspected::line_of_all(&parts, trace);
         Answered {
@@ -205,6 +219,12 @@ impl Answering<'_> {
             recipe,
         }
     }
+}
+
+/// The moment of a time by the camera's clock, which showed that of `sent` when the trigger came.
+fn instant_of(at: Duration, asked: &Asked, sent: &Moment) -> Instant {
+    let (after, before) = (at.saturating_sub(sent.at), sent.at.saturating_sub(at));
+    (asked.at + after).checked_sub(before).unwrap_or(asked.at)
 }
 
 #[cfg(test)]

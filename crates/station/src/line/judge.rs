@@ -3,6 +3,7 @@
 use nalgebra::Point3;
 
 use super::Moment;
+use crate::motion::timestamp;
 use geometry::{
     rigid::RigidTransform,
     statistics::median,
@@ -12,7 +13,7 @@ use inspection::pipeline::{
     Inspection,
     live::{PoseTolerance, mean_pose, poses_agree},
 };
-use robot::line::LineCalibration;
+use robot::line::{Counter, LineCalibration, OnLine};
 use stages::pose::{PoseEstimate, Uncertainty};
 
 /// Number of frames that must show a part where the line carried it.
@@ -194,6 +195,18 @@ impl LinePose {
         self.bounds.shift.0 = self.bounds.shift.0.hypot(0.5 * way);
         self.bounds.turn.0 = self.bounds.turn.0.hypot(way / SHEARED_HEIGHT_M);
         self
+    }
+
+    /// Where the part with this number is at that moment.
+    pub(super) fn on_line(&self, number: u32, counter: Counter) -> OnLine {
+        let count = self.moment.count;
+        OnLine {
+            number,
+            count: count.map(|count| counter.shown(count.round() as i64)),
+            at: timestamp(self.moment.at),
+            bound_mm: self.bounds.shift.mm(),
+            speed_mm_s: 1000.0 * self.speed,
+        }
     }
 
     /// The pose at another count, without beginning again, with its bounds; `None` if the count of this one is not known.

@@ -10,11 +10,13 @@ mod judge;
 
 use std::{collections::VecDeque, time::Duration};
 
+use jiff::Timestamp;
 use nalgebra::{Point3, Vector3};
 
+use crate::motion::since_epoch;
 use geometry::{rigid::RigidTransform, units::Metres};
 use inspection::pipeline::{Inspection, Rejection, Verdict, live::refuse_moving};
-use robot::line::LineCalibration;
+use robot::line::{LineCalibration, OnLine};
 use stages::pose::Uncertainty;
 
 use self::judge::{Judged, judge};
@@ -52,6 +54,13 @@ pub struct Followed {
     pub is_new: bool,
     /// Its pose, if this frame's verdict is accepted.
     pub pose: Option<LinePose>,
+}
+
+impl Followed {
+    /// Where it is on the line, if it has a pose.
+    pub fn on_line(&self, line: &LineCalibration) -> Option<OnLine> {
+        Some(self.pose.as_ref()?.on_line(self.number?, line.counter))
+    }
 }
 
 /// Longest exposure, in way of the line: more shears the part by more than a pose may be off.
@@ -118,6 +127,11 @@ impl<E> LineTracker<E> {
         &self.line
     }
 
+    /// When a frame was exposed that has this time, by the same clock.
+    pub fn exposed_at(&self, taken_at: Timestamp) -> Duration {
+        since_epoch(taken_at).saturating_sub(Duration::from_secs_f64(self.line.delay))
+    }
+
     /// The speed of the line, m/s, if it is known: by the counts since the last frame, or by the parts that passed.
     pub fn speed_at(&self, moment: &Moment) -> Option<f64> {
         let counted = self.last.and_then(|last| {
@@ -131,13 +145,13 @@ impl<E> LineTracker<E> {
 
     /// Takes in the parts of a frame by its own verdicts, and refuses those that do not count: that swing, that are smeared, or
     /// that too few frames have shown so far. `middle_of` is the middle of a part, part space, metres. Returns what is known of
-    /// each, and what to record now; `entry` gets the index of the part in the frame and its number, if it has one.
+    /// each, and what to record now; `entry` gets the index of the part in the frame and, if it has a number, where it is.
     pub fn see(
         &mut self,
         moment: Moment,
         found: &mut [Inspection],
         middle_of: impl Fn(&Inspection) -> Option<Point3<f64>>,
-        entry: impl Fn(usize, &Inspection, Option<u32>) -> E,
+        entry: impl Fn(usize, &Inspection, Option<OnLine>) -> E,
     ) -> (Vec<Followed>, Vec<E>) {
         let speed = self.speed_at(&moment);
         let mut recorded = self.end_those_gone(&moment, speed);
@@ -170,7 +184,7 @@ impl<E> LineTracker<E> {
         sighting: Sighting,
         inspection: &mut Inspection,
         index: usize,
-        entry: &impl Fn(usize, &Inspection, Option<u32>) -> E,
+        entry: &impl Fn(usize, &Inspection, Option<OnLine>) -> E,
         recorded: &mut Vec<E>,
     ) -> Followed {
         let line_speed = self
@@ -228,7 +242,8 @@ impl<E> LineTracker<E> {
                 is_new = true;
                 track.numbered = Some((self.num_numbered, part));
                 track.held = None;
-                recorded.push(entry(index, inspection, Some(self.num_numbered)));
+                let here = pose.on_line(self.num_numbered, self.line.counter);
+                recorded.push(entry(index, inspection, Some(here)));
             }
         } else if track.numbered.is_none() && (is_accepted || !track.was_accepted) {
             track.held = Some(entry(index, inspection, None));

@@ -1,21 +1,24 @@
 use std::{sync::Arc, time::Instant};
 
-use capture::SourceSpec;
+use capture::{Captured, SourceSpec};
 use geometry::{rigid::pose_error, units::Radians};
 use inspection::{
     fixtures::shipped_library,
-    library::Library,
+    library::{Library, enrolment_pose},
     pipeline::{NamedRecipe, Recipe, Unwatched, run},
 };
 use nalgebra::{Translation3, Unit, UnitQuaternion};
 use records::history::Traceability;
-use robot::line::{Counter, DEFAULT_EXPOSURE};
-use serve::{Asked, ExpectedNumbers, OnLine, PoseKind, VerdictCode};
-use simulate::{CellSetup, PartKind, PartPose, PoseRange, Side};
+use robot::line::{Counter, DEFAULT_EXPOSURE, OnLine};
+use serde_json::Value;
+use serve::{Asked, ExpectedNumbers, PoseKind, VerdictCode};
+use simulate::{
+    CellSetup, LineSetup, PartKind, PartPose, PoseRange, SensorNoise, Side, SimulatedLine,
+};
 use stages::{
     pose::PoseEstimate,
     reference::Reference,
-    scene::{SceneCloud, scene_from_frame},
+    scene::{SceneCloud, scene_from_frame, scene_from_image},
 };
 
 use super::*;
@@ -37,6 +40,7 @@ fn line(change: impl FnOnce(&mut LineCalibration)) -> LineCalibration {
         made_at: jiff::Timestamp::UNIX_EPOCH,
         slip: 0.005,
         exposure: 0.01,
+        delay: 0.0,
     };
     change(&mut line);
     line
@@ -128,7 +132,8 @@ impl Run<'_> {
                 .filter(|start| (-0.5..0.5).contains(&(**start + way)));
             let places: Vec<RigidTransform> = in_view.map(place).collect();
             let mut found: Vec<Inspection> = places.iter().map(|at| seen.at(*at)).collect();
-            let entry = |_, one: &Inspection, number: Option<u32>| {
+            let entry = |_, one: &Inspection, on_line: Option<OnLine>| {
+                let number = on_line.map(|here| here.number);
                 (now, number, one.verdict.rejected().cloned())
             };
             let (followed, recorded) =
@@ -267,7 +272,7 @@ fn parts_side_by_side_have_a_number_each_and_one_that_is_missed_for_a_while_keep
             moment(now, count),
             &mut found,
             |_| Some(seen.middle),
-            |_, _, number| number,
+            |_, _, on_line| on_line.map(|here| here.number),
         );
         numbers.extend(recorded);
         if k >= 25 {
@@ -294,6 +299,12 @@ fn finder(library: &Library) -> PartFinder {
         },
         kind: PoseKind::RobotFromPart,
     }
+}
+
+/// What a line of JSON says of the part on the line.
+fn on_line_of(line: &str) -> Value {
+    let line: Value = serde_json::from_str(line).expect("JSON");
+    line["on_line"].clone()
 }
 
 #[test]
@@ -348,10 +359,9 @@ fn an_answer_has_the_pose_that_the_part_had_at_the_count_that_was_sent() {
             count: sent,
             ..Asked::now()
         };
-        let read = sent.map(i64::from);
         answering.answered_at(
             &asked,
-            read,
+            &moment(9.8, sent.map(f64::from)),
             frame(count),
             &follower,
             &Traceability::default(),
@@ -369,10 +379,14 @@ fn an_answer_has_the_pose_that_the_part_had_at_the_count_that_was_sent() {
             assert!(off.shift.0 < 1e-9, "{count:?}, {known:?}: {}", off.shift);
             let on_line = found.on_line.expect("on a line");
             assert_eq!((on_line.number, on_line.count), (7, count));
-            assert_eq!(
-                on_line.at,
-                Some(if count.is_some() { before } else { captured_at })
-            );
+            let (at, since) = match count {
+                Some(_) => (9800, before),
+                None => (10_000, captured_at),
+            };
+            assert_eq!(on_line.at.as_millisecond(), at);
+            assert_eq!(found.on_line_since, Some(since));
+            let expected = serde_json::to_value(on_line).expect("JSON");
+            assert_eq!(on_line_of(&found.report), expected);
             assert!((on_line.speed_mm_s - 100.0).abs() < 1e-9);
             let least = bounds.expect("bounds").shift.mm();
             assert!((least..least + 1.0).contains(&on_line.bound_mm));
@@ -388,10 +402,111 @@ fn an_answer_has_the_pose_that_the_part_had_at_the_count_that_was_sent() {
     let mut refused = frame(Some(5000.0));
     refused.refuse_first();
     let asked = Asked::now();
+    let sent = moment(9.8, None);
     let answered =
-        answering.answered_at(&asked, None, refused, &follower, &Traceability::default());
+        answering.answered_at(&asked, &sent, refused, &follower, &Traceability::default());
     let found = answered.found.first;
     assert_eq!((found.verdict, found.pose), (VerdictCode::Refused, None));
     assert_eq!(found.problem.reason, "moving");
     assert_eq!(found.on_line, Some(OnLine::default()));
+    assert_eq!(on_line_of(&found.report), Value::Null);
+}
+
+/// How a camera stamps its frames, and how late they arrive: the times of its frames are this much later than their exposure,
+/// and they arrive later still by these times in turn.
+struct LateCamera {
+    delay: f64,
+    arrive_later: [f64; 3],
+}
+
+#[test]
+fn triggers_are_answered_at_their_counts_though_frames_are_delayed_and_arrive_late() {
+    let (library, recipe) = (shipped_library(), NamedRecipe::default());
+    let source: SourceSpec = "simulated:fender".parse().expect("a source");
+    let camera = Camera::start(&source).expect("started");
+    let finder = finder(&library);
+    let answering = Answering {
+        camera: &camera,
+        finder: &finder,
+        library: &library,
+        recipe: &recipe,
+        expected: ExpectedNumbers::default(),
+        at_most: Duration::ZERO,
+        is_ending: &|| false,
+    };
+    let setup = LineSetup::default();
+    let simulated = SimulatedLine::arrange(&setup);
+    let is_clear = |seconds: &f64| simulated.parts(*seconds)[0].fully_visible;
+    let mut times = (0..).map(|k| 0.1 * f64::from(k));
+    let start = times.find(is_clear).expect("it comes in");
+    let begin = (Instant::now(), geometry::clock::now());
+    let late = LateCamera {
+        delay: 0.0,
+        arrive_later: [0.0, 0.7, 0.2],
+    };
+    let delayed = LateCamera {
+        delay: 0.3,
+        arrive_later: [0.0; 3],
+    };
+    for LateCamera {
+        delay,
+        arrive_later,
+    } in [late, delayed]
+    {
+        let mut follower: LineFollower<()> = LineFollower::new(line(|line| {
+            line.direction = simulated.direction();
+            line.way_per_count = setup.encoder.way_per_count;
+            line.exposure = setup.readout;
+            line.delay = delay;
+        }));
+        for (k, later) in arrive_later.iter().cycle().enumerate().take(7) {
+            let asked_at = start + 0.4 * k as f64;
+            let exposed = asked_at + 0.1;
+            let asked = Asked {
+                at: begin.0 + Duration::from_secs_f64(asked_at),
+                by_clock: begin.1 + Duration::from_secs_f64(asked_at),
+                count: Some(Counter::Bits32.shown(simulated.count(asked_at))),
+                ..Asked::now()
+            };
+            let stamped = Duration::from_secs_f64(exposed + delay);
+            let next = || {
+                let frame = simulated.frame(exposed, &SensorNoise::kinect(k as u64));
+                let captured = Captured {
+                    taken_at: begin.1 + stamped,
+                    arrived: begin.0 + stamped + Duration::from_secs_f64(*later),
+                    ..Captured::now(k as u64, "frame".into(), capture::Image::Depth(frame))
+                };
+                let subject = Subject::of_capture(&captured, &source, 0);
+                Ok((captured, subject))
+            };
+            let (answered, _) = answering.answer_on_line(
+                &asked,
+                &mut follower,
+                &Traceability::default(),
+                next,
+                |captured| Arc::new(scene_from_image(captured.image)),
+                |_| (),
+            );
+            let found = answered.expect("a frame").found.first;
+            // The count of the first frame is not known yet.
+            if k < 3 {
+                assert_eq!(found.problem.reason, "passing", "{:?}", found.problem);
+                continue;
+            }
+            assert_eq!(found.verdict, VerdictCode::Accepted, "{:?}", found.problem);
+            let here = found.on_line.expect("on a line");
+            assert_eq!((here.number, here.count), (1, asked.count));
+            assert_eq!(found.on_line_since, Some(asked.at));
+            let truth = simulated.pose_of(0, asked_at) * enrolment_pose().inverse();
+            let reference = library.references.iter().find(|one| one.name == found.part);
+            let middle = reference.and_then(Reference::middle).expect("points");
+            let pose = found.pose.expect("accepted");
+            let off = pose_error(&pose, &finder.robot.robot_from_part(&truth), &middle).shift;
+            assert!(
+                off.mm() <= here.bound_mm,
+                "{k}: {off} off, {} mm",
+                here.bound_mm
+            );
+        }
+    }
 }

@@ -88,6 +88,7 @@ impl Inspections {
             recipe,
             robot: Some(&self.finder.robot),
             is_forced: false,
+            on_line: None,
         };
         let mut found = self.finder.found(&inspected, captured);
         found.report = inspected.line(&Traceability::default());

@@ -294,6 +294,7 @@ fn doubts(
         recipe,
         robot: None,
         is_forced: false,
+        on_line: None,
     };
     captured.doubts_if_calibrated()
 }

@@ -519,6 +519,7 @@ impl AnsweringSession<'_> {
                 recipe: &frame.recipe,
                 robot: Some(&self.finder.robot),
                 is_forced: false,
+                on_line: None,
             };
             let picture = segmentation_picture(&frame.scene, &inspection.segmentation);
             entry_of(
