@@ -15,7 +15,7 @@ use inspection::pipeline::parameters::{DisplayUnit, Kind, Parameter, Parameters 
 use robot::{
     WrittenPose,
     arm::{Arm, Obstacles, PlacedArm, Rail},
-    program::{ProgramGroup, ProgramParams, ProgramSettings, RobotLanguage},
+    program::{ProgramGroup, ProgramParams, ProgramSettings, RobotLanguage, TrackingFrame},
 };
 use station::robot_file::{RobotFile, RobotFileContent};
 
@@ -34,10 +34,35 @@ pub(super) struct ProgramOptions {
     #[command(flatten)]
     cell: CellChoice,
     #[command(flatten)]
+    tracking: TrackingChoice,
+    #[command(flatten)]
     params: ParamOptions<true>,
     /// Write the file, or give the pose for the robot, despite doubts about part, path, capture or reach; both name them
     #[arg(long)]
     pub(super) force: bool,
+}
+
+/// The line that a program follows.
+#[derive(Debug, Args)]
+struct TrackingChoice {
+    /// Follow a line that carries the part: the number of the conveyor on an ABB controller (CNV1 is 1), of the tracking
+    /// schedule on a FANUC, of the encoder on a Universal Robots. The reach of an arm is not checked then
+    #[arg(long, value_name = "N", requires_all = ["program", "tracking_frame"], conflicts_with = "arm")]
+    tracking: Option<u8>,
+    /// Pose of the frame that the line moves, in the calibration's frame, while the part is where the path is: for `inspect`
+    /// at the count of the capture, for `path export` as the part passes its standard position. x is the direction of the line
+    #[arg(long, value_name = "POSE", value_parser = parse_robot_pose, allow_hyphen_values = true, requires = "tracking")]
+    tracking_frame: Option<WrittenPose>,
+}
+
+impl TrackingChoice {
+    fn frame(&self) -> Option<TrackingFrame> {
+        let (number, written) = self.tracking.zip(self.tracking_frame.as_ref())?;
+        Some(TrackingFrame {
+            number,
+            robot_from_frame: written.pose,
+        })
+    }
 }
 
 /// Where an arm stands, and the obstacles besides the part.
@@ -214,6 +239,7 @@ impl ProgramOptions {
             settings: ProgramSettings {
                 tool: self.tool.clone(),
                 flange_from_nozzle: nozzle,
+                tracking: self.tracking.frame(),
                 params: self.params.0,
             },
             arm,

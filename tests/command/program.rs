@@ -86,6 +86,62 @@ fn an_accepted_part_is_painted_by_a_program_of_each_controller() {
 }
 
 #[test]
+fn a_program_follows_a_line_where_the_language_can() {
+    let shop = shop();
+    store_path(&shop);
+    let tracking = [
+        "--tracking",
+        "1",
+        "--tracking-frame",
+        "kuka 900 -1200 400 90 0 0",
+    ];
+    let export = |file: &'static str| {
+        [&["path", "export", "front_door", "-o", file], &tracking[..]].concat()
+    };
+    for (file, wanted, begins) in [
+        (
+            "paint.mod",
+            "WaitWObj wPartsight;",
+            "as the part passes its",
+        ),
+        (
+            "paint.ls",
+            "LINE_TRACK_SCHEDULE_NUMBER      : 1;",
+            "as the part",
+        ),
+        (
+            "paint.script",
+            "def paint(count, ticks_per_meter):",
+            "as the part passes its",
+        ),
+    ] {
+        let ran = shop.coded(0, &export(file));
+        assert!(ran.err.contains("reach and collisions"), "{}", ran.err);
+        let text = shop.read(file);
+        assert!(text.contains(wanted) && text.contains(begins), "{text}");
+    }
+    // An earlier program does not stay.
+    shop.coded(0, &["path", "export", "front_door", "-o", "paint.src"]);
+    let ran = shop.coded(2, &export("paint.src"));
+    assert!(
+        ran.err.contains("moves with a line") && ran.err.contains("to do"),
+        "{}",
+        ran.err
+    );
+    assert!(!shop.path("paint.src").exists());
+    let inspect = ["inspect", "door.pcd", "--program", "paint.mod"];
+    shop.coded(0, &[&inspect[..], &tracking].concat());
+    assert!(
+        shop.read("paint.mod")
+            .contains("begins with the count at which")
+    );
+    // An arm whose reach is checked stands still.
+    let arm = ["--arm", "irb4600", "--nozzle", "kuka 0 0 250 0 45 0"];
+    let ran = shop.coded(2, &[&inspect[..], &tracking, &arm].concat());
+    assert!(ran.err.contains("--arm"), "{}", ran.err);
+}
+
+#[test]
 fn each_of_several_parts_has_a_path_of_its_own_and_none_of_an_earlier_frame_stays() {
     let shop = shop();
     let rack = [

@@ -40,9 +40,9 @@ pub enum ProgramError {
     #[error("the path has no points")]
     NoPoints,
     /// A pose has a number that is not finite.
-    #[error("{} is infinite or not a number", if *point == 0 { "the pose of tool or part".into() } else { format!("the pose of point {point}") })]
+    #[error("{} is infinite or not a number", if *point == 0 { "the pose of tool, part or frame".into() } else { format!("the pose of point {point}") })]
     NotFinite {
-        /// The point, from 1; 0 for tool or part.
+        /// The point, from 1; 0 for tool, part or frame.
         point: usize,
     },
     /// A speed outside the controller's range.
@@ -96,6 +96,33 @@ pub enum ProgramError {
         point: usize,
         /// Name of the arm.
         arm: String,
+    },
+    /// No program in the language follows a line.
+    #[error("no program in {} is written for a frame that moves with a line", language.title)]
+    NoTracking {
+        /// The language.
+        language: &'static RobotLanguage,
+    },
+    /// Not a number of what moves such a frame.
+    #[error("{} has no {} {number} that moves a frame", language.title, language.tracking.as_ref().map_or("", |tracking| tracking.what))]
+    TrackingNumber {
+        /// The language.
+        language: &'static RobotLanguage,
+        /// The number given.
+        number: u8,
+    },
+    /// An arm was checked to reach the path where the part stands, but it will follow the part.
+    #[error("whether an arm that follows a line reaches the path is not checked")]
+    TrackedReach,
+    /// The path is too long, and a program that follows a line is not split.
+    #[error("the path takes {found} instructions, but a program in {} holds at most {most}, and one that follows a line is not split", language.title)]
+    TrackedTooMany {
+        /// The language.
+        language: &'static RobotLanguage,
+        /// Instructions of the path.
+        found: usize,
+        /// Instructions that a program holds.
+        most: usize,
     },
     /// Not a digital output of the controller.
     #[error("{} has no digital output {output}", language.title)]
@@ -166,6 +193,26 @@ impl Advice for ProgramError {
                     any_of(&makers)
                 )
             }
+            Self::NoTracking { .. } => {
+                let all = RobotLanguage::ALL.into_iter();
+                let makers = all.filter(|language| language.tracking.is_some());
+                let makers: Vec<&str> = makers.map(|language| language.maker).collect();
+                format!(
+                    "Write it for {}, or leave --tracking out and stop the line while the robot works",
+                    any_of(&makers)
+                )
+            }
+            Self::TrackingNumber { language, .. } => {
+                let numbers = language.tracking.as_ref().map(|tracking| &tracking.numbers);
+                numbers.map_or_else(String::new, |numbers| {
+                    let (low, high) = (numbers.start(), numbers.end());
+                    format!("Give a number from {low} to {high} with --tracking")
+                })
+            }
+            Self::TrackedReach => {
+                "Leave out --arm, and run the program without paint on a slow line first; or leave out --tracking, for a part that stands still".into()
+            }
+            Self::TrackedTooMany { .. } => "Plan the path with a larger point_spacing".into(),
             Self::Length { .. } => "Give a length in millimetres within this range".into(),
         }
     }

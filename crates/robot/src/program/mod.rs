@@ -22,6 +22,9 @@
 //! a main program. Their names contain a checksum of the whole: on a controller that still has parts of an earlier path, or
 //! lacks some, the call fails, so no robot follows one path with the end of another.
 //!
+//! The frame may move with a line, where the language can: then every move is linear, since the controller follows the line
+//! along straight ways only, and the arm's reach is not checked.
+//!
 //! Known limits: nothing here was tried on a controller. If the configuration is not known, LS and JBI name the usual one (no
 //! flip, elbow up, front), and the other programs leave it to the controller.
 
@@ -53,7 +56,7 @@ pub use self::{
     motion::MotionPiece,
     prepare::{arm_points, check_reach, program_points},
     save::{ProgramTexts, remove_previous_program},
-    settings::{ProgramGroup, ProgramParams, ProgramSettings},
+    settings::{ProgramGroup, ProgramParams, ProgramSettings, TrackingFrame},
 };
 
 /// One pose of the nozzle.
@@ -149,7 +152,24 @@ impl Program<'_> {
         if !is_named && settings.tool.is_some() {
             return Err(ProgramError::UnusedTool { language, tool });
         }
+        self.check_tracking(language)?;
         self.check_path(language)
+    }
+
+    fn check_tracking(&self, language: &'static RobotLanguage) -> Result<(), ProgramError> {
+        let Some(TrackingFrame { number, .. }) = self.settings.tracking else {
+            return Ok(());
+        };
+        let Some(tracking) = &language.tracking else {
+            return Err(ProgramError::NoTracking { language });
+        };
+        if !tracking.numbers.contains(&number) {
+            return Err(ProgramError::TrackingNumber { language, number });
+        }
+        if self.reach.is_some() {
+            return Err(ProgramError::TrackedReach);
+        }
+        Ok(())
     }
 
     /// Checks the points, apart from the settings that only the text contains.
@@ -174,6 +194,8 @@ impl Program<'_> {
         }
         let is_sound =
             settings.flange_from_nozzle.iter().all(is_finite) && is_finite(&self.robot_from_part);
+        let tracking = settings.tracking.as_ref();
+        let is_sound = is_sound && tracking.is_none_or(|frame| is_finite(&frame.robot_from_frame));
         if !is_sound {
             return Err(ProgramError::NotFinite { point: 0 });
         }
@@ -203,6 +225,14 @@ impl Program<'_> {
         })
     }
 
+    /// A pose of the robot's base frame in the frame of the program.
+    fn in_frame(&self, robot_from_nozzle: &RigidTransform) -> RigidTransform {
+        match &self.settings.tracking {
+            Some(frame) => frame.robot_from_frame.inverse() * robot_from_nozzle,
+            None => *robot_from_nozzle,
+        }
+    }
+
     /// Top speed of the rail that moves the arm along the path, m/s; none if no rail moves.
     fn rail_speed(&self) -> Option<f64> {
         let (arm, _) = self.reach?;
@@ -218,6 +248,21 @@ impl Program<'_> {
     fn tool(&self, language: &RobotLanguage) -> String {
         let given = self.settings.tool.clone();
         given.unwrap_or_else(|| language.tool.standard().into())
+    }
+
+    /// The frame that a line moves, and when it has to begin.
+    fn tracking_in_words(&self, language: &RobotLanguage) -> Option<String> {
+        let frame = self.settings.tracking.as_ref()?;
+        let begins = match self.scene {
+            Some(_) => "with the count at which the part was seen",
+            None => "as the part passes its standard position",
+        };
+        Some(format!(
+            "frame: moves with the line by {} {}, which begins {begins}, then at {}",
+            language.tracking.as_ref()?.what,
+            frame.number,
+            language.convention.write(&frame.robot_from_frame).line()
+        ))
     }
 
     /// The header's lines, of any length.
@@ -248,16 +293,17 @@ impl Program<'_> {
             }
             None => format!("tool: {tool}, at the nozzle mouth, z towards the part"),
         });
+        lines.extend(self.tracking_in_words(language));
         let base = self.reach.map(|(arm, _)| arm.robot_from_base);
-        lines.push(
+        lines.extend((self.settings.tracking.is_none()).then(|| {
             match base.filter(|base| *base != RigidTransform::identity()) {
                 Some(base) => format!(
                     "frame: that of the calibration, with the base of the arm at {}",
                     convention.write(&base).line()
                 ),
                 None => "frame: robot base".into(),
-            },
-        );
+            }
+        }));
         if let Some(axis) = language.rail_axis.filter(|_| self.moves_on_rail()) {
             lines.push(format!(
                 "rail: {axis}, mm, 0 where the cell was calibrated, coupled to the arm; the frame does not move with it"

@@ -126,6 +126,13 @@ impl Program<'_> {
                 parts: Vec::new(),
             });
         };
+        if self.settings.tracking.is_some() {
+            return Err(ProgramError::TrackedTooMany {
+                language,
+                found: whole.num_instructions(),
+                most: calls.max_instructions,
+            });
+        }
         let checksum = crc32(whole.finish(language).as_bytes());
         let called = |number: usize| format!("{name}_{checksum:08x}_{number}");
         let header_of = |number: usize, all: usize| {

@@ -21,8 +21,19 @@ pub struct ProgramSettings {
     pub tool: Option<String>,
     /// Pose of the nozzle on the flange. Some languages set it as the tool; otherwise the controller's tool applies.
     pub flange_from_nozzle: Option<RigidTransform>,
+    /// The frame of a line that carries the part, in which the path is written; none for a part that stands still.
+    pub tracking: Option<TrackingFrame>,
     /// The numbers.
     pub params: ProgramParams,
+}
+
+/// A frame of the controller that moves with a line, by the line's encoder.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TrackingFrame {
+    /// Number on the controller of what moves it; see [`RobotLanguage`](super::RobotLanguage).
+    pub number: u8,
+    /// Where it is, in the robot's base frame, while the part hangs where the path is carried to. The line moves along its x.
+    pub robot_from_frame: RigidTransform,
 }
 
 /// The numbers of a program and of the check of its arm. Their table has names, ranges and help of each; the options of the

@@ -4,7 +4,10 @@ use std::ops::Range;
 
 use nalgebra::Translation3;
 
-use super::{Program, ProgramPoint, RobotLanguage, configuration::configuration, language::Calls};
+use super::{
+    Program, ProgramPoint, ProgramSettings, RobotLanguage, configuration::configuration,
+    language::Calls,
+};
 use crate::arm::{PointCheck, Way};
 use geometry::rigid::RigidTransform;
 
@@ -58,6 +61,21 @@ impl Step {
 /// Limit of a blend as a share of the way to the next point, so that two blends do not touch.
 const MAX_BLEND_SHARE: f64 = 0.45;
 
+/// Speed of the first move of a program that follows a line, m/s.
+const TRACKED_APPROACH_SPEED: f64 = 0.1;
+
+/// The move to the approach point. Of a program that follows a line, it is linear too.
+fn first_motion(settings: &ProgramSettings) -> Motion {
+    if settings.tracking.is_none() {
+        return Motion::Joints(None);
+    }
+    Motion::Line(Line {
+        speed: TRACKED_APPROACH_SPEED,
+        blend: 0.0,
+        gun: None,
+    })
+}
+
 /// Returns the steps of a program with at least one point.
 pub(super) fn steps_of(program: &Program<'_>, language: &RobotLanguage) -> Vec<Step> {
     let Program {
@@ -90,7 +108,7 @@ pub(super) fn steps_of(program: &Program<'_>, language: &RobotLanguage) -> Vec<S
         to: behind(first, begin),
         configuration: stands(begin),
         rail: rail(begin),
-        motion: Motion::Joints(None),
+        motion: first_motion(settings),
     }];
     let way = |point: Option<&PointCheck>| point.map_or(Way::Planned, |point| point.way);
     let mut is_on = false;

@@ -3,6 +3,7 @@ mod film;
 mod motion;
 mod rail;
 pub(super) mod read;
+mod tracking;
 
 use std::path::Path;
 
@@ -312,7 +313,7 @@ fn what_a_controller_would_not_take_is_refused_with_advice() {
             let tool = with(&|s| {
                 s.flange_from_nozzle = Some(from_euler_zyx([0.0, 0.0, 0.0, bad, 0.0, 0.0]));
             });
-            assert!(refused(&points, &tool, language, "p").contains("tool or part"));
+            assert!(refused(&points, &tool, language, "p").contains("tool, part or frame"));
         }
         for speed in [0.0, -1.0, 6.0, f64::NAN] {
             let settings = with(&|s| s.params.speed = speed);

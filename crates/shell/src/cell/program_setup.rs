@@ -152,6 +152,7 @@ impl ProgramSetup {
         let settings = ProgramSettings {
             tool: (!tool.is_empty()).then(|| tool.to_owned()),
             flange_from_nozzle,
+            tracking: None,
             params: self.params,
         };
         Ok(ProgramTarget { settings, arm })

@@ -42,6 +42,7 @@ pub(in crate::program) static DRL: RobotLanguage = RobotLanguage {
     // Programs do not contain their names.
     reserved: &[],
     is_case_sensitive: false,
+    tracking: None,
     calls: None,
     comment_width: 98,
     line_end: "\n",

@@ -40,6 +40,7 @@ pub(in crate::program) static JBI: RobotLanguage = RobotLanguage {
     // The format has a field for the name.
     reserved: &[],
     is_case_sensitive: false,
+    tracking: None,
     calls: Some(Calls {
         max_instructions: 9999,
         num_switch_instructions: 1,

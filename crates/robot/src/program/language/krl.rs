@@ -35,6 +35,7 @@ pub(in crate::program) static KRL: RobotLanguage = RobotLanguage {
     max_name: 24,
     reserved: &[WORDS],
     is_case_sensitive: false,
+    tracking: None,
     calls: None,
     // Of the 140 letters of a line.
     comment_width: 100,

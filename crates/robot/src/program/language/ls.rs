@@ -4,6 +4,9 @@
 //! blends `CNT100`; the gun by `TB 0.00sec,DO`, where the move to the point ends. FANUC, *R-30iB Operator's Manual (Basic
 //! Operation)*, also "TIME BEFORE/AFTER".
 //!
+//! A line moves the tracking frame of a schedule, which the program's attributes name with the boundary, here the first, as in
+//! programs that controllers have saved. The program that calls it sets the trigger. FANUC, *`ArcTool`*, "Tracking Setup".
+//!
 //! Configuration: `CONFIG` with N (J5 < 0) or F, U (elbow up) or D, T (wrist in front of axis 1) or B, and the turns of J4,
 //! J5 and J6: 0 within ±180°, ±1 up to 540°. If it is not known, the usual one. The same book, "Position data".
 //! Joint 3 of FANUC arms is counted against the upper arm here and against the horizontal there; CONFIG does not count its
@@ -12,11 +15,11 @@
 
 use jiff::tz::TimeZone;
 
-use super::{Calls, RobotLanguage, ToolName};
+use super::{Calls, RobotLanguage, ToolName, Tracking};
 use crate::{
     Convention,
     program::{
-        JOINT_SPEED_SHARE, Program,
+        JOINT_SPEED_SHARE, Program, TrackingFrame,
         configuration::Posture,
         steps::{Motion, Step},
         text::{self, Lines},
@@ -40,6 +43,10 @@ pub(in crate::program) static LS: RobotLanguage = RobotLanguage {
     // The format has a field for the name.
     reserved: &[],
     is_case_sensitive: false,
+    tracking: Some(Tracking {
+        what: "tracking schedule",
+        numbers: 1..=6,
+    }),
     calls: Some(Calls {
         max_instructions: 9999,
         // The move switches the gun.
@@ -90,7 +97,7 @@ fn write(program: &Program<'_>, steps: &[Step], comments: &[String], name: &str)
                 add("L ", &format!("P[{number}] {speed}mm/sec {end}{gun}"));
             }
         }
-        let numbers = text::numbers(&LS, &step.to);
+        let numbers = text::numbers(&LS, &program.in_frame(&step.to));
         let [x, y, z, w, p, r] = numbers.as_slice() else {
             continue;
         };
@@ -153,6 +160,15 @@ fn whole(program: &Program<'_>, name: &str, moves: &Lines, points: &Lines) -> Li
     lines.add("      PAUSE_REQUEST\t= 0;");
     lines.add("DEFAULT_GROUP\t= 1,*,*,*,*;");
     lines.add("CONTROL_CODE\t= 00000000 00000000;");
+    if let Some(TrackingFrame { number, .. }) = program.settings.tracking {
+        lines.add("/APPL");
+        lines.add("");
+        lines.add("LINE_TRACK;");
+        lines.add(format!("  LINE_TRACK_SCHEDULE_NUMBER      : {number};"));
+        lines.add("  LINE_TRACK_BOUNDARY_NUMBER      : 1;");
+        lines.add("  CONTINUE_TRACK_AT_PROG_END      : FALSE;");
+        lines.add("");
+    }
     lines.add("/MN");
     lines.append(moves);
     lines.add("/POS");
@@ -216,6 +232,15 @@ mod tests {
             });
             (to, configuration, rail)
         };
+        if let Some((_, tracking)) = head.split_once("/APPL\r\n\r\nLINE_TRACK;\r\n") {
+            read.tracking = between(tracking, "LINE_TRACK_SCHEDULE_NUMBER      : ", ";").into();
+            assert_eq!(
+                between(tracking, "LINE_TRACK_BOUNDARY_NUMBER      : ", ";"),
+                "1"
+            );
+            let goes_on = between(tracking, "CONTINUE_TRACK_AT_PROG_END      : ", ";");
+            read.has_left = goes_on == "FALSE";
+        }
         read.name = between(head, "/PROG  ", "\r\n").into();
         let count = between(head, "LINE_COUNT\t= ", ";")
             .parse::<usize>()

@@ -48,6 +48,8 @@ pub struct RobotLanguage {
     pub(super) reserved: &'static [&'static str],
     /// Whether case matters in them.
     pub(super) is_case_sensitive: bool,
+    /// How its programs follow a line; none if that is not known.
+    pub(super) tracking: Option<Tracking>,
     /// How a path that is too long for one program is cut; none if programs are unlimited.
     pub(super) calls: Option<Calls>,
     /// Most letters of a comment, without the sign that begins it.
@@ -91,6 +93,14 @@ impl ToolName {
             Self::Active => false,
         }
     }
+}
+
+/// What moves the frame that follows a line.
+pub(super) struct Tracking {
+    /// Its name, before its number.
+    pub(super) what: &'static str,
+    /// Its numbers.
+    pub(super) numbers: RangeInclusive<u8>,
 }
 
 /// How a long path is cut into programs that a main program calls.

@@ -3,14 +3,19 @@
 //! Poses pos and orient; speeds speeddata in mm/s; accelerations `PathAccLim`; blends zonedata; the gun by `MoveLDO`, in the
 //! middle of the blend. The rail is `eax_a` ("extjoint"). ABB, *RAPID Instructions, Functions and Data types*.
 //!
+//! A line moves the work object of a conveyor: `ufprog` FALSE and `ufmec` its unit, CNV1 and so on. `ActUnit`, `WaitWObj` and
+//! `DropWObj` begin and end it, as in programs that others have published; before the end, the arm leaves it by a move in a
+//! fixed work object, here to where it is. A position must state an external axis that is active, and the conveyor is one: these
+//! state where each axis is. ABB, *Application manual `MultiMove`*, "Coordinated work objects", and the first book, "extjoint".
+//!
 //! Configuration: confdata. cfx 4: wrist behind axis 1; 2: wrist behind the lower arm; 1: axis 5 < 0. cf1, cf4 and cf6 are
 //! quarter turns. The same book, "confdata".
 
-use super::{RobotLanguage, ToolName};
+use super::{RobotLanguage, ToolName, Tracking};
 use crate::{
     Convention,
     program::{
-        JOINT_SPEED_SHARE, Program,
+        JOINT_SPEED_SHARE, Program, TrackingFrame,
         configuration::Posture,
         steps::{Motion, Step},
         text::{self, Lines},
@@ -35,6 +40,10 @@ pub(in crate::program) static RAPID: RobotLanguage = RobotLanguage {
     max_name: 28,
     reserved: &[WORDS, NAMES],
     is_case_sensitive: false,
+    tracking: Some(Tracking {
+        what: "conveyor",
+        numbers: 1..=6,
+    }),
     calls: None,
     comment_width: 78,
     line_end: "\r\n",
@@ -51,6 +60,8 @@ const WORDS: &str = "ALIAS AND BACKWARD CASE CONNECT CONST DEFAULT DIV DO ELSE E
 const NAMES: &str = "BASE MAIN USER";
 /// Name of the tool that is declared if the settings have the nozzle's pose.
 const OWN_TOOL: &str = "tPartsight";
+/// Name of the work object that is declared if a line moves the frame.
+const TRACKED_FRAME: &str = "wPartsight";
 /// Speed of linear external axes in v1000, mm/s; used if no rail moves.
 const DEFAULT_RAIL_SPEED_MM_S: f64 = 5000.0;
 /// Least limit that `PathAccLim` takes, m/s².
@@ -72,8 +83,25 @@ fn write(program: &Program<'_>, steps: &[Step], comments: &[String], name: &str)
             pose(nozzle)
         ));
     }
+    let tracking = settings.tracking.as_ref();
+    let frame = if tracking.is_some() {
+        TRACKED_FRAME
+    } else {
+        "wobj0"
+    };
+    if let Some(TrackingFrame { number, .. }) = tracking {
+        let none = "[[0,0,0],[1,0,0,0]]";
+        lines.add(format!(
+            "  LOCAL PERS wobjdata {TRACKED_FRAME}:=[FALSE,FALSE,\"CNV{number}\",{none},{none}];"
+        ));
+    }
     let signal = format!("doGun{}", settings.params.gun_output);
     lines.add(format!("  PROC run_{name}()"));
+    let here = format!("here:=CRobT(\\Tool:={tool}\\WObj:=wobj0);");
+    if tracking.is_some() {
+        lines.add("    VAR robtarget here;");
+        lines.add("    VAR extjoint axes;");
+    }
     // The first move takes the configuration that was checked, or stops; linear moves then keep it, even if an axis is
     // at the border of a quadrant.
     let is_known = steps
@@ -92,6 +120,12 @@ fn write(program: &Program<'_>, steps: &[Step], comments: &[String], name: &str)
         ));
     }
     lines.add(format!("    SetDO {signal},0;"));
+    if let Some(TrackingFrame { number, .. }) = tracking {
+        lines.add(format!("    ActUnit CNV{number};"));
+        lines.add(format!("    WaitWObj {TRACKED_FRAME};"));
+        lines.add(format!("    {here}"));
+        lines.add("    axes:=here.extax;");
+    }
     // The rail keeps to its top speed even where the nozzle hardly moves.
     let rail_speed = program
         .rail_speed()
@@ -106,8 +140,8 @@ fn write(program: &Program<'_>, steps: &[Step], comments: &[String], name: &str)
         match step.motion {
             Motion::Joints(gun) => {
                 lines.instruct(format!(
-                    "    MoveJ {},{slow},fine,{tool}\\WObj:=wobj0;",
-                    target(step)
+                    "    MoveJ {},{slow},fine,{tool}\\WObj:={frame};",
+                    target(program, step)
                 ));
                 if let Some(is_on) = gun {
                     lines.instruct(format!("    SetDO {signal},{};", u8::from(is_on)));
@@ -121,13 +155,18 @@ fn write(program: &Program<'_>, steps: &[Step], comments: &[String], name: &str)
                     None => ("MoveL", String::new()),
                 };
                 lines.instruct(format!(
-                    "    {verb} {},[{speed},500,{rail},1000],{zone},{tool}\\WObj:=wobj0{signal};",
-                    target(step)
+                    "    {verb} {},[{speed},500,{rail},1000],{zone},{tool}\\WObj:={frame}{signal};",
+                    target(program, step)
                 ));
             }
         }
     }
     lines.add(format!("    SetDO {signal},0;"));
+    if tracking.is_some() {
+        lines.add(format!("    {here}"));
+        lines.add(format!("    MoveL here,{slow},fine,{tool}\\WObj:=wobj0;"));
+        lines.add(format!("    DropWObj {TRACKED_FRAME};"));
+    }
     lines.add("  ENDPROC");
     lines.add("ENDMODULE");
     lines
@@ -142,12 +181,16 @@ fn pose(pose: &RigidTransform) -> String {
     )
 }
 
-fn target(step: &Step) -> String {
-    let pose = pose(&step.to);
+fn target(program: &Program<'_>, step: &Step) -> String {
+    let pose = pose(&program.in_frame(&step.to));
     let inner = &pose[1..pose.len() - 1];
     let configuration = step.configuration.as_deref().unwrap_or("[0,0,0,0]");
-    let rail = step.rail.map_or_else(|| "9E9".into(), text::rail_mm);
-    format!("[{inner},{configuration},[{rail},9E9,9E9,9E9,9E9,9E9]]")
+    let axes = match step.rail {
+        _ if program.settings.tracking.is_some() => "axes".into(),
+        Some(rail) => format!("[{},9E9,9E9,9E9,9E9,9E9]", text::rail_mm(rail)),
+        None => "[9E9,9E9,9E9,9E9,9E9,9E9]".to_owned(),
+    };
+    format!("[{inner},{configuration},{axes}]")
 }
 
 /// Scaled like z5 and the other predefined zones: the tool turns within 1.5 times the radius.
@@ -192,7 +235,7 @@ mod tests {
     /// Reads a program back by the controller's manual, independently of the writer.
     pub(super) fn read(text: &str) -> Read {
         let mut read = Read::default();
-        let mut acceleration = None;
+        let (mut acceleration, mut is_leaving) = (None, false);
         for line in text.lines().map(str::trim) {
             if let Some(comment) = line.strip_prefix("! ") {
                 read.comments.push(comment.into());
@@ -206,7 +249,25 @@ mod tests {
                 let (output, state) = rest.trim_end_matches(';').split_once(',').expect("two");
                 read.output = output.into();
                 read.is_gun_on = state == "1";
+            } else if let Some(frame) = line.strip_prefix("LOCAL PERS wobjdata wPartsight:=") {
+                read.tracking = between(frame, "[FALSE,FALSE,\"CNV", "\",[[0,0,0],").into();
+            } else if let Some(unit) = line.strip_prefix("ActUnit CNV") {
+                assert_eq!(unit.trim_end_matches(';'), read.tracking);
+            } else if line == "WaitWObj wPartsight;" {
+                assert!(read.moves.is_empty());
+            } else if line.starts_with("MoveL here,") {
+                assert!(line.ends_with("\\WObj:=wobj0;") && !read.is_gun_on);
+                is_leaving = true;
+            } else if line == "DropWObj wPartsight;" {
+                read.has_left = is_leaving;
             } else if line.starts_with("Move") {
+                let frame = if read.tracking.is_empty() {
+                    "\\WObj:=wobj0"
+                } else {
+                    "\\WObj:=wPartsight"
+                };
+                let axes = ",[9E9,9E9,9E9,9E9,9E9,9E9]],";
+                let line = &line.replace(",axes],", axes);
                 let n = numbers(line);
                 let turn = Quaternion::new(n[3], n[4], n[5], n[6]);
                 assert!((turn.norm() - 1.0).abs() < 1e-6);
@@ -217,7 +278,7 @@ mod tests {
                 let configuration = target.rsplit_once(",[").expect("a configuration").1;
                 let rest = between(line, unused, ";");
                 let (speed, rest) = rest.split_once("],").expect("a speed");
-                let (tool, gun) = rest.split_once("\\WObj:=wobj0").expect("a frame");
+                let (tool, gun) = rest.split_once(frame).expect("a frame");
                 let is_exact = tool.starts_with("fine,");
                 read.tool = tool.rsplit_once(',').expect("a tool").1.into();
                 read.moves.push(Move {

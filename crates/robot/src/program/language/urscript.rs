@@ -3,8 +3,15 @@
 //! Poses p[…]; speeds in m/s; accelerations `a`; blends `r`; the gun by `set_standard_digital_out`. The controller runs what
 //! follows a blended move as it enters the blend, so a blend is at most 5 mm where the gun switches. There are no external
 //! axes. Universal Robots, *Script Manual*, and *User Manual*, "Blending".
+//!
+//! A line moves all positions, from where they are as `track_conveyor_linear` begins. So the function gets the count at which
+//! the part was where the path is, and moves the frame by the way since then; its other argument is that of
+//! `track_conveyor_linear`. The encoder is set up before (`encoder_enable_pulse_decode`). *Script Manual*, and *Conveyor
+//! tracking guide (CB3 ≥ 3.8 and e-Series ≥ 5.2)*.
 
-use super::{RobotLanguage, ToolName};
+use nalgebra::Vector3;
+
+use super::{RobotLanguage, ToolName, Tracking};
 use crate::{
     Convention,
     program::{
@@ -32,6 +39,10 @@ pub(in crate::program) static URSCRIPT: RobotLanguage = RobotLanguage {
     max_name: 64,
     reserved: &[WORDS],
     is_case_sensitive: true,
+    tracking: Some(Tracking {
+        what: "encoder",
+        numbers: 0..=1,
+    }),
     calls: None,
     comment_width: 98,
     line_end: "\n",
@@ -42,7 +53,9 @@ pub(in crate::program) static URSCRIPT: RobotLanguage = RobotLanguage {
 
 /// Also the functions that a program calls: it would call itself instead.
 const WORDS: &str = "False True and break continue def elif else end global halt if join kill local not or \
-    return run sec thread while xor movej movel set_standard_digital_out set_tcp";
+    return run sec thread while xor movej movel set_standard_digital_out set_tcp track_conveyor_linear \
+    stop_conveyor_tracking encoder_get_tick_count encoder_unwind_delta_tick_count pose_trans count ticks_per_meter way \
+    frame";
 /// Joint speed limit of the arms, rad/s.
 const MAX_JOINT_SPEED: f64 = std::f64::consts::PI;
 
@@ -57,7 +70,9 @@ fn write(program: &Program<'_>, steps: &[Step], comments: &[String], name: &str)
         )
     };
     let mut lines = Lines::default();
-    lines.add(format!("def {name}():"));
+    let tracking = settings.tracking.as_ref();
+    let arguments = tracking.map_or("", |_| "count, ticks_per_meter");
+    lines.add(format!("def {name}({arguments}):"));
     for comment in comments {
         lines.add(format!("  # {comment}"));
     }
@@ -65,17 +80,37 @@ fn write(program: &Program<'_>, steps: &[Step], comments: &[String], name: &str)
         lines.add(format!("  set_tcp({})", pose(tool)));
     }
     lines.add(gun(false));
+    if let Some(frame) = tracking {
+        let number = frame.number;
+        let direction = frame.robot_from_frame * Vector3::x();
+        let direction: Vec<String> = direction.iter().map(|part| text::fixed(*part, 6)).collect();
+        lines.add(format!(
+            "  track_conveyor_linear(p[{}, 0, 0, 0], ticks_per_meter, {number})",
+            direction.join(", ")
+        ));
+        lines.add(format!(
+            "  way = encoder_unwind_delta_tick_count({number}, encoder_get_tick_count({number}) - count) / ticks_per_meter"
+        ));
+        lines.add(format!(
+            "  frame = pose_trans({}, p[way, 0, 0, 0, 0, 0])",
+            pose(&frame.robot_from_frame)
+        ));
+    }
+    let target = |to: &RigidTransform| match tracking {
+        Some(_) => format!("pose_trans(frame, {})", pose(&program.in_frame(to))),
+        None => pose(to),
+    };
     let acceleration = text::fixed(program.line_acceleration(), 3);
     for step in steps {
         match step.motion {
             Motion::Joints(_) => {
                 let speed = text::fixed(JOINT_SPEED_SHARE * MAX_JOINT_SPEED, 3);
-                lines.instruct(format!("  movej({}, a=0.5, v={speed})", pose(&step.to)));
+                lines.instruct(format!("  movej({}, a=0.5, v={speed})", target(&step.to)));
             }
             Motion::Line(line) => {
                 lines.instruct(format!(
                     "  movel({}, a={acceleration}, v={}, r={})",
-                    pose(&step.to),
+                    target(&step.to),
                     text::fixed(line.speed, 6),
                     text::fixed(line.blend, 5)
                 ));
@@ -86,6 +121,9 @@ fn write(program: &Program<'_>, steps: &[Step], comments: &[String], name: &str)
         }
     }
     lines.add(gun(false));
+    if tracking.is_some() {
+        lines.add("  stop_conveyor_tracking()");
+    }
     lines.add("end");
     lines
 }
@@ -119,7 +157,17 @@ mod tests {
             if let Some(comment) = line.strip_prefix("# ") {
                 read.comments.push(comment.into());
             } else if let Some(name) = line.strip_prefix("def ") {
-                read.name = name.trim_end_matches("():").into();
+                let (name, arguments) = name.split_once('(').expect("arguments");
+                read.name = name.into();
+                assert!(["):", "count, ticks_per_meter):"].contains(&arguments));
+            } else if let Some(rest) = line.strip_prefix("track_conveyor_linear(p[") {
+                let (direction, encoder) = rest.split_once("], ticks_per_meter, ").expect("both");
+                read.tracking = encoder.trim_end_matches(')').into();
+                let n = numbers(direction);
+                assert_eq!(n[3..], [0.0; 3]);
+                read.direction = Some(Vector3::new(n[0], n[1], n[2]));
+            } else if line.starts_with("stop_conveyor_tracking") {
+                read.has_left = true;
             } else if let Some(rest) = line.strip_prefix("set_standard_digital_out(") {
                 let (output, state) = rest.split_once(", ").expect("two");
                 read.output = output.into();
@@ -133,6 +181,8 @@ mod tests {
             } else if line.starts_with("move") {
                 let is_line = line.starts_with("movel(");
                 let value = |name: &str| numbers(line.split_once(name).expect(name).1)[0];
+                let in_frame = line.contains("(pose_trans(frame, p[");
+                assert_eq!(in_frame, !read.tracking.is_empty());
                 blend = is_line.then(|| value(" r="));
                 read.moves.push(Move {
                     to: pose(line),

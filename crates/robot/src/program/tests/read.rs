@@ -34,6 +34,12 @@ pub(in crate::program) struct Read {
     pub(in crate::program) moves: Vec<Move>,
     /// Names of called programs, in order.
     pub(in crate::program) calls: Vec<String>,
+    /// Number of what moves the frame; empty if it stands still.
+    pub(in crate::program) tracking: String,
+    /// Direction in which it moves, in the robot's base frame, where the program says it.
+    pub(in crate::program) direction: Option<Vector3<f64>>,
+    /// True if the program ends the following.
+    pub(in crate::program) has_left: bool,
     /// Gun state after the last line.
     pub(in crate::program) is_gun_on: bool,
 }
