@@ -81,8 +81,8 @@ const SPEED_LASTS: Duration = Duration::from_secs(10);
 const MIN_REFUSED: usize = 3;
 /// Way for which the line must have carried it: what stands beside the line stays near its place for less.
 const MIN_CARRIED_M: f64 = 0.3;
-/// Most sightings of a part that are kept.
-const MAX_SIGHTINGS: usize = 12;
+/// Most sightings of a part that are kept: more than a fast computer takes while they count.
+const MAX_SIGHTINGS: usize = 100;
 
 /// A part on the line.
 struct Track<E> {

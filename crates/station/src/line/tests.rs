@@ -97,12 +97,13 @@ fn moment(seconds: f64, count: Option<f64>) -> Moment {
     }
 }
 
-/// The frames at 5 a second of parts that start at these ways, in metres, and of a line of this speed; `off` moves a part beside
+/// The frames at `rate` a second of parts that start at these ways, in metres, and of a line of this speed; `off` moves a part beside
 /// its place on the line, and `lost` is the share of the way that the encoder loses, if there is one.
 struct Run<'a> {
     line: LineCalibration,
     starts: &'a [f64],
     speed: f64,
+    rate: f64,
     lost: Option<f64>,
     off: &'a dyn Fn(f64) -> RigidTransform,
 }
@@ -115,8 +116,8 @@ impl Run<'_> {
     fn rows(self, seen: &Seen, seconds: f64) -> (Vec<Row>, Option<(LinePose, RigidTransform)>) {
         let mut tracker = LineTracker::new(self.line.clone());
         let (mut rows, mut last) = (Vec::new(), None);
-        for k in 0..(5.0 * seconds) as u32 {
-            let now = f64::from(k) / 5.0;
+        for k in 0..(self.rate * seconds) as u32 {
+            let now = f64::from(k) / self.rate;
             let way = self.speed * now;
             let count = self
                 .lost
@@ -165,6 +166,7 @@ fn parts_that_a_line_carries_are_recorded_once_each_and_have_a_pose_at_every_cou
             line: line(|line| line.slip = slip),
             starts: &[-0.45, -1.0, -1.5],
             speed: 0.1,
+            rate: 5.0,
             lost,
             off: &still,
         };
@@ -213,6 +215,7 @@ fn a_part_that_swings_is_moving_and_recorded_once_without_a_number() {
                 line: line(|_| ()),
                 starts: &[-0.45],
                 speed: 0.1,
+                rate: 5.0,
                 lost,
                 off: &swing,
             };
@@ -226,6 +229,26 @@ fn a_part_that_swings_is_moving_and_recorded_once_without_a_number() {
 }
 
 #[test]
+fn a_part_counts_as_soon_however_fast_its_frames_are_inspected() {
+    let seen = Seen::new();
+    for lost in [Some(0.0), None] {
+        let run = Run {
+            line: line(|_| ()),
+            starts: &[-0.45],
+            speed: 0.1,
+            rate: 30.0,
+            lost,
+            off: &still,
+        };
+        let (rows, _) = run.rows(&seen, 4.0);
+        let [(at, Some(1), None)] = &rows[..] else {
+            panic!("{lost:?}: {rows:?}");
+        };
+        assert!((0.5..1.2).contains(at), "{lost:?}: {rows:?}");
+    }
+}
+
+#[test]
 fn a_line_that_stands_carries_its_parts_nowhere_and_one_too_fast_for_the_exposure_smears_them() {
     let seen = Seen::new();
     let run = |speed: f64, exposure: f64| {
@@ -233,6 +256,7 @@ fn a_line_that_stands_carries_its_parts_nowhere_and_one_too_fast_for_the_exposur
             line: line(|line| line.exposure = exposure),
             starts: &[-0.45],
             speed,
+            rate: 5.0,
             lost: Some(0.0),
             off: &still,
         };
