@@ -347,7 +347,7 @@ fn an_old_capture_is_in_no_output_a_pose_for_the_robot_unless_it_is_forced() {
     let table = place.read("all.csv");
     let last: Vec<&str> = table
         .lines()
-        .filter_map(|row| row.rsplit(',').nth(1))
+        .filter_map(|row| row.rsplit(',').nth(2))
         .collect();
     assert_eq!(last, ["robot_doubts", "", "old", "old"], "{table}");
 
