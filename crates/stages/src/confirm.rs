@@ -340,8 +340,8 @@ impl PreparedScene<'_> {
         });
     }
 
-    /// Looks closely at those of which the best may be told only by its score, where some of them are expected and some are not,
-    /// and puts the expected one first that leads over all the others.
+    /// Where parts that score alike include expected and unexpected ones: compares them by every reading, and puts first the
+    /// expected one that leads over all unexpected ones.
     fn put_expected_first(&self, tried: &mut [Tried<'_>], references: &[Reference]) {
         let best = tried.first().map_or(0.0, |first| odds(first.score));
         let num_within = |tried: &[Tried<'_>], least: f64| {
