@@ -20,8 +20,6 @@ mod unsound;
 mod verdict;
 mod watch;
 
-use std::slice;
-
 use nalgebra::Point3;
 
 use crate::library::Library;
@@ -113,11 +111,23 @@ impl Recipe {
         }
     }
 
-    /// The maximum number of accepted parts: [`SegmentParams::max_parts`], or more if more are expected, or the rack has more
-    /// places.
+    /// The maximum number of accepted parts: [`SegmentParams::max_parts`], or more if the rack has more places; as many as a
+    /// frame can show if parts are expected, so that none is overlooked that is not.
     pub fn max_parts(&self) -> usize {
-        let known = [self.expected.parts().len(), self.rack.places.len()];
-        known.into_iter().fold(self.segment.max_parts, usize::max)
+        if self.expected.is_empty() {
+            self.segment.max_parts.max(self.rack.places.len())
+        } else {
+            MAX_PARTS
+        }
+    }
+
+    /// True if what hangs there, by the inspections of a frame, is as expected; if nothing is expected, if each part is accepted.
+    pub fn is_met(&self, found: &[Inspection]) -> bool {
+        if self.expected.is_empty() {
+            found.iter().all(|one| one.verdict.is_accepted())
+        } else {
+            self.expected.is_met(&found.iter().collect::<Vec<_>>())
+        }
     }
 
     /// What should hang there: what the caller expects; if that is nothing, what the recipe does, of enrolled parts and in this
@@ -194,7 +204,7 @@ pub struct Inspection {
 }
 
 /// Inspects a scene: which enrolled part hangs there, and where. Of several, it is the likeliest, as [`SegmentParams`]
-/// defines it; [`run_all`] finds the others too.
+/// defines it, or, if parts are expected, the first of those that is accepted; [`run_all`] finds the others too.
 ///
 /// If nothing is enrolled or found, the inspection still holds the results of the earlier stages. A panic in a stage
 /// becomes the verdict [`Unrecognisable::Fault`].
@@ -204,32 +214,19 @@ pub fn run(
     recipe: &Recipe,
     watch: &dyn ProgressObserver,
 ) -> Result<Inspection, Cancelled> {
-    let ahead = &mut SurfacesAhead::new(1);
-    let mut inspection = likeliest(scene, library, recipe, watch, ahead)?;
-    let found = slice::from_mut(&mut inspection);
-    recipe.expected.refuse_others(found);
-    Ok(inspection)
-}
-
-/// Inspects the likeliest part, whatever is expected.
-fn likeliest(
-    scene: &SceneCloud,
-    library: &Library,
-    recipe: &Recipe,
-    watch: &dyn ProgressObserver,
-    ahead: &mut SurfacesAhead,
-) -> Result<Inspection, Cancelled> {
-    inspect(scene, library, recipe, watch, ahead, || {
-        Some(segment_in(scene, &recipe.rack, &recipe.segment))
-    })
-    .map(|inspection| inspection.expect("a scene has a segmentation"))
+    let ahead = SurfacesAhead::new(1);
+    let expected = &recipe.expected;
+    let mut found = inspect_until(scene, library, recipe, watch, ahead, |found| {
+        expected.is_empty() || expected.has_any(found)
+    })?;
+    let accepted = found.iter().position(|one| one.verdict.is_accepted());
+    Ok(found.swap_remove(accepted.unwrap_or(0)))
 }
 
 /// Inspects a surface after the other of a scene, until nothing of a part's size is left that is neither background nor
 /// explained. Returns an inspection for each, those of accepted parts first, in the order of the rack's places, and from left
 /// to right in the picture. At most
-/// [`Recipe::max_parts`] are accepted; of one, the inspection is that of [`run`]. If parts are expected, it also looks on
-/// behind one that is not.
+/// [`Recipe::max_parts`] are accepted; of one, the inspection is that of [`run`].
 ///
 /// What an accepted part explains are the readings at its reference in its pose, and no other part has them.
 pub fn run_all(
@@ -239,34 +236,11 @@ pub fn run_all(
     watch: &dyn ProgressObserver,
 ) -> Result<Vec<Inspection>, Cancelled> {
     let max_parts = recipe.max_parts();
-    let ahead = &mut SurfacesAhead::new(max_parts);
-    let mut found = vec![likeliest(scene, library, recipe, watch, ahead)?];
-    let mut known = Vec::new();
-    let expected = &recipe.expected;
-    // One other thing may hang between two parts. Of one part, the surface that was inspected is the likeliest. Beside the
-    // places of a rack may hang as much as a frame can show.
-    let max_surfaces = if recipe.rack.places.is_empty() {
-        2 * max_parts - usize::from(expected.is_empty())
-    } else {
-        max_parts + MAX_PARTS
-    };
-    for _ in 1..max_surfaces {
-        let num_accepted = found.iter().filter(|i| i.verdict.is_accepted()).count();
-        let all: Vec<&Inspection> = found.iter().collect();
-        let is_complete = num_accepted >= max_parts && expected.missing(&all).is_empty();
-        let last = found.last().filter(|_| !is_complete);
-        let Some(last) = last else { break };
-        known.extend(explained(last, scene, library));
-        let next = inspect(scene, library, recipe, watch, ahead, || {
-            let areas = found.iter().map(Inspection::area);
-            let largest = areas.fold(0.0, f64::max);
-            let first = &found[0].segmentation;
-            first.without(scene, &known, largest, &recipe.segment)
-        })?;
-        let Some(next) = next else { break };
-        found.push(next);
-    }
-    expected.refuse_others(&mut found);
+    let ahead = SurfacesAhead::new(max_parts);
+    let mut found = inspect_until(scene, library, recipe, watch, ahead, |found| {
+        let accepted = found.iter().filter(|one| one.verdict.is_accepted());
+        accepted.count() >= max_parts
+    })?;
     let place = |one: &Inspection| {
         let mut places = recipe.rack.places.iter();
         let index = places.position(|place| Some(&place.name) == one.place.as_ref());
@@ -277,6 +251,45 @@ pub fn run_all(
         let from_left = a.direction().total_cmp(&b.direction());
         rank(a).cmp(&rank(b)).then(from_left)
     });
+    Ok(found)
+}
+
+/// Inspects the likeliest surface of a scene, and the next one until these are enough or none is left, and refuses the accepted
+/// parts that are not expected. Returns at least one inspection, in the order in which they were made.
+fn inspect_until(
+    scene: &SceneCloud,
+    library: &Library,
+    recipe: &Recipe,
+    watch: &dyn ProgressObserver,
+    mut ahead: SurfacesAhead,
+    is_enough: impl Fn(&[Inspection]) -> bool,
+) -> Result<Vec<Inspection>, Cancelled> {
+    let max_parts = recipe.max_parts();
+    // One other thing may hang between two parts. Of one part, the surface that was inspected is the likeliest. Beside the
+    // places of a rack may hang as much as a frame can show.
+    let max_surfaces = if recipe.rack.places.is_empty() {
+        2 * max_parts - 1
+    } else {
+        max_parts + MAX_PARTS
+    };
+    let first = inspect(scene, library, recipe, watch, &mut ahead, || {
+        Some(segment_in(scene, &recipe.rack, &recipe.segment))
+    })?;
+    let mut found = vec![first.expect("a scene has a segmentation")];
+    let mut known = Vec::new();
+    while found.len() < max_surfaces && !is_enough(&found) {
+        let last = &found[found.len() - 1];
+        known.extend(explained(last, scene, library));
+        let next = inspect(scene, library, recipe, watch, &mut ahead, || {
+            let areas = found.iter().map(Inspection::area);
+            let largest = areas.fold(0.0, f64::max);
+            let first = &found[0].segmentation;
+            first.without(scene, &known, largest, &recipe.segment)
+        })?;
+        let Some(next) = next else { break };
+        found.push(next);
+    }
+    recipe.expected.refuse_others(&mut found);
     Ok(found)
 }
 
@@ -515,7 +528,7 @@ mod tests {
             ..Recipe::default()
         };
         assert_eq!(expecting.identity(), Recipe::default().identity());
-        assert_eq!(expecting.max_parts(), 1);
+        assert_eq!(expecting.max_parts(), MAX_PARTS);
     }
 
     #[test]

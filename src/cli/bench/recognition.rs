@@ -80,7 +80,7 @@ struct RecognitionFile<'a> {
     racks: Vec<RackFigures>,
     /// Racks that were inspected with an expectation.
     #[serde(skip_serializing_if = "Option::is_none")]
-    expected: Option<&'a [ExpectationFigures; 3]>,
+    expected: Option<&'a [ExpectationFigures; 4]>,
     closest: &'a [NearestMistake],
     #[serde(skip_serializing_if = "Option::is_none")]
     table1: Option<&'a SystemsTable>,
@@ -264,7 +264,7 @@ impl Frames {
         libraries: &SuiteLibraries,
         recipe: &Recipe,
         console: &mut Console,
-    ) -> Option<[ExpectationFigures; 3]> {
+    ) -> Option<[ExpectationFigures; 4]> {
         let racks = (self.suites.iter()).filter(|(suite, _)| suite.rack().is_some());
         let racks: Vec<_> = racks.collect();
         if racks.is_empty() {
@@ -445,7 +445,8 @@ fn show_expected(figures: &[ExpectationFigures], console: &mut Console) {
     console.line(&"");
     console.line(
         &"Racks with an expectation: the right one, one with another part instead of one that hangs there, and one with a part \
-          more. Right is: as expected; the wrong part told, with the expected one; the missing part told.",
+          more, and one of the parts that hang there alone. Right is: as expected; the wrong part told, with the expected one; the \
+          missing part told; the one part accepted, and as expected only if no other hangs there.",
     );
     console.line(&"");
     let mut table = Table::new(&[

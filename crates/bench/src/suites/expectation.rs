@@ -1,4 +1,5 @@
-//! Racks that are inspected with an expectation: the right one, one with another part, and one with a part more.
+//! Racks that are inspected with an expectation: the right one, one with another part, one with a part more, and one part
+//! alone of those that hang there.
 
 use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64;
@@ -22,11 +23,13 @@ pub enum Expectation {
     Wrong,
     /// One more enrolled part than hangs there.
     Missing,
+    /// One of those that hang there alone.
+    One,
 }
 
 impl Expectation {
     /// All of them; the frames of a suite have them in turn.
-    pub const ALL: [Self; 3] = [Self::Right, Self::Wrong, Self::Missing];
+    pub const ALL: [Self; 4] = [Self::Right, Self::Wrong, Self::Missing, Self::One];
 
     /// Returns the name used in tables.
     pub fn name(self) -> &'static str {
@@ -34,6 +37,7 @@ impl Expectation {
             Self::Right => "right",
             Self::Wrong => "wrong",
             Self::Missing => "missing",
+            Self::One => "one of them",
         }
     }
 }
@@ -50,13 +54,13 @@ pub struct ExpectationFigures {
     /// Number of frames that were called as expected.
     pub num_met: usize,
     /// Number of frames with the right verdict: as expected; the replaced part is named with the one that is expected
-    /// instead; the absent part is missing.
+    /// instead; the absent part is missing; the one part is accepted, and it is as expected only if nothing else hangs there.
     pub num_right: usize,
 }
 
 impl ExpectationFigures {
     /// Creates the figures of each expectation, without frames.
-    pub fn none() -> [Self; 3] {
+    pub fn none() -> [Self; 4] {
         Expectation::ALL.map(|expectation| Self {
             expectation,
             num_frames: 0,
@@ -74,11 +78,11 @@ pub fn add_expected_racks(
     frames: &[SuiteFrame],
     library: &Library,
     recipe: &Recipe,
-    figures: &mut [ExpectationFigures; 3],
+    figures: &mut [ExpectationFigures; 4],
     mut after_each: impl FnMut(),
 ) {
     for (place, frame) in frames.iter().enumerate() {
-        figures[place % 3].add(suite, frame, library, recipe);
+        figures[place % Expectation::ALL.len()].add(suite, frame, library, recipe);
         after_each();
     }
 }
@@ -104,9 +108,19 @@ impl ExpectationFigures {
                 replaced = Some(std::mem::replace(&mut names[place], absent.clone()));
             }
             Expectation::Missing => names.push(absent.clone()),
+            Expectation::One => {
+                let one = random.random_range(0..names.len());
+                names.swap(0, one);
+            }
         }
         let mut recipe = recipe.clone();
-        let parts = names.iter().map(|name| name.as_str().into());
+        let num_expected = match self.expectation {
+            Expectation::One => 1,
+            _ => names.len(),
+        };
+        let parts = names[..num_expected]
+            .iter()
+            .map(|name| name.as_str().into());
         let expected = Expected::new(parts.collect(), Some(&recipe.rack), |_| true);
         recipe.expected = expected.expect("up to 6 parts");
         let scene = scene_from_frame(&shot.frame);
@@ -115,11 +129,18 @@ impl ExpectationFigures {
         let all: Vec<&Inspection> = found.iter().collect();
         let is_met = recipe.expected.is_met(&all);
         let is_right = match &replaced {
-            None if self.expectation == Expectation::Right => is_met,
-            None => {
-                let missing = recipe.expected.missing(&all);
-                missing.iter().any(|part| part.name == absent)
-            }
+            None => match self.expectation {
+                Expectation::Missing => {
+                    let missing = recipe.expected.missing(&all);
+                    missing.iter().any(|part| part.name == absent)
+                }
+                Expectation::One => {
+                    let mut accepted = all.iter().filter(|one| one.verdict.is_accepted());
+                    let is_found = accepted.any(|one| one.verdict.guess() == Some(&names[0]));
+                    is_found && is_met == (names.len() == 1)
+                }
+                Expectation::Right | Expectation::Wrong => is_met,
+            },
             Some(replaced) => all.iter().any(|one| {
                 matches!(one.verdict.rejected(), Some(Rejection::WrongPart { part, expected })
                     if part == replaced && *expected == absent)
@@ -140,16 +161,16 @@ mod tests {
     use inspection::library::EnrolParams;
 
     #[test]
-    fn a_right_a_wrong_and_a_missing_part_are_told_apart() {
+    fn right_wrong_missing_and_surplus_parts_are_told_apart() {
         let libraries = SuiteLibraries::enrol(&EnrolParams::default()).expect("eight parts");
         let suite = Suite::RackApart;
-        let frames = suite.frames(3, TUNING_SEED);
+        let frames = suite.frames(4, TUNING_SEED);
         let mut figures = ExpectationFigures::none();
         let (library, recipe) = (libraries.of(suite), Recipe::default());
         let mut num = 0;
         add_expected_racks(suite, &frames, library, &recipe, &mut figures, || num += 1);
-        assert_eq!(num, 3);
-        for (figures, is_met) in figures.iter().zip([1, 0, 0]) {
+        assert_eq!(num, 4);
+        for (figures, is_met) in figures.iter().zip([1, 0, 0, 0]) {
             let nums = [
                 figures.num_frames,
                 figures.num_wrong_accepted,

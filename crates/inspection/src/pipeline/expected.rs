@@ -323,6 +323,13 @@ impl Expected {
         (left, surplus)
     }
 
+    /// True if any expected part is accepted where it should hang.
+    pub(super) fn has_any(&self, found: &[Inspection]) -> bool {
+        let (_, surplus) = self.matched(&found.iter().collect::<Vec<_>>());
+        let accepted = found.iter().filter(|one| one.verdict.is_accepted());
+        accepted.count() > surplus.len()
+    }
+
     /// The part that is expected at a place itself.
     fn at(&self, place: Option<&str>) -> Option<&ExpectedPart> {
         let mut parts = self.0.iter();

@@ -10,7 +10,9 @@ use geometry::{
 };
 use inspection::{
     library::{Library, enrolment_pose},
-    pipeline::{Inspection, ProgressObserver, Recipe, Stage, Unwatched, run, run_all},
+    pipeline::{
+        Expected, Inspection, ProgressObserver, Recipe, Rejection, Stage, Unwatched, run, run_all,
+    },
 };
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 use simulate::{
@@ -205,6 +207,39 @@ fn one_part_is_inspected_as_ever() {
     let found = all_in(&alone, &library, 4);
     assert_eq!(found.len(), 1);
     check(&found[0], &parts[0]);
+}
+
+#[test]
+fn the_expected_one_of_several_is_found_and_the_others_are_not_expected() {
+    let library = standard();
+    let (scene, parts) = rack(RackKind::Apart, 3, 4);
+    let names = parts.iter().map(|hung| match hung.subject {
+        SimulatedObject::Part { kind, .. } => kind.name(),
+        _ => panic!("parts hang there"),
+    });
+    let names: Vec<&str> = names.collect();
+    for (name, hung) in names.iter().zip(&parts) {
+        let expected = Expected::new(vec![(*name).into()], None, |_| true);
+        let recipe = Recipe {
+            expected: expected.expect("a part"),
+            ..Recipe::default()
+        };
+        let one = run(&scene, &library, &recipe, &Unwatched).expect("not cancelled");
+        check(&one, hung);
+        let all = run_all(&scene, &library, &recipe, &Unwatched).expect("not cancelled");
+        assert_eq!(all.len(), 3);
+        check(&all[0], hung);
+        for other in &all[1..] {
+            let rejected = other.verdict.rejected();
+            assert!(
+                matches!(rejected, Some(Rejection::NotExpected { part }) if part != name),
+                "{name} of {names:?}: {rejected:?}"
+            );
+        }
+        let all: Vec<&Inspection> = all.iter().collect();
+        assert!(!recipe.expected.is_met(&all));
+        assert!(recipe.expected.missing(&all).is_empty());
+    }
 }
 
 #[test]
