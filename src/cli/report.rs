@@ -23,7 +23,7 @@ use super::{
 };
 use inspection::{
     library::{LibraryLoad, PartMeta},
-    pipeline::{self, Inspection, NamedRecipe, Unwatched},
+    pipeline::{Inspection, NamedRecipe, Unwatched, run_all},
 };
 use records::{
     history::Traceability,
@@ -39,7 +39,7 @@ use stages::{
     scene::{EmptyCell, SceneCloud},
     stand_off::stand_off,
 };
-use station::{Inspected, Subject};
+use station::{Inspected, Subject, robot_file::file_of_part};
 
 /// Write a pose report for captured scenes: which part it is, and its pose in the robot's convention
 #[derive(Debug, Args)]
@@ -53,7 +53,8 @@ Examples:
   partsight report --conventions
   partsight report --schema > pose-report.schema.json
 
-Writes FILE.pose.json and FILE.pose.pdf for each file; csv appends a row to poses.CONVENTION.csv. A part that is not
+Writes FILE.pose.json and FILE.pose.pdf for each file; of several parts of a frame FILE_1, FILE_2 and so on. csv appends a row for
+each part to poses.CONVENTION.csv. A part that is not
 accepted, or about which there are doubts, is reported too, without numbers that a robot could move by.
 Files: PCD, PLY, XYZ or CSV text, or a 16-bit depth PNG with its intrinsics in a JSON beside it; metres.
 Exit codes: 0 every input accepted, 1 something was not accepted, 2 something could not be read or written.")]
@@ -213,43 +214,58 @@ impl Reporter<'_> {
         };
         warn_of(path, &warnings, console);
         before(&mut scene, self.empty_cell.as_ref(), &name, console);
-        let inspection = pipeline::run(&scene, &self.load.library, &self.recipe, &Unwatched)?;
+        let found = run_all(&scene, &self.load.library, &self.recipe, &Unwatched)?;
         let scene = Arc::new(scene);
+        let mut outcome = Outcome::accepted_if(self.recipe.is_met(&found));
+        for (number, inspection) in (1..).zip(&found) {
+            let of_part = (found.len() > 1).then(|| file_of_part(path, number));
+            let written = self.report_part(&scene, inspection, (path, of_part), console);
+            // Go on: the next report may fit on the disk, or the stick may be back.
+            if let Err(error) = written {
+                console.error(&error);
+                outcome = Outcome::CouldNotRun;
+            }
+        }
+        Ok(outcome)
+    }
+
+    /// Reports one part of the scene of a file; `of_part` names its report if there are several.
+    fn report_part(
+        &mut self,
+        scene: &Arc<SceneCloud>,
+        inspection: &Inspection,
+        (path, of_part): (&Path, Option<PathBuf>),
+        console: &mut Console,
+    ) -> anyhow::Result<()> {
         let is_simulated = self.args.simulated || scene.cloud.is_simulated;
         let report = self.report_of(&Inspected {
             subject: &Subject::of_file(path, is_simulated),
-            scene: &scene,
-            inspection: &inspection,
+            scene,
+            inspection,
             recipe: &self.recipe,
             robot: self.robot.as_ref(),
             is_forced: self.args.force,
             on_line: None,
         });
-        match self.write(path, &scene, &inspection, &report, console) {
-            Ok(written) => {
-                let verdict = &report.verdict;
-                let part = verdict.part.as_deref().unwrap_or(verdict.status);
-                let accepted = if verdict.accepted {
-                    "accepted"
-                } else {
-                    "NOT ACCEPTED"
-                };
-                let written: Vec<String> = written
-                    .iter()
-                    .map(|path| path.display().to_string())
-                    .collect();
-                console.line(&format_args!(
-                    "{name}: {part}, {accepted}: {}",
-                    written.join(", ")
-                ));
-                Ok(Outcome::accepted_if(verdict.accepted))
-            }
-            // Go on: the next report may fit on the disk, or the stick may be back.
-            Err(error) => {
-                console.error(&error);
-                Ok(Outcome::CouldNotRun)
-            }
-        }
+        let of_part = of_part.as_deref().unwrap_or(path);
+        let written = self.write(of_part, scene, inspection, &report, console)?;
+        let verdict = &report.verdict;
+        let part = verdict.part.as_deref().unwrap_or(verdict.status);
+        let accepted = if verdict.accepted {
+            "accepted"
+        } else {
+            "NOT ACCEPTED"
+        };
+        let name = path.display();
+        let written: Vec<String> = written
+            .iter()
+            .map(|path| path.display().to_string())
+            .collect();
+        console.line(&format_args!(
+            "{name}: {part}, {accepted}: {}",
+            written.join(", ")
+        ));
+        Ok(())
     }
 
     fn report_of(&self, inspected: &Inspected<'_>) -> PoseReport {

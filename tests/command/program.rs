@@ -176,6 +176,29 @@ fn each_of_several_parts_has_a_path_of_its_own_and_none_of_an_earlier_frame_stay
 }
 
 #[test]
+fn a_part_without_a_path_does_not_keep_the_next_one_from_its_program() {
+    let shop = shop();
+    let rack = ["simulate", "--rack", "3", "--rack-kind", "apart"];
+    shop.coded(
+        0,
+        &[&rack[..], &["--seed", "4", "--out", "rack.png"]].concat(),
+    );
+    let inspect = ["inspect", "rack.png", "--set", "segment.max_parts=3"];
+    let line = shop.coded(0, &[&inspect[..], &["--json"]].concat()).json();
+    let name = |index: usize| line["parts"][index]["part"].as_str().expect("a name");
+    for part in [name(0), name(2)] {
+        shop.coded(0, &["path", "plan", part, "--coat", "primer", "--store"]);
+    }
+    let ran = shop.coded(2, &[&inspect[..], &["--program", "paint.src"]].concat());
+    let missing = format!("{} has no spray path", name(1));
+    assert!(ran.err.contains(&missing), "{}", ran.err);
+    for (number, is_written) in [(1, true), (2, false), (3, true)] {
+        let file = shop.path(format!("paint_{number}.src"));
+        assert_eq!(file.exists(), is_written, "{number}: {}", ran.err);
+    }
+}
+
+#[test]
 fn what_cannot_be_inspected_leaves_no_earlier_program_or_path() {
     let shop = shop();
     store_path(&shop);

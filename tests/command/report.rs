@@ -1,6 +1,7 @@
 //! `partsight report`.
 
 use std::{
+    collections::BTreeSet,
     fs,
     path::Path,
     process::Command,
@@ -43,6 +44,36 @@ fn page_text(path: &Path) -> Option<String> {
         String::from_utf8_lossy(&ran.stderr)
     );
     Some(String::from_utf8_lossy(&ran.stdout).into_owned())
+}
+
+#[test]
+fn each_of_several_parts_has_a_report() {
+    let place = Workplace::new();
+    let rack = ["simulate", "--rack", "3", "--rack-kind", "apart"];
+    place.accepted(&[&rack[..], &["--seed", "4", "--out", "rack.png"]].concat());
+    let report = ["report", "rack.png", "--format", "json,csv", "--out"];
+    let ran = place.accepted(&[&report[..], &["all", "--set", "segment.max_parts=3"]].concat());
+    assert_eq!(ran.out.lines().count(), 3, "{}", ran.out);
+    let parts = (1..=3).map(|number| {
+        let text = fs::read_to_string(place.path(format!("all/rack_{number}.pose.json")));
+        let report: serde_json::Value =
+            serde_json::from_str(&text.expect("written")).expect("JSON");
+        report["verdict"]["part"]
+            .as_str()
+            .expect("a name")
+            .to_owned()
+    });
+    let parts: BTreeSet<String> = parts.collect();
+    assert_eq!(parts.len(), 3, "{parts:?}");
+    let rows = fs::read_dir(place.path("all")).expect("a folder").flatten();
+    let csv = rows
+        .map(|file| file.path())
+        .find(|path| path.extension() == Some("csv".as_ref()));
+    let rows = fs::read_to_string(csv.expect("rows")).expect("text");
+    assert_eq!(rows.lines().count(), 4, "{rows}");
+    // Of one part, the report has the name of the file.
+    place.accepted(&[&report[..], &["one"]].concat());
+    assert!(place.path("one/rack.pose.json").exists());
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! `partsight inspect --scan`: one verdict from several frames.
 
+use std::slice;
+
 use super::InspectArgs;
 use crate::cli::{
     Outcome,
@@ -70,10 +72,7 @@ pub(super) fn inspect(args: &InspectArgs, console: &mut Console) -> anyhow::Resu
         recording.add(recording.entry(&inspected, HungId::new()), console);
         recording.finish(console);
     }
-    let expected = &recipe.expected;
-    Ok(Outcome::accepted_if(if expected.is_empty() {
-        inspection.verdict.is_accepted()
-    } else {
-        expected.is_met(&[&inspection])
-    }))
+    Ok(Outcome::accepted_if(
+        recipe.is_met(slice::from_ref(&inspection)),
+    ))
 }

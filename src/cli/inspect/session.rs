@@ -201,7 +201,7 @@ impl InspectSession {
             let kept = self.kept(&frame, &part, HungId::new());
             self.keep(kept, console);
         }
-        let written = self.write_robot_file(&frame, console)?;
+        let written = self.write_robot_file(&frame, console);
         if written.is_none() {
             self.write_report(&frame.path, &line, pictures)?;
         }
@@ -251,12 +251,7 @@ impl InspectSession {
     }
 
     fn outcome(&self, frame: &InspectedFrame) -> Outcome {
-        let expected = &self.recipe.expected;
-        Outcome::accepted_if(if expected.is_empty() {
-            frame.parts.iter().all(|part| part.verdict.is_accepted())
-        } else {
-            expected.is_met(&frame.parts.iter().collect::<Vec<_>>())
-        })
+        Outcome::accepted_if(self.recipe.is_met(&frame.parts))
     }
 
     /// Inspects a frame beyond those asked for, which only shows whether the parts of earlier ones hang still.
@@ -453,15 +448,9 @@ impl InspectSession {
     }
 
     /// Writes the path of each accepted part for a robot, or says why there is none for the first; `None` if no such file is
-    /// wanted.
-    fn write_robot_file(
-        &self,
-        frame: &InspectedFrame,
-        console: &Console,
-    ) -> anyhow::Result<Option<Outcome>> {
-        let (Some(robot), Some(carried)) = (&self.robot, &self.carried) else {
-            return Ok(None);
-        };
+    /// wanted. If one cannot be written, it says so and goes on.
+    fn write_robot_file(&self, frame: &InspectedFrame, console: &Console) -> Option<Outcome> {
+        let (robot, carried) = (self.robot.as_ref()?, self.carried.as_ref()?);
         let accepted = frame.parts.iter().filter(|part| part.verdict.is_accepted());
         let num_files = accepted.count().max(1);
         let mut outcome = Outcome::Accepted;
@@ -471,10 +460,13 @@ impl InspectSession {
             let others = (frame.parts.iter().enumerate()).filter(|(other, _)| *other != index);
             let beside: Vec<_> = others.filter_map(|(_, part)| part.readings()).collect();
             let (seen, library) = (self.record(frame, &frame.subject, part), &self.library);
-            let written = carried.write(&seen, &beside, number, library, robot, console)?;
-            outcome = outcome.max(written);
+            let written = carried.write(&seen, &beside, number, library, robot, console);
+            outcome = outcome.max(written.unwrap_or_else(|error| {
+                console.error(&error);
+                Outcome::CouldNotRun
+            }));
         }
-        Ok(Some(outcome))
+        Some(outcome)
     }
 
     /// Writes line and pictures of an inspection, if there is a folder for them.
