@@ -164,10 +164,10 @@ const ELLIPSIS: &str = "...";
 /// Makes a text safe for every controller: printable ASCII without field separators. If it is too long, it ends at a word,
 /// with an ellipsis.
 fn plain(text: &str, max_letters: usize) -> String {
+    let text = text.replace('°', " deg");
     let letters = text.chars().map(|c| match c {
         ';' => ',',
         ' '..='~' => c,
-        '°' => ' ',
         _ => '?',
     });
     let mut shown: String = letters.take(max_letters + 1).collect();
@@ -224,7 +224,7 @@ mod tests {
     fn a_text_of_an_answer_is_one_line_of_printable_letters() {
         let shown = plain(&refused().problem.message, MAX_MESSAGE);
         assert_eq!(shown.len(), MAX_MESSAGE);
-        assert!(shown.starts_with("it scores, <0.5> & \"less\"??than 90 % at 3 , ????"));
+        assert!(shown.starts_with("it scores, <0.5> & \"less\"??than 90 % at 3 deg, ????"));
     }
 
     #[test]
