@@ -18,7 +18,7 @@ use self::moments::{parse_since, parse_until};
 use super::{
     LibraryChoice, Outcome,
     console::{Advised as _, Console, Table, advised_error, marked_simulated},
-    input::{Choice, choice},
+    input::{Choice, choice, within},
     plant,
     record::HistoryChoice,
 };
@@ -209,11 +209,24 @@ pub(super) struct KeepArgs {
     #[arg(value_parser = choice(&KEPT))]
     keep: Option<KeepFrames>,
     /// Days after which frames are removed
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=3650))]
+    #[arg(long, value_name = "N", value_parser = days)]
     days: Option<u32>,
     /// Size beyond which the oldest frames are removed; those with a remark or a true label are kept
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = gigabytes)]
     gigabytes: Option<f64>,
+}
+
+fn days(text: &str) -> Result<u32, String> {
+    let [least, most] = [Retention::DAYS.start(), Retention::DAYS.end()];
+    let days = text
+        .parse()
+        .ok()
+        .filter(|days| Retention::DAYS.contains(days));
+    days.ok_or_else(|| format!("expected a number from {least} to {most}"))
+}
+
+fn gigabytes(text: &str) -> Result<f64, String> {
+    within(text, &Retention::GIGABYTES)
 }
 
 #[rustfmt::skip]

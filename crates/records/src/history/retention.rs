@@ -6,7 +6,7 @@
 //! it, but it counts towards the size. A wrong acceptance is often noticed only a few parts later, so the frames of the
 //! newest accepted inspections are kept too; they never displace others.
 
-use std::collections::BTreeSet;
+use std::{collections::BTreeSet, ops::RangeInclusive};
 
 use jiff::Timestamp;
 use rusqlite::{OptionalExtension as _, TransactionBehavior};
@@ -44,6 +44,11 @@ impl Default for Retention {
 }
 
 impl Retention {
+    /// Valid ages of a frame, days.
+    pub const DAYS: RangeInclusive<u32> = 1..=3650;
+    /// Valid total sizes, gigabytes.
+    pub const GIGABYTES: RangeInclusive<f64> = 0.1..=10_000.0;
+
     /// Returns the rule with its values clamped to their ranges.
     #[must_use]
     pub fn clamped(self) -> Self {
@@ -54,8 +59,8 @@ impl Retention {
         };
         Self {
             keep: self.keep,
-            max_days: self.max_days.clamp(1, 3650),
-            max_gigabytes: gigabytes.clamp(0.1, 10_000.0),
+            max_days: self.max_days.clamp(*Self::DAYS.start(), *Self::DAYS.end()),
+            max_gigabytes: gigabytes.clamp(*Self::GIGABYTES.start(), *Self::GIGABYTES.end()),
         }
     }
 }

@@ -67,13 +67,13 @@ fn rows(ui: &mut Ui, rule: &mut Retention) {
     ui.end_row();
     let label = text!("history-keep-days");
     ui.label(&label);
-    let days = DragValue::new(&mut rule.max_days).range(1..=3650);
+    let days = DragValue::new(&mut rule.max_days).range(Retention::DAYS);
     number(ui, days, &label);
     ui.end_row();
     let label = text!("history-keep-gigabytes");
     ui.label(&label);
     let gigabytes = DragValue::new(&mut rule.max_gigabytes)
-        .range(0.1..=10_000.0)
+        .range(Retention::GIGABYTES)
         .speed(0.1);
     number(ui, gigabytes, &label);
     ui.end_row();
