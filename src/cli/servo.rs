@@ -9,7 +9,7 @@ use super::{
     LibraryChoice, Outcome,
     console::{Advised as _, Console, with_advice},
     follow::parse_source,
-    input::{EmptyCellChoice, parse_name, within},
+    input::{EmptyCellChoice, from_to, parse_name, within},
     interrupt::Interrupt,
     recipe::RecipeChoice,
     record::{HistoryChoice, HistoryRecorder},
@@ -69,8 +69,12 @@ pub(super) struct ServoArgs {
     calibration: Option<PathBuf>,
     #[command(flatten)]
     choice: ServoChoice,
-    /// Greatest speed of flange, camera and nozzle, mm/s (5 to 1000)
-    #[arg(long, value_name = "MM/S", default_value_t = 200.0, value_parser = |text: &str| within(text, &(5.0..=1000.0)))]
+    #[arg(
+        long, value_name = "MM/S",
+        help = format!("Greatest speed of flange, camera and nozzle, mm/s ({})", from_to(&ServoParams::SPEEDS_MM_S)),
+        default_value_t = 1000.0 * ServoParams::default().limits.speed,
+        value_parser = |text: &str| within(text, &ServoParams::SPEEDS_MM_S),
+    )]
     speed: f64,
     #[command(flatten)]
     library: LibraryChoice,
@@ -119,7 +123,7 @@ pub(super) fn run(args: &ServoArgs, console: &mut Console) -> anyhow::Result<Out
         console.note(
             &"Simulated: an arm carries the camera; its calibration is wrong by up to 20 mm and 2°",
         );
-        let params = args.params()?;
+        let params = args.choice.params(args.speed)?;
         let outcome = servo_simulated(&job, &params, protocol, args.seed, |news| {
             show_news(news, args, console);
             order(&interrupt, console)
@@ -143,12 +147,6 @@ pub(super) fn run(args: &ServoArgs, console: &mut Console) -> anyhow::Result<Out
     Ok(shown(&end, args, console))
 }
 
-impl ServoArgs {
-    fn params(&self) -> anyhow::Result<ServoParams> {
-        ServoParams::limited(self.speed / 1000.0, self.choice.tolerance()).advised()
-    }
-}
-
 /// Servos a real robot.
 fn real(
     args: &ServoArgs,
@@ -161,7 +159,7 @@ fn real(
     reference_of(job.library, job.part).advised()?;
     let path = place.spray_path(job.part).advised()?;
     let mut setup = (args.choice).setup(args.calibration.as_deref(), console)?;
-    setup.params = args.params()?;
+    setup.params = args.choice.params(args.speed)?;
     let robot = RealRobot {
         address,
         source,

@@ -7,7 +7,7 @@ use clap::Args;
 use super::{
     calibrate::cell_calibration,
     console::{Advised as _, Console, with_advice},
-    input::{Choice, choice, open_scene, parse_nozzle_pose, warn_of, within},
+    input::{Choice, choice, from_to, open_scene, parse_nozzle_pose, warn_of, within},
     program::CellChoice,
 };
 use geometry::{oriented_box::OrientedBox, units::Metres};
@@ -36,14 +36,22 @@ pub(super) struct ServoChoice {
     nozzle: Option<WrittenPose>,
     #[command(flatten)]
     cell: CellChoice,
-    /// Least distance from part and obstacles, mm (5 to 500)
-    #[arg(long, value_name = "MM", default_value_t = 50.0, value_parser = |text: &str| within(text, &(5.0..=500.0)))]
+    #[arg(
+        long, value_name = "MM",
+        help = format!("Least distance from part and obstacles, mm ({})", from_to(&ServoParams::CLEARANCES_MM)),
+        default_value_t = ServoParams::default().clearance.mm(),
+        value_parser = |text: &str| within(text, &ServoParams::CLEARANCES_MM),
+    )]
     clearance: f64,
     /// Box of the base frame that flange, camera and nozzle never leave: two opposite corners, mm
     #[arg(long, value_name = "X,Y,Z,X,Y,Z", value_parser = parse_volume, allow_hyphen_values = true)]
     volume: Option<OrientedBox>,
-    /// Greatest error at the end with its bounds, mm (0.5 to 50)
-    #[arg(long, value_name = "MM", default_value_t = ServoParams::default().tolerance.shift.mm(), value_parser = |text: &str| within(text, &(0.5..=50.0)))]
+    #[arg(
+        long, value_name = "MM",
+        help = format!("Greatest error at the end with its bounds, mm ({})", from_to(&ServoParams::TOLERANCES_MM)),
+        default_value_t = ServoParams::default().tolerance.shift.mm(),
+        value_parser = |text: &str| within(text, &ServoParams::TOLERANCES_MM),
+    )]
     tolerance: f64,
 }
 
@@ -80,23 +88,21 @@ impl ServoChoice {
         console: &Console,
     ) -> anyhow::Result<ServoSetup> {
         let calibration = cell_calibration(calibration)?;
-        let mut params = ServoParams::default();
-        params.tolerance.shift = Metres::from_mm(self.tolerance);
         Ok(ServoSetup {
             camera: calibration.camera,
             calibration: calibration.bounds(),
             target: self.target(console)?,
             flange_from_nozzle: self.nozzle.as_ref().map(|nozzle| nozzle.pose),
             placed: self.placed()?,
-            clearance: Metres::from_mm(self.clearance),
             volume: self.volume,
-            params,
+            params: self.params(1000.0 * ServoParams::default().limits.speed)?,
         })
     }
 
-    /// The greatest error at the end.
-    pub(super) fn tolerance(&self) -> Metres {
-        Metres::from_mm(self.tolerance)
+    /// The parameters with these limits.
+    pub(super) fn params(&self, speed_mm_s: f64) -> anyhow::Result<ServoParams> {
+        let tolerance = Metres::from_mm(self.tolerance);
+        ServoParams::limited(speed_mm_s, tolerance, Metres::from_mm(self.clearance)).advised()
     }
 
     fn placed(&self) -> anyhow::Result<Option<PlacedArm>> {

@@ -58,6 +58,7 @@ servoing-limits = Grenzen
 servoing-speed = Höchste Geschwindigkeit
 servoing-in-steps = In Schritten
 servoing-in-steps-hint = Vor jedem Schritt von bis zu 50 mm und 5° wartet der Roboter auf Weiter
+servoing-volume-says = Quader im Basissystem des Roboters, den Flansch, Kamera und Düse nie verlassen
 servoing-clearance = Abstand
 servoing-arm = Arm
 servoing-no-nozzle = Keine

@@ -58,6 +58,7 @@ servoing-limits = Limits
 servoing-speed = Greatest speed
 servoing-in-steps = In steps
 servoing-in-steps-hint = The robot waits for Next before each step of up to 50 mm and 5°
+servoing-volume-says = Box in the robot's base frame that flange, camera and nozzle never leave
 servoing-clearance = Clearance
 servoing-arm = Arm
 servoing-no-nozzle = None

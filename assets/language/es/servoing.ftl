@@ -58,6 +58,7 @@ servoing-limits = Límites
 servoing-speed = Velocidad máxima
 servoing-in-steps = Por pasos
 servoing-in-steps-hint = El robot espera a Siguiente antes de cada paso de hasta 50 mm y 5°
+servoing-volume-says = Caja en el sistema de la base del robot que la brida, la cámara y la boquilla nunca abandonan
 servoing-clearance = Distancia de seguridad
 servoing-arm = Brazo
 servoing-no-nozzle = Ninguna

@@ -58,6 +58,7 @@ servoing-limits = 限制
 servoing-speed = 最高速度
 servoing-in-steps = 分步
 servoing-in-steps-hint = 每一步最多 50 mm 和 5°，机器人等待“下一步”后才移动
+servoing-volume-says = 机器人基座坐标系中的长方体，法兰、相机和喷嘴绝不离开
 servoing-clearance = 安全距离
 servoing-arm = 机械臂
 servoing-no-nozzle = 无

@@ -86,6 +86,13 @@ impl OrientedBox {
         })
     }
 
+    /// True if a file could hold its numbers.
+    pub fn is_sound(&self) -> bool {
+        let mm = |metres: f64| 1000.0 * metres;
+        let (centre, size) = (self.centre_m.map(mm), self.size_m.map(mm));
+        Self::of_file("", centre, size, self.angles_rad.map(f64::to_degrees)).is_ok()
+    }
+
     /// The transform from the frame into that of the box, whose origin is the centre.
     pub fn box_from_frame(&self) -> RigidTransform {
         let ([rx, ry, rz], [x, y, z]) = (self.angles_rad, self.centre_m);

@@ -7,6 +7,7 @@ use geometry::{
     oriented_box::OrientedBox,
     rigid::{RigidTransform, pose_error},
     segment::Segment,
+    units::Metres,
 };
 use robot::arm::{Joints, Obstacles, PlacedArm};
 
@@ -56,8 +57,14 @@ impl Fence {
         }
     }
 
+    /// The fence with tools and arm kept this far from the same obstacles.
+    pub(crate) fn with_clearance(mut self, clearance: Metres) -> Self {
+        self.obstacles.clearance = clearance.0;
+        self.completed()
+    }
+
     /// The fence with the arm kept clear of the same obstacles as the tools.
-    pub(crate) fn completed(mut self) -> Self {
+    fn completed(mut self) -> Self {
         if let Some(arm) = &mut self.arm {
             arm.obstacles.clone_from(&self.obstacles);
         }
@@ -121,7 +128,10 @@ impl Fence {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::stream::tests::{START, placed};
+    use crate::{
+        ServoParams,
+        stream::tests::{START, placed},
+    };
 
     #[test]
     fn the_arm_keeps_clear_of_the_boxes_of_the_fence_before_any_part_is_placed() {
@@ -130,7 +140,7 @@ mod tests {
         let robot_from_flange = nozzle * placed.flange_from_nozzle.inverse();
         let mut fence = Fence::none();
         fence.arm = Some(placed);
-        let fence = fence.completed();
+        let fence = fence.with_clearance(ServoParams::default().clearance);
         let check = |fence: &Fence| fence.check(&robot_from_flange, Some(&START));
         assert!(check(&fence).is_ok());
         // Something all over the arm's room; no tool is compared with it.

@@ -62,9 +62,9 @@ impl OnePose {
         Self::check_longest(&max_move)?;
         Ok(Self {
             task,
+            fence: fence.with_clearance(params.clearance),
             params: params.checked()?,
             max_move,
-            fence: fence.completed(),
             in_place: None,
             first: None,
             sent: None,

@@ -1,6 +1,6 @@
 //! Parameters of servoing.
 
-use std::time::Duration;
+use std::{ops::RangeInclusive, time::Duration};
 
 use geometry::{
     error::Advice,
@@ -21,6 +21,8 @@ pub struct ServoParams {
     /// Largest error at the end with its bounds, 0.5..50 mm and 0.05..5°. Poses by a Kinect have bounds of 2 to 4 mm and 0.15 to
     /// 0.4°, with three times its noise of 4 to 7 mm and 0.3 to 0.6°; lowering the tolerance below those refuses each end.
     pub tolerance: PoseDelta,
+    /// Least distance of flange, camera, nozzle and arm from part and obstacles, 5..500 mm.
+    pub clearance: Metres,
     /// Largest plausible change of the part's pose from one accepted frame to the next, 3..100 mm and 0.5..10°. It must
     /// exceed what noise and a wrong calibration add, or the robot holds for nothing.
     pub max_step: PoseDelta,
@@ -61,6 +63,7 @@ impl Default for ServoParams {
             limits: Limits::default(),
             deadband: within(0.5, 0.05),
             tolerance: within(8.0, 1.0),
+            clearance: Metres::from_mm(50.0),
             max_step: within(30.0, 3.0),
             max_error: within(600.0, 60.0),
             max_age: Duration::from_millis(600),
@@ -131,13 +134,25 @@ impl Advice for ServoError {
 }
 
 impl ServoParams {
-    /// The default parameters with another speed, m/s, and tolerance.
-    pub fn limited(speed: f64, tolerance: Metres) -> Result<Self, ServoError> {
+    /// Valid speeds, mm/s.
+    pub const SPEEDS_MM_S: RangeInclusive<f64> = 5.0..=1000.0;
+    /// Valid tolerances, mm.
+    pub const TOLERANCES_MM: RangeInclusive<f64> = 0.5..=50.0;
+    /// Valid least distances, mm.
+    pub const CLEARANCES_MM: RangeInclusive<f64> = 5.0..=500.0;
+
+    /// The default parameters with another speed, mm/s, tolerance and least distance.
+    pub fn limited(
+        speed_mm_s: f64,
+        tolerance: Metres,
+        clearance: Metres,
+    ) -> Result<Self, ServoError> {
         let mut params = Self::default();
-        params.limits.speed = speed;
+        params.limits.speed = speed_mm_s / 1000.0;
         // A robot that goes faster must brake as soon.
-        params.limits.acceleration = params.limits.acceleration.max(5.0 * speed);
+        params.limits.acceleration = params.limits.acceleration.max(5.0 * params.limits.speed);
         params.tolerance.shift = tolerance;
+        params.clearance = clearance;
         params.checked()
     }
 
@@ -149,8 +164,12 @@ impl ServoParams {
         let most_gain = (0.5 * limits.acceleration_left() / limits.speed)
             .min(0.5 * limits.turn_acceleration / limits.turn_speed)
             .min(4.0);
+        let of = |what, value, range: RangeInclusive<f64>| {
+            let (low, high) = range.into_inner();
+            (what, value, low, high)
+        };
         for (what, value, low, high) in [
-            ("the speed, m/s", limits.speed, 0.005, 1.0),
+            of("the speed, mm/s", 1000.0 * limits.speed, Self::SPEEDS_MM_S),
             ("the angular speed, rad/s", limits.turn_speed, 0.005, 2.0),
             (
                 "the acceleration, m/s²",
@@ -167,8 +186,17 @@ impl ServoParams {
             ("the gain, 1/s", self.gain, 0.2, most_gain),
             ("the deadband, mm", self.deadband.shift.mm(), 0.1, 10.0),
             ("the deadband, °", turn(self.deadband.rotation), 0.01, 1.0),
-            ("the tolerance, mm", self.tolerance.shift.mm(), 0.5, 50.0),
+            of(
+                "the tolerance, mm",
+                self.tolerance.shift.mm(),
+                Self::TOLERANCES_MM,
+            ),
             ("the tolerance, °", turn(self.tolerance.rotation), 0.05, 5.0),
+            of(
+                "the least distance, mm",
+                self.clearance.mm(),
+                Self::CLEARANCES_MM,
+            ),
             ("the largest step, mm", self.max_step.shift.mm(), 3.0, 100.0),
             (
                 "the largest step, °",
@@ -237,7 +265,7 @@ mod tests {
         for broken in [f64::NAN, f64::INFINITY, -1.0] {
             let mut params = ServoParams::default();
             params.limits.speed = broken;
-            assert_eq!(params.checked().map_err(|e| e.what), Err("the speed, m/s"));
+            assert_eq!(params.checked().map_err(|e| e.what), Err("the speed, mm/s"));
         }
     }
 }

@@ -154,8 +154,8 @@ impl Servo {
     pub fn new(task: Task, params: ServoParams, fence: Fence) -> Result<Self, ServoError> {
         Ok(Self {
             task,
+            fence: fence.with_clearance(params.clearance),
             params: params.checked()?,
-            fence: fence.completed(),
             reported: ArmStates::default(),
             sent: ArmStates::default(),
             run: None,

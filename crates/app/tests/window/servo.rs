@@ -8,6 +8,7 @@ use app::{
 };
 use egui::{Key, Vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use geometry::oriented_box::OrientedBox;
 use inspection::fixtures::shipped_library;
 use nalgebra::Point3;
 use records::history::{Filter, HistoryBuffer, ServoRecord, ServoSample};
@@ -223,6 +224,12 @@ fn the_settings_are_remembered_and_impossible_limits_are_not() {
         settings.robot = Some(StreamProtocol::Rtde);
         settings.address = "192.168.1.20".into();
         settings.speed = 120.0;
+        settings.clearance = 80.0;
+        settings.volume = Some(OrientedBox {
+            centre_m: [1.0, 0.0, 1.5],
+            size_m: [2.0, 3.0, 2.5],
+            angles_rad: [0.0; 3],
+        });
     });
     let expected = harness.state().state().session.servo.clone();
     drop(harness);

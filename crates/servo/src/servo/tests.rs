@@ -416,7 +416,6 @@ fn it_keeps_its_distance_from_the_part() {
     for (away, is_near) in [(0.04, true), (0.15, false)] {
         let mut fence = Fence::none();
         fence.tools.push(tool);
-        fence.obstacles.clearance = 0.05;
         // A patch of surface in front of the nozzle at its goal.
         let spot = |x: f64, y: f64| (part_from_nozzle * Point3::new(x, y, away)).cast();
         fence.part = (-5..=5)

@@ -504,7 +504,6 @@ fn fence(placed: &PlacedArm, calibrated: &RigidTransform, reference: &Reference)
         tool(calibrated, 0.06),
         tool(&placed.flange_from_nozzle, GUN_RADIUS),
     ];
-    fence.obstacles.clearance = 0.05;
     fence.arm = Some(placed.clone());
     fence.part.clone_from(&reference.cloud.points);
     fence

@@ -1,11 +1,11 @@
-//! What the window servos: the part, its target, the robot, and limits. Arm, nozzle, obstacles and the least distance are those
-//! of [`ProgramSetup`](super::program_setup::ProgramSetup).
+//! What the window servos: the part, its target, the robot, and limits. Arm, nozzle and obstacles are those of
+//! [`ProgramSetup`](super::program_setup::ProgramSetup).
 
-use std::{ops::RangeInclusive, path::PathBuf};
+use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
-use geometry::units::Metres;
+use geometry::{oriented_box::OrientedBox, units::Metres};
 use records::history::ServoTargetKind;
 use servo::{ServoError, ServoParams, simulated::StreamProtocol};
 
@@ -27,6 +27,10 @@ pub struct ServoSettings {
     pub speed: f64,
     /// Greatest error at the end with its bounds, mm.
     pub tolerance: f64,
+    /// Least distance from part and obstacles, mm.
+    pub clearance: f64,
+    /// Box of the base frame that flange, camera and nozzle never leave.
+    pub volume: Option<OrientedBox>,
     /// True if each step waits until it is allowed.
     pub in_steps: bool,
 }
@@ -42,20 +46,18 @@ impl Default for ServoSettings {
             address: String::new(),
             speed: 1000.0 * params.limits.speed,
             tolerance: params.tolerance.shift.mm(),
+            clearance: params.clearance.mm(),
+            volume: None,
             in_steps: false,
         }
     }
 }
 
 impl ServoSettings {
-    /// Valid speeds, mm/s.
-    pub const SPEEDS: RangeInclusive<f64> = 5.0..=1000.0;
-    /// Valid tolerances, mm.
-    pub const TOLERANCES: RangeInclusive<f64> = 0.5..=50.0;
-
     /// The parameters with these limits.
     pub fn params(&self) -> Result<ServoParams, ServoError> {
-        ServoParams::limited(self.speed / 1000.0, Metres::from_mm(self.tolerance))
+        let [tolerance, clearance] = [self.tolerance, self.clearance].map(Metres::from_mm);
+        ServoParams::limited(self.speed, tolerance, clearance)
     }
 
     /// Replaces each number out of its range, as a file may contain, by its default; returns the keys of the replaced ones.
@@ -63,18 +65,33 @@ impl ServoSettings {
         let default = Self::default();
         let mut replaced = Vec::new();
         for (key, value, range, usual) in [
-            ("speed", &mut self.speed, Self::SPEEDS, default.speed),
+            (
+                "speed",
+                &mut self.speed,
+                ServoParams::SPEEDS_MM_S,
+                default.speed,
+            ),
             (
                 "tolerance",
                 &mut self.tolerance,
-                Self::TOLERANCES,
+                ServoParams::TOLERANCES_MM,
                 default.tolerance,
+            ),
+            (
+                "clearance",
+                &mut self.clearance,
+                ServoParams::CLEARANCES_MM,
+                default.clearance,
             ),
         ] {
             if !range.contains(&*value) {
                 *value = usual;
                 replaced.push(key);
             }
+        }
+        if self.volume.is_some_and(|volume| !volume.is_sound()) {
+            self.volume = None;
+            replaced.push("volume");
         }
         replaced
     }

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
-pub use self::window::window;
+pub use self::window::{box_numbers, window};
 use crate::{
     action::Effect,
     inspection::inspected::Inspected,

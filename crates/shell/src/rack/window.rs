@@ -148,7 +148,7 @@ fn volume(ui: &mut Ui, state: &State, file: &mut RackFile, caused: &mut Vec<Acti
         CollapsingHeader::new(title)
             .id_salt(("box", index))
             .show(ui, |ui| {
-                numbers(ui, region);
+                box_numbers(ui, region);
                 if text_button(ui, &text!("rack-remove")).clicked() {
                     removed = Some(index);
                 }
@@ -237,7 +237,7 @@ fn place_ui(ui: &mut Ui, place: &mut Place) {
         let field = TextEdit::singleline(&mut place.name).char_limit(MAX_NAME);
         ui.add(field.desired_width(180.0)).labelled_by(label.id);
     });
-    numbers(ui, &mut place.region);
+    box_numbers(ui, &mut place.region);
     max_turn(ui, &mut place.max_turn);
     let mut removed = None;
     for (index, part) in place.parts.iter_mut().enumerate() {
@@ -305,7 +305,7 @@ fn max_turn(ui: &mut Ui, turn: &mut MaxTurn) {
 }
 
 /// Draws the numbers of a box.
-fn numbers(ui: &mut Ui, region: &mut OrientedBox) {
+pub fn box_numbers(ui: &mut Ui, region: &mut OrientedBox) {
     Grid::new("numbers").num_columns(4).show(ui, |ui| {
         ui.label("");
         for axis in ["x", "y", "z"] {

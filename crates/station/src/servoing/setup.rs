@@ -46,8 +46,6 @@ pub struct ServoSetup {
     pub flange_from_nozzle: Option<RigidTransform>,
     /// The arm with its obstacles, if it is known.
     pub placed: Option<PlacedArm>,
-    /// Least distance from part and obstacles.
-    pub clearance: Metres,
     /// Work volume in the base frame; anywhere without one.
     pub volume: Option<OrientedBox>,
     /// Limits and tolerances.
@@ -279,7 +277,6 @@ impl ServoSetup {
         if let Some(placed) = &self.placed {
             fence.obstacles = placed.obstacles.clone();
         }
-        fence.obstacles.clearance = self.clearance.0;
         let mut keep_clear = |pose: &RigidTransform, radius| {
             fence.tools.push(Tool {
                 end: Point3::from(pose.translation.vector),
@@ -325,7 +322,6 @@ mod tests {
             target,
             flange_from_nozzle: Some(RigidTransform::translation(0.0, 0.0, 0.3)),
             placed: None,
-            clearance: Metres(0.05),
             volume: None,
             params: ServoParams::default(),
         }

@@ -6,9 +6,12 @@ use super::{
     action::{ServoAction, ServoFile},
     state::chosen_part,
 };
+use geometry::oriented_box::OrientedBox;
 use records::history::ServoTargetKind;
-use servo::simulated::StreamProtocol;
-use shell::{cell::ServoSettings, language::servoing::target_title, session::Session};
+use servo::{ServoParams, simulated::StreamProtocol};
+use shell::{
+    cell::ServoSettings, language::servoing::target_title, rack::box_numbers, session::Session,
+};
 use ui::{
     language::text,
     theme::space,
@@ -149,13 +152,19 @@ fn limits(
         (
             text!("servoing-speed"),
             &mut setup.speed,
-            ServoSettings::SPEEDS,
+            ServoParams::SPEEDS_MM_S,
             " mm/s",
         ),
         (
             text!("servoing-tolerance"),
             &mut setup.tolerance,
-            ServoSettings::TOLERANCES,
+            ServoParams::TOLERANCES_MM,
+            " mm",
+        ),
+        (
+            text!("servoing-clearance"),
+            &mut setup.clearance,
+            ServoParams::CLEARANCES_MM,
             " mm",
         ),
     ] {
@@ -174,9 +183,8 @@ fn limits(
     if setup.robot.is_none() {
         return;
     }
+    volume(ui, &mut setup.volume);
     let program = &session.program;
-    let clearance = session.units.length(program.params.clearance.0);
-    row(ui, &text!("servoing-clearance"), &clearance);
     let arm = program.arm_title().unwrap_or_else(|| text!("paint-no-arm"));
     row(ui, &text!("servoing-arm"), &arm);
     let nozzle = match program.nozzle.trim() {
@@ -186,5 +194,27 @@ fn limits(
     row(ui, &text!("servoing-nozzle"), &nozzle);
     if text_button(ui, &text!("servoing-to-robot")).clicked() {
         actions.push(ServoAction::GoToRobot);
+    }
+}
+
+/// A volume to begin with: in front of a robot at the origin.
+const FIRST_VOLUME: OrientedBox = OrientedBox {
+    centre_m: [1.0, 0.0, 1.0],
+    size_m: [2.0, 2.0, 2.0],
+    angles_rad: [0.0; 3],
+};
+
+/// Draws the box that flange, camera and nozzle never leave.
+fn volume(ui: &mut Ui, volume: &mut Option<OrientedBox>) {
+    let mut is_bounded = volume.is_some();
+    let checkbox = ui.checkbox(&mut is_bounded, text!("rack-volume"));
+    if checkbox
+        .on_hover_text(text!("servoing-volume-says"))
+        .changed()
+    {
+        *volume = is_bounded.then_some(FIRST_VOLUME);
+    }
+    if let Some(region) = volume {
+        box_numbers(ui, region);
     }
 }

@@ -7,7 +7,9 @@ use glam::Vec3;
 use nalgebra::Point3;
 
 use super::{state::ServoPageState, work::RunView};
-use geometry::{depth_frame::Intrinsics, rigid::RigidTransform, units::Metres};
+use geometry::{
+    depth_frame::Intrinsics, oriented_box::OrientedBox, rigid::RigidTransform, units::Metres,
+};
 use robot::calibration::CameraPlace;
 use servo::{Standing, Target, Task};
 use shell::session::{Session, ThemeChoice};
@@ -17,7 +19,7 @@ use ui::{
     viewport::{
         FitRequest, Line, LineSet, PointSet, Role, StandardView, TextLabel, ViewCamera,
         ViewColours, ViewDirection, ViewError, ViewScene, ViewStyle, Viewport, ViewportGpu,
-        furniture::{axes, frustum},
+        furniture::{axes, box_edges, frustum},
         scene::mat4,
         vec3,
     },
@@ -86,6 +88,10 @@ const NOZZLE: Meaning = Meaning {
 const FLANGE: Meaning = Meaning {
     role: Role::Measure,
     name: || text!("servoing-flange"),
+};
+const VOLUME: Meaning = Meaning {
+    role: Role::Rest,
+    name: || text!("rack-volume"),
 };
 
 impl RunSceneView {
@@ -277,11 +283,22 @@ fn scene_of(
         });
         meanings.push(NOZZLE);
     }
+    if let Some(volume) = &shown.volume {
+        scene.lines.push(volume_edges(volume).at(world_from_robot));
+        meanings.push(VOLUME);
+    }
     if let Some(goal) = &standing.robot_from_goal {
         draw_target(&mut scene, shown, task, standing, goal, world_from_robot);
         meanings.push(TARGET);
     }
     (scene, meanings)
+}
+
+fn volume_edges(volume: &OrientedBox) -> LineSet {
+    let corners = volume.corners().map(|corner| vec3(&corner));
+    let edges = box_edges(corners, VOLUME.role);
+    let dashed: Vec<Line> = edges.map(Line::dashed).collect();
+    LineSet::new(dashed)
 }
 
 /// Draws where it should be: the camera, the part that the arm holds, or the nozzle.

@@ -13,6 +13,7 @@ use nalgebra::Point3;
 
 use capture::{SourceSpec, read_image};
 use geometry::{
+    oriented_box::OrientedBox,
     rigid::PoseDelta,
     units::{Metres, Radians},
 };
@@ -89,6 +90,8 @@ pub struct RunView {
     pub robot: Option<RobotAddress>,
     /// The nozzle's mouth on the flange, if there is a nozzle.
     pub nozzle: Option<Point3<f64>>,
+    /// The box of the base frame that is never left, if there is one.
+    pub volume: Option<OrientedBox>,
     /// The part's points, in its own space.
     pub points: Option<PointSet>,
     /// What was left of the error.
@@ -185,6 +188,7 @@ pub(super) fn run(
     let mut view = RunView {
         title: title.clone(),
         nozzle: nozzle.filter(|_| request.real.is_some()),
+        volume: (request.settings.volume).filter(|_| request.real.is_some()),
         ..RunView::default()
     };
     let params = request.settings.params();
@@ -277,8 +281,7 @@ fn setup(
         target,
         flange_from_nozzle: program.settings.flange_from_nozzle,
         placed: program.arm.clone(),
-        clearance: request.program.params.clearance,
-        volume: None,
+        volume: settings.volume,
         params,
     })
 }

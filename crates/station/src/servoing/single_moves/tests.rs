@@ -209,7 +209,6 @@ fn served(
         target: ServoTarget::StandardPosition,
         flange_from_nozzle: None,
         placed: None,
-        clearance: Metres::from_mm(50.0),
         volume: cell.fence.volume,
         params,
     };
