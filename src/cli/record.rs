@@ -114,15 +114,17 @@ impl HistoryRecorder {
         self.titles = titles_of(library);
     }
 
+    /// The title of a part of the library.
+    pub(super) fn title_of(&self, name: &str) -> String {
+        let title = self.titles.get(name);
+        title.map_or_else(|| name.to_owned(), Clone::clone)
+    }
+
     /// Creates the entry of an inspection.
     pub(super) fn entry(&self, inspected: &Inspected<'_>, hung: HungId) -> NewEntry {
-        let title_of = |name: &str| {
-            let title = self.titles.get(name);
-            title.map_or_else(|| name.to_owned(), Clone::clone)
-        };
         let names = LibraryNames {
             identity: &self.library,
-            title_of: &title_of,
+            title_of: &|name: &str| self.title_of(name),
         };
         let segmentation = &inspected.inspection.segmentation;
         let picture = segmentation_picture(inspected.scene, segmentation);

@@ -160,7 +160,9 @@ impl ServeArgs {
             shift: Metres::from_mm(self.longest_move),
             rotation: Radians::from_degrees(DEGREES_PER_MM * self.longest_move),
         };
-        SingleMoves::new(setup, max_move).map(Ok).advised()
+        SingleMoves::new(setup, max_move, self.source.to_string())
+            .map(Ok)
+            .advised()
     }
 }
 

@@ -323,7 +323,7 @@ fn a_file_for_a_trigger_shows_no_motion_and_answer_line_and_history_say_so() {
 }
 
 #[test]
-fn a_robot_that_servoes_is_told_where_to_go_and_leaves_no_row() {
+fn a_robot_that_servoes_is_told_where_to_go_and_leaves_a_run_but_no_inspection() {
     let place = Workplace::new();
     let source = ["--source", "simulated,fps=10:fender", "--as", "kuka"];
     let listen = [
@@ -376,6 +376,23 @@ fn a_robot_that_servoes_is_told_where_to_go_and_leaves_no_row() {
     assert!((1000.0 * metres - number(fields[20])).abs() < 1e-3, "{out}");
     let listed = place.accepted(&["history", "list", "--json"]).lines();
     assert!(listed.is_empty(), "{listed:?}");
+    let runs = place.accepted(&["history", "runs", "--json"]).lines();
+    assert_eq!(runs.len(), 1, "{runs:?}");
+    let run = &runs[0];
+    assert_eq!(
+        (&run["part"], &run["robot"]),
+        (&"fender".into(), &"serve".into())
+    );
+    assert_eq!(run["source"], "simulated,fps=10:fender");
+    // It was told to move, and asked for another part.
+    assert_eq!(run["stopped"]["kind"], "robot_stopped", "{run}");
+    assert_eq!(
+        (&run["simulated"], &run["speed_m_s"]),
+        (&true.into(), &Value::Null)
+    );
+    assert_eq!(run["num_looks"], 6, "{run}");
+    let text = place.accepted(&["history", "run", "1"]).out;
+    assert!(text.contains("serve") && !text.contains("speed"), "{text}");
 }
 
 /// Serves without a history.

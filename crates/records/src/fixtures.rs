@@ -114,7 +114,7 @@ pub fn servo_record(seconds: i64, part: &str, stopped: Option<StopReason>) -> Se
             is_approximate: false,
             took_s: 5.2,
             num_looks: 52,
-            speed_m_s: 0.2,
+            speed_m_s: Some(0.2),
             tolerance_m: 0.008,
             tolerance_rad: 0.0175,
             program: "0.1.0".into(),

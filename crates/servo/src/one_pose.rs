@@ -7,7 +7,7 @@
 use nalgebra::Point3;
 
 use crate::{
-    Arrival, Fence, Goal, Look, SeenPart, ServoError, ServoParams, StopReason, Task,
+    Arrival, Fence, Look, SeenPart, ServoError, ServoParams, StopReason, Task,
     arm_states::ArmState,
     end_look::RestLooks,
     twist::{is_within, part_way},
@@ -41,6 +41,7 @@ pub struct OnePose {
     fence: Fence,
     /// The part's pose in what it is fixed to, at the last request.
     in_place: Option<RigidTransform>,
+    at_rest: RestLooks,
     first: Option<ArmState>,
     /// Where the robot was sent last.
     sent: Option<RigidTransform>,
@@ -66,6 +67,7 @@ impl OnePose {
             params: params.checked()?,
             max_move,
             in_place: None,
+            at_rest: RestLooks::default(),
             first: None,
             sent: None,
             num_moves: 0,
@@ -95,7 +97,12 @@ impl OnePose {
     pub fn answer(&mut self, looks: &[Look], [before, after]: [&ArmState; 2]) -> OnePoseAnswer {
         match self.next(looks, before, after) {
             Ok(answer) => answer,
-            Err(reason) => OnePoseAnswer::Stay(reason),
+            Err(reason) => {
+                if let StopReason::Moved { .. } = reason {
+                    self.at_rest.clear();
+                }
+                OnePoseAnswer::Stay(reason)
+            }
         }
     }
 
@@ -118,21 +125,18 @@ impl OnePose {
                 age_s: age.as_secs_f64(),
             });
         }
-        let mut at_rest = RestLooks::default();
-        let mut goal = None;
         for look in looks {
-            let (of_look, seen) = self.goal_of(look, before, after)?;
-            if let Some(apart) = at_rest.push(of_look.error, seen) {
+            let seen = self.refuse_look(look, before, after)?;
+            if let Some(apart) = self.at_rest.push(&self.task, flange, seen) {
                 return Err(StopReason::Moved {
                     shift_m: apart.shift.0,
                     turn_rad: apart.rotation.0,
                 });
             }
-            goal = Some(of_look);
         }
-        let mean = at_rest.mean(&self.task.calibration_bounds(), &self.task.middle);
-        let (goal, mean) = goal.zip(mean).expect("there are looks");
-        let error = mean.error.size();
+        let mean = self.at_rest.mean(&self.task, looks.len());
+        let mean = mean.expect("there are looks");
+        let error = mean.goal.error.size();
         if mean.is_settled(&self.params.deadband) {
             mean.refuse_uncertain(&self.params.tolerance)?;
             return Ok(OnePoseAnswer::Done(Box::new(Arrival {
@@ -145,11 +149,8 @@ impl OnePose {
                 took: after.at.saturating_sub(first.at),
             })));
         }
-        let wanted = flange
-            * goal.flange_from_control
-            * mean.error.transform()
-            * goal.flange_from_control.inverse();
-        let control = Point3::from(goal.flange_from_control.translation.vector);
+        let wanted = mean.goal.robot_from_flange;
+        let control = Point3::from(mean.goal.flange_from_control.translation.vector);
         let robot_from_flange = self.limited(flange, &wanted, &control);
         self.check_way(flange, &robot_from_flange, after)?;
         self.refuse_endless(&robot_from_flange, &wanted, &error)?;
@@ -160,13 +161,13 @@ impl OnePose {
         })
     }
 
-    /// The goal by one look, or why the robot must not move by it.
-    fn goal_of(
+    /// What one look shows of the part, or why the robot must not move by it.
+    fn refuse_look(
         &mut self,
         look: &Look,
         before: &ArmState,
         after: &ArmState,
-    ) -> Result<(Goal, SeenPart), StopReason> {
+    ) -> Result<SeenPart, StopReason> {
         let taken_at = look.taken_at;
         let off = (before.at.checked_sub(taken_at)).or(taken_at.checked_sub(after.at));
         if let Some(off) = off.filter(|off| !off.is_zero()) {
@@ -197,7 +198,7 @@ impl OnePose {
             let robot_from_part = task.robot_from_part(flange, &seen.camera_from_part);
             self.fence.place_part(&robot_from_part, &task.middle);
         }
-        Ok((goal, seen))
+        Ok(seen)
     }
 
     /// The pose on the straight way to `wanted` that a longest move reaches.

@@ -24,12 +24,9 @@ use crate::{
     arm_states::{ArmState, ArmStates},
     end_look::RestLooks,
     mover::Mover,
-    twist::{is_within, part_way},
+    twist::{is_within, part_way, scaled},
 };
-use geometry::{
-    rigid::{PoseDelta, RigidTransform, pose_error},
-    units::{Metres, Radians},
-};
+use geometry::rigid::{PoseDelta, RigidTransform, pose_error};
 use robot::calibration::CameraPlace;
 
 /// What the robot should do.
@@ -132,6 +129,7 @@ struct PartTrack {
     goal: Option<Goal>,
     /// Number of looks in the mean of the goal.
     num_in_goal: usize,
+    at_rest: RestLooks,
 }
 
 /// Why the robot is held.
@@ -146,7 +144,8 @@ struct Hold {
 #[derive(Clone, Debug)]
 enum Phase {
     Approaching,
-    Looking(RestLooks),
+    /// At rest, with this many looks of this stop.
+    Looking(usize),
 }
 
 impl Servo {
@@ -337,6 +336,7 @@ impl Servo {
             // The part has moved, or is seen for the first time.
             let had_goal = self.part.goal.take().is_some();
             self.part.num_in_goal = 0;
+            self.part.at_rest.clear();
             self.phase = Phase::Approaching;
             let step = step.filter(|_| had_goal);
             return step.map_or(Ok(()), |step| {
@@ -362,7 +362,7 @@ impl Servo {
         if self.hold.as_ref().is_some_and(|hold| !hold.is_final) {
             self.hold = None;
         }
-        self.use_look(&goal, &seen, look.taken_at, mover);
+        self.use_look(&goal, &robot_from_flange, seen, look.taken_at, mover);
         Ok(())
     }
 
@@ -395,12 +395,24 @@ impl Servo {
     }
 
     /// Averages the goal on the way, and collects looks at rest.
-    fn use_look(&mut self, goal: &Goal, seen: &SeenPart, taken_at: Duration, mover: &Mover) {
-        if let Phase::Looking(looks) = &mut self.phase {
+    fn use_look(
+        &mut self,
+        goal: &Goal,
+        robot_from_flange: &RigidTransform,
+        seen: SeenPart,
+        taken_at: Duration,
+        mover: &Mover,
+    ) {
+        if let Phase::Looking(num_looks) = &mut self.phase {
             let rest = self.reported.rest_since().filter(|_| mover.is_at_rest());
             if rest.is_some_and(|since| taken_at >= since + self.params.settle) {
-                looks.push(goal.error, *seen);
+                let moved = self.part.at_rest.push(&self.task, robot_from_flange, seen);
+                *num_looks = moved.map_or(*num_looks, |_| 0) + 1;
             }
+            return;
+        }
+        // Looks at rest have corrected the goal, and those on the way are worse.
+        if !self.part.at_rest.is_empty() {
             return;
         }
         self.part.num_in_goal = (self.part.num_in_goal + 1).min(self.params.num_averaged);
@@ -454,8 +466,8 @@ impl Servo {
         let mut wanted = Twist::ZERO;
         if let Some(goal) = goal {
             let error = Task::error_at(&mover.robot_from_flange, &goal);
-            if is_within(&error.size(), &half(&self.params.deadband)) {
-                self.phase = Phase::Looking(RestLooks::default());
+            if is_within(&error.size(), &scaled(&self.params.deadband, 0.5)) {
+                self.phase = Phase::Looking(0);
             } else if !self.is_waiting() {
                 let control = &goal.flange_from_control;
                 wanted = mover.towards(&error, control, self.params.gain, &limits);
@@ -483,19 +495,19 @@ impl Servo {
             let is_over = hold.is_final || now.saturating_sub(hold.since) > self.params.patience;
             return is_over.then(|| Step::Stop(hold.reason.clone()));
         }
-        let Phase::Looking(looks) = &self.phase else {
+        let Phase::Looking(num_looks) = self.phase else {
             return None;
         };
-        if looks.len() < self.params.num_final {
+        if num_looks < self.params.num_final {
             return None;
         }
-        let mean = looks.mean(&self.task.calibration_bounds(), &self.task.middle)?;
+        let mean = self.part.at_rest.mean(&self.task, num_looks)?;
         let run = self.run.as_ref()?;
         if mean.is_settled(&self.params.deadband) {
             return Some(match mean.refuse_uncertain(&self.params.tolerance) {
                 Err(reason) => Step::Stop(reason),
                 Ok(()) => Step::Done(Box::new(Arrival {
-                    error: mean.error.size(),
+                    error: mean.goal.error.size(),
                     bounds: mean.bounds,
                     num_frames: mean.num,
                     robot_from_flange: run.mover.robot_from_flange,
@@ -507,7 +519,7 @@ impl Servo {
         }
         self.num_rounds += 1;
         if self.num_rounds > self.params.max_rounds {
-            let error = mean.error.size();
+            let error = mean.goal.error.size();
             return Some(Step::Stop(StopReason::NotSettling {
                 num_rounds: self.params.max_rounds,
                 shift_m: error.shift.0,
@@ -518,7 +530,7 @@ impl Servo {
         let goal = self.part.goal.as_mut()?;
         let control = run.mover.robot_from_flange * goal.flange_from_control;
         goal.robot_from_flange =
-            control * mean.error.transform() * goal.flange_from_control.inverse();
+            control * mean.goal.error.transform() * goal.flange_from_control.inverse();
         self.phase = Phase::Approaching;
         None
     }
@@ -542,13 +554,6 @@ impl Servo {
         if let Some(hold) = &mut self.hold {
             hold.is_final = true;
         }
-    }
-}
-
-fn half(delta: &PoseDelta) -> PoseDelta {
-    PoseDelta {
-        shift: Metres(0.5 * delta.shift.0),
-        rotation: Radians(0.5 * delta.rotation.0),
     }
 }
 

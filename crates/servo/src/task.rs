@@ -199,6 +199,23 @@ impl Task {
         }
     }
 
+    /// The part's pose that the camera sees with the arm at a pose; inverse of [`Self::part_in_place`].
+    pub(crate) fn seen_from(
+        &self,
+        robot_from_flange: &RigidTransform,
+        in_place: &RigidTransform,
+    ) -> RigidTransform {
+        match &self.camera {
+            CameraPlace::Fixed { robot_from_camera } if self.is_part_held() => {
+                robot_from_camera.inverse() * robot_from_flange * in_place
+            }
+            CameraPlace::Fixed { robot_from_camera } => robot_from_camera.inverse() * in_place,
+            CameraPlace::OnFlange {
+                flange_from_camera, ..
+            } => (robot_from_flange * flange_from_camera).inverse() * in_place,
+        }
+    }
+
     /// The part's pose in the base frame.
     pub fn robot_from_part(
         &self,

@@ -76,6 +76,14 @@ pub(crate) fn is_within(delta: &PoseDelta, limit: &PoseDelta) -> bool {
     delta.shift <= limit.shift && delta.rotation <= limit.rotation
 }
 
+/// A multiple of a difference.
+pub(crate) fn scaled(delta: &PoseDelta, by: f64) -> PoseDelta {
+    PoseDelta {
+        shift: Metres(by * delta.shift.0),
+        rotation: Radians(by * delta.rotation.0),
+    }
+}
+
 /// The pose of share `share` of the way from `from` to `to`: the point at `at`, in the moved frame, goes straight.
 pub(crate) fn part_way(
     from: &RigidTransform,

@@ -132,6 +132,8 @@ impl Advice for RobotFileError {
 pub enum Unchecked {
     /// No arm is known.
     Arm,
+    /// A line moves the part while the program runs.
+    MovingPart,
     /// No boxes and no floor of the cell are known.
     Surroundings,
     /// The coat of a program's path is not known.
@@ -151,6 +153,7 @@ impl Described for Unchecked {
     fn message(&self) -> Message {
         match self {
             Self::Arm => Message::new("unchecked-arm"),
+            Self::MovingPart => Message::new("unchecked-moving-part"),
             Self::Surroundings => Message::new("unchecked-surroundings"),
             Self::Film => Message::new("unchecked-film"),
             Self::Accelerations(what) => {
@@ -336,11 +339,14 @@ impl RobotFile<'_> {
     }
 
     fn unchecked(&self, film: Option<&WrittenFilm>) -> Vec<Unchecked> {
-        let (arm, is_program) = match self.content {
-            RobotFileContent::Poses { .. } => (None, false),
-            RobotFileContent::Program { arm, .. } => (arm, true),
+        let mut unchecked = match self.content {
+            RobotFileContent::Program { settings, .. } if settings.tracking.is_some() => {
+                vec![Unchecked::MovingPart]
+            }
+            RobotFileContent::Program { arm, .. } => Unchecked::of_arm(arm),
+            RobotFileContent::Poses { .. } => Unchecked::of_arm(None),
         };
-        let mut unchecked = Unchecked::of_arm(arm);
+        let is_program = matches!(self.content, RobotFileContent::Program { .. });
         if is_program && film.is_none() {
             unchecked.push(Unchecked::Film);
         }
@@ -414,7 +420,10 @@ mod tests {
         library::Library,
         pipeline::{Inspection, NamedRecipe, Unwatched, live::refuse_moving, run},
     };
-    use robot::spray::{carry, default_path};
+    use robot::{
+        program::TrackingFrame,
+        spray::{carry, default_path},
+    };
     use simulate::{PartKind, Side};
     use stages::{fixtures::facing_part, pose::RunnerUp, scene::SceneCloud};
 
@@ -608,6 +617,25 @@ mod tests {
                 assert!(contains(&path, &words), "{name}: {words}");
             }
         }
+    }
+
+    #[test]
+    fn of_a_program_for_a_moving_part_no_arm_is_asked_for() {
+        let mut bench = Bench::new();
+        bench.settings.tracking = Some(TrackingFrame {
+            number: 1,
+            robot_from_frame: RigidTransform::identity(),
+        });
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("paint.mod");
+        let written = bench.file(&path, &fresh()).write().expect("written");
+        assert_eq!(written.unchecked, [Unchecked::MovingPart, Unchecked::Film]);
+        assert!(contains(
+            &path,
+            "reach and collisions, because the line moves the part"
+        ));
+        let advice = Unchecked::MovingPart.message().command_advice();
+        assert!(!advice.contains("arm"), "{advice}");
     }
 
     #[test]

@@ -178,7 +178,9 @@ pub(super) fn show(
     row("bounds, 95 %", bounds.unwrap_or_default());
     let tolerance = both(Some(run.tolerance_m), Some(run.tolerance_rad));
     row("tolerance", tolerance.unwrap_or_default());
-    row("speed", format!("up to {:.0} mm/s", 1000.0 * run.speed_m_s));
+    let speed = run.speed_m_s;
+    let speed = speed.map(|speed| format!("up to {:.0} mm/s", 1000.0 * speed));
+    row("speed", speed.unwrap_or_default());
     row(
         "took",
         format!("{:.1} s, {} frames", run.took_s, run.num_looks),

@@ -107,6 +107,7 @@ impl Inspector for ServeSession<'_> {
     fn servo(&mut self, request: &ServoRequest, client: u64, asked: &Asked) -> Found {
         let found = self.next_move(request, client, asked);
         self.show_move(&found);
+        self.record_runs();
         found
     }
 
@@ -181,6 +182,17 @@ impl ServeSession<'_> {
                 scene_of(captured, scenes, console)
             })
         })
+    }
+
+    /// Adds the runs of servoing that have ended to the history.
+    fn record_runs(&mut self) {
+        let (Ok(servoing), Some(recording)) = (&mut self.servoing, &self.recording) else {
+            return;
+        };
+        for mut record in servoing.take_ended() {
+            record.run.title = recording.title_of(&record.run.part);
+            recording.add_servo_run(record);
+        }
     }
 
     /// Shows what a robot that servoes is told.
@@ -376,6 +388,10 @@ impl ServeSession<'_> {
     pub(super) fn finish(mut self) -> anyhow::Result<Outcome> {
         let left = self.line.take().map(LineFollower::end);
         self.record(left.unwrap_or_default());
+        if let Ok(servoing) = &mut self.servoing {
+            servoing.end_run();
+        }
+        self.record_runs();
         let console = self.console;
         if let Some(suspicion) = self.mirrored.suspicion() {
             console.warn(&suspicion, &suspicion);

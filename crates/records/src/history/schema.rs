@@ -3,7 +3,7 @@
 use rusqlite::{Connection, TransactionBehavior};
 
 /// The version that this program writes and reads. Files of development builds have lower ones and are set aside.
-pub(super) const VERSION: u32 = 9;
+pub(super) const VERSION: u32 = 10;
 
 /// Application id that distinguishes our files from those of other programs: `PsHi`.
 pub(super) const APPLICATION: i32 = i32::from_be_bytes(*b"PsHi");
@@ -79,7 +79,7 @@ const TABLES: &str = "
         approximate INTEGER NOT NULL,
         took_s REAL NOT NULL,
         num_looks INTEGER NOT NULL,
-        speed_m_s REAL NOT NULL,
+        speed_m_s REAL,                             -- none: the robot chose it
         tolerance_m REAL NOT NULL,
         tolerance_rad REAL NOT NULL,
         program TEXT NOT NULL,                      -- version of the program

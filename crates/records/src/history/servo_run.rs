@@ -83,8 +83,8 @@ pub struct ServoRun {
     pub took_s: f64,
     /// Number of frames that were inspected.
     pub num_looks: usize,
-    /// Limit of the speed.
-    pub speed_m_s: f64,
+    /// Limit of the speed; `None` if the robot chose it itself.
+    pub speed_m_s: Option<f64>,
     /// Tolerance of the shift.
     pub tolerance_m: f64,
     /// Tolerance of the angle.
@@ -341,7 +341,8 @@ pub fn write_servo_table<'r>(
             run.is_approximate,
             run.took_s,
             run.num_looks,
-            run.speed_m_s,
+            run.speed_m_s
+                .map_or_else(String::new, |speed| speed.to_string()),
             run.tolerance_m,
             run.tolerance_rad,
             run.program,

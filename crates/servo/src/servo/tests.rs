@@ -5,7 +5,10 @@ use crate::{
     Target, Tool,
     task::tests::{World, worlds},
 };
-use geometry::oriented_box::OrientedBox;
+use geometry::{
+    oriented_box::OrientedBox,
+    units::{Metres, Radians},
+};
 use inspection::pipeline::{Refusal, Rejection};
 
 const PERIOD: Duration = Duration::from_millis(12);

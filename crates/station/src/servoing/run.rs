@@ -142,7 +142,13 @@ impl ServoJob<'_> {
     }
 
     /// The row without what the run itself knows.
-    fn row(&self, task: &Task, params: &ServoParams, robot: String, source: String) -> ServoRun {
+    pub(super) fn row(
+        &self,
+        task: &Task,
+        params: &ServoParams,
+        robot: String,
+        source: String,
+    ) -> ServoRun {
         let target = match task.target {
             Target::Nozzle { .. } => ServoTargetKind::PathStart,
             target if target == Target::standard_position() => ServoTargetKind::StandardPosition,
@@ -166,7 +172,7 @@ impl ServoJob<'_> {
             is_approximate: false,
             took_s: 0.0,
             num_looks: 0,
-            speed_m_s: params.limits.speed,
+            speed_m_s: Some(params.limits.speed),
             tolerance_m: tolerance.shift.0,
             tolerance_rad: tolerance.rotation.0,
             program: env!("CARGO_PKG_VERSION").to_owned(),
@@ -201,10 +207,10 @@ impl ServoNews {
 
 /// What a run leaves behind.
 #[derive(Default)]
-struct Log {
+pub(super) struct Log {
     /// When the robot first reported, by both clocks.
-    began: Option<(Timestamp, Duration)>,
-    curve: Vec<ServoSample>,
+    pub(super) began: Option<(Timestamp, Duration)>,
+    pub(super) curve: Vec<ServoSample>,
 }
 
 impl Log {
@@ -216,7 +222,7 @@ impl Log {
     }
 
     /// Completes the row; `None` if the robot never reported.
-    fn record(
+    pub(super) fn record(
         self,
         row: ServoRun,
         end: &Result<Step, LinkError>,

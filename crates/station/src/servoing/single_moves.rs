@@ -2,26 +2,39 @@
 
 use std::time::{Duration, Instant};
 
-use super::{PreparedTask, ServoSetup, SetupError};
+use super::{PreparedTask, ServoJob, ServoSetup, SetupError, run::Log};
 use crate::{Camera, NoFrame, PartFinder};
 use capture::Captured;
-use geometry::rigid::{PoseDelta, RigidTransform};
+use geometry::{
+    rigid::{PoseDelta, RigidTransform},
+    units::{Metres, Radians},
+};
 use inspection::{
     library::Library,
     pipeline::{NamedRecipe, Unwatched, run as inspect},
 };
+use records::history::{ServoRecord, ServoRun, ServoSample};
 use serve::{Answer, Asked, Found, Problem, RemainingError, ServoRequest, VerdictCode};
-use servo::{ArmState, Look, OnePose, OnePoseAnswer, SeenPart, ServoError, StopReason};
+use servo::{
+    ArmState, Look, OnePose, OnePoseAnswer, SeenPart, ServoError, ServoState, Step, StopReason,
+};
 use stages::scene::SceneCloud;
 
 /// Moves robots at rest, one move at a time, by what the camera sees in between.
 pub struct SingleMoves {
     setup: ServoSetup,
     max_move: PoseDelta,
+    /// The camera, as the history names it.
+    source: String,
     /// All looks and poses are dated from here.
     since: Instant,
     run: Option<Run>,
+    /// Rows of the history that were not taken yet.
+    ended: Vec<ServoRecord>,
 }
+
+/// What the history calls a robot that asks over the server.
+const ROBOT: &str = "serve";
 
 /// A run of a client.
 struct Run {
@@ -29,6 +42,46 @@ struct Run {
     part: u32,
     prepared: PreparedTask,
     moves: OnePose,
+    row: ServoRun,
+    log: Log,
+    /// How it ends if nothing more is asked, and when it was answered last.
+    end: (Step, Duration),
+}
+
+impl Run {
+    /// Notes an answer, and what it rests upon. Without another request, the robot has stopped on its way.
+    fn note(&mut self, looks: &[Look], answer: &OnePoseAnswer, began: Duration, now: Duration) {
+        let (error, held, end) = match answer {
+            OnePoseAnswer::Move { error, .. } => {
+                (Some(*error), None, Step::Stop(StopReason::RobotStopped))
+            }
+            OnePoseAnswer::Done(arrival) => {
+                (Some(arrival.error), None, Step::Done(arrival.clone()))
+            }
+            OnePoseAnswer::Stay(reason) => (None, Some(reason), Step::Stop(reason.clone())),
+        };
+        self.end = (end, now);
+        let state = held.map_or(ServoState::Checking, |_| ServoState::Holding);
+        self.log.curve.extend(looks.iter().map(|look| ServoSample {
+            at_s: look.taken_at.saturating_sub(began).as_secs_f64(),
+            error_m: error.map(|error| error.shift.0),
+            error_rad: error.map(|error| error.rotation.0),
+            state,
+            held: held.map(|reason| reason.kind().to_owned()),
+        }));
+    }
+
+    /// Its row in the history.
+    fn record(self) -> Option<ServoRecord> {
+        let error = self.log.curve.iter().rev().find_map(|sample| {
+            Some(PoseDelta {
+                shift: Metres(sample.error_m?),
+                rotation: Radians(sample.error_rad?),
+            })
+        });
+        let (end, now) = self.end;
+        self.log.record(self.row, &Ok(end), error, now)
+    }
 }
 
 /// What the frames show that were taken while a robot stood still.
@@ -96,21 +149,28 @@ pub struct ServoParts<'a> {
 }
 
 impl SingleMoves {
-    /// Moves are at most `max_move` long.
-    pub fn new(setup: ServoSetup, max_move: PoseDelta) -> Result<Self, ServoError> {
+    /// Moves are at most `max_move` long; the history names the camera `source`.
+    pub fn new(setup: ServoSetup, max_move: PoseDelta, source: String) -> Result<Self, ServoError> {
         setup.params().checked()?;
         OnePose::check_longest(&max_move)?;
         Ok(Self {
             setup,
             max_move,
+            source,
             since: Instant::now(),
             run: None,
+            ended: Vec::new(),
         })
     }
 
-    /// Ends the run: the library is another one.
+    /// Ends the run: the library is another one, or the service ends.
     pub fn end_run(&mut self) {
-        self.run = None;
+        self.ended.extend(self.run.take().and_then(Run::record));
+    }
+
+    /// Takes the rows of the runs that have ended since the last call.
+    pub fn take_ended(&mut self) -> Vec<ServoRecord> {
+        std::mem::take(&mut self.ended)
     }
 
     /// Answers a robot at rest. `look` takes as many frames as it is told, captured after this time, or one if the source gives
@@ -129,6 +189,9 @@ impl SingleMoves {
             Ok(run) => run,
             Err(problem) => return Found::error(problem),
         };
+        let dated = |at: Instant| at.saturating_duration_since(since);
+        let begins = || (asked.by_clock, dated(asked.at));
+        let (_, began) = *run.log.began.get_or_insert_with(begins);
         // Arm and camera swing on for a moment.
         let at_rest = Asked {
             at: asked.at + params.settle,
@@ -139,7 +202,6 @@ impl SingleMoves {
             Ok(frames) => frames,
             Err(why) => return Found::error((&why).into()),
         };
-        let dated = |at: Instant| at.saturating_duration_since(since);
         let looks = frames.looks.into_iter();
         let looks = looks.map(|(arrived, seen)| Look {
             taken_at: dated(arrived),
@@ -149,6 +211,8 @@ impl SingleMoves {
         let stands = |at: Duration| state(&request.robot_from_flange, at);
         let states = [dated(at_rest.at), dated(Instant::now())].map(stands);
         let answer = run.moves.answer(&looks, [&states[0], &states[1]]);
+        run.row.is_simulated |= frames.marks & Answer::SIMULATED != 0;
+        run.note(&looks, &answer, began, states[1].at);
         let found = Found {
             captured: Some(frames.captured),
             part: run.prepared.task.part.clone(),
@@ -158,7 +222,7 @@ impl SingleMoves {
         };
         let (found, is_over) = with_answer(found, answer);
         if is_over {
-            self.run = None;
+            self.end_run();
         }
         found
     }
@@ -172,9 +236,12 @@ impl SingleMoves {
     ) -> Result<&mut Run, Problem> {
         let goes_on =
             |run: &Run| run.client == client && run.part == request.part && !request.is_start;
-        let run = match self.run.take().filter(goes_on) {
+        let run = match self.run.take_if(|run| goes_on(run)) {
             Some(run) => run,
-            None => self.begun(request.part, client, parts)?,
+            None => {
+                self.end_run();
+                self.begun(request.part, client, parts)?
+            }
         };
         Ok(self.run.insert(run))
     }
@@ -195,13 +262,27 @@ impl SingleMoves {
         let problem = |error: SetupError| Problem::of(error.kind(), &error);
         let prepared = prepared.map_err(problem)?;
         let (task, fence) = (prepared.task.clone(), prepared.fence.clone());
-        let moves = OnePose::new(task, self.setup.params(), self.max_move, fence);
+        let params = self.setup.params();
+        let job = ServoJob {
+            part: name,
+            title: name,
+            library,
+            longest_step: None,
+        };
+        let row = job.row(&task, &params, ROBOT.into(), self.source.clone());
+        let moves = OnePose::new(task, params, self.max_move, fence);
         let moves = moves.map_err(|error| Problem::of("parameter", &error))?;
         Ok(Run {
             client,
             part,
             prepared,
             moves,
+            row: ServoRun {
+                speed_m_s: None,
+                ..row
+            },
+            log: Log::default(),
+            end: (Step::Stop(StopReason::RobotStopped), Duration::ZERO),
         })
     }
 }

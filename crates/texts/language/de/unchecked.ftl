@@ -2,6 +2,8 @@
 
 unchecked-arm = Reichweite und Kollisionen
     .advice = Ein Programm schreiben und seinen Arm nennen, mit der Pose der Düse am Flansch, oder den ersten Lauf des Roboters bei geringer Geschwindigkeit beobachten
+unchecked-moving-part = Reichweite und Kollisionen, weil die Linie das Teil bewegt, während der Roboter arbeitet
+    .advice = Das Programm zuerst ohne Lack bei langsamer Linie laufen lassen und den Roboter beobachten
 unchecked-surroundings = Kollisionen mit anderem als Teil und Arm, etwa mit der Halterung des Teils
     .advice = Die Kästen und den Boden der Zelle in einer Datei beschreiben oder den ersten Lauf des Roboters bei geringer Geschwindigkeit beobachten
 unchecked-film = die Schicht, die das Programm aufträgt, weil die Bahn keine Lackschicht nennt

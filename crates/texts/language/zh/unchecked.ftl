@@ -2,6 +2,8 @@
 
 unchecked-arm = 可达范围和碰撞
     .advice = 请写出程序并指定机械臂及喷嘴在法兰上的位姿，或以低速观察机器人的首次运行
+unchecked-moving-part = 可达范围和碰撞，因为机器人工作时产线带动零件移动
+    .advice = 请先在产线低速时不喷漆运行程序，并观察机器人
 unchecked-surroundings = 与零件和机械臂以外物体（如零件支架）的碰撞
     .advice = 请在文件中描述工位的方箱和地面，或以低速观察机器人的首次运行
 unchecked-film = 程序形成的漆膜，因为轨迹未注明涂层

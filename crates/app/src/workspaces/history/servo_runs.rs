@@ -231,8 +231,10 @@ pub(super) fn details(ui: &mut Ui, runs: &RunsView, units: UnitSystem) {
             &text!("servoing-tolerance"),
             &tolerance.unwrap_or_default(),
         );
-        let speed = format!("{}/s", units.length(run.speed_m_s));
-        row(ui, &text!("servoing-speed"), &speed);
+        if let Some(speed) = run.speed_m_s {
+            let speed = format!("{}/s", units.length(speed));
+            row(ui, &text!("servoing-speed"), &speed);
+        }
         row(ui, &text!("servoing-took"), &format!("{:.1} s", run.took_s));
         row(ui, &text!("servoing-robot"), &run.robot);
         path_row(ui, &text!("servoing-source"), &run.source);

@@ -189,13 +189,13 @@ impl Robots<'_> {
     }
 }
 
-/// Runs a server for a cell, and lets robots ask it.
+/// Runs a server for a cell, and lets robots ask it. Returns the rows of the history.
 fn served(
     setup: CellSetup,
     change: impl FnOnce(&mut ServoSetup),
     settings: ServerSettings,
     talk: impl FnOnce(&Robots<'_>) + Send,
-) {
+) -> Vec<ServoRecord> {
     let library = shipped_library();
     let cell = SimulatedCell::arrange(setup, &library).expect("a start");
     let params = ServoParams {
@@ -275,7 +275,7 @@ fn served(
         world: &world,
         library: &library,
         finder,
-        moves: SingleMoves::new(servo_setup, max_move).expect("sound"),
+        moves: SingleMoves::new(servo_setup, max_move, "camera".into()).expect("sound"),
         is_ending: &is_ending,
     };
     thread::scope(|scope| {
@@ -285,6 +285,8 @@ fn served(
         });
         server.run(&mut inspector);
     });
+    inspector.moves.end_run();
+    inspector.moves.take_ended()
 }
 
 /// An answer as a robot reads it.
@@ -506,7 +508,7 @@ fn frame(part: u32, is_start: bool, numbers: &[f64], is_big: bool) -> Vec<u8> {
 #[test]
 fn a_robot_of_each_protocol_is_brought_to_its_target_move_by_move() {
     let settings = ServerSettings::default();
-    served(
+    let records = served(
         setup(Disturbance::None),
         |_| (),
         settings,
@@ -551,6 +553,15 @@ fn a_robot_of_each_protocol_is_brought_to_its_target_move_by_move() {
             }
         },
     );
+    assert_eq!(records.len(), ALL.len());
+    for ServoRecord { run, curve } in &records {
+        assert_eq!((&*run.part, &*run.robot), ("fender", "serve"));
+        assert_eq!((&run.stopped, run.speed_m_s), (&None, None));
+        assert!(run.is_simulated && run.bounds_m > run.error_m, "{run:?}");
+        assert_eq!((run.num_looks, run.num_looks % 3), (curve.len(), 0));
+        let [first, last] = [0, curve.len() - 1].map(|at| curve[at].error_m);
+        assert!(first > Some(0.05) && last == run.error_m, "{curve:?}");
+    }
 }
 
 #[test]
@@ -677,7 +688,7 @@ fn a_robot_is_told_to_stay_and_why() {
 #[test]
 fn a_run_belongs_to_one_client_and_one_part_and_begins_anew_when_it_is_told_to() {
     let settings = ServerSettings::default();
-    served(
+    let records = served(
         setup(Disturbance::None),
         |_| (),
         settings,
@@ -732,4 +743,19 @@ fn a_run_belongs_to_one_client_and_one_part_and_begins_anew_when_it_is_told_to()
             assert_eq!(ask(&mut robot, 0, false).1, "unknown_number");
         },
     );
+    // A row for each, with what it was told last.
+    let ends = records.iter().map(|record| {
+        let stopped = record.run.stopped.as_ref();
+        (&*record.run.part, stopped.map_or("", StopReason::kind))
+    });
+    let ends: Vec<(&str, &str)> = ends.collect();
+    let on_its_way = ("fender", "robot_stopped");
+    let grille = ends[2];
+    assert!(
+        grille.0 == "grille" && grille.1 != "robot_stopped",
+        "{ends:?}"
+    );
+    let rest = [on_its_way; 3];
+    assert_eq!(ends[..2], [on_its_way; 2]);
+    assert_eq!(ends[3..], [&rest[..], &[("fender", "arm_astray")]].concat());
 }
