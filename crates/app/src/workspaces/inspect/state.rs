@@ -271,7 +271,7 @@ impl InspectState {
             | Event::TracedLate(..)
             | Event::EngineerIn
             | Event::WrongPart(_)
-            | Event::Undo => {}
+            | Event::Undo(_) => {}
         }
     }
 

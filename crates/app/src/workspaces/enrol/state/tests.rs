@@ -82,7 +82,7 @@ impl Bench {
                 }
                 Message::WithdrawUndo => {
                     for notice in &mut self.notices {
-                        if notice.kind == NoticeKind::Undoable {
+                        if matches!(notice.kind, NoticeKind::Undoable(_)) {
                             notice.kind = NoticeKind::Done;
                         }
                     }
