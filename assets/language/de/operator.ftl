@@ -48,7 +48,7 @@ operator-approximate-ok = Vielleicht anderes Modell
 operator-locked-says = Gesperrt: PIN erforderlich (Strg K)
 operator-history-says = Alle geprüften Teile
 operator-shift-since = Schicht seit { $time }
-operator-shift-says = Teile dieser Schicht aus dieser Quelle
+operator-shift-says = Teile, die seit Schichtbeginn vor dieser Quelle hingen, jedes einmal gezählt. Eine leere Zelle ist kein Teil; geöffnete Dateien und einzelne Aufnahmen der simulierten Zelle zählen nicht. IO: akzeptiert und nicht als falsch gemeldet. Die Statistik im Verlauf zählt genauso
 operator-num-parts = { $num ->
         [one] { $num } Teil
        *[other] { $num } Teile

@@ -48,7 +48,7 @@ operator-approximate-ok = Maybe another model
 operator-locked-says = Locked: asks for the PIN (Ctrl K)
 operator-history-says = All parts that were inspected
 operator-shift-since = Shift since { $time }
-operator-shift-says = Parts of this shift from this source
+operator-shift-says = Parts that hung in front of this source since the shift began, each counted once. An empty cell is no part; opened files and single captures of the simulated cell do not count. OK: accepted, and not reported as wrong. The statistics of the history count the same
 operator-num-parts = { $num ->
         [one] { $num } part
        *[other] { $num } parts
