@@ -550,7 +550,7 @@ fn escape_gives_the_drag_back_to_the_view() {
     let lasso = PaintTool::Outline(ui::viewport::DrawnShape::Lasso, RegionUse::KeepOut);
     bench.act(PaintAction::Use(lasso));
     let Bench { paint, shell, .. } = &mut bench;
-    paint.on_event(&Event::Escape, &shell.context());
+    paint.on_event(&Event::Escape, &mut shell.context());
     assert_eq!(bench.paint.tool, PaintTool::Look);
 }
 
