@@ -38,6 +38,7 @@ operator-counting = Wird gezählt…
 ## What an operator can do about it
 
 operator-then-capture = Dann „Aufnehmen“ drücken
+operator-then-open = Dann die neue Aufnahme öffnen
 operator-next-file = Die nächste Datei wird automatisch geprüft
 operator-reaches-edge = Es reicht bis an den Bildrand: So aufhängen, dass es ganz im Bild ist
 operator-reaches-edge-ok = Nicht ganz im Bild

@@ -38,6 +38,7 @@ operator-counting = Counting…
 ## What an operator can do about it
 
 operator-then-capture = Then press Capture
+operator-then-open = Then open the new capture
 operator-next-file = The next file is inspected automatically
 operator-reaches-edge = It reaches the edge of the picture: hang it so that all of it is in the picture
 operator-reaches-edge-ok = Not all of it is in the picture

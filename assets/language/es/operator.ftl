@@ -38,6 +38,7 @@ operator-counting = Contando…
 ## What an operator can do about it
 
 operator-then-capture = Después, pulsar Capturar
+operator-then-open = Después, abrir la nueva captura
 operator-next-file = El próximo archivo se inspecciona automáticamente
 operator-reaches-edge = Llega al borde de la imagen: colgarla de modo que quede entera en la imagen
 operator-reaches-edge-ok = No está entera en la imagen

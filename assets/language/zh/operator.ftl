@@ -38,6 +38,7 @@ operator-counting = 正在统计…
 ## What an operator can do about it
 
 operator-then-capture = 然后按“采集”
+operator-then-open = 然后打开新的采集
 operator-next-file = 下一个文件会自动检测
 operator-reaches-edge = 零件到达画面边缘：请将其完全挂在画面内
 operator-reaches-edge-ok = 未完全在画面内

@@ -22,13 +22,14 @@ use shell::{
     notice::Notice,
     session::{ThemeChoice, WorkspaceKind},
 };
-use simulate::{PartKind, Side};
+use simulate::{ObjectKind, PartKind, Side};
 
 use stages::fixtures::facing_part;
 
 use super::robot::save_calibration;
 use super::set_up::{
-    SMALL, USUAL, WindowHarness, act, drop_file, inspect_of, open, open_with, plain_options, settle,
+    SMALL, USUAL, WindowHarness, act, drop_file, enrol_of, inspect_of, open, open_with,
+    plain_options, press, settle,
 };
 
 fn generation(harness: &WindowHarness) -> u64 {
@@ -480,6 +481,34 @@ fn a_notice_leaves_the_focus_alone_and_is_dismissed_over_a_dialog() {
     harness.run_steps(4);
     assert!(harness.state().state().notices.is_empty());
     harness.get_by_label("Shortcuts");
+}
+
+#[test]
+fn the_next_step_is_a_button_on_the_card() {
+    let mut harness = open();
+    let shows = |harness: &WindowHarness, label| harness.query_by_label(label).is_some();
+    for label in ["Enrol this part", "Calibrate the cell", "Why?"] {
+        assert!(!shows(&harness, label), "{label}");
+    }
+    let hood = CellChoice::Foreign(ObjectKind::Hood);
+    act(&mut harness, Action::UseCell(hood));
+    press(&mut harness, "Enrol this part");
+    let front = |harness: &WindowHarness| harness.state().state().session.workspace;
+    assert_eq!(front(&harness), WorkspaceKind::Enrol);
+    assert!(enrol_of(&harness).draft.is_some());
+    act(&mut harness, Action::GoTo(WorkspaceKind::Inspect));
+    press(&mut harness, "Why?");
+    assert_eq!(front(&harness), WorkspaceKind::Compare);
+    act(&mut harness, Action::GoTo(WorkspaceKind::Inspect));
+    // A part from a camera's file that only lacks the calibration.
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("captured.pcd");
+    let mut cloud = facing_part(PartKind::Fender, Side::Left, 5).cloud;
+    cloud.is_simulated = false;
+    save_cloud(&path, &cloud).expect("written");
+    drop_file(&mut harness, &path);
+    press(&mut harness, "Calibrate the cell");
+    assert!(harness.state().robot().dialog().is_some());
 }
 
 #[test]
