@@ -119,10 +119,10 @@ history-shift = Schicht vom { $start }: { $ok } IO, { $nok } NIO
 history-by-shift = Teile nach Schicht
 history-not-ok-on-top = NIO, oben
 history-total = { $count } Teile, { $share } IO
-history-simulated-left-out =
+history-others-left-out =
     { $count ->
-        [one] 1 simuliertes Teil ist nicht mitgezählt
-       *[other] { $count } simulierte Teile sind nicht mitgezählt
+        [one] 1 Teil anderer Quellen ist nicht mitgezählt
+       *[other] { $count } Teile anderer Quellen sind nicht mitgezählt
     }
 history-no-part-left-out =
     { $count ->

@@ -38,6 +38,7 @@ operator-counting = Wird gezählt…
 ## What an operator can do about it
 
 operator-then-capture = Dann „Aufnehmen“ drücken
+operator-then-open = Dann die neue Aufnahme öffnen
 operator-next-file = Die nächste Datei wird automatisch geprüft
 operator-reaches-edge = Es reicht bis an den Bildrand: So aufhängen, dass es ganz im Bild ist
 operator-reaches-edge-ok = Nicht ganz im Bild
@@ -48,7 +49,7 @@ operator-approximate-ok = Vielleicht anderes Modell
 operator-locked-says = Gesperrt: PIN erforderlich (Strg K)
 operator-history-says = Alle geprüften Teile
 operator-shift-since = Schicht seit { $time }
-operator-shift-says = Teile dieser Schicht aus dieser Quelle
+operator-shift-says = Teile, die seit Schichtbeginn vor dieser Quelle hingen, jedes einmal gezählt. Eine leere Zelle ist kein Teil; geöffnete Dateien und einzelne Aufnahmen der simulierten Zelle zählen nicht. IO: akzeptiert und nicht als falsch gemeldet. Die Statistik im Verlauf zählt genauso
 operator-num-parts = { $num ->
         [one] { $num } Teil
        *[other] { $num } Teile

@@ -119,10 +119,10 @@ history-shift = Shift of { $start }: { $ok } OK, { $nok } NOK
 history-by-shift = Parts by shift
 history-not-ok-on-top = NOK, on top
 history-total = { $count } parts, { $share } OK
-history-simulated-left-out =
+history-others-left-out =
     { $count ->
-        [one] 1 simulated part is not counted
-       *[other] { $count } simulated parts are not counted
+        [one] 1 part of another source is not counted
+       *[other] { $count } parts of other sources are not counted
     }
 history-no-part-left-out =
     { $count ->

@@ -38,6 +38,7 @@ operator-counting = Counting…
 ## What an operator can do about it
 
 operator-then-capture = Then press Capture
+operator-then-open = Then open the new capture
 operator-next-file = The next file is inspected automatically
 operator-reaches-edge = It reaches the edge of the picture: hang it so that all of it is in the picture
 operator-reaches-edge-ok = Not all of it is in the picture
@@ -48,7 +49,7 @@ operator-approximate-ok = Maybe another model
 operator-locked-says = Locked: asks for the PIN (Ctrl K)
 operator-history-says = All parts that were inspected
 operator-shift-since = Shift since { $time }
-operator-shift-says = Parts of this shift from this source
+operator-shift-says = Parts that hung in front of this source since the shift began, each counted once. An empty cell is no part; opened files and single captures of the simulated cell do not count. OK: accepted, and not reported as wrong. The statistics of the history count the same
 operator-num-parts = { $num ->
         [one] { $num } part
        *[other] { $num } parts

@@ -119,10 +119,10 @@ history-shift = Turno del { $start }: { $ok } OK, { $nok } NOK
 history-by-shift = Piezas por turno
 history-not-ok-on-top = NOK, encima
 history-total = { $count } piezas, { $share } OK
-history-simulated-left-out =
+history-others-left-out =
     { $count ->
-        [one] 1 pieza simulada no cuenta
-       *[other] { $count } piezas simuladas no cuentan
+        [one] 1 pieza de otra fuente no cuenta
+       *[other] { $count } piezas de otras fuentes no cuentan
     }
 history-no-part-left-out =
     { $count ->

@@ -38,6 +38,7 @@ operator-counting = Contando…
 ## What an operator can do about it
 
 operator-then-capture = Después, pulsar Capturar
+operator-then-open = Después, abrir la nueva captura
 operator-next-file = El próximo archivo se inspecciona automáticamente
 operator-reaches-edge = Llega al borde de la imagen: colgarla de modo que quede entera en la imagen
 operator-reaches-edge-ok = No está entera en la imagen
@@ -48,7 +49,7 @@ operator-approximate-ok = Quizá otro modelo
 operator-locked-says = Bloqueada: pide el PIN (Ctrl K)
 operator-history-says = Todas las piezas inspeccionadas
 operator-shift-since = Turno desde las { $time }
-operator-shift-says = Piezas de este turno de esta fuente
+operator-shift-says = Piezas que colgaron ante esta fuente desde el comienzo del turno, cada una contada una vez. Una celda vacía no es una pieza; los archivos abiertos y las capturas sueltas de la celda simulada no cuentan. OK: aceptada y no notificada como errónea. Las estadísticas del historial cuentan lo mismo
 operator-num-parts = { $num ->
         [one] { $num } pieza
        *[other] { $num } piezas

@@ -38,6 +38,7 @@ operator-counting = 正在统计…
 ## What an operator can do about it
 
 operator-then-capture = 然后按“采集”
+operator-then-open = 然后打开新的采集
 operator-next-file = 下一个文件会自动检测
 operator-reaches-edge = 零件到达画面边缘：请将其完全挂在画面内
 operator-reaches-edge-ok = 未完全在画面内
@@ -48,7 +49,7 @@ operator-approximate-ok = 可能是其他型号
 operator-locked-says = 已锁定：需要输入 PIN (Ctrl K)
 operator-history-says = 所有已检测的零件
 operator-shift-since = 本班自 { $time }
-operator-shift-says = 本班次来自此来源的零件
+operator-shift-says = 本班次开始以来挂在此来源前的零件，每件计一次。空工位不算零件；打开的文件和仿真工位的单次采集不计入。OK：已接受且未被报告为错误。历史统计的计数方式相同
 operator-num-parts = { $num } 件
 operator-num-ok = { $num } OK
 operator-num-not-ok = { $num } NG

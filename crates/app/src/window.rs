@@ -496,16 +496,16 @@ impl Window {
             top_bar::ui(ui, &self.state, &self.robot, work, &mut actions);
             rail::ui(ui, &self.state, &mut actions);
         }
-        let room = notices::room(ui, &self.state);
         let front = self.state.session.workspace;
         let canvas = match front {
             // Its view covers everything, and a software driver would still paint what is below.
             WorkspaceKind::Inspect => Frame::new(),
             _ => Frame::new().fill(Theme::of(ui).canvas),
         };
-        CentralPanel::default().frame(canvas).show(ui, |ui| {
-            self.lend(front, &ctx, |workspace, cx| workspace.ui(ui, cx));
+        let drawn = CentralPanel::default().frame(canvas).show(ui, |ui| {
+            self.lend(front, &ctx, |workspace, cx| workspace.ui(ui, cx))
         });
+        let room = drawn.inner.unwrap_or(drawn.response.rect);
         let hosted = self.hosted(front);
         let view_has_focus = hosted.is_some_and(Workspace::has_key_focus);
         let keys = hosted.map_or_else(Vec::new, Workspace::key_bindings);
@@ -523,15 +523,15 @@ impl Window {
         keys::help(&ctx, &self.state, &keys, &mut actions);
         notices::ui(&ctx, room, &self.state, &mut actions);
         let is_behind_dialog = self.is_behind_dialog(&ctx);
-        keys::shortcuts(
-            &ctx,
-            &self.state,
-            &keys,
-            view_has_focus,
-            is_behind_dialog,
-            &mut actions,
-        );
+        let of_keys = keys::shortcuts(&ctx, &self.state, &keys, view_has_focus, is_behind_dialog);
         for action in actions {
+            self.act(action, &ctx);
+        }
+        for action in of_keys {
+            // What was pressed after a key that opened a dialog was meant for the dialog.
+            if self.is_behind_dialog(&ctx) {
+                break;
+            }
             self.act(action, &ctx);
         }
         self.lock_untouched(&ctx);

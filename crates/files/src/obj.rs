@@ -1,8 +1,12 @@
 //! OBJ: vertices and polygons as text.
 //!
-//! Source: Wavefront's *Advanced Visualizer Manual*, appendix B1. `v` and `f` of all objects and groups are read together;
-//! polygons are split into triangles. An OBJ without faces is a cloud. Texture coordinates, normals,
+//! Source: Wavefront's *Advanced Visualizer Manual*, appendix B1. `v` and `f` of all objects and groups are read together, or
+//! those of the object (`o`) that is asked for; polygons are split into triangles. An OBJ without faces is a cloud. Texture coordinates, normals,
 //! materials, lines and curves are ignored.
+
+use std::collections::HashMap;
+
+use nalgebra::Point3;
 
 use super::error::FileError;
 use super::open::FileContent;
@@ -26,8 +30,10 @@ pub(super) fn is_obj(source: Source<'_>) -> bool {
     })
 }
 
-pub(super) fn read(source: Source<'_>) -> Result<FileContent, FileError> {
+pub(super) fn read(source: Source<'_>, wanted: Option<&str>) -> Result<FileContent, FileError> {
     let mut points = Vec::new();
+    let mut objects: Vec<String> = Vec::new();
+    let mut is_wanted = wanted.is_none();
     let mut triangles = Vec::new();
     let mut triangulation = Triangulation::default();
     let mut statement = String::new();
@@ -61,12 +67,32 @@ pub(super) fn read(source: Source<'_>) -> Result<FileContent, FileError> {
                         "f and three vertices or more that come before it",
                     )
                 })?;
-                triangulation.push(source, &polygon, &points, &mut triangles)?;
-                source.limited("triangles", triangles.len())?;
+                if is_wanted {
+                    triangulation.push(source, &polygon, &points, &mut triangles)?;
+                    source.limited("triangles", triangles.len())?;
+                }
+            }
+            Some("o") => {
+                let name = statement.trim_start().trim_start_matches('o').trim();
+                is_wanted = wanted.is_none_or(|wanted| wanted == name);
+                if !objects.iter().any(|known| known == name) {
+                    objects.push(name.to_owned());
+                }
             }
             _ => {}
         }
         statement.clear();
+    }
+    if let Some(wanted) = wanted {
+        if !objects.iter().any(|name| name == wanted) {
+            return Err(FileError::NoSuchMesh {
+                path: source.path.to_owned(),
+                wanted: wanted.to_owned(),
+                available: objects,
+            });
+        }
+        let points = keep_used(&points, &mut triangles);
+        return checked_mesh(source, points, triangles).map(FileContent::Mesh);
     }
     if triangles.is_empty() {
         tidy(
@@ -80,6 +106,19 @@ pub(super) fn read(source: Source<'_>) -> Result<FileContent, FileError> {
     } else {
         checked_mesh(source, points, triangles).map(FileContent::Mesh)
     }
+}
+
+/// Returns the points that the triangles use, and renumbers the triangles.
+fn keep_used(points: &[Point3<f32>], triangles: &mut [[u32; 3]]) -> Vec<Point3<f32>> {
+    let mut places: HashMap<u32, u32> = HashMap::new();
+    let mut used = Vec::new();
+    for corner in triangles.iter_mut().flatten() {
+        *corner = *places.entry(*corner).or_insert_with(|| {
+            used.push(points[*corner as usize]);
+            used.len() as u32 - 1
+        });
+    }
+    used
 }
 
 /// Returns the vertex named by `7/1/2` or `-1//3`, from 0; `None` if there is no such vertex yet.
@@ -99,17 +138,41 @@ fn index_of(corner: &str, num_points: usize) -> Option<u32> {
 mod tests {
     use std::path::Path;
 
-    use nalgebra::Point3;
-
     use super::*;
 
     fn read_text(text: &str) -> Result<FileContent, FileError> {
+        read_object(text, None)
+    }
+
+    fn read_object(text: &str, wanted: Option<&str>) -> Result<FileContent, FileError> {
         let source = Source {
             path: Path::new("test.obj"),
             bytes: text.as_bytes(),
         };
         assert!(is_obj(source), "{text:?} is not recognised");
-        read(source)
+        read(source, wanted)
+    }
+
+    #[test]
+    fn one_object_is_read_alone_by_its_name() {
+        let text = "o Left door\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\no Hood\nv 9 0 0\nv 8 0 0\nv 9 1 0\n\
+                    f 4 5 6\nf -3 -1 -2\n";
+        for (wanted, num, x) in [("Left door", 1, 1.0), ("Hood", 2, 9.0)] {
+            let FileContent::Mesh(mesh) = read_object(text, Some(wanted)).unwrap() else {
+                panic!("expected a mesh");
+            };
+            assert_eq!((mesh.triangles.len(), mesh.vertices.len()), (num, 3));
+            assert_eq!(mesh.bounds().expect("some").1.x, x);
+        }
+        let error = read_object(text, Some("Door")).unwrap_err();
+        let FileError::NoSuchMesh { available, .. } = &error else {
+            panic!("{error}");
+        };
+        assert_eq!(available[..], ["Left door", "Hood"]);
+        let FileContent::Mesh(whole) = read_text(text).unwrap() else {
+            panic!("expected a mesh");
+        };
+        assert_eq!(whole.triangles.len(), 3);
     }
 
     #[test]

@@ -192,7 +192,7 @@ impl FileContent {
 
 /// Reads the file at `path`. Its format is recognised by its content, never by its name.
 ///
-/// `#` and a name after the path select one mesh of a glTF or GLB file: `car.gltf#Door_FL`. [`ImportOptions`] for a cloud or
+/// `#` and a name after the path select one mesh of a glTF or GLB file, or one object of an OBJ: `car.gltf#Door_FL`. [`ImportOptions`] for a cloud or
 /// a mesh are given in the same way: `door.stl#units=mm#up=z`. A file whose own name contains a `#` takes precedence.
 pub fn open(path: &Path) -> Result<FileContent, FileError> {
     let (file, words) = split_words(path);
@@ -269,7 +269,7 @@ fn read(path: &Path, bytes: &[u8], mesh_name: Option<&str>) -> Result<FileConten
 
 fn read_known(source: Source<'_>, mesh_name: Option<&str>) -> Result<FileContent, FileError> {
     let format = recognise(source)?;
-    if let (Some(wanted), false) = (mesh_name, matches!(format, Format::Gltf)) {
+    if let (Some(wanted), false) = (mesh_name, matches!(format, Format::Gltf | Format::Obj)) {
         return Err(FileError::NoSuchMesh {
             path: source.path.to_owned(),
             wanted: wanted.to_owned(),
@@ -280,7 +280,7 @@ fn read_known(source: Source<'_>, mesh_name: Option<&str>) -> Result<FileContent
         Format::Pcd => pcd::read(source).map(FileContent::Cloud),
         Format::Ply => ply::read(source),
         Format::Stl => stl::read(source).map(FileContent::Mesh),
-        Format::Obj => obj::read(source),
+        Format::Obj => obj::read(source, mesh_name),
         Format::Gltf => gltf::read(source, mesh_name).map(FileContent::Mesh),
         Format::DepthPng => depth_png::read(source).map(FileContent::Depth),
         Format::Xyz => xyz::read(source).map(FileContent::Cloud),

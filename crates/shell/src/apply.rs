@@ -229,9 +229,9 @@ mod tests {
         let port =
             |number: u8| Notice::look(format!("port {number}"), "").about(NoticeTopic::Answering);
         for notice in [
-            Notice::undoable("Saved"),
+            Notice::undoable("Saved", WorkspaceKind::Enrol),
             port(1),
-            Notice::undoable("Undone: Saved"),
+            Notice::undoable("Undone: Saved", WorkspaceKind::Paint),
             port(2),
             Notice::done("Saved again"),
         ] {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::{
     notice::{Notice, NoticeTopic},
-    session::{ReinspectionPurpose, RememberedCell, Source},
+    session::{ReinspectionPurpose, RememberedCell, Source, WorkspaceKind},
 };
 use crate::{
     action::Action,
@@ -29,7 +29,7 @@ pub enum Message {
     Retract(Notice),
     /// Remove the notices about this.
     RemoveNotices(NoticeTopic),
-    /// Remove the offer to undo from all notices.
+    /// Remove the offer to undo from the workspace's notices.
     WithdrawUndo,
     /// Copy this to the clipboard.
     CopyText(String),
@@ -103,6 +103,6 @@ pub enum Event {
     EngineerIn,
     /// The user says that this part, the one on the screen, was recognised wrongly.
     WrongPart(HungId),
-    /// The user wants to undo what the last notice offers to undo.
-    Undo,
+    /// The user wants to undo what the last notice of this workspace offers to undo.
+    Undo(WorkspaceKind),
 }

@@ -1,10 +1,13 @@
-//! Notices for the user, shown in the strip below the work.
+//! Notices for the user, shown over the work.
 
 use std::path::{Path, PathBuf};
 
-use crate::inspection::{
-    report_files::WrittenForRobot,
-    source::{Origin, file_name},
+use crate::{
+    inspection::{
+        report_files::WrittenForRobot,
+        source::{Origin, file_name},
+    },
+    session::WorkspaceKind,
 };
 use capture::CaptureWarning;
 use files::{FileWarning, import::ImportOptions};
@@ -20,8 +23,8 @@ pub enum NoticeKind {
     Look,
     /// Something was done.
     Done,
-    /// Something was done and can be undone.
-    Undoable,
+    /// Something was done, and this workspace can undo it.
+    Undoable(WorkspaceKind),
 }
 
 /// What a notice is about; some notices go with it.
@@ -206,10 +209,10 @@ impl Notice {
         }
     }
 
-    /// Makes a notice that something was done and can be undone.
-    pub fn undoable(what: impl Into<String>) -> Self {
+    /// Makes a notice that something was done and can be undone by this workspace.
+    pub fn undoable(what: impl Into<String>, by: WorkspaceKind) -> Self {
         Self {
-            kind: NoticeKind::Undoable,
+            kind: NoticeKind::Undoable(by),
             ..Self::done(what)
         }
     }

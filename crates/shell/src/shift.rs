@@ -1,6 +1,6 @@
-//! The parts of this shift, counted in the history for the operator's view.
+//! The parts of this shift, counted in the history for the operator's view. The history's statistics count the same.
 //!
-//! They are the parts of the source that the view follows, or followed before a file or a scan was opened. Opened files and
+//! They are the parts of the source that the window follows, or followed before a file or a scan was opened. Opened files and
 //! scans, single frames of the simulated cell and captures taken in Enrol have other sources in the history.
 
 use std::{cmp::Reverse, sync::Arc, time::Duration};
@@ -86,7 +86,7 @@ impl ShiftStarts {
 pub struct ShiftParts {
     /// Start of the shift; `None` until the parts were counted.
     pub since: Option<Zoned>,
-    /// The source that they hung in front of; `None` while there was only a file or a scan.
+    /// The source that they hung in front of; `None` while there was only a file or a scan. Known in both views.
     pub source: Option<Source>,
     /// Accepted parts, except those that were reported as wrong.
     pub num_ok: usize,
@@ -99,6 +99,12 @@ pub struct ShiftParts {
 }
 
 impl ShiftParts {
+    /// Name in the history of the source that they hung in front of.
+    pub fn source_name(&self) -> Option<String> {
+        let followed = self.source.as_ref()?.followed()?;
+        Some(followed.to_string())
+    }
+
     /// What really hung there, if the part was accepted as another one and a person has reported that.
     pub fn reported_as(&self, inspected: &Inspected) -> Option<&Truth> {
         let (_, truth) = (self.labelled.iter()).find(|(part, _)| part == inspected.hung())?;
@@ -210,11 +216,18 @@ impl ShiftWatch {
                 });
                 let labelled: Result<Vec<_>, HistoryError> = labelled.collect();
                 let parts = if role == UserRole::Operator {
-                    let followed = source.as_ref().and_then(Source::followed);
-                    let followed = followed.map_or_else(String::new, |spec| spec.to_string());
-                    count(&history, since, &followed).map(|parts| ShiftParts { source, ..parts })
-                } else {
+                    let none = ShiftParts {
+                        source,
+                        ..ShiftParts::default()
+                    };
+                    count(&history, since, none)
+                } else if former.source == source {
                     Ok(former)
+                } else {
+                    Ok(ShiftParts {
+                        source,
+                        ..ShiftParts::default()
+                    })
                 };
                 let parts = parts.and_then(|parts| {
                     Ok(ShiftParts {
@@ -229,11 +242,16 @@ impl ShiftWatch {
     }
 }
 
-/// Counts the parts of a source since a moment: all inspections of a hung part are one part, and an empty cell is none.
-fn count(history: &HistoryBuffer, since: Zoned, source: &str) -> Result<ShiftParts, HistoryError> {
+/// Counts the parts of the source of `none` since a moment: all inspections of a hung part are one part, and an empty cell is
+/// none.
+fn count(
+    history: &HistoryBuffer,
+    since: Zoned,
+    none: ShiftParts,
+) -> Result<ShiftParts, HistoryError> {
     let all = Filter {
         since: Some(since.timestamp()),
-        source: Some(source.to_owned()),
+        source: Some(none.source_name().unwrap_or_default()),
         ..Filter::default()
     };
     let mut outcomes = history.outcomes(&all)?;
@@ -256,7 +274,7 @@ fn count(history: &HistoryBuffer, since: Zoned, source: &str) -> Result<ShiftPar
         num_ok,
         num_not_ok: outcomes.len() - num_ok,
         last,
-        ..ShiftParts::default()
+        ..none
     })
 }
 
@@ -329,11 +347,17 @@ mod tests {
         }
         let counted = |source| {
             let since = moment(0).to_zoned(jiff::tz::TimeZone::UTC);
-            let parts = count(&history, since, source).expect("counted");
+            let none = ShiftParts {
+                source,
+                ..ShiftParts::default()
+            };
+            let parts = count(&history, since, none).expect("counted");
             assert_eq!(parts.last.len(), parts.num_ok);
             parts.num_ok
         };
-        assert_eq!(["kinect", "simulated", ""].map(counted), [2, 0, 0]);
+        let kinect = Source::Camera(Box::new("kinect".parse().expect("a source")));
+        let sources = [Some(kinect), Some(Source::default()), None];
+        assert_eq!(sources.map(counted), [2, 0, 0]);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use std::{any::Any, path::Path};
 
-use egui::Ui;
+use egui::{Rect, Ui};
 
 use super::{
     context::ShellContext,
@@ -17,8 +17,9 @@ pub trait Workspace: Any {
     /// Its kind, which decides its position on the rail.
     fn kind(&self) -> WorkspaceKind;
 
-    /// Draws it and carries out the user's actions.
-    fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>);
+    /// Draws it and carries out the user's actions. Returns where notices may lie over it: over a view, which has no controls
+    /// there.
+    fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) -> Rect;
 
     /// Polls its tasks and dialogs. Called every frame, whether in front or not.
     fn update(&mut self, cx: &mut ShellContext<'_>);

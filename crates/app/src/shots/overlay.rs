@@ -1,12 +1,12 @@
-//! What a 3-D view of a scan shows besides its points: cameras, surface that only one shot or no shot sees, and the legend.
+//! What a 3-D view of a scan shows besides its points: cameras, surface that only one shot or no shot sees, and what the
+//! colours mean.
 
-use egui::{Align2, Color32, Painter, Pos2, Rect, vec2};
+use egui::Color32;
 
 use geometry::units::Metres;
 use shell::inspection::{fuse::FusedShots, scan_figure::ScanFigure};
 use ui::{
     language::text,
-    theme::{ROUNDING, Theme, font},
     viewport::{PointSet, Role, TextLabel, ViewColours, ViewScene},
 };
 
@@ -68,15 +68,15 @@ impl Overlay<'_> {
         }
     }
 
-    /// Returns the colours of the legend with their texts.
-    fn entries(&self, colours: &ViewColours) -> Vec<(Color32, String)> {
-        let mut entries = Vec::new();
+    /// What its colours mean.
+    pub(crate) fn colour_keys(&self, colours: &ViewColours) -> Vec<(Color32, String)> {
+        let mut keys = Vec::new();
         if self.unseen_points().is_some() {
             let text = match self.unseen {
                 Some((_, share)) => text!("shots-not-seen", share = percent(share)),
                 None => text!("shots-unseen", share = percent(self.figure().open_share)),
             };
-            entries.push((colours.role(Role::Unseen).colour, text));
+            keys.push((colours.role(Role::Unseen).colour, text));
         }
         if let Some(place) = self.looked_at
             && let Some(row) = self.fused.rows.get(place)
@@ -86,43 +86,8 @@ impl Overlay<'_> {
                 shot = place + 1,
                 share = percent(row.only)
             );
-            entries.push((colours.role(Role::SeenOnce).colour, text));
+            keys.push((colours.role(Role::SeenOnce).colour, text));
         }
-        entries
-    }
-
-    /// Draws the legend with its lower left corner at `corner`.
-    pub(crate) fn legend(
-        &self,
-        painter: &Painter,
-        corner: Pos2,
-        colours: &ViewColours,
-        theme: &Theme,
-    ) {
-        const LINE: f32 = 20.0;
-        const SQUARE: f32 = 11.0;
-        let entries = self.entries(colours);
-        let lines = entries.into_iter().map(|(colour, text)| {
-            let galley = painter.layout_no_wrap(text, font::small(), theme.text);
-            (colour, galley)
-        });
-        let lines: Vec<_> = lines.collect();
-        if lines.is_empty() {
-            return;
-        }
-        let width = lines.iter().map(|(_, text)| text.size().x);
-        let width = width.fold(0.0, f32::max) + SQUARE + 24.0;
-        let size = vec2(width, LINE * lines.len() as f32 + 6.0);
-        let plate = Align2::LEFT_BOTTOM.anchor_size(corner, size);
-        painter.rect_filled(plate, ROUNDING, theme.canvas.gamma_multiply(0.82));
-        for (place, (colour, text)) in lines.into_iter().enumerate() {
-            let middle = plate.top() + 3.0 + LINE * (place as f32 + 0.5);
-            let at = Pos2::new(plate.left() + 8.0, middle);
-            let square = Align2::LEFT_CENTER.anchor_size(at, vec2(SQUARE, SQUARE));
-            painter.rect_filled(square, 2.0, colour);
-            let left = Pos2::new(square.right() + 8.0, middle - text.size().y / 2.0);
-            let place = Rect::from_min_size(left, text.size());
-            painter.galley(place.min, text, theme.text);
-        }
+        keys
     }
 }

@@ -96,7 +96,7 @@ impl Window {
             Message::RemoveNotices(topic) => remove_notices(&mut self.state, topic),
             Message::WithdrawUndo => {
                 for notice in &mut self.state.notices {
-                    if notice.kind == NoticeKind::Undoable {
+                    if notice.kind == NoticeKind::Undoable(from) {
                         notice.kind = NoticeKind::Done;
                     }
                 }

@@ -588,6 +588,20 @@ fn a_dropped_mesh_is_enrolled_whole() {
 }
 
 #[test]
+fn why_a_file_could_not_be_read_leaves_once_another_is() {
+    let library = library();
+    let files = tempfile::tempdir().expect("a folder");
+    let [broken, path] = ["broken.obj", "grille.obj"].map(|name| files.path().join(name));
+    fs::write(&broken, "v 0 0\n").expect("written");
+    write_mesh(&path, PartKind::Grille);
+    let mut harness = open(library.path());
+    drop_file(&mut harness, &broken);
+    assert!(notices(&harness)[0].contains("broken.obj"));
+    drop_file(&mut harness, &path);
+    assert_eq!(notices(&harness), [""; 0]);
+}
+
+#[test]
 fn a_mesh_in_millimetres_is_read_again_as_the_notice_offers() {
     let library = library();
     let files = tempfile::tempdir().expect("a folder");

@@ -3,7 +3,7 @@
 use std::{sync::Arc, thread, time::Duration};
 
 use app::WindowOptions;
-use egui::{Key, Modifiers, Rect, Role, Shape};
+use egui::{Key, Modifiers, Order, Rect, Role, Shape};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use files::save_cloud;
 use inspection::pipeline::{Rejection, Unwatched, Verdict};
@@ -22,13 +22,14 @@ use shell::{
     notice::Notice,
     session::{ThemeChoice, WorkspaceKind},
 };
-use simulate::{PartKind, Side};
+use simulate::{ObjectKind, PartKind, Side};
 
 use stages::fixtures::facing_part;
 
 use super::robot::save_calibration;
 use super::set_up::{
-    SMALL, USUAL, WindowHarness, act, drop_file, inspect_of, open, open_with, plain_options, settle,
+    SMALL, USUAL, WindowHarness, act, drop_file, enrol_of, inspect_of, open, open_with,
+    plain_options, press, settle,
 };
 
 fn generation(harness: &WindowHarness) -> u64 {
@@ -375,43 +376,139 @@ fn the_verdict_stays_in_sight_and_large_however_far_the_card_is_scrolled() {
 }
 
 #[test]
-fn a_notice_covers_nothing_and_is_dismissed_under_a_dialog() {
-    for size in [SMALL, super::set_up::USUAL] {
-        let mut harness = open_with(size, plain_options());
-        let notice = Notice::look("The disk is nearly full", "Keep fewer frames");
-        act(&mut harness, Action::Notify(notice));
-        // A full stop stands between the two sentences.
-        let what = harness.get_by_label("The disk is nearly full.").rect();
-        harness.get_by_label("Keep fewer frames");
-        let dismiss = harness.get_by_label("Dismiss").rect();
-        let covered = what.union(dismiss);
-        for role in [Role::Button, Role::Tab] {
-            for node in harness.get_all_by_role(role) {
-                let label = node.accesskit_node().label().unwrap_or_default();
-                let is_free = label == "Dismiss" || !node.rect().intersects(covered);
-                assert!(is_free, "{label}: {:?}, {covered:?}", node.rect());
-            }
+fn keys_pressed_after_one_that_opens_a_dialog_do_nothing_even_in_the_same_frame() {
+    let mut harness = open();
+    let press = |harness: &mut WindowHarness, keys: &[Key]| {
+        for key in keys {
+            harness.input_mut().events.push(egui::Event::Key {
+                key: *key,
+                physical_key: None,
+                pressed: true,
+                repeat: false,
+                modifiers: Modifiers::NONE,
+            });
         }
-        // The focused control keeps the focus.
-        let focused = |harness: &WindowHarness| harness.ctx.memory(egui::Memory::focused);
-        harness.get_by_label("Enlarge contour").focus();
-        harness.run_steps(2);
-        let stage = focused(&harness);
-        assert!(stage.is_some());
-        act(&mut harness, Action::Dismiss(0));
-        assert_eq!(focused(&harness), stage, "without a notice");
-        act(
-            &mut harness,
-            Action::Notify(Notice::look("Another", "Look")),
-        );
-        assert_eq!(focused(&harness), stage, "with one");
-        act(&mut harness, Action::ToggleHelp);
-        harness.get_by_label("Shortcuts");
-        harness.get_by_label("Dismiss").click();
-        harness.run_steps(4);
-        assert!(harness.state().state().notices.is_empty());
-        harness.get_by_label("Shortcuts");
+        harness.step();
+        let state = harness.state().state();
+        let is_asked = harness.state().robot().dialog().is_some();
+        (state.session.theme, state.is_help_open, is_asked)
+    };
+    let dark = ThemeChoice::Dark;
+    let after_help = press(&mut harness, &[Key::F1, Key::T, Key::B]);
+    assert_eq!(after_help, (dark, true, false));
+    act(&mut harness, Action::ToggleHelp);
+    // In the order of pressing.
+    let before_help = press(&mut harness, &[Key::T, Key::B, Key::F1]);
+    assert_eq!(before_help, (dark.other(), false, true));
+}
+
+/// The controls of the window with their places.
+fn controls(harness: &WindowHarness) -> Vec<(String, Rect)> {
+    let roles = [Role::Button, Role::Tab, Role::TextInput, Role::Slider];
+    let nodes = roles
+        .into_iter()
+        .flat_map(|role| harness.query_all_by_role(role));
+    let named = nodes.map(|node| {
+        let label = node.accesskit_node().label().unwrap_or_default();
+        (label, node.rect())
+    });
+    named.collect()
+}
+
+#[test]
+fn notices_move_and_cover_no_control_in_any_workspace() {
+    for size in [SMALL, USUAL] {
+        let mut harness = open_with(size, plain_options());
+        for kind in WorkspaceKind::ALL {
+            act(&mut harness, Action::GoTo(kind));
+            let before = controls(&harness);
+            for what in ["The disk is nearly full", "The camera is warm", "A third"] {
+                let notice = Notice::look(what, format!("Do something about it: {what}"));
+                act(&mut harness, Action::Notify(notice));
+            }
+            let dismiss = harness.get_all_by_label("Dismiss");
+            let of_notices = dismiss.map(|node| node.rect());
+            let first = harness.get_by_label("The disk is nearly full.").rect();
+            let covered = of_notices.fold(first, Rect::union);
+            let after = controls(&harness);
+            for control in &before {
+                assert!(after.contains(control), "{kind:?}: {control:?} moved");
+                let is_free = !control.1.intersects(covered);
+                assert!(is_free, "{kind:?}: {control:?} under {covered:?}");
+            }
+            assert!(
+                harness.ctx.content_rect().contains_rect(covered),
+                "{kind:?}"
+            );
+            let all = harness.get_by_label("Dismiss all");
+            let at = all.rect().center();
+            all.click();
+            harness.run_steps(2);
+            assert!(harness.state().state().notices.is_empty());
+            assert_eq!(controls(&harness), before, "{kind:?}");
+            // A second press there reaches nothing for a while.
+            let layer = |harness: &WindowHarness| harness.ctx.layer_id_at(at).map(|at| at.order);
+            assert_eq!(layer(&harness), Some(Order::Middle), "{kind:?}");
+            harness.run_steps(60);
+            assert_ne!(layer(&harness), Some(Order::Middle), "{kind:?}");
+        }
     }
+}
+
+#[test]
+fn a_notice_leaves_the_focus_alone_and_is_dismissed_over_a_dialog() {
+    let mut harness = open();
+    // A full stop stands between the two sentences.
+    let notice = Notice::look("The disk is nearly full", "Keep fewer frames");
+    act(&mut harness, Action::Notify(notice));
+    harness.get_by_label("The disk is nearly full.");
+    harness.get_by_label("Keep fewer frames");
+    let focused = |harness: &WindowHarness| harness.ctx.memory(egui::Memory::focused);
+    harness.get_by_label("Enlarge contour").focus();
+    harness.run_steps(2);
+    let stage = focused(&harness);
+    assert!(stage.is_some());
+    act(&mut harness, Action::Dismiss(0));
+    assert_eq!(focused(&harness), stage, "without a notice");
+    act(
+        &mut harness,
+        Action::Notify(Notice::look("Another", "Look")),
+    );
+    assert_eq!(focused(&harness), stage, "with one");
+    act(&mut harness, Action::ToggleHelp);
+    harness.get_by_label("Shortcuts");
+    harness.get_by_label("Dismiss").click();
+    harness.run_steps(4);
+    assert!(harness.state().state().notices.is_empty());
+    harness.get_by_label("Shortcuts");
+}
+
+#[test]
+fn the_next_step_is_a_button_on_the_card() {
+    let mut harness = open();
+    let shows = |harness: &WindowHarness, label| harness.query_by_label(label).is_some();
+    for label in ["Enrol this part", "Calibrate the cell", "Why?"] {
+        assert!(!shows(&harness, label), "{label}");
+    }
+    let hood = CellChoice::Foreign(ObjectKind::Hood);
+    act(&mut harness, Action::UseCell(hood));
+    press(&mut harness, "Enrol this part");
+    let front = |harness: &WindowHarness| harness.state().state().session.workspace;
+    assert_eq!(front(&harness), WorkspaceKind::Enrol);
+    assert!(enrol_of(&harness).draft.is_some());
+    act(&mut harness, Action::GoTo(WorkspaceKind::Inspect));
+    press(&mut harness, "Why?");
+    assert_eq!(front(&harness), WorkspaceKind::Compare);
+    act(&mut harness, Action::GoTo(WorkspaceKind::Inspect));
+    // A part from a camera's file that only lacks the calibration.
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("captured.pcd");
+    let mut cloud = facing_part(PartKind::Fender, Side::Left, 5).cloud;
+    cloud.is_simulated = false;
+    save_cloud(&path, &cloud).expect("written");
+    drop_file(&mut harness, &path);
+    press(&mut harness, "Calibrate the cell");
+    assert!(harness.state().robot().dialog().is_some());
 }
 
 #[test]

@@ -183,6 +183,10 @@ fn the_parts_of_this_shift_are_counted_and_what_is_only_tried_is_not() {
     counts(&harness, ["2 parts", "1 OK", "1 NOK"]);
     press(&mut harness, "History");
     harness.get_by_label("7 of 7 entries");
+    // The statistics count the same parts.
+    press(&mut harness, "Statistics");
+    harness.get_by_label_contains(": 1 OK, 1 NOK");
+    harness.get_by_label("Source: Simulated cell");
     harness.get_by_label("Inspect").click();
     harness.run_steps(4);
     harness.get_by_label("Recognised");

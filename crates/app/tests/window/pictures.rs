@@ -35,9 +35,11 @@ use shell::{
         library_cache::LibraryCache,
         source::{CellChoice, SceneSource},
     },
+    notice::Notice,
     roles::RoleAction,
     session::WorkspaceKind,
 };
+use simulate::ObjectKind;
 use tempfile::TempDir;
 
 use inspection::fixtures::copy_library;
@@ -70,14 +72,16 @@ fn draws_in_software() -> bool {
 
 /// The inspection of the cell's first frame, with fixed times and date.
 fn inspected() -> Inspected {
-    inspected_by(&LibraryCache::new(
-        Some(::inspection::fixtures::SHIPPED_PARTS.into()),
-        Camera::default(),
-    ))
+    inspected_of(CellChoice::InTurn)
 }
 
-fn inspected_by(library_cache: &LibraryCache) -> Inspected {
-    let choice = CellChoice::InTurn;
+fn inspected_of(choice: CellChoice) -> Inspected {
+    let parts = ::inspection::fixtures::SHIPPED_PARTS;
+    let library_cache = LibraryCache::new(Some(parts.into()), Camera::default());
+    inspected_by(choice, &library_cache)
+}
+
+fn inspected_by(choice: CellChoice, library_cache: &LibraryCache) -> Inspected {
     let request = InspectRequest {
         source: SceneSource::Cell { choice, number: 1 },
         recipe: Arc::default(),
@@ -238,6 +242,35 @@ fn inspect_looks_as_it_did() {
     let mut harness = open_drawn(SMALL);
     act(&mut harness, Action::SwitchTheme);
     compare(&mut harness, "inspect_small_light");
+}
+
+#[test]
+fn a_refused_part_and_notices_look_as_they_did() {
+    if !draws_in_software() {
+        return;
+    }
+    let hood = CellChoice::Foreign(ObjectKind::Hood);
+    for (size, is_light, name) in [
+        (USUAL, false, "refused"),
+        (SMALL, true, "refused_small_light"),
+    ] {
+        let mut harness = open_with(size, inspected_of(hood));
+        if is_light {
+            act(&mut harness, Action::SwitchTheme);
+        }
+        for what in [
+            "The disk is nearly full",
+            "No camera is plugged in",
+            "Robots get no pose",
+        ] {
+            let notice = Notice::look(what, format!("{what}: do something about it"));
+            act(&mut harness, Action::Notify(notice));
+        }
+        compare(&mut harness, name);
+        act(&mut harness, Action::DismissAll);
+        act(&mut harness, Action::Role(RoleAction::Switch));
+        compare(&mut harness, &format!("{name}_operator"));
+    }
 }
 
 #[test]
@@ -467,7 +500,7 @@ fn the_robots_cell_looks_as_it_did() {
         (USUAL, false, "spray_path"),
         (SMALL, true, "spray_path_small_light"),
     ] {
-        let mut harness = open_with(size, inspected_by(&library_cache));
+        let mut harness = open_with(size, inspected_by(CellChoice::InTurn, &library_cache));
         if is_light {
             act(&mut harness, Action::SwitchTheme);
         }

@@ -1,11 +1,11 @@
 //! Shortcuts, and the list of them.
 
-use egui::{Id, Key, KeyboardShortcut, Modifiers, RichText, ScrollArea, vec2};
+use egui::{Event, Id, Key, KeyboardShortcut, Modifiers, RichText, ScrollArea, vec2};
 
 use crate::{
     action::{Action, DialogRequest, Effect},
     cell::RobotAction,
-    message::Event,
+    message,
     roles::{self, RoleAction},
     session::WorkspaceKind,
     source::live::LiveAction,
@@ -27,7 +27,7 @@ const SHORTCUTS: [Shortcut<Action>; 13] = [
     // Before Ctrl O, which would match it too.
     Shortcut::new(CTRL_SHIFT, Key::O, || text!("shell-does-open-scan"), || Action::Ask(DialogRequest::Scan)),
     Shortcut::new(Modifiers::COMMAND, Key::O, || text!("shell-open-scene"), || Action::Ask(DialogRequest::Scene)),
-    Shortcut::new(Modifiers::COMMAND, Key::E, || text!("shell-does-export"), || Action::Make(Effect::Tell(Event::Export))),
+    Shortcut::new(Modifiers::COMMAND, Key::E, || text!("shell-does-export"), || Action::Make(Effect::Tell(message::Event::Export))),
     Shortcut::new(Modifiers::NONE, Key::B, || text!("shell-does-robot"), || Action::Make(Effect::Robot(RobotAction::Toggle))),
     Shortcut::new(Modifiers::NONE, Key::U, || text!("shell-does-units"), || Action::SwitchUnits),
     Shortcut::new(Modifiers::NONE, Key::T, || text!("shell-does-theme"), || Action::SwitchTheme),
@@ -86,7 +86,8 @@ fn is_operators(binding: &KeyBinding, has_pin: bool) -> bool {
     }
 }
 
-/// Collects the actions of pressed keys. Called after the panels, so that a focused control gets its keys first.
+/// Returns the actions of pressed keys, in the order in which they were pressed. Called after the panels, so that a focused
+/// control gets its keys first.
 ///
 /// The space bar presses a focused control; `space_is_free` means that the focused one does not use it. While the user types
 /// text, only keys with Ctrl are shortcuts; the Enter that ends typing belongs to the text, too. Behind a dialog there are no
@@ -97,13 +98,30 @@ pub fn shortcuts(
     own: &[KeyBinding],
     space_is_free: bool,
     is_behind_dialog: bool,
-    actions: &mut Vec<Action>,
-) {
+) -> Vec<Action> {
     let is_writing = ctx.text_edit_focused();
     let was_writing = remember_writing(ctx, is_writing);
     if is_behind_dialog {
-        return;
+        return Vec::new();
     }
+    let pressed = ctx.input(|input| {
+        let events = input.events.iter().filter_map(|event| match event {
+            Event::Key {
+                key,
+                pressed: true,
+                modifiers,
+                ..
+            } => Some((*key, *modifiers)),
+            _ => None,
+        });
+        events.collect::<Vec<_>>()
+    });
+    let place = |key: Key, modifiers: Modifiers| {
+        let is_it =
+            |(other, with): &(Key, Modifiers)| *other == key && with.matches_logically(modifiers);
+        pressed.iter().position(is_it)
+    };
+    let mut found = Vec::new();
     let is_pressing = !space_is_free && ctx.memory(|memory| memory.focused().is_some());
     let workspace = state.session.workspace;
     let own = own.iter().copied().enumerate();
@@ -123,17 +141,17 @@ pub fn shortcuts(
         }
         let keys = KeyboardShortcut::new(binding.modifiers, binding.key);
         if ctx.input_mut(|input| input.consume_shortcut(&keys)) {
-            actions.push(action);
+            found.push((place(binding.key, binding.modifiers), action));
         }
     }
-    if is_writing || was_writing {
-        return;
-    }
-    for (key, workspace) in RAIL_KEYS.into_iter().zip(WorkspaceKind::ALL) {
+    let of_rail = RAIL_KEYS.into_iter().zip(WorkspaceKind::ALL);
+    for (key, workspace) in of_rail.filter(|_| !is_writing && !was_writing) {
         if ctx.input_mut(|input| input.consume_key(Modifiers::NONE, key)) {
-            actions.push(Action::GoTo(workspace));
+            found.push((place(key, Modifiers::NONE), Action::GoTo(workspace)));
         }
     }
+    found.sort_by_key(|(place, _)| *place);
+    found.into_iter().map(|(_, action)| action).collect()
 }
 
 /// Returns whether a text field had the focus when this frame began, and remembers whether one has it now.

@@ -1,11 +1,11 @@
-//! The strip of notices below the work: the work shrinks to make room, so that nothing is covered. In the operator's view the
-//! newest two are over the picture, which has no controls.
+//! The notices over the view of the workspace, where they cover no control; nothing moves when they come and go. The operator's
+//! view shows the newest two.
 
 use egui::{
-    Align, Area, Context, Frame, Id, Layout, Margin, Order, Panel, Rect, RichText, Ui, pos2,
+    Align, Area, Context, Frame, Id, Layout, Margin, Order, Rect, RichText, ScrollArea, Sense, Ui,
+    pos2,
 };
 
-use super::operator_bars::column_width;
 use crate::{
     action::{Action, Effect},
     message::Event,
@@ -18,11 +18,11 @@ use ui::{
     widgets::{Mark, line_mark, sentence, text_button},
 };
 
-/// Margin around the notices, logical pixels.
+/// Margin around the notices and between them, logical pixels.
 const EDGE: f32 = 6.0;
 /// Number of notices that are dismissed one by one, and that the operator's view shows.
 const FEW: usize = 2;
-/// Time without motion after which the pointer is at rest, seconds.
+/// Time without motion and click after which the pointer is at rest, seconds.
 const REST: f32 = 0.6;
 
 /// How long a notice is shown, seconds; `None` for one that stays until it is dismissed.
@@ -30,92 +30,74 @@ fn display_seconds(kind: NoticeKind) -> Option<f64> {
     match kind {
         NoticeKind::Look => None,
         NoticeKind::Done => Some(8.0),
-        NoticeKind::Undoable => Some(12.0),
+        NoticeKind::Undoable(_) => Some(12.0),
     }
 }
 
-/// Reserves room at the bottom of the window, or finds it in the operator's view; [`ui()`] draws the notices there.
-pub fn room(ui: &mut Ui, state: &State) -> Option<Rect> {
-    if state.session.is_operator_view() {
-        let view = ui.available_rect_before_wrap();
-        let right = view.right() - column_width(view.width());
-        let top = view.bottom() - height(ui.ctx());
-        let room = view.with_max_x(right).with_min_y(top);
-        return (!state.notices.is_empty()).then(|| room.shrink(EDGE));
-    }
-    let theme = Theme::of(ui);
-    let wanted = if state.notices.is_empty() {
-        0.0
-    } else {
-        height(ui.ctx())
-    };
-    let height = unhurried(ui.ctx(), wanted);
-    // The panel exists even without notices, so that later widgets keep their ids, and text fields their focus.
-    let room = Panel::bottom("room for notices")
-        .exact_size(height)
-        .resizable(false)
-        .show_separator_line(false)
-        .frame(Frame::new().fill(theme.canvas))
-        .show(ui, |ui| ui.max_rect());
-    (!state.notices.is_empty()).then(|| room.inner.shrink(EDGE))
-}
-
-/// Returns the wanted height, but does not shrink while the pointer is in use, so that nothing moves away under it.
-fn unhurried(ctx: &Context, wanted: f32) -> f32 {
-    let id = Id::unique("room for notices");
-    let before: f32 = ctx.data(|data| data.get_temp(id)).unwrap_or_default();
-    let is_at_rest = ctx.input(|input| {
-        let pointer = &input.pointer;
-        !pointer.any_down() && pointer.time_since_last_movement() > REST
-    });
-    let height = if wanted < before && !is_at_rest {
-        ctx.request_repaint_after_secs(REST);
-        before
-    } else {
-        wanted
-    };
-    ctx.data_mut(|data| data.insert_temp(id, height));
-    height
-}
-
-/// The height of the notices when they were last drawn.
-fn height(ctx: &Context) -> f32 {
-    let known = ctx.data(|data| data.get_temp(Id::unique("height of notices")));
-    known.unwrap_or(space::TARGET + 2.0 * EDGE)
-}
-
-/// Draws the notices in this room and dismisses expired ones.
-pub fn ui(ctx: &Context, room: Option<Rect>, state: &State, actions: &mut Vec<Action>) {
-    expire(ctx, room, &state.notices, actions);
-    let Some(room) = room else {
-        return;
-    };
-    if ctx.memory(|memory| memory.top_modal_layer().is_some()) {
+/// Draws the notices at the bottom of this room, and dismisses expired ones.
+pub fn ui(ctx: &Context, room: Rect, state: &State, actions: &mut Vec<Action>) {
+    let room = room.shrink(EDGE);
+    let id = Id::unique("notices");
+    // The height of the notices when they were last drawn, and that of the room that they hold.
+    let [height, held]: [f32; 2] = ctx.data(|data| data.get_temp(id)).unwrap_or_default();
+    let place = room.with_min_y(room.bottom() - held.max(height));
+    expire(ctx, place, &state.notices, actions);
+    if !state.notices.is_empty() && ctx.memory(|memory| memory.top_modal_layer().is_some()) {
         return over_dialog(ctx, room, state, actions);
     }
-    // Below menus.
-    let drawn = Area::new(Id::unique("notices"))
-        .order(Order::Middle)
-        .fixed_pos(room.min)
-        .show(ctx, |ui| {
-            ui.set_width(room.width());
-            ui.spacing_mut().item_spacing.y = EDGE;
-            let newest = state.notices.len().saturating_sub(1);
-            let num_hidden = if state.session.is_operator_view() {
-                state.notices.len().saturating_sub(FEW)
-            } else {
-                0
-            };
-            for (index, notice) in state.notices.iter().enumerate().skip(num_hidden) {
-                let with_all = index == newest && newest >= FEW;
-                plate(ui, index, notice, with_all, actions);
-            }
+    let drawn = if state.notices.is_empty() && held == 0.0 {
+        0.0
+    } else {
+        // Below menus.
+        let area = Area::new(id).order(Order::Middle).fixed_pos(place.min);
+        let drawn = area.show(ctx, |ui| {
+            ui.set_width(place.width());
+            ui.interact(place, id.with("held"), Sense::click_and_drag());
+            ui.add_space(place.height() - height);
+            list(ui, room.height(), state, actions)
         });
-    let wanted = drawn.response.rect.height() + 2.0 * EDGE;
-    if (wanted - height(ctx)).abs() > 0.5 {
-        ctx.data_mut(|data| data.insert_temp(Id::unique("height of notices"), wanted));
+        drawn.inner
+    };
+    let held = if drawn >= held || is_at_rest(ctx) {
+        drawn
+    } else {
+        ctx.request_repaint_after_secs(REST);
+        held
+    };
+    ctx.data_mut(|data| data.insert_temp(id, [drawn, held]));
+    if (drawn - height).abs() > 0.5 {
         ctx.request_discard("the notices have another height");
     }
+}
+
+/// True if the pointer is not in use: a press meant for a notice that has just gone must not reach what lies under it.
+fn is_at_rest(ctx: &Context) -> bool {
+    ctx.input(|input| {
+        let pointer = &input.pointer;
+        let since = (pointer.time_since_last_movement()).min(pointer.time_since_last_click());
+        !pointer.any_down() && since > REST
+    })
+}
+
+/// Draws the notices in a list no higher than this, the newest last; returns its height.
+fn list(ui: &mut Ui, highest: f32, state: &State, actions: &mut Vec<Action>) -> f32 {
+    let newest = state.notices.len().saturating_sub(1);
+    let num_hidden = if state.session.is_operator_view() {
+        state.notices.len().saturating_sub(FEW)
+    } else {
+        0
+    };
+    let area = ScrollArea::vertical()
+        .max_height(highest)
+        .stick_to_bottom(true);
+    let drawn = area.show(ui, |ui| {
+        ui.spacing_mut().item_spacing.y = EDGE;
+        for (index, notice) in state.notices.iter().enumerate().skip(num_hidden) {
+            let with_all = index == newest && newest >= FEW;
+            plate(ui, index, notice, with_all, actions);
+        }
+    });
+    drawn.inner_rect.height()
 }
 
 /// Draws the newest notice on top of the bar and a dialog: dialogs are tall, and the notice that one causes must be readable
@@ -150,7 +132,7 @@ fn line(ui: &mut Ui, index: usize, notice: &Notice, with_all: bool, actions: &mu
         ui.set_min_height(space::TARGET);
         let sign = match notice.kind {
             NoticeKind::Look => Mark::Look,
-            NoticeKind::Done | NoticeKind::Undoable => Mark::Good,
+            NoticeKind::Done | NoticeKind::Undoable(_) => Mark::Good,
         };
         line_mark(ui, 20.0, 9.0, sign);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -164,9 +146,10 @@ fn line(ui: &mut Ui, index: usize, notice: &Notice, with_all: bool, actions: &mu
             if is_offered && text_button(ui, &text!("shell-read-in-millimetres")).clicked() {
                 actions.push(Action::Reread(index));
             }
-            let is_undoable = notice.kind == NoticeKind::Undoable;
-            if is_undoable && text_button(ui, &text!("shell-undo")).clicked() {
-                actions.push(Action::Make(Effect::Tell(Event::Undo)));
+            if let NoticeKind::Undoable(by) = notice.kind
+                && text_button(ui, &text!("shell-undo")).clicked()
+            {
+                actions.push(Action::Make(Effect::Tell(Event::Undo(by))));
             }
             let words = Layout::left_to_right(Align::Center).with_main_wrap(true);
             ui.with_layout(words, |ui| {
@@ -189,13 +172,11 @@ fn line(ui: &mut Ui, index: usize, notice: &Notice, with_all: bool, actions: &mu
 /// Notices with the time when they appeared, seconds of egui's clock.
 type TimedNotice = Vec<(Notice, f64)>;
 
-fn expire(ctx: &Context, room: Option<Rect>, notices: &[Notice], actions: &mut Vec<Action>) {
+fn expire(ctx: &Context, place: Rect, notices: &[Notice], actions: &mut Vec<Action>) {
     let now = ctx.input(|input| input.time);
     // No notice disappears under the pointer.
     let pointer = ctx.pointer_latest_pos();
-    let is_pointed_at = room
-        .zip(pointer)
-        .is_some_and(|(room, at)| room.contains(at));
+    let is_pointed_at = pointer.is_some_and(|at| place.contains(at));
     let id = Id::unique("notices since");
     let since: TimedNotice = ctx.data_mut(|data| {
         let since = data.get_temp_mut_or_default::<TimedNotice>(id);

@@ -142,7 +142,7 @@ fn counts(ui: &mut Ui, shift: &ShiftParts) {
         ),
     ];
     for (sign, text) in chips {
-        Frame::new()
+        let chip = Frame::new()
             .fill(theme.control)
             .stroke(theme.edge_stroke())
             .corner_radius(ROUNDING)
@@ -154,6 +154,7 @@ fn counts(ui: &mut Ui, shift: &ShiftParts) {
                 }
                 ui.label(RichText::new(text).font(font::body_strong()));
             });
+        chip.response.on_hover_text(text!("operator-shift-says"));
     }
 }
 

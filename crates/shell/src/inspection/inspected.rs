@@ -20,6 +20,7 @@ use super::{
     scene_figure::{SceneFigure, SceneFigureInput},
     source::{Captured, Origin, SceneOrScan, SceneSource},
 };
+use crate::language::results::is_called_by_name;
 use capture::CaptureWarning;
 use geometry::{cloud::PointCloud, rigid::RigidTransform};
 use inspection::{
@@ -422,7 +423,9 @@ impl FinishedInspection {
             scan,
         } = self;
         let best = inspection.best_reference(library);
-        let deviations = best.map_or_else(Vec::new, |reference| match &scan {
+        // Whatever is not called by its name is not compared with another part.
+        let named = best.filter(|_| is_called_by_name(&inspection.verdict, &recipe.accept));
+        let deviations = named.map_or_else(Vec::new, |reference| match &scan {
             Some(found) => {
                 let num = found.fused.figure.positions.len();
                 deviations_at(num, found.part(), &inspection, reference)
@@ -454,8 +457,8 @@ impl FinishedInspection {
             scene: &scene,
             scan: scan.as_ref().map(|found| &found.fused.figure),
             inspection: &inspection,
-            reference: best,
-            middle,
+            reference: named,
+            middle: named.and(middle),
             deviations: &deviations,
             stand_off: stand_off.as_ref().and_then(|found| found.as_ref().ok()),
             spray: spray.as_ref(),

@@ -15,6 +15,7 @@ use stages::{
     pose::PoseEstimate,
     reference::{Reference, ReferenceView},
     scene::SceneCloud,
+    segment::PointLabel,
     stand_off::{NozzleRay, StandOff},
 };
 use ui::viewport::{Line, LineSet, PointSet, Role, furniture, vec3};
@@ -24,6 +25,8 @@ use ui::viewport::{Line, LineSet, PointSet, Role, furniture, vec3};
 pub struct SceneFigure {
     /// The scene, with label and deviation of each point.
     pub points: PointSet,
+    /// What its points stand for.
+    pub roles: Vec<Role>,
     /// True if at least one point has a deviation.
     pub has_deviations: bool,
     /// Axes at the part's middle, if it was found.
@@ -70,7 +73,7 @@ pub(crate) struct SceneFigureInput<'a> {
     /// The figure of a scan, whose points replace the scene's.
     pub scan: Option<&'a ScanFigure>,
     pub inspection: &'a Inspection,
-    /// The best reference, if any.
+    /// The best reference, if the part is called by its name.
     pub reference: Option<&'a Reference>,
     /// Middle of its extent, part frame, metres.
     pub middle: Option<Point3<f64>>,
@@ -92,12 +95,13 @@ impl SceneFigure {
             stand_off,
             spray,
         } = given;
+        let labels = scan.map_or(&inspection.segmentation.labels, |scan| &scan.labels);
         let mut points = if let Some(scan) = scan {
-            PointSet::segmented(Arc::clone(&scan.positions), &scan.labels)
+            PointSet::segmented(Arc::clone(&scan.positions), labels)
         } else {
             let points = scene.cloud.points.iter();
             let positions: Vec<[f32; 3]> = points.map(|p| [p.x, p.y, p.z]).collect();
-            PointSet::segmented(positions, &inspection.segmentation.labels)
+            PointSet::segmented(positions, labels)
         };
         let has_deviations = !deviations.is_empty();
         if has_deviations {
@@ -116,6 +120,7 @@ impl SceneFigure {
         let view = placed.and_then(|entry| entry.placements.first());
         let view = reference.and_then(|reference| reference.views.get(view?.view));
         Self {
+            roles: roles_of(labels),
             has_deviations,
             axes,
             camera: camera.map(|camera| furniture::frustum(camera, Metres(0.25))),
@@ -129,6 +134,18 @@ impl SceneFigure {
             points,
         }
     }
+}
+
+/// The roles of these points, without those that are not drawn.
+fn roles_of(labels: &[PointLabel]) -> Vec<Role> {
+    let mut occurs = [false; Role::ALL.len()];
+    let drawn = labels.iter();
+    for label in drawn.filter(|label| **label != PointLabel::NoReading) {
+        occurs[Role::of(*label) as usize] = true;
+    }
+    let all = Role::ALL.into_iter().zip(occurs);
+    all.filter_map(|(role, occurs)| occurs.then_some(role))
+        .collect()
 }
 
 impl SprayFigure {

@@ -7,7 +7,9 @@ use crate::inspection::source::CELL_SOURCE;
 use capture::SourceSpec;
 use inspection::{
     library::Side,
-    pipeline::{AS_IN_THE_PAPER, AcceptParams, RecipeLabel, RefusalKind, is_like},
+    pipeline::{
+        AS_IN_THE_PAPER, AcceptParams, RecipeLabel, RefusalKind, Rejection, Verdict, is_like,
+    },
 };
 use records::history::{KeepFrames, SceneTitle, StoredVerdict, Summary};
 use simulate::ObjectKind;
@@ -45,6 +47,18 @@ pub fn keep_frames(keep: KeepFrames) -> String {
 /// True if score and margin show which part it is. Whatever else speaks against it, such as its pose, it is called by its name.
 pub fn is_recognised([score, margin]: [f64; 2], accept: &AcceptParams) -> bool {
     score >= accept.min_score && margin >= accept.min_margin
+}
+
+/// True if the headline calls the part by its name, accepted or not: its type is certain.
+pub fn is_called_by_name(verdict: &Verdict, accept: &AcceptParams) -> bool {
+    match verdict {
+        Verdict::NoPart(_) => false,
+        Verdict::Part {
+            rejected: None | Some(Rejection::AnotherMake { .. } | Rejection::AnotherModel { .. }),
+            ..
+        } => true,
+        Verdict::Part { score, margin, .. } => is_recognised([*score, *margin], accept),
+    }
 }
 
 /// Returns the title of an inspection.

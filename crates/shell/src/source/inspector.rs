@@ -571,7 +571,7 @@ pub fn update(state: &mut State) -> Option<Event> {
                 return Some(event);
             }
             InspectorResult::PosesWanted(order, error) => {
-                notify(state, error.into());
+                notify(state, Notice::from(error).about(NoticeTopic::Scene));
                 return Some(Event::PosesWanted(*order));
             }
             InspectorResult::Library(library, chosen) => {

@@ -71,7 +71,7 @@ fn column(ui: &mut Ui, height: f32, name: &str, content: impl FnOnce(&mut Ui)) {
 }
 
 /// Returns the name of the source in use.
-pub(crate) fn now(source: &Source) -> String {
+pub fn now(source: &Source) -> String {
     match source {
         Source::Cell(CellChoice::InTurn) => text!("shell-simulated-cell"),
         Source::Cell(choice) => text!("shell-simulated", what = choice.title()),

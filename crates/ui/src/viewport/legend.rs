@@ -7,7 +7,10 @@ use super::{
     scene::ViewScene,
     style::{Colouring, Legend, SCALE_STOPS, ScaleWords, ViewStyle},
 };
-use crate::language::text;
+use crate::{
+    language::text,
+    theme::{ROUNDING, Theme, font::small},
+};
 
 const BAR: Vec2 = Vec2::new(168.0, 8.0);
 const MARGIN: f32 = 14.0;
@@ -57,6 +60,31 @@ pub(super) fn ui(painter: &Painter, rect: Rect, scene: &ViewScene, style: &ViewS
             bar(painter, rect, &title, &values, stops, style);
         }
         Colouring::Segment | Colouring::Plain => {}
+    }
+}
+
+/// Draws what each of these colours means, one below the other, with the lower left corner here.
+pub fn colour_keys(painter: &Painter, corner: Pos2, keys: &[(Color32, String)], theme: &Theme) {
+    const LINE: f32 = 20.0;
+    const SQUARE: f32 = 11.0;
+    if keys.is_empty() {
+        return;
+    }
+    let texts = keys.iter();
+    let texts = texts.map(|(_, text)| painter.layout_no_wrap(text.clone(), small(), theme.text));
+    let texts: Vec<_> = texts.collect();
+    let width = texts.iter().map(|text| text.size().x);
+    let width = width.fold(0.0, f32::max) + SQUARE + 24.0;
+    let size = Vec2::new(width, LINE * texts.len() as f32 + 6.0);
+    let plate = Align2::LEFT_BOTTOM.anchor_size(corner, size);
+    painter.rect_filled(plate, ROUNDING, theme.canvas.gamma_multiply(0.82));
+    for (place, ((colour, _), text)) in keys.iter().zip(texts).enumerate() {
+        let middle = plate.top() + 3.0 + LINE * (place as f32 + 0.5);
+        let at = Pos2::new(plate.left() + 8.0, middle);
+        let square = Align2::LEFT_CENTER.anchor_size(at, Vec2::splat(SQUARE));
+        painter.rect_filled(square, 2.0, *colour);
+        let left = Pos2::new(square.right() + 8.0, middle - text.size().y / 2.0);
+        painter.galley(left, text, theme.text);
     }
 }
 

@@ -55,6 +55,7 @@ pub use self::{
     direction::ViewDirection,
     drawing::{Drawing, DrawnShape, seen_at},
     gpu::{ViewError, ViewportGpu},
+    legend::colour_keys,
     measure::Measurement,
     picking::PickedPoint,
     scene::{Line, LineSet, PointSet, TextLabel, ViewScene, vec3},

@@ -22,7 +22,7 @@ mod track;
 mod views;
 mod work;
 
-use egui::{Key, Margin, Modifiers, Panel, Ui};
+use egui::{Key, Margin, Modifiers, Panel, Rect, Ui};
 
 pub use self::{
     action::{AlignAction, AlignFile},
@@ -86,7 +86,7 @@ impl Workspace for AlignWorkspace {
         WorkspaceKind::Align
     }
 
-    fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) {
+    fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) -> Rect {
         let Self { state, views, side } = self;
         let session = cx.session;
         let mut actions = Vec::new();
@@ -105,10 +105,12 @@ impl Workspace for AlignWorkspace {
         fixed_panel(ui, bottom, Margin::symmetric(14, 8), |ui| {
             scrubber::ui(ui, state, &mut actions);
         });
+        let room = ui.available_rect_before_wrap();
         views.ui(ui, state, session);
         for action in actions {
             state.apply(action, cx);
         }
+        room
     }
 
     fn update(&mut self, cx: &mut ShellContext<'_>) {

@@ -79,7 +79,7 @@ impl Workspace for CompareWorkspace {
         WorkspaceKind::Compare
     }
 
-    fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) {
+    fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) -> Rect {
         let session = cx.session;
         let state = &self.state;
         let mut acts = Vec::new();
@@ -92,10 +92,11 @@ impl Workspace for CompareWorkspace {
         fixed_panel(ui, Panel::top("case"), Margin::symmetric(12, 8), |ui| {
             case_bar::ui(ui, state, session, &mut acts);
         });
-        body(ui, state, session, &mut acts);
+        let room = body(ui, state, session, &mut acts);
         for action in acts {
             self.state.apply(action, cx);
         }
+        room
     }
 
     fn update(&mut self, cx: &mut ShellContext<'_>) {
@@ -129,8 +130,13 @@ impl Workspace for CompareWorkspace {
     }
 }
 
-/// Draws three pictures above; the distances and the kept cases below.
-fn body(ui: &mut Ui, state: &CompareState, session: &Session, acts: &mut Vec<CompareAction>) {
+/// Draws three pictures above; the distances and the kept cases below. Returns the place of the pictures.
+fn body(
+    ui: &mut Ui,
+    state: &CompareState,
+    session: &Session,
+    acts: &mut Vec<CompareAction>,
+) -> Rect {
     let theme = Theme::of(ui);
     let all = ui.available_rect_before_wrap();
     ui.painter().rect_filled(all, 0.0, theme.panel);
@@ -166,4 +172,5 @@ fn body(ui: &mut Ui, state: &CompareState, session: &Session, acts: &mut Vec<Com
     painter.hline(all.x_range(), middle, theme.edge_stroke());
     painter.vline(left, all.y_range(), theme.edge_stroke());
     painter.vline(third(0.66), all.top()..=middle, theme.edge_stroke());
+    all.with_max_y(middle)
 }

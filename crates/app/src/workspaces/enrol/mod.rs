@@ -123,12 +123,13 @@ impl Workspace for EnrolWorkspace {
         WorkspaceKind::Enrol
     }
 
-    fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) {
+    fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) -> Rect {
         let mut actions = Vec::new();
-        self.panes.ui(ui, &self.state, cx.session, &mut actions);
+        let room = self.panes.ui(ui, &self.state, cx.session, &mut actions);
         for action in actions {
             self.state.apply(action, cx);
         }
+        room
     }
 
     fn update(&mut self, cx: &mut ShellContext<'_>) {
@@ -198,7 +199,7 @@ impl Panes {
         enrol: &EnrolState,
         session: &Session,
         actions: &mut Vec<EnrolAction>,
-    ) {
+    ) -> Rect {
         let library = session.library.as_ref();
         let checked = enrol.draft.as_ref().and_then(Draft::ready);
         self.thumbnails.make(ui.ctx(), library, checked);
@@ -232,11 +233,15 @@ impl Panes {
         });
         match &enrol.draft {
             Some(draft) => self.draft(ui, draft, enrol, session, actions),
-            None => empty(ui, enrol, session, actions),
+            None => {
+                let room = ui.available_rect_before_wrap();
+                empty(ui, enrol, session, actions);
+                room
+            }
         }
     }
 
-    /// Draws the draft, and the tools to correct it.
+    /// Draws the draft, and the tools to correct it. Returns the place of the draft.
     fn draft(
         &mut self,
         ui: &mut Ui,
@@ -244,7 +249,7 @@ impl Panes {
         enrol: &EnrolState,
         session: &Session,
         actions: &mut Vec<EnrolAction>,
-    ) {
+    ) -> Rect {
         let theme = Theme::of(ui);
         Panel::top("enrol tools")
             .resizable(false)
@@ -285,6 +290,7 @@ impl Panes {
         } else {
             self.view.rest();
         }
+        all
     }
 }
 

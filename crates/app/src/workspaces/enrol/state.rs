@@ -19,7 +19,7 @@ use shell::{
     file_dialog::FileDialog,
     inspection::{library_cache::LibraryView, scan_choice::ShotChoice},
     message::{Event, Message},
-    notice::Notice,
+    notice::{Notice, NoticeTopic},
     session::{Session, UserRole, WorkspaceKind},
 };
 use ui::{
@@ -299,7 +299,7 @@ impl EnrolState {
             match event {
                 Ok(event) => self.receive(event, cx),
                 Err(error) => {
-                    cx.notify(error);
+                    cx.notify(Notice::from(error).about(NoticeTopic::Scene));
                     if self.job == DraftJob::TakeAgain {
                         self.words_alone(cx);
                     }
@@ -322,7 +322,7 @@ impl EnrolState {
     /// Handles an event of the shell.
     pub fn on_event(&mut self, event: &Event, cx: &mut ShellContext<'_>) {
         match event {
-            Event::Undo => self.apply(EnrolAction::UndoChange, cx),
+            Event::Undo(WorkspaceKind::Enrol) => self.apply(EnrolAction::UndoChange, cx),
             Event::EngineerIn => {
                 if let Some(action) = self.held.take() {
                     self.apply(action, cx);
@@ -334,6 +334,7 @@ impl EnrolState {
             | Event::TracedLate(..)
             | Event::PosesWanted(_)
             | Event::WrongPart(_)
+            | Event::Undo(_)
             | Event::Export => {}
         }
     }
@@ -366,7 +367,7 @@ impl EnrolState {
                 }
             }
             DraftEvent::PosesWanted(order, error) => {
-                cx.notify(error);
+                cx.notify(Notice::from(error).about(NoticeTopic::Scene));
                 self.shots.ask_for_poses(*order);
                 self.ask(EnrolFile::Scan(ShotsFile::Poses), cx);
             }

@@ -22,7 +22,7 @@ use shell::{
     },
     message::Message,
     notice::Notice,
-    session::Session,
+    session::{Session, WorkspaceKind},
 };
 use stages::scene::SceneCloud;
 use ui::{language::text, undo_stack::UndoDirection};
@@ -213,12 +213,14 @@ impl EnrolState {
         let notice = match way {
             None => {
                 step.what.clone_from(&what);
-                Notice::undoable(what.whole)
+                Notice::undoable(what.whole, WorkspaceKind::Enrol)
             }
             Some(UndoDirection::Undo) => {
                 Notice::done(text!("enrol-undone", what = &step.what.brief))
             }
-            Some(UndoDirection::Redo) => Notice::undoable(step.what.whole.clone()),
+            Some(UndoDirection::Redo) => {
+                Notice::undoable(step.what.whole.clone(), WorkspaceKind::Enrol)
+            }
         };
         let mut saved = None;
         if let DraftEffect::MakesWay(other) = &mut step.draft {

@@ -18,7 +18,7 @@ use ui::{
     theme::{Theme, ThemeChoice, space},
     viewport::{
         DrawnShape, FitRequest, ViewCamera, ViewColours, ViewDirection, ViewError, ViewScene,
-        ViewStyle, ViewTool, Viewport, ViewportGpu, drawing,
+        ViewStyle, ViewTool, Viewport, ViewportGpu, colour_keys, drawing,
     },
 };
 
@@ -112,7 +112,8 @@ impl DraftView {
         if let Some(overlay) = overlay(draft, looked_at) {
             let painter = ui.painter_at(rect);
             let corner = rect.left_bottom() + vec2(space::MEDIUM, -space::MEDIUM);
-            overlay.legend(&painter, corner, &style.colours, Theme::of(ui));
+            let keys = overlay.colour_keys(&style.colours);
+            colour_keys(&painter, corner, &keys, Theme::of(ui));
         }
         let bar = vec2(rect.width() - 2.0 * space::SMALL, space::TARGET);
         let bar = Rect::from_min_size(rect.min + Vec2::splat(space::SMALL), bar);

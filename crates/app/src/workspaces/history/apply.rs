@@ -242,7 +242,7 @@ impl HistoryState {
                     cx.send(Message::Act(Action::GoTo(WorkspaceKind::Inspect)));
                 }
             }
-            Event::PosesWanted(_) | Event::Export | Event::Undo => {}
+            Event::PosesWanted(_) | Event::Export | Event::Undo(_) => {}
         }
     }
 

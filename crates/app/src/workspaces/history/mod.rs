@@ -18,7 +18,7 @@ mod work;
 
 use std::sync::Arc;
 
-use egui::{CentralPanel, Frame, Key, Margin, Modifiers, Ui};
+use egui::{CentralPanel, Frame, Key, Margin, Modifiers, Rect, Ui};
 
 pub use self::{
     apply::{Direction, HistoryAction, HistoryFile, HistoryJob},
@@ -111,7 +111,7 @@ impl Workspace for HistoryWorkspace {
         WorkspaceKind::History
     }
 
-    fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) {
+    fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) -> Rect {
         let Self {
             state,
             details,
@@ -121,7 +121,7 @@ impl Workspace for HistoryWorkspace {
         let session = cx.session;
         if state.num_rows() == 0 && state.num_servo_runs == 0 && state.problem.is_none() {
             empty(ui);
-            return;
+            return ui.max_rect();
         }
         let mut actions = Vec::new();
         side_panel(
@@ -134,6 +134,7 @@ impl Workspace for HistoryWorkspace {
                 None => details.ui(ui, state, session, &mut actions),
             },
         );
+        let room = ui.available_rect_before_wrap();
         CentralPanel::default()
             .frame(Frame::new().inner_margin(Margin::same(16)))
             .show(ui, |ui| {
@@ -153,6 +154,7 @@ impl Workspace for HistoryWorkspace {
         for action in actions {
             self.apply(action, cx);
         }
+        room
     }
 
     fn update(&mut self, cx: &mut ShellContext<'_>) {

@@ -439,11 +439,13 @@ impl HistoryState {
         let keeper = Arc::clone(cx.services.library_cache.history());
         let (starts, library) = (cx.session.shift_starts.clone(), cx.session.library.clone());
         let libraries = cx.services.library_cache.clone();
+        let shift = &cx.session.shift;
+        let (source, name) = (shift.source.clone(), shift.source_name());
         self.counting
             .start(text!("shell-counting-parts"), move |_| {
                 let now = geometry::clock::zoned_now();
                 let mut counted = filter.at(&now);
-                let outcomes = work::outcomes(&mut counted, &keeper);
+                let outcomes = work::outcomes(&mut counted, name, &keeper);
                 let (outcomes, num_left_out) = outcomes.map_err(|error| UserError::of(&error))?;
                 let former_titles = RefCell::new(BTreeMap::new());
                 let title_of = |name: &str| {
@@ -458,6 +460,7 @@ impl HistoryState {
                 };
                 let mut found = statistics::count(&outcomes, &starts, now.time_zone(), title_of);
                 found.num_left_out = num_left_out;
+                found.source = source.filter(|_| counted.source.is_some());
                 let part = filter.part.clone().or_else(|| most_accepted(&outcomes));
                 if let Some(part) = part {
                     counted.part = Some(part.clone());

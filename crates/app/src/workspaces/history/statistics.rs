@@ -14,7 +14,9 @@ use records::history::{PartOutcome, StoredVerdict};
 use shell::{
     inspection::unit_system::UnitSystem,
     language::results::{refusal_kind, stored_verdict},
+    session::Source,
     shift::ShiftStarts,
+    source::source_menu,
 };
 use ui::{
     language::text,
@@ -88,7 +90,9 @@ pub struct Statistics {
     pub parts: Vec<(Option<String>, Tally)>,
     /// By reason, the most frequent first.
     pub reasons: Vec<(ReasonGroup, usize)>,
-    /// Number of simulated parts that are not counted.
+    /// The source that the parts hung in front of, as in the count of the shift; `None` if those of all sources are counted.
+    pub source: Option<Source>,
+    /// Number of parts of other sources, which are not counted.
     pub num_left_out: usize,
     /// Number of rows without a part, which are not counted.
     pub num_no_part: usize,
@@ -195,9 +199,14 @@ pub(super) fn ui(ui: &mut Ui, view: &StatisticsView, units: UnitSystem) {
         // Lines of text need less height than controls.
         ui.spacing_mut().interact_size.y = 22.0;
         shifts(ui, &found.shifts);
+        if let Some(source) = &found.source {
+            let name = source_menu::now(source);
+            let source = ui.weak(text!("operator-source", source = name));
+            source.on_hover_text(text!("operator-shift-says"));
+        }
         if found.num_left_out > 0 {
             let count = found.num_left_out;
-            ui.weak(text!("history-simulated-left-out", count = count));
+            ui.weak(text!("history-others-left-out", count = count));
         }
         if found.num_no_part > 0 {
             let count = found.num_no_part;

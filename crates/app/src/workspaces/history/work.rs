@@ -115,18 +115,23 @@ pub(super) fn look(
     })
 }
 
-/// Outcomes of the matching parts, and the number of simulated parts among them that are left out. No part hangs in a
-/// simulated frame, so those count only where there is nothing else: the filter leaves them out otherwise.
+/// Outcomes of the matching parts, and the number of those left out: as in the count of the shift, only parts count that hung
+/// in front of this source. Without any, all real parts count, and simulated ones only where there is nothing else. The filter
+/// leaves out the others.
 pub(super) fn outcomes(
     filter: &mut Filter,
+    source: Option<String>,
     history: &HistoryBuffer,
 ) -> Result<(Vec<PartOutcome>, usize), HistoryError> {
-    filter.is_simulated = Some(true);
-    let num_simulated = history.page(filter, 0, 0)?.num_matching;
-    filter.is_simulated = Some(false);
-    let outcomes = history.outcomes(filter)?;
-    if !outcomes.is_empty() {
-        return Ok((outcomes, num_simulated));
+    let num_all = history.page(filter, 0, 0)?.num_matching;
+    let of_source = source.map(|source| (Some(source), None));
+    for (source, is_simulated) in of_source.into_iter().chain([(None, Some(false))]) {
+        (filter.source, filter.is_simulated) = (source, is_simulated);
+        let outcomes = history.outcomes(filter)?;
+        if !outcomes.is_empty() {
+            let num_left_out = num_all.saturating_sub(outcomes.len());
+            return Ok((outcomes, num_left_out));
+        }
     }
     filter.is_simulated = None;
     Ok((history.outcomes(filter)?, 0))
@@ -196,7 +201,8 @@ mod tests {
                 part: Some(part.to_owned()),
                 ..Filter::default()
             };
-            let (outcomes, num_left_out) = outcomes(&mut filter, &history).expect("asked");
+            let counted = outcomes(&mut filter, Some("kinect".into()), &history);
+            let (outcomes, num_left_out) = counted.expect("asked");
             (outcomes.len(), num_left_out, filter.is_simulated)
         };
         add(1, "fender", true);

@@ -33,8 +33,10 @@ pub enum InspectAction {
     UseConvention(Convention),
     /// Copy the pose to the clipboard, in the chosen convention.
     CopyPose,
-    /// Go to Compare, to see why it was recognised as this part.
+    /// Go to Compare, to see why it was recognised as this part, or was not.
     Compare,
+    /// Make the scene in front the draft of Enrol, and go there.
+    Enrol,
     /// Start or stop recording the followed source.
     ToggleRecording,
     /// An action of the shell.

@@ -13,8 +13,10 @@ use super::{
     robot_numbers, stand_off,
 };
 use crate::shots::summary;
-use inspection::pipeline::Verdict;
+use inspection::pipeline::{Rejection, Unrecognisable, Verdict};
 use shell::{
+    action::{Action, Effect},
+    cell::RobotAction,
     inspection::{inspected::Inspected, unit_system::UnitSystem},
     language::results::{recipe_label, stopped, traced},
     session::{Session, UserRole},
@@ -22,6 +24,7 @@ use shell::{
     trace::{entry, expect_menu},
 };
 use stages::pose::PoseEstimate;
+use station::Doubt;
 use ui::{
     language::{described, text},
     theme::{ROUNDING, Theme, font, space},
@@ -61,14 +64,17 @@ pub(super) fn ui(
     let pose = pose.filter(|_| inspection.verdict.is_named());
     // Keep the buttons visible, however low the window.
     let pose_to_copy = pose.filter(|_| inspection.verdict.is_accepted());
+    let headline = Headline::of(inspected, session);
+    let next = next_step(inspected, session, &headline);
+    let rows = if next.is_some() { 2.0 } else { 1.0 };
     Panel::bottom("ways on")
-        .exact_size(space::TARGET + space::MEDIUM)
+        .exact_size(rows * (space::TARGET + space::SMALL) + space::SMALL)
         .resizable(false)
         .show_separator_line(false)
         .frame(Frame::new())
         .show(ui, |ui| {
             let copying = pose_to_copy.map(|_| Hold::robot_of_files(session, inspected).map(drop));
-            action_buttons(ui, copying, actions);
+            action_buttons(ui, copying, next, &headline, actions);
         });
     hold::look_again(ui);
     // Lines of text need less height than controls.
@@ -79,7 +85,6 @@ pub(super) fn ui(
     ui.spacing_mut().scroll.floating_allocated_width = space::SMALL;
     frame_parts::ui(ui, session, actions);
     // Keep the verdict visible when the rest is scrolled.
-    let headline = Headline::of(inspected, session);
     headline::ui(ui, &headline);
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         if inspection.touches_edge() && inspected.scan.is_none() {
@@ -122,27 +127,65 @@ pub(super) fn expecting(ui: &mut Ui, session: &Session, actions: &mut Vec<Inspec
     actions.extend(of_shell.into_iter().map(InspectAction::Act));
 }
 
-/// Draws the buttons for what can be done with the result. `copying` is `None` without a pose to copy, and holds why it must not
-/// be copied.
+/// What the advice comes to, if a button does it: its label and action.
+fn next_step(
+    inspected: &Inspected,
+    session: &Session,
+    headline: &Headline,
+) -> Option<(String, InspectAction)> {
+    let calibrate = || {
+        let open = Action::Make(Effect::Robot(RobotAction::Toggle));
+        (text!("inspect-calibrate"), InspectAction::Act(open))
+    };
+    let enrol = || (text!("inspect-enrol-this"), InspectAction::Enrol);
+    let verdict = &inspected.inspection.verdict;
+    match (headline.state, verdict) {
+        (HeadlineState::Recognised, _) => {
+            let doubts = session.robot_doubts(inspected);
+            let is_first = doubts.first() == Some(&Doubt::NotCalibrated);
+            (is_first && !inspected.subject.is_staged()).then(calibrate)
+        }
+        (_, Verdict::NoPart(Unrecognisable::EmptyLibrary)) => Some(enrol()),
+        (HeadlineState::Refused, _) => match verdict.rejected()? {
+            Rejection::Unknown { .. } | Rejection::Mirrored { .. } => Some(enrol()),
+            Rejection::AnotherModel { .. }
+            | Rejection::AnotherMake { .. }
+            | Rejection::OtherHalf { .. } => {
+                Some((text!("inspect-add-reference"), InspectAction::Enrol))
+            }
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+/// Draws the buttons for what can be done with the result, above them the next step. `copying` is `None` without a pose to copy,
+/// and holds why it must not be copied.
 fn action_buttons(
     ui: &mut Ui,
     copying: Option<Result<(), Hold>>,
+    next: Option<(String, InspectAction)>,
+    headline: &Headline,
     actions: &mut Vec<InspectAction>,
 ) {
     /// Left and right of a button's text, logical pixels.
     const PADDING: f32 = 4.0;
     let theme = Theme::of(ui);
+    let [why, why_says] = if headline.state == HeadlineState::Refused {
+        [text!("inspect-why"), text!("inspect-why-says")]
+    } else {
+        [
+            text!("inspect-wrong-part"),
+            text!("inspect-wrong-part-says"),
+        ]
+    };
     let ways = [
         (
             text!("inspect-export"),
             text!("inspect-export-says"),
             InspectAction::Ask(InspectFile::Report),
         ),
-        (
-            text!("inspect-wrong-part"),
-            text!("inspect-wrong-part-says"),
-            InspectAction::Compare,
-        ),
+        (why, why_says, InspectAction::Compare),
         (
             text!("inspect-copy-pose"),
             text!("inspect-copy-pose-says"),
@@ -188,6 +231,16 @@ fn action_buttons(
                 }
             }
         });
+        if let Some((label, action)) = next {
+            let text = RichText::new(&label).font(font::body_strong());
+            let button = Button::new(text.color(theme.on_accent)).fill(theme.accent);
+            let size = vec2(ui.available_width(), space::TARGET);
+            let button = ui.add_sized(size, button);
+            focus_ring(ui, button.rect, &button);
+            if button.clicked() {
+                actions.push(action);
+            }
+        }
     });
 }
 

@@ -6,7 +6,7 @@ use super::hold::Hold;
 use inspection::pipeline::{Rejection, Verdict, is_like, live::MotionState};
 use shell::{
     inspection::inspected::Inspected,
-    language::results::{accepted_or_not, is_recognised},
+    language::results::{accepted_or_not, is_called_by_name},
     session::Session,
     truth_menu::truth_title,
 };
@@ -109,13 +109,8 @@ impl Headline {
             }
         }
         let verdict = &inspected.inspection.verdict;
-        let (certainty, rejected) = match verdict {
-            Verdict::Part {
-                score,
-                margin,
-                rejected,
-                ..
-            } => ([*score, *margin], rejected),
+        let rejected = match verdict {
+            Verdict::Part { rejected, .. } => rejected,
             Verdict::NoPart(reason) => {
                 return Self {
                     title: text!("results-no-part"),
@@ -150,7 +145,7 @@ impl Headline {
             Rejection::AnotherModel { .. } => {
                 (text!("inspect-another-model", part = nearest), None)
             }
-            _ if is_recognised(certainty, &inspected.recipe.accept) => (nearest, None),
+            _ if is_called_by_name(verdict, &inspected.recipe.accept) => (nearest, None),
             // Do not show an uncertain name in large letters.
             _ => {
                 let title = if verdict.is_unknown() {

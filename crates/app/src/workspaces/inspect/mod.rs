@@ -22,7 +22,7 @@ mod view;
 
 use std::{path::Path, sync::Arc};
 
-use egui::{Align2, Frame, Key, Margin, Modifiers, Panel, TextureHandle, Ui};
+use egui::{Align2, Frame, Key, Margin, Modifiers, Panel, Rect, TextureHandle, Ui};
 
 use self::view::SceneView;
 pub use self::{
@@ -210,7 +210,7 @@ impl Workspace for InspectWorkspace {
         WorkspaceKind::Inspect
     }
 
-    fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) {
+    fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) -> Rect {
         let (session, theme) = (cx.session, Theme::of(ui));
         if session.is_operator_view() {
             if let Some(shown) = &session.shown {
@@ -218,7 +218,7 @@ impl Workspace for InspectWorkspace {
                 self.view.frame_part(shown);
             }
             let mut actions = Vec::new();
-            operator::ui(ui, session, &mut actions, |ui| {
+            let room = operator::ui(ui, session, &mut actions, |ui| {
                 if let Some(shown) = &session.shown {
                     self.view.plain_ui(ui, session, &shown.inspected);
                 }
@@ -227,7 +227,7 @@ impl Workspace for InspectWorkspace {
             for action in actions {
                 self.state.apply(action, cx);
             }
-            return;
+            return room;
         }
         let Some(shown) = &session.shown else {
             ui.painter().rect_filled(ui.max_rect(), 0.0, theme.canvas);
@@ -239,10 +239,11 @@ impl Workspace for InspectWorkspace {
                 });
             }
             empty(ui, session);
+            let room = ui.available_rect_before_wrap();
             for action in actions {
                 self.state.apply(action, cx);
             }
-            return;
+            return room;
         };
         self.make(ui.ctx(), shown);
         let inspected: &Inspected = &shown.inspected;
@@ -256,9 +257,9 @@ impl Workspace for InspectWorkspace {
         fixed_panel(ui, bottom, Margin::ZERO, |ui| {
             self.strip(ui, inspected, session, &mut actions);
         });
+        let room = ui.available_rect_before_wrap();
         if self.state.enlarged.is_some() {
-            let rest = ui.available_rect_before_wrap();
-            ui.painter().rect_filled(rest, 0.0, theme.canvas);
+            ui.painter().rect_filled(room, 0.0, theme.canvas);
             let pictures = self.pictures(inspected, session, theme);
             strip::enlarged_ui(ui, &pictures, &mut actions);
         } else {
@@ -269,6 +270,7 @@ impl Workspace for InspectWorkspace {
         for action in actions {
             self.state.apply(action, cx);
         }
+        room
     }
 
     fn update(&mut self, cx: &mut ShellContext<'_>) {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use egui::{
-    Align, CentralPanel, Color32, FontId, Frame, Galley, Id, Label, Layout, Margin, Panel,
+    Align, CentralPanel, Color32, FontId, Frame, Galley, Id, Label, Layout, Margin, Panel, Rect,
     RichText, Role, ScrollArea, Sense, Ui, Vec2, WidgetInfo, style::ScrollStyle, vec2,
 };
 
@@ -43,13 +43,13 @@ const SIGN: f32 = 24.0;
 /// Longest reason or advice that fits in the large type, characters.
 const LONG: usize = 60;
 
-/// Draws the operator's view; `picture` draws the part once there is an inspection.
+/// Draws the operator's view; `picture` draws the part once there is an inspection. Returns the place of the picture.
 pub(super) fn ui(
     ui: &mut Ui,
     session: &Session,
     actions: &mut Vec<InspectAction>,
     picture: impl FnOnce(&mut Ui),
-) {
+) -> Rect {
     let theme = Theme::of(ui);
     let banner = Banner::of(session);
     let size = ui.available_size();
@@ -79,8 +79,8 @@ pub(super) fn ui(
     if let Some(shown) = shown {
         frame_parts::operators_panel(ui, shown, session, actions);
     }
+    let rect = ui.available_rect_before_wrap();
     CentralPanel::default().frame(Frame::new()).show(ui, |ui| {
-        let rect = ui.max_rect();
         if session.shown.is_none() {
             ui.painter().rect_filled(rect, 0.0, theme.canvas);
             return;
@@ -91,6 +91,7 @@ pub(super) fn ui(
             ui.painter().rect_filled(rect, 0.0, veil);
         }
     });
+    rect
 }
 
 fn banner_ui(ui: &mut Ui, banner: &Banner) {

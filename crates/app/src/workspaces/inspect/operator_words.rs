@@ -43,6 +43,8 @@ fn in_lines(step: String, session: &Session, otherwise: String) -> String {
     } else if session.is_live() {
         // Live inspects again by itself.
         String::new()
+    } else if session.source.followed().is_none() {
+        text!("operator-then-open")
     } else {
         text!("operator-then-capture")
     };
@@ -54,7 +56,7 @@ fn in_lines(step: String, session: &Session, otherwise: String) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use inspection::pipeline::Unrecognisable;
+    use inspection::pipeline::{Rejection, Unrecognisable};
     use shell::session::Source;
     use stages::segment::NoPart;
 
@@ -71,6 +73,14 @@ mod tests {
             advice.contains("\nThen press Capture\nIf it persists"),
             "{advice}"
         );
+        let file = Source::File("door.pcd".into());
+        let source = std::mem::replace(&mut session.source, file);
+        let advice = next_step(&why, &session);
+        assert!(
+            advice.contains("\nThen open the new capture\nIf it persists"),
+            "{advice}"
+        );
+        session.source = source;
         // Capture would end Live, which inspects again by itself.
         session.live.is_on = true;
         let advice = next_step(&why, &session);
@@ -81,5 +91,23 @@ mod tests {
             advice.contains("The next file") && !advice.contains("Capture"),
             "{advice}"
         );
+    }
+
+    #[test]
+    fn both_are_advised_to_do_the_same_about_an_uncertain_pose() {
+        let why = Rejection::AmbiguousPose {
+            part: "grille".into(),
+            margin: 0.43,
+            threshold: 0.6,
+        };
+        let operator = next_step(&why.message(), &Session::default());
+        let engineer = why.message().advice(Language::current());
+        for advice in [operator, engineer] {
+            let has = |words| advice.contains(words);
+            assert!(
+                has("Turn the part") && has("a corner or another edge"),
+                "{advice}"
+            );
+        }
     }
 }

@@ -10,7 +10,7 @@ use super::{
 use crate::shots::{Asked, ShotsAction, ShotsFile, ShotsState, source_of};
 use records::history::Traceability;
 use shell::{
-    action::Action,
+    action::{Action, Effect},
     context::ShellContext,
     file_dialog::FileDialog,
     inspection::{
@@ -191,6 +191,7 @@ impl InspectState {
             }
             InspectAction::CopyPose => copy_pose(cx),
             InspectAction::Compare => cx.send(Message::Act(Action::GoTo(WorkspaceKind::Compare))),
+            InspectAction::Enrol => enrol_shown(cx),
             InspectAction::ToggleRecording => {
                 cx.send(Message::Act(Action::Live(LiveAction::ToggleRecording)));
             }
@@ -271,7 +272,7 @@ impl InspectState {
             | Event::TracedLate(..)
             | Event::EngineerIn
             | Event::WrongPart(_)
-            | Event::Undo => {}
+            | Event::Undo(_) => {}
         }
     }
 
@@ -432,6 +433,15 @@ fn copy_pose(cx: &mut ShellContext<'_>) {
     );
     cx.notify(Notice::done(what));
     cx.send(Message::CopyText(clipboard_text(&numbered)));
+}
+
+/// Makes the scene in front the draft of Enrol, and goes there.
+fn enrol_shown(cx: &mut ShellContext<'_>) {
+    if let Some(shown) = &cx.session.shown {
+        let take = Effect::Take(shown.inspected.again(), text!("enrol-taking-scene"));
+        cx.send(Message::Act(Action::GoTo(WorkspaceKind::Enrol)));
+        cx.send(Message::Act(Action::Make(take)));
+    }
 }
 
 #[cfg(test)]

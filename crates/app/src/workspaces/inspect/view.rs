@@ -2,13 +2,13 @@
 
 use std::{collections::BTreeSet, sync::Arc};
 
-use egui::{Key, Modifiers, Painter, Rect, Ui, UiBuilder, Vec2, pos2, vec2};
+use egui::{Color32, Key, Modifiers, Painter, Rect, Ui, UiBuilder, Vec2, pos2, vec2};
 
 use super::{
     action::InspectAction,
     controls,
     frame_parts::numbered,
-    headline::Headline,
+    headline::{Headline, HeadlineState},
     state::{InspectState, ViewPart},
 };
 use crate::shots::{Overlay, POINT_SIZE};
@@ -26,7 +26,7 @@ use ui::{
     viewport::{
         Colouring, FitRequest, Legend, Line, LineSet, Role, StandardView, TextLabel, ViewCamera,
         ViewColours, ViewDirection, ViewError, ViewScene, ViewShot, ViewStyle, Viewport,
-        ViewportGpu, furniture, vec3,
+        ViewportGpu, colour_keys, furniture, vec3,
     },
     widgets::grouped,
 };
@@ -46,6 +46,8 @@ pub struct WorkCounts {
 const DEVIATION_RANGE: Metres = Metres(0.01);
 /// Length of the axes of the robot base, longer than others because it is farther away than the part.
 const BASE_AXES: Metres = Metres(0.3);
+/// How far the colour of a point that the scale does not colour is mixed with the background; `DIMMED` in points.wgsl.
+const DIMMED: f32 = 0.4;
 /// Width of the colour scale, logical pixels; it is below the controls where they leave less.
 const LEGEND_WIDTH_PX: f32 = 212.0;
 
@@ -167,8 +169,9 @@ impl SceneView {
         self.framed = None;
         let overlay = overlay(state, inspected);
         self.place(&state.parts, overlay.as_ref(), session, inspected);
-        self.restyle(session, inspected, colouring(state, inspected));
+        let headline = Headline::of(inspected, session);
         let theme = Theme::of(ui);
+        self.restyle(session, inspected, &headline, colouring(state, inspected));
         let rect = ui.available_rect_before_wrap();
         self.size = rect.size();
         self.style.legend = if self.controls_width > rect.width() - LEGEND_WIDTH_PX {
@@ -189,10 +192,10 @@ impl SceneView {
         self.controls_width = controls.inner.right() - rect.left();
         let painter = ui.painter_at(rect);
         let top = self.captions(&painter, rect, theme);
-        if let Some(overlay) = overlay {
-            let corner = pos2(rect.left() + space::MEDIUM, top - 4.0);
-            overlay.legend(&painter, corner, &self.style.colours, theme);
-        }
+        let mut keys = self.colour_keys(state, session, inspected, &headline);
+        keys.extend(overlay.map_or_else(Vec::new, |all| all.colour_keys(&self.style.colours)));
+        let corner = pos2(rect.left() + space::MEDIUM, top - 4.0);
+        colour_keys(&painter, corner, &keys, theme);
     }
 
     /// Frames another part for the operator, as the camera sees it, when it comes and when its verdict counts, but not on every
@@ -233,10 +236,10 @@ impl SceneView {
 
     /// Draws the part alone for the operator; with its outline if accepted.
     pub(super) fn plain_ui(&mut self, ui: &mut Ui, session: &Session, inspected: &Inspected) {
-        let is_accepted = inspected.inspection.verdict.is_accepted();
-        let parts = is_accepted.then_some(ViewPart::Outline);
+        let headline = Headline::of(inspected, session);
+        let parts = headline.is_accepted().then_some(ViewPart::Outline);
         self.place(&parts.into_iter().collect(), None, session, inspected);
-        self.restyle(session, inspected, Colouring::Segment);
+        self.restyle(session, inspected, &headline, Colouring::Segment);
         // Only the engineer measures.
         self.viewport.end_measuring();
         ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::M));
@@ -251,7 +254,13 @@ impl SceneView {
         }
     }
 
-    fn restyle(&mut self, session: &Session, inspected: &Inspected, colouring: Colouring) {
+    fn restyle(
+        &mut self,
+        session: &Session,
+        inspected: &Inspected,
+        headline: &Headline,
+        colouring: Colouring,
+    ) {
         self.style = ViewStyle {
             colouring,
             deviation_range: DEVIATION_RANGE,
@@ -261,6 +270,63 @@ impl SceneView {
         if inspected.scan.is_some() {
             self.style.point_size = POINT_SIZE;
         }
+        // Only an accepted part has the colour of one.
+        if !headline.is_accepted() && headline.state != HeadlineState::NoPart {
+            let (.., colour) = headline.verdict(session.theme.colours());
+            self.style.colours.roles[Role::Part as usize].colour = colour;
+        }
+    }
+
+    /// What the colours mean that no scale and no text in the view explains.
+    fn colour_keys(
+        &self,
+        state: &InspectState,
+        session: &Session,
+        inspected: &Inspected,
+        headline: &Headline,
+    ) -> Vec<(Color32, String)> {
+        let colours = &self.style.colours;
+        let drawn = |role: Role, is_dimmed: bool| {
+            let colour = colours.role(role).colour;
+            if is_dimmed {
+                colour.lerp_to_gamma(colours.background, DIMMED)
+            } else {
+                colour
+            }
+        };
+        let colouring = self.style.colouring;
+        let is_by_role = colouring == Colouring::Segment;
+        let figure = &inspected.view;
+        let mut keys = Vec::new();
+        for role in &figure.roles {
+            let planes = [Role::Plane0, Role::Plane1, Role::Plane2, Role::Plane3];
+            let place = planes.iter().position(|plane| plane == role);
+            let text = match (role, place) {
+                (Role::Part, _) if is_by_role => {
+                    let (_, verdict, _) = headline.verdict(session.theme.colours());
+                    format!("{} · {verdict}", text!("shell-part"))
+                }
+                (Role::Rest, _) if is_by_role || colouring == Colouring::Deviation => {
+                    text!("inspect-other-surface")
+                }
+                (_, Some(place)) => text!("enrol-segment-background", number = place + 1),
+                _ => continue,
+            };
+            keys.push((drawn(*role, !is_by_role), text));
+        }
+        let lines = [
+            (ViewPart::Outline, figure.outline.is_some(), Role::Contour),
+            (ViewPart::Camera, figure.camera.is_some(), Role::Frustum),
+        ];
+        for (part, is_there, role) in lines {
+            if is_there && state.parts.contains(&part) {
+                keys.push((drawn(role, false), part.title()));
+            }
+        }
+        if !rack_of(session, inspected).volume.is_empty() {
+            keys.push((drawn(Role::Rest, false), text!("rack-volume")));
+        }
+        keys
     }
 
     fn paint(&mut self, ui: &mut Ui) {
@@ -497,7 +563,8 @@ mod tests {
         inspected::{LiveFrameContext, inspected_cell},
         source::CellChoice,
     };
-    use simulate::{PartKind, Side};
+    use shell::session::ThemeChoice;
+    use simulate::{ObjectKind, PartKind, Side};
     use ui::{
         task::TaskRunner,
         viewport::{LineSet, Measurement, ViewTool},
@@ -523,6 +590,67 @@ mod tests {
             label(0, 0),
             "The camera sees the part at no point of the path"
         );
+    }
+
+    #[test]
+    fn only_an_accepted_part_has_its_colour_and_only_a_named_one_is_compared() {
+        let ctx = egui::Context::default();
+        Theme::install_fonts(&ctx);
+        let state = InspectState::new(&TaskRunner::without_threads());
+        let hood = CellChoice::Foreign(ObjectKind::Hood);
+        for (choice, is_accepted) in [(CellChoice::InTurn, true), (hood, false)] {
+            let inspected = inspected_cell(choice, 1);
+            let figure = &inspected.view;
+            let compared = [
+                figure.has_deviations,
+                figure.outline.is_some(),
+                figure.axes.is_some(),
+            ];
+            assert_eq!(compared, [is_accepted; 3], "{choice:?}");
+            for theme in [ThemeChoice::Dark, ThemeChoice::Light] {
+                let session = Session {
+                    theme,
+                    ..Session::default()
+                };
+                for is_operator in [true, false] {
+                    let mut view = view();
+                    let output = ctx.run_ui(egui::RawInput::default(), |ui| {
+                        if is_operator {
+                            view.plain_ui(ui, &session, &inspected);
+                        } else {
+                            view.ui(ui, &state, &session, &inspected, &mut Vec::new());
+                        }
+                    });
+                    output.drop_without_applying_deltas();
+                    let drawn = view.style.colours.role(Role::Part).colour;
+                    let accepted = ViewColours::of(theme).role(Role::Part).colour;
+                    assert_eq!(drawn == accepted, is_accepted, "{choice:?}, {theme:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_keys_name_every_colour_of_the_surfaces() {
+        let session = Session::default();
+        let state = InspectState::new(&TaskRunner::without_threads());
+        let keys = |choice, colouring| {
+            let inspected = inspected_cell(choice, 1);
+            let headline = Headline::of(&inspected, &session);
+            let mut view = view();
+            view.restyle(&session, &inspected, &headline, colouring);
+            let keys = view.colour_keys(&state, &session, &inspected, &headline);
+            let texts = keys.into_iter().map(|(_, text)| text);
+            texts.collect::<Vec<_>>().join(", ")
+        };
+        let hood = CellChoice::Foreign(ObjectKind::Hood);
+        let refused = keys(hood, Colouring::Segment);
+        assert!(refused.contains("Part · Not accepted"), "{refused}");
+        assert!(refused.contains("Background 1"), "{refused}");
+        assert!(!refused.contains("Enrolled contour"), "{refused}");
+        let accepted = keys(CellChoice::InTurn, Colouring::Deviation);
+        assert!(!accepted.contains("Part"), "the scale tells: {accepted}");
+        assert!(accepted.contains("Background 1") && accepted.contains("Enrolled contour"));
     }
 
     #[test]

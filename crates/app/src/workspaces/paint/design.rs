@@ -204,6 +204,20 @@ impl PaintState {
         use_setup(setup, cx);
     }
 
+    /// Undoes the last storing, whatever was drawn since.
+    pub(super) fn undo_storing(&mut self, cx: &mut ShellContext<'_>) {
+        if self.is_storing() {
+            return;
+        }
+        let done = &mut self.steps.done;
+        let mut steps = done.iter();
+        if let Some(last) = steps.rposition(|step| matches!(step, Step::Stored(..))) {
+            let step = done.remove(last);
+            done.push(step);
+            self.step(UndoDirection::Undo, cx);
+        }
+    }
+
     /// Undoes or redoes one step.
     pub(super) fn step(&mut self, way: UndoDirection, cx: &mut ShellContext<'_>) {
         if self.is_storing() {

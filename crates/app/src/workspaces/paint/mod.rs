@@ -27,7 +27,7 @@ mod work;
 
 use std::path::PathBuf;
 
-use egui::{CentralPanel, Frame, Key, Margin, Modifiers, Panel, Ui};
+use egui::{CentralPanel, Frame, Key, Margin, Modifiers, Panel, Rect, Ui};
 
 use self::view::PaintView;
 pub use self::{
@@ -101,7 +101,7 @@ impl Workspace for PaintWorkspace {
         WorkspaceKind::Paint
     }
 
-    fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) {
+    fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) -> Rect {
         let Self { state, view, .. } = self;
         let (session, theme) = (cx.session, Theme::of(ui));
         let mut actions = Vec::new();
@@ -116,12 +116,14 @@ impl Workspace for PaintWorkspace {
         fixed_panel(ui, bottom, Margin::symmetric(14, 8), |ui| {
             timeline::ui(ui, state, &mut actions);
         });
+        let room = ui.available_rect_before_wrap();
         CentralPanel::default()
             .frame(Frame::new().fill(theme.canvas))
             .show(ui, |ui| view.ui(ui, state, session, &mut actions));
         for action in actions {
             state.apply(action, cx);
         }
+        room
     }
 
     fn update(&mut self, cx: &mut ShellContext<'_>) {

@@ -426,9 +426,13 @@ impl PaintState {
     }
 
     /// Handles an event of the shell.
-    pub(super) fn on_event(&mut self, event: &Event, cx: &ShellContext<'_>) {
-        if matches!(event, Event::Escape) && cx.session.workspace == WorkspaceKind::Paint {
-            self.tool = PaintTool::Look;
+    pub(super) fn on_event(&mut self, event: &Event, cx: &mut ShellContext<'_>) {
+        match event {
+            Event::Escape if cx.session.workspace == WorkspaceKind::Paint => {
+                self.tool = PaintTool::Look;
+            }
+            Event::Undo(WorkspaceKind::Paint) => self.undo_storing(cx),
+            _ => {}
         }
     }
 
@@ -471,7 +475,10 @@ impl PaintState {
                 let step = Step::Stored(part, former);
                 let way = self.pending.take().and_then(|(way, _)| way);
                 self.steps.add_inverse(way, step);
-                cx.notify(Notice::done(what));
+                cx.notify(match way {
+                    Some(UndoDirection::Undo) => Notice::done(what),
+                    _ => Notice::undoable(what, WorkspaceKind::Paint),
+                });
                 let saved = None;
                 cx.send(Message::LibraryChanged { library, saved });
             }

@@ -15,7 +15,7 @@ mod state;
 mod view;
 mod work;
 
-use egui::{CentralPanel, Event as InputEvent, Frame, Key, Margin, Modifiers, Panel, Ui};
+use egui::{CentralPanel, Event as InputEvent, Frame, Key, Margin, Modifiers, Panel, Rect, Ui};
 
 use self::view::RunSceneView;
 pub use self::{
@@ -73,7 +73,7 @@ impl Workspace for ServoWorkspace {
         WorkspaceKind::Servo
     }
 
-    fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) {
+    fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) -> Rect {
         let Self { state, view } = self;
         let (session, theme) = (cx.session, Theme::of(ui));
         let mut actions = Vec::new();
@@ -90,12 +90,14 @@ impl Workspace for ServoWorkspace {
             let tolerance = state.tolerance(session);
             servo_curve::ui(ui, state.curve(), tolerance, curve_height);
         });
+        let room = ui.available_rect_before_wrap();
         CentralPanel::default()
             .frame(Frame::new().fill(theme.canvas))
             .show(ui, |ui| view.ui(ui, state, session));
         for action in actions {
             state.apply(action, cx);
         }
+        room
     }
 
     fn update(&mut self, cx: &mut ShellContext<'_>) {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use egui::{Align2, Color32, Rect, Ui, UiBuilder, Vec2, vec2};
+use egui::{Rect, Ui, UiBuilder, Vec2, vec2};
 use glam::Vec3;
 use nalgebra::Point3;
 
@@ -15,10 +15,11 @@ use servo::{Standing, Target, Task};
 use shell::session::{Session, ThemeChoice};
 use ui::{
     language::{Language, text},
-    theme::{ROUNDING, Theme, font, space},
+    theme::{Theme, space},
     viewport::{
         FitRequest, Line, LineSet, PointSet, Role, StandardView, TextLabel, ViewCamera,
         ViewColours, ViewDirection, ViewError, ViewScene, ViewStyle, Viewport, ViewportGpu,
+        colour_keys,
         furniture::{axes, box_edges, frustum},
         scene::mat4,
         vec3,
@@ -149,7 +150,13 @@ impl RunSceneView {
         ui.scope_builder(UiBuilder::new().max_rect(bar), |ui| {
             ui.horizontal(|ui| ViewDirection::buttons(ui, &mut self.camera));
         });
-        self.legend(ui, rect, &meanings);
+        let keys = meanings.iter().map(|meaning| {
+            let colour = self.style.colours.role(meaning.role).colour;
+            (colour, (meaning.name)())
+        });
+        let keys: Vec<_> = keys.collect();
+        let corner = rect.left_bottom() + vec2(space::SMALL, -space::SMALL);
+        colour_keys(&ui.painter_at(rect), corner, &keys, Theme::of(ui));
         self.drawn = Some((key, scene, meanings));
     }
 
@@ -175,39 +182,6 @@ impl RunSceneView {
         self.world = Some(world.clone());
         self.drawn = None;
         world
-    }
-
-    /// Draws what each colour means.
-    fn legend(&self, ui: &Ui, rect: Rect, meanings: &[Meaning]) {
-        let theme = Theme::of(ui);
-        let painter = ui.painter_at(rect);
-        let rows: Vec<(String, Color32)> = meanings
-            .iter()
-            .map(|meaning| {
-                let colour = self.style.colours.role(meaning.role).colour;
-                ((meaning.name)(), colour)
-            })
-            .collect();
-        let line = 20.0;
-        let galleys: Vec<_> = rows
-            .iter()
-            .map(|(name, _)| painter.layout_no_wrap(name.clone(), font::small(), theme.text))
-            .collect();
-        let width = galleys
-            .iter()
-            .map(|galley| galley.size().x)
-            .fold(0.0, f32::max);
-        let size = vec2(width + 36.0, line * rows.len() as f32 + 8.0);
-        let corner = rect.left_bottom() + vec2(space::SMALL, -space::SMALL - size.y);
-        let plate = Rect::from_min_size(corner, size);
-        painter.rect_filled(plate, ROUNDING, theme.panel.gamma_multiply(0.85));
-        for (place, ((name, colour), _)) in (0_u8..).zip(rows.iter().zip(&galleys)) {
-            let y = plate.top() + 4.0 + line * (f32::from(place) + 0.5);
-            let at = egui::pos2(plate.left() + 14.0, y);
-            painter.circle_filled(at, 5.0, *colour);
-            let at = egui::pos2(plate.left() + 26.0, y);
-            painter.text(at, Align2::LEFT_CENTER, name, font::small(), theme.text);
-        }
     }
 }
 

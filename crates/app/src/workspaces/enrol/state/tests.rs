@@ -22,7 +22,7 @@ use shell::{
         source::{CellChoice, Origin, SceneOrScan, SceneSource},
     },
     notice::NoticeKind,
-    session::Shown,
+    session::{Shown, WorkspaceKind},
 };
 use simulate::{PartKind, Side};
 use stages::scene::SceneCloud;
@@ -82,7 +82,7 @@ impl Bench {
                 }
                 Message::WithdrawUndo => {
                     for notice in &mut self.notices {
-                        if notice.kind == NoticeKind::Undoable {
+                        if matches!(notice.kind, NoticeKind::Undoable(_)) {
                             notice.kind = NoticeKind::Done;
                         }
                     }
@@ -279,7 +279,7 @@ fn a_saved_part_replaced_and_taken_back_twice_is_the_first_one_again() {
     assert_eq!(enrolled_from(&bench).as_deref(), Some("90.pcd"));
     assert_eq!(
         bench.notices.last().map(|n| n.kind),
-        Some(NoticeKind::Undoable)
+        Some(NoticeKind::Undoable(WorkspaceKind::Enrol))
     );
     bench.act(EnrolAction::Undo);
     assert_eq!(enrolled_from(&bench).as_deref(), Some("80.pcd"));
@@ -330,7 +330,11 @@ fn an_offer_to_undo_goes_when_something_else_was_done() {
     bench.act(EnrolAction::Save);
     bench.take(90);
     let kinds = bench.notices.iter().map(|notice| notice.kind);
-    assert!(kinds.into_iter().all(|kind| kind != NoticeKind::Undoable));
+    assert!(
+        kinds
+            .into_iter()
+            .all(|kind| kind != NoticeKind::Undoable(WorkspaceKind::Enrol))
+    );
 }
 
 #[test]

@@ -16,6 +16,7 @@ use shell::{
     inspection::{
         camera::Camera, inspected::inspected_cell, library_cache::LibraryCache, source::CellChoice,
     },
+    notice::NoticeKind,
     session::Shown,
 };
 use simulate::{PartKind, Side};
@@ -237,6 +238,41 @@ fn a_stored_path_can_be_taken_back_and_the_former_is_there_again() {
     assert_eq!(bench.stored(), None);
     bench.run(PaintAction::Redo);
     assert!(bench.stored().is_some());
+}
+
+#[test]
+fn the_notice_of_a_stored_path_takes_it_back_whatever_was_changed_since() {
+    let mut bench = Bench::new();
+    bench.run(PaintAction::Store);
+    let first = bench.stored().expect("stored");
+    bench.set("spacing", 50.0);
+    bench.run(PaintAction::Store);
+    let offers = |bench: &Bench| {
+        let mut messages = bench.shell.messages.iter().rev();
+        messages.find_map(|message| match message {
+            Message::Notify(notice) => Some(notice.kind),
+            _ => None,
+        })
+    };
+    let by = WorkspaceKind::Paint;
+    assert_eq!(offers(&bench), Some(NoticeKind::Undoable(by)));
+    bench.set("spacing", 60.0);
+    let coat = bench.paint.design.coat;
+    let mut undo = |by| {
+        let event = Event::Undo(by);
+        bench.paint.on_event(&event, &mut bench.shell.context());
+        bench.settle();
+        (bench.stored(), offers(&bench))
+    };
+    // What another workspace offers to undo is not meant.
+    let (stored, _) = undo(WorkspaceKind::Enrol);
+    assert!(!stored.expect("stored").is_as_written(&first));
+    let (stored, offer) = undo(by);
+    assert!(stored.expect("stored").is_as_written(&first));
+    assert_eq!(offer, Some(NoticeKind::Done));
+    assert_eq!(bench.paint.design.coat, coat);
+    bench.run(PaintAction::Redo);
+    assert!(!bench.stored().expect("stored").is_as_written(&first));
 }
 
 #[test]
@@ -514,7 +550,7 @@ fn escape_gives_the_drag_back_to_the_view() {
     let lasso = PaintTool::Outline(ui::viewport::DrawnShape::Lasso, RegionUse::KeepOut);
     bench.act(PaintAction::Use(lasso));
     let Bench { paint, shell, .. } = &mut bench;
-    paint.on_event(&Event::Escape, &shell.context());
+    paint.on_event(&Event::Escape, &mut shell.context());
     assert_eq!(bench.paint.tool, PaintTool::Look);
 }
 
