@@ -22,7 +22,7 @@ use geometry::{cloud::PointCloud, error::Advice};
 use inspection::library::{LibraryFolder, PartName, Side};
 use records::cases::CaseFolder;
 use robot::{Convention, WrittenPose, parse_nozzle, parse_written_pose};
-use stages::scene::{EmptyCell, EmptyCellError, SceneCloud, cloud_of, scene_from_image};
+use stages::scene::{EmptyCell, SceneCloud, cloud_of, scene_from_image};
 use station::CameraScenes;
 
 /// Why a command cannot use a file.
@@ -224,11 +224,10 @@ pub(super) fn before(
     name: &str,
     console: &Console,
 ) {
-    if cell.is_some_and(|cell| !cell.fits(scene)) {
-        let other = EmptyCellError::OtherPicture;
+    scene.empty_cell = cell.cloned();
+    if let Err(other) = scene.fitting_empty_cell() {
         console.warn(&format_args!("{name}: {other}"), &other);
     }
-    scene.empty_cell = cell.cloned();
 }
 
 /// Makes the scene of a capture from a source, and shows its warnings.

@@ -35,6 +35,7 @@ inspect-hold-open-newer = Eine neuere Aufnahme öffnen oder eine Kamera als Quel
 inspect-previous-result = Vorheriges Ergebnis: Eine neue Prüfung läuft
 inspect-outdated = Vorheriges Ergebnis: Von der Quelle kam seitdem nichts
 inspect-from-history = Aus dem Verlauf, nicht das aktuelle Teil
+inspect-other-empty-cell = Die leere Zelle stammt von einer anderen Kamera und wird nicht verwendet; nehmen Sie sie mit dieser neu auf
 inspect-touches-edge = Das Teil reicht bis an den Bildrand: Etwas davon kann fehlen
 inspect-approximate = Die Pose ist ungefähr: Dies kann ein anderes Modell des Teils sein
 inspect-parts-accepted = { $num } von { $all } akzeptiert

@@ -35,6 +35,7 @@ inspect-hold-open-newer = Open a newer capture, or choose a camera as the source
 inspect-previous-result = Previous result: a new inspection is running
 inspect-outdated = Previous result: nothing has come from the source since
 inspect-from-history = From the history, not the current part
+inspect-other-empty-cell = The empty cell is from another camera and is not used; capture it again with this one
 inspect-touches-edge = The part reaches the edge of the picture: some of it may be missing
 inspect-approximate = The pose is approximate: this may be another model of the part
 inspect-parts-accepted = { $num } of { $all } accepted

@@ -35,6 +35,7 @@ inspect-hold-open-newer = Abrir una captura más reciente o elegir una cámara c
 inspect-previous-result = Resultado anterior: hay una inspección en curso
 inspect-outdated = Resultado anterior: desde entonces no ha llegado nada de la fuente
 inspect-from-history = Del historial, no es la pieza actual
+inspect-other-empty-cell = La celda vacía es de otra cámara y no se usa; captúrela de nuevo con esta
 inspect-touches-edge = La pieza llega al borde de la imagen: puede faltar una parte
 inspect-approximate = La pose es aproximada: puede ser otro modelo de la pieza
 inspect-parts-accepted = { $num } de { $all } aceptadas

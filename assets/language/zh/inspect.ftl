@@ -35,6 +35,7 @@ inspect-hold-open-newer = 打开更新的采集，或选择相机作为来源
 inspect-previous-result = 上次结果：正在进行新的检测
 inspect-outdated = 上次结果：此后来源未提供新数据
 inspect-from-history = 来自历史记录，不是当前零件
+inspect-other-empty-cell = 空单元来自另一台相机，未被使用；请用这台相机重新采集
 inspect-touches-edge = 零件到达画面边缘：部分可能缺失
 inspect-approximate = 位姿为近似值：可能是该零件的其他型号
 inspect-parts-accepted = { $all } 个中 { $num } 个已接受

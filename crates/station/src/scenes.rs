@@ -50,15 +50,8 @@ impl CameraScenes {
 
     /// Returns an error for the first scene whose camera is not that of the empty cell.
     pub fn misfit(&mut self, scene: &SceneCloud) -> Option<EmptyCellError> {
-        let fits = scene
-            .empty_cell
-            .as_ref()
-            .is_none_or(|cell| cell.fits(scene));
-        if fits || self.is_misfit_given {
-            return None;
-        }
-        self.is_misfit_given = true;
-        Some(EmptyCellError::OtherPicture)
+        let misfit = scene.fitting_empty_cell().err();
+        misfit.filter(|_| !std::mem::replace(&mut self.is_misfit_given, true))
     }
 
     /// Returns the warnings about a frame, except those about the camera that were given before.

@@ -12,6 +12,7 @@ use app::{
 use egui::{Key, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use files::write_depth_png;
+use geometry::fixtures::small_frame;
 use inspection::{
     fixtures::copy_library,
     library::{LibraryFolder, PartName, Truth},
@@ -151,6 +152,22 @@ fn all_parts_are_listed_and_recorded_and_the_selected_one_is_in_front() {
     assert!(harness.state().state().session.empty_cell.is_none());
     // Selecting records nothing.
     assert_eq!(history_of(&harness).num_rows(), num_before + 3);
+}
+
+#[test]
+fn an_empty_cell_of_another_camera_is_not_used_and_the_card_says_so() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open();
+    let warning =
+        "The empty cell is from another camera and is not used; capture it again with this one";
+    let empty = folder.path().join("empty.png");
+    write_depth_png(&empty, &small_frame(40, vec![2000; 1200])).expect("written");
+    act(&mut harness, Action::Open(empty));
+    act(&mut harness, Action::TakeEmptyCell);
+    assert!(harness.state().state().session.empty_cell.is_some());
+    assert!(harness.query_by_label(warning).is_none());
+    open_three_things(&mut harness, folder.path());
+    harness.get_by_label(warning);
 }
 
 #[test]

@@ -42,6 +42,16 @@ impl Advice for EmptyCellError {
     }
 }
 
+impl SceneCloud {
+    /// The empty cell, if there is one that was captured with the scene's camera; another one is an error, and is not used.
+    pub fn fitting_empty_cell(&self) -> Result<Option<&EmptyCell>, EmptyCellError> {
+        match self.empty_cell.as_deref() {
+            Some(cell) if !cell.fits(self) => Err(EmptyCellError::OtherPicture),
+            cell => Ok(cell),
+        }
+    }
+}
+
 impl EmptyCell {
     /// Creates the empty cell from a capture without a part.
     pub fn of(scene: &SceneCloud) -> Result<Self, EmptyCellError> {
@@ -92,7 +102,7 @@ impl EmptyCell {
     }
 
     /// Returns true if the scene has the same rows and columns.
-    pub fn fits(&self, scene: &SceneCloud) -> bool {
+    fn fits(&self, scene: &SceneCloud) -> bool {
         scene.cloud.grid == Some(self.grid)
     }
 

@@ -177,7 +177,7 @@ pub fn segment_in(scene: &SceneCloud, rack: &Rack, params: &SegmentParams) -> Se
         mut planes,
         noise_at_1m,
     } = planes::find_background(scene, params);
-    let empty_cell = scene.empty_cell.as_ref().filter(|cell| cell.fits(scene));
+    let empty_cell = scene.fitting_empty_cell().unwrap_or_default();
     if let Some(cell) = empty_cell {
         planes.retain(|plane| cell.knows(plane, scene, noise_at_1m, params));
     }

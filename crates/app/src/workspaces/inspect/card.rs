@@ -90,6 +90,9 @@ pub(super) fn ui(
         if inspection.touches_edge() && inspected.scan.is_none() {
             ui.colored_label(theme.warning, text!("inspect-touches-edge"));
         }
+        if inspected.scene.fitting_empty_cell().is_err() {
+            ui.colored_label(theme.warning, text!("inspect-other-empty-cell"));
+        }
         if inspection.leaves_volume {
             ui.colored_label(theme.warning, text!("rack-leaves-volume"));
         }
