@@ -186,15 +186,19 @@ fn height_near(plane: &PlaneImage, point: &Point2<f64>) -> Option<f32> {
             .then(|| plane.heights[v as usize * plane.image.width + u as usize])?;
         height.is_finite().then_some(height)
     };
-    let around = || (-2..=2).flat_map(|dv| (-2..=2).map(move |du| (du, dv)));
-    // A border's own pixels usually have a reading.
-    reading(0, 0).or_else(|| {
-        around()
-            .filter_map(|(du, dv)| Some((du * du + dv * dv, reading(du, dv)?)))
-            .min_by_key(|(distance, _)| *distance)
-            .map(|(_, height)| height)
-    })
+    NEAREST.into_iter().find_map(|(du, dv)| reading(du, dv))
 }
+
+/// The pixels at most two away along each axis, nearest first.
+#[rustfmt::skip]
+const NEAREST: [(i64, i64); 25] = [
+    (0, 0),
+    (0, -1), (-1, 0), (1, 0), (0, 1),
+    (-1, -1), (1, -1), (-1, 1), (1, 1),
+    (0, -2), (-2, 0), (2, 0), (0, 2),
+    (-1, -2), (1, -2), (-2, -1), (2, -1), (-2, 1), (2, 1), (-1, 2), (1, 2),
+    (-2, -2), (2, -2), (-2, 2), (2, 2),
+];
 
 /// The eight neighbours in clockwise order as displayed (row grows downwards), starting to the right.
 const CLOCKWISE: [(i64, i64); 8] = [
@@ -213,9 +217,10 @@ pub fn follow_borders(image: &BinaryImage) -> Vec<TracedBorder> {
     // Add a frame of unset pixels, so that no neighbour is ever outside.
     let stride = image.width + 2;
     let mut labels = vec![0_i32; stride * (image.height + 2)];
-    for (row, pixels) in image.pixels.chunks_exact(image.width.max(1)).enumerate() {
-        for (column, &set) in pixels.iter().enumerate() {
-            labels[(row + 1) * stride + column + 1] = i32::from(set != 0);
+    let rows = labels.chunks_exact_mut(stride).skip(1);
+    for (labels, pixels) in rows.zip(image.pixels.chunks_exact(image.width.max(1))) {
+        for (label, set) in labels[1..].iter_mut().zip(pixels) {
+            *label = i32::from(*set != 0);
         }
     }
     let steps = CLOCKWISE.map(|(du, dv)| dv as isize * stride as isize + du as isize);

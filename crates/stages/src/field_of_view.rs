@@ -265,29 +265,28 @@ fn ends_of(
 ) -> [Vec<[u32; 2]>; 2] {
     let width = grid.width;
     let mut across = rows.to_vec();
-    let mut down = vec![OUTSIDE; width];
+    // By themselves, so that the processor updates several columns at once.
+    let (mut top, mut bottom) = (vec![u32::MAX; width], vec![0; width]);
     for (v, end) in across
         .iter_mut()
         .enumerate()
         .filter(|(_, end)| end[0] <= end[1])
     {
-        for column in &mut down[end[0] as usize..=end[1] as usize] {
-            let first = if column[0] > column[1] {
-                v as u32
-            } else {
-                column[0]
-            };
-            *column = [first, v as u32];
+        let columns = end[0] as usize..=end[1] as usize;
+        for top in &mut top[columns.clone()] {
+            *top = (*top).min(v as u32);
         }
+        bottom[columns].fill(v as u32);
         *end = outermost(*end, |u| is_reading(v * width + u));
     }
-    for (u, end) in down
-        .iter_mut()
-        .enumerate()
-        .filter(|(_, end)| end[0] <= end[1])
-    {
-        *end = outermost(*end, |v| is_reading(v * width + u));
-    }
+    let ends = |(u, (top, bottom))| {
+        if top > bottom {
+            OUTSIDE
+        } else {
+            outermost([top, bottom], |v| is_reading(v * width + u))
+        }
+    };
+    let down = top.into_iter().zip(bottom).enumerate().map(ends).collect();
     [across, down]
 }
 

@@ -5,14 +5,14 @@ use std::iter;
 use super::{
     Inspection, PoseChoice, Recipe,
     mirror::check_mirror_image,
-    surface::{InspectionInputs, inspect_surface},
+    surface::{InspectionInputs, inspect_again, inspect_surface},
     watch::{Cancelled, Stage},
 };
 use stages::{
     confirm::CUT_SHARE,
     pose::PoseMethod,
     rank::Matcher,
-    segment::{Bars, SegmentedPart, other_segments, split, without_bars},
+    segment::{SegmentedPart, other_segments, split, without_bars},
 };
 
 /// What may hang there, if the likeliest surface is not accepted as a part.
@@ -115,22 +115,9 @@ impl Hypothesis {
                 try_surface(inspection, piece, MIN_REPLACING_SCORE, inputs)
             }
             Self::PartOnStand => {
-                let mut num_before = 0;
-                let bare = [Bars::All, Bars::AllButSlats]
-                    .into_iter()
-                    .filter_map(|bars| {
-                        let bare =
-                            clock.time(Stage::Segment, || without_bars(scene, likeliest, bars));
-                        let bare = match bare {
-                            Ok(bare) => bare?,
-                            Err(cancelled) => return Some(Err(cancelled)),
-                        };
-                        // A stand without slats leaves the same surface twice.
-                        let is_new = bare.indices.len() != num_before;
-                        num_before = bare.indices.len();
-                        is_new.then_some(Ok(bare))
-                    });
-                try_surfaces(inspection, bare, MIN_REPLACING_SCORE, inputs)
+                let mut bare = clock.time(Stage::Segment, || without_bars(scene, likeliest))?;
+                let next = || clock.time(Stage::Segment, || bare.next()).transpose();
+                try_surfaces(inspection, iter::from_fn(next), MIN_REPLACING_SCORE, inputs)
             }
             Self::OneOfSeveral => {
                 let mut pieces =
@@ -168,7 +155,17 @@ pub(super) fn try_surface(
     inputs: &InspectionInputs<'_>,
 ) -> Result<(), Cancelled> {
     let min_score = inspection.best_score().max(least);
-    let found = inspect_surface(&surface, inputs, min_score)?;
+    let of_same_points = |known: &SegmentedPart| known.indices == surface.indices;
+    let found = if inspection
+        .segmentation
+        .part
+        .as_ref()
+        .is_ok_and(of_same_points)
+    {
+        inspect_again(inspection, &surface, inputs, min_score)?
+    } else {
+        inspect_surface(&surface, inputs, min_score)?
+    };
     if found.best_score() > min_score {
         inspection.segmentation.take(surface);
         found.keep(inspection);

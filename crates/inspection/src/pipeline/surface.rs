@@ -73,7 +73,31 @@ pub(super) fn inspect_surface(
     inputs: &InspectionInputs<'_>,
     least_score: f64,
 ) -> Result<SurfaceResult, Cancelled> {
-    let mut surface = SurfaceResult::default();
+    inspect_from(SurfaceResult::default(), part, inputs, least_score)
+}
+
+/// As [`inspect_surface`], of a surface of which an inspection of the same points knows image, contour and signature.
+pub(super) fn inspect_again(
+    known: &Inspection,
+    part: &SegmentedPart,
+    inputs: &InspectionInputs<'_>,
+    least_score: f64,
+) -> Result<SurfaceResult, Cancelled> {
+    let surface = SurfaceResult {
+        plane: known.plane.clone(),
+        contour: known.contour.clone(),
+        signature: known.signature.clone(),
+        ..SurfaceResult::default()
+    };
+    inspect_from(surface, part, inputs, least_score)
+}
+
+fn inspect_from(
+    mut surface: SurfaceResult,
+    part: &SegmentedPart,
+    inputs: &InspectionInputs<'_>,
+    least_score: f64,
+) -> Result<SurfaceResult, Cancelled> {
     let recognised = recognise(&mut surface, part, inputs, least_score)?;
     surface.verdict = Some(match recognised {
         Ok(()) => verdict(&surface.ranking, surface.pose.as_ref(), inputs.recipe),
@@ -82,7 +106,7 @@ pub(super) fn inspect_surface(
     Ok(surface)
 }
 
-/// Runs the stages and stores the result of each in `inspection`.
+/// Runs the stages that `inspection` has no result of, and stores each.
 fn recognise(
     inspection: &mut SurfaceResult,
     part: &SegmentedPart,
@@ -96,15 +120,27 @@ fn recognise(
         clock,
         rack,
     } = *inputs;
-    let plane = match clock.time(Stage::Project, || project(part, &recipe.project))? {
+    let plane = match inspection.plane.take() {
+        Some(known) => Ok(known),
+        None => clock.time(Stage::Project, || project(part, &recipe.project))?,
+    };
+    let plane = match plane {
         Ok(plane) => inspection.plane.insert(plane),
         Err(error) => return Ok(Err(error.into())),
     };
-    let contour = match clock.time(Stage::Contour, || find_contour(plane, &recipe.contour))? {
+    let contour = match inspection.contour.take() {
+        Some(known) => Ok(known),
+        None => clock.time(Stage::Contour, || find_contour(plane, &recipe.contour))?,
+    };
+    let contour = match contour {
         Ok(contour) => inspection.contour.insert(contour),
         Err(error) => return Ok(Err(error.into())),
     };
-    let signature = match clock.time(Stage::Signature, || describe(contour, &recipe.signature))? {
+    let signature = match inspection.signature.take() {
+        Some(known) => Ok(known),
+        None => clock.time(Stage::Signature, || describe(contour, &recipe.signature))?,
+    };
+    let signature = match signature {
         Ok(signature) => inspection.signature.insert(signature),
         Err(error) => return Ok(Err(error.into())),
     };

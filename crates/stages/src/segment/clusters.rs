@@ -137,69 +137,93 @@ impl UnionFind {
 
 const NO_RUN: u32 = u32::MAX;
 
+/// Pixels of a run that follow each other.
+struct Span {
+    first: u32,
+    end: u32,
+    run: u32,
+}
+
 fn connect_pixels(
     points: &[Point3<f32>],
     labels: &[PointLabel],
     grid: Grid,
     link: Link,
 ) -> Vec<Vec<u32>> {
-    /// Number of rows whose runs can still meet: the current row and those above it within the bridged distance.
-    const ROWS: usize = BRIDGED_PIXELS + 2;
     let Grid { width, height } = grid;
-    // A circular buffer of ROWS rows, small enough for the processor's fastest cache.
-    let mut run_of = vec![NO_RUN; ROWS * width];
+    let reach = (BRIDGED_PIXELS + 1) * width;
     let mut forest = UnionFind {
         parents: Vec::new(),
     };
-    // Reserve for all pixels: only the memory written costs time, and growing would copy repeatedly.
-    let mut rest: Vec<u32> = Vec::with_capacity(labels.len());
-    let mut runs: Vec<u32> = Vec::with_capacity(labels.len());
+    let mut spans: Vec<Span> = Vec::new();
+    // The last pixel of each column so far, and its run.
+    let mut lowest = vec![(0, NO_RUN); width];
     for row in 0..height {
         let start = row * width;
-        // Start of this row and of those above it in `run_of`.
-        let begins: [usize; ROWS] = std::array::from_fn(|up| (row + ROWS - up) % ROWS * width);
-        let num_above = (BRIDGED_PIXELS + 1).min(row);
-        run_of[begins[0]..][..width].fill(NO_RUN);
-        let mut previous: Option<usize> = None;
+        let mut previous: Option<(usize, Point3<f32>)> = None;
+        let mut span = Span {
+            first: 0,
+            end: 0,
+            run: NO_RUN,
+        };
         let mut last_meeting = (NO_RUN, NO_RUN);
-        let first = rest.len();
-        let is_rest = |(_, label): &(u32, &PointLabel)| **label == PointLabel::Rest;
-        let in_row = (start as u32..).zip(&labels[start..start + width]);
-        rest.extend(in_row.filter(is_rest).map(|(i, _)| i));
-        for i in rest[first..].iter().map(|i| *i as usize) {
-            let run = previous
-                .filter(|&p| i - p <= BRIDGED_PIXELS + 1 && link.joins(&points[p], &points[i]))
-                .map(|p| run_of[begins[0] + p - start]);
-            let run = run.unwrap_or_else(|| forest.add());
-            run_of[begins[0] + i - start] = run;
-            runs.push(run);
-            previous = Some(i);
-            // The nearest reading above, bridging rows without one.
-            let above = (1..=num_above)
-                .map(|rows| (i - rows * width, run_of[begins[rows] + i - start]))
-                .find(|(_, above)| *above != NO_RUN);
-            if let Some((pixel, above)) = above {
-                // Along a surface the same two runs meet at pixel after pixel; joining them once is enough.
-                let meeting = (above, run);
-                if meeting != last_meeting
-                    && meeting.0 != run
-                    && link.joins(&points[pixel], &points[i])
-                {
-                    forest.join(meeting.0, run);
-                    last_meeting = meeting;
+        let in_row = points[start..start + width].iter().zip(&mut lowest);
+        for (i, (label, (point, lowest))) in
+            (start..).zip(labels[start..start + width].iter().zip(in_row))
+        {
+            if *label != PointLabel::Rest {
+                continue;
+            }
+            let is_joined = previous
+                .is_some_and(|(p, at)| i - p <= BRIDGED_PIXELS + 1 && link.joins(&at, point));
+            previous = Some((i, *point));
+            if is_joined && span.end as usize == i {
+                span.end += 1;
+            } else {
+                let run = if is_joined { span.run } else { forest.add() };
+                if span.end > span.first {
+                    spans.push(span);
                 }
+                span = Span {
+                    first: i as u32,
+                    end: i as u32 + 1,
+                    run,
+                };
+            }
+            // The nearest reading above, bridging rows without one.
+            let (above, run_above) = std::mem::replace(lowest, (i, span.run));
+            // Along a surface the same two runs meet at pixel after pixel; joining them once is enough.
+            let meeting = (run_above, span.run);
+            if run_above != NO_RUN
+                && meeting != last_meeting
+                && i - above <= reach
+                && link.joins(&points[above], point)
+            {
+                forest.join(run_above, span.run);
+                last_meeting = meeting;
             }
         }
+        if span.end > span.first {
+            spans.push(span);
+        }
+    }
+    let mut num_of_root = vec![0; forest.parents.len()];
+    for span in &mut spans {
+        span.run = forest.root(span.run);
+        num_of_root[span.run as usize] += (span.end - span.first) as usize;
     }
     let mut group_of_root = vec![NO_RUN; forest.parents.len()];
     let mut groups: Vec<Vec<u32>> = Vec::new();
-    for (i, run) in rest.into_iter().zip(runs) {
-        let root = forest.root(run) as usize;
-        if group_of_root[root] == NO_RUN {
-            group_of_root[root] = groups.len() as u32;
-            groups.push(Vec::new());
+    for Span { first, end, run } in spans {
+        let (group, num) = (&mut group_of_root[run as usize], num_of_root[run as usize]);
+        if num < MIN_CLUSTER_POINTS {
+            continue;
         }
-        groups[group_of_root[root] as usize].push(i);
+        if *group == NO_RUN {
+            *group = groups.len() as u32;
+            groups.push(Vec::with_capacity(num));
+        }
+        groups[*group as usize].extend(first..end);
     }
     groups
 }
@@ -311,14 +335,18 @@ fn borders_of(scene: &SceneCloud, group_of: &[u32], num_groups: usize, link: Lin
     // Per group: the border length where it is nearer and where it is farther, and the number of lines that end with
     // the view on the left, on the right, at the top and at the bottom.
     let mut all = vec![[0.0_f64; 6]; num_groups];
-    let mut walk = |sides: [usize; 2], pixels: &mut dyn Iterator<Item = usize>| {
+    let mut walk = |sides: [usize; 2], first: usize, stride: usize, num: usize| {
         let mut before: Option<(usize, usize)> = None;
         let end_at = |all: &mut Vec<[f64; 6]>, side: usize, i: usize| {
             if view.is_some_and(|view| view.ends_at(i % width, i / width, MARGIN)) {
                 all[group_of[i] as usize][side] += 1.0;
             }
         };
-        for (step, i) in pixels.enumerate().filter(|(_, i)| group_of[*i] != NO_GROUP) {
+        for step in 0..num {
+            let i = first + step * stride;
+            if group_of[i] == NO_GROUP {
+                continue;
+            }
             match before {
                 None => end_at(&mut all, sides[0], i),
                 Some((last_step, j)) => {
@@ -340,10 +368,10 @@ fn borders_of(scene: &SceneCloud, group_of: &[u32], num_groups: usize, link: Lin
         }
     };
     for row in (0..height).step_by(LINE_STEP) {
-        walk([2, 3], &mut (row * width..(row + 1) * width));
+        walk([2, 3], row * width, 1, width);
     }
     for column in (0..width).step_by(LINE_STEP) {
-        walk([4, 5], &mut (0..height).map(|row| row * width + column));
+        walk([4, 5], column, width, height);
     }
     all.iter()
         .map(|&[near, far, ref ends @ ..]| Border {

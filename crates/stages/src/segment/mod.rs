@@ -30,7 +30,6 @@ pub use self::{
     clusters::Cluster,
     noise::noise_of_picture,
     part::{BackgroundSign, SegmentedPart, other_segments, pieces, split, without_bars},
-    stand::Bars,
 };
 use crate::{rack::Rack, scene::SceneCloud};
 use geometry::{plane::Plane, units::Metres};

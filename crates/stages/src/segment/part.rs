@@ -8,7 +8,7 @@ use super::{
     label_readings,
     necks::{HALF_WIDTHS, Silhouette},
     noise_of_picture,
-    stand::{Bars, remove_stand},
+    stand::{Bars, Mask, remove_stand},
     strip,
 };
 use crate::scene::SceneCloud;
@@ -176,9 +176,18 @@ impl SegmentedPart {
         members: Vec<u32>,
         surface: Cluster,
         noise_at_1m: Metres,
-        bars: Bars,
     ) -> Self {
-        let (indices, stand) = remove_stand(scene, members, bars);
+        let divided = remove_stand(scene, members);
+        Self::of_divided(scene, divided, surface, noise_at_1m)
+    }
+
+    /// Creates a part from its points and its stand's.
+    fn of_divided(
+        scene: &SceneCloud,
+        (indices, stand): (Vec<u32>, Vec<u32>),
+        surface: Cluster,
+        noise_at_1m: Metres,
+    ) -> Self {
         let touches_edge = clusters::touches_edge(scene, &indices);
         Self {
             stand,
@@ -281,7 +290,7 @@ impl Segmentation {
 
     fn part_of(&self, scene: &SceneCloud, surface: (&Cluster, &Vec<u32>)) -> SegmentedPart {
         let (cluster, members) = (*surface.0, surface.1.clone());
-        SegmentedPart::of_surface(scene, members, cluster, self.noise_at_1m, Bars::OffSurface)
+        SegmentedPart::of_surface(scene, members, cluster, self.noise_at_1m)
     }
 
     /// Returns the segmentation of what is left of a scene without the points at these indices, which are known to belong to
@@ -344,19 +353,32 @@ const IN_FRONT: f64 = 0.5;
 /// Minimum share of the part's points that removing its bars must take off.
 const LEAST_ON_BARS: f64 = 0.05;
 
-/// Removes bars from the part and its stand; `None` if that removes hardly any more points.
-pub fn without_bars(scene: &SceneCloud, part: &SegmentedPart, bars: Bars) -> Option<SegmentedPart> {
-    let mut members = part.indices.clone();
-    members.extend(&part.stand);
+/// The part without the bars of itself and its stand, in each way that removes more than hardly any points: without all of them,
+/// and without all but slats.
+pub fn without_bars<'a>(
+    scene: &'a SceneCloud,
+    part: &'a SegmentedPart,
+) -> impl Iterator<Item = SegmentedPart> + 'a {
+    let mut surface = [&part.indices[..], &part.stand].concat();
     #[expect(
         clippy::stable_sort_primitive,
         reason = "the stable sort merges two ascending runs"
     )]
-    members.sort();
+    surface.sort();
+    let mask = Mask::of(scene, &surface);
     let least = part.indices.len() as f64 * LEAST_ON_BARS;
-    let bare = SegmentedPart::of_surface(scene, members, part.surface?, part.noise_at_1m, bars);
-    let num_taken = part.indices.len() as f64 - bare.indices.len() as f64;
-    (num_taken > least && bare.indices.len() >= MIN_POINTS).then_some(bare)
+    let mut num_before = 0;
+    let ways = [Bars::All, Bars::AllButSlats].into_iter();
+    ways.filter_map(move |bars| {
+        let (figures, mask) = part.surface.zip(mask.as_ref())?;
+        let divided = mask.divided(&surface, bars)?;
+        let num = divided.0.len();
+        let num_taken = part.indices.len() as f64 - num as f64;
+        // A stand without slats leaves the same surface twice.
+        let is_new = num != std::mem::replace(&mut num_before, num);
+        (is_new && num_taken > least && num >= MIN_POINTS)
+            .then(|| SegmentedPart::of_divided(scene, divided, figures, part.noise_at_1m))
+    })
 }
 
 /// Pieces of a surface that have this share of their points in common are the same.
@@ -401,9 +423,9 @@ pub fn split(
             }
             is_new
         });
-        pieces.into_iter().map(move |piece| {
-            SegmentedPart::of_surface(scene, piece.indices, piece.cluster, noise, Bars::OffSurface)
-        })
+        pieces
+            .into_iter()
+            .map(move |piece| SegmentedPart::of_surface(scene, piece.indices, piece.cluster, noise))
     })
 }
 
@@ -453,8 +475,7 @@ pub(super) fn select_part(
                 && largest.indices.len() >= MIN_POINTS =>
         {
             let (members, cluster) = (largest.indices.clone(), largest.cluster);
-            let part =
-                SegmentedPart::of_surface(scene, members, cluster, noise_at_1m, Bars::OffSurface);
+            let part = SegmentedPart::of_surface(scene, members, cluster, noise_at_1m);
             for &i in &part.indices {
                 labels[i as usize] = PointLabel::Part;
             }

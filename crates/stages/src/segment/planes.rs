@@ -91,20 +91,35 @@ pub(super) fn label_background(
             ([n.x, n.y, n.z], plane.offset as f32)
         })
         .collect();
-    let label = |p: &Point3<f32>| {
-        if p.z.is_nan() {
-            return PointLabel::NoReading;
+    let backgrounds = (0..planes.len()).map(|k| PointLabel::Background(k as u8));
+    let others = [PointLabel::Rest, PointLabel::NoReading];
+    let kinds: Vec<PointLabel> = backgrounds.chain(others).collect();
+    let [rest, no_reading] = [0, 1].map(|other| (planes.len() + other) as u32);
+    let mut labels = vec![PointLabel::Rest; points.len()];
+    for (block, labels) in points.chunks(BLOCK).zip(labels.chunks_mut(BLOCK)) {
+        let (mut x, mut y, mut z) = ([0.0; BLOCK], [0.0; BLOCK], [0.0; BLOCK]);
+        for (((p, x), y), z) in block.iter().zip(&mut x).zip(&mut y).zip(&mut z) {
+            (*x, *y, *z) = (p.x, p.y, p.z);
         }
-        for (k, (n, offset)) in planes.iter().enumerate() {
-            let along_normal = n[0] * p.x + n[1] * p.y + n[2] * p.z;
-            if along_normal + offset < tolerance.at(p.z, along_normal) {
-                return PointLabel::Background(k as u8);
+        let mut kind = z.map(|z: f32| if z.is_nan() { no_reading } else { rest });
+        // The first plane counts, so it is looked at last.
+        for (k, (n, offset)) in planes.iter().enumerate().rev() {
+            for i in 0..BLOCK {
+                let along_normal = n[0] * x[i] + n[1] * y[i] + n[2] * z[i];
+                // Never true of a point without a reading.
+                let is_on = along_normal + offset < tolerance.at(z[i], along_normal);
+                kind[i] = if is_on { k as u32 } else { kind[i] };
             }
         }
-        PointLabel::Rest
-    };
-    points.iter().map(label).collect()
+        for (label, kind) in labels.iter_mut().zip(kind) {
+            *label = kinds[kind as usize];
+        }
+    }
+    labels
 }
+
+/// Points that are labelled side by side.
+const BLOCK: usize = 64;
 
 /// Distance from a background plane within which a point belongs to it, metres.
 #[derive(Clone, Copy)]

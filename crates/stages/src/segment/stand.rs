@@ -7,6 +7,8 @@
 //! Known limits: nothing is removed from a part that consists only of bars. A tube that lies in the surface beside the
 //! part, or is wider than 56 mm, stays; a thin tip that is bent by a centimetre is removed.
 
+use std::ops::Range;
+
 use nalgebra::{Point3, Vector3};
 
 use crate::{field_of_view::FieldOfView, scene::SceneCloud};
@@ -37,7 +39,7 @@ const CELL: usize = 2;
 
 /// The bars to remove from a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Bars {
+pub(super) enum Bars {
     /// Bars that are not a continuation of the surface they touch.
     OffSurface,
     /// All bars, even if little is left; the references decide whether they belong to the part.
@@ -47,29 +49,14 @@ pub enum Bars {
 }
 
 /// Divides a connected surface into the part and its stand; all three are ascending indices in the scene.
-pub(super) fn remove_stand(
-    scene: &SceneCloud,
-    surface: Vec<u32>,
-    bars: Bars,
-) -> (Vec<u32>, Vec<u32>) {
-    let picture = scene.cloud.grid.zip(scene.intrinsics);
-    let mask = picture.and_then(|(grid, camera)| Mask::of(scene, grid, camera, &surface));
-    let Some(stand) = mask.as_ref().and_then(|mask| mask.stand(bars)) else {
-        return (surface, Vec::new());
-    };
-    let mask = mask.expect("what has a stand has a mask");
-    let (mut part, mut off) = (Vec::with_capacity(surface.len()), Vec::new());
-    for (row, start, pixels) in mask.grid.by_row(&surface) {
-        for &i in pixels {
-            let is_off = stand[mask.cell_at(i as usize - start, row)];
-            if is_off { &mut off } else { &mut part }.push(i);
-        }
-    }
-    (part, off)
+pub(super) fn remove_stand(scene: &SceneCloud, surface: Vec<u32>) -> (Vec<u32>, Vec<u32>) {
+    let mask = Mask::of(scene, &surface);
+    let divided = mask.and_then(|mask| mask.divided(&surface, Bars::OffSurface));
+    divided.unwrap_or_else(|| (surface, Vec::new()))
 }
 
 /// A surface in cells of a few pixels, with a margin around it.
-struct Mask {
+pub(super) struct Mask {
     grid: Grid,
     camera: Intrinsics,
     /// Column and row of the first cell.
@@ -81,13 +68,18 @@ struct Mask {
     is_beyond: Vec<bool>,
     /// Depth of the surface, metres; its mean depth where there is no surface.
     depth: Vec<f32>,
+    /// Side of each cell on the surface, metres.
+    size: Vec<f32>,
 }
 
 /// Number of cells around the surface.
 const MARGIN: usize = 4;
 
 impl Mask {
-    fn of(scene: &SceneCloud, grid: Grid, camera: Intrinsics, surface: &[u32]) -> Option<Self> {
+    /// The mask of a surface, given by ascending indices; `None` without a picture, or if its pixels are too coarse.
+    pub(super) fn of(scene: &SceneCloud, surface: &[u32]) -> Option<Self> {
+        let (grid, camera) = scene.cloud.grid.zip(scene.intrinsics)?;
+        let points = &scene.cloud.points;
         let (mut low, mut high) = ([usize::MAX; 2], [0; 2]);
         let mut sum = 0.0_f64;
         for (row, start, pixels) in grid.by_row(surface) {
@@ -99,7 +91,7 @@ impl Mask {
                 }
             }
             for &i in pixels {
-                sum += f64::from(scene.cloud.points[i as usize].z);
+                sum += f64::from(points[i as usize].z);
             }
         }
         let mean = (sum / surface.len() as f64) as f32;
@@ -119,30 +111,50 @@ impl Mask {
             is_set: vec![false; num],
             is_beyond: vec![false; num],
             depth: vec![mean; num],
+            size: Vec::new(),
         };
         for (row, start, pixels) in grid.by_row(surface) {
+            let cells = mask.cells_of(row);
+            let (is_set, depth) = (&mut mask.is_set[cells.clone()], &mut mask.depth[cells]);
             for &i in pixels {
-                let at = mask.cell_at(i as usize - start, row);
-                mask.is_set[at] = true;
-                mask.depth[at] = scene.cloud.points[i as usize].z;
+                let column = (i as usize - start) / CELL - first[0];
+                is_set[column] = true;
+                depth[column] = points[i as usize].z;
             }
         }
+        let size = |depth: &f32| depth / camera.fx as f32 * CELL as f32;
+        mask.size = mask.depth.iter().map(size).collect();
         if let Some(view) = scene.field_of_view() {
             mask.mark_beyond(view);
         }
         Some(mask)
     }
 
+    /// Divides the surface that the mask was made of; `None` if no such bars touch it.
+    pub(super) fn divided(&self, surface: &[u32], bars: Bars) -> Option<(Vec<u32>, Vec<u32>)> {
+        let stand = self.stand(bars)?;
+        let (mut part, mut off) = (Vec::with_capacity(surface.len()), Vec::new());
+        for (row, start, pixels) in self.grid.by_row(surface) {
+            let is_off = &stand[self.cells_of(row)];
+            for &i in pixels {
+                let column = (i as usize - start) / CELL - self.first[0];
+                if is_off[column] { &mut off } else { &mut part }.push(i);
+            }
+        }
+        Some((part, off))
+    }
+
     fn mark_beyond(&mut self, view: &FieldOfView) {
-        for at in 0..self.is_set.len() {
+        for at in (0..self.is_set.len()).filter(|at| !self.is_set[*at]) {
             let [u, v] = self.pixel_of(at);
-            let is_seen = view.contains(u as i64, v as i64);
-            self.is_beyond[at] = !self.is_set[at] && (!is_seen || view.ends_at(u, v, 0));
+            self.is_beyond[at] = !view.contains(u as i64, v as i64) || view.ends_at(u, v, 0);
         }
     }
 
-    fn cell_at(&self, u: usize, v: usize) -> usize {
-        (v / CELL - self.first[1]) * self.width + u / CELL - self.first[0]
+    /// The cells of a row of the picture.
+    fn cells_of(&self, row: usize) -> Range<usize> {
+        let start = (row / CELL - self.first[1]) * self.width;
+        start..start + self.width
     }
 
     /// Returns the first pixel of a cell.
@@ -152,11 +164,6 @@ impl Mask {
             (column + self.first[0]) * CELL,
             (row + self.first[1]) * CELL,
         ]
-    }
-
-    /// Returns the side of a cell on the surface, metres.
-    fn size(&self, cell: usize) -> f32 {
-        self.depth[cell] / self.camera.fx as f32 * CELL as f32
     }
 
     fn point(&self, cell: usize) -> Point3<f64> {
@@ -197,7 +204,7 @@ impl Mask {
         let from_core = distances(&body_core, self.width);
         let mut stand = vec![false; body.len()];
         for bar in self.components(&off) {
-            let reach = bar.iter().map(|&i| from_core[i] * self.size(i));
+            let reach = bar.iter().map(|&i| from_core[i] * self.size[i]);
             let reach = reach.fold(0.0, f32::max);
             if reach > tip
                 && (bars != Bars::OffSurface || self.is_of_a_stand(&bar, &off, &body, reach))
@@ -218,7 +225,7 @@ impl Mask {
             // Connected only across pixels without a reading.
             return true;
         };
-        let size = self.size(first);
+        let size = self.size[first];
         if touching.len() as f32 * size > FOLD * reach {
             return false;
         }
@@ -235,29 +242,30 @@ impl Mask {
 
     /// Returns the cells of the core, which is wider than a tube, and the cells of the surface around them.
     fn opened(&self, filled: &[bool], half_width: f32) -> (Vec<bool>, Vec<bool>) {
-        let is_gap = |i: usize| !filled[i] && !self.is_beyond[i];
-        let from_gap = distances(
-            &(0..filled.len()).map(is_gap).collect::<Vec<_>>(),
-            self.width,
-        );
-        let is_core = |i: usize| filled[i] && from_gap[i] * self.size(i) > half_width;
-        let core: Vec<bool> = (0..filled.len()).map(is_core).collect();
+        let gaps = filled.iter().zip(&self.is_beyond);
+        let is_gap: Vec<bool> = gaps.map(|(filled, beyond)| !filled & !beyond).collect();
+        let from_gap = distances(&is_gap, self.width);
+        let core: Vec<bool> = (filled.iter().zip(&from_gap).zip(&self.size))
+            .map(|((filled, from_gap), size)| filled & (from_gap * size > half_width))
+            .collect();
         let from_core = distances(&core, self.width);
         // One cell more than the radius, because distances are measured between cell centres.
-        let is_left =
-            |i: usize| self.is_set[i] && (from_core[i] - 1.0) * self.size(i) <= half_width;
-        let left = (0..filled.len()).map(is_left).collect();
+        let left = (self.is_set.iter().zip(&from_core).zip(&self.size))
+            .map(|((set, from_core), size)| set & ((from_core - 1.0) * size <= half_width))
+            .collect();
         (core, left)
     }
 
     /// Returns the surface with its narrow gaps filled.
     fn closed(&self) -> Vec<bool> {
+        let is_far = |(distance, size): (f32, &f32)| distance * size > CLOSED;
         let from_set = distances(&self.is_set, self.width);
-        let is_far = |i: usize| from_set[i] * self.size(i) > CLOSED;
-        let far: Vec<bool> = (0..from_set.len()).map(is_far).collect();
+        let far: Vec<bool> = from_set.into_iter().zip(&self.size).map(is_far).collect();
         let from_far = distances(&far, self.width);
-        let is_filled = |i: usize| self.is_set[i] || from_far[i] * self.size(i) > CLOSED;
-        (0..from_far.len()).map(is_filled).collect()
+        let is_near_enough = from_far.into_iter().zip(&self.size).map(is_far);
+        (self.is_set.iter().zip(is_near_enough))
+            .map(|(set, near)| set | near)
+            .collect()
     }
 
     /// The way to each neighbour of a cell.
@@ -331,26 +339,30 @@ pub(super) fn distances(to: &[bool], width: usize) -> Vec<f32> {
         let (above, from_row) = third.split_at_mut(row * width);
         let row = &mut from_row[..width];
         lower_to_neighbours(row, &above[above.len() - width..]);
-        let mut left = row[0];
-        for at in &mut row[1..width - 1] {
-            left = left.saturating_add(3).min(*at);
-            *at = left;
-        }
+        let first = row[0];
+        lower_along(row[1..width - 1].iter_mut(), first);
     }
     for row in (0..height - 1).rev() {
         let (to_row, below) = third.split_at_mut((row + 1) * width);
         let row = &mut to_row[row * width..];
         lower_to_neighbours(row, &below[..width]);
-        let mut right = row[width - 1];
-        for at in row[1..width - 1].iter_mut().rev() {
-            right = right.saturating_add(3).min(*at);
-            *at = right;
-        }
+        let first = row[width - 1];
+        lower_along(row[1..width - 1].iter_mut().rev(), first);
     }
     third
         .into_iter()
         .map(|third| f32::from(third) / 3.0)
         .collect()
+}
+
+/// Lowers distances to what each one's predecessor allows, starting from `first`.
+fn lower_along<'a>(row: impl Iterator<Item = &'a mut i16>, first: i16) {
+    // In 32 bits there is nothing to saturate.
+    let mut before = i32::from(first);
+    for at in row {
+        before = (before + 3).min(i32::from(*at));
+        *at = before as i16;
+    }
 }
 
 /// Lowers the distances of a row, in thirds of a cell, to what those of the row beside it allow. The outermost cells are margin
@@ -407,7 +419,7 @@ mod tests {
 
     fn taken_off(scene: &SceneCloud) -> (Vec<u32>, Vec<u32>) {
         let surface = scene.cloud.finite().map(|(i, _)| i as u32).collect();
-        remove_stand(scene, surface, Bars::OffSurface)
+        remove_stand(scene, surface)
     }
 
     #[test]
