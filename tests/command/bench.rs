@@ -159,10 +159,17 @@ fn whole_inspections_are_timed_by_set_and_compared_with_an_earlier_run() {
     place.accepted(&["simulate", "--part", "fender", "--out", "frame.ply"]);
     let ran = place.accepted(&["bench", "speed", "--files", "frame.ply", "frame.ply"]);
     assert!(ran.out.starts_with("2 files"), "{}", ran.out);
+    // A folder with a scene and something else.
+    fs::create_dir_all(place.path("frames/none")).expect("made");
+    fs::copy(place.path("frame.ply"), place.path("frames/frame.ply")).expect("copied");
+    fs::write(place.path("frames/about.md"), "").expect("written");
+    let ran = place.accepted(&["bench", "speed", "--files", "frames", "frame.ply"]);
+    assert!(ran.out.starts_with("2 files"), "{}", ran.out);
 
     fs::write(place.path("note.txt"), "{}").expect("written");
     for (wrong, why) in [
         (&["--files", "gone.ply"][..], "gone.ply"),
+        (&["--files", "frames/none"], "no scene in it"),
         (&["--compare", "note.txt"], "is no measurement of speed"),
         (
             &["--files", "frame.ply", "--poses", "2"],

@@ -1,7 +1,10 @@
 //! `partsight bench speed`: stage times compared with their budgets, and times of whole inspections per set, compared
 //! with an earlier run.
 
-use std::path::{Path, PathBuf};
+use std::{
+    fs::DirEntry,
+    path::{Path, PathBuf},
+};
 
 use anyhow::Context as _;
 use clap::Args;
@@ -18,6 +21,7 @@ use crate::cli::{
     input::{choice, open_scene},
 };
 use bench::{SetTimes, StageTimes, stage_times, suites::Suite};
+use capture::may_be_capture;
 use files::read_limited;
 use geometry::parallel::on_one_core;
 use inspection::pipeline::{Recipe, Timings, Unwatched, run as inspect};
@@ -50,8 +54,8 @@ pub(super) struct SpeedArgs {
     /// These sets of frames; may be given several times
     #[arg(long, value_parser = choice(&SUITES), value_name = "NAME")]
     suite: Vec<&'static [Suite]>,
-    /// Inspect these scenes with the library instead of simulated frames
-    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["suite", "poses", "seed"])]
+    /// Inspect these scenes, or those in these folders, with the library instead of simulated frames
+    #[arg(long, value_name = "FILE|DIR", num_args = 1.., conflicts_with_all = ["suite", "poses", "seed"])]
     files: Vec<PathBuf>,
     /// Show how many times as long each set took as in this file, which --json wrote
     #[arg(long, value_name = "JSON")]
@@ -126,16 +130,44 @@ fn read_earlier(path: &Path) -> anyhow::Result<EarlierSpeed> {
 fn inspect_files(args: &SpeedArgs, console: &mut Console) -> anyhow::Result<Vec<Timings>> {
     let recipe = Recipe::default();
     let load = (args.library).load_some(&recipe.reference_params(), console)?;
-    console.start_progress(args.files.len());
+    let files = scenes_at(&args.files)?;
+    console.start_progress(files.len());
     let timed = |path: &PathBuf| {
         let (scene, _) = open_scene(path).advised()?;
         let inspection = on_one_core(|| inspect(&scene, &load.library, &recipe, &Unwatched))?;
         console.done();
         Ok(inspection.timings)
     };
-    let timings = args.files.iter().map(timed).collect();
+    let timings = files.iter().map(timed).collect();
     console.end_progress();
     timings
+}
+
+/// The given files, and in place of each folder what may be scenes in it, by name.
+fn scenes_at(given: &[PathBuf]) -> anyhow::Result<Vec<PathBuf>> {
+    let mut files = Vec::new();
+    for path in given {
+        if !path.is_dir() {
+            files.push(path.clone());
+            continue;
+        }
+        let entries = path
+            .read_dir()
+            .and_then(Iterator::collect::<Result<Vec<_>, _>>);
+        let entries = entries.with_context(|| path.display().to_string())?;
+        let mut inside: Vec<PathBuf> = entries.iter().map(DirEntry::path).collect();
+        inside.retain(|file| may_be_capture(file) && file.is_file());
+        if inside.is_empty() {
+            let advice = "Give a folder of depth images or clouds";
+            return Err(advised_error(
+                format!("{}: no scene in it", path.display()),
+                advice,
+            ));
+        }
+        inside.sort();
+        files.extend(inside);
+    }
+    Ok(files)
 }
 
 fn show(times: &[StageTimes], console: &mut Console) {
