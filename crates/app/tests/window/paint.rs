@@ -276,7 +276,8 @@ fn an_arm_is_chosen_its_reach_shown_and_the_program_exported() {
     assert!(!file.exists());
     // Without an arm, reach is not checked.
     press(&mut harness, "Arm: ABB IRB 4600-40/2.55");
-    press(&mut harness, "No arm");
+    harness.get_by_label("No arm").click();
+    settle(&mut harness);
     export(&mut harness);
     let program = std::fs::read_to_string(&file).expect("written");
     assert!(program.contains("MODULE"), "{program}");

@@ -3,7 +3,7 @@
 
 use egui::{
     Align, Area, Context, Frame, Id, Layout, Margin, Order, Rect, RichText, ScrollArea, Sense, Ui,
-    pos2,
+    pos2, vec2,
 };
 
 use crate::{
@@ -52,9 +52,11 @@ pub fn ui(ctx: &Context, room: Rect, state: &State, actions: &mut Vec<Action>) {
         let area = Area::new(id).order(Order::Middle).fixed_pos(place.min);
         let drawn = area.show(ctx, |ui| {
             ui.set_width(place.width());
+            // Otherwise, an area is as high as it was, and a list in it would never grow.
+            ui.set_height(place.height());
             ui.interact(place, id.with("held"), Sense::click_and_drag());
             ui.add_space(place.height() - height);
-            list(ui, room.height(), state, actions)
+            list(ui, height, state, actions).min(room.height())
         });
         drawn.inner
     };
@@ -79,8 +81,8 @@ fn is_at_rest(ctx: &Context) -> bool {
     })
 }
 
-/// Draws the notices in a list no higher than this, the newest last; returns its height.
-fn list(ui: &mut Ui, highest: f32, state: &State, actions: &mut Vec<Action>) -> f32 {
+/// Draws the notices in a list of this height, the newest last; returns the height that shows all of them.
+fn list(ui: &mut Ui, height: f32, state: &State, actions: &mut Vec<Action>) -> f32 {
     let newest = state.notices.len().saturating_sub(1);
     let num_hidden = if state.session.is_operator_view() {
         state.notices.len().saturating_sub(FEW)
@@ -88,7 +90,8 @@ fn list(ui: &mut Ui, highest: f32, state: &State, actions: &mut Vec<Action>) -> 
         0
     };
     let area = ScrollArea::vertical()
-        .max_height(highest)
+        .max_height(height)
+        .min_scrolled_height(0.0)
         .stick_to_bottom(true);
     let drawn = area.show(ui, |ui| {
         ui.spacing_mut().item_spacing.y = EDGE;
@@ -97,7 +100,7 @@ fn list(ui: &mut Ui, highest: f32, state: &State, actions: &mut Vec<Action>) -> 
             plate(ui, index, notice, with_all, actions);
         }
     });
-    drawn.inner_rect.height()
+    drawn.content_size.y
 }
 
 /// Draws the newest notice on top of the bar and a dialog: dialogs are tall, and the notice that one causes must be readable
@@ -135,7 +138,9 @@ fn line(ui: &mut Ui, index: usize, notice: &Notice, with_all: bool, actions: &mu
             NoticeKind::Done | NoticeKind::Undoable(_) => Mark::Good,
         };
         line_mark(ui, 20.0, 9.0, sign);
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        // A layout without a size would take all the height that is free.
+        let size = vec2(ui.available_width(), space::TARGET);
+        ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {
             if text_button(ui, &text!("shell-dismiss")).clicked() {
                 actions.push(Action::Dismiss(index));
             }
