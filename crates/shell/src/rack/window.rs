@@ -1,5 +1,7 @@
 //! The window in which the rack is edited: beside the 3-D view, which draws its boxes.
 
+use std::ops::RangeInclusive;
+
 use egui::{
     CollapsingHeader, Context, DragValue, Grid, RichText, Role, ScrollArea, TextEdit, Ui,
     WidgetInfo, pos2, vec2,
@@ -285,7 +287,7 @@ fn max_turn(ui: &mut Ui, turn: &mut MaxTurn) {
         match turn {
             MaxTurn::Total(total) => limit(total, &name),
             MaxTurn::EachAxis(each) => {
-                for (one, axis) in each.iter_mut().zip(["x", "y", "z"]) {
+                for (one, axis) in each.iter_mut().zip(AXES) {
                     limit(one, &format!("{name} {axis}"));
                 }
             }
@@ -304,51 +306,71 @@ fn max_turn(ui: &mut Ui, turn: &mut MaxTurn) {
     });
 }
 
-/// Draws the numbers of a box.
+/// Names of the axes.
+const AXES: [&str; 3] = ["x", "y", "z"];
+/// Width in which the numbers of a box are a table, logical pixels.
+const TABLE_WIDTH_PX: f32 = 280.0;
+
+/// Draws the numbers of a box: a table, or in a narrow place each name above its numbers.
 pub fn box_numbers(ui: &mut Ui, region: &mut OrientedBox) {
+    let limit = MAX_COORDINATE_MM;
+    let rows = [
+        (
+            text!("rack-centre"),
+            &mut region.centre_m,
+            -limit..=limit,
+            1e3,
+            5.0,
+        ),
+        (
+            text!("rack-size"),
+            &mut region.size_m,
+            10.0..=limit,
+            1e3,
+            5.0,
+        ),
+        (
+            text!("rack-angles"),
+            &mut region.angles_rad,
+            -180.0..=180.0,
+            1.0_f64.to_degrees(),
+            0.5,
+        ),
+    ];
+    let fields = |ui: &mut Ui,
+                  name: &str,
+                  values: &mut [f64; 3],
+                  range: RangeInclusive<f64>,
+                  unit: f64,
+                  speed: f64| {
+        for (value, axis) in values.iter_mut().zip(AXES) {
+            let mut shown = *value * unit;
+            let field = DragValue::new(&mut shown)
+                .range(range.clone())
+                .clamp_existing_to_range(false)
+                .speed(speed)
+                .max_decimals(1);
+            if number(ui, field, &format!("{name} {axis}")) {
+                *value = shown / unit;
+            }
+        }
+    };
+    if ui.available_width() < TABLE_WIDTH_PX {
+        for (name, values, range, unit, speed) in rows {
+            ui.label(format!("{name}: {}", AXES.join(", ")));
+            ui.horizontal(|ui| fields(ui, &name, values, range, unit, speed));
+        }
+        return;
+    }
     Grid::new("numbers").num_columns(4).show(ui, |ui| {
         ui.label("");
-        for axis in ["x", "y", "z"] {
+        for axis in AXES {
             ui.label(RichText::new(axis).weak());
         }
         ui.end_row();
-        let limit = MAX_COORDINATE_MM;
-        let rows = [
-            (
-                text!("rack-centre"),
-                &mut region.centre_m,
-                -limit..=limit,
-                1e3,
-                5.0,
-            ),
-            (
-                text!("rack-size"),
-                &mut region.size_m,
-                10.0..=limit,
-                1e3,
-                5.0,
-            ),
-            (
-                text!("rack-angles"),
-                &mut region.angles_rad,
-                -180.0..=180.0,
-                1.0_f64.to_degrees(),
-                0.5,
-            ),
-        ];
         for (name, values, range, unit, speed) in rows {
             ui.label(&name);
-            for (value, axis) in values.iter_mut().zip(["x", "y", "z"]) {
-                let mut shown = *value * unit;
-                let field = DragValue::new(&mut shown)
-                    .range(range.clone())
-                    .clamp_existing_to_range(false)
-                    .speed(speed)
-                    .max_decimals(1);
-                if number(ui, field, &format!("{name} {axis}")) {
-                    *value = shown / unit;
-                }
-            }
+            fields(ui, &name, values, range, unit, speed);
             ui.end_row();
         }
     });

@@ -243,15 +243,15 @@ impl Mask {
     /// Returns the cells of the core, which is wider than a tube, and the cells of the surface around them.
     fn opened(&self, filled: &[bool], half_width: f32) -> (Vec<bool>, Vec<bool>) {
         let gaps = filled.iter().zip(&self.is_beyond);
-        let is_gap: Vec<bool> = gaps.map(|(filled, beyond)| !filled & !beyond).collect();
+        let is_gap: Vec<bool> = gaps.map(|(filled, beyond)| !filled && !beyond).collect();
         let from_gap = distances(&is_gap, self.width);
         let core: Vec<bool> = (filled.iter().zip(&from_gap).zip(&self.size))
-            .map(|((filled, from_gap), size)| filled & (from_gap * size > half_width))
+            .map(|((filled, from_gap), size)| *filled && (from_gap * size > half_width))
             .collect();
         let from_core = distances(&core, self.width);
         // One cell more than the radius, because distances are measured between cell centres.
         let left = (self.is_set.iter().zip(&from_core).zip(&self.size))
-            .map(|((set, from_core), size)| set & ((from_core - 1.0) * size <= half_width))
+            .map(|((set, from_core), size)| *set && ((from_core - 1.0) * size <= half_width))
             .collect();
         (core, left)
     }
@@ -264,7 +264,7 @@ impl Mask {
         let from_far = distances(&far, self.width);
         let is_near_enough = from_far.into_iter().zip(&self.size).map(is_far);
         (self.is_set.iter().zip(is_near_enough))
-            .map(|(set, near)| set | near)
+            .map(|(set, near)| *set || near)
             .collect()
     }
 

@@ -236,12 +236,11 @@ impl SingleMoves {
     ) -> Result<&mut Run, Problem> {
         let goes_on =
             |run: &Run| run.client == client && run.part == request.part && !request.is_start;
-        let run = match self.run.take_if(|run| goes_on(run)) {
-            Some(run) => run,
-            None => {
-                self.end_run();
-                self.begun(request.part, client, parts)?
-            }
+        let run = if let Some(run) = self.run.take_if(|run| goes_on(run)) {
+            run
+        } else {
+            self.end_run();
+            self.begun(request.part, client, parts)?
         };
         Ok(self.run.insert(run))
     }

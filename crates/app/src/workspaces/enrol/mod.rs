@@ -231,14 +231,12 @@ impl Panes {
             self.catalogue
                 .ui(ui, enrol, library, &self.thumbnails, actions);
         });
-        match &enrol.draft {
-            Some(draft) => self.draft(ui, draft, enrol, session, actions),
-            None => {
-                let room = ui.available_rect_before_wrap();
-                empty(ui, enrol, session, actions);
-                room
-            }
+        if let Some(draft) = &enrol.draft {
+            return self.draft(ui, draft, enrol, session, actions);
         }
+        let room = ui.available_rect_before_wrap();
+        empty(ui, enrol, session, actions);
+        room
     }
 
     /// Draws the draft, and the tools to correct it. Returns the place of the draft.
