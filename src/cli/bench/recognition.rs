@@ -444,9 +444,9 @@ fn show_racks(racks: &[RackFigures], console: &mut Console) {
 fn show_expected(figures: &[ExpectationFigures], console: &mut Console) {
     console.line(&"");
     console.line(
-        &"Racks with an expectation: the right one, one with another part instead of one that hangs there, and one with a part \
-          more, and one of the parts that hang there alone. Right is: as expected; the wrong part told, with the expected one; the \
-          missing part told; the one part accepted, and as expected only if no other hangs there.",
+        &"Racks with an expectation: every part that hangs there; the same with one replaced by another; with one more; and only one \
+          of them. The right verdict is: as expected; wrong part, with the expected one; missing; and the one part accepted, but \
+          as expected only if no other hangs there.",
     );
     console.line(&"");
     let mut table = Table::new(&[

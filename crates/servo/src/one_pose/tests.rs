@@ -88,7 +88,7 @@ fn in_a_few_moves_it_is_there_although_the_calibration_is_wrong() {
                     OnePoseAnswer::Stay(reason) => panic!("{reason:?}"),
                 }
             };
-            // Those of the last stop, and of the one before the last small correction.
+            // Three looks at each stop; those from before small corrections count too.
             let num = arrival.num_frames;
             assert!(num > 0 && num.is_multiple_of(3), "{arrival:?}");
             let left = world.error(&flange);
@@ -104,8 +104,8 @@ fn in_a_few_moves_it_is_there_although_the_calibration_is_wrong() {
     }
 }
 
-/// Asks at rest and moves until the robot is told to stay or is there, with six looks of this noise at a time. `push` may move
-/// the part before each request.
+/// Requests with the arm at rest, six noisy looks each, and moves until the answer is to stay or the target is reached. `push` may
+/// move the part before each request.
 fn to_the_end(
     world: &mut World,
     mut flange: RigidTransform,

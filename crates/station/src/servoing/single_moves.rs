@@ -35,6 +35,8 @@ pub struct SingleMoves {
 
 /// What the history calls a robot that asks over the server.
 const ROBOT: &str = "serve";
+/// Most looks of a run that its curve shows: those of half an hour. A robot may ask for ever, and a run that it does not end grows.
+const MAX_SAMPLES: usize = 10_000;
 
 /// A run of a client.
 struct Run {
@@ -62,13 +64,15 @@ impl Run {
         };
         self.end = (end, now);
         let state = held.map_or(ServoState::Checking, |_| ServoState::Holding);
-        self.log.curve.extend(looks.iter().map(|look| ServoSample {
+        let room = MAX_SAMPLES.saturating_sub(self.log.curve.len());
+        let samples = looks.iter().take(room).map(|look| ServoSample {
             at_s: look.taken_at.saturating_sub(began).as_secs_f64(),
             error_m: error.map(|error| error.shift.0),
             error_rad: error.map(|error| error.rotation.0),
             state,
             held: held.map(|reason| reason.kind().to_owned()),
-        }));
+        });
+        self.log.curve.extend(samples);
     }
 
     /// Its row in the history.

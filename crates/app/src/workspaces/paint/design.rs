@@ -204,7 +204,7 @@ impl PaintState {
         use_setup(setup, cx);
     }
 
-    /// Undoes the last storing, whatever was drawn since.
+    /// Restores the path that the last *Store* replaced; what was drawn since stays.
     pub(super) fn undo_storing(&mut self, cx: &mut ShellContext<'_>) {
         if self.is_storing() {
             return;

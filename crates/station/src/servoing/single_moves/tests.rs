@@ -743,7 +743,7 @@ fn a_run_belongs_to_one_client_and_one_part_and_begins_anew_when_it_is_told_to()
             assert_eq!(ask(&mut robot, 0, false).1, "unknown_number");
         },
     );
-    // A row for each, with what it was told last.
+    // Each run has a row, with the reason of its last answer.
     let ends = records.iter().map(|record| {
         let stopped = record.run.stopped.as_ref();
         (&*record.run.part, stopped.map_or("", StopReason::kind))
