@@ -5,8 +5,7 @@ use std::f64::consts::{FRAC_PI_4, PI, TAU};
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
 use super::{
-    Arm,
-    check::ArmPoint,
+    Arm, ArmPoint,
     kinematics::{Joints, Solver},
     way::{MIN_TRAVEL_SPEED_M_S, may_move_by_joints},
 };

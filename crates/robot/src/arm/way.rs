@@ -1,7 +1,7 @@
 //! The move from one checked point to the next.
 
 use super::{
-    Arm, ArmPoint, PlacedArm, PointCheck,
+    Arm, ArmPoint, PlacedArm, PointCheck, Way,
     chain::move_time,
     kinematics::{Joints, Solver},
     problem::PointProblem,
@@ -29,20 +29,6 @@ const TIME_TOLERANCE_S: f64 = 1e-6;
 pub(super) const MIN_TRAVEL_SPEED_M_S: f64 = 0.01;
 /// Maximum step in which joint moves are checked, radians.
 const MAX_JOINT_STEP_RAD: f64 = 0.05;
-
-/// How the arm moves to a point.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Way {
-    /// In a straight line, at the speed of the path.
-    #[default]
-    Planned,
-    /// In a straight line with the gun off, at this lower speed, m/s.
-    Slower(f64),
-    /// In a straight line with the gun on, at this lower speed, m/s; the film stays within its tolerance.
-    SlowerSpraying(f64),
-    /// By a joint move with the gun off, for example to change the configuration.
-    Joints,
-}
 
 /// One end of a straight move.
 pub(super) struct WayEnd {
