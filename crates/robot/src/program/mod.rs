@@ -43,12 +43,13 @@ mod tests;
 
 use jiff::Timestamp;
 
-use self::{configuration::configuration, language::ToolName, steps::Step, text::Lines};
+use self::language::{Step, ToolName};
 use crate::arm::{PathCheck, PlacedArm, Way};
 use geometry::{
     rigid::{RigidTransform, is_finite},
     units::{Metres, counted},
 };
+use inspection::pipeline::parameters::{DisplayUnit, Kind, Parameters as _};
 
 pub use self::{
     error::ProgramError,
@@ -131,7 +132,7 @@ impl Program<'_> {
             });
         }
         let settings = self.settings;
-        settings.params.check_lengths()?;
+        self.check_lengths()?;
         let output = settings.params.gun_output;
         if !language.outputs.contains(&output) {
             return Err(ProgramError::Output { language, output });
@@ -154,6 +155,24 @@ impl Program<'_> {
         }
         self.check_tracking(language)?;
         self.check_path(language)
+    }
+
+    /// Refuses a length of the moves that is out of its range.
+    fn check_lengths(&self) -> Result<(), ProgramError> {
+        let params = &self.settings.params;
+        for row in ProgramParams::ALL {
+            if let Kind::Number(number) = &row.kind
+                && number.unit == DisplayUnit::Millimetres
+                && row.group != ProgramGroup::Arm
+            {
+                let (value, range) = (row.value(params), number.range);
+                if !(range[0]..=range[1]).contains(&value) {
+                    let name = row.key;
+                    return Err(ProgramError::Length { name, value, range });
+                }
+            }
+        }
+        Ok(())
     }
 
     fn check_tracking(&self, language: &'static RobotLanguage) -> Result<(), ProgramError> {
@@ -221,7 +240,7 @@ impl Program<'_> {
         self.reach.is_some_and(|(arm, check)| {
             let all = check.points.iter().chain(check.ends.iter().flatten());
             let mut joints = all.filter_map(|point| point.joints);
-            joints.all(|joints| configuration(language, &arm.arm, &joints).is_some())
+            joints.all(|joints| language.configuration_of(&arm.arm, &joints).is_some())
         })
     }
 

@@ -11,7 +11,8 @@
 
 use super::{
     Program, ProgramError, RobotLanguage,
-    steps::{Line, Motion, Step, steps_of},
+    language::{Line, Motion, Step},
+    steps::steps_of,
 };
 use geometry::rigid::RigidTransform;
 

@@ -13,12 +13,11 @@
 //!   moves on. Threads beside moves are used for communication only. Whether pose and outputs can be used in one during a
 //!   `movel`, which waits for its end, is not documented, and over ROS such a move was reported to block the pose.
 
-use super::{RobotLanguage, ToolName};
+use super::{Motion, RobotLanguage, Step, ToolName};
 use crate::{
     Convention,
     program::{
         JOINT_SPEED_SHARE, Program,
-        steps::{Motion, Step},
         text::{self, Lines},
     },
 };
@@ -56,7 +55,8 @@ const MAX_JOINT_SPEED: f64 = std::f64::consts::PI;
 
 fn write(program: &Program<'_>, steps: &[Step], comments: &[String], _name: &str) -> Lines {
     let settings = program.settings;
-    let pose = |pose: &RigidTransform| format!("posx({})", text::numbers(&DRL, pose).join(", "));
+    let pose =
+        |pose: &RigidTransform| format!("posx({})", text::numbers(DRL.convention, pose).join(", "));
     let gun = |is_on: bool| {
         let state = if is_on { "ON" } else { "OFF" };
         format!(

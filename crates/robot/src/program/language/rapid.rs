@@ -11,13 +11,12 @@
 //! Configuration: confdata. cfx 4: wrist behind axis 1; 2: wrist behind the lower arm; 1: axis 5 < 0. cf1, cf4 and cf6 are
 //! quarter turns. The same book, "confdata".
 
-use super::{RobotLanguage, ToolName, Tracking};
+use super::{Motion, RobotLanguage, Step, ToolName, Tracking};
 use crate::{
     Convention,
     program::{
         JOINT_SPEED_SHARE, Program, TrackingFrame,
         configuration::Posture,
-        steps::{Motion, Step},
         text::{self, Lines},
     },
 };
@@ -173,7 +172,7 @@ fn write(program: &Program<'_>, steps: &[Step], comments: &[String], name: &str)
 }
 
 fn pose(pose: &RigidTransform) -> String {
-    let numbers = text::numbers(&RAPID, pose);
+    let numbers = text::numbers(RAPID.convention, pose);
     format!(
         "[[{}],[{}]]",
         numbers[..3].join(","),

@@ -11,12 +11,11 @@
 
 use nalgebra::Vector3;
 
-use super::{RobotLanguage, ToolName, Tracking};
+use super::{Motion, RobotLanguage, Step, ToolName, Tracking};
 use crate::{
     Convention,
     program::{
         JOINT_SPEED_SHARE, Program,
-        steps::{Motion, Step},
         text::{self, Lines},
     },
 };
@@ -61,7 +60,9 @@ const MAX_JOINT_SPEED: f64 = std::f64::consts::PI;
 
 fn write(program: &Program<'_>, steps: &[Step], comments: &[String], name: &str) -> Lines {
     let settings = program.settings;
-    let pose = |pose: &RigidTransform| format!("p[{}]", text::numbers(&URSCRIPT, pose).join(", "));
+    let pose = |pose: &RigidTransform| {
+        format!("p[{}]", text::numbers(URSCRIPT.convention, pose).join(", "))
+    };
     let gun = |is_on: bool| {
         let state = if is_on { "True" } else { "False" };
         format!(
