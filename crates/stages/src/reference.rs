@@ -24,7 +24,8 @@ use self::{
 pub use self::{view::ReferenceView, view_cut::ViewCut, viewpoints::seen_around};
 use crate::{
     contour::{Contour, ContourParams, lift_oriented},
-    correlation::{LiteralReference, RaySpectra},
+    correlation::RaySpectra,
+    paper::LiteralReference,
     pose::{PoseError, PreparedTarget, edge_points::EdgePoints, refine::AlignmentTarget},
     project::{PlaneImage, ProjectParams},
     rank::EXHAUSTIVE_UP_TO,

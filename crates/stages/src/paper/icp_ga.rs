@@ -25,11 +25,12 @@ use rand::{SeedableRng as _, seq::SliceRandom as _};
 use rand_pcg::Pcg64;
 
 use super::{
-    Iteration, MIN_POINTS, Phase, PoseError, RunnerUp, Stopped,
-    centred::Centred,
     genetic::{Genes, minimise},
     icp::icp,
-    prepared::PreparedTarget,
+};
+use crate::pose::{
+    Iteration, MIN_POINTS, Phase, PoseError, PreparedTarget, RunnerUp, Stopped,
+    centred::Centred,
     refine::{AlignmentTarget, Refined},
 };
 use geometry::rigid::{RigidTransform, from_euler_zyx, pose_error};
@@ -52,7 +53,7 @@ const SAME_SHIFT: f64 = 0.1;
 
 /// Aligns the source to the target from a start. The iterations are those of ICP and the generations of the genetic
 /// algorithm, in order. Also returns the best other pose that ICP ended at, if there is one.
-pub(super) fn icp_ga(
+pub(crate) fn icp_ga(
     source: &Centred,
     target: &PreparedTarget,
     start: &RigidTransform,
