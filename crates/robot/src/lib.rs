@@ -41,7 +41,8 @@ pub use self::{
     convention::Convention,
     robot_pose::{ConventionError, GimbalLock, RobotPose, RobotValue, Unit},
     written::{
-        FARTHEST, NOZZLE_DISTANCE, WrittenPose, WrittenPoseError, parse_nozzle, parse_written_pose,
+        MAX_POSE_DISTANCE_M, NOZZLE_DISTANCE_RANGE_M, WrittenPose, WrittenPoseError, parse_nozzle,
+        parse_written_pose,
     },
 };
 

@@ -67,7 +67,7 @@ pub use self::{
     similarity::{Similarity, likenesses, most_similar},
     simulated::{enrol_part, enrol_standard_parts, enrolled_name, enrolment_pose},
     spray_path::{
-        MAX_PATH_POINTS, MAX_SPEED, PathLineProblem, PathPoint, SprayPath, SprayPathError,
+        MAX_PATH_POINTS, MAX_SPEED_M_S, PathLineProblem, PathPoint, SprayPath, SprayPathError,
     },
     store::{LibraryFolder, Renamed, Restored, Saved},
     stored_part::StoredPart,

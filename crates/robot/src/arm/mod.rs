@@ -91,7 +91,7 @@ pub struct Arm {
 }
 
 /// Default radius of a gun with its hoses, metres.
-pub const GUN_RADIUS: f64 = 0.05;
+pub const GUN_RADIUS_M: f64 = 0.05;
 
 /// An arm in its cell.
 #[derive(Clone, Debug)]

@@ -74,7 +74,7 @@ pub struct ProgramPoint {
 /// Joint speed of the first move, as a share of the maximum.
 const JOINT_SPEED_SHARE: f64 = 0.1;
 /// Acceleration of linear moves where the path has none, m/s²: the default of `URScript`, which is low for any arm.
-const DEFAULT_ACCELERATION: f64 = 1.2;
+const DEFAULT_ACCELERATION_M_S2: f64 = 1.2;
 
 /// A path to be written as a program, and the content of its header.
 #[derive(Clone, Debug)]
@@ -113,7 +113,7 @@ const MARK: &str = "Partsight robot program";
 impl Program<'_> {
     /// Acceleration of linear moves, m/s².
     fn line_acceleration(&self) -> f64 {
-        self.acceleration.unwrap_or(DEFAULT_ACCELERATION)
+        self.acceleration.unwrap_or(DEFAULT_ACCELERATION_M_S2)
     }
 
     fn check(&self, language: &'static RobotLanguage, name: &str) -> Result<(), ProgramError> {

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::arm::{Arm, CheckParams, GUN_RADIUS, Obstacles, PlacedArm};
+use crate::arm::{Arm, CheckParams, GUN_RADIUS_M, Obstacles, PlacedArm};
 use geometry::{
     rigid::RigidTransform,
     units::{Metres, Radians},
@@ -63,7 +63,7 @@ impl Default for ProgramParams {
     fn default() -> Self {
         Self {
             gun_output: 1,
-            gun_radius: Metres(GUN_RADIUS),
+            gun_radius: Metres(GUN_RADIUS_M),
             clearance: Metres(Obstacles::default().clearance),
             speed: 0.25,
             approach: Metres(0.1),

@@ -15,7 +15,7 @@ use geometry::rigid::RigidTransform;
 const MAX_BLEND_SHARE: f64 = 0.45;
 
 /// Speed of the first move of a program that follows a line, m/s.
-const TRACKED_APPROACH_SPEED: f64 = 0.1;
+const TRACKED_APPROACH_SPEED_M_S: f64 = 0.1;
 
 /// The move to the approach point. Of a program that follows a line, it is linear too.
 fn first_motion(settings: &ProgramSettings) -> Motion {
@@ -23,7 +23,7 @@ fn first_motion(settings: &ProgramSettings) -> Motion {
         return Motion::Joints(None);
     }
     Motion::Line(Line {
-        speed: TRACKED_APPROACH_SPEED,
+        speed: TRACKED_APPROACH_SPEED_M_S,
         blend: 0.0,
         gun: None,
     })

@@ -16,7 +16,7 @@ use super::{
     save::beside,
     *,
 };
-use crate::arm::{Arm, GUN_RADIUS, Joints, Obstacles, PointCheck, Way};
+use crate::arm::{Arm, GUN_RADIUS_M, Joints, Obstacles, PointCheck, Way};
 use geometry::{error::Advice as _, rigid::from_euler_zyx};
 
 fn any_rotation(random: &mut Pcg64) -> UnitQuaternion<f64> {
@@ -560,7 +560,7 @@ fn reached(arm: Arm, joints: &[Joints]) -> (PlacedArm, PathCheck) {
         arm,
         robot_from_base: RigidTransform::identity(),
         flange_from_nozzle: RigidTransform::translation(0.0, 0.0, 0.25),
-        gun_radius: GUN_RADIUS,
+        gun_radius: GUN_RADIUS_M,
         obstacles: Obstacles::default(),
     };
     let points: Vec<PointCheck> = joints.iter().map(stands).collect();

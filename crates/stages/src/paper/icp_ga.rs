@@ -44,7 +44,7 @@ const LOST_ABOVE: f64 = 0.05;
 /// The vicinity is at least this many spacings wide: that far ICP may hold on to the wrong neighbours.
 const LEAST_SPACINGS: f64 = 2.0;
 /// Poses elsewhere are at least this far turned from where ICP ended: within it, ICP would end there again.
-const CLOSED_TURN: f64 = 0.35;
+const CLOSED_TURN_RAD: f64 = 0.35;
 /// A point out of the field's reach counts as this far off, in extents of the target.
 const FAR_OFF: f64 = 0.5;
 /// Poses less apart than this are the same solution, degrees and extents of the target.
@@ -279,7 +279,7 @@ impl<'a> Search<'a> {
         let is_closed = |pose: &RigidTransform| {
             search_region == SearchRegion::Elsewhere
                 && self.valleys.iter().any(|valley| {
-                    valley.target_from_source.rotation.angle_to(&pose.rotation) < CLOSED_TURN
+                    valley.target_from_source.rotation.angle_to(&pose.rotation) < CLOSED_TURN_RAD
                 })
         };
         // Eq. (12), as far as it takes to know that it is above the bound.

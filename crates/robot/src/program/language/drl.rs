@@ -51,7 +51,7 @@ pub(in crate::program) static DRL: RobotLanguage = RobotLanguage {
 };
 
 /// Joint speed limit of the arms, rad/s.
-const MAX_JOINT_SPEED: f64 = std::f64::consts::PI;
+const MAX_JOINT_SPEED_RAD_S: f64 = std::f64::consts::PI;
 
 fn write(program: &Program<'_>, steps: &[Step], comments: &[String], _name: &str) -> Lines {
     let settings = program.settings;
@@ -74,7 +74,7 @@ fn write(program: &Program<'_>, steps: &[Step], comments: &[String], _name: &str
     for step in steps {
         match step.motion {
             Motion::Joints(_) => {
-                let speed = (JOINT_SPEED_SHARE * MAX_JOINT_SPEED).to_degrees();
+                let speed = (JOINT_SPEED_SHARE * MAX_JOINT_SPEED_RAD_S).to_degrees();
                 lines.instruct(format!(
                     "movejx({}, vel={}, acc={}, ref=DR_BASE, sol=get_current_solution_space())",
                     pose(&step.to),
