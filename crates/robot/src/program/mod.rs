@@ -44,7 +44,10 @@ mod tests;
 use jiff::Timestamp;
 
 use self::language::{Step, ToolName};
-use crate::arm::{PathCheck, PlacedArm, Way};
+use crate::{
+    FrameName,
+    arm::{PathCheck, PlacedArm, Way},
+};
 use geometry::{
     rigid::{RigidTransform, is_finite},
     units::{Metres, counted},
@@ -95,8 +98,8 @@ pub struct Program<'a> {
     pub scene: Option<&'a str>,
     /// The part's pose in the robot's base frame.
     pub robot_from_part: RigidTransform,
-    /// Name of the calibration.
-    pub calibration: &'a str,
+    /// Where the robot's frame comes from.
+    pub calibration: &'a FrameName,
     /// True if the scene, or the enrolled part, was simulated.
     pub is_simulated: bool,
     /// Reasons against writing the program, which were overridden.

@@ -5,7 +5,7 @@ mod rail;
 pub(super) mod read;
 mod tracking;
 
-use std::path::Path;
+use std::{path::Path, sync::LazyLock};
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use rand::{RngExt as _, SeedableRng as _};
@@ -54,6 +54,8 @@ fn any_path(seed: u64) -> Vec<ProgramPoint> {
     points.collect()
 }
 
+static CALIBRATION: LazyLock<FrameName> = LazyLock::new(|| "Cell 2 (00112233)".into());
+
 fn program<'a>(points: &'a [ProgramPoint], settings: &'a ProgramSettings) -> Program<'a> {
     Program {
         points,
@@ -64,7 +66,7 @@ fn program<'a>(points: &'a [ProgramPoint], settings: &'a ProgramSettings) -> Pro
         part: "Tür_links",
         scene: Some("door; \"x\".pcd"),
         robot_from_part: from_euler_zyx([0.1, -0.2, 0.3, 1.5, -0.2, 2.0]),
-        calibration: "Cell 2 (00112233)",
+        calibration: &CALIBRATION,
         is_simulated: true,
         doubts: &[],
         unchecked: &[],
