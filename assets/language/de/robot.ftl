@@ -177,8 +177,6 @@ robot-part-numbers = Nummern der Teile
 robot-numbers-not-stored = Nummern von Teilen können nicht gespeichert werden und ändern sich, wenn ein Teil hinzukommt oder wegfällt: { $reason }
 
 ## Poses and conventions
-robot-unnamed = eine Kalibrierung ohne Namen
-
 robot-motion-unknown = Nicht bekannt, ob das Teil still hing
 
 ## Was nicht geprüft wurde

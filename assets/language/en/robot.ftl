@@ -177,8 +177,6 @@ robot-part-numbers = Numbers of the parts
 robot-numbers-not-stored = Numbers of parts cannot be stored, and change when a part is added or removed: { $reason }
 
 ## Poses and conventions
-robot-unnamed = an unnamed calibration
-
 robot-motion-unknown = Not known whether the part hung still
 
 ## What was not checked

@@ -177,8 +177,6 @@ robot-part-numbers = Números de las piezas
 robot-numbers-not-stored = Los números de las piezas no se pueden guardar y cambian al añadir o quitar una pieza: { $reason }
 
 ## Poses and conventions
-robot-unnamed = una calibración sin nombre
-
 robot-motion-unknown = No se sabe si la pieza colgaba quieta
 
 ## Lo que no se comprobó

@@ -169,8 +169,6 @@ robot-part-numbers = 零件编号
 robot-numbers-not-stored = 零件编号无法保存，添加或移除零件时编号会改变：{ $reason }
 
 ## Poses and conventions
-robot-unnamed = 未命名的标定
-
 robot-motion-unknown = 无法得知零件是否静止
 
 ## 未检查的内容

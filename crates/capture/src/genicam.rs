@@ -27,7 +27,6 @@ use super::{
     camera_error::{CameraError, CameraErrorKind, only},
     camera_library::ARAVIS,
     error::{CaptureError, CaptureWarning},
-    open::SourceListing,
     read_timeout::ReadTimeout,
     source::{Captured, DepthSource, Image, NextCapture, SkippedCapture},
     spec::{GenicamFormat, GenicamSpec, SourceSpec},

@@ -28,7 +28,6 @@ use super::{
     camera_error::{CameraError, CameraErrorKind},
     camera_library::FREENECT,
     error::{CaptureError, CaptureWarning},
-    open::SourceListing,
     read_timeout::ReadTimeout,
     source::{Captured, DepthSource, Image, NextCapture},
     spec::{KinectSpec, SourceSpec},

@@ -33,7 +33,6 @@ use super::{
     camera_error::{CameraError, CameraErrorKind, quoted},
     camera_library::OPENNI,
     error::CaptureError,
-    open::SourceListing,
     read_timeout::ReadTimeout,
     source::{Captured, DepthSource, Image, NextCapture},
     spec::{OpenNiSpec, Pace, SourceSpec},

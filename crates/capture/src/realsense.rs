@@ -30,7 +30,6 @@ use super::{
     camera_error::{CameraError, CameraErrorKind, only},
     camera_library::REALSENSE,
     error::CaptureError,
-    open::SourceListing,
     read_timeout::ReadTimeout,
     source::{Captured, DepthSource, Image, NextCapture},
     spec::{Pace, RealsenseSpec, SourceSpec},

@@ -31,7 +31,8 @@ use geometry::{
 use stages::{
     confirm::{ConfirmParams, ConfirmedRanking},
     contour::{Contour, ContourParams},
-    pose::{PoseError, PoseEstimate, PoseMethod, icp::IcpParams, icp_ga::IcpGaParams},
+    paper::{IcpGaParams, IcpParams},
+    pose::{PoseError, PoseEstimate, PoseMethod},
     project::{PlaneImage, ProjectParams},
     rack::Rack,
     rank::{Query, RankParams},

@@ -13,7 +13,7 @@ use rand_pcg::Pcg64;
 use super::assembly::Assembly;
 use super::cell::SimulatedObject;
 use super::rasteriser::{Rendering, SurfaceLabel};
-use super::sensor::{Sensor, SensorNoise};
+use super::sensor::{Kinect, Sensor as _, SensorNoise};
 use geometry::depth_frame::{DepthFrame, Intrinsics};
 use geometry::mesh::TriangleMesh;
 use geometry::rigid::RigidTransform;
@@ -122,7 +122,7 @@ impl SimulatedScan {
         let part = camera_from_base * base_from_model;
         rendering.draw_mesh(&self.part, &part, SurfaceLabel::Part);
         rendering.draw_mesh(&self.cell, &camera_from_base, SurfaceLabel::Clutter);
-        Sensor::Kinect.sense(&rendering, noise)
+        Kinect.sense(&rendering, noise)
     }
 
     /// Poses the camera: from left to right around the part, alternately from above and below, 1.2 to 1.5 m away.

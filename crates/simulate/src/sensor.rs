@@ -30,7 +30,6 @@ use rand::{Rng as _, SeedableRng as _};
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 
-use super::booth::RegisteredCamera;
 use super::rasteriser::{Rendering, SurfaceLabel};
 use geometry::depth_frame::{DepthFrame, Intrinsics};
 
@@ -77,48 +76,37 @@ impl SensorNoise {
     }
 }
 
-/// The kinds of sensor.
-pub(super) enum Sensor {
-    /// The sensor of this [module](self).
-    Kinect,
-    /// A structured-light camera registered to a colour picture, see [`RegisteredCamera`].
-    Registered(Box<RegisteredCamera>),
-}
-
-impl Sensor {
+/// A kind of depth sensor.
+pub(super) trait Sensor: Send + Sync {
     /// Turns a perfect rendering into a frame.
-    pub(super) fn sense(&self, rendering: &Rendering, noise: &SensorNoise) -> DepthFrame {
-        match self {
-            Self::Kinect => sense(rendering, noise),
-            Self::Registered(camera) => camera.sense(rendering, noise),
-        }
-    }
+    fn sense(&self, rendering: &Rendering, noise: &SensorNoise) -> DepthFrame;
 
     /// Counts the pixels of the rendering that show `label` and lie within the field of view.
-    pub(super) fn num_pixels_in_view(&self, rendering: &Rendering, label: SurfaceLabel) -> usize {
-        match self {
-            Self::Kinect => rendering.num_pixels(label),
-            Self::Registered(camera) => camera.num_pixels_in_view(rendering, label),
-        }
+    fn num_pixels_in_view(&self, rendering: &Rendering, label: SurfaceLabel) -> usize {
+        rendering.num_pixels(label)
     }
 }
 
-/// Returns the frame that a Kinect delivers for a perfect rendering.
-fn sense(rendering: &Rendering, noise: &SensorNoise) -> DepthFrame {
-    let depth = if noise.multiplier > 0.0 {
-        with_noise(rendering, noise)
-    } else {
-        rendering
-            .depth
-            .iter()
-            .map(|&z| in_units(f64::from(z), METRES_PER_UNIT))
-            .collect()
-    };
-    DepthFrame {
-        intrinsics: rendering.intrinsics,
-        metres_per_unit: METRES_PER_UNIT,
-        depth,
-        is_simulated: true,
+/// The sensor of this [module](self).
+pub(super) struct Kinect;
+
+impl Sensor for Kinect {
+    fn sense(&self, rendering: &Rendering, noise: &SensorNoise) -> DepthFrame {
+        let depth = if noise.multiplier > 0.0 {
+            with_noise(rendering, noise)
+        } else {
+            rendering
+                .depth
+                .iter()
+                .map(|&z| in_units(f64::from(z), METRES_PER_UNIT))
+                .collect()
+        };
+        DepthFrame {
+            intrinsics: rendering.intrinsics,
+            metres_per_unit: METRES_PER_UNIT,
+            depth,
+            is_simulated: true,
+        }
     }
 }
 
@@ -408,7 +396,7 @@ mod tests {
                 multiplier,
                 seed: 11,
             };
-            let frame = sense(&flat_wall(z), &noise);
+            let frame = Kinect.sense(&flat_wall(z), &noise);
             for &units in frame.depth.iter().filter(|&&units| units > 0) {
                 let error = f64::from(units) * frame.metres_per_unit - z;
                 sum_sq += error * error;
@@ -495,17 +483,17 @@ mod tests {
     #[test]
     fn readings_out_of_range_are_lost() {
         for z in [0.3, 4.6] {
-            let frame = sense(&flat_wall(z), &SensorNoise::kinect(1));
+            let frame = Kinect.sense(&flat_wall(z), &SensorNoise::kinect(1));
             assert!(frame.depth.iter().all(|&units| units == 0));
         }
-        let frame = sense(&flat_wall(1.5), &SensorNoise::kinect(1));
+        let frame = Kinect.sense(&flat_wall(1.5), &SensorNoise::kinect(1));
         let num_lost = frame.depth.iter().filter(|&&units| units == 0).count();
         assert!(num_lost > 100 && num_lost < 6000, "{num_lost}");
     }
 
     #[test]
     fn without_noise_a_reading_is_the_truth_to_the_unit() {
-        let frame = sense(&flat_wall(1.2345), &SensorNoise::none());
+        let frame = Kinect.sense(&flat_wall(1.2345), &SensorNoise::none());
         assert!(
             frame
                 .depth

@@ -6,7 +6,7 @@ use serde::Serialize;
 use crate::history::Traceability;
 use geometry::rigid::row_major;
 use inspection::pipeline::{Expected, Inspection, RecipeBlock, Timings, Verdict, places_of};
-use robot::{RobotFrame, line::OnLine};
+use robot::{FrameName, RobotFrame, line::OnLine};
 
 /// Version of the JSON lines.
 pub const SCHEMA: u32 = 1;
@@ -125,7 +125,7 @@ pub struct ScanLine<'a> {
 /// Poses in the robot's base frame; see [`robot`] for their definitions.
 #[derive(Debug, Serialize)]
 struct RobotLine<'a> {
-    calibration: &'a str,
+    calibration: &'a FrameName,
     robot_from_camera: [f64; 16],
     robot_from_part: [f64; 16],
     robot_offset: [f64; 16],

@@ -13,7 +13,7 @@ use super::{field_of_view::FieldOfView, gloss::SpecularDropout};
 use crate::{
     rasteriser::{Rendering, SurfaceLabel},
     sensor::{
-        BASELINE, SensorNoise, SmoothNoise, disparity_sigma, edge_nearness, in_units,
+        BASELINE, Sensor, SensorNoise, SmoothNoise, disparity_sigma, edge_nearness, in_units,
         lit_by_projector, sample,
     },
 };
@@ -33,7 +33,7 @@ const LATERAL: f32 = 0.5;
 const FLIES_ABOVE: f32 = 0.8;
 
 /// A camera with its field of view and its lost patches.
-pub(crate) struct RegisteredCamera {
+pub(super) struct RegisteredCamera {
     field_of_view: FieldOfView,
     gloss: SpecularDropout,
     /// In metres.
@@ -46,50 +46,6 @@ impl RegisteredCamera {
             field_of_view,
             gloss,
             axial_at_1m: Pcg64::seed_from_u64(seed).random_range(AXIAL_AT_1M),
-        }
-    }
-
-    /// Counts the pixels in the field of view that show `label`.
-    pub(crate) fn num_pixels_in_view(&self, rendering: &Rendering, label: SurfaceLabel) -> usize {
-        let width = rendering.intrinsics.width;
-        let labels = rendering.labels.iter().enumerate();
-        labels
-            .filter(|(pixel, shown)| {
-                **shown == label
-                    && self.field_of_view.contains(
-                        (pixel % width) as f64,
-                        (pixel / width) as f64,
-                        f64::from(rendering.depth[*pixel]),
-                    )
-            })
-            .count()
-    }
-
-    /// Turns a perfect rendering into a frame. Without noise only pixels outside the field of view are lost.
-    pub(crate) fn sense(&self, rendering: &Rendering, noise: &SensorNoise) -> DepthFrame {
-        let mut depth = vec![0; rendering.depth.len()];
-        if noise.multiplier > 0.0 {
-            self.apply_noise(rendering, noise, &mut depth);
-        } else {
-            let perfect = rendering.depth.iter();
-            let perfect = perfect.map(|&z| in_units(f64::from(z), METRES_PER_UNIT));
-            depth.iter_mut().zip(perfect).for_each(|(to, z)| *to = z);
-        }
-        let Intrinsics { width, height, .. } = rendering.intrinsics;
-        for v in 0..height {
-            for u in 0..width {
-                let pixel = v * width + u;
-                let z = f64::from(rendering.depth[pixel]);
-                if !self.field_of_view.contains(u as f64, v as f64, z) {
-                    depth[pixel] = 0;
-                }
-            }
-        }
-        DepthFrame {
-            intrinsics: rendering.intrinsics,
-            metres_per_unit: METRES_PER_UNIT,
-            depth,
-            is_simulated: true,
         }
     }
 
@@ -145,6 +101,51 @@ impl RegisteredCamera {
                 }
             }
         }
+    }
+}
+
+impl Sensor for RegisteredCamera {
+    /// Without noise only pixels outside the field of view are lost.
+    fn sense(&self, rendering: &Rendering, noise: &SensorNoise) -> DepthFrame {
+        let mut depth = vec![0; rendering.depth.len()];
+        if noise.multiplier > 0.0 {
+            self.apply_noise(rendering, noise, &mut depth);
+        } else {
+            let perfect = rendering.depth.iter();
+            let perfect = perfect.map(|&z| in_units(f64::from(z), METRES_PER_UNIT));
+            depth.iter_mut().zip(perfect).for_each(|(to, z)| *to = z);
+        }
+        let Intrinsics { width, height, .. } = rendering.intrinsics;
+        for v in 0..height {
+            for u in 0..width {
+                let pixel = v * width + u;
+                let z = f64::from(rendering.depth[pixel]);
+                if !self.field_of_view.contains(u as f64, v as f64, z) {
+                    depth[pixel] = 0;
+                }
+            }
+        }
+        DepthFrame {
+            intrinsics: rendering.intrinsics,
+            metres_per_unit: METRES_PER_UNIT,
+            depth,
+            is_simulated: true,
+        }
+    }
+
+    fn num_pixels_in_view(&self, rendering: &Rendering, label: SurfaceLabel) -> usize {
+        let width = rendering.intrinsics.width;
+        let labels = rendering.labels.iter().enumerate();
+        labels
+            .filter(|(pixel, shown)| {
+                **shown == label
+                    && self.field_of_view.contains(
+                        (pixel % width) as f64,
+                        (pixel / width) as f64,
+                        f64::from(rendering.depth[*pixel]),
+                    )
+            })
+            .count()
     }
 }
 

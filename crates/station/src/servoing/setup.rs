@@ -17,7 +17,7 @@ use inspection::{
     pipeline::{Expected, ExpectedError, NamedRecipe, Unwatched, run as inspect},
 };
 use robot::{
-    arm::{GUN_RADIUS, PlacedArm},
+    arm::{GUN_RADIUS_M, PlacedArm},
     calibration::CameraPlace,
     spray::{OffThePart, off_the_part},
 };
@@ -284,7 +284,7 @@ impl ServoSetup {
             });
         };
         if let Some(nozzle) = &self.flange_from_nozzle {
-            keep_clear(nozzle, GUN_RADIUS);
+            keep_clear(nozzle, GUN_RADIUS_M);
         }
         if let CameraPlace::OnFlange {
             flange_from_camera, ..

@@ -57,7 +57,7 @@ impl Inspections {
             parts: parts.collect(),
             robot: RobotFrame {
                 robot_from_camera: RigidTransform::identity(),
-                name: String::new(),
+                name: "".into(),
             },
             kind: PoseKind::RobotFromPart,
         };
