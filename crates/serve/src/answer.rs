@@ -2,7 +2,7 @@
 
 use std::{
     iter,
-    sync::OnceLock,
+    sync::{Arc, OnceLock},
     time::{Duration, Instant},
 };
 
@@ -394,6 +394,59 @@ pub struct PathStep {
     pub speed: Option<f64>,
 }
 
+/// A place of a rack.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct RackPlace {
+    /// Its number by its order in the rack, from 1.
+    pub number: u32,
+    /// Its name.
+    pub name: String,
+}
+
+/// A part that is expected in a frame, and does not hang there.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct MissingPart {
+    /// Its name.
+    pub part: String,
+    /// The number by which robots know it; null if it has none.
+    pub number: Option<u32>,
+    /// Where it is expected; null for any place.
+    pub place: Option<RackPlace>,
+}
+
+impl From<&Found> for MissingPart {
+    fn from(found: &Found) -> Self {
+        Self {
+            part: found.part.clone(),
+            number: (found.number > 0).then_some(found.number),
+            place: found.place.clone(),
+        }
+    }
+}
+
+/// What all parts of a frame show of the rack, and of what is expected.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct FrameFacts {
+    /// Name of the rack; left out if it has none, or there is no rack.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rack: Option<String>,
+    /// The places of the rack at which nothing hangs; left out without a rack that has places.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub empty_places: Option<Vec<RackPlace>>,
+    /// The expected parts that nothing hangs in place of; left out if nothing is expected.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub missing: Option<Vec<MissingPart>>,
+}
+
+/// Where a part on a line has its pose, and how long ago it was there.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct OnLineNow {
+    #[serde(flatten)]
+    on_line: OnLine,
+    /// Milliseconds since it was there, at most 16777215.
+    since_ms: u32,
+}
+
 /// The result of an inspection.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Found {
@@ -406,6 +459,8 @@ pub struct Found {
     pub part: String,
     /// Number of the reference in whose coordinates the pose is; 0 if it has none.
     pub number: u32,
+    /// The place of the rack where it hangs or, if it is missing, is expected; none if that is no place.
+    pub place: Option<RackPlace>,
     /// Any of [`Answer::APPROXIMATE`], [`Answer::SIMULATED`] and [`Answer::MOTION_UNCHECKED`].
     pub marks: u16,
     /// The pose in the robot's base frame: of the part, sent only while the verdict is accepted, or of the flange, to a robot
@@ -475,13 +530,15 @@ pub struct FrameParts {
     pub first: Found,
     /// Further parts, in their order.
     pub others: Vec<Found>,
+    /// What they show together.
+    pub facts: Arc<FrameFacts>,
 }
 
 impl From<Found> for FrameParts {
     fn from(first: Found) -> Self {
         Self {
             first,
-            others: Vec::new(),
+            ..Self::default()
         }
     }
 }
@@ -592,6 +649,8 @@ pub struct Answer {
     pub part: String,
     /// Number of the reference; 0 if it has none.
     pub number: u32,
+    /// The place of the rack where the part hangs or, if it is missing, is expected; none if that is no place.
+    pub place: Option<RackPlace>,
     /// The flags of this type except [`Answer::POSE`], which [`Answer::flags`] adds.
     pub marks: u16,
     /// Number of the path's point, from 1; in the answer to [`Request::Part`] that of the part; 0 in other answers.
@@ -606,6 +665,8 @@ pub struct Answer {
     pub on_line_since_ms: Option<u32>,
     /// Number of parts of the frame, refused ones included.
     pub num_parts: u32,
+    /// What the parts of the frame show together.
+    pub facts: Arc<FrameFacts>,
     /// Speed from this point to the next, mm/s.
     pub speed_mm_s: Option<f64>,
     /// Pose in the robot's base frame; only with an accepted verdict, or for a robot that should move there.
@@ -654,6 +715,18 @@ impl Answer {
             .unwrap_or(-1)
     }
 
+    /// The number of the part's place, 0 for none; `None` without a rack that has places.
+    pub(super) fn place_number(&self) -> Option<u32> {
+        self.facts.empty_places.as_ref()?;
+        Some(self.place.as_ref().map_or(0, |place| place.number))
+    }
+
+    /// Where the part is on the line, if it has a pose there.
+    pub fn on_line_now(&self) -> Option<OnLineNow> {
+        let (on_line, since_ms) = self.on_line.zip(self.on_line_since_ms)?;
+        Some(OnLineNow { on_line, since_ms })
+    }
+
     /// An answer to a client that is refused, or whose request could not be read.
     pub(super) fn turned_away(verdict: VerdictCode, problem: Problem, at: &Situation) -> Self {
         Self {
@@ -696,7 +769,9 @@ impl Answer {
             camera: at.camera.state,
             part: found.part.clone(),
             number: found.number,
+            place: found.place.clone(),
             marks,
+            facts: Arc::clone(&inspected.found.facts),
             // No part, no number.
             index: u32::try_from(index + 1).map_or(num_parts, |index| index.min(num_parts)),
             num_parts,
@@ -831,6 +906,10 @@ mod tests {
             captured: Some(captured),
             part: "fender".into(),
             number: 3,
+            place: Some(RackPlace {
+                number: 2,
+                name: "right hook".into(),
+            }),
             marks: Answer::SIMULATED,
             pose: Some(pose()),
             servo_error: None,

@@ -5,10 +5,10 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use geometry::rigid::row_major;
-use robot::{Convention, RobotPose, line::OnLine};
+use robot::{Convention, RobotPose};
 use serve::{
-    Answer, CameraState, ExpectedNumber, ExpectedNumbers, LibraryStatus, PathStep, Problem,
-    VerdictCode,
+    Answer, CameraState, ExpectedNumber, ExpectedNumbers, FrameFacts, LibraryStatus, OnLineNow,
+    PathStep, Problem, RackPlace, VerdictCode,
 };
 
 /// What a trigger may say of its frame.
@@ -70,23 +70,17 @@ pub(super) struct AnswerBody {
     index: u32,
     /// How many parts hang in the frame, refused ones included.
     num_parts: u32,
+    /// The place of the rack where it hangs or, if it is missing, is expected; left out if that is no place.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    place: Option<RackPlace>,
     /// How many points the part's spray path has; 0 without a pose.
     points: u32,
     /// The pose in the robot's base frame; null unless the part was accepted and the frame is fresh.
     pose: Option<PoseBody>,
     /// Where the part is on the line of a camera beside one; null without a pose.
-    on_line: Option<OnLineBody>,
+    on_line: Option<OnLineNow>,
     /// Why there is no pose; of the status why the camera gives nothing; null if there is nothing to say.
     problem: Option<Problem>,
-}
-
-/// A part on a line where it has its pose.
-#[derive(Debug, JsonSchema, Serialize)]
-struct OnLineBody {
-    #[serde(flatten)]
-    on_line: OnLine,
-    /// Milliseconds since it was there, at most 16777215.
-    since_ms: u32,
 }
 
 /// A pose in the robot's base frame.
@@ -114,13 +108,13 @@ impl AnswerBody {
             motion_checked: !has(Answer::MOTION_UNCHECKED),
             index: answer.index,
             num_parts: answer.num_parts,
+            place: answer.place.clone(),
             points: answer.points,
             pose: answer.pose.map(|pose| PoseBody {
                 in_convention: convention.write(&pose),
                 transform: row_major(&pose),
             }),
-            on_line: (answer.on_line.zip(answer.on_line_since_ms))
-                .map(|(on_line, since_ms)| OnLineBody { on_line, since_ms }),
+            on_line: answer.on_line_now(),
             problem: (answer.problem != Problem::default()).then(|| answer.problem.clone()),
         }
     }
@@ -147,6 +141,8 @@ pub(super) struct FrameBody {
     answer: AnswerBody,
     /// Every part, from left to right, accepted ones first; empty if nothing recognisable hangs there.
     parts: Vec<AnswerBody>,
+    #[serde(flatten)]
+    facts: FrameFacts,
 }
 
 impl FrameBody {
@@ -155,6 +151,7 @@ impl FrameBody {
         Self {
             answer: AnswerBody::of(&answers[0], convention),
             parts: parts.map(|part| AnswerBody::of(part, convention)).collect(),
+            facts: (*answers[0].facts).clone(),
         }
     }
 }

@@ -406,6 +406,9 @@ impl Shared {
             motion_checked: !has(Answer::MOTION_UNCHECKED),
             index: answer.index,
             num_parts: answer.num_parts,
+            on_line: answer.on_line_now(),
+            place: answer.place,
+            facts: (*answer.facts).clone(),
             number: (answer.number > 0).then_some(answer.number),
             pose: answer.pose.map(|pose| PoseMessage {
                 transform: kind,

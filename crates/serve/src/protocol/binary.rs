@@ -38,7 +38,8 @@
 //! | 32 | 4 | point |
 //! | 36 | 4 | points |
 //! | 40 | 2 | number of the pose's reals; 0: no pose |
-//! | 42 | 6 | reserved, 0 |
+//! | 42 | 2 | number of the part's place in the rack; 0: none |
+//! | 44 | 4 | reserved, 0 |
 //! | 48 | 8 | speed in mm/s; 0: none |
 //! | 56 | 56 | seven reals: the numbers of the convention, then zeros |
 //! | 112 | 64 | name of the part |
@@ -220,7 +221,8 @@ pub(super) fn write(answer: &Answer, convention: Convention, order: ByteOrder) -
     frame.long(answer.point);
     frame.long(answer.points);
     frame.short(numbers.len() as u16);
-    frame.zeros(6);
+    frame.short(answer.place_number().unwrap_or(0) as u16);
+    frame.zeros(4);
     frame.real(answer.speed_mm_s.unwrap_or(0.0));
     for i in 0..MAX_NUMBERS {
         frame.real(numbers.get(i).copied().unwrap_or(0.0));

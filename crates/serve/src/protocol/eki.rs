@@ -152,7 +152,9 @@ pub(super) fn write(answer: &Answer) -> String {
         let elements = figures.map(|(tag, figure)| format!("<{tag}>{figure}</{tag}>"));
         elements.collect::<String>()
     });
-    let further = [pose, on_line, error].map(Option::unwrap_or_default);
+    let place = answer.place_number();
+    let place = place.map(|number| format!("<Place>{number}</Place>"));
+    let further = [pose, on_line, error, place].map(Option::unwrap_or_default);
     format!(
         "<Partsight>{}{}</Partsight>\n",
         elements.concat(),
