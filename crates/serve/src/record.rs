@@ -29,7 +29,7 @@ impl InspectionRecord {
 
     fn of(inspected: &Inspected, index: usize, at: Situation) -> Self {
         // Judge with the path, then leave it out of the record: it may be long.
-        let answer = Answer::of(Request::Last, inspected, index, &at);
+        let answer = Answer::of(&Request::Last, inspected, index, &at);
         let found = Found {
             verdict: answer.verdict,
             captured: inspected.found.first.captured,
@@ -72,7 +72,7 @@ impl InspectionRecord {
         Answer {
             index: self.index,
             num_parts: self.num_parts,
-            ..Answer::of(Request::Last, &self.inspected, 0, &now)
+            ..Answer::of(&Request::Last, &self.inspected, 0, &now)
         }
     }
 }

@@ -16,7 +16,7 @@ use inspection::{
 };
 use records::history::Traceability;
 use robot::RobotFrame;
-use serve::{ExpectedNumbers, Found, FrameFacts, FrameParts, VerdictCode};
+use serve::{AskedOrder, ExpectedNumbers, Found, FrameFacts, FrameParts, VerdictCode};
 use stages::scene::SceneCloud;
 
 /// What triggers are answered with.
@@ -61,6 +61,24 @@ impl Answered {
             part.on_line = found.on_line.filter(|_| found.pose.is_some());
         }
         parts
+    }
+}
+
+/// What a trigger is traced by that names an order: a serial number is of the present order, unless another one is named.
+/// Without either, `own`.
+pub fn traced(asked: &AskedOrder, own: &Traceability) -> Traceability {
+    if !asked.is_given() {
+        return own.clone();
+    }
+    let AskedOrder { order, serial } = asked.clone();
+    Traceability {
+        order: if order.is_empty() {
+            own.order.clone()
+        } else {
+            order
+        },
+        serial,
+        operator: own.operator.clone(),
     }
 }
 
@@ -199,6 +217,25 @@ mod tests {
                 name: "cell 1".into(),
             },
             kind: PoseKind::RobotFromPart,
+        }
+    }
+
+    #[test]
+    fn a_trigger_is_traced_by_what_it_names_and_by_nothing_of_another_part() {
+        let trace = |serial: &str, order: &str| Traceability {
+            serial: serial.into(),
+            order: order.into(),
+            operator: "Ada".into(),
+        };
+        let own = trace("TL-1", "4711");
+        for (order, serial, expected) in [
+            ("", "", trace("TL-1", "4711")),
+            ("4712", "", trace("", "4712")),
+            ("", "TL-2", trace("TL-2", "4711")),
+            ("4712", "TL-2", trace("TL-2", "4712")),
+        ] {
+            let asked = AskedOrder::new(order, serial).expect("plain");
+            assert_eq!(traced(&asked, &own), expected, "{asked:?}");
         }
     }
 

@@ -27,7 +27,7 @@ mod scenes;
 pub mod servoing;
 
 pub use self::{
-    answer::{Answered, Answering},
+    answer::{Answered, Answering, traced},
     camera::{Camera, NewFrame, NoFrame, camera_status},
     doubt::{ClockAhead, Doubt, age_doubt},
     finder::{NumberedPart, PartFinder},

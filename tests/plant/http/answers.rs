@@ -471,6 +471,13 @@ fn a_trigger_may_say_what_is_expected_and_a_body_that_says_something_else_is_ref
         placed("{\"expected\": [3, 5], \"places\": [1]}"),
         plain + 108
     );
+    let ordered = [
+        "{\"order\": \"4711\"}",
+        "{\"order\": \"A 17\", \"serial\": \"TL-1\"}",
+    ];
+    for (body, letters) in ordered.into_iter().zip([4, 8]) {
+        assert_eq!(number(client.trigger_with(body)), plain + 1000 * letters);
+    }
     let num_before = service.num_inspected();
     for body in [
         "{\"expected\": 3}",
@@ -479,6 +486,9 @@ fn a_trigger_may_say_what_is_expected_and_a_body_that_says_something_else_is_ref
         "{\"expected\": [1, 2, 3, 4, 5, 6, 7, 8, 9]}",
         "{\"expect\": [3]}",
         "{\"expected\": [3], \"places\": [1, 2]}",
+        "{\"order\": 4711}",
+        "{\"order\": \"4711\", \"expected\": [3]}",
+        "{\"serial\": \"a\\tb\"}",
         "expected=3",
         "[3]",
     ] {

@@ -1,5 +1,7 @@
 //! Bodies of the answers. Compatible changes only add fields.
 
+use std::iter;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -7,8 +9,8 @@ use serde_json::{Map, Value};
 use geometry::rigid::row_major;
 use robot::{Convention, RobotPose};
 use serve::{
-    Answer, CameraState, ExpectedNumber, ExpectedNumbers, FrameFacts, LibraryStatus, OnLineNow,
-    PathStep, Problem, RackPlace, VerdictCode,
+    Answer, AskedOrder, CameraState, ExpectedNumber, FrameFacts, LibraryStatus, OnLineNow,
+    PathStep, Problem, RackPlace, Request, VerdictCode,
 };
 
 /// What a trigger may say of its frame.
@@ -21,25 +23,34 @@ pub(super) struct TriggerBody {
     /// The number of the place of each, by the order of the rack's file, from 1; 0, or none at its end, for any place.
     #[serde(default)]
     places: Vec<u32>,
+    /// The production order whose parts should hang there, instead of their numbers.
+    #[serde(default)]
+    order: String,
+    /// The serial number of what hangs there, alone or with its order.
+    #[serde(default)]
+    serial: String,
 }
 
 impl TriggerBody {
     /// Reads a body; an empty one expects nothing. `None` if it is something else.
-    pub(super) fn expected_in(body: &[u8]) -> Option<ExpectedNumbers> {
+    pub(super) fn request_in(body: &[u8]) -> Option<Request> {
         let read = |body| serde_json::from_slice::<Self>(body).ok();
-        let Self { expected, places } = match body.trim_ascii() {
+        let Self {
+            expected,
+            places,
+            order,
+            serial,
+        } = match body.trim_ascii() {
             [] => Self::default(),
             body => read(body)?,
         };
         if expected.contains(&0) || places.len() > expected.len() {
             return None;
         }
-        let mut numbers = ExpectedNumbers::default();
-        for (index, part) in expected.into_iter().enumerate() {
-            let place = places.get(index).copied().unwrap_or(0);
-            *numbers.get_mut(index)? = ExpectedNumber { part, place };
-        }
-        Some(numbers)
+        let places = places.into_iter().chain(iter::repeat(0));
+        let parts = expected.into_iter().zip(places);
+        let parts = parts.map(|(part, place)| ExpectedNumber { part, place });
+        Request::expecting(parts)?.of_order(AskedOrder::new(&order, &serial)?)
     }
 }
 

@@ -15,7 +15,7 @@ use crate::answer::{Answer, Request};
 use robot::{Convention, RobotValue};
 
 pub(super) fn write(answer: &Answer, convention: Convention) -> String {
-    let request = answer.request.map_or("NONE", name_of);
+    let request = answer.request.as_ref().map_or("NONE", name_of);
     let speed = answer.speed_mm_s.map(|speed| format!("{speed:.1}"));
     let mut fields = vec![
         request.to_owned(),
@@ -68,7 +68,7 @@ pub(super) fn figure(figure: f64) -> String {
 }
 
 /// The word for a request.
-pub(super) fn name_of(request: Request) -> &'static str {
+pub(super) fn name_of(request: &Request) -> &'static str {
     request.name().0
 }
 

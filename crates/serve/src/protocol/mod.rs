@@ -338,8 +338,8 @@ mod tests {
                 (Protocol::Ascii, b"PATH 3 41\r\n".to_vec()),
                 (Protocol::UrScript, b"path 3 41\n".to_vec()),
                 (Protocol::Eki, element.to_vec()),
-                (Protocol::Binary(ByteOrder::Little), binary::request(wanted, ByteOrder::Little)),
-                (Protocol::Binary(ByteOrder::Big), binary::request(wanted, ByteOrder::Big)),
+                (Protocol::Binary(ByteOrder::Little), binary::request(&wanted, ByteOrder::Little)),
+                (Protocol::Binary(ByteOrder::Big), binary::request(&wanted, ByteOrder::Big)),
             ];
             for (protocol, bytes) in requests {
                 let cut = cut % bytes.len();
@@ -351,7 +351,7 @@ mod tests {
                 }
                 prop_assert_eq!(begun.request, None, "{} of {}", cut, protocol.name());
                 let whole = parse(&bytes);
-                prop_assert_eq!(whole.request, Some(Ok(wanted)));
+                prop_assert_eq!(whole.request, Some(Ok(wanted.clone())));
             }
         }
     }
