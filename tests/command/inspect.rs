@@ -4,7 +4,10 @@ use std::{fs, path::Path};
 
 use serde_json::Value;
 
-use crate::workplace::{Workplace, matrix};
+use crate::{
+    kit::csv_column,
+    workplace::{Workplace, matrix},
+};
 
 #[test]
 fn the_pose_is_that_of_the_simulation() {
@@ -216,6 +219,31 @@ fn a_wrong_part_a_missing_one_and_one_too_many_are_told_by_what_is_expected() {
     assert_eq!(again["again"]["same"], true, "{again}");
     assert_eq!(again["again"]["changed"], Value::Array(vec![]), "{again}");
     assert_eq!(again["verdict"], "not_accepted", "{again}");
+    // What was missing is in the row of the first part alone.
+    let history = ["--history", "history"];
+    let export = ["history", "export", "--csv", "all.csv"];
+    place.accepted(&[&export[..], &history].concat());
+    let table = place.read("all.csv");
+    let columns = ["number", "expected", "missing"].map(|column| csv_column(&table, column));
+    let [numbers, expected, missing] = columns;
+    let rows = numbers.iter().zip(expected.iter().zip(&missing));
+    let mut found = Vec::new();
+    for (number, (expected, missing)) in rows {
+        let shown = place.accepted(&[&["history", "show", number], &history[..]].concat());
+        let row = |name: &str| {
+            let mut lines = shown.out.lines();
+            let line = lines.find_map(|line| line.strip_prefix(name));
+            line.unwrap_or_default().trim().replace(", ", "|")
+        };
+        assert_eq!([&row("expected"), &row("missing")], [expected, missing]);
+        if expected == "front_door|trunk_lid|grille" {
+            found.push(missing.as_str());
+        } else {
+            assert_eq!(missing, "", "{expected}");
+        }
+    }
+    found.sort_unstable();
+    assert_eq!(found, ["", "grille"]);
 }
 
 #[test]

@@ -200,6 +200,8 @@ pub struct Inspection {
     pub place: Option<String>,
     /// True if the part continues outside the work volume.
     pub leaves_volume: bool,
+    /// Of the first part of a frame in which parts are expected: those that nothing hangs in place of.
+    pub missing: Option<Vec<ExpectedPart>>,
     /// How long each stage took.
     pub timings: Timings,
 }
@@ -252,6 +254,12 @@ pub fn run_all(
         let from_left = a.direction().total_cmp(&b.direction());
         rank(a).cmp(&rank(b)).then(from_left)
     });
+    let expected = &recipe.expected;
+    if !expected.is_empty() {
+        let missing = expected.missing(&found.iter().collect::<Vec<_>>());
+        let missing = missing.into_iter().cloned().collect();
+        found[0].missing = Some(missing);
+    }
     Ok(found)
 }
 
@@ -405,6 +413,7 @@ impl Inspection {
             verdict: Verdict::NoPart(why),
             place: None,
             leaves_volume: false,
+            missing: None,
             timings: Timings::default(),
         }
     }

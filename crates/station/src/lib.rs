@@ -28,7 +28,7 @@ pub mod servoing;
 mod station;
 
 pub use self::{
-    answer::{Answered, Answering},
+    answer::{Answered, Answering, traced},
     camera::{Camera, NewFrame, NoFrame, camera_status},
     doubt::{ClockAhead, Doubt, age_doubt},
     finder::{NumberedPart, PartFinder},

@@ -177,6 +177,21 @@ impl NotKnown {
 }
 
 impl Session {
+    /// The table of orders in use, if there is one.
+    pub(crate) fn orders(&self) -> Result<Option<Arc<Orders>>, NotKnown> {
+        let Some(table) = &self.expecting.orders else {
+            return Ok(None);
+        };
+        let unread = || NotKnown::Unread {
+            file: file_name(&table.path),
+        };
+        let content = table.content.as_ref().ok_or_else(unread)?;
+        let orders = content
+            .as_ref()
+            .map_err(|e| NotKnown::Table(Arc::clone(e)))?;
+        Ok(Some(Arc::clone(orders)))
+    }
+
     /// What should hang there for an order and a serial number.
     pub(crate) fn expected_of(&self, trace: &Traceability) -> Result<Expected, NotKnown> {
         // A library that is not loaded yet is not known to lack a part.
@@ -187,9 +202,8 @@ impl Session {
                 parts.any(|part| part.part_name().as_str() == name)
             })
         };
-        let expecting = &self.expecting;
-        let Some(table) = &expecting.orders else {
-            let parts = expecting.chosen.iter();
+        let Some(orders) = self.orders()? else {
+            let parts = self.expecting.chosen.iter();
             let chosen = parts.filter(|part| is_enrolled(&part.name)).cloned();
             let rack = Some(self.rack.in_camera());
             let chosen = Expected::new(chosen.collect(), rack, is_enrolled);
@@ -200,13 +214,6 @@ impl Session {
                 error,
             });
         };
-        let unread = || NotKnown::Unread {
-            file: file_name(&table.path),
-        };
-        let content = table.content.as_ref().ok_or_else(unread)?;
-        let orders = content
-            .as_ref()
-            .map_err(|e| NotKnown::Table(Arc::clone(e)))?;
         let expected = orders.expected(trace, Some(self.rack.in_camera()), is_enrolled);
         expected.map_err(NotKnown::Order)
     }

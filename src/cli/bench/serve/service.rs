@@ -138,7 +138,7 @@ impl ServedProtocol {
             Protocol::Ascii | Protocol::UrScript => (Framing::Line, lines()),
             Protocol::Binary(order) => {
                 let frames = [Request::Status, Request::TRIGGER];
-                let frames = frames.map(|request| binary_request(request, order));
+                let frames = frames.map(|request| binary_request(&request, order));
                 (Framing::Bytes(ANSWER_BYTES), frames)
             }
             Protocol::Eki => {
