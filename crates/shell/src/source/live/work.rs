@@ -9,7 +9,7 @@ use std::{
 
 use nalgebra::Point3;
 
-use super::parts::FollowedParts;
+use super::parts::{FollowedParts, assign_as_before};
 use crate::{
     inspection::{
         inspected::{FinishedInspection, InspectRequest, Inspected, LiveFrameContext, inspect_all},
@@ -17,7 +17,6 @@ use crate::{
         recording::Recorded,
         source::{Captured as SceneOrigin, Origin, SceneSource},
     },
-    source::inspector::assign_as_before,
     trace::current_trace::CurrentTrace,
 };
 use capture::{Captured, Feed, FeedItem, FeedState, FrameRate, SourceSpec};
