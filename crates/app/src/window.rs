@@ -1,6 +1,11 @@
 //! The window as eframe drives it: polls tasks, draws the last results, applies the user's actions.
 
-use std::{io, path::PathBuf, sync::Arc, time::Duration};
+use std::{
+    io,
+    path::{Path, PathBuf},
+    sync::Arc,
+    time::Duration,
+};
 
 use eframe::egui_wgpu::RenderState;
 use egui::{CentralPanel, Frame, LayerId, Ui};
@@ -14,7 +19,7 @@ use super::workspaces::{
     paint::PaintWorkspace,
     servo::ServoWorkspace,
 };
-use files::file_of;
+use files::{FileLock, disk, file_of};
 use inspection::pipeline::{RecipeFolder, open_recipe};
 use records::history::{HistoryBuffer, Writer};
 use robot::{cell_check::CellCheckFolder, frame_poses::FRAME_POSES};
@@ -24,10 +29,7 @@ use shell::{
     cell::RobotCell,
     context::Services,
     file_dialog::{DialogLock, FileDialog},
-    frame::{
-        closing::{self},
-        dialogs, keys, notices, operator_bars, rail, top_bar,
-    },
+    frame::{dialogs, keys, notices, operator_bars, rail, top_bar},
     inspection::{
         camera::Camera,
         inspected::Inspected,
@@ -41,7 +43,7 @@ use shell::{
     settings,
     settings_file::Memory,
     source::{
-        inspector,
+        inspect,
         live::{self, LiveAction},
     },
     state::{Closing, State, remove_notices},
@@ -59,10 +61,7 @@ use ui::{
     viewport::{ViewError, ViewportGpu},
 };
 
-mod data_lock;
 mod hosting;
-
-use self::data_lock::DataLock;
 
 /// Options for opening the window.
 #[derive(Clone, Debug, Default)]
@@ -246,7 +245,7 @@ impl Window {
 
     /// Shows a result made elsewhere as a new inspection; cancels a running one.
     pub fn show_result(&mut self, inspected: Arc<Inspected>, ctx: &egui::Context) {
-        let event = inspector::show_made(&mut self.state, inspected);
+        let event = inspect::show_made(&mut self.state, inspected);
         self.tell(&event, ctx);
     }
 
@@ -430,7 +429,7 @@ impl Window {
         let enrol = self.hosted(WorkspaceKind::Enrol);
         let has_draft = enrol.is_some_and(|enrol| enrol.unsaved().is_some());
         self.state.inspector.loader.may_reload = !(is_enrolling && has_draft);
-        let inspected = inspector::update(&mut self.state);
+        let inspected = inspect::update(&mut self.state);
         let counted = live::update(&mut self.state);
         let traced = entry::update(&self.state.session, ctx);
         expecting::update(&mut self.state);
@@ -512,7 +511,7 @@ impl Window {
         live::set_up(&ctx, &self.state, &mut actions);
         rack::window(&ctx, &self.state, &mut actions);
         roles::dialog(&ctx, &self.state, &mut actions);
-        closing::dialog(&ctx, &self.state, &mut actions);
+        dialogs::closing(&ctx, &self.state, &mut actions);
         let of_robot = self.robot.ui(&ctx, &self.state.session);
         actions.extend(
             of_robot
@@ -591,5 +590,30 @@ impl eframe::App for Window {
             workspace.close();
         }
         self.memory.finish();
+    }
+}
+
+/// Name of the lock file in the folder of the history.
+const WINDOW_LOCK: &str = "window.lock";
+
+/// Held while a window is open, so that a second one notices that another is open with the same data folder.
+struct DataLock {
+    /// True if another window holds the lock.
+    is_taken: bool,
+    _lock: Option<FileLock>,
+}
+
+impl DataLock {
+    /// Tries to take the lock. If that fails for another reason, for example on a network file system without locks, it counts
+    /// as free.
+    fn take(folder: Option<&Path>) -> Self {
+        let taken = folder.and_then(|folder| {
+            disk::create_dir_all(folder).ok()?;
+            FileLock::try_exclusive(&folder.join(WINDOW_LOCK)).ok()
+        });
+        Self {
+            is_taken: matches!(taken, Some(None)),
+            _lock: taken.flatten(),
+        }
     }
 }

@@ -11,7 +11,7 @@ use crate::{
     roles::RoleAction,
     session::WorkspaceKind,
     source::live::LiveAction,
-    trace::expecting::ExpectAction,
+    trace::orders::ExpectAction,
 };
 use robot::Convention;
 use ui::language::Language;

@@ -176,7 +176,7 @@ mod tests {
         let library = Action::Chosen(DialogRequest::Library, "src".into());
         apply(&mut state, library);
         assert!(state.inspector.run_waiting());
-        crate::source::inspector::update(&mut state);
+        crate::source::inspect::update(&mut state);
         let remembered = Settings::of(&state, None).library;
         assert_eq!(remembered, Some(here.join("src")));
     }

@@ -14,6 +14,7 @@ use std::{
 use super::{notice::Notice, path_entry::PathEntry};
 use files::{POINT_ENDINGS, disk, folder_of, words_of};
 use geometry::error::lock;
+use robot::program::RobotLanguage;
 use ui::language::text;
 
 /// A kind of files: its name and its endings.
@@ -51,6 +52,11 @@ pub fn all_files() -> FileFilter {
 /// A filter for all files that hold points.
 pub fn points() -> FileFilter {
     (text!("shell-scenes-clouds-meshes"), POINT_ENDINGS)
+}
+
+/// A filter for robot programs.
+pub fn program_files() -> FileFilter {
+    (text!("program-files"), &RobotLanguage::ENDINGS)
 }
 
 /// The file dialog of one owner, who distinguishes its requests by `K`.

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     action::Action,
-    cell::{AnswerSetup, ServoSettings, program_setup::ProgramSetup},
+    cell::{AnswerSetup, ProgramSetup, ServoSettings},
     inspection::{
         inspected::{InspectJob, Inspected},
         library_cache::LibraryView,

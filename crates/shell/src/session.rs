@@ -2,11 +2,11 @@
 
 use std::{path::PathBuf, ptr, sync::Arc};
 
+use jiff::{Zoned, civil};
 use serde::{Deserialize, Serialize};
 
-use super::shift::{ShiftParts, ShiftStarts};
 use crate::{
-    cell::{AnswerSetup, ServoSettings, program_setup::ProgramSetup},
+    cell::{AnswerSetup, ProgramSetup, ServoSettings},
     inspection::{
         inspected::{InspectJob, InspectRequest, Inspected},
         library_cache::LibraryView,
@@ -16,11 +16,14 @@ use crate::{
     },
     rack::{RackEditor, RackInUse},
     source::live::LiveState,
-    trace::{current_trace::CurrentTrace, expecting::Expecting},
+    trace::{current_trace::CurrentTrace, orders::Expecting},
 };
 use capture::SourceSpec;
-use inspection::pipeline::{Expected, NamedRecipe};
-use records::history::StoredVerdict;
+use inspection::{
+    library::Truth,
+    pipeline::{Expected, NamedRecipe},
+};
+use records::history::{HungId, StoredVerdict, Summary};
 use robot::{Convention, RobotFrame};
 use stages::{rack::Rack, scene::EmptyCell};
 use station::Doubt;
@@ -415,6 +418,145 @@ impl UserRole {
         match self {
             Self::Operator => text!("shell-operator"),
             Self::Engineer => text!("shell-engineer"),
+        }
+    }
+}
+
+/// The local times of day at which shifts start; without any, a shift is a day.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "Vec<String>", into = "Vec<String>")]
+pub struct ShiftStarts(Vec<civil::Time>);
+
+impl Default for ShiftStarts {
+    fn default() -> Self {
+        Self([6, 14, 22].map(|hour| civil::time(hour, 0, 0, 0)).into())
+    }
+}
+
+impl TryFrom<Vec<String>> for ShiftStarts {
+    type Error = String;
+
+    fn try_from(written: Vec<String>) -> Result<Self, String> {
+        let times = written.iter().map(|text| {
+            civil::Time::strptime("%H:%M", text)
+                .map_err(|_no_time| format!("\"{text}\" is no time of day such as 06:00"))
+        });
+        times.collect::<Result<_, _>>().map(Self)
+    }
+}
+
+impl From<ShiftStarts> for Vec<String> {
+    fn from(starts: ShiftStarts) -> Self {
+        let times = starts.0.iter();
+        times
+            .map(|time| time.strftime("%H:%M").to_string())
+            .collect()
+    }
+}
+
+impl ShiftStarts {
+    /// Returns start and end of the shift at this moment. A start that the clock skips (summer time) is delayed by the skipped
+    /// time.
+    pub fn around(&self, now: &Zoned) -> [Option<Zoned>; 2] {
+        let midnight = [civil::Time::midnight()];
+        let times = if self.0.is_empty() {
+            &midnight[..]
+        } else {
+            &self.0
+        };
+        let today = now.date();
+        let days = [today.yesterday().ok(), Some(today), today.tomorrow().ok()];
+        let starts = days.into_iter().flatten().flat_map(|day| {
+            let zone = now.time_zone();
+            times
+                .iter()
+                .filter_map(move |time| day.to_datetime(*time).to_zoned(zone.clone()).ok())
+        });
+        let (past, coming): (Vec<Zoned>, Vec<Zoned>) = starts.partition(|start| start <= now);
+        [past.into_iter().max(), coming.into_iter().min()]
+    }
+}
+
+/// The parts of this shift.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ShiftParts {
+    /// Start of the shift; `None` until the parts were counted.
+    pub since: Option<Zoned>,
+    /// The source that they hung in front of; `None` while there was only a file or a scan. Known in both views.
+    pub source: Option<Source>,
+    /// Accepted parts, except those that were reported as wrong.
+    pub num_ok: usize,
+    /// All other parts.
+    pub num_not_ok: usize,
+    /// The last parts, accepted or not, newest first.
+    pub last: Vec<Summary>,
+    /// True labels of the latest parts that have one; known in both views.
+    pub labelled: Vec<(HungId, Truth)>,
+}
+
+impl ShiftParts {
+    /// Name in the history of the source that they hung in front of.
+    pub fn source_name(&self) -> Option<String> {
+        let followed = self.source.as_ref()?.followed()?;
+        Some(followed.to_string())
+    }
+
+    /// What really hung there, if the part was accepted as another one and a person has reported that.
+    pub fn reported_as(&self, inspected: &Inspected) -> Option<&Truth> {
+        let (_, truth) = (self.labelled.iter()).find(|(part, _)| part == inspected.hung())?;
+        let summary = Summary {
+            label: Some(truth.clone()),
+            ..inspected.entry.record.summary.clone()
+        };
+        summary.is_wrongly_accepted().then_some(truth)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn around(starts: &[&str], now: &str) -> [String; 2] {
+        let starts: Vec<String> = starts.iter().map(|time| (*time).to_owned()).collect();
+        let starts = ShiftStarts::try_from(starts).expect("times of day");
+        let now: Zoned = now.parse().expect("a moment");
+        starts.around(&now).map(|at| {
+            let at = at.expect("a start").timestamp();
+            at.to_string()
+        })
+    }
+
+    #[test]
+    fn a_shift_lasts_from_one_start_to_the_next() {
+        let three = ["14:00", "22:00", "06:00"];
+        let at = |time: &str| around(&three, &format!("2026-11-21T{time}+01:00[Europe/Berlin]"));
+        let early = ["2026-11-21T05:00:00Z", "2026-11-21T13:00:00Z"];
+        assert_eq!(at("06:00:00"), early);
+        assert_eq!(at("13:59:59"), early);
+        let late = ["2026-11-20T21:00:00Z", "2026-11-21T05:00:00Z"];
+        assert_eq!(at("05:59:59"), late, "it began yesterday");
+        assert_eq!(
+            at("22:30:00"),
+            ["2026-11-21T21:00:00Z", "2026-11-22T05:00:00Z"]
+        );
+        // Without starts, a shift is a day.
+        let day = around(&[], "2026-11-21T15:00:00+01:00[Europe/Berlin]");
+        assert_eq!(day, ["2026-11-20T23:00:00Z", "2026-11-21T23:00:00Z"]);
+    }
+
+    #[test]
+    fn a_start_that_the_clock_skips_comes_later_that_day() {
+        let night = around(&["02:30"], "2026-03-29T12:00:00+02:00[Europe/Berlin]");
+        assert_eq!(night, ["2026-03-29T01:30:00Z", "2026-03-30T00:30:00Z"]);
+    }
+
+    #[test]
+    fn starts_are_written_as_times_of_day() {
+        let written: Vec<String> = ShiftStarts::default().into();
+        assert_eq!(written, ["06:00", "14:00", "22:00"]);
+        for bad in ["25:00", "noon", ""] {
+            let refused = ShiftStarts::try_from(vec![bad.to_owned()]);
+            assert!(refused.is_err_and(|why| why.contains("06:00")), "{bad}");
         }
     }
 }

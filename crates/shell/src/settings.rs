@@ -16,11 +16,11 @@ use super::{
     state::State,
 };
 use crate::{
-    cell::{AnswerSetup, ServoSettings, program_setup::ProgramSetup},
+    cell::{AnswerSetup, ProgramSetup, ServoSettings},
     inspection::{library_cache::LibraryCache, unit_system::UnitSystem},
     rack::RackInUse,
     source::live::LiveState,
-    trace::{current_trace::CurrentTrace, expecting::Expecting},
+    trace::{current_trace::CurrentTrace, orders::Expecting},
 };
 use files::{FileError, advice_on, disk, user_settings, write_text};
 use geometry::error::Advice as _;

@@ -12,7 +12,7 @@ use super::{
 use crate::{
     inspection::library_cache::LibraryCache,
     source::{inspector::Inspector, live::Follower},
-    trace::expecting::OrdersWatch,
+    trace::orders::OrdersWatch,
 };
 use ui::task::{Task, TaskRunner};
 

@@ -13,7 +13,7 @@ use geometry::rigid::from_euler_zyx;
 use inspection::library::{LibraryFolder, SprayPath};
 use shell::{
     action::{Action, Effect},
-    cell::{RobotAction, program_setup::ProgramSetup},
+    cell::{ProgramSetup, RobotAction},
     session::WorkspaceKind,
 };
 

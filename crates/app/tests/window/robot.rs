@@ -21,7 +21,7 @@ use robot::{
 };
 use shell::{
     action::{Action, Effect},
-    cell::{RobotAction, RobotPage, program_setup::ProgramSetup},
+    cell::{ProgramSetup, RobotAction, RobotPage},
     session::{RememberedCell, ThemeChoice, WorkspaceKind},
     state::State,
 };

@@ -4,9 +4,9 @@ use egui::{Label, RichText, Role, TextEdit, Ui, WidgetInfo};
 use jiff::{Timestamp, tz::TimeZone};
 
 use super::{
-    answer_setup::AnswerSetup,
     answering::{AnsweringStatus, LastAnswer},
     controls::{choice, error_row},
+    setup::AnswerSetup,
     state::RobotCell,
 };
 use crate::{

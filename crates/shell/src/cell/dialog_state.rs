@@ -2,7 +2,7 @@
 
 use std::{path::PathBuf, sync::Arc};
 
-use super::{answer_setup::AnswerSetup, work::SolvedPairs};
+use super::{setup::AnswerSetup, work::SolvedPairs};
 use crate::{
     file_dialog::{FileChoice, FileRequest, all_files},
     session::Session,

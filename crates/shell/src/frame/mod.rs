@@ -1,6 +1,5 @@
 //! What is drawn around the workspaces: bars, rail, notices, the list of keys, and the question before the window closes.
 
-pub mod closing;
 pub mod dialogs;
 pub mod keys;
 pub mod notices;

@@ -7,8 +7,7 @@ use crate::{
     action::Action,
     cell::{self, RobotCell},
     roles::RoleAction,
-    session::{Session, WorkspaceKind},
-    shift::ShiftParts,
+    session::{Session, ShiftParts, WorkspaceKind},
     source::{
         live::{self, LiveAction},
         source_menu,

@@ -11,13 +11,12 @@ use jiff::Timestamp;
 use nalgebra::Point3;
 
 use super::{
-    deviation::{deviations, deviations_at},
     figures::StageFigures,
     fuse::{FuseError, FusedShots, Steps, Then, fuse},
     library_cache::{LibraryCache, LibraryView},
     scan_choice::{ScanOrder, ScanRequest},
     scan_figure::marked,
-    scene_figure::{SceneFigure, SceneFigureInput},
+    scene_figure::{SceneFigure, SceneFigureInput, deviations, deviations_at},
     source::{Captured, Origin, SceneOrScan, SceneSource},
 };
 use crate::language::results::is_called_by_name;

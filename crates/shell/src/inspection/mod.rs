@@ -1,7 +1,6 @@
 //! A scene, its inspection, and the data drawn for both, prepared in a task: no egui, no session.
 
 pub mod camera;
-pub mod deviation;
 pub mod figures;
 pub mod fitted;
 pub mod folder_watch;
@@ -13,6 +12,5 @@ pub mod report_files;
 pub mod scan_choice;
 pub mod scan_figure;
 pub mod scene_figure;
-pub mod seen_before;
 pub mod source;
 pub mod unit_system;

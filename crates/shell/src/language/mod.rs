@@ -2,4 +2,3 @@
 
 pub mod results;
 pub mod robot;
-pub mod servoing;

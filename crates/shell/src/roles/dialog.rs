@@ -2,7 +2,7 @@
 
 use egui::{Button, Context, Event, Key, RichText, Ui, vec2};
 
-use super::{RoleAction, RoleQuestion, pin::MOST_DIGITS};
+use super::{RoleAction, RoleQuestion, question::MOST_DIGITS};
 use crate::{action::Action, state::State};
 use ui::{
     language::text,

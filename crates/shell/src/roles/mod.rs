@@ -8,15 +8,13 @@
 mod chip;
 mod dialog;
 mod permits;
-mod pin;
 mod question;
 
 use self::permits::needs_engineer;
 pub(crate) use self::{chip::chip, permits::is_operators};
 pub use self::{
     dialog::dialog,
-    pin::Pin,
-    question::{LOCK_AFTER, OpenQuestion, RoleAction, RoleQuestion, RoleState},
+    question::{LOCK_AFTER, OpenQuestion, Pin, RoleAction, RoleQuestion, RoleState},
 };
 pub use super::session::UserRole;
 use super::{
@@ -66,7 +64,7 @@ pub fn apply(state: &mut State, action: RoleAction) -> Option<Effect> {
         RoleAction::Digit(digit) => {
             if let Some(asked) = &mut own.asked
                 && digit.is_ascii_digit()
-                && asked.digits.len() < pin::MOST_DIGITS
+                && asked.digits.len() < question::MOST_DIGITS
             {
                 asked.digits.push(digit);
                 asked.wrong = None;
@@ -119,7 +117,7 @@ fn enter(state: &mut State) -> Option<Effect> {
             live::tell_if_lost(state);
             return apply_any(state, *then?);
         }
-        RoleQuestion::NewPin if digits.len() < pin::LEAST_DIGITS => {
+        RoleQuestion::NewPin if digits.len() < question::LEAST_DIGITS => {
             own.asked = again(RoleQuestion::NewPin, text!("shell-four-digits"));
         }
         RoleQuestion::NewPin => {

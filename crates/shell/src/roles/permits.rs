@@ -5,7 +5,7 @@ use crate::{
     action::{DialogRequest, Effect},
     cell::{CheckAction, RobotAction},
     source::live::LiveAction,
-    trace::expecting::ExpectAction,
+    trace::orders::ExpectAction,
 };
 
 /// True for workspaces that cannot change anything verdicts depend on.

@@ -1,6 +1,6 @@
-//! The source of scenes: the inspector that takes one at a time, Live that follows it, and the menu that chooses it.
+//! The source of scenes: what takes one at a time and inspects it, Live that follows it, and the menu that chooses it.
 
+pub mod inspect;
 pub mod inspector;
-pub mod library_loader;
 pub mod live;
 pub mod source_menu;

@@ -8,7 +8,7 @@ use egui::{
     containers::menu::{MenuButton, MenuConfig},
 };
 
-use super::{entry::LABEL_WIDTH_PX, expecting::ExpectAction};
+use super::{entry::LABEL_WIDTH_PX, orders::ExpectAction};
 use crate::{
     action::{Action, DialogRequest},
     inspection::source::file_name,
@@ -86,7 +86,7 @@ fn menu(ui: &mut Ui, session: &Session, actions: &mut Vec<Action>) {
             ui.close();
         }
     } else {
-        let chosen = session.expecting.chosen();
+        let chosen = &session.expecting.chosen;
         show_scroll_bar(ui);
         let height = (ui.ctx().content_rect().height() - MARGIN).max(4.0 * space::TARGET);
         ScrollArea::vertical().max_height(height).show(ui, |ui| {

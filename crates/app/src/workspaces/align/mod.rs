@@ -13,7 +13,6 @@ mod pair;
 mod playback;
 mod plot;
 mod scrubber;
-mod series;
 mod side;
 mod start;
 mod state;

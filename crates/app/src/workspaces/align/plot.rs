@@ -1,13 +1,14 @@
-//! E per iteration on a logarithmic scale: one curve per method, the goal of Algorithm 3, and the genetic searches.
+//! E per iteration on a logarithmic scale: one curve per method, the goal of Algorithm 3, and the genetic searches. Also name,
+//! colour and line style by which methods are told apart.
 
-use egui::{Align2, Painter, Pos2, Rect, Stroke, Ui, Vec2, pos2};
+use egui::{Align2, Color32, Painter, Pos2, Rect, Stroke, Ui, Vec2, pos2};
 use egui_plot::{HLine, Line, LineStyle, PlotPoint, PlotTransform, Points, Span};
 
 use super::{
     playback::MethodComparison,
-    series,
     track::{MethodRun, Track},
 };
+use stages::pose::PoseMethod;
 use ui::{
     language::text,
     plot::{Axes, Axis, curve, range_of},
@@ -42,9 +43,9 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, shown: &MethodComparison, place: f32
         let goal = HLine::new("", GOAL).color(theme.accepted).width(1.4);
         plot.hline(goal.style(LineStyle::Dashed { length: 6.0 }));
         for (run, track) in shown.tracks() {
-            let colour = series::colour(run.method, theme);
+            let colour = method_colour(run.method, theme);
             let line = curve(&track.log_e, colour).width(2.0);
-            plot.line(line.style(series::style(run.method)));
+            plot.line(line.style(method_style(run.method)));
             let [x, y] = end_of(track);
             // Continue at the final level while other methods still iterate.
             let held = Line::new("", vec![[x, y], [last as f64, y]]).width(1.0);
@@ -161,8 +162,8 @@ fn name(
     run: &MethodRun,
     theme: &Theme,
 ) -> Rect {
-    let colour = series::colour(run.method, theme);
-    let text = series::title(run.method);
+    let colour = method_colour(run.method, theme);
+    let text = method_title(run.method);
     let galley = painter.layout_no_wrap(text, font::body_strong(), colour);
     let size = galley.size();
     let x = if end.x + 10.0 + size.x <= area.right() {
@@ -186,6 +187,33 @@ fn name(
     let rect = rect.unwrap_or_else(|| place(lifts[0]));
     painter.galley(rect.min, galley, colour);
     rect
+}
+
+/// Name of a method, for a person.
+pub(super) fn method_title(method: PoseMethod) -> String {
+    match method {
+        PoseMethod::Icp => "ICP".into(),
+        PoseMethod::IcpGa => "ICP-GA".into(),
+        PoseMethod::Global => text!("results-option-global"),
+    }
+}
+
+/// Colour of a method.
+pub(super) fn method_colour(method: PoseMethod, theme: &Theme) -> Color32 {
+    match method {
+        PoseMethod::Icp => theme.second_series,
+        PoseMethod::IcpGa => theme.first_series,
+        PoseMethod::Global => theme.reference_series,
+    }
+}
+
+/// Line style of a method's curve: solid for ICP, dashed or dotted for the others.
+pub(super) fn method_style(method: PoseMethod) -> LineStyle {
+    match method {
+        PoseMethod::Icp => LineStyle::Solid,
+        PoseMethod::IcpGa => LineStyle::Dashed { length: 9.0 },
+        PoseMethod::Global => LineStyle::Dashed { length: 3.0 },
+    }
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use egui::{
     Ui, pos2, vec2,
 };
 
-use super::{AlignAction, AlignFile, AlignState, Start, TableRow, series};
+use super::{AlignAction, AlignFile, AlignState, Start, TableRow, plot};
 use shell::session::Session;
 use stages::pose::{PoseMethod, Uncertainty};
 use ui::{
@@ -192,7 +192,7 @@ fn header(ui: &mut Ui) {
         write(
             x,
             Align2::RIGHT_CENTER,
-            &series::title(PoseMethod::ALL[place]),
+            &plot::method_title(PoseMethod::ALL[place]),
         );
     }
 }
@@ -277,7 +277,7 @@ fn short(value: f64) -> String {
 fn spoken(row: &TableRow) -> String {
     let mut text = format!("{}, {}", row.title, Start::Paper(row.start).title());
     for (place, cell) in row.cells.iter().enumerate() {
-        let name = series::title(cell.method);
+        let name = plot::method_title(cell.method);
         let best = if row.is_best(place) {
             format!(", {}", text!("align-best"))
         } else {
@@ -328,8 +328,8 @@ fn true_error(ui: &mut Ui, align: &AlignState, session: &Session) {
     let [method, rotation, shift] = names.map(weak);
     line(ui, method, rotation, shift);
     for run in &shown.runs {
-        let colour = series::colour(run.method, theme);
-        let name = RichText::new(series::title(run.method)).color(colour);
+        let colour = plot::method_colour(run.method, theme);
+        let name = RichText::new(plot::method_title(run.method)).color(colour);
         let off = run.track.as_ref().map(|track| match track.true_error {
             Some(error) => Some((error.rotation.0, error.shift.0)),
             None => track

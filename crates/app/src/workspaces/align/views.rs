@@ -7,7 +7,7 @@ use egui::{Align2, Rect, RichText, Ui, UiBuilder, pos2, vec2};
 use super::{
     pair::Pair,
     playback::MethodComparison,
-    series,
+    plot,
     state::AlignState,
     track::{MethodRun, Track, doubted, in_the_window},
 };
@@ -157,8 +157,8 @@ impl View {
         ui.scope_builder(builder, |ui| {
             ui.spacing_mut().item_spacing.y = 2.0;
             ui.spacing_mut().interact_size.y = 0.0;
-            let title = RichText::new(series::title(self.method)).font(font::body_strong());
-            ui.label(title.color(series::colour(self.method, theme)));
+            let title = RichText::new(plot::method_title(self.method)).font(font::body_strong());
+            ui.label(title.color(plot::method_colour(self.method, theme)));
             match run {
                 Some(run) => heading(ui, run, session),
                 None if align.is_pair_at_work() => weak(ui, &text!("align-at-work")),
@@ -204,7 +204,7 @@ impl View {
         camera: &mut ViewCamera,
         theme: ThemeChoice,
     ) -> bool {
-        let label = text!("align-view-of", method = series::title(self.method));
+        let label = text!("align-view-of", method = plot::method_title(self.method));
         let style = style(self.method, theme);
         let builder = UiBuilder::new().max_rect(rect);
         ui.scope_builder(builder, |ui| {
@@ -224,7 +224,7 @@ fn style(method: PoseMethod, choice: ThemeChoice) -> ViewStyle {
     let mut colours = ViewColours::of(choice);
     // The source has the colour of its method's curve.
     colours.roles[Role::Moving as usize] = RoleColour {
-        colour: series::colour(method, choice.colours()),
+        colour: plot::method_colour(method, choice.colours()),
         weight: SOURCE_WEIGHT,
     };
     ViewStyle {

@@ -1,5 +1,6 @@
 //! History: find, reopen and label past inspections.
 
+mod action;
 mod apply;
 mod bar;
 mod details;
@@ -21,12 +22,11 @@ use std::sync::Arc;
 use egui::{CentralPanel, Frame, Key, Margin, Modifiers, Rect, Ui};
 
 pub use self::{
-    apply::{Direction, HistoryAction, HistoryFile, HistoryJob},
+    action::{Direction, HistoryAction, HistoryFile, HistoryJob},
     filter::{DateRange, ListFilter},
-    servo_runs::RunsView,
     state::HistoryState,
     statistics::{ReasonGroup, Statistics, StatisticsView, Tally},
-    work::{HistoryQuery, HistoryResult, OpenedInspection},
+    work::{HistoryQuery, HistoryResult, OpenedInspection, RunsView},
 };
 use self::{details::Details, list::List};
 

@@ -9,15 +9,14 @@ use egui::{
 };
 
 use super::{
-    HistoryAction, HistoryState,
-    apply::Direction,
+    Direction, HistoryAction, HistoryState, RunsView,
     list::{DAY_AND_TIME, local_time},
 };
-use records::history::{Filter, HistoryBuffer, HistoryError, Page, ServoRecord, ServoRun};
+use records::history::{ServoRecord, ServoRun};
 use shell::{
     context::ShellContext,
     inspection::unit_system::UnitSystem,
-    language::servoing::{end_title, shift_and_turn, target_title},
+    language::robot::{end_title, shift_and_turn, target_title},
     servo_curve,
 };
 use ui::{
@@ -27,43 +26,10 @@ use ui::{
     widgets::{focus_ring, heading, line_mark, mark, path_row, row, sentence, wrapped},
 };
 
-/// The newest runs that are listed; the filter finds older ones.
-const MAX_LISTED: usize = 500;
 /// Height of a row, logical pixels: a target for a gloved finger.
 const ROW_HEIGHT: f32 = 40.0;
 /// Height of the curve beside the list, logical pixels.
 const CURVE_HEIGHT: f32 = 320.0;
-
-/// The runs that are shown.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct RunsView {
-    /// The rows, newest first.
-    pub page: Page<ServoRun>,
-    /// The selected run.
-    pub selected: Option<ServoRecord>,
-}
-
-impl RunsView {
-    /// Fetches the runs that match the filter, and the wanted one, else the newest.
-    fn find(
-        filter: &Filter,
-        wanted: Option<i64>,
-        history: &HistoryBuffer,
-    ) -> Result<Self, HistoryError> {
-        let page = history.servo_runs(filter, 0, MAX_LISTED)?;
-        let is_listed = |number: &i64| page.rows.iter().any(|run| run.number == *number);
-        let number = wanted.filter(is_listed);
-        let number = number.or_else(|| page.rows.first().map(|run| run.number));
-        Ok(Self {
-            selected: number.map(|number| history.servo_run(number)).transpose()?,
-            page,
-        })
-    }
-
-    fn selected_number(&self) -> Option<i64> {
-        Some(self.selected.as_ref()?.run.number)
-    }
-}
 
 impl HistoryState {
     /// Shows the runs (`true`) or the inspections.

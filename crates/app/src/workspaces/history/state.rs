@@ -9,12 +9,11 @@ use std::{
 };
 
 use super::{
-    apply::{HistoryAction, HistoryFile, HistoryJob},
+    action::{HistoryAction, HistoryFile, HistoryJob},
     drift::Drift,
     filter::ListFilter,
-    servo_runs::RunsView,
     statistics::{self, Statistics, StatisticsView, most_accepted},
-    work::{self, HistoryQuery, HistoryResult, OpenedInspection, former_title},
+    work::{self, HistoryQuery, HistoryResult, OpenedInspection, RunsView, former_title},
 };
 
 use records::history::{Differences, HungId, Page, Retention, Summary, Usage};

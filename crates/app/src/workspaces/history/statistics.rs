@@ -14,8 +14,7 @@ use records::history::{PartOutcome, StoredVerdict};
 use shell::{
     inspection::unit_system::UnitSystem,
     language::results::{refusal_kind, stored_verdict},
-    session::Source,
-    shift::ShiftStarts,
+    session::{ShiftStarts, Source},
     source::source_menu,
 };
 use ui::{

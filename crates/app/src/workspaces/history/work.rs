@@ -6,8 +6,8 @@ use image::{DynamicImage, RgbImage};
 
 use super::filter::ListFilter;
 use records::history::{
-    Filter, HistoryBuffer, HistoryError, HungId, Page, PartOutcome, Record, Retention,
-    StoredVerdict, Summary, Usage,
+    Filter, HistoryBuffer, HistoryError, HungId, Page, PartOutcome, Record, Retention, ServoRecord,
+    ServoRun, StoredVerdict, Summary, Usage,
 };
 
 /// A query.
@@ -179,6 +179,40 @@ fn opened(record: Record, history: &HistoryBuffer) -> Result<OpenedInspection, H
         record,
         part,
     })
+}
+
+/// The newest runs that are listed; the filter finds older ones.
+const MAX_LISTED: usize = 500;
+
+/// The runs that are shown.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RunsView {
+    /// The rows, newest first.
+    pub page: Page<ServoRun>,
+    /// The selected run.
+    pub selected: Option<ServoRecord>,
+}
+
+impl RunsView {
+    /// Fetches the runs that match the filter, and the wanted one, else the newest.
+    pub(super) fn find(
+        filter: &Filter,
+        wanted: Option<i64>,
+        history: &HistoryBuffer,
+    ) -> Result<Self, HistoryError> {
+        let page = history.servo_runs(filter, 0, MAX_LISTED)?;
+        let is_listed = |number: &i64| page.rows.iter().any(|run| run.number == *number);
+        let number = wanted.filter(is_listed);
+        let number = number.or_else(|| page.rows.first().map(|run| run.number));
+        Ok(Self {
+            selected: number.map(|number| history.servo_run(number)).transpose()?,
+            page,
+        })
+    }
+
+    pub(super) fn selected_number(&self) -> Option<i64> {
+        Some(self.selected.as_ref()?.run.number)
+    }
 }
 
 #[cfg(test)]

@@ -7,8 +7,7 @@ use crate::shots::{ShotsAction, ShotsFile};
 use robot::Convention;
 use shell::{
     action::Action,
-    cell::program_setup::program_files,
-    file_dialog::{FileChoice, FileRequest},
+    file_dialog::{FileChoice, FileRequest, program_files},
     inspection::figures::StagePanel,
     session::Session,
 };

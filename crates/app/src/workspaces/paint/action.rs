@@ -6,8 +6,8 @@ use super::region::PaintTool;
 use inspection::library::{PartName, Side};
 use robot::paint::{KeepOut, PathEdit};
 use shell::{
-    cell::program_setup::{ProgramSetup, program_file_name, program_files},
-    file_dialog::{FileChoice, FileRequest, all_files},
+    cell::{ProgramSetup, program_file_name},
+    file_dialog::{FileChoice, FileRequest, all_files, program_files},
     session::Session,
 };
 use ui::{language::text, parameter_control::ParameterChange};

@@ -9,7 +9,7 @@ use inspection::{
 };
 use robot::paint::{Coat, KeepOut, PathEdit};
 use shell::{
-    cell::program_setup::ProgramSetup,
+    cell::ProgramSetup,
     context::ShellContext,
     inspection::library_cache::LibraryView,
     message::Message,

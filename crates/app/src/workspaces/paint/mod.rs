@@ -14,7 +14,6 @@ mod action;
 mod coats;
 mod course;
 mod design;
-mod playback;
 mod reach;
 mod region;
 mod robot;

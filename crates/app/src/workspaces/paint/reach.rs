@@ -24,7 +24,7 @@ use robot::{
     spray::{CarriedPath, OffThePart, carry, off_the_part},
 };
 use shell::{
-    cell::program_setup::ProgramSetup,
+    cell::ProgramSetup,
     context::ShellContext,
     inspection::{
         library_cache::LibraryCache,

@@ -15,7 +15,7 @@ use inspection::{
 };
 use robot::paint::{BUILT_IN_COATS, CoatFolder, built_in_coat};
 use shell::{
-    cell::program_setup::ProgramSetup,
+    cell::ProgramSetup,
     context::ShellContext,
     file_dialog::FileDialog,
     inspection::source::file_name,

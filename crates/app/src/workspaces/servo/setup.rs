@@ -10,7 +10,7 @@ use geometry::oriented_box::OrientedBox;
 use records::history::ServoTargetKind;
 use servo::{ServoParams, simulated::StreamProtocol};
 use shell::{
-    cell::ServoSettings, language::servoing::target_title, rack::box_numbers, session::Session,
+    cell::ServoSettings, language::robot::target_title, rack::box_numbers, session::Session,
 };
 use ui::{
     language::text,

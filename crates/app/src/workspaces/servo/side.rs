@@ -11,7 +11,7 @@ use super::{
 use servo::ServoState;
 use shell::{
     inspection::unit_system::UnitSystem,
-    language::servoing::{end_title, shift_and_turn, state_title},
+    language::robot::{end_title, shift_and_turn, state_title},
     session::Session,
 };
 use ui::{

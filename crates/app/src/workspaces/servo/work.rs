@@ -25,7 +25,7 @@ use records::history::{ServoRecord, ServoSample, ServoTargetKind};
 use robot::calibration::{CameraPlace, CellCalibration};
 use servo::{ServoParams, Standing, StopReason, Task, simulated::StreamProtocol};
 use shell::{
-    cell::{ServoSettings, program_setup::ProgramSetup},
+    cell::{ProgramSetup, ServoSettings},
     inspection::{
         library_cache::{LibraryCache, LoadedLibrary},
         report_files::ProgramTarget,

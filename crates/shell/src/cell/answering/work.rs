@@ -22,7 +22,7 @@ use crate::{
     },
     session::Session,
     source::live::FollowedParts,
-    trace::{current_trace::CurrentTrace, expecting::NotKnown},
+    trace::{current_trace::CurrentTrace, orders::NotKnown},
 };
 use capture::{self, CaptureError, Feed, SourceSpec};
 use geometry::error::{Advice as _, guarded, lock};

@@ -5,7 +5,7 @@ use crate::{
     cell::{CheckAction, RobotAction, RobotCell, RobotDialog, RobotPage},
     context::TestShell,
     inspection::scan_choice::ScanFiles,
-    source::inspector,
+    source::inspect,
     state::State,
 };
 use geometry::units::Metres;
@@ -245,7 +245,7 @@ fn of_the_simulated_cell_the_frame_in_front_is_looked_at() {
     for _ in 0..2 {
         state.capture();
         assert!(state.inspector.run_waiting());
-        inspector::update(&mut state);
+        inspect::update(&mut state);
     }
     assert_eq!(number(&state.session), 2);
     // A followed source counts as a camera.

@@ -1,14 +1,24 @@
-//! What the session keeps of the followed source, and the actions on it.
+//! What is kept of the followed source, and the actions on it.
 
 use std::{
     path::PathBuf,
-    sync::{Arc, Mutex},
+    sync::{
+        Arc, Mutex,
+        mpsc::{Receiver, SyncSender, sync_channel},
+    },
 };
 
-use super::{parts::FollowedParts, work::LiveStatus};
-use crate::inspection::inspected::Inspected;
+use super::{
+    parts::FollowedParts,
+    work::{LiveAnswer, LiveRecord, LiveStatus, MAX_UNREAD},
+};
+use crate::{
+    inspection::{inspected::Inspected, library_cache::LibraryCache},
+    notice::Notice,
+};
 use capture::{SimulatedSpec, SourceSpec};
 use inspection::pipeline::live::{LiveParams, MAX_AVERAGED};
+use ui::task::{Task, TaskRunner};
 
 /// State of the followed source.
 #[derive(Debug, Default)]
@@ -52,5 +62,45 @@ impl LiveState {
         let mut own = Self::default();
         own.params.average = num_frames.clamp(1, MAX_AVERAGED);
         own
+    }
+}
+
+/// Follows the source.
+#[derive(Debug)]
+pub struct Follower {
+    /// The inspections to be recorded, of every job. Dropped before the task, whose job may wait until they are read.
+    pub(super) records: Receiver<LiveRecord>,
+    pub(super) recorder: SyncSender<LiveRecord>,
+    pub(super) task: Task<LiveAnswer>,
+    pub(super) library_cache: LibraryCache,
+    /// Incremented when following starts with another view; within one session the 3-D view keeps its camera.
+    pub(super) session: u64,
+    /// Incremented when following starts over: what came before is only recorded.
+    pub(super) run: u64,
+    /// The notice shown while the source is lost.
+    pub(super) lost: Option<Notice>,
+    /// The parts of the newest capture of a watched folder, to be inspected again.
+    pub(super) again: Vec<Arc<Inspected>>,
+}
+
+impl Follower {
+    /// Starts without following anything.
+    pub fn new(runner: &TaskRunner, library_cache: &LibraryCache) -> Self {
+        let (recorder, records) = sync_channel(MAX_UNREAD);
+        Self {
+            records,
+            recorder,
+            task: Task::new("live", runner),
+            library_cache: library_cache.clone(),
+            session: 0,
+            run: 0,
+            lost: None,
+            again: Vec::new(),
+        }
+    }
+
+    /// True while nothing is followed and the camera is closed.
+    pub fn is_idle(&self) -> bool {
+        self.task.running().is_none()
     }
 }

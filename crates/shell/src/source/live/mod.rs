@@ -11,14 +11,14 @@ mod status;
 mod work;
 
 pub use self::{
-    live_state::{LiveAction, LiveState},
+    live_state::{Follower, LiveAction, LiveState},
     set_up::set_up,
-    state::{Follower, close, update},
+    state::{close, update},
     status::card,
     work::{LiveAnswer, LiveStatus, LiveStatusUpdate, SourceState},
 };
 pub(crate) use self::{
-    parts::FollowedParts,
+    parts::{FollowedParts, assign_as_before},
     state::{
         apply, expect_anew, give_way, outdate_shown, restart_consensus, show_unseen,
         source_changed, tell_if_lost,

@@ -199,6 +199,30 @@ impl FollowedParts {
     }
 }
 
+/// Gives the parts of a frame that is inspected again the hung parts that they were before.
+pub(crate) fn assign_as_before(parts: &mut [Inspected], mut former: Vec<Arc<Inspected>>) {
+    let is_one = parts.len() == 1 && former.len() == 1;
+    let order = former[0].trace().clone();
+    for part in parts {
+        let shared = former.iter().map(|former| former.num_shared(part));
+        let most = shared.enumerate().max_by_key(|(_, num)| *num);
+        match most.filter(|(_, num)| is_one || *num > 0) {
+            Some((index, _)) => {
+                let former = former.remove(index);
+                part.set_part(former.hung().clone(), former.trace().clone());
+            }
+            // The serial number is that of another part.
+            None => part.set_part(
+                part.hung().clone(),
+                Traceability {
+                    serial: String::new(),
+                    ..order.clone()
+                },
+            ),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use std::{sync::mpsc::TryRecvError, time::Duration};

@@ -1,22 +1,14 @@
-//! State of the followed source in the window, and the actions on it.
+//! Carries out the actions on the followed source, and takes over what its task says.
 
-use std::{
-    mem,
-    sync::{
-        Arc,
-        mpsc::{Receiver, SyncSender, sync_channel},
-    },
-    thread,
-    time::Duration,
-};
+use std::{mem, sync::Arc, thread, time::Duration};
 
 use super::{
     live_state::LiveAction,
-    work::{LiveAnswer, LiveRecord, LiveStart, MAX_UNREAD, SourceState, follow, rest},
+    work::{LiveAnswer, LiveRecord, LiveStart, SourceState, follow, rest},
 };
 use crate::{
     action::{DialogRequest, Effect},
-    inspection::{inspected::Inspected, library_cache::LibraryCache},
+    inspection::inspected::Inspected,
     message::Event,
     notice::{Notice, NoticeTopic},
     session::{ReinspectionPurpose, Session, Shown, Source, UserRole, WorkspaceKind},
@@ -27,49 +19,8 @@ use inspection::pipeline::live::MAX_AVERAGED;
 use records::history::Traceability;
 use ui::{
     language::{library_text, text},
-    task::{Task, TaskRunner},
     user_error::UserError,
 };
-
-/// Follows the source.
-#[derive(Debug)]
-pub struct Follower {
-    /// The inspections to be recorded, of every job. Dropped before the task, whose job may wait until they are read.
-    records: Receiver<LiveRecord>,
-    recorder: SyncSender<LiveRecord>,
-    task: Task<LiveAnswer>,
-    library_cache: LibraryCache,
-    /// Incremented when following starts with another view; within one session the 3-D view keeps its camera.
-    session: u64,
-    /// Incremented when following starts over: what came before is only recorded.
-    run: u64,
-    /// The notice shown while the source is lost.
-    lost: Option<Notice>,
-    /// The parts of the newest capture of a watched folder, to be inspected again.
-    again: Vec<Arc<Inspected>>,
-}
-
-impl Follower {
-    /// Starts without following anything.
-    pub fn new(runner: &TaskRunner, library_cache: &LibraryCache) -> Self {
-        let (recorder, records) = sync_channel(MAX_UNREAD);
-        Self {
-            records,
-            recorder,
-            task: Task::new("live", runner),
-            library_cache: library_cache.clone(),
-            session: 0,
-            run: 0,
-            lost: None,
-            again: Vec::new(),
-        }
-    }
-
-    /// True while nothing is followed and the camera is closed.
-    pub fn is_idle(&self) -> bool {
-        self.task.running().is_none()
-    }
-}
 
 /// Time between two looks at whether the camera is closed.
 const TURN: Duration = Duration::from_millis(5);
@@ -474,10 +425,13 @@ mod tests {
     use crate::{
         action::Action,
         apply::apply as apply_any,
-        inspection::{camera::Camera, inspected::inspected_cell, source::CellChoice},
+        inspection::{
+            camera::Camera, inspected::inspected_cell, library_cache::LibraryCache,
+            source::CellChoice,
+        },
         roles::RoleAction,
         source::{
-            inspector,
+            inspect,
             live::{LiveStatus, LiveStatusUpdate},
         },
         trace::entry,
@@ -492,6 +446,7 @@ mod tests {
     use simulate::{
         PartKind, RackKind, RackSetup, SensorNoise, Side, StandingRack, fixtures::HangingPart,
     };
+    use ui::task::TaskRunner;
 
     /// A camera before which something hangs still, for a few seconds of its clock.
     struct Hanging {
@@ -619,7 +574,7 @@ mod tests {
         let parts = [(); 2].map(|()| {
             apply_any(&mut state, Action::Capture);
             assert!(state.inspector.run_waiting());
-            inspector::update(&mut state);
+            inspect::update(&mut state);
             let shown = state.session.shown.as_ref().expect("inspected");
             shown.inspected.hung().clone()
         });
@@ -911,11 +866,11 @@ mod tests {
         // With another library, the same frame has no newer verdict.
         state.inspect_again();
         assert!(state.inspector.run_waiting());
-        inspector::update(&mut state);
+        inspect::update(&mut state);
         check(&state);
         apply_any(&mut state, Action::UseCell(CellChoice::InTurn));
         assert!(state.inspector.run_waiting());
-        inspector::update(&mut state);
+        inspect::update(&mut state);
         assert!(!state.session.is_live() && state.session.current_result().is_some());
     }
 

@@ -7,7 +7,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use super::parts::FollowedParts;
+use super::parts::{FollowedParts, assign_as_before};
 use crate::{
     inspection::{
         inspected::{FinishedInspection, InspectRequest, Inspected, LiveFrameContext, inspect_all},
@@ -15,7 +15,6 @@ use crate::{
         recording::Recorded,
         source::{Captured as SceneOrigin, Origin, SceneSource},
     },
-    source::inspector::assign_as_before,
     trace::current_trace::CurrentTrace,
 };
 use capture::{Captured, Feed, FeedItem, FeedState, FrameRate, SourceSpec};

@@ -1,25 +1,31 @@
-//! The arm, the nozzle and the gun that robot programs are written for, and the obstacles that they avoid.
+//! What the settings keep of the robot: what its programs are written for, how it is servoed, and how it is answered.
 
-use std::{ops::RangeInclusive, path::Path};
+use std::{
+    ops::RangeInclusive,
+    path::{Path, PathBuf},
+};
 
 use serde::{Deserialize, Serialize};
 
-use crate::{file_dialog::FileFilter, inspection::report_files::ProgramTarget};
+use crate::inspection::report_files::ProgramTarget;
 use files::file_name;
-use geometry::rigid::RigidTransform;
+use geometry::{oriented_box::OrientedBox, rigid::RigidTransform, units::Metres};
 use inspection::pipeline::parameters::Parameters as _;
+use records::history::ServoTargetKind;
 use robot::{
     Convention,
     arm::{ARM_NAMES, Arm, ArmError, Obstacles},
     parse_nozzle,
     program::{ProgramParams, ProgramSettings, RobotLanguage},
 };
+use serve::{ListenAddress, ListenError, Listener, PoseKind, Protocol};
+use servo::{ServoError, ServoParams, simulated::StreamProtocol};
 use ui::{
     language::{text, what_and_advice},
     user_error::UserError,
 };
 
-/// Settings for robot programs; kept with the settings.
+/// The arm, the nozzle and the gun that robot programs are written for, and the obstacles that they avoid.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct ProgramSetup {
@@ -159,11 +165,6 @@ impl ProgramSetup {
     }
 }
 
-/// Returns the filter for robot programs in a file dialog.
-pub fn program_files() -> FileFilter {
-    (text!("program-files"), &RobotLanguage::ENDINGS)
-}
-
 /// Suggests the name of a program, with the ending that the arm's maker uses, else the robot that the convention belongs to.
 pub fn program_file_name(part: &str, setup: &ProgramSetup, convention: Convention) -> String {
     // The titles of arms begin with the maker.
@@ -176,6 +177,138 @@ pub fn program_file_name(part: &str, setup: &ProgramSetup, convention: Conventio
         .or_else(|| all().find(|language| language.convention == convention))
         .unwrap_or(default);
     format!("{part}.{}", language.ending)
+}
+
+/// What is servoed: the part, its target, the robot, and limits. Arm, nozzle and obstacles are those of [`ProgramSetup`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct ServoSettings {
+    /// Name of the part; `None`: the first of the library.
+    pub part: Option<String>,
+    /// What is to be reached; a simulated robot is always brought to the standard position.
+    pub target: ServoTargetKind,
+    /// Frames of the part, taken where the camera should stand, for a recorded camera pose.
+    pub seen_as: Vec<PathBuf>,
+    /// Protocol of the robot; `None`: a simulated one.
+    pub robot: Option<StreamProtocol>,
+    /// Its address, as typed: `IP:PORT` of this computer, or `IP` of Universal Robots.
+    pub address: String,
+    /// Greatest speed, mm/s.
+    pub speed: f64,
+    /// Greatest error at the end with its bounds, mm.
+    pub tolerance: f64,
+    /// Least distance from part and obstacles, mm.
+    pub clearance: f64,
+    /// Box of the base frame that flange, camera and nozzle never leave.
+    pub volume: Option<OrientedBox>,
+    /// True if each step waits until it is allowed.
+    pub in_steps: bool,
+}
+
+impl Default for ServoSettings {
+    fn default() -> Self {
+        let params = ServoParams::default();
+        Self {
+            part: None,
+            target: ServoTargetKind::StandardPosition,
+            seen_as: Vec::new(),
+            robot: None,
+            address: String::new(),
+            speed: 1000.0 * params.limits.speed,
+            tolerance: params.tolerance.shift.mm(),
+            clearance: params.clearance.mm(),
+            volume: None,
+            in_steps: false,
+        }
+    }
+}
+
+impl ServoSettings {
+    /// The parameters with these limits.
+    pub fn params(&self) -> Result<ServoParams, ServoError> {
+        let [tolerance, clearance] = [self.tolerance, self.clearance].map(Metres::from_mm);
+        ServoParams::limited(self.speed, tolerance, clearance)
+    }
+
+    /// Replaces each number out of its range, as a file may contain, by its default; returns the keys of the replaced ones.
+    pub(crate) fn replace_unusable(&mut self) -> Vec<&'static str> {
+        let default = Self::default();
+        let mut replaced = Vec::new();
+        for (key, value, range, usual) in [
+            (
+                "speed",
+                &mut self.speed,
+                ServoParams::SPEEDS_MM_S,
+                default.speed,
+            ),
+            (
+                "tolerance",
+                &mut self.tolerance,
+                ServoParams::TOLERANCES_MM,
+                default.tolerance,
+            ),
+            (
+                "clearance",
+                &mut self.clearance,
+                ServoParams::CLEARANCES_MM,
+                default.clearance,
+            ),
+        ] {
+            if !range.contains(&*value) {
+                *value = usual;
+                replaced.push(key);
+            }
+        }
+        if self.volume.is_some_and(|volume| !volume.is_sound()) {
+            self.volume = None;
+            replaced.push("volume");
+        }
+        replaced
+    }
+}
+
+/// The default port, as in `partsight serve`.
+const PORT: u16 = 30100;
+
+/// Whether and where robots are answered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct AnswerSetup {
+    /// Whether robots are answered.
+    pub is_on: bool,
+    /// Protocol and address to listen on.
+    pub at: ListenAddress,
+    /// Which pose the robots get.
+    pub pose: PoseKind,
+    /// The convention of the poses, where the protocol does not fix it.
+    pub convention: Convention,
+}
+
+impl AnswerSetup {
+    /// Where a server with these settings listens, and in which convention it answers.
+    pub fn listener(&self) -> Result<Listener, ListenError> {
+        Listener::new(self.at, Some(self.convention))
+    }
+
+    /// True if robots would read other numbers from these settings than from `other`.
+    pub(super) fn changes_poses(&self, other: &Self) -> bool {
+        let convention = |setup: &Self| setup.listener().ok().map(|listener| listener.convention);
+        self.pose != other.pose || convention(self) != convention(other)
+    }
+}
+
+impl Default for AnswerSetup {
+    fn default() -> Self {
+        Self {
+            is_on: false,
+            at: ListenAddress {
+                protocol: Protocol::Ascii,
+                address: ([127, 0, 0, 1], PORT).into(),
+            },
+            pose: PoseKind::default(),
+            convention: Convention::default(),
+        }
+    }
 }
 
 #[cfg(test)]

@@ -1,0 +1,222 @@
+//! The table of orders in use and its file, what is expected without one, and why that may not be known.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    sync::Arc,
+    thread,
+    time::{Duration, SystemTime},
+};
+
+use geometry::error::Advice as _;
+use inspection::pipeline::{Expected, ExpectedError, ExpectedPart};
+use records::orders::{OrderError, Orders, OrdersError};
+use ui::{
+    language::{advised, described, text},
+    task::{Task, TaskContext, TaskError, TaskRunner},
+    user_error::UserError,
+    widgets::sentence,
+};
+
+/// What should hang before the camera.
+#[derive(Debug, Default)]
+pub struct Expecting {
+    /// The parts that the user chose.
+    pub(super) chosen: Vec<ExpectedPart>,
+    /// The table in use, instead of them.
+    pub(super) orders: Option<OrderTable>,
+    /// What Live expects.
+    pub(super) followed: Expected,
+}
+
+/// A table of orders in use.
+#[derive(Debug)]
+pub(super) struct OrderTable {
+    pub(super) path: PathBuf,
+    /// `None` until it is read.
+    pub(super) content: Option<TableContent>,
+}
+
+/// The table, or why it cannot be read.
+pub(super) type TableContent = Result<Arc<Orders>, Arc<OrdersError>>;
+
+/// An action on what is expected.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ExpectAction {
+    /// Expect these parts from the next inspection on; none to expect any. With a table of orders, nothing happens.
+    Parts(Vec<ExpectedPart>),
+    /// Close the table of orders, and expect any part.
+    CloseOrders,
+}
+
+impl Expecting {
+    /// Starts with the table of orders in this file, which is read at once: what starts with the program waits for nothing.
+    pub fn starting(path: Option<PathBuf>) -> Self {
+        let read = |path: PathBuf| OrderTable {
+            content: Some(read(&path)),
+            path,
+        };
+        Self {
+            orders: path.map(read),
+            ..Self::default()
+        }
+    }
+
+    /// File of the table of orders in use.
+    pub fn orders(&self) -> Option<&Path> {
+        self.orders.as_ref().map(|table| &*table.path)
+    }
+}
+
+impl OrderTable {
+    pub(super) fn unread(path: PathBuf) -> Self {
+        let content = None;
+        Self { path, content }
+    }
+}
+
+/// True if two readings of a table say the same.
+fn is_same(one: &TableContent, other: &TableContent) -> bool {
+    match (one, other) {
+        (Ok(one), Ok(other)) => one == other,
+        (Err(one), Err(other)) => one.to_string() == other.to_string(),
+        _ => false,
+    }
+}
+
+fn read(path: &Path) -> TableContent {
+    Orders::read(path).map(Arc::new).map_err(Arc::new)
+}
+
+/// Why it is not known what should hang there.
+#[derive(Clone, Debug)]
+pub enum NotKnown {
+    /// The table is not read yet.
+    Unread {
+        /// Name of its file.
+        file: String,
+    },
+    /// The table cannot be read.
+    Table(Arc<OrdersError>),
+    /// The table does not say it.
+    Order(OrderError),
+    /// The user chose what cannot hang there.
+    Chosen(ExpectedError),
+    /// The recipe expects what cannot hang there.
+    Recipe {
+        /// Its name.
+        name: String,
+        /// Why not.
+        error: ExpectedError,
+    },
+}
+
+impl NotKnown {
+    /// For a robot, whose programmer reads it.
+    pub(crate) fn in_english(&self) -> UserError {
+        match self {
+            Self::Unread { file } => UserError {
+                what: format!("the table of orders, {file}, is being read"),
+                advice: "Send the trigger again in a second".into(),
+            },
+            Self::Table(error) => UserError::of(&**error),
+            Self::Order(error) => UserError::of(error),
+            Self::Chosen(error) => UserError::of(error),
+            Self::Recipe { name, error } => UserError {
+                what: format!("recipe {name}: {error}"),
+                advice: error.advice(),
+            },
+        }
+    }
+
+    /// For the user.
+    pub(crate) fn in_words(&self) -> UserError {
+        let unusable = |error: String| text!("expect-table-unusable", error = error);
+        let [what, advice] = match self {
+            Self::Unread { file } => [text!("expect-reading", file = file), text!("shell-wait")],
+            Self::Table(error) => [unusable(described(&**error)), advised(&**error)],
+            Self::Chosen(error) => [described(error), advised(error)],
+            Self::Recipe { name, error } => [
+                text!(
+                    "expect-recipe-unusable",
+                    recipe = name,
+                    error = described(error)
+                ),
+                advised(error),
+            ],
+            Self::Order(OrderError::Parts(cell)) => [unusable(described(cell)), advised(cell)],
+            Self::Order(error) => [sentence(&described(error)), advised(error)],
+        };
+        UserError { what, advice }
+    }
+}
+
+/// Time between two looks at whether to end.
+const TURN: Duration = Duration::from_millis(100);
+/// Number of turns between two looks at the file.
+const NUM_TURNS: usize = 10;
+/// Some disks date their files in steps of 2 s: a younger file may have changed again.
+const SETTLED: Duration = Duration::from_secs(3);
+
+/// Watches the file of the table in use.
+#[derive(Debug)]
+pub struct OrdersWatch {
+    task: Task<TableContent>,
+    path: Option<PathBuf>,
+}
+
+impl OrdersWatch {
+    pub(crate) fn new(runner: &TaskRunner) -> Self {
+        Self {
+            task: Task::new("orders-watch", runner),
+            path: None,
+        }
+    }
+
+    /// Stops watching, so that the next table is read whatever its name is.
+    pub(super) fn stop(&mut self) {
+        self.task.cancel();
+        self.path = None;
+    }
+
+    /// Watches this table from now on. Returns its content once it has changed.
+    pub(super) fn poll(&mut self, table: Option<&OrderTable>) -> Option<TableContent> {
+        let path = table.map(|table| &table.path);
+        if self.path.as_ref() != path {
+            self.path = path.cloned();
+            self.task.cancel();
+            if let Some(OrderTable { path, content }) = table {
+                let (path, content) = (path.clone(), content.clone());
+                let watch = move |context: &_| watch(&path, content, context);
+                self.task.start(text!("expect-watching"), watch);
+            }
+        }
+        self.task.poll()?.ok()
+    }
+}
+
+fn watch(
+    path: &Path,
+    mut known: Option<TableContent>,
+    context: &TaskContext<TableContent>,
+) -> Result<TableContent, TaskError> {
+    let mut before = None;
+    loop {
+        let found = fs::metadata(path).ok();
+        let now = found.and_then(|found| Some((found.len(), found.modified().ok()?)));
+        let is_settled =
+            |(_, changed): &(u64, SystemTime)| changed.elapsed().is_ok_and(|age| age > SETTLED);
+        if now != before || !now.as_ref().is_some_and(is_settled) {
+            let content = read(path);
+            if !known.as_ref().is_some_and(|known| is_same(known, &content)) {
+                known = Some(content.clone());
+                context.latest(content);
+            }
+        }
+        before = now;
+        for _ in 0..NUM_TURNS {
+            context.check()?;
+            thread::sleep(TURN);
+        }
+    }
+}
