@@ -173,8 +173,10 @@ fn inspect(
     let recording = (args.recording).start(&load, &trace, database, console)?;
     format.head(console);
     let following = match (line, &args.source) {
-        (Some(line), _) => Following::Line(LineTracker::new(line)),
-        (None, Some(source)) if source.is_followed() => Following::Hanging(PartFollower::default()),
+        (Some(line), _) => Following::Line(Box::new(LineTracker::new(line))),
+        (None, Some(source)) if source.is_followed() => {
+            Following::Hanging(Box::new(PartFollower::default()))
+        }
         (None, _) => Following::Independent,
     };
     let setup = StationSetup {
@@ -272,10 +274,8 @@ fn inspect_source(
                 num_inspected += 1;
                 let path = Path::new(&captured.name).to_owned();
                 inspector.frame(&path, console, |one, console| {
-                    one.next(
-                        to_inspect(captured, source, status, &mut one.scenes, console),
-                        console,
-                    )
+                    let scene = to_inspect(captured, source, status, &mut one.scenes, console);
+                    one.next(scene, console)
                 })?
             }
         };

@@ -303,30 +303,49 @@ mod tests {
         }
     }
 
-    #[test]
-    fn a_part_that_is_not_expected_is_refused_and_what_is_missing_is_said() {
-        let (library, recipe) = (shipped_library(), NamedRecipe::default());
-        let finder = finder(&library);
-        let source: SourceSpec = "simulated:fender".parse().expect("a source");
-        let camera = Camera::start(&source).expect("started");
-        let number_of = |name: &str| {
-            let mut numbered = finder.parts.iter().zip(&library.references);
+    /// A camera before a simulated fender.
+    struct FenderStation {
+        library: Library,
+        finder: PartFinder,
+        source: SourceSpec,
+        camera: Camera,
+    }
+
+    impl FenderStation {
+        fn new() -> Self {
+            let library = shipped_library();
+            let source: SourceSpec = "simulated:fender".parse().expect("a source");
+            Self {
+                finder: finder(&library),
+                camera: Camera::start(&source).expect("started"),
+                library,
+                source,
+            }
+        }
+
+        fn number_of(&self, name: &str) -> u32 {
+            let mut numbered = self.finder.parts.iter().zip(&self.library.references);
             let part = numbered.find(|(_, reference)| reference.name == name);
             part.expect("enrolled").0.number
-        };
-        let in_rack = recipe.in_rack(two_hooks());
-        let answered_in = |recipe: &NamedRecipe, numbers: &[[u32; 2]]| {
-            let frame = camera.frame_after(&Asked::now(), PATIENCE, || false);
+        }
+
+        /// The answer to a trigger that expects these parts, each with its place.
+        fn answered(
+            &self,
+            recipe: &NamedRecipe,
+            numbers: &[[u32; 2]],
+        ) -> Result<FrameParts, NoFrame> {
+            let frame = self.camera.frame_after(&Asked::now(), PATIENCE, || false);
             let frame = frame.expect("a frame");
-            let subject = Subject::of_capture(&frame, &source, 0);
+            let subject = Subject::of_capture(&frame, &self.source, 0);
             let mut expected = ExpectedNumbers::default();
             for (one, [place, part]) in expected.iter_mut().zip(numbers) {
                 (one.place, one.part) = (*place, *part);
             }
             let answering = Answering {
-                camera: &camera,
-                finder: &finder,
-                library: &library,
+                camera: &self.camera,
+                finder: &self.finder,
+                library: &self.library,
                 recipe,
                 expected,
                 at_most: PATIENCE,
@@ -337,20 +356,26 @@ mod tests {
                 Arc::new(scene_from_image(captured.image))
             });
             answered.map(|answered| answered.found)
-        };
+        }
+    }
+
+    fn shown(found: &FrameParts) -> Vec<(VerdictCode, String, String)> {
+        let parts = found.iter().map(|part| {
+            assert_eq!(part.pose.is_some(), part.verdict == VerdictCode::Accepted);
+            let reason = part.problem.reason.clone();
+            (part.verdict, part.part.clone(), reason)
+        });
+        parts.collect()
+    }
+
+    #[test]
+    fn a_part_that_is_not_expected_is_refused_and_what_is_missing_is_said() {
+        let (station, recipe) = (FenderStation::new(), NamedRecipe::default());
         let answered = |numbers: &[u32]| {
             let numbers: Vec<[u32; 2]> = numbers.iter().map(|&number| [0, number]).collect();
-            answered_in(&recipe, &numbers)
+            station.answered(&recipe, &numbers)
         };
-        let shown = |found: &FrameParts| -> Vec<(VerdictCode, String, String)> {
-            let parts = found.iter().map(|part| {
-                assert_eq!(part.pose.is_some(), part.verdict == VerdictCode::Accepted);
-                let reason = part.problem.reason.clone();
-                (part.verdict, part.part.clone(), reason)
-            });
-            parts.collect()
-        };
-        let (fender, grille) = (number_of("fender"), number_of("grille"));
+        let (fender, grille) = (station.number_of("fender"), station.number_of("grille"));
         let part = |verdict, name: &str, reason: &str| (verdict, name.into(), reason.into());
         let accepted = part(VerdictCode::Accepted, "fender", "");
         let found = answered(&[]).expect("inspected");
@@ -374,9 +399,15 @@ mod tests {
         assert_eq!(shown(&found), [wrong]);
         let unknown = answered(&[99]).expect_err("no such part");
         assert_eq!(unknown.reason(), "unknown_number");
+    }
 
-        // By place and number.
-        let answered = |numbers: &[[u32; 2]]| answered_in(&in_rack, numbers);
+    #[test]
+    fn a_part_hangs_at_its_place_of_the_rack_and_what_is_missing_at_another() {
+        let station = FenderStation::new();
+        let in_rack = NamedRecipe::default().in_rack(two_hooks());
+        let (fender, grille) = (station.number_of("fender"), station.number_of("grille"));
+        let accepted = (VerdictCode::Accepted, "fender".into(), String::new());
+        let answered = |numbers: &[[u32; 2]]| station.answered(&in_rack, numbers);
         let found = answered(&[[1, fender]]).expect("inspected");
         assert_eq!(shown(&found), std::slice::from_ref(&accepted));
         let hook = |number, name: &str| RackPlace {

@@ -45,9 +45,9 @@ pub enum Following<E> {
     /// Each shows parts of its own.
     Independent,
     /// They show the parts that hang there, one after the other.
-    Hanging(PartFollower<E>),
+    Hanging(Box<PartFollower<E>>),
     /// They show the parts that a line carries past.
-    Line(LineTracker<E>),
+    Line(Box<LineTracker<E>>),
 }
 
 /// A scene to inspect.

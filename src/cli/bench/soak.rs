@@ -255,7 +255,7 @@ pub(super) fn run(args: &SoakArgs, console: &mut Console) -> anyhow::Result<Outc
         recipe,
         ..StationSetup::default()
     };
-    let following = Following::Hanging(PartFollower::default());
+    let following = Following::Hanging(Box::new(PartFollower::default()));
     let mut follower = Follower {
         station: Station::new(setup, following),
         scenes: CameraScenes::default(),

@@ -96,7 +96,7 @@ fn trigger(mut words: Vec<&[u8]>) -> Result<Option<Request>, BadRequest> {
     };
     let [count, order, serial] = ["ENC=", "ORDER=", "SERIAL="].map(&mut taken);
     let count = count.map(number_of_count).transpose()?;
-    let [order, serial] = [order, serial].map(|text| text.unwrap_or_default());
+    let [order, serial] = [order, serial].map(Option::unwrap_or_default);
     let asked = AskedOrder::new(text_in(order)?, text_in(serial)?);
     let asked = asked.ok_or_else(|| BadRequest::bad_order(&[order, serial].concat()))?;
     let parts = words.into_iter().map(expected_in);

@@ -19,7 +19,7 @@ use inspection::{
     library::{PartMeta, PartName},
     pipeline::{Expected, ExpectedPart},
 };
-use records::history::Traceability;
+use records::{history::Traceability, orders::Orders};
 use stages::{rack::Place, segment::MAX_PARTS};
 use station::Doubt;
 use ui::{language::text, user_error::UserError};

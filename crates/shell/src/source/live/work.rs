@@ -27,10 +27,7 @@ use inspection::{
     },
 };
 use records::history::{NewEntry, Traceability};
-use stages::{
-    reference::Reference,
-    scene::{EmptyCell, SceneCloud},
-};
+use stages::{reference::Reference, scene::EmptyCell};
 use station::{SeenFrame, SeenPart};
 use ui::{
     task::{TaskContext, TaskError},
