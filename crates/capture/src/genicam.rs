@@ -29,7 +29,7 @@ use super::{
     error::{CaptureError, CaptureWarning},
     read_timeout::ReadTimeout,
     source::{Captured, DepthSource, Image, NextCapture, SkippedCapture},
-    spec::{GenicamFormat, GenicamSpec, SourceSpec},
+    spec::{GenicamFormat, GenicamSpec, SourceListing, SourceSpec},
 };
 use files::DepthCamera;
 

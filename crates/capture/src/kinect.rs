@@ -30,7 +30,7 @@ use super::{
     error::{CaptureError, CaptureWarning},
     read_timeout::ReadTimeout,
     source::{Captured, DepthSource, Image, NextCapture},
-    spec::{KinectSpec, SourceSpec},
+    spec::{KinectSpec, SourceListing, SourceSpec},
 };
 use geometry::{
     depth_frame::{DepthFrame, Intrinsics},

@@ -35,7 +35,7 @@ use super::{
     error::CaptureError,
     read_timeout::ReadTimeout,
     source::{Captured, DepthSource, Image, NextCapture},
-    spec::{OpenNiSpec, Pace, SourceSpec},
+    spec::{OpenNiSpec, Pace, SourceListing, SourceSpec},
 };
 use geometry::{
     depth_frame::{DepthFrame, Intrinsics},

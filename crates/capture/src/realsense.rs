@@ -32,7 +32,7 @@ use super::{
     error::CaptureError,
     read_timeout::ReadTimeout,
     source::{Captured, DepthSource, Image, NextCapture},
-    spec::{Pace, RealsenseSpec, SourceSpec},
+    spec::{Pace, RealsenseSpec, SourceListing, SourceSpec},
 };
 use geometry::{
     depth_frame::{DepthFrame, Intrinsics},

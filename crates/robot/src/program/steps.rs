@@ -9,7 +9,6 @@ use super::{
     language::{Calls, Line, Motion, Step},
 };
 use crate::arm::{PointCheck, Way};
-use geometry::rigid::RigidTransform;
 
 /// Limit of a blend as a share of the way to the next point, so that two blends do not touch.
 const MAX_BLEND_SHARE: f64 = 0.45;
