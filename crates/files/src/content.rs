@@ -63,7 +63,7 @@ pub enum FileWarning {
 impl Advice for FileWarning {
     fn advice(&self) -> String {
         match self {
-            Self::TooWideForMetres { extent } if extent.0 < ONLY_MILLIMETRES => {
+            Self::TooWideForMetres { extent } if extent.0 < ONLY_MILLIMETRES_M => {
                 "Read it in its own unit, or export it in metres".into()
             }
             Self::TooWideForMetres { .. } => "Read it as millimetres, or export it in metres".into(),
@@ -84,14 +84,14 @@ impl Advice for FileWarning {
 }
 
 /// The extent that causes a warning, in metres: a part of 0.1 m in millimetres looks this wide, and no cell is.
-const SUSPICIOUS_EXTENT: f64 = 100.0;
+const SUSPICIOUS_EXTENT_M: f64 = 100.0;
 
 /// The extent, in metres, from which only millimetres make a cell of it: in centimetres it spans 10 m or more.
-pub const ONLY_MILLIMETRES: f64 = 1000.0;
+pub const ONLY_MILLIMETRES_M: f64 = 1000.0;
 
 /// Returns the units in which a file with this extent may be.
 fn units_of(extent: Metres) -> &'static str {
-    if extent.0 < ONLY_MILLIMETRES {
+    if extent.0 < ONLY_MILLIMETRES_M {
         "millimetres, centimetres or inches"
     } else {
         "millimetres"
@@ -100,7 +100,7 @@ fn units_of(extent: Metres) -> &'static str {
 
 /// The extent below which captures and parts get a warning, in metres: a cell of metres, read as millimetres, is smaller, and
 /// no part is.
-const SMALLEST_EXTENT: f64 = 0.1;
+const SMALLEST_EXTENT_M: f64 = 0.1;
 
 /// Clouds with fewer readings are no captures, and a camera cannot be fitted to a few.
 const MIN_READINGS: usize = 1000;
@@ -140,7 +140,7 @@ impl FileContent {
         };
         let extent = bounds.map_or(0.0, |(low, high)| f64::from((high - low).amax()));
         let mut warnings = Vec::new();
-        if extent >= SUSPICIOUS_EXTENT {
+        if extent >= SUSPICIOUS_EXTENT_M {
             let extent = Metres(extent);
             warnings.push(FileWarning::TooWideForMetres { extent });
         }
@@ -149,7 +149,7 @@ impl FileContent {
             Self::Mesh(_) => true,
             Self::Depth(_) => false,
         };
-        if has_surface && extent < SMALLEST_EXTENT {
+        if has_surface && extent < SMALLEST_EXTENT_M {
             let extent = Metres(extent);
             warnings.push(FileWarning::TooSmall { extent });
         }

@@ -58,7 +58,7 @@ pub mod xyz;
 pub use self::cause::{advice_on, words_of};
 pub use self::cells::{Row, csv_comment, csv_text, table_rows};
 pub use self::checksum::crc32;
-pub use self::content::{FileContent, FileWarning, ONLY_MILLIMETRES};
+pub use self::content::{FileContent, FileWarning, ONLY_MILLIMETRES_M};
 pub use self::counting_order::in_counting_order;
 pub use self::depth_camera::{DepthCamera, StoredOrientation, Turn};
 pub use self::depth_png::read_picture;

@@ -139,7 +139,7 @@ impl CellSetup {
 }
 
 /// Least distance of the wall behind the part, and of the floor below it, in metres: room for the stand's post.
-const CLEARANCE: f64 = 0.15;
+const CLEARANCE_M: f64 = 0.15;
 /// Largest tilt of wall and floor about each axis.
 const MAX_TILT: Radians = Radians(0.05);
 
@@ -262,6 +262,6 @@ fn beyond(normal: Vector3<f64>, wished: f64, hung: &[Point3<f64>], random: &mut 
         .fold(0.0, f64::max);
     Plane {
         normal,
-        offset: wished.max(reach + CLEARANCE),
+        offset: wished.max(reach + CLEARANCE_M),
     }
 }

@@ -145,7 +145,7 @@ impl PreparedTarget {
         }
     }
 
-    pub(crate) fn target(&self) -> AlignmentTarget<'_> {
+    pub(super) fn target(&self) -> AlignmentTarget<'_> {
         self.fine.target()
     }
 
@@ -160,7 +160,7 @@ impl PreparedTarget {
     }
 
     /// Distance between neighbouring points, metres.
-    pub(crate) fn spacing(&self) -> f64 {
+    pub(super) fn spacing(&self) -> f64 {
         self.fine.spacing
     }
 
