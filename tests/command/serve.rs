@@ -336,63 +336,62 @@ fn a_file_for_a_trigger_shows_no_motion_and_answer_line_and_history_say_so() {
 
 #[test]
 fn before_a_rack_each_part_has_its_place_and_an_order_says_what_is_missing() {
+    const PARTS: &str = "1=radiator_support|2=back_door|3=front_door";
     let place = Workplace::new();
-    let rack = ["simulate", "--rack", "2", "--rack-kind", "apart"];
-    place.accepted(&[&rack[..], &["--seed", "3", "--out", "rack.pcd"]].concat());
+    let rack = ["simulate", "--rack", "3", "--rack-kind", "apart"];
+    place.accepted(&[&rack[..], &["--seed", "4", "--out", "rack.pcd"]].concat());
     place.accepted(&["rack", "add", "rack.toml", "rack.pcd", "--each"]);
-    let inspect = ["inspect", "rack.pcd", "--rack", "rack.toml", "--json"];
-    let seen = place
-        .accepted(&[&inspect[..], &["--no-history"]].concat())
-        .json();
-    let [first, second] = [0, 1].map(|part| seen["parts"][part]["part"].as_str().expect("named"));
-    // At the third place hangs nothing.
+    // At the fourth place hangs nothing.
     let far = "[[place]]\nname = \"far\"\ncentre_mm = [9000, 0, 2000]\nsize_mm = [99, 99, 99]\n";
     place.write("rack.toml", &(place.read("rack.toml") + far));
-    let of_order = |number: u32, parts: &str| format!("{number};;{parts}\n");
-    let orders = [
-        of_order(4711, &format!("1={first}|2={second}|far={first}")),
-        of_order(4712, &format!("1={first}|2={second}")),
+    let head = "order;serial;parts\n";
+    let [missing, all] = [
+        format!("4711;;{PARTS}|far=grille\n"),
+        format!("4712;;{PARTS}\n"),
     ];
-    place.write(
-        "orders.csv",
-        &format!("order;serial;parts\n{}", orders.concat()),
-    );
+    place.write("orders.csv", &format!("{head}{missing}{all}"));
     fs::create_dir(place.path("scans")).expect("made");
-    let source = [
-        "--source",
-        "watch:scans",
-        "--frame-timeout",
-        "60",
+    let source = ["--source", "watch:scans", "--frame-timeout", "60"];
+    let rack = [
         "--as",
         "kuka",
+        "--rack",
+        "rack.toml",
+        "--orders",
+        "orders.csv",
     ];
-    let rack = ["--rack", "rack.toml", "--orders", "orders.csv"];
     let listen = ["ascii=0", "eki=0", "urscript=0"].map(|listen| ["--listen", listen]);
     let args = [&source[..], &rack, listen.as_flattened()].concat();
     let mut service = Service::start(&place, &args);
     let mut robot = service.connect("ascii");
-    let fields = |answer: &str| answer.split(';').map(str::to_owned).collect::<Vec<_>>();
-    // The table says it, so a trigger has to name its order.
-    let unnamed = fields(&asked(&mut robot, "TRIGGER\n"));
-    assert_eq!([&unnamed[1], &unnamed[18]], ["error", "not_known"]);
-    let unknown = fields(&asked(&mut robot, "TRIGGER ORDER=\"47 11\"\n"));
-    assert_eq!([&unknown[1], &unknown[18]], ["error", "not_known"]);
-    assert!(unknown[19].contains("order 47 11"), "{unknown:?}");
+    let fields = |answer: &str| -> Vec<String> { answer.split(';').map(str::to_owned).collect() };
+    // Verdict, part, reason and place; an answer without an inspection has none.
+    let shown = |answer: &str| {
+        let fields = fields(answer);
+        [1, 6, 18, 20].map(|field: usize| fields.get(field).cloned().unwrap_or_default())
+    };
+    // The table says what is expected, so a trigger has to name its order.
+    let unnamed = asked(&mut robot, "TRIGGER\n");
+    assert_eq!(shown(&unnamed), ["error", "", "not_known", ""], "{unnamed}");
+    let unknown = asked(&mut robot, "TRIGGER ORDER=\"47 11\"\n");
+    assert_eq!(shown(&unknown), ["error", "", "not_known", ""], "{unknown}");
+    assert!(unknown.contains("order 47 11 is not"), "{unknown}");
     let request = "TRIGGER ORDER=4711 SERIAL=TL-1\n";
-    let answer = fields(&asked_before(&place, "rack.pcd", &mut robot, request));
-    assert_eq!(
-        (&*answer[1], &*answer[6], answer.len(), &*answer[20]),
-        ("accepted", first, 21, "1"),
-        "{answer:?}"
-    );
-    let mut part = |number: u32| fields(&asked(&mut robot, &format!("PART {number}\n")));
-    let at = |answer: &[String]| [1, 6, 18, 20].map(|field| answer[field].clone());
-    assert_eq!(at(&part(2)), ["accepted", second, "", "2"]);
-    assert_eq!(at(&part(3)), ["no_part", first, "missing", "3"]);
+    let answer = asked_before(&place, "rack.pcd", &mut robot, request);
+    let expected = ["accepted", "radiator_support", "", "1"];
+    assert_eq!(shown(&answer), expected, "{answer}");
+    for (number, expected) in [
+        (2, ["accepted", "back_door", "", "2"]),
+        (3, ["accepted", "front_door", "", "3"]),
+        (4, ["no_part", "grille", "missing", "4"]),
+    ] {
+        let answer = asked(&mut robot, &format!("PART {number}\n"));
+        assert_eq!(shown(&answer), expected, "{answer}");
+    }
     // The table has changed meanwhile.
-    place.write("orders.csv", &format!("order;serial;parts\n{}", orders[1]));
-    let gone = fields(&asked(&mut robot, "TRIGGER ORDER=4711\n"));
-    assert_eq!(gone[18], "not_known");
+    place.write("orders.csv", &format!("{head}{all}"));
+    let gone = asked(&mut robot, "TRIGGER ORDER=4711\n");
+    assert_eq!(shown(&gone), ["error", "", "not_known", ""], "{gone}");
     let mut eki = service.connect("eki");
     let request = "<Robot><Request>TRIGGER</Request><Order>4712</Order></Robot>";
     let answer = asked_before(&place, "rack.pcd", &mut eki, request);
@@ -410,16 +409,17 @@ fn before_a_rack_each_part_has_its_place_and_an_order_says_what_is_missing() {
     let line = lines.iter().find(|line| line["serial"] == "TL-1");
     let line = line.expect("the trigger's");
     assert_eq!(line["order"], "4711");
-    assert_eq!(line["missing"], serde_json::json!([first]));
+    assert_eq!(line["missing"], serde_json::json!(["grille"]));
     let rows = place.accepted(&["history", "list", "--json"]).lines();
-    let traced = |serial: &str, order: &str| {
+    let num_traced = |serial: &str, order: &str| {
         let is_it = |row: &&Value| {
             row["serial"].as_str().unwrap_or_default() == serial && row["order"] == order
         };
         rows.iter().filter(is_it).count()
     };
-    assert_eq!([traced("TL-1", "4711"), traced("", "4712")], [2, 4]);
-    assert_eq!(rows.len(), 6);
+    assert_eq!(num_traced("TL-1", "4711"), 3);
+    assert_eq!(num_traced("", "4712"), 6);
+    assert_eq!(rows.len(), 9);
 }
 
 #[test]

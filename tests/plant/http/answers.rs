@@ -430,7 +430,7 @@ fn before_a_rack_each_part_has_its_place_and_the_frame_what_is_empty_and_missing
     for reply in [triggered, client.get("/v1/last")] {
         let answer = reply.json();
         assert_eq!(answer["place"], left);
-        let places = [0, 1].map(|part| &answer["parts"][part]["place"]);
+        let places = [0_usize, 1].map(|part| &answer["parts"][part]["place"]);
         assert_eq!(places, [&left, &right]);
         assert_eq!(answer["rack"], "rack A");
         assert_eq!(answer["empty_places"], json!([right]));

@@ -247,11 +247,9 @@ pub(super) fn ui(ui: &mut Ui, view: &StatisticsView, units: UnitSystem) {
 /// Draws a row for each part.
 fn by_part(ui: &mut Ui, parts: &[(Option<String>, Tally)]) {
     // Translate when drawing: the language may have changed since counting.
-    let title = |title: &Option<String>| match title {
-        Some(title) => title.clone(),
-        None => stored_verdict(StoredVerdict::Unknown),
-    };
-    let parts = parts.iter().map(|(part, tally)| (title(part), tally));
+    let unknown = || stored_verdict(StoredVerdict::Unknown);
+    let titled = |part: &Option<String>| part.clone().unwrap_or_else(unknown);
+    let parts = parts.iter().map(|(part, tally)| (titled(part), tally));
     by_name(ui, &text!("shell-part"), parts);
 }
 
