@@ -173,7 +173,11 @@ pub(super) fn show_card(
         line("edge", text.to_owned());
     }
     if let Some(place) = &inspection.place {
-        line("place", place.clone());
+        let turn = inspection.turn_at_place.map_or(String::new(), |turn| {
+            let [found, limit] = [turn.found, turn.limit].map(|angle| angle.degrees());
+            format!(", turned by {found:.1} degrees; up to {limit:.1} are allowed")
+        });
+        line("place", format!("{place}{turn}"));
     }
     if inspection.leaves_volume {
         let text = "what was found goes on outside the work volume: some of it may be missing";

@@ -34,7 +34,7 @@ use stages::{
     paper::{IcpGaParams, IcpParams},
     pose::{PoseError, PoseEstimate, PoseMethod},
     project::{PlaneImage, ProjectParams},
-    rack::Rack,
+    rack::{Rack, Turn},
     rank::{Query, RankParams},
     reference::{Reference, ReferenceParams},
     scene::SceneCloud,
@@ -198,6 +198,8 @@ pub struct Inspection {
     pub verdict: Verdict,
     /// Name of the rack's place where the part, or what is unknown, hangs; `None` if that is none.
     pub place: Option<String>,
+    /// How far the part is turned from an orientation that it may have there; `None` if it may have any.
+    pub turn_at_place: Option<Turn>,
     /// True if the part continues outside the work volume.
     pub leaves_volume: bool,
     /// Of the first part of a frame in which parts are expected: those that nothing hangs in place of.
@@ -412,6 +414,7 @@ impl Inspection {
             pose: None,
             verdict: Verdict::NoPart(why),
             place: None,
+            turn_at_place: None,
             leaves_volume: false,
             missing: None,
             timings: Timings::default(),
