@@ -1,7 +1,8 @@
-//! `partsight bench soak`: runs very many frames through everything that `inspect --source` does, and checks whether
+//! `partsight-bench soak`: runs very many frames through everything that `inspect --source` does, and checks whether
 //! memory, threads or handles keep growing.
 
 use std::{
+    mem,
     path::PathBuf,
     sync::Arc,
     time::{Duration, Instant},
@@ -13,12 +14,7 @@ use jiff::{SignedDuration, Timestamp};
 use serde::Serialize;
 
 use super::{JsonFile, write_json};
-use crate::cli::{
-    LibraryChoice, Outcome,
-    console::{Advised as _, Console, Table, advised_error},
-    record::{HistoryChoice, HistoryRecorder},
-};
-use bench::ProcessUsage;
+use crate::process_usage::ProcessUsage;
 use capture::{
     BackpressurePolicy, CaptureError, Captured, DepthSource, Feed, FeedItem, Image, NextCapture,
     SimulatedSpec, SourceSpec,
@@ -31,13 +27,17 @@ use inspection::{
     library::LibraryLoad,
     pipeline::{Inspection, NamedRecipe, Unwatched, run_all},
 };
+use partsight::cli::{
+    LibraryChoice, Outcome,
+    console::{Advised as _, Console, Table, advised_error},
+};
 use records::{
-    history::Traceability,
-    report::{SizeCurve, curves_picture, write_png},
+    history::{HistoryEvent, Traceability},
+    report::{SizeCurve, curves_picture, segmentation_picture, write_png},
 };
 use simulate::{CellSetup, PartKind, Side, SimulatedObject, frame};
 use stages::{reference::Reference, scene::SceneCloud};
-use station::{CameraScenes, Inspected, PartFollower, Subject};
+use station::{CameraScenes, Inspected, LibraryNames, PartFollower, Recorder, Subject};
 
 /// Number of lines of the table.
 const NUM_STRETCHES: u64 = 20;
@@ -177,10 +177,11 @@ impl DepthSource for SmallCell {
 /// Inspects and records the frames.
 struct Follower<'a> {
     load: &'a LibraryLoad,
+    identity: String,
     recipe: NamedRecipe,
     scenes: CameraScenes,
     followed: PartFollower,
-    recording: HistoryRecorder,
+    recorder: Recorder,
     source: SourceSpec,
     num_accepted: u64,
     num_in_history: u64,
@@ -188,7 +189,7 @@ struct Follower<'a> {
 
 impl Follower<'_> {
     /// Takes in a frame as `inspect --source` does, without printing. Returns the latency.
-    fn take(&mut self, captured: Captured, console: &Console) -> anyhow::Result<Duration> {
+    fn take(&mut self, captured: Captured) -> anyhow::Result<Duration> {
         let arrived = captured.arrived;
         let subject = Subject::of_capture(&captured, &self.source, 0);
         let taken_at = captured.taken_at;
@@ -212,15 +213,31 @@ impl Follower<'_> {
             recipe,
             |inspection, hung, _| {
                 let inspected = record(inspection, &subject, &scene, recipe);
-                self.recording.entry(&inspected, hung)
+                let names = LibraryNames {
+                    identity: &self.identity,
+                    title_of: &str::to_owned,
+                };
+                let picture = segmentation_picture(&scene, &inspection.segmentation);
+                inspected.entry(hung, Traceability::default(), names, picture.as_ref())
             },
         );
         let latency = arrived.elapsed();
         for entry in entries {
             self.num_in_history += 1;
-            self.recording.add(entry, console);
+            self.recorder.add(entry);
         }
+        self.check_history()?;
         Ok(latency)
+    }
+
+    /// Takes the news of the history, so that they do not pile up.
+    fn check_history(&self) -> anyhow::Result<()> {
+        for news in self.recorder.take_news() {
+            if let HistoryEvent::Failed { what, advice } = news {
+                return Err(advised_error(what, advice));
+            }
+        }
+        Ok(())
     }
 }
 
@@ -262,22 +279,14 @@ pub(super) fn run(args: &SoakArgs, console: &mut Console) -> anyhow::Result<Outc
         .library
         .load_some(&recipe.reference_params(), console)?;
     let folder = tempfile::tempdir()?;
-    let place = HistoryChoice {
-        history: Some(folder.path().to_owned()),
-    };
-    let recording = HistoryRecorder::start(&place, &load, &Traceability::default(), None, console)?;
-    let Some(recording) = recording else {
-        return Err(advised_error(
-            "the history of the experiment cannot be written",
-            "Set TMPDIR to a folder that can be written",
-        ));
-    };
+    let recorder = Recorder::start(folder.path().to_owned())?;
     let mut follower = Follower {
         load: &load,
+        identity: load.identity(),
         recipe,
         scenes: CameraScenes::default(),
         followed: PartFollower::default(),
-        recording,
+        recorder,
         source: SourceSpec::Simulated(SimulatedSpec::default()),
         num_accepted: 0,
         num_in_history: 0,
@@ -299,15 +308,7 @@ pub(super) fn run(args: &SoakArgs, console: &mut Console) -> anyhow::Result<Outc
     };
     let feed = Feed::start_with(open, BackpressurePolicy::Every, || ()).advised()?;
     let stretches = stretches(&feed, &mut follower, num_frames, console)?;
-    let Follower {
-        followed,
-        mut recording,
-        ..
-    } = follower;
-    for entry in followed.end() {
-        recording.add(entry, console);
-    }
-    recording.finish(console);
+    end(follower, console)?;
     show(&stretches, console);
     let memory_growth = growth(&stretches);
     if let Some(path) = &args.plot {
@@ -338,6 +339,23 @@ pub(super) fn run(args: &SoakArgs, console: &mut Console) -> anyhow::Result<Outc
     Ok(Outcome::accepted_if(grown <= MOST_GROWTH))
 }
 
+/// Records the last part, and waits until everything is written.
+fn end(mut follower: Follower<'_>, console: &Console) -> anyhow::Result<()> {
+    for entry in mem::take(&mut follower.followed).end() {
+        follower.recorder.add(entry);
+    }
+    follower.recorder.finish();
+    follower.check_history()?;
+    let losses = follower.recorder.losses();
+    let num = losses.num_unwritten + losses.num_slow + losses.num_bare;
+    if num > 0 {
+        console.note(&format_args!(
+            "warning: {num} inspections are not, or without frames, in the history: the disk is too slow"
+        ));
+    }
+    Ok(())
+}
+
 /// Takes in all frames of the feed, and measures each twentieth of them.
 fn stretches(
     feed: &Feed,
@@ -351,7 +369,7 @@ fn stretches(
     let mut latencies = Vec::new();
     let mut num_taken = 0;
     while let Some(FeedItem::Captured(captured)) = feed.wait(Duration::from_mins(1)) {
-        let latency = follower.take(captured, console)?;
+        let latency = follower.take(captured)?;
         latencies.push(latency.as_secs_f64() * 1e3);
         num_taken += 1;
         if num_taken < num_frames * (stretches.len() as u64 + 1) / NUM_STRETCHES {
