@@ -43,7 +43,7 @@ mod tests;
 
 use jiff::Timestamp;
 
-use self::{configuration::configuration, language::ToolName, steps::Step, text::Lines};
+use self::{configuration::configuration, steps::Step, text::Lines};
 use crate::arm::{PathCheck, PlacedArm, Way};
 use geometry::{
     rigid::{RigidTransform, is_finite},
@@ -52,7 +52,7 @@ use geometry::{
 
 pub use self::{
     error::ProgramError,
-    language::RobotLanguage,
+    language::{RobotLanguage, ToolName},
     motion::MotionPiece,
     prepare::{arm_points, check_reach, program_points},
     save::{ProgramTexts, remove_previous_program},

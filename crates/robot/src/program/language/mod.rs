@@ -28,7 +28,7 @@ pub struct RobotLanguage {
     /// Convention of its poses.
     pub convention: Convention,
     /// How it names the tool whose origin is the nozzle's mouth.
-    pub(super) tool: ToolName,
+    pub tool: ToolName,
     /// Slowest and fastest speed, m/s.
     pub(super) speeds: [f64; 2],
     /// Numbers of its digital outputs.
@@ -49,7 +49,7 @@ pub struct RobotLanguage {
     /// Whether case matters in them.
     pub(super) is_case_sensitive: bool,
     /// How its programs follow a line; none if that is not known.
-    pub(super) tracking: Option<Tracking>,
+    pub tracking: Option<Tracking>,
     /// How a path that is too long for one program is cut; none if programs are unlimited.
     pub(super) calls: Option<Calls>,
     /// Most letters of a comment, without the sign that begins it.
@@ -65,7 +65,7 @@ pub struct RobotLanguage {
 
 /// How a language names the tool.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum ToolName {
+pub enum ToolName {
     /// By a number from 1 to this one.
     Number(u8),
     /// By a name.
@@ -96,9 +96,9 @@ impl ToolName {
 }
 
 /// What moves the frame that follows a line.
-pub(super) struct Tracking {
+pub struct Tracking {
     /// Its name, before its number.
-    pub(super) what: &'static str,
+    pub what: &'static str,
     /// Its numbers.
     pub(super) numbers: RangeInclusive<u8>,
 }
