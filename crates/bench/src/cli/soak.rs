@@ -2,7 +2,6 @@
 //! memory, threads or handles keep growing.
 
 use std::{
-    mem,
     path::PathBuf,
     sync::Arc,
     time::{Duration, Instant},
@@ -226,18 +225,8 @@ impl Follower<'_> {
             self.num_in_history += 1;
             self.recorder.add(entry);
         }
-        self.check_history()?;
+        check(&self.recorder)?;
         Ok(latency)
-    }
-
-    /// Takes the news of the history, so that they do not pile up.
-    fn check_history(&self) -> anyhow::Result<()> {
-        for news in self.recorder.take_news() {
-            if let HistoryEvent::Failed { what, advice } = news {
-                return Err(advised_error(what, advice));
-            }
-        }
-        Ok(())
     }
 }
 
@@ -339,14 +328,29 @@ pub(super) fn run(args: &SoakArgs, console: &mut Console) -> anyhow::Result<Outc
     Ok(Outcome::accepted_if(grown <= MOST_GROWTH))
 }
 
-/// Records the last part, and waits until everything is written.
-fn end(mut follower: Follower<'_>, console: &Console) -> anyhow::Result<()> {
-    for entry in mem::take(&mut follower.followed).end() {
-        follower.recorder.add(entry);
+/// Takes the news of the history, which would pile up; an error if it cannot be written.
+fn check(recorder: &Recorder) -> anyhow::Result<()> {
+    for news in recorder.take_news() {
+        if let HistoryEvent::Failed { what, advice } = news {
+            return Err(advised_error(what, advice));
+        }
     }
-    follower.recorder.finish();
-    follower.check_history()?;
-    let losses = follower.recorder.losses();
+    Ok(())
+}
+
+/// Records the last part, and waits until everything is written.
+fn end(follower: Follower<'_>, console: &Console) -> anyhow::Result<()> {
+    let Follower {
+        followed,
+        mut recorder,
+        ..
+    } = follower;
+    for entry in followed.end() {
+        recorder.add(entry);
+    }
+    recorder.finish();
+    check(&recorder)?;
+    let losses = recorder.losses();
     let num = losses.num_unwritten + losses.num_slow + losses.num_bare;
     if num > 0 {
         console.note(&format_args!(
