@@ -289,8 +289,9 @@ fn inspect_source(
     });
     let is_shown = console.is_writable();
     // Also if the source has failed: its last parts are recorded.
-    let waiting = inspector.end(source.is_replayed(), console)?;
+    let waiting = inspector.end(source.is_replayed(), console);
     let status = followed?;
+    let waiting = waiting?;
     if is_shown {
         outcome = outcome.max(waiting);
     }

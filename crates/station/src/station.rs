@@ -25,6 +25,8 @@ pub struct Station<E> {
     following: Following<E>,
     /// Scenes of a followed source whose verdicts may still change, in order.
     waiting: VecDeque<InspectedScene>,
+    /// Scenes whose verdicts count, in order: kept here in case the program fails at a later one.
+    settled: Vec<InspectedScene>,
 }
 
 /// What scenes are inspected with.
@@ -121,6 +123,7 @@ impl<E> Station<E> {
             setup,
             following,
             waiting: VecDeque::new(),
+            settled: Vec::new(),
         }
     }
 
@@ -199,12 +202,15 @@ impl<E> Station<E> {
             }
             Following::Hanging(_) => {
                 // Earlier ones first: a part that they show may be recorded now.
-                let mut scenes = self.settle(&scene.parts, &entry);
+                self.settle(&scene.parts, &entry);
                 let recorded = self.follow(&scene, &entry);
                 let last = scene.parts.clone();
                 self.waiting.push_back(scene);
-                scenes.extend(self.settle(&last, &entry));
-                Settled { scenes, recorded }
+                self.settle(&last, &entry);
+                Settled {
+                    scenes: mem::take(&mut self.settled),
+                    recorded,
+                }
             }
         }
     }
@@ -216,8 +222,9 @@ impl<E> Station<E> {
         entry: impl Fn(&Inspected<'_>, HungId, Option<Instant>) -> E,
     ) -> Settled<E> {
         let scene = self.inspected(scene);
+        self.settle(&scene.parts, &entry);
         Settled {
-            scenes: self.settle(&scene.parts, &entry),
+            scenes: mem::take(&mut self.settled),
             recorded: Vec::new(),
         }
     }
@@ -228,8 +235,7 @@ impl<E> Station<E> {
         is_replayed: bool,
         entry: impl Fn(&Inspected<'_>, HungId, Option<Instant>) -> E,
     ) -> Settled<E> {
-        let mut scenes = Vec::from(mem::take(&mut self.waiting));
-        for scene in &mut scenes {
+        while let Some(mut scene) = self.waiting.pop_front() {
             if is_replayed {
                 scene.subject.is_motion_unchecked = true;
             } else {
@@ -237,14 +243,18 @@ impl<E> Station<E> {
                     refuse_moving(part);
                 }
             }
-            self.has_settled(scene, &entry);
+            self.has_settled(&scene, &entry);
+            self.settled.push(scene);
         }
         let recorded = match mem::replace(&mut self.following, Following::Independent) {
             Following::Independent => Vec::new(),
             Following::Hanging(follower) => follower.end(),
             Following::Line(line) => line.end(),
         };
-        Settled { scenes, recorded }
+        Settled {
+            scenes: mem::take(&mut self.settled),
+            recorded,
+        }
     }
 
     fn inspected(&mut self, scene: SceneToInspect) -> InspectedScene {
@@ -280,13 +290,12 @@ impl<E> Station<E> {
         }
     }
 
-    /// Returns the waiting scenes whose verdicts count now that the last scene had these inspections.
+    /// Settles the waiting scenes whose verdicts count now that the last scene had these inspections.
     fn settle(
         &mut self,
         last: &[Inspection],
         entry: &impl Fn(&Inspected<'_>, HungId, Option<Instant>) -> E,
-    ) -> Vec<InspectedScene> {
-        let mut settled = Vec::new();
+    ) {
         while let (Some(scene), Following::Hanging(follower)) =
             (self.waiting.front_mut(), &self.following)
         {
@@ -302,9 +311,8 @@ impl<E> Station<E> {
                 break;
             };
             self.has_settled(&scene, entry);
-            settled.push(scene);
+            self.settled.push(scene);
         }
-        settled
     }
 
     /// If this scene is recorded because its part leaves, then with the verdict that it has now.
@@ -346,5 +354,64 @@ impl<E> Station<E> {
                 entry(&part, hung, scene.captured_at)
             },
         )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use capture::{Captured, CellScene, SimulatedCell, SimulatedSpec, SourceSpec};
+    use geometry::error::guarded;
+    use inspection::fixtures::shipped_library;
+
+    #[test]
+    fn a_fault_at_one_frame_costs_no_other_one() {
+        let spec = SimulatedSpec {
+            scene: CellScene::Part(simulate::PartKind::Fender),
+            frames_per_second: 10.0,
+            ..SimulatedSpec::default()
+        };
+        let source = SourceSpec::Simulated(spec.clone());
+        let mut cell = SimulatedCell::new(spec);
+        let mut scenes = crate::CameraScenes::default();
+        let mut next = |number: u64| -> SceneToInspect {
+            let (image, _) = cell.frame(number);
+            let captured = Captured {
+                taken_at: jiff::Timestamp::UNIX_EPOCH
+                    + jiff::SignedDuration::from_millis(100 * number as i64),
+                ..Captured::now(number, number.to_string(), image)
+            };
+            SceneToInspect {
+                path: (&captured.name).into(),
+                subject: Subject::of_capture(&captured, &source, 0),
+                captured_at: None,
+                scene: scenes.next(captured.image),
+            }
+        };
+        let setup = StationSetup {
+            library: shipped_library(),
+            ..StationSetup::default()
+        };
+        let following = Following::Hanging(Box::default());
+        let mut station = Station::new(setup, following);
+        let (mut shown, mut failed) = (Vec::new(), Vec::new());
+        let path = |scene: &InspectedScene| scene.path.display().to_string();
+        for number in 1..=14 {
+            let scene = next(number);
+            // The first frames settle in this one.
+            let is_broken = station.is_waiting() && shown.is_empty() && number >= 10;
+            let entry = |_: &Inspected<'_>, _, _| assert!(!is_broken, "a fault of the program");
+            match guarded(|| station.next(scene, entry)) {
+                Ok(settled) => shown.extend(settled.scenes.iter().map(path)),
+                Err(_) => failed.push(number.to_string()),
+            }
+        }
+        let last = station.end(true, |_, _, _| ());
+        shown.extend(last.scenes.iter().map(path));
+        assert!(!failed.is_empty(), "{shown:?}");
+        shown.extend(failed);
+        shown.sort_by_key(|name| name.parse::<u64>().expect("a number"));
+        let all: Vec<String> = (1..=14).map(|number| u64::to_string(&number)).collect();
+        assert_eq!(shown, all);
     }
 }

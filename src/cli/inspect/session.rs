@@ -11,7 +11,7 @@ use crate::cli::{
     plant::Publisher,
     record::HistoryRecorder,
 };
-use geometry::error::{Advice, guarded};
+use geometry::error::{Advice, Fault, guarded};
 use inspection::pipeline::{Inspection, MirrorTally};
 use records::{
     history::{HungId, NewEntry, Traceability},
@@ -96,13 +96,22 @@ impl InspectSession {
         console: &mut Console,
         inspect: impl FnOnce(&mut Self, &mut Console) -> anyhow::Result<Outcome>,
     ) -> anyhow::Result<Outcome> {
-        guarded(|| inspect(self, console)).unwrap_or_else(|fault| {
-            if let Some(publisher) = &mut self.publisher {
-                publisher.failed(&fault);
-            }
-            let shown = format!("{}: {fault}", path.display());
-            self.unreadable(path, &fault, &shown, console)
-        })
+        guarded(|| inspect(self, console))
+            .unwrap_or_else(|fault| self.failed(path, &fault, console))
+    }
+
+    /// Reports a scene at which the program failed.
+    fn failed(
+        &mut self,
+        path: &Path,
+        fault: &Fault,
+        console: &mut Console,
+    ) -> anyhow::Result<Outcome> {
+        if let Some(publisher) = &mut self.publisher {
+            publisher.failed(fault);
+        }
+        let shown = format!("{}: {fault}", path.display());
+        self.unreadable(path, fault, &shown, console)
     }
 
     /// Reports an input that is not a scene; `shown` is the error as text for people.
@@ -163,27 +172,44 @@ impl InspectSession {
         let Settled { scenes, recorded } = step(&mut self.station, &|part, hung, captured_at| {
             KeptInspection::new(recording, publisher, part, hung, captured_at)
         });
-        let lines: Vec<String> = (scenes.iter())
-            .map(|scene| self.show(scene, console))
+        // A fault at one of several scenes takes no other with it.
+        let shown: Vec<Result<String, Fault>> = (scenes.iter())
+            .map(|scene| guarded(|| self.show(scene, console)))
             .collect();
         // After the verdict is shown, which must not wait for it, and before the exports, any of which may fail.
         for kept in recorded {
             self.keep(kept, console);
         }
         let mut outcome = Outcome::Accepted;
-        for (scene, line) in scenes.iter().zip(&lines) {
-            let is_met = self.station.setup().recipe.is_met(&scene.parts);
-            // A refused part keeps its outcome even if its program was forced.
-            outcome = outcome.max(Outcome::accepted_if(is_met));
-            match self.write_robot_file(scene, console) {
-                Some(written) => outcome = outcome.max(written),
-                None => self.write_report(scene, line)?,
-            }
+        for (scene, shown) in scenes.iter().zip(shown) {
+            let written = match shown {
+                Ok(line) => guarded(|| self.export(scene, &line, console)),
+                Err(fault) => Err(fault),
+            };
+            let written = written.unwrap_or_else(|fault| self.failed(&scene.path, &fault, console));
+            outcome = outcome.max(written?);
         }
         Ok(outcome)
     }
 
-    /// Shows an inspected scene, unless the output is closed. Returns its line of JSON.
+    /// Writes what is wanted of a scene to files. Returns what came of it.
+    fn export(
+        &mut self,
+        scene: &InspectedScene,
+        line: &str,
+        console: &Console,
+    ) -> anyhow::Result<Outcome> {
+        let is_met = self.station.setup().recipe.is_met(&scene.parts);
+        let outcome = Outcome::accepted_if(is_met);
+        if let Some(written) = self.write_robot_file(scene, console) {
+            // A refused part keeps its outcome even if its program was forced.
+            return Ok(outcome.max(written));
+        }
+        self.write_report(scene, line)?;
+        Ok(outcome)
+    }
+
+    /// Shows an inspected scene. Returns its line of JSON.
     fn show(&mut self, scene: &InspectedScene, console: &mut Console) -> String {
         for part in &scene.parts {
             self.mirrored.add(&part.verdict);
@@ -204,16 +230,14 @@ impl InspectSession {
         let accepted = (scene.parts.iter()).filter(|part| part.verdict.is_accepted());
         self.num_unchecked += accepted.filter(|_| subject.is_motion_unchecked).count();
         let line = Inspected::line_of_all(&parts, &self.trace);
-        if console.is_writable() {
-            let file_says_simulated = subject.capture.is_none() && subject.is_simulated;
-            // The table has no room for the mark; reports and history have it.
-            let shown = match self.format {
-                OutputFormat::Card => marked_simulated(&subject.scene, file_says_simulated),
-                _ => subject.scene.clone(),
-            };
-            let library = &self.station.setup().library;
-            (self.format).inspected(&shown, &line, &parts, library, console);
-        }
+        let file_says_simulated = subject.capture.is_none() && subject.is_simulated;
+        // The table has no room for the mark; reports and history have it.
+        let shown = match self.format {
+            OutputFormat::Card => marked_simulated(&subject.scene, file_says_simulated),
+            _ => subject.scene.clone(),
+        };
+        let library = &self.station.setup().library;
+        (self.format).inspected(&shown, &line, &parts, library, console);
         line
     }
 

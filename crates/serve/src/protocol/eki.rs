@@ -14,7 +14,7 @@ use super::{
     ascii::{figure, name_of},
     bad_request::BadRequest,
     is_filler,
-    line::{named, number_in, number_of_count, of_name, real_in, words_of},
+    line::{expected_in, named, number_in, number_of_count, of_name, real_in, words_of},
     plain, servo_request,
 };
 use crate::answer::{Answer, AskedOrder, Request};
@@ -74,19 +74,10 @@ fn request(bytes: &[u8]) -> Result<Request, BadRequest> {
             Convention::Kuka,
         );
     }
-    let numbers: Vec<&[u8]> = match request {
-        Request::Trigger { .. } => words_of(of("Expected")).collect(),
-        Request::Path { .. } | Request::Part { .. } => {
-            match (filled("Point"), filled("Sequence")) {
-                (point, None) => point.into_iter().collect(),
-                (point, Some(sequence)) => vec![point.unwrap_or(b"0"), sequence],
-            }
-        }
-        Request::Status | Request::Last | Request::Servo(_) => Vec::new(),
-    };
-    let numbered = named(word.as_bytes(), numbers.into_iter());
-    let request = numbered.ok_or_else(|| BadRequest::unknown(bytes))??;
     if let Request::Trigger { .. } = request {
+        let expected = words_of(of("Expected")).map(expected_in);
+        let request = Request::expecting(expected.collect::<Result<Vec<_>, _>>()?);
+        let request = request.ok_or_else(|| BadRequest::unknown(bytes))?;
         let count = filled("Count").map(number_of_count).transpose()?;
         let text = |tag| unescaped(content_of(inner, tag).unwrap_or_default());
         let order = AskedOrder::new(&text("Order"), &text("Serial"));
@@ -94,7 +85,17 @@ fn request(bytes: &[u8]) -> Result<Request, BadRequest> {
         let request = request.at_count(count).of_order(order);
         return request.ok_or(BadRequest::OrderAndParts);
     }
-    Ok(request)
+    let numbers: Vec<&[u8]> = match request {
+        Request::Path { .. } | Request::Part { .. } => {
+            match (filled("Point"), filled("Sequence")) {
+                (point, None) => point.into_iter().collect(),
+                (point, Some(sequence)) => vec![point.unwrap_or(b"0"), sequence],
+            }
+        }
+        Request::Trigger { .. } | Request::Status | Request::Last | Request::Servo(_) => Vec::new(),
+    };
+    let numbered = named(word.as_bytes(), numbers.into_iter());
+    numbered.ok_or_else(|| BadRequest::unknown(bytes))?
 }
 
 /// The characters that are written as entities.
@@ -372,6 +373,10 @@ mod tests {
                 "bad_order",
                 "{text}"
             );
+        }
+        for words in ["ORDER=4711", "SERIAL=TL-1", "ENC=7"] {
+            let text = trigger(&format!("<Expected>{words}</Expected>"));
+            assert_eq!(only(&text).expect_err(&text).reason(), "no_point", "{text}");
         }
         // EKI sends every element with every request.
         let status = "<Robot><Request>STATUS</Request><Order>4711</Order></Robot>";

@@ -90,15 +90,23 @@ pub(super) fn named<'a>(
 
 /// Reads what stands behind `TRIGGER`; `None` if it is more parts than a frame can show.
 fn trigger(mut words: Vec<&[u8]>) -> Result<Option<Request>, BadRequest> {
-    let mut taken = |name: &str| {
+    let mut taken = |name: &str| -> Vec<&[u8]> {
         let values = words.extract_if(.., |word| value_of(word, name).is_some());
-        values.filter_map(|word| value_of(word, name)).last()
+        values.filter_map(|word| value_of(word, name)).collect()
     };
-    let [count, order, serial] = ["ENC=", "ORDER=", "SERIAL="].map(&mut taken);
+    let count = taken("ENC=").last().copied();
     let count = count.map(number_of_count).transpose()?;
-    let [order, serial] = [order, serial].map(Option::unwrap_or_default);
-    let asked = AskedOrder::new(text_in(order)?, text_in(serial)?);
-    let asked = asked.ok_or_else(|| BadRequest::bad_order(&[order, serial].concat()))?;
+    let mut text = |name: &str| match taken(name)[..] {
+        [] => Ok(""),
+        // A program whose variable is empty must not get what hangs there by chance.
+        [value] => (text_in(value).ok().filter(|text| !text.trim().is_empty()))
+            .ok_or_else(|| BadRequest::bad_order(value)),
+        [first, ..] => Err(BadRequest::bad_order(first)),
+    };
+    let [order, serial] = [text("ORDER=")?, text("SERIAL=")?];
+    let asked = AskedOrder::new(order, serial);
+    let asked =
+        asked.ok_or_else(|| BadRequest::bad_order(&[order, serial].concat().into_bytes()))?;
     let parts = words.into_iter().map(expected_in);
     let Some(request) = Request::expecting(parts.collect::<Result<Vec<_>, _>>()?) else {
         return Ok(None);
@@ -113,7 +121,7 @@ pub(super) fn of_name(word: &[u8]) -> Option<Request> {
 }
 
 /// Reads `PART` or `PLACE=PART`.
-fn expected_in(text: &[u8]) -> Result<ExpectedNumber, BadRequest> {
+pub(super) fn expected_in(text: &[u8]) -> Result<ExpectedNumber, BadRequest> {
     let (place, part) = match text.iter().position(|byte| *byte == b'=') {
         Some(at) => (number_in(&text[..at])?, &text[at + 1..]),
         None => (0, text),
@@ -245,8 +253,6 @@ mod tests {
                 asked("A 17; left=2", "").at_count(Some(7)),
             ),
             ("TRIGGER ORDER=Türen=2\n", asked("Türen=2", "")),
-            ("TRIGGER ORDER= SERIAL=\"\"\n", Request::TRIGGER),
-            ("TRIGGER ORDER= 3 5\n", expecting(&[3, 5])),
             ("TRIGGER ORDER=4711 0\n", asked("4711", "")),
         ] {
             assert_eq!(only(text), Ok(request), "{text:?}");
@@ -256,6 +262,10 @@ mod tests {
             ("TRIGGER ORDER=A 17\n", "bad_order"),
             ("TRIGGER ORDER=A door\n", "no_point"),
             ("TRIGGER ORDER=\"A 17\n", "bad_order"),
+            ("TRIGGER ORDER=\n", "bad_order"),
+            ("TRIGGER ORDER= 3 5\n", "bad_order"),
+            ("TRIGGER ORDER=4711 SERIAL=\" \"\n", "bad_order"),
+            ("TRIGGER ORDER=4711 ORDER=4712\n", "bad_order"),
             ("TRIGGER ORDER=\"A\"17\n", "bad_order"),
             ("TRIGGER ORDER=A\"1 7\"\n", "bad_order"),
             ("TRIGGER SERIAL=\"A\t17\"\n", "bad_order"),
