@@ -12,6 +12,7 @@ use records::{
     },
     report::TextTable,
 };
+use texts::Message;
 
 /// An evaluation with its recipe and stage times.
 #[derive(Debug)]
@@ -145,7 +146,7 @@ fn show_mistakes(evaluation: &Evaluation, text: &mut Text) {
             text.line(&format_args!(
                 "  {}: {}, it is {}, {}",
                 result.name,
-                judgement.words(),
+                judgement,
                 result.truth.name(),
                 result.found.words()
             ));
@@ -195,7 +196,7 @@ fn show_confusion(confusion: &Confusion, text: &mut Text) {
 
 fn show_calibration(calibration: &Calibration, text: &mut Text) {
     let Some(error) = calibration.expected_error else {
-        text.line(&"Calibration: nothing was taken for a part");
+        text.line(&Message::new("no-calibration"));
         return;
     };
     text.line(&format_args!(

@@ -9,7 +9,7 @@ use jiff::{Timestamp, Zoned};
 
 use crate::session::{Session, ShiftParts, Source, UserRole};
 use geometry::error::lock;
-use records::history::{Filter, HistoryBuffer, HistoryError, HungId, StoredVerdict, Summary};
+use records::history::{Filter, HistoryBuffer, HistoryError, HungId, StoredVerdict};
 use ui::{
     language::text,
     task::{Task, TaskRunner},

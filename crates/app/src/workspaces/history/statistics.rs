@@ -13,12 +13,12 @@ use inspection::pipeline::RefusalKind;
 use records::history::{PartOutcome, StoredVerdict};
 use shell::{
     inspection::unit_system::UnitSystem,
-    language::results::{refusal_kind, stored_verdict},
+    language::results::refusal_kind,
     session::{ShiftStarts, Source},
     source::source_menu,
 };
 use ui::{
-    language::text,
+    language::{described, text},
     plot::{Axes, Axis, legend},
     theme::{ROUNDING, Theme, font, space},
     widgets::{fitted_middle, heading},
@@ -248,7 +248,7 @@ fn by_part(ui: &mut Ui, parts: &[(Option<String>, Tally)]) {
             ui.end_row();
             for (title, tally) in parts {
                 // Translate when drawing: the language may have changed since counting.
-                let unknown = || stored_verdict(StoredVerdict::Unknown);
+                let unknown = || described(&StoredVerdict::Unknown);
                 let title = title.clone().unwrap_or_else(unknown);
                 let shown = fitted_middle(ui.painter(), &title, &font, room);
                 let is_whole = shown == title;
