@@ -177,6 +177,7 @@ fn texts(folder: &Path) -> Outcome {
 fn requests(folder: &Path) -> Outcome {
     for (name, text) in [
         ("trigger", "TRIGGER\r\nTRIGGER 3 5\nTRIGGER 1=3 2=5\n"),
+        ("order", "TRIGGER ORDER=\"A 17\" SERIAL=TL-1 ENC=7\n"),
         ("path", "STATUS\nLAST\nPATH 12 41\nPART 2\n"),
         (
             "servo",
@@ -196,7 +197,7 @@ fn requests(folder: &Path) -> Outcome {
     }
     for (order, name) in [(ByteOrder::Little, "little"), (ByteOrder::Big, "big")] {
         let wanted = Request::path(12, 41);
-        fs::write(folder.join(name), binary_request(wanted, order))?;
+        fs::write(folder.join(name), binary_request(&wanted, order))?;
         let number = |little: &[u8]| -> Vec<u8> {
             let mut bytes = little.to_vec();
             if order == ByteOrder::Big {

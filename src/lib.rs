@@ -93,10 +93,8 @@ pub use self::{
     stages::{
         confirm::{ConfirmParams, ConfirmedMatch, ConfirmedRanking, Evidence},
         contour::{Contour, ContourParams},
-        pose::{
-            PoseError, PoseEstimate, PoseMethod, PoseWarning, align, icp::IcpParams,
-            icp_ga::IcpGaParams,
-        },
+        paper::{IcpGaParams, IcpParams},
+        pose::{PoseError, PoseEstimate, PoseMethod, PoseWarning, align},
         project::{PlaneImage, ProjectParams},
         rank::RankParams,
         reference::{Reference, ReferenceParams},

@@ -1,6 +1,6 @@
 //! What should hang there, as command line options.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, builder::NonEmptyStringValueParser};
 
@@ -22,7 +22,8 @@ pub(super) struct ExpectChoice {
     #[arg(long, value_name = "[PLACE=]PART,...", value_delimiter = ',', value_parser = NonEmptyStringValueParser::new(), conflicts_with = "orders")]
     expect: Vec<String>,
     /// Expect the parts of --order, or of --serial if the table has a row for it. The table is a CSV file with the columns
-    /// order, serial (may be empty) and parts, such as fender|grille or left hook=fender|right hook=grille
+    /// order, serial (may be empty) and parts, such as fender|grille or left hook=fender|right hook=grille. With serve, a
+    /// trigger may name its order, and the table is read again for each
     #[arg(long, value_name = "FILE")]
     orders: Option<PathBuf>,
 }
@@ -46,6 +47,13 @@ impl ExpectChoice {
                 error.advice(),
             )),
         }
+    }
+
+    /// The table of orders, if there is one, which can be read.
+    pub(super) fn orders(&self) -> anyhow::Result<Option<&Path>> {
+        let path = self.orders.as_deref();
+        path.map(Orders::read).transpose().advised()?;
+        Ok(path)
     }
 
     fn given(

@@ -107,7 +107,7 @@ impl Advice for FileAdvice<'_> {
             return self.0.advice();
         };
         match warning {
-            FileWarning::TooWideForMetres { extent } if extent.0 < files::ONLY_MILLIMETRES => format!(
+            FileWarning::TooWideForMetres { extent } if extent.0 < files::ONLY_MILLIMETRES_M => format!(
                 "Give the unit that makes its size right: --units mm ({:.1} m), cm ({:.1} m) or in ({:.1} m), or \
                  #units=mm after its path",
                 extent.0 * 0.001,

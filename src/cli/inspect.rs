@@ -5,14 +5,13 @@ mod scan;
 mod session;
 
 use std::{
-    collections::VecDeque,
     ops::ControlFlow,
     path::{Path, PathBuf},
 };
 
 use clap::Args;
 
-use self::session::{InspectSession, Opened};
+use self::session::InspectSession;
 use super::{
     LibraryChoice, Outcome,
     calibrate::{CalibrationChoice, LineChoice, no_calibration},
@@ -28,10 +27,13 @@ use super::{
     scan::PosesChoice,
     trace::TraceChoice,
 };
-use capture::{FeedItem, SourceSpec};
+use capture::{Captured, FeedItem, FeedStatus, SourceSpec};
 use inspection::pipeline::MirrorTally;
 use records::report::ReportFolder;
-use station::{CameraScenes, LineTracker, NewFrame, PartFollower, Subject};
+use station::{
+    CameraScenes, Following, LineTracker, NewFrame, PartFollower, SceneToInspect, Station,
+    StationSetup, Subject,
+};
 
 /// Recognise the part in captured scenes and say where it is
 #[derive(Debug, Args)]
@@ -170,28 +172,33 @@ fn inspect(
         .transpose()?;
     let recording = (args.recording).start(&load, &trace, database, console)?;
     format.head(console);
-    let mut one = InspectSession {
+    let following = match (line, &args.source) {
+        (Some(line), _) => Following::Line(Box::new(LineTracker::new(line))),
+        (None, Some(source)) if source.is_followed() => {
+            Following::Hanging(Box::new(PartFollower::default()))
+        }
+        (None, _) => Following::Independent,
+    };
+    let setup = StationSetup {
         library: load.library,
         recipe,
+        robot,
+        is_forced: args.carried.is_forced(),
+    };
+    let mut one = InspectSession {
+        station: Station::new(setup, following),
         trace,
         scenes: match &args.source {
             Some(source) if !source.is_followed() => CameraScenes::independent(empty_cell.clone()),
             _ => CameraScenes::new(empty_cell.clone()),
         },
         empty_cell,
-        robot,
-        is_forced: args.carried.is_forced(),
         carried,
         format,
         report,
         recording,
-        followed: (args.source.as_ref())
-            .filter(|source| source.is_followed() && line.is_none())
-            .map(|_| PartFollower::default()),
-        line: line.map(LineTracker::new),
         publisher,
         mirrored: MirrorTally::default(),
-        waiting: VecDeque::new(),
         num_unchecked: 0,
     };
     let outcome = match &args.source {
@@ -200,11 +207,6 @@ fn inspect(
     };
     if let Some(suspicion) = one.mirrored.suspicion() {
         console.warn(&suspicion, &suspicion);
-    }
-    let still_held = one.followed.take().map_or_else(Vec::new, PartFollower::end);
-    let on_line = one.line.take().map_or_else(Vec::new, LineTracker::end);
-    for kept in still_held.into_iter().chain(on_line) {
-        one.keep(kept, console);
     }
     // Before the publisher, which may wait for the broker.
     if let Some(recording) = one.recording {
@@ -242,10 +244,9 @@ fn inspect_source(
     inspector: &mut InspectSession,
     console: &mut Console,
 ) -> anyhow::Result<Outcome> {
-    let rule = NewFrame::of_source(source);
     let mut outcome = Outcome::Accepted;
     let mut num_inspected = 0;
-    let status = follow(source, console, |item, status, console| {
+    let followed = follow(source, console, |item, status, console| {
         let is_enough = frames.is_some_and(|frames| num_inspected >= frames);
         if let Some(publisher) = &mut inspector.publisher {
             publisher.look(&status.state, console);
@@ -258,18 +259,8 @@ fn inspect_source(
         let one = match item {
             None => return Ok(ControlFlow::Continue(())),
             Some(FeedItem::Captured(captured)) if is_enough => {
-                let subject = Subject::of_capture(&captured, source, status.num_dropped);
-                let path = Path::new(&captured.name).to_owned();
-                let scene = scene_of(captured, &mut inspector.scenes, console);
-                inspector.check_waiting(
-                    Opened {
-                        path: &path,
-                        scene,
-                        subject,
-                        captured: None,
-                    },
-                    console,
-                )?
+                let scene = to_inspect(captured, source, status, &mut inspector.scenes, console);
+                inspector.check(scene, console)?
             }
             Some(FeedItem::Skipped(_)) if is_enough => Outcome::Accepted,
             Some(FeedItem::Skipped(skipped)) => {
@@ -281,33 +272,25 @@ fn inspect_source(
                     console.note(&"Simulated: no camera is read.");
                 }
                 num_inspected += 1;
-                let subject = Subject::of_capture(&captured, source, status.num_dropped);
                 let path = Path::new(&captured.name).to_owned();
-                let captured_at = rule.captured_at(&captured);
                 inspector.frame(&path, console, |one, console| {
-                    let scene = scene_of(captured, &mut one.scenes, console);
-                    one.inspect_scene(
-                        Opened {
-                            path: &path,
-                            scene,
-                            subject,
-                            captured: Some(captured_at),
-                        },
-                        console,
-                    )
+                    let scene = to_inspect(captured, source, status, &mut one.scenes, console);
+                    one.next(scene, console)
                 })?
             }
         };
         outcome = outcome.max(one);
         Ok(match frames {
-            Some(frames) if num_inspected >= frames && inspector.waiting.is_empty() => {
+            Some(frames) if num_inspected >= frames && !inspector.station.is_waiting() => {
                 ControlFlow::Break(())
             }
             _ => ControlFlow::Continue(()),
         })
-    })?;
+    });
     let is_shown = console.is_writable();
-    let waiting = inspector.show_waiting(source.is_replayed(), console)?;
+    // Also if the source has failed: its last parts are recorded.
+    let waiting = inspector.end(source.is_replayed(), console)?;
+    let status = followed?;
     if is_shown {
         outcome = outcome.max(waiting);
     }
@@ -327,4 +310,20 @@ fn inspect_source(
     } else {
         outcome
     })
+}
+
+/// The scene of a capture from a source.
+fn to_inspect(
+    captured: Captured,
+    source: &SourceSpec,
+    status: &FeedStatus,
+    scenes: &mut CameraScenes,
+    console: &Console,
+) -> SceneToInspect {
+    SceneToInspect {
+        path: Path::new(&captured.name).to_owned(),
+        subject: Subject::of_capture(&captured, source, status.num_dropped),
+        captured_at: Some(NewFrame::of_source(source).captured_at(&captured)),
+        scene: scene_of(captured, scenes, console),
+    }
 }

@@ -122,13 +122,23 @@ impl HistoryRecorder {
 
     /// Creates the entry of an inspection.
     pub(super) fn entry(&self, inspected: &Inspected<'_>, hung: HungId) -> NewEntry {
+        self.traced_entry(inspected, hung, &self.trace)
+    }
+
+    /// Creates the entry of an inspection that is traced by something else.
+    pub(super) fn traced_entry(
+        &self,
+        inspected: &Inspected<'_>,
+        hung: HungId,
+        trace: &Traceability,
+    ) -> NewEntry {
         let names = LibraryNames {
             identity: &self.library,
             title_of: &|name: &str| self.title_of(name),
         };
         let segmentation = &inspected.inspection.segmentation;
         let picture = segmentation_picture(inspected.scene, segmentation);
-        inspected.entry(hung, self.trace.clone(), names, picture.as_ref())
+        inspected.entry(hung, trace.clone(), names, picture.as_ref())
     }
 
     /// Adds an inspection.

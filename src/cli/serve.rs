@@ -4,6 +4,7 @@ mod session;
 
 use std::{
     net::{Ipv4Addr, SocketAddr, SocketAddrV4},
+    path::Path,
     sync::{
         Arc,
         mpsc::{self, Receiver},
@@ -213,7 +214,13 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
     };
     let servoing = args.servoing(console)?;
     let recipe = (args.rack).before(recipe, &load.library, Some(&robot))?;
-    let recipe = (args.expect).applied(&recipe, &load.library, Some(&recipe.rack), &trace)?;
+    let orders = args.expect.orders()?;
+    let recipe = if orders.is_some() && trace.order.is_empty() {
+        // Each trigger has to name its order.
+        recipe
+    } else {
+        (args.expect).applied(&recipe, &load.library, Some(&recipe.rack), &trace)?
+    };
     let parts = args.numbers.parts(&place, &load, console)?;
     let empty_cell = args.empty_cell.open(console)?;
     let line = args.line.load()?;
@@ -226,7 +233,7 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
         console.note(&format_args!("Library: {version}"));
     }
     let params = recipe.reference_params();
-    let services = services.start(&server, &place, &load, params, &trace, console)?;
+    let services = services.start(&server, &place, &load, params, console)?;
     let format = if args.json {
         OutputFormat::Json
     } else {
@@ -245,6 +252,8 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
             kind: args.numbers.kind(),
         },
         servoing,
+        orders: orders.map(Path::to_owned),
+        traced: trace.clone(),
         trace,
         scenes: CameraScenes::new(empty_cell),
         source: args.source.clone(),

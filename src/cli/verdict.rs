@@ -2,7 +2,10 @@
 
 use super::{console::Console, recipe::show_recipe};
 use files::visible;
-use geometry::{error::Advice as _, units::Metres};
+use geometry::{
+    error::Advice as _,
+    units::{Metres, Radians},
+};
 use inspection::{
     library::Library,
     pipeline::{Inspection, Rejection, Verdict},
@@ -176,7 +179,7 @@ pub(super) fn show_card(
         line("edge", text.to_owned());
     }
     if let Some(place) = &inspection.place {
-        line("place", place.clone());
+        line("place", format!("{place}{}", turn_words(inspection)));
     }
     if inspection.leaves_volume {
         let text = "what was found goes on outside the work volume: some of it may be missing";
@@ -194,6 +197,13 @@ pub(super) fn show_card(
     for (what, text) in in_robot_words(inspected, library) {
         console.entry(what, &text);
     }
+}
+
+fn turn_words(inspection: &Inspection) -> String {
+    inspection.turn_at_place.map_or(String::new(), |turn| {
+        let [found, limit] = [turn.found, turn.limit].map(Radians::degrees);
+        format!(", turned by {found:.1} degrees of {limit:.1} allowed")
+    })
 }
 
 fn stopped_words(stopped: Stopped) -> &'static str {

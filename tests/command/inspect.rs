@@ -4,7 +4,10 @@ use std::{fs, path::Path};
 
 use serde_json::Value;
 
-use crate::workplace::{Workplace, matrix};
+use crate::{
+    kit::csv_column,
+    workplace::{Workplace, matrix},
+};
 
 #[test]
 fn the_pose_is_that_of_the_simulation() {
@@ -216,6 +219,39 @@ fn a_wrong_part_a_missing_one_and_one_too_many_are_told_by_what_is_expected() {
     assert_eq!(again["again"]["same"], true, "{again}");
     assert_eq!(again["again"]["changed"], Value::Array(vec![]), "{again}");
     assert_eq!(again["verdict"], "not_accepted", "{again}");
+    // What was missing is in the row of the first part alone.
+    for (expected, missing) in [
+        ("front_door|trunk_lid|grille", ["", "grille"]),
+        ("trunk_lid", ["", ""]),
+    ] {
+        assert_eq!(recorded_as_missing(&place, expected), missing);
+    }
+}
+
+/// What `history show` and the export say was missing, in the rows of frames in which these parts were expected.
+fn recorded_as_missing(place: &Workplace, expected: &str) -> Vec<String> {
+    let history = ["--history", "history"];
+    let export = ["history", "export", "--csv", "all.csv"];
+    place.accepted(&[&export[..], &history].concat());
+    let table = place.read("all.csv");
+    let columns = ["number", "expected", "missing"].map(|column| csv_column(&table, column));
+    let [numbers, all_expected, all_missing] = columns;
+    let mut found = Vec::new();
+    for ((number, of_row), missing) in numbers.iter().zip(&all_expected).zip(all_missing) {
+        if of_row != expected {
+            continue;
+        }
+        let shown = place.accepted(&[&["history", "show", number], &history[..]].concat());
+        let row = |name: &str| {
+            let mut lines = shown.out.lines();
+            let line = lines.find_map(|line| line.strip_prefix(name));
+            line.unwrap_or_default().trim().replace(", ", "|")
+        };
+        assert_eq!([&row("expected"), &row("missing")], [of_row, &missing]);
+        found.push(missing);
+    }
+    found.sort();
+    found
 }
 
 #[test]

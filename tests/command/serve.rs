@@ -10,7 +10,7 @@ use std::{
     process::{Child, Command, Stdio},
     sync::{
         Arc, Mutex,
-        atomic::{AtomicBool, Ordering},
+        atomic::{AtomicBool, AtomicU32, Ordering},
     },
     thread::{self, JoinHandle},
     time::{Duration, Instant},
@@ -131,6 +131,35 @@ fn asked(stream: &mut BufReader<TcpStream>, request: &str) -> String {
     let mut line = String::new();
     stream.read_line(&mut line).expect("a line");
     line.trim_end().to_owned()
+}
+
+/// The answer to a trigger while this file is copied into the watched folder `scans` again and again: only one that is written
+/// after the trigger counts.
+fn asked_before(
+    place: &Workplace,
+    file: &str,
+    robot: &mut BufReader<TcpStream>,
+    request: &str,
+) -> String {
+    static NUM_SCANS: AtomicU32 = AtomicU32::new(0);
+    let is_answered = AtomicBool::new(false);
+    thread::scope(|scope| {
+        scope.spawn(|| {
+            for _ in 0..1000 {
+                if is_answered.load(Ordering::Relaxed) {
+                    break;
+                }
+                let number = NUM_SCANS.fetch_add(1, Ordering::Relaxed);
+                fs::copy(place.path(file), place.path("new")).expect("copied");
+                let scan = place.path(format!("scans/{number}.pcd"));
+                fs::rename(place.path("new"), scan).expect("renamed");
+                thread::sleep(Duration::from_millis(200));
+            }
+        });
+        let answer = asked(robot, request);
+        is_answered.store(true, Ordering::Relaxed);
+        answer
+    })
 }
 
 const EKI_TRIGGER: &str = "<Robot><Request>TRIGGER</Request><Point>0</Point></Robot>";
@@ -291,24 +320,7 @@ fn a_file_for_a_trigger_shows_no_motion_and_answer_line_and_history_say_so() {
     let args = [&source[..], &["--listen", "ascii=0", "--as", "kuka"]].concat();
     let mut service = Service::start(&place, &args);
     let mut robot = service.connect("ascii");
-    let is_answered = AtomicBool::new(false);
-    let answer = thread::scope(|scope| {
-        // Only a file that is written after the trigger counts.
-        scope.spawn(|| {
-            for number in 0..1000 {
-                if is_answered.load(Ordering::Relaxed) {
-                    break;
-                }
-                fs::copy(place.path("fender.pcd"), place.path("new")).expect("copied");
-                let scan = place.path(format!("scans/{number}.pcd"));
-                fs::rename(place.path("new"), scan).expect("renamed");
-                thread::sleep(Duration::from_millis(200));
-            }
-        });
-        let answer = asked(&mut robot, "TRIGGER\n");
-        is_answered.store(true, Ordering::Relaxed);
-        answer
-    });
+    let answer = asked_before(&place, "fender.pcd", &mut robot, "TRIGGER\n");
     let fields: Vec<&str> = answer.split(';').collect();
     assert_eq!(fields[1], "accepted", "{answer}");
     let flags: u32 = fields[8].parse().expect("a number");
@@ -320,6 +332,125 @@ fn a_file_for_a_trigger_shows_no_motion_and_answer_line_and_history_say_so() {
     assert!(line["robot"]["robot_from_part"].is_array(), "{line}");
     let record = place.accepted(&["history", "show", "1", "--json"]).json();
     assert_eq!(record["line"], line);
+}
+
+#[test]
+fn before_a_rack_each_part_has_its_place_and_an_order_says_what_is_missing() {
+    const PARTS: &str = "1=radiator_support|2=back_door|3=front_door";
+    let place = Workplace::new();
+    let rack = ["simulate", "--rack", "3", "--rack-kind", "apart"];
+    place.accepted(&[&rack[..], &["--seed", "4", "--out", "rack.pcd"]].concat());
+    place.accepted(&["rack", "add", "rack.toml", "rack.pcd", "--each"]);
+    // At the fourth place hangs nothing.
+    let far = "[[place]]\nname = \"far\"\ncentre_mm = [9000, 0, 2000]\nsize_mm = [99, 99, 99]\n";
+    place.write("rack.toml", &(place.read("rack.toml") + far));
+    let head = "order;serial;parts\n";
+    let [missing, all] = [
+        format!("4711;;{PARTS}|far=grille\n"),
+        format!("4712;;{PARTS}\n"),
+    ];
+    place.write("orders.csv", &format!("{head}{missing}{all}"));
+    fs::create_dir(place.path("scans")).expect("made");
+    let source = ["--source", "watch:scans", "--frame-timeout", "60"];
+    let rack = [
+        "--as",
+        "kuka",
+        "--rack",
+        "rack.toml",
+        "--orders",
+        "orders.csv",
+    ];
+    let listen = ["ascii=0", "eki=0", "urscript=0"].map(|listen| ["--listen", listen]);
+    let args = [&source[..], &rack, listen.as_flattened()].concat();
+    let mut service = Service::start(&place, &args);
+    let mut robot = service.connect("ascii");
+    let fields = |answer: &str| -> Vec<String> { answer.split(';').map(str::to_owned).collect() };
+    // Verdict, part, reason and place; an answer without an inspection has none.
+    let shown = |answer: &str| {
+        let fields = fields(answer);
+        [1, 6, 18, 20].map(|field: usize| fields.get(field).cloned().unwrap_or_default())
+    };
+    // The table says what is expected, so a trigger has to name its order.
+    let unnamed = asked(&mut robot, "TRIGGER\n");
+    assert_eq!(shown(&unnamed), ["error", "", "not_known", ""], "{unnamed}");
+    let unknown = asked(&mut robot, "TRIGGER ORDER=\"47 11\"\n");
+    assert_eq!(shown(&unknown), ["error", "", "not_known", ""], "{unknown}");
+    assert!(unknown.contains("order 47 11 is not"), "{unknown}");
+    let request = "TRIGGER ORDER=4711 SERIAL=TL-1\n";
+    let answer = asked_before(&place, "rack.pcd", &mut robot, request);
+    let expected = ["accepted", "radiator_support", "", "1"];
+    assert_eq!(shown(&answer), expected, "{answer}");
+    for (number, expected) in [
+        (2, ["accepted", "back_door", "", "2"]),
+        (3, ["accepted", "front_door", "", "3"]),
+        (4, ["no_part", "grille", "missing", "4"]),
+    ] {
+        let answer = asked(&mut robot, &format!("PART {number}\n"));
+        assert_eq!(shown(&answer), expected, "{answer}");
+    }
+    // The table has changed meanwhile.
+    place.write("orders.csv", &format!("{head}{all}"));
+    let gone = asked(&mut robot, "TRIGGER ORDER=4711\n");
+    assert_eq!(shown(&gone), ["error", "", "not_known", ""], "{gone}");
+    let mut eki = service.connect("eki");
+    let request = "<Robot><Request>TRIGGER</Request><Order>4712</Order></Robot>";
+    let answer = asked_before(&place, "rack.pcd", &mut eki, request);
+    assert!(answer.ends_with("<Place>1</Place></Partsight>"), "{answer}");
+    let mut list = service.connect("urscript");
+    let answer = asked_before(&place, "rack.pcd", &mut list, "TRIGGER ORDER=4712\n");
+    assert!(
+        answer.starts_with("(17, 1,") && answer.ends_with(", 1)"),
+        "{answer}"
+    );
+    let (code, out, messages) = service.interrupt();
+    assert_eq!(code, Some(0), "{messages}");
+    let lines = out.lines().map(serde_json::from_str::<Value>);
+    let lines: Vec<Value> = lines.collect::<Result<_, _>>().expect("JSON");
+    let line = lines.iter().find(|line| line["serial"] == "TL-1");
+    let line = line.expect("the trigger's");
+    assert_eq!(line["order"], "4711");
+    assert_eq!(line["missing"], serde_json::json!(["grille"]));
+    let rows = place.accepted(&["history", "list", "--json"]).lines();
+    let num_traced = |serial: &str, order: &str| {
+        let is_it = |row: &&Value| {
+            row["serial"].as_str().unwrap_or_default() == serial && row["order"] == order
+        };
+        rows.iter().filter(is_it).count()
+    };
+    assert_eq!(num_traced("TL-1", "4711"), 3);
+    assert_eq!(num_traced("", "4712"), 6);
+    assert_eq!(rows.len(), 9);
+}
+
+#[test]
+fn without_a_table_an_order_is_not_known_and_a_trigger_without_one_is_answered_as_ever() {
+    let place = Workplace::new();
+    let source = ["--source", "simulated,fps=5:fender", "--as", "kuka"];
+    let listen = ["--listen", "ascii=0", "--order", "4711"];
+    let mut service = Service::start(&place, &[&source[..], &listen].concat());
+    let mut robot = service.connect("ascii");
+    let refused = asked(&mut robot, "TRIGGER ORDER=4712 SERIAL=TL-2\n");
+    assert!(
+        refused.contains(";error;") && refused.contains(";not_known;"),
+        "{refused}"
+    );
+    assert!(refused.contains("--orders"), "{refused}");
+    let plain = asked(&mut robot, "TRIGGER\n");
+    assert_eq!(plain.split(';').count(), 20, "{plain}");
+    assert!(plain.starts_with("TRIGGER;accepted;"), "{plain}");
+    let (_, out, messages) = service.interrupt();
+    let lines: Vec<Value> = out
+        .lines()
+        .map(|line| serde_json::from_str(line).expect("JSON"))
+        .collect();
+    let traced = lines
+        .iter()
+        .map(|line| serde_json::json!([line["status"], line["order"], line["serial"]]));
+    let expected = [
+        serde_json::json!(["error", "4712", "TL-2"]),
+        serde_json::json!(["ok", "4711", null]),
+    ];
+    assert_eq!(traced.collect::<Vec<_>>(), expected, "{messages}");
 }
 
 #[test]

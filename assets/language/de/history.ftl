@@ -110,6 +110,7 @@ history-keep-marked = Solche mit Bemerkung oder tatsächlichem Teil bleiben erha
 ## Statistics
 history-none-counted = Keine passenden Teile: Filter ändern
 history-by-part = Nach Teil
+history-by-rack = Nach Gestell
 history-by-reason = Nach Grund
 history-ok-share = IO, %
 history-shift = Schicht vom { $start }: { $ok } IO, { $nok } NIO

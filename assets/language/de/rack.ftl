@@ -37,4 +37,6 @@ rack-size = Größe, mm
 rack-angles = Winkel, °
 rack-place = Platz { $place }
 rack-empty-places = Leer: { $places }
+rack-turn = Drehung am Platz
+rack-turn-of = { $found } von { $limit }
 rack-leaves-volume = Etwas davon liegt außerhalb des Arbeitsraums

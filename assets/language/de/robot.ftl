@@ -174,8 +174,6 @@ robot-answer-motion-unchecked = nicht geprüft, ob sich das Teil bewegt
 robot-part-numbers = Nummern der Teile
 
 ## Poses and conventions
-robot-unnamed = eine Kalibrierung ohne Namen
-
 robot-motion-unknown = Nicht bekannt, ob das Teil still hing
 
 ## Was nicht geprüft wurde

@@ -110,6 +110,7 @@ history-keep-marked = Those with a remark or an actual part stay: { $size }
 ## Statistics
 history-none-counted = No matching parts: change the filter
 history-by-part = By part
+history-by-rack = By rack
 history-by-reason = By reason
 history-ok-share = OK, %
 history-shift = Shift of { $start }: { $ok } OK, { $nok } NOK

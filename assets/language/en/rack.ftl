@@ -37,4 +37,6 @@ rack-size = Size, mm
 rack-angles = Angles, °
 rack-place = place { $place }
 rack-empty-places = Empty: { $places }
+rack-turn = Turn at its place
+rack-turn-of = { $found } of { $limit }
 rack-leaves-volume = Some of it lies outside the work volume

@@ -174,8 +174,6 @@ robot-answer-motion-unchecked = not checked whether the part moves
 robot-part-numbers = Numbers of the parts
 
 ## Poses and conventions
-robot-unnamed = an unnamed calibration
-
 robot-motion-unknown = Not known whether the part hung still
 
 ## What was not checked

@@ -110,6 +110,7 @@ history-keep-marked = Las que tienen observación o pieza real se conservan: { $
 ## Statistics
 history-none-counted = Ninguna pieza coincide: cambiar el filtro
 history-by-part = Por pieza
+history-by-rack = Por bastidor
 history-by-reason = Por motivo
 history-ok-share = OK, %
 history-shift = Turno del { $start }: { $ok } OK, { $nok } NOK

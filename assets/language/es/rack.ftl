@@ -37,4 +37,6 @@ rack-size = Tamaño, mm
 rack-angles = Ángulos, °
 rack-place = lugar { $place }
 rack-empty-places = Vacíos: { $places }
+rack-turn = Giro en su lugar
+rack-turn-of = { $found } de { $limit }
 rack-leaves-volume = Parte de ella queda fuera del volumen de trabajo

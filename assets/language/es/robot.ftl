@@ -174,8 +174,6 @@ robot-answer-motion-unchecked = no se ha comprobado si la pieza se mueve
 robot-part-numbers = Números de las piezas
 
 ## Poses and conventions
-robot-unnamed = una calibración sin nombre
-
 robot-motion-unknown = No se sabe si la pieza colgaba quieta
 
 ## Lo que no se comprobó

@@ -105,6 +105,7 @@ history-keep-marked = 带有备注或实际零件的会保留：{ $size }
 ## Statistics
 history-none-counted = 没有符合条件的零件：请更改筛选条件
 history-by-part = 按零件
+history-by-rack = 按挂架
 history-by-reason = 按原因
 history-ok-share = OK，%
 history-shift = { $start } 的班次：{ $ok } OK，{ $nok } NG

@@ -37,4 +37,6 @@ rack-size = 尺寸，mm
 rack-angles = 角度，°
 rack-place = 位置 { $place }
 rack-empty-places = 空位：{ $places }
+rack-turn = 在该位置的转动
+rack-turn-of = { $found } / { $limit }
 rack-leaves-volume = 部分在工作空间之外

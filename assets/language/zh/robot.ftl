@@ -166,8 +166,6 @@ robot-answer-motion-unchecked = 未检查零件是否移动
 robot-part-numbers = 零件编号
 
 ## Poses and conventions
-robot-unnamed = 未命名的标定
-
 robot-motion-unknown = 无法得知零件是否静止
 
 ## 未检查的内容

@@ -27,10 +27,9 @@ use super::{
     camera_error::{CameraError, CameraErrorKind, only},
     camera_library::ARAVIS,
     error::{CaptureError, CaptureWarning},
-    open::SourceListing,
     read_timeout::ReadTimeout,
     source::{Captured, DepthSource, Image, NextCapture, SkippedCapture},
-    spec::{GenicamFormat, GenicamSpec, SourceSpec},
+    spec::{GenicamFormat, GenicamSpec, SourceListing, SourceSpec},
 };
 use files::DepthCamera;
 

@@ -28,10 +28,9 @@ use super::{
     camera_error::{CameraError, CameraErrorKind},
     camera_library::FREENECT,
     error::{CaptureError, CaptureWarning},
-    open::SourceListing,
     read_timeout::ReadTimeout,
     source::{Captured, DepthSource, Image, NextCapture},
-    spec::{KinectSpec, SourceSpec},
+    spec::{KinectSpec, SourceListing, SourceSpec},
 };
 use geometry::{
     depth_frame::{DepthFrame, Intrinsics},

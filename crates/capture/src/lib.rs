@@ -36,7 +36,7 @@ pub use self::camera_error::{CameraError, CameraErrorKind};
 pub use self::camera_library::{ARAVIS, CameraLibrary, FREENECT, OPENNI, REALSENSE};
 pub use self::error::{CaptureError, CaptureWarning, Recovery};
 pub use self::feed::{BackpressurePolicy, Feed, FeedItem, FeedState, FeedStatus};
-pub use self::open::{SourceListing, list, open};
+pub use self::open::{list, open};
 pub use self::rate::FrameRate;
 pub use self::read::may_be_capture;
 pub use self::read::read_image;
@@ -45,7 +45,7 @@ pub use self::simulated::{SimulatedCell, simulated_frame_number};
 pub use self::source::{Captured, DepthSource, Image, NextCapture, SkippedCapture};
 pub use self::spec::{
     CellScene, GenicamFormat, GenicamSpec, KinectSpec, NUM_ON_RACK, OpenNiSpec, Pace,
-    RealsenseSpec, RecordingSpec, SimulatedPose, SimulatedSpec, SourceSpec, SpecError, WatchedFrom,
-    WatchedSpec,
+    RealsenseSpec, RecordingSpec, SimulatedPose, SimulatedSpec, SourceListing, SourceSpec,
+    SpecError, WatchedFrom, WatchedSpec,
 };
 pub use self::watched::WatchedFolder;

@@ -1,7 +1,6 @@
 //! Lists and opens sources.
 
 use super::{
-    camera_error::CameraError,
     error::CaptureError,
     genicam::{self, Genicam},
     kinect::{self, Kinect},
@@ -9,7 +8,7 @@ use super::{
     recording::Replay,
     simulated::SimulatedCell,
     source::DepthSource,
-    spec::{SimulatedSpec, SourceSpec},
+    spec::{SimulatedSpec, SourceListing, SourceSpec},
     watched::WatchedFolder,
 };
 
@@ -24,35 +23,6 @@ pub fn open(spec: &SourceSpec) -> Result<Box<dyn DepthSource>, CaptureError> {
         SourceSpec::OpenNi(spec) => openni::open(spec)?,
         SourceSpec::Realsense(spec) => realsense::open(spec)?,
     })
-}
-
-/// A source that can be opened now, or a kind of source and why it cannot.
-#[derive(Debug)]
-pub struct SourceListing {
-    /// Title to show to the operator.
-    pub title: String,
-    /// The source to open; `None` if a person has to act first.
-    pub spec: Option<SourceSpec>,
-    /// Why it cannot be opened.
-    pub error: Option<CameraError>,
-}
-
-impl SourceListing {
-    pub(super) fn openable(title: String, spec: SourceSpec) -> Self {
-        Self {
-            title,
-            spec: Some(spec),
-            error: None,
-        }
-    }
-
-    pub(super) fn unusable(error: CameraError) -> Self {
-        Self {
-            title: error.library.camera.to_owned(),
-            spec: None,
-            error: Some(error),
-        }
-    }
 }
 
 /// Lists the sources that need no folder: the simulated cell and every connected camera. Takes about a second, the time

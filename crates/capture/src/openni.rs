@@ -33,10 +33,9 @@ use super::{
     camera_error::{CameraError, CameraErrorKind, quoted},
     camera_library::OPENNI,
     error::CaptureError,
-    open::SourceListing,
     read_timeout::ReadTimeout,
     source::{Captured, DepthSource, Image, NextCapture},
-    spec::{OpenNiSpec, Pace, SourceSpec},
+    spec::{OpenNiSpec, Pace, SourceListing, SourceSpec},
 };
 use geometry::{
     depth_frame::{DepthFrame, Intrinsics},

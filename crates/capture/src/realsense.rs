@@ -30,10 +30,9 @@ use super::{
     camera_error::{CameraError, CameraErrorKind, only},
     camera_library::REALSENSE,
     error::CaptureError,
-    open::SourceListing,
     read_timeout::ReadTimeout,
     source::{Captured, DepthSource, Image, NextCapture},
-    spec::{Pace, RealsenseSpec, SourceSpec},
+    spec::{Pace, RealsenseSpec, SourceListing, SourceSpec},
 };
 use geometry::{
     depth_frame::{DepthFrame, Intrinsics},

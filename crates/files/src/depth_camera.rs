@@ -4,16 +4,23 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize, de::IgnoredAny};
 
-use super::depth_png::{FOLDER_CAMERA, intrinsics_path};
 use super::error::FileError;
+use super::import::file_of;
 use super::names::num_edits;
-use super::open::file_of;
 use super::source::read_limited;
 use geometry::error::Advice;
 use geometry::{
     depth_frame::{DepthFrame, Intrinsics},
     distortion::Distortion,
 };
+
+/// Returns the path of a depth image's camera: the same name with the ending `.json`.
+pub fn intrinsics_path(image: &Path) -> PathBuf {
+    image.with_extension("json")
+}
+
+/// The file with the camera of all depth images in a folder that have no JSON of their own.
+pub const FOLDER_CAMERA: &str = "intrinsics.json";
 
 /// The largest camera file that is read, in bytes.
 pub(super) const MAX_CAMERA_BYTES: u64 = 1 << 20;

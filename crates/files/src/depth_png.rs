@@ -15,7 +15,7 @@
 //! image without a JSON of its own.
 
 use std::io::{self, Cursor, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use image::codecs::png::{PngDecoder, PngEncoder};
 use image::{
@@ -23,21 +23,13 @@ use image::{
 };
 
 use super::depth_camera::{DepthCamera, MAX_CAMERA_BYTES};
+pub use super::depth_camera::{FOLDER_CAMERA, intrinsics_path};
 use super::disk;
 use super::error::FileError;
-use super::open::described;
 use super::source::{Source, read_limited};
 use super::write::{replace_file, write_atomically};
 use geometry::depth_frame::{DepthFrame, Intrinsics};
 use geometry::error::guarded;
-
-/// Returns the path of a depth image's camera: the same name with the ending `.json`.
-pub fn intrinsics_path(image: &Path) -> PathBuf {
-    image.with_extension("json")
-}
-
-/// The file with the camera of all depth images in a folder that have no JSON of their own.
-pub const FOLDER_CAMERA: &str = "intrinsics.json";
 
 /// Writes a depth image as PNG, with its camera in the JSON beside it.
 ///
@@ -158,27 +150,12 @@ pub fn read_picture(path: &Path) -> Result<DynamicImage, FileError> {
     decoded.map_err(|error| damaged(error.to_string()))
 }
 
-/// Returns width, height and depths of a 16-bit PNG in memory; all depths may be 0. `path` is for errors.
-pub fn read_depths(path: &Path, bytes: &[u8]) -> Result<((usize, usize), Vec<u16>), FileError> {
-    guarded(|| decode(Source { path, bytes })).unwrap_or_else(|fault| {
-        Err(FileError::Fault {
-            path: path.to_owned(),
-            fault,
-        })
-    })
-}
-
-fn decode(source: Source<'_>) -> Result<((usize, usize), Vec<u16>), FileError> {
+/// Returns width, height and depths of a 16-bit PNG; all depths may be 0.
+pub(super) fn decode(source: Source<'_>) -> Result<((usize, usize), Vec<u16>), FileError> {
     let wrong = |error: ImageError| match error {
         ImageError::IoError(_) => source.cut_before("the end of the image", "PNG"),
         other => source.damaged(other.to_string()),
     };
-    if !is_png(source.bytes) {
-        return Err(FileError::WrongPngKind {
-            path: source.path.to_owned(),
-            found: described(source),
-        });
-    }
     let header = Header::of(source.bytes)
         .ok_or_else(|| source.cut_before("the end of the header", "PNG"))?;
     // Check this before the decoder does, which refuses large sizes in words of its own.

@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 use super::cause::{advice_on, words_of};
-use super::folders::OWN_FOLDER;
 use super::import::BadImportOption;
 use super::names::{listed, nearest_name};
 use geometry::error::{Advice, Fault};
@@ -292,6 +291,10 @@ pub enum Expected {
 
 /// The endings under which a cloud or a depth image can be written.
 const ENDINGS: &str = ".pcd, .ply, .xyz, or .png for a depth image";
+
+/// The environment variable that names another folder for the user's data and settings. A relative path starts at the
+/// working folder, as in an argument.
+pub(super) const OWN_FOLDER: &str = "PARTSIGHT_DATA";
 
 impl FileError {
     /// Returns the variant for a system error on reading.

@@ -9,11 +9,8 @@ use std::{
 
 use directories::ProjectDirs;
 
-use super::{FileError, disk};
-
-/// The environment variable that names another folder for the user's data and settings. A relative path starts at the
-/// working folder, as in an argument.
-pub(super) const OWN_FOLDER: &str = "PARTSIGHT_DATA";
+use super::disk;
+use super::error::{FileError, OWN_FOLDER};
 
 /// Returns the folder for this program's data of the user.
 pub fn user_data() -> Result<PathBuf, FileError> {

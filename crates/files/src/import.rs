@@ -3,9 +3,11 @@
 //! Like the name of a mesh they are part of the path, so that they are kept wherever the path is: in lists of recent files,
 //! the history, reports and settings.
 
+use std::path::{Path, PathBuf};
+
 use nalgebra::Vector3;
 
-use super::FileContent;
+use super::content::FileContent;
 use geometry::error::Advice;
 
 /// The unit of a file's lengths.
@@ -162,14 +164,37 @@ impl ImportOptions {
     }
 }
 
+/// Returns the file that [`open`](super::open()) reads at `path`, without the words behind it.
+pub fn file_of(path: &Path) -> PathBuf {
+    split_words(path).0
+}
+
+/// Splits a path into the file and the words behind it: the longest part before a `#` that is a file.
+pub(super) fn split_words(path: &Path) -> (PathBuf, Option<String>) {
+    let whole = (path.to_owned(), None);
+    if path.exists() {
+        return whole;
+    }
+    // A path that is not Unicode cannot be split, but works as a whole.
+    let Some(text) = path.to_str() else {
+        return whole;
+    };
+    let mut splits = text.rmatch_indices('#').map(|(at, _)| text.split_at(at));
+    splits
+        .find(|(file, _)| Path::new(file).is_file())
+        .map_or(whole, |(file, name)| {
+            (file.into(), Some(name.trim_start_matches('#').to_owned()))
+        })
+}
+
 #[cfg(test)]
 mod tests {
-    use std::{fs, path::PathBuf};
+    use std::fs;
 
     use nalgebra::Point3;
 
     use super::*;
-    use crate::{FileError, FileWarning, file_of, open};
+    use crate::{FileError, FileWarning, open};
 
     /// Opens a file of points with the options in `suffix`.
     fn opened(text: &str, suffix: &str) -> Result<FileContent, FileError> {

@@ -8,8 +8,8 @@ use std::collections::HashMap;
 
 use nalgebra::Point3;
 
+use super::content::FileContent;
 use super::error::FileError;
-use super::open::FileContent;
 use super::readings::tidy;
 use super::source::Source;
 use super::surface::{Triangulation, checked_mesh, point_of};

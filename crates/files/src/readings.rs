@@ -9,11 +9,11 @@ use geometry::cloud::PointCloud;
 
 /// Larger coordinates, in metres, are not readings: some recorders write the largest float, or 1e10, for "none".
 /// At 1000 km an `f32` is accurate to 6 cm only; squares of such numbers are far from overflow.
-pub(super) const MAX_COORDINATE: f32 = 1e6;
+pub(super) const MAX_COORDINATE_M: f32 = 1e6;
 
 /// Marks or drops everything that is not a reading.
 ///
-/// A point is a reading if its coordinates are finite and at most [`MAX_COORDINATE`], but not all exactly 0, which many
+/// A point is a reading if its coordinates are finite and at most [`MAX_COORDINATE_M`], but not all exactly 0, which many
 /// programs write for "no reading". In an organised cloud the other cells become three NaN; in an unorganised cloud the
 /// other points are dropped with their attributes. There a (0, 0, 0) with a normal is a point: its frame may be the part's
 /// own. Normals are kept only if every reading has one; otherwise the users would have to invent the rest.
@@ -29,7 +29,8 @@ pub(super) fn tidy(mut cloud: PointCloud, source: Source<'_>) -> Result<PointClo
     let is_reading: Vec<bool> = points
         .map(|(i, p)| {
             // NaN fails the comparison too.
-            p.iter().all(|c| c.abs() <= MAX_COORDINATE) && (*p != Point3::origin() || has_normal(i))
+            p.iter().all(|c| c.abs() <= MAX_COORDINATE_M)
+                && (*p != Point3::origin() || has_normal(i))
         })
         .collect();
     if !is_reading.contains(&true) {

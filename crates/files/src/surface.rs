@@ -4,7 +4,7 @@ use earcut::Earcut;
 use nalgebra::{Point3, Vector3};
 
 use super::error::FileError;
-use super::readings::MAX_COORDINATE;
+use super::readings::MAX_COORDINATE_M;
 use super::scalar::parse_real;
 use super::source::Source;
 use geometry::mesh::TriangleMesh;
@@ -20,7 +20,7 @@ pub(super) fn checked_mesh(
             path: source.path.to_owned(),
         });
     }
-    let is_far = |vertex: &&Point3<f32>| vertex.iter().any(|c| c.abs() > MAX_COORDINATE);
+    let is_far = |vertex: &&Point3<f32>| vertex.iter().any(|c| c.abs() > MAX_COORDINATE_M);
     if let Some(far) = vertices.iter().find(is_far) {
         return Err(source.damaged(format!("a vertex at {:e}, {:e}, {:e}", far.x, far.y, far.z)));
     }

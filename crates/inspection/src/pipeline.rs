@@ -31,9 +31,10 @@ use geometry::{
 use stages::{
     confirm::{ConfirmParams, ConfirmedRanking},
     contour::{Contour, ContourParams},
-    pose::{PoseError, PoseEstimate, PoseMethod, icp::IcpParams, icp_ga::IcpGaParams},
+    paper::{IcpGaParams, IcpParams},
+    pose::{PoseError, PoseEstimate, PoseMethod},
     project::{PlaneImage, ProjectParams},
-    rack::Rack,
+    rack::{Rack, Turn},
     rank::{Query, RankParams},
     reference::{Reference, ReferenceParams},
     scene::SceneCloud,
@@ -197,8 +198,12 @@ pub struct Inspection {
     pub verdict: Verdict,
     /// Name of the rack's place where the part, or what is unknown, hangs; `None` if that is none.
     pub place: Option<String>,
+    /// How far the part is turned from an orientation that it may have there; `None` if it may have any.
+    pub turn_at_place: Option<Turn>,
     /// True if the part continues outside the work volume.
     pub leaves_volume: bool,
+    /// Of the first part of a frame in which parts are expected: those that nothing hangs in place of.
+    pub missing: Option<Vec<ExpectedPart>>,
     /// How long each stage took.
     pub timings: Timings,
 }
@@ -251,6 +256,12 @@ pub fn run_all(
         let from_left = a.direction().total_cmp(&b.direction());
         rank(a).cmp(&rank(b)).then(from_left)
     });
+    let expected = &recipe.expected;
+    if !expected.is_empty() {
+        let missing = expected.missing(&found.iter().collect::<Vec<_>>());
+        let missing = missing.into_iter().cloned().collect();
+        found[0].missing = Some(missing);
+    }
     Ok(found)
 }
 
@@ -403,7 +414,9 @@ impl Inspection {
             pose: None,
             verdict: Verdict::NoPart(why),
             place: None,
+            turn_at_place: None,
             leaves_volume: false,
+            missing: None,
             timings: Timings::default(),
         }
     }

@@ -152,6 +152,8 @@ texts::display!(OrdersError, BadCell);
 /// Why it is not known what to expect.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum OrderError {
+    /// The order or the serial number is longer than any in a table, or has line breaks.
+    TooLong,
     /// Neither an order nor a serial number is given.
     NotGiven,
     /// The table does not have the order.
@@ -190,6 +192,9 @@ pub enum OrderError {
 impl Described for OrderError {
     fn message(&self) -> Message {
         match self {
+            Self::TooLong => {
+                Message::new("order-too-long").with("limit", Traceability::MAX_LETTERS as f64)
+            }
             Self::NotGiven => Message::new("order-not-given"),
             Self::UnknownOrder { order } => {
                 Message::new("order-unknown-order").with("order", &**order)
@@ -341,7 +346,14 @@ impl Orders {
         rack: Option<&Rack>,
         is_enrolled: impl Fn(&str) -> bool,
     ) -> Result<Expected, OrderError> {
-        let Row { line, parts } = self.row(trace.order.trim(), trace.serial.trim())?;
+        let [order, serial] = [&trace.order, &trace.serial].map(|text| text.trim());
+        if [order, serial]
+            .iter()
+            .any(|text| Traceability::cleaned(text) != *text)
+        {
+            return Err(OrderError::TooLong);
+        }
+        let Row { line, parts } = self.row(order, serial)?;
         Expected::new(parts.clone(), rack, is_enrolled).map_err(|error| {
             OrderError::Parts(BadCell {
                 path: self.path.clone(),

@@ -35,13 +35,17 @@ pub mod scan_frames;
 pub mod spray;
 mod written;
 
+use serde::{Serialize, Serializer};
+
 use geometry::rigid::RigidTransform;
+use texts::{Described, Message};
 
 pub use self::{
     convention::Convention,
     robot_pose::{ConventionError, GimbalLock, RobotPose, RobotValue, Unit},
     written::{
-        FARTHEST, NOZZLE_DISTANCE, WrittenPose, WrittenPoseError, parse_nozzle, parse_written_pose,
+        MAX_POSE_DISTANCE_M, NOZZLE_DISTANCE_RANGE_M, WrittenPose, WrittenPoseError, parse_nozzle,
+        parse_written_pose,
     },
 };
 
@@ -50,8 +54,45 @@ pub use self::{
 pub struct RobotFrame {
     /// Transform from the camera frame to the robot's base frame.
     pub robot_from_camera: RigidTransform,
-    /// Name of the calibration, for people.
-    pub name: String,
+    /// Where it comes from.
+    pub name: FrameName,
+}
+
+/// Where a [`RobotFrame`] comes from, for people. In JSON it is written in words.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum FrameName {
+    /// The calibration of this name.
+    Named(String),
+    /// The calibration of this identity, which has no name.
+    Unnamed(String),
+    /// The poses of a scan.
+    OfScan,
+}
+
+impl From<&str> for FrameName {
+    fn from(name: &str) -> Self {
+        Self::Named(name.to_owned())
+    }
+}
+
+impl Described for FrameName {
+    fn message(&self) -> Message {
+        match self {
+            Self::Named(name) => Message::new("cell-calibration").with("name", &**name),
+            Self::Unnamed(identity) => {
+                Message::new("cell-unnamed-calibration").with("identity", &**identity)
+            }
+            Self::OfScan => Message::new("cell-scan-poses"),
+        }
+    }
+}
+
+texts::display!(FrameName);
+
+impl Serialize for FrameName {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        to.collect_str(self)
+    }
 }
 
 impl RobotFrame {
@@ -74,6 +115,7 @@ mod tests {
 
     use super::*;
     use geometry::rigid::from_euler_zyx;
+    use texts::Language;
 
     /// A camera 2 m above the floor and 1.5 m in front of the robot, which looks back and down at it.
     fn frame() -> RobotFrame {
@@ -81,6 +123,28 @@ mod tests {
             robot_from_camera: from_euler_zyx([-2.2, 0.1, -1.6, 1.5, -0.2, 2.0]),
             name: "cell 1".into(),
         }
+    }
+
+    #[test]
+    fn a_frame_is_named_in_the_language_of_the_window_and_in_json_in_english() {
+        let identity = "3b2f68d5".to_owned();
+        let names = [
+            "Cell 2 (3b2f68d5)".into(),
+            FrameName::Unnamed(identity),
+            FrameName::OfScan,
+        ];
+        assert_eq!(
+            serde_json::to_string(&names).expect("written"),
+            r#"["Cell 2 (3b2f68d5)","an unnamed calibration (3b2f68d5)","the poses of the scan"]"#
+        );
+        assert_eq!(
+            names.map(|name| name.message().text(Language::German)),
+            [
+                "Cell 2 (3b2f68d5)",
+                "eine Kalibrierung ohne Namen (3b2f68d5)",
+                "die Posen des Scans"
+            ]
+        );
     }
 
     #[test]

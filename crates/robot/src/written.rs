@@ -77,14 +77,14 @@ impl Described for WrittenPoseError {
                 convention,
             } => in_unit_of(Message::new("written-too-far"), convention)
                 .with("distance_m", distance.0)
-                .with("most", FARTHEST),
+                .with("most", MAX_POSE_DISTANCE_M),
             Self::Nozzle {
                 distance,
                 convention,
             } => in_unit_of(Message::new("written-nozzle"), convention)
                 .with("distance_m", distance.0)
-                .with("from_m", *NOZZLE_DISTANCE.start())
-                .with("to_m", *NOZZLE_DISTANCE.end()),
+                .with("from_m", *NOZZLE_DISTANCE_RANGE_M.start())
+                .with("to_m", *NOZZLE_DISTANCE_RANGE_M.end()),
         }
     }
 }
@@ -96,16 +96,16 @@ fn names() -> String {
 }
 
 /// Valid distances of a nozzle from the flange, metres.
-pub const NOZZLE_DISTANCE: RangeInclusive<f64> = 0.01..=3.0;
+pub const NOZZLE_DISTANCE_RANGE_M: RangeInclusive<f64> = 0.01..=3.0;
 
 /// Maximum distance of a pose from the origin, metres.
-pub const FARTHEST: f64 = 100.0;
+pub const MAX_POSE_DISTANCE_M: f64 = 100.0;
 
 /// Reads `kuka 1450 -310 890 10 20 30`, or the 16 numbers of a matrix. Refuses a position that is in no cell.
 pub fn parse_written_pose(text: &str) -> Result<WrittenPose, WrittenPoseError> {
     let written = read(text)?;
     let distance = Metres(written.pose.translation.vector.norm());
-    if distance.0 > FARTHEST {
+    if distance.0 > MAX_POSE_DISTANCE_M {
         return Err(WrittenPoseError::TooFar {
             distance,
             convention: written.convention,
@@ -164,7 +164,7 @@ fn read(text: &str) -> Result<WrittenPose, WrittenPoseError> {
 pub fn parse_nozzle(text: &str) -> Result<WrittenPose, WrittenPoseError> {
     let written = read(text)?;
     let at = written.pose.translation.vector;
-    if at == Vector3::zeros() || NOZZLE_DISTANCE.contains(&at.norm()) {
+    if at == Vector3::zeros() || NOZZLE_DISTANCE_RANGE_M.contains(&at.norm()) {
         return Ok(written);
     }
     Err(WrittenPoseError::Nozzle {

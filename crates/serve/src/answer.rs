@@ -2,7 +2,7 @@
 
 use std::{
     iter,
-    sync::OnceLock,
+    sync::{Arc, OnceLock},
     time::{Duration, Instant},
 };
 
@@ -17,7 +17,7 @@ use robot::line::OnLine;
 use stages::segment::MAX_PARTS;
 
 /// A client's request.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Request {
     /// Capture a frame from now on, and inspect it.
     Trigger {
@@ -25,6 +25,8 @@ pub enum Request {
         expected: ExpectedNumbers,
         /// What the encoder of the line shows; `None` if it was not sent.
         count: Option<u32>,
+        /// The order whose parts should hang there, instead of their numbers.
+        order: AskedOrder,
     },
     /// Send the camera's state, and the last verdict without its numbers.
     Status,
@@ -75,6 +77,29 @@ impl ExpectedNumber {
     }
 }
 
+/// The order that a trigger names; its texts are empty if they were not sent.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct AskedOrder {
+    /// The production order.
+    pub order: String,
+    /// The serial number.
+    pub serial: String,
+}
+
+impl AskedOrder {
+    /// Takes the texts without the blanks around them; `None` if one has control characters.
+    pub fn new(order: &str, serial: &str) -> Option<Self> {
+        let is_plain = |text: &str| !text.chars().any(char::is_control);
+        let [order, serial] = [order, serial].map(|text| text.trim().to_owned());
+        (is_plain(&order) && is_plain(&serial)).then_some(Self { order, serial })
+    }
+
+    /// True if it says anything.
+    pub fn is_given(&self) -> bool {
+        !self.order.is_empty() || !self.serial.is_empty()
+    }
+}
+
 /// The parts that are expected in a frame.
 pub type ExpectedNumbers = [ExpectedNumber; MAX_PARTS];
 
@@ -83,10 +108,14 @@ impl Request {
     pub const TRIGGER: Self = Self::Trigger {
         expected: [ExpectedNumber { part: 0, place: 0 }; MAX_PARTS],
         count: None,
+        order: AskedOrder {
+            order: String::new(),
+            serial: String::new(),
+        },
     };
 
     /// The word in text protocols, and the code in binary frames.
-    pub(super) fn name(self) -> (&'static str, u16) {
+    pub(super) fn name(&self) -> (&'static str, u16) {
         match self {
             Self::Trigger { .. } => ("TRIGGER", 1),
             Self::Status => ("STATUS", 2),
@@ -131,21 +160,39 @@ impl Request {
         for (index, part) in parts.into_iter().enumerate() {
             *expected.get_mut(index)? = part;
         }
-        let count = None;
-        Some(Self::Trigger { expected, count })
+        let (count, order) = (None, AskedOrder::default());
+        Some(Self::Trigger {
+            expected,
+            count,
+            order,
+        })
     }
 
     /// A trigger at this count of the line's encoder; other requests stay as they are.
     #[must_use]
-    pub fn at_count(self, count: Option<u32>) -> Self {
-        match self {
-            Self::Trigger { expected, .. } => Self::Trigger { expected, count },
-            other => other,
+    pub fn at_count(mut self, new: Option<u32>) -> Self {
+        if let Self::Trigger { count, .. } = &mut self {
+            *count = new;
         }
+        self
+    }
+
+    /// A trigger for the parts of this order; `None` if it names parts as well. Other requests stay as they are.
+    pub fn of_order(mut self, new: AskedOrder) -> Option<Self> {
+        if let Self::Trigger {
+            expected, order, ..
+        } = &mut self
+        {
+            if new.is_given() && expected.iter().any(|one| one.is_given()) {
+                return None;
+            }
+            *order = new;
+        }
+        Some(self)
     }
 
     /// The request with these numbers; `None` if it does not take as many.
-    pub(super) fn numbered(self, numbers: &[u32]) -> Option<Self> {
+    pub(super) fn numbered(&self, numbers: &[u32]) -> Option<Self> {
         match (self, numbers) {
             (Self::Trigger { .. }, _) => {
                 let parts = numbers.iter();
@@ -153,7 +200,7 @@ impl Request {
             }
             // Its pose is read by the protocol, in the convention of the port.
             (Self::Servo(_), _) => None,
-            (_, []) => Some(self),
+            (_, []) => Some(self.clone()),
             (Self::Path { .. }, [point]) => Some(Self::path(*point, 0)),
             (Self::Path { .. }, [point, sequence]) => Some(Self::path(*point, *sequence)),
             (Self::Part { .. }, [index]) => Some(Self::part(*index, 0)),
@@ -163,8 +210,8 @@ impl Request {
     }
 
     /// Its numbers, without those of places and without zeros at their end.
-    pub(super) fn numbers(self) -> Vec<u32> {
-        let mut numbers = match self {
+    pub(super) fn numbers(&self) -> Vec<u32> {
+        let mut numbers = match *self {
             Self::Path {
                 point: number,
                 sequence,
@@ -173,7 +220,7 @@ impl Request {
                 index: number,
                 sequence,
             } => vec![number, sequence.unwrap_or(0)],
-            Self::Trigger { expected, .. } => expected.iter().map(|one| one.part).collect(),
+            Self::Trigger { ref expected, .. } => expected.iter().map(|one| one.part).collect(),
             Self::Servo(servo) => vec![servo.part],
             Self::Status | Self::Last => Vec::new(),
         };
@@ -394,6 +441,59 @@ pub struct PathStep {
     pub speed: Option<f64>,
 }
 
+/// A place of a rack.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct RackPlace {
+    /// Its number by its order in the rack, from 1.
+    pub number: u32,
+    /// Its name.
+    pub name: String,
+}
+
+/// A part that is expected in a frame, and does not hang there.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct MissingPart {
+    /// Its name.
+    pub part: String,
+    /// The number by which robots know it; null if it has none.
+    pub number: Option<u32>,
+    /// Where it is expected; null for any place.
+    pub place: Option<RackPlace>,
+}
+
+impl From<&Found> for MissingPart {
+    fn from(found: &Found) -> Self {
+        Self {
+            part: found.part.clone(),
+            number: (found.number > 0).then_some(found.number),
+            place: found.place.clone(),
+        }
+    }
+}
+
+/// What all parts of a frame show of the rack, and of what is expected.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct FrameFacts {
+    /// Name of the rack; left out if it has none, or there is no rack.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rack: Option<String>,
+    /// The places of the rack at which nothing hangs; left out without a rack that has places.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub empty_places: Option<Vec<RackPlace>>,
+    /// The expected parts that nothing hangs in place of; left out if nothing is expected.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub missing: Option<Vec<MissingPart>>,
+}
+
+/// Where a part on a line has its pose, and how long ago it was there.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct OnLineNow {
+    #[serde(flatten)]
+    on_line: OnLine,
+    /// Milliseconds since it was there, at most 16777215.
+    since_ms: u32,
+}
+
 /// The result of an inspection.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Found {
@@ -406,6 +506,8 @@ pub struct Found {
     pub part: String,
     /// Number of the reference in whose coordinates the pose is; 0 if it has none.
     pub number: u32,
+    /// The place of the rack where it hangs or, if it is missing, is expected; none if that is no place.
+    pub place: Option<RackPlace>,
     /// Any of [`Answer::APPROXIMATE`], [`Answer::SIMULATED`] and [`Answer::MOTION_UNCHECKED`].
     pub marks: u16,
     /// The pose in the robot's base frame: of the part, sent only while the verdict is accepted, or of the flange, to a robot
@@ -475,13 +577,15 @@ pub struct FrameParts {
     pub first: Found,
     /// Further parts, in their order.
     pub others: Vec<Found>,
+    /// What they show together.
+    pub facts: Arc<FrameFacts>,
 }
 
 impl From<Found> for FrameParts {
     fn from(first: Found) -> Self {
         Self {
             first,
-            others: Vec::new(),
+            ..Self::default()
         }
     }
 }
@@ -539,7 +643,7 @@ impl Inspected {
     }
 
     /// The answers to a request about each part.
-    pub(super) fn answers(&self, request: Request, at: &Situation) -> Vec<Answer> {
+    pub(super) fn answers(&self, request: &Request, at: &Situation) -> Vec<Answer> {
         let places = 0..self.found.iter().count();
         places
             .map(|place| Answer::of(request, self, place, at))
@@ -592,6 +696,8 @@ pub struct Answer {
     pub part: String,
     /// Number of the reference; 0 if it has none.
     pub number: u32,
+    /// The place of the rack where the part hangs or, if it is missing, is expected; none if that is no place.
+    pub place: Option<RackPlace>,
     /// The flags of this type except [`Answer::POSE`], which [`Answer::flags`] adds.
     pub marks: u16,
     /// Number of the path's point, from 1; in the answer to [`Request::Part`] that of the part; 0 in other answers.
@@ -606,6 +712,8 @@ pub struct Answer {
     pub on_line_since_ms: Option<u32>,
     /// Number of parts of the frame, refused ones included.
     pub num_parts: u32,
+    /// What the parts of the frame show together.
+    pub facts: Arc<FrameFacts>,
     /// Speed from this point to the next, mm/s.
     pub speed_mm_s: Option<f64>,
     /// Pose in the robot's base frame; only with an accepted verdict, or for a robot that should move there.
@@ -654,6 +762,18 @@ impl Answer {
             .unwrap_or(-1)
     }
 
+    /// The number of the part's place, 0 for none; `None` without a rack that has places.
+    pub(super) fn place_number(&self) -> Option<u32> {
+        self.facts.empty_places.as_ref()?;
+        Some(self.place.as_ref().map_or(0, |place| place.number))
+    }
+
+    /// Where the part is on the line, if it has a pose there.
+    pub fn on_line_now(&self) -> Option<OnLineNow> {
+        let (on_line, since_ms) = self.on_line.zip(self.on_line_since_ms)?;
+        Some(OnLineNow { on_line, since_ms })
+    }
+
     /// An answer to a client that is refused, or whose request could not be read.
     pub(super) fn turned_away(verdict: VerdictCode, problem: Problem, at: &Situation) -> Self {
         Self {
@@ -667,7 +787,7 @@ impl Answer {
 
     /// Answers a request from a part of an inspected frame, counted from 0.
     pub(super) fn of(
-        request: Request,
+        request: &Request,
         inspected: &Inspected,
         index: usize,
         at: &Situation,
@@ -687,7 +807,7 @@ impl Answer {
             _ => found.marks,
         };
         let mut answer = Self {
-            request: Some(request),
+            request: Some(request.clone()),
             verdict,
             sequence: inspected.sequence_of(index),
             // Its numbers have the meaning that they had then.
@@ -696,7 +816,9 @@ impl Answer {
             camera: at.camera.state,
             part: found.part.clone(),
             number: found.number,
+            place: found.place.clone(),
             marks,
+            facts: Arc::clone(&inspected.found.facts),
             // No part, no number.
             index: u32::try_from(index + 1).map_or(num_parts, |index| index.min(num_parts)),
             num_parts,
@@ -704,7 +826,7 @@ impl Answer {
             on_line: found.on_line.map(|_| OnLine::default()),
             ..Self::default()
         };
-        if let Request::Part { index, .. } = request {
+        if let &Request::Part { index, .. } = request {
             if index > answer.num_parts {
                 answer.verdict = VerdictCode::BadRequest;
                 answer.problem = Problem::no_such_part(index, answer.num_parts);
@@ -717,7 +839,7 @@ impl Answer {
         // Here and in `take_move` alone, numbers get into an answer.
         if answer.verdict == VerdictCode::Accepted {
             let num_points = u32::try_from(found.path.len()).unwrap_or(u32::MAX);
-            match request {
+            match *request {
                 Request::Trigger { .. } | Request::Last => {
                     (answer.pose, answer.points) = (found.pose, num_points);
                 }
@@ -817,7 +939,7 @@ mod tests {
     };
 
     /// The answer about the first part.
-    fn answer_of(request: Request, inspected: &Inspected, at: &Situation) -> Answer {
+    fn answer_of(request: &Request, inspected: &Inspected, at: &Situation) -> Answer {
         Answer::of(request, inspected, 0, at)
     }
 
@@ -831,6 +953,10 @@ mod tests {
             captured: Some(captured),
             part: "fender".into(),
             number: 3,
+            place: Some(RackPlace {
+                number: 2,
+                name: "right hook".into(),
+            }),
             marks: Answer::SIMULATED,
             pose: Some(pose()),
             servo_error: None,
@@ -894,7 +1020,7 @@ mod tests {
     ];
 
     /// True if the answer has no pose, and no number of points of a path.
-    fn has_no_numbers(request: Request, answer: &Answer) -> bool {
+    fn has_no_numbers(request: &Request, answer: &Answer) -> bool {
         // Of the frame's parts, refused ones count as well.
         let num_parts = match request {
             Request::Part { .. } => answer.num_parts,
@@ -927,7 +1053,7 @@ mod tests {
                 verdict,
                 ..found(start)
             });
-            for request in ALL {
+            for request in &ALL {
                 let answer = answer_of(request, &last, &at);
                 assert_eq!(answer.verdict, verdict, "{request:?}");
                 assert!(has_no_numbers(request, &answer), "{request:?}");
@@ -936,15 +1062,15 @@ mod tests {
             }
         }
         let last = inspected(found(start));
-        for request in ALL {
+        for request in &ALL {
             let answer = answer_of(request, &last, &at);
             let without = [Request::Status, path(0), path(2), part(0)];
-            let has_pose = !without.contains(&request);
+            let has_pose = !without.contains(request);
             assert_eq!(answer.pose.is_some(), has_pose, "{request:?}");
             assert_eq!(answer.age_ms, Some(1500));
             assert_eq!((answer.sequence, answer.boot), (5, 7));
         }
-        let step = answer_of(path(1), &last, &at);
+        let step = answer_of(&path(1), &last, &at);
         assert_eq!(
             (step.point, step.points, step.speed_mm_s),
             (1, 1, Some(250.0))
@@ -953,7 +1079,7 @@ mod tests {
             step.flags(),
             Answer::POSE | Answer::SIMULATED | Answer::GUN_ON
         );
-        let beyond = answer_of(path(2), &last, &at);
+        let beyond = answer_of(&path(2), &last, &at);
         assert_eq!(beyond.verdict, VerdictCode::BadRequest);
         assert_eq!(beyond.problem.reason, "no_such_point");
         let withheld = Problem::new(
@@ -966,13 +1092,13 @@ mod tests {
             no_path: Some(withheld.clone()),
             ..found(start)
         });
-        let answer = answer_of(path(1), &last, &at);
+        let answer = answer_of(&path(1), &last, &at);
         assert_eq!(
             (answer.verdict, answer.problem),
             (VerdictCode::BadRequest, withheld)
         );
         last.found.first.no_path = None;
-        let answer = answer_of(path(1), &last, &at);
+        let answer = answer_of(&path(1), &last, &at);
         assert!(answer.problem.message.contains("Store a path"));
     }
 
@@ -981,9 +1107,9 @@ mod tests {
         let start = Instant::now();
         let last = inspected(1, found(start));
         let fresh = situation(start + Duration::from_secs(10));
-        assert!(answer_of(Request::Last, &last, &fresh).pose.is_some());
+        assert!(answer_of(&Request::Last, &last, &fresh).pose.is_some());
         let late = situation(start + Duration::from_millis(10_001));
-        for request in ALL {
+        for request in &ALL {
             let answer = answer_of(request, &last, &late);
             assert_eq!(answer.verdict, VerdictCode::Stale, "{request:?}");
             assert!(has_no_numbers(request, &answer), "{request:?}");
@@ -1030,7 +1156,7 @@ mod tests {
                     ..found(start)
                 },
             );
-            let answer = answer_of(servo(), &looked, &situation(start));
+            let answer = answer_of(&servo(), &looked, &situation(start));
             let (is_move, is_done) = (verdict == VerdictCode::Move, verdict == VerdictCode::Done);
             assert_eq!(answer.pose.is_some(), is_move, "{verdict:?}");
             assert_eq!(
@@ -1039,14 +1165,14 @@ mod tests {
                 "{verdict:?}"
             );
             let late = situation(start + Duration::from_secs(11));
-            let late = answer_of(servo(), &looked, &late);
+            let late = answer_of(&servo(), &looked, &late);
             assert_eq!((late.pose, late.servo_error), (None, None), "{verdict:?}");
             if is_move || is_done {
                 assert_eq!(
                     (late.verdict, &*late.problem.reason),
                     (VerdictCode::Stale, "stale")
                 );
-                for request in ALL {
+                for request in &ALL {
                     assert!(
                         answer_of(request, &looked, &situation(start))
                             .pose
@@ -1063,7 +1189,7 @@ mod tests {
                 pose,
                 ..found(start)
             };
-            let answer = answer_of(servo(), &inspected(4, wrong), &situation(start));
+            let answer = answer_of(&servo(), &inspected(4, wrong), &situation(start));
             assert_eq!((answer.verdict, answer.pose), (VerdictCode::Refused, None));
         }
     }
@@ -1093,7 +1219,7 @@ mod tests {
             },
         ] {
             let last = inspected(1, wrong);
-            for request in ALL {
+            for request in &ALL {
                 let answer = answer_of(request, &last, &situation(start));
                 assert_eq!(answer.verdict, VerdictCode::Refused);
                 assert_eq!(answer.pose, None);
@@ -1116,7 +1242,7 @@ mod tests {
             },
             ..situation(now)
         };
-        let answer = answer_of(Request::Status, &Inspected::default(), &at);
+        let answer = answer_of(&Request::Status, &Inspected::default(), &at);
         assert_eq!(answer.problem, problem);
         assert_eq!(answer.camera, CameraState::Lost);
         let none = (answer.verdict, answer.sequence, answer.age_or_none());
@@ -1139,7 +1265,7 @@ mod tests {
             boot: 8,
             ..situation(now)
         };
-        for request in ALL {
+        for request in &ALL {
             let answer = answer_of(request, &last, &at);
             assert_eq!(answer.verdict, VerdictCode::Refused, "{request:?}");
             assert!(has_no_numbers(request, &answer), "{request:?}");

@@ -8,7 +8,7 @@ use std::{
 use serde_json::{Map, Value};
 
 use super::{
-    answer::{Answer, ExpectedNumbers, LibraryStatus, PathStep, Problem, Request, VerdictCode},
+    answer::{Answer, LibraryStatus, PathStep, Problem, Request, VerdictCode},
     server::{
         ClientMemory, ClientNews, ClientSlot, Job, ServerSettings, Shared, answer_to,
         inspection_of, triggered,
@@ -71,21 +71,19 @@ impl ServerHandle {
         answer_to(request, &self.shared, &self.jobs, &mut client, is_withdrawn)
     }
 
-    /// Inspects a frame, and answers about each of its parts, or what there is instead of one. It blocks as
-    /// [`answer`](Self::answer) does.
+    /// Inspects a frame for a [`Request::Trigger`], and answers about each of its parts, or what there is instead of one. It
+    /// blocks as [`answer`](Self::answer) does.
     pub fn trigger(
         &self,
-        expected: ExpectedNumbers,
+        request: &Request,
         is_withdrawn: impl Fn() -> bool + Send + 'static,
     ) -> Vec<Answer> {
-        let count = None;
-        let request = Request::Trigger { expected, count };
-        let inspected = triggered((expected, count), &self.jobs, Box::new(is_withdrawn));
+        let inspected = triggered(request, &self.jobs, Box::new(is_withdrawn));
         let at = self.shared.situation();
         match inspected {
             Ok(inspected) => inspected.answers(request, &at),
             Err((verdict, problem)) => vec![Answer {
-                request: Some(request),
+                request: Some(request.clone()),
                 ..Answer::turned_away(verdict, problem, &at)
             }],
         }
@@ -94,7 +92,7 @@ impl ServerHandle {
     /// Answers about each part of the last inspection, or what there is instead of one.
     pub fn last(&self) -> Vec<Answer> {
         let at = self.shared.situation();
-        self.shared.last().answers(Request::Last, &at)
+        self.shared.last().answers(&Request::Last, &at)
     }
 
     /// The state of the camera, and the last verdict without its numbers.
@@ -124,7 +122,7 @@ impl ServerHandle {
                 return (refused, Vec::new());
             }
         };
-        let answer = Answer::of(Request::Last, &inspected, place, &at);
+        let answer = Answer::of(&Request::Last, &inspected, place, &at);
         let found = inspected.found.get(place);
         let path = found.filter(|_| answer.verdict == VerdictCode::Accepted);
         let path = path.map_or_else(Vec::new, |found| found.path.clone());
@@ -135,7 +133,7 @@ impl ServerHandle {
     /// the poses of those parts alone whose pose may be used.
     pub fn report(&self) -> (Vec<Answer>, Option<Map<String, Value>>) {
         let last = self.shared.last();
-        let answers = last.answers(Request::Last, &self.shared.situation());
+        let answers = last.answers(&Request::Last, &self.shared.situation());
         let mut report = serde_json::from_str::<Map<String, Value>>(&last.found.first.report).ok();
         if let Some(line) = &mut report {
             if let Some(Value::Array(parts)) = line.get_mut("parts") {

@@ -133,7 +133,7 @@ mod tests {
         let FrameParts { first, .. } = accepted();
         FrameParts {
             others: vec![first.clone(); num - 1],
-            first,
+            ..first.into()
         }
     }
 

@@ -34,9 +34,9 @@ mod tally;
 pub use self::server::bound;
 pub use self::{
     answer::{
-        Answer, CameraState, CameraStatus, ExpectedNumber, ExpectedNumbers, Found, FrameParts,
-        LibraryStatus, MAX_COUNT, PathStep, PoseKind, Problem, RemainingError, Request,
-        ServoRequest, VerdictCode,
+        Answer, AskedOrder, CameraState, CameraStatus, ExpectedNumber, ExpectedNumbers, Found,
+        FrameFacts, FrameParts, LibraryStatus, MAX_COUNT, MissingPart, OnLineNow, PathStep,
+        PoseKind, Problem, RackPlace, RemainingError, Request, ServoRequest, VerdictCode,
     },
     handle::ServerHandle,
     listen::{ListenAddress, ListenError, Listener, OpenToNetwork, parse_address},

@@ -29,14 +29,20 @@ impl InspectionRecord {
 
     fn of(inspected: &Inspected, index: usize, at: Situation) -> Self {
         // Judge with the path, then leave it out of the record: it may be long.
-        let answer = Answer::of(Request::Last, inspected, index, &at);
+        let answer = Answer::of(&Request::Last, inspected, index, &at);
         let found = Found {
             verdict: answer.verdict,
             captured: inspected.found.first.captured,
             part: answer.part,
             number: answer.number,
+            place: answer.place,
             marks: answer.marks,
             pose: answer.pose,
+            on_line: answer.on_line,
+            on_line_since: inspected
+                .found
+                .get(index)
+                .and_then(|part| part.on_line_since),
             problem: answer.problem,
             ..Found::default()
         };
@@ -44,7 +50,10 @@ impl InspectionRecord {
             inspected: Inspected {
                 sequence: answer.sequence,
                 boot: answer.boot,
-                found: found.into(),
+                found: FrameParts {
+                    facts: answer.facts,
+                    ..found.into()
+                },
                 ..Inspected::default()
             },
             index: answer.index,
@@ -63,7 +72,7 @@ impl InspectionRecord {
         Answer {
             index: self.index,
             num_parts: self.num_parts,
-            ..Answer::of(Request::Last, &self.inspected, 0, &now)
+            ..Answer::of(&Request::Last, &self.inspected, 0, &now)
         }
     }
 }
@@ -105,8 +114,9 @@ impl InspectionRecorder {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{PathStep, VerdictCode};
+    use crate::{FrameFacts, PathStep, RackPlace, VerdictCode};
     use geometry::rigid::RigidTransform;
+    use robot::line::OnLine;
 
     fn inspected(pose: RigidTransform, step: RigidTransform) -> Inspected {
         Inspected {
@@ -181,6 +191,39 @@ mod tests {
         };
         let late = strict.record(old.into(), CameraStatus::default())[0].answer();
         assert_eq!((late.verdict, late.pose), (VerdictCode::Stale, None));
+    }
+
+    #[test]
+    fn a_record_keeps_the_place_what_the_frame_shows_and_where_a_part_is_on_the_line() {
+        let mut inspected = inspected(RigidTransform::identity(), RigidTransform::identity());
+        let place = RackPlace {
+            number: 2,
+            name: "right hook".into(),
+        };
+        let facts = FrameFacts {
+            empty_places: Some(vec![place.clone()]),
+            ..FrameFacts::default()
+        };
+        let found = &mut inspected.found;
+        found.facts = facts.clone().into();
+        found.first.place = Some(place.clone());
+        let on_line = OnLine {
+            number: 12,
+            ..OnLine::default()
+        };
+        found.first.on_line = Some(on_line);
+        found.first.on_line_since = Some(Instant::now());
+        let record = InspectionRecord::of(&inspected, 0, within(Duration::from_hours(1)));
+        let answer = record.answer();
+        assert_eq!((&answer.place, &*answer.facts), (&Some(place), &facts));
+        assert_eq!(answer.on_line, Some(on_line));
+        assert!(answer.on_line_now().is_some());
+        // Without a pose, it is nowhere on the line.
+        inspected.found.first.verdict = VerdictCode::Refused;
+        let record = InspectionRecord::of(&inspected, 0, within(Duration::from_hours(1)));
+        let answer = record.answer();
+        assert_eq!(answer.on_line, Some(OnLine::default()));
+        assert!(answer.on_line_now().is_none() && answer.place.is_some());
     }
 
     #[test]

@@ -20,8 +20,8 @@ use thiserror::Error;
 
 use super::{
     answer::{
-        Answer, CameraStatus, ExpectedNumbers, Found, FrameParts, Inspected, LibraryStatus,
-        Problem, Request, ServoRequest, Situation, VerdictCode, judged,
+        Answer, AskedOrder, CameraStatus, ExpectedNumbers, Found, FrameParts, Inspected,
+        LibraryStatus, Problem, Request, ServoRequest, Situation, VerdictCode, judged,
     },
     client::Client,
     handle::ServerHandle,
@@ -50,7 +50,7 @@ pub(super) const WRITE_TIMEOUT: Duration = Duration::from_secs(5);
 const TURN_AWAY_TIMEOUT: Duration = Duration::from_millis(100);
 
 /// When a trigger came, and what it expects.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Asked {
     /// By the monotonic clock.
     pub at: Instant,
@@ -60,6 +60,8 @@ pub struct Asked {
     pub expected: ExpectedNumbers,
     /// What the encoder of the line showed, if it was sent.
     pub count: Option<u32>,
+    /// The order that it names.
+    pub order: AskedOrder,
 }
 
 impl Asked {
@@ -70,6 +72,24 @@ impl Asked {
             by_clock: geometry::clock::now(),
             expected: ExpectedNumbers::default(),
             count: None,
+            order: AskedOrder::default(),
+        }
+    }
+
+    /// A request that has just come.
+    fn by(request: &Request) -> Self {
+        match request.clone() {
+            Request::Trigger {
+                expected,
+                count,
+                order,
+            } => Self {
+                expected,
+                count,
+                order,
+                ..Self::now()
+            },
+            _ => Self::now(),
         }
     }
 }
@@ -566,8 +586,8 @@ pub(super) fn answer_to(
     is_withdrawn: impl Fn() -> bool + Send + 'static,
 ) -> Answer {
     let inspected = match request {
-        Request::Trigger { expected, count } => {
-            let triggered = triggered((expected, count), jobs, Box::new(is_withdrawn));
+        Request::Trigger { .. } => {
+            let triggered = triggered(&request, jobs, Box::new(is_withdrawn));
             client.own = triggered.as_ref().ok().map(Arc::clone);
             triggered.map(|inspected| (inspected, 0))
         }
@@ -589,7 +609,7 @@ pub(super) fn answer_to(
                 Request::Part { index, .. } => index.saturating_sub(1) as usize,
                 _ => place,
             };
-            Answer::of(request, &inspected, index, &at)
+            Answer::of(&request, &inspected, index, &at)
         }
         Err((verdict, problem)) => Answer {
             request: Some(request),
@@ -615,16 +635,11 @@ pub(super) fn inspection_of(
 
 /// Requests an inspection of a frame captured from now on, and waits for it. An error is a verdict with its reason.
 pub(super) fn triggered(
-    (expected, count): (ExpectedNumbers, Option<u32>),
+    request: &Request,
     jobs: &SyncSender<Job>,
     is_withdrawn: Box<dyn Fn() -> bool + Send>,
 ) -> Result<Arc<Inspected>, (VerdictCode, Problem)> {
-    let asked = Asked {
-        expected,
-        count,
-        ..Asked::now()
-    };
-    inspected_for(asked, None, jobs, is_withdrawn)
+    inspected_for(Asked::by(request), None, jobs, is_withdrawn)
 }
 
 /// As [`triggered`], also for a robot that servoes.
@@ -684,13 +699,15 @@ mod tests {
             answer_to(request, shared, jobs, &mut client, || false)
         };
         let with_numbers = [Request::Last, path(None), path(Some(1))];
-        for request in with_numbers {
-            assert!(answer(request).pose.is_some(), "{request:?}");
+        for request in with_numbers.clone() {
+            let words = format!("{request:?}");
+            assert!(answer(request).pose.is_some(), "{words}");
         }
         handle.refuse_last(&Problem::reported_wrong());
         for request in with_numbers.into_iter().chain([Request::Status]) {
+            let words = format!("{request:?}");
             let answer = answer(request);
-            assert_eq!(answer.verdict, VerdictCode::Refused, "{request:?}");
+            assert_eq!(answer.verdict, VerdictCode::Refused, "{words}");
             assert_eq!((answer.pose, answer.points), (None, 0));
             assert_eq!(answer.flags(), Answer::SIMULATED);
             assert_eq!((answer.sequence, &*answer.part), (1, "fender"));

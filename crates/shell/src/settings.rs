@@ -11,8 +11,7 @@ use toml::{Table, Value};
 
 use super::{
     roles::{LOCK_AFTER, Pin, RoleState, is_operators},
-    session::{RememberedCell, Session, Source, ThemeChoice, UserRole, WorkspaceKind},
-    shift::ShiftStarts,
+    session::{RememberedCell, Session, ShiftStarts, Source, ThemeChoice, UserRole, WorkspaceKind},
     state::State,
 };
 use crate::{

@@ -12,7 +12,7 @@ use super::object::ObjectKind;
 use super::part::{PartKind, PartModel, Side};
 use super::placement::PoseRange;
 use super::rasteriser::{Plane, Rendering, SurfaceLabel};
-use super::sensor::{Sensor, SensorNoise};
+use super::sensor::{Kinect, Sensor, SensorNoise};
 use super::stand::{Stand, down_from_above, floor_below, post};
 use geometry::depth_frame::Intrinsics;
 use geometry::mesh::TriangleMesh;
@@ -139,7 +139,7 @@ impl CellSetup {
 }
 
 /// Least distance of the wall behind the part, and of the floor below it, in metres: room for the stand's post.
-const CLEARANCE: f64 = 0.15;
+const CLEARANCE_M: f64 = 0.15;
 /// Largest tilt of wall and floor about each axis.
 const MAX_TILT: Radians = Radians(0.05);
 
@@ -153,7 +153,7 @@ pub(super) struct Cell<'a> {
     /// Everything else, drawn in this order.
     pub(super) meshes: Vec<(TriangleMesh, SurfaceLabel)>,
     pub(super) planes: Vec<(Plane, SurfaceLabel)>,
-    pub(super) sensor: Sensor,
+    pub(super) sensor: Box<dyn Sensor>,
 }
 
 impl<'a> Cell<'a> {
@@ -217,7 +217,7 @@ impl<'a> Cell<'a> {
                 (clutter.into_mesh(), SurfaceLabel::Clutter),
             ],
             planes: vec![(wall, SurfaceLabel::Wall), (floor, SurfaceLabel::Floor)],
-            sensor: Sensor::Kinect,
+            sensor: Box::new(Kinect),
         }
     }
 
@@ -262,6 +262,6 @@ fn beyond(normal: Vector3<f64>, wished: f64, hung: &[Point3<f64>], random: &mut 
         .fold(0.0, f64::max);
     Plane {
         normal,
-        offset: wished.max(reach + CLEARANCE),
+        offset: wished.max(reach + CLEARANCE_M),
     }
 }

@@ -119,7 +119,7 @@ pub struct SimulatedLine {
     depth: f64,
     /// Everything but the parts.
     backdrop: Rendering,
-    sensor: Sensor,
+    sensor: Box<dyn Sensor>,
 }
 
 impl SimulatedLine {

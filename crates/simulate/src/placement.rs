@@ -15,9 +15,9 @@ use geometry::rigid::RigidTransform;
 use geometry::units::{Metres, Radians};
 
 /// Distance in pixels of a fully visible part from the frame's edges.
-const MARGIN: f64 = 8.0;
+const MARGIN_PIXELS: f64 = 8.0;
 /// Largest distance of a part from the optical axis where there is room, in metres.
-const OFF_AXIS: f64 = 0.15;
+const MAX_OFF_AXIS_M: f64 = 0.15;
 
 /// Separates the pose's random numbers from others with the same seed.
 const STREAM: u64 = 0x705e_705e_705e_705e;
@@ -103,8 +103,8 @@ impl PoseRange {
         let rotation = roll * pitch * yaw;
         let drawn = self.nearest.0 + (self.farthest.0 - self.nearest.0) * random.random::<f64>();
         let wished = [
-            OFF_AXIS * (2.0 * random.random::<f64>() - 1.0),
-            OFF_AXIS * (2.0 * random.random::<f64>() - 1.0),
+            MAX_OFF_AXIS_M * (2.0 * random.random::<f64>() - 1.0),
+            MAX_OFF_AXIS_M * (2.0 * random.random::<f64>() - 1.0),
         ];
 
         let turned = mesh.placed_vertices(|p| rotation * p);
@@ -144,8 +144,8 @@ impl ShiftRange {
         focal: f64,
         num_pixels: usize,
     ) -> Self {
-        let low_slope = (MARGIN - principal) / focal;
-        let high_slope = (num_pixels as f64 - 1.0 - MARGIN - principal) / focal;
+        let low_slope = (MARGIN_PIXELS - principal) / focal;
+        let high_slope = (num_pixels as f64 - 1.0 - MARGIN_PIXELS - principal) / focal;
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
         for p in turned {
             low = low.max(low_slope * p.z - p[axis]);
@@ -203,7 +203,11 @@ mod tests {
                         placed.fully_visible,
                         "{kind} model {model_seed} seed {seed}"
                     );
-                    assert!(inside(part.mesh(), &placed.camera_from_part, MARGIN - 1e-6));
+                    assert!(inside(
+                        part.mesh(),
+                        &placed.camera_from_part,
+                        MARGIN_PIXELS - 1e-6
+                    ));
                     let z = placed.camera_from_part.translation.z;
                     assert!((0.9..=1.8).contains(&z));
                 }
@@ -238,7 +242,7 @@ mod tests {
             let mut nearer = placed;
             nearer.translation.z -= 0.01;
             let z = placed.translation.z;
-            let moved = !inside(part.mesh(), &nearer, MARGIN);
+            let moved = !inside(part.mesh(), &nearer, MARGIN_PIXELS);
             assert!(!moved || z < 1.9, "moved back to {z}");
         }
     }

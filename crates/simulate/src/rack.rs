@@ -310,7 +310,7 @@ pub struct StandingRack {
     intrinsics: Intrinsics,
     /// Everything but the parts.
     backdrop: Rendering,
-    sensor: Sensor,
+    sensor: Box<dyn Sensor>,
 }
 
 impl StandingRack {

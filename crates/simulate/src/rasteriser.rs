@@ -33,7 +33,7 @@ pub enum SurfaceLabel {
 }
 
 /// Nothing nearer than this is drawn, in metres.
-const NEAR: f64 = 0.05;
+const NEAR_M: f64 = 0.05;
 /// Slack of the edge test in pixel², so that no gaps open between neighbouring triangles.
 const EDGE_SLACK: f64 = 1e-7;
 
@@ -91,7 +91,7 @@ impl Rendering {
         let points = mesh.placed_vertices(|p| camera_from_mesh * p);
         for corners in &mesh.triangles {
             let corners = corners.map(|i| points[i as usize]);
-            if corners.iter().all(|p| p.z >= NEAR) {
+            if corners.iter().all(|p| p.z >= NEAR_M) {
                 self.draw_triangle(&corners, label);
             } else {
                 let clipped = clip_near(&corners);
@@ -111,7 +111,7 @@ impl Rendering {
                 let slope = plane.normal.dot(&ray);
                 let depth = plane.offset / slope;
                 let pixel = v * camera.width + u;
-                if depth > NEAR && depth < f64::from(self.depth[pixel]) {
+                if depth > NEAR_M && depth < f64::from(self.depth[pixel]) {
                     self.depth[pixel] = depth as f32;
                     self.facing[pixel] = (slope / ray.norm()).abs() as f32;
                     self.labels[pixel] = label;
@@ -196,11 +196,11 @@ fn clip_near(corners: &[Point3<f64>; 3]) -> Vec<Point3<f64>> {
     let mut kept = Vec::with_capacity(4);
     for k in 0..3 {
         let (here, next) = (corners[k], corners[(k + 1) % 3]);
-        if here.z >= NEAR {
+        if here.z >= NEAR_M {
             kept.push(here);
         }
-        if (here.z >= NEAR) != (next.z >= NEAR) {
-            kept.push(here + (next - here) * ((NEAR - here.z) / (next.z - here.z)));
+        if (here.z >= NEAR_M) != (next.z >= NEAR_M) {
+            kept.push(here + (next - here) * ((NEAR_M - here.z) / (next.z - here.z)));
         }
     }
     kept
@@ -237,7 +237,7 @@ mod tests {
             let q = s.cross(&e1);
             let v = direction.dot(&q) / determinant;
             let t = e2.dot(&q) / determinant;
-            if u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > NEAR && t < nearest {
+            if u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > NEAR_M && t < nearest {
                 nearest = t;
             }
         }

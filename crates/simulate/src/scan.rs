@@ -13,7 +13,7 @@ use rand_pcg::Pcg64;
 use super::assembly::Assembly;
 use super::cell::SimulatedObject;
 use super::rasteriser::{Rendering, SurfaceLabel};
-use super::sensor::{Sensor, SensorNoise};
+use super::sensor::{Kinect, Sensor as _, SensorNoise};
 use geometry::depth_frame::{DepthFrame, Intrinsics};
 use geometry::mesh::TriangleMesh;
 use geometry::rigid::RigidTransform;
@@ -57,7 +57,7 @@ pub struct SimulatedScan {
 }
 
 /// The middle of the part in the base frame, in metres.
-const MIDDLE: [f64; 3] = [1.9, 0.0, 1.1];
+const MIDDLE_M: [f64; 3] = [1.9, 0.0, 1.1];
 /// Separates these random numbers from others with the same seed.
 const STREAM: u64 = 0x5ca9_5ca9_5ca9_5ca9;
 
@@ -67,7 +67,7 @@ impl SimulatedScan {
         // The model faces a camera with x right, y down and z away; the part faces back along the base's x axis.
         let axes = Matrix3::new(0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0);
         let turn = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
-        let [x, y, z] = MIDDLE;
+        let [x, y, z] = MIDDLE_M;
         Self {
             part: setup.subject.mesh(),
             cell: cell(),
@@ -122,7 +122,7 @@ impl SimulatedScan {
         let part = camera_from_base * base_from_model;
         rendering.draw_mesh(&self.part, &part, SurfaceLabel::Part);
         rendering.draw_mesh(&self.cell, &camera_from_base, SurfaceLabel::Clutter);
-        Sensor::Kinect.sense(&rendering, noise)
+        Kinect.sense(&rendering, noise)
     }
 
     /// Poses the camera: from left to right around the part, alternately from above and below, 1.2 to 1.5 m away.
@@ -133,7 +133,7 @@ impl SimulatedScan {
         let up = if k.is_multiple_of(2) { 25.0 } else { -8.0 };
         let pitch = f64::to_radians(up + jitter(4.0));
         let distance = 1.35 + jitter(0.15);
-        let target = Point3::from(MIDDLE) + Vector3::new(0.0, jitter(0.1), jitter(0.1));
+        let target = Point3::from(MIDDLE_M) + Vector3::new(0.0, jitter(0.1), jitter(0.1));
         let back = Vector3::new(
             -yaw.cos() * pitch.cos(),
             yaw.sin() * pitch.cos(),
@@ -210,7 +210,7 @@ mod tests {
             let error = pose_error(&shot.given, &shot.base_from_camera, &Point3::origin());
             assert!((error.shift.mm() - 3.0).abs() < 1e-6);
             assert!((error.rotation.degrees() - 0.3).abs() < 1e-6);
-            let middle = shot.base_from_camera.inverse() * Point3::from(MIDDLE);
+            let middle = shot.base_from_camera.inverse() * Point3::from(MIDDLE_M);
             assert!((1.0..1.7).contains(&middle.z), "{middle}");
             // Floor and walls fill the rest of the picture.
             let num_readings = shot.frame.depth.iter().filter(|d| **d > 0).count();

@@ -30,24 +30,23 @@ use rand::{Rng as _, SeedableRng as _};
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 
-use super::booth::RegisteredCamera;
 use super::rasteriser::{Rendering, SurfaceLabel};
 use geometry::depth_frame::{DepthFrame, Intrinsics};
 
 /// Distance between projector and camera, in metres.
-pub(super) const BASELINE: f64 = 0.075;
+pub(super) const BASELINE_M: f64 = 0.075;
 /// Steps of the disparity per pixel.
 const STEPS_PER_PIXEL: f64 = 8.0;
 /// Axial noise at 1 m before quantisation, in metres. Rounding to a step of 3.17 mm adds 0.92 mm; together 1.5 mm.
 const AXIAL_AT_1M: f64 = 1.19e-3;
 /// Lateral noise in pixels.
-const LATERAL: f64 = 0.5;
+const LATERAL_PIXELS: f64 = 0.5;
 /// Readings outside this range are lost, in metres.
-const RANGE: (f64, f64) = (0.5, 4.0);
+const RANGE_M: (f64, f64) = (0.5, 4.0);
 /// One unit of the frame in metres: 0.2 mm, so that 65 535 units reach 13 m.
 const METRES_PER_UNIT: f64 = 0.0002;
 /// A step of disparity between neighbours that is an edge and not a slope: 1 px is 38 mm at 1.2 m.
-const EDGE_STEP: f32 = 1.0;
+const EDGE_STEP_PIXELS: f32 = 1.0;
 
 /// How much a frame is disturbed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -77,48 +76,37 @@ impl SensorNoise {
     }
 }
 
-/// The kinds of sensor.
-pub(super) enum Sensor {
-    /// The sensor of this [module](self).
-    Kinect,
-    /// A structured-light camera registered to a colour picture, see [`RegisteredCamera`].
-    Registered(Box<RegisteredCamera>),
-}
-
-impl Sensor {
+/// A kind of depth sensor.
+pub(super) trait Sensor: Send + Sync {
     /// Turns a perfect rendering into a frame.
-    pub(super) fn sense(&self, rendering: &Rendering, noise: &SensorNoise) -> DepthFrame {
-        match self {
-            Self::Kinect => sense(rendering, noise),
-            Self::Registered(camera) => camera.sense(rendering, noise),
-        }
-    }
+    fn sense(&self, rendering: &Rendering, noise: &SensorNoise) -> DepthFrame;
 
     /// Counts the pixels of the rendering that show `label` and lie within the field of view.
-    pub(super) fn num_pixels_in_view(&self, rendering: &Rendering, label: SurfaceLabel) -> usize {
-        match self {
-            Self::Kinect => rendering.num_pixels(label),
-            Self::Registered(camera) => camera.num_pixels_in_view(rendering, label),
-        }
+    fn num_pixels_in_view(&self, rendering: &Rendering, label: SurfaceLabel) -> usize {
+        rendering.num_pixels(label)
     }
 }
 
-/// Returns the frame that a Kinect delivers for a perfect rendering.
-fn sense(rendering: &Rendering, noise: &SensorNoise) -> DepthFrame {
-    let depth = if noise.multiplier > 0.0 {
-        with_noise(rendering, noise)
-    } else {
-        rendering
-            .depth
-            .iter()
-            .map(|&z| in_units(f64::from(z), METRES_PER_UNIT))
-            .collect()
-    };
-    DepthFrame {
-        intrinsics: rendering.intrinsics,
-        metres_per_unit: METRES_PER_UNIT,
-        depth,
-        is_simulated: true,
+/// The sensor of this [module](self).
+pub(super) struct Kinect;
+
+impl Sensor for Kinect {
+    fn sense(&self, rendering: &Rendering, noise: &SensorNoise) -> DepthFrame {
+        let depth = if noise.multiplier > 0.0 {
+            with_noise(rendering, noise)
+        } else {
+            rendering
+                .depth
+                .iter()
+                .map(|&z| in_units(f64::from(z), METRES_PER_UNIT))
+                .collect()
+        };
+        DepthFrame {
+            intrinsics: rendering.intrinsics,
+            metres_per_unit: METRES_PER_UNIT,
+            depth,
+            is_simulated: true,
+        }
     }
 }
 
@@ -134,7 +122,7 @@ pub(super) fn in_units(metres: f64, metres_per_unit: f64) -> u16 {
 
 fn with_noise(rendering: &Rendering, noise: &SensorNoise) -> Vec<u16> {
     let camera = &rendering.intrinsics;
-    let focal_baseline = camera.fx * BASELINE;
+    let focal_baseline = camera.fx * BASELINE_M;
     // Infinite depth becomes disparity 0.
     let disparity: Vec<f32> = rendering
         .depth
@@ -147,7 +135,7 @@ fn with_noise(rendering: &Rendering, noise: &SensorNoise) -> Vec<u16> {
         std::array::from_fn(|number| SmoothNoise::new(camera, noise.seed, number));
     let mut rows: [Vec<f32>; 4] = std::array::from_fn(|_| vec![0.0; camera.width]);
 
-    let lateral = (LATERAL * noise.multiplier) as f32;
+    let lateral = (LATERAL_PIXELS * noise.multiplier) as f32;
     // Losses grow more slowly than noise: a multiplier of 3 gives five times the dropouts.
     let loss_scale = noise.multiplier.sqrt().sqrt() as f32;
     let mut depth = vec![0; disparity.len()];
@@ -178,7 +166,7 @@ fn with_noise(rendering: &Rendering, noise: &SensorNoise) -> Vec<u16> {
             // The cast truncates, so adding a half rounds; a negative disparity is out of range anyway.
             let steps = ((true_disparity + error) * STEPS_PER_PIXEL + 0.5) as u32;
             let z = focal_baseline * STEPS_PER_PIXEL / f64::from(steps);
-            if (RANGE.0..=RANGE.1).contains(&z) {
+            if (RANGE_M.0..=RANGE_M.1).contains(&z) {
                 depth[pixel] = in_units(z, METRES_PER_UNIT);
             }
         }
@@ -231,7 +219,7 @@ fn loss_threshold(edge_nearness: u8, facing: f32) -> f32 {
 pub(super) fn lit_by_projector(disparity: &[f32], camera: &Intrinsics) -> Vec<bool> {
     let width = camera.width;
     // Disparity at the sensor's nearest range; nearer objects cast a shadow that is cut off.
-    let margin = (camera.fx * BASELINE / RANGE.0).ceil() as usize;
+    let margin = (camera.fx * BASELINE_M / RANGE_M.0).ceil() as usize;
     let mut lit = vec![true; disparity.len()];
     let mut nearest = vec![0.0_f32; width + margin + 2];
     for (row, lit_row) in disparity
@@ -243,7 +231,7 @@ pub(super) fn lit_by_projector(disparity: &[f32], camera: &Intrinsics) -> Vec<bo
         for u in 0..width {
             let here = column(u);
             // A slope towards the camera spreads neighbours over several projector columns: fill between them.
-            let next = if u + 1 < width && (row[u + 1] - row[u]).abs() < EDGE_STEP {
+            let next = if u + 1 < width && (row[u + 1] - row[u]).abs() < EDGE_STEP_PIXELS {
                 column(u + 1)
             } else {
                 here
@@ -254,7 +242,7 @@ pub(super) fn lit_by_projector(disparity: &[f32], camera: &Intrinsics) -> Vec<bo
             }
         }
         for u in 0..width {
-            lit_row[u] = nearest[column(u) as usize] <= row[u] + EDGE_STEP;
+            lit_row[u] = nearest[column(u) as usize] <= row[u] + EDGE_STEP_PIXELS;
         }
     }
     lit
@@ -273,7 +261,9 @@ pub(super) fn edge_nearness(disparity: &[f32], camera: &Intrinsics) -> Vec<u8> {
                 (v + 1 < height, width, v >= 1, v + 2 < height),
             ];
             for (has_next, stride, has_before, has_after) in steps {
-                if has_next && (disparity[pixel + stride] - disparity[pixel]).abs() > EDGE_STEP {
+                if has_next
+                    && (disparity[pixel + stride] - disparity[pixel]).abs() > EDGE_STEP_PIXELS
+                {
                     mark(pixel, 2);
                     mark(pixel + stride, 2);
                     if has_before {
@@ -302,7 +292,7 @@ pub(super) fn sample(disparity: &[f32], camera: &Intrinsics, u: f32, v: f32) -> 
     let [a, b, c, d] =
         [first, first + right, first + below, first + below + right].map(|i| disparity[i]);
     let (low, high) = (a.min(b).min(c.min(d)), a.max(b).max(c.max(d)));
-    if high - low > EDGE_STEP {
+    if high - low > EDGE_STEP_PIXELS {
         return match (s < 0.5, t < 0.5) {
             (true, true) => a,
             (false, true) => b,
@@ -408,7 +398,7 @@ mod tests {
                 multiplier,
                 seed: 11,
             };
-            let frame = sense(&flat_wall(z), &noise);
+            let frame = Kinect.sense(&flat_wall(z), &noise);
             for &units in frame.depth.iter().filter(|&&units| units > 0) {
                 let error = f64::from(units) * frame.metres_per_unit - z;
                 sum_sq += error * error;
@@ -465,7 +455,7 @@ mod tests {
         let disparity: Vec<f32> = rendering
             .depth
             .iter()
-            .map(|&z| (525.0 * BASELINE) as f32 / z)
+            .map(|&z| (525.0 * BASELINE_M) as f32 / z)
             .collect();
         let lit = lit_by_projector(&disparity, &camera);
         let row = &lit[240 * camera.width..][..camera.width];
@@ -486,7 +476,7 @@ mod tests {
         let disparity: Vec<f32> = rendering
             .depth
             .iter()
-            .map(|&z| (525.0 * BASELINE) as f32 / z)
+            .map(|&z| (525.0 * BASELINE_M) as f32 / z)
             .collect();
         let lit = lit_by_projector(&disparity, &rendering.intrinsics);
         assert!(lit.iter().all(|&lit| lit));
@@ -495,17 +485,17 @@ mod tests {
     #[test]
     fn readings_out_of_range_are_lost() {
         for z in [0.3, 4.6] {
-            let frame = sense(&flat_wall(z), &SensorNoise::kinect(1));
+            let frame = Kinect.sense(&flat_wall(z), &SensorNoise::kinect(1));
             assert!(frame.depth.iter().all(|&units| units == 0));
         }
-        let frame = sense(&flat_wall(1.5), &SensorNoise::kinect(1));
+        let frame = Kinect.sense(&flat_wall(1.5), &SensorNoise::kinect(1));
         let num_lost = frame.depth.iter().filter(|&&units| units == 0).count();
         assert!(num_lost > 100 && num_lost < 6000, "{num_lost}");
     }
 
     #[test]
     fn without_noise_a_reading_is_the_truth_to_the_unit() {
-        let frame = sense(&flat_wall(1.2345), &SensorNoise::none());
+        let frame = Kinect.sense(&flat_wall(1.2345), &SensorNoise::none());
         assert!(
             frame
                 .depth

@@ -13,7 +13,7 @@ use super::region::Region;
 /// Least distance of edge vertices from the grid's nodes, as a share of the spacing; avoids needle-thin triangles.
 const SNAP: f64 = 0.04;
 /// Outer radius of a fold in metres: about three times the thickness of body sheet.
-const FOLD_RADIUS: f64 = 0.003;
+const FOLD_RADIUS_M: f64 = 0.003;
 
 /// A sheet to be pressed. `u` runs right and `v` down for a viewer of the paint side.
 pub(super) struct Sheet<'a> {
@@ -27,7 +27,7 @@ pub(super) struct Sheet<'a> {
     pub(super) spacing: f64,
     /// Maps a flat point to its place in space.
     pub(super) lift: &'a dyn Fn(f64, f64) -> Point3<f64>,
-    /// Depth in metres to which the edge at a flat point is folded back; up to [`FOLD_RADIUS`] the edge stays raw.
+    /// Depth in metres to which the edge at a flat point is folded back; up to [`FOLD_RADIUS_M`] the edge stays raw.
     pub(super) fold: &'a dyn Fn(f64, f64) -> f64,
 }
 
@@ -209,7 +209,7 @@ impl Sheet<'_> {
     fn fold_ring(&self, assembly: &mut Assembly, vertex: &EdgeVertex) -> Option<[u32; 3]> {
         let EdgeVertex { u, v, .. } = *vertex;
         let depth = (self.fold)(u, v);
-        if depth <= FOLD_RADIUS {
+        if depth <= FOLD_RADIUS_M {
             return None;
         }
         // Half a millimetre is small compared with every radius, and large compared with rounding errors.
@@ -225,9 +225,9 @@ impl Sheet<'_> {
         let mut ring =
             |out: f64, back: f64| assembly.vertex(edge + outwards * out - towards_viewer * back);
         Some([
-            ring(0.7 * FOLD_RADIUS, 0.3 * FOLD_RADIUS),
-            ring(FOLD_RADIUS, FOLD_RADIUS),
-            ring(FOLD_RADIUS, depth),
+            ring(0.7 * FOLD_RADIUS_M, 0.3 * FOLD_RADIUS_M),
+            ring(FOLD_RADIUS_M, FOLD_RADIUS_M),
+            ring(FOLD_RADIUS_M, depth),
         ])
     }
 }

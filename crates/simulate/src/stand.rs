@@ -23,11 +23,11 @@ pub enum Stand {
 }
 
 /// How far the camera looks down at a part on the floor, in radians.
-const LOOKING_DOWN: std::ops::Range<f64> = 0.0..0.45;
+const LOOKING_DOWN_RAD: std::ops::Range<f64> = 0.0..0.45;
 
 /// Draws the downward direction for a camera that looks down at the floor.
 pub(super) fn down_from_above(random: &mut Pcg64) -> Vector3<f64> {
-    let (sin, cos) = random.random_range(LOOKING_DOWN).sin_cos();
+    let (sin, cos) = random.random_range(LOOKING_DOWN_RAD).sin_cos();
     Vector3::new(0.0, cos, sin)
 }
 

@@ -16,7 +16,7 @@ pub struct StandingCell {
     camera_from_part: RigidTransform,
     /// Everything but the part.
     backdrop: Rendering,
-    sensor: Sensor,
+    sensor: Box<dyn Sensor>,
 }
 
 impl StandingCell {

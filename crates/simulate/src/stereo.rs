@@ -16,15 +16,15 @@ use super::sensor::{in_units, lit_by_projector};
 use geometry::depth_frame::DepthFrame;
 
 /// Distance between the cameras, metres.
-const BASELINE: f64 = 0.055;
+const BASELINE_M: f64 = 0.055;
 /// Standard deviation of the disparity's error, pixels.
-const DISPARITY_ERROR: f32 = 0.08;
+const DISPARITY_ERROR_PIXELS: f32 = 0.08;
 /// Half the side of a block, pixels.
 const BLOCK_RADIUS: usize = 3;
 /// Steps of the disparity per pixel.
 const STEPS_PER_PIXEL: f32 = 32.0;
 /// A step of disparity within a block that is an edge and not a slope, pixels.
-const EDGE_STEP: f32 = 1.0;
+const EDGE_STEP_PIXELS: f32 = 1.0;
 /// Radius over which texture changes, pixels, and its value below which a patch has none: one pixel in 300.
 const TEXTURE_RADIUS: usize = 6;
 const MIN_TEXTURE: f32 = -2.7;
@@ -33,7 +33,7 @@ const MIN_TEXTURE: f32 = -2.7;
 pub fn stereo_frame(perfect: &DepthFrame, seed: u64) -> DepthFrame {
     let camera = &perfect.intrinsics;
     let size = [camera.width, camera.height];
-    let focal_baseline = (camera.fx * BASELINE) as f32;
+    let focal_baseline = (camera.fx * BASELINE_M) as f32;
     let disparity: Vec<f32> = perfect
         .depth
         .iter()
@@ -57,12 +57,12 @@ pub fn stereo_frame(perfect: &DepthFrame, seed: u64) -> DepthFrame {
         // Between no growth and that of the whole radius.
         let radius = (reach[pixel] + 1.5).clamp(0.0, 3.0) / 3.0 * BLOCK_RADIUS as f32;
         let nearest = nearest_within(&disparity, size, pixel, radius as usize);
-        let here = if nearest - disparity[pixel] > EDGE_STEP {
+        let here = if nearest - disparity[pixel] > EDGE_STEP_PIXELS {
             nearest
         } else {
             disparity[pixel]
         };
-        let found = here + DISPARITY_ERROR * noise[pixel];
+        let found = here + DISPARITY_ERROR_PIXELS * noise[pixel];
         let found = (found * STEPS_PER_PIXEL).round() / STEPS_PER_PIXEL;
         if here > 0.0 && found > 0.0 {
             in_units(f64::from(focal_baseline / found), perfect.metres_per_unit)
@@ -156,7 +156,8 @@ mod tests {
     #[test]
     fn noise_is_that_of_the_disparity_and_alike_within_a_block() {
         let frame = stereo_frame(&perfect(), 1);
-        let expected = 2.5 * 2.5 * f64::from(DISPARITY_ERROR) / (frame.intrinsics.fx * BASELINE);
+        let expected =
+            2.5 * 2.5 * f64::from(DISPARITY_ERROR_PIXELS) / (frame.intrinsics.fx * BASELINE_M);
         let (mut squares, mut near, mut far, mut num) = (0.0, 0.0, 0.0, 0.0);
         for row in 0..frame.intrinsics.height {
             for column in 320..600 {

@@ -153,25 +153,25 @@ const THIRD: [Level; 3] = [
     },
 ];
 /// What the noise leaves of itself in the mean over a patch of points that several frames saw, metres.
-const NOISE_OF_JOINT: f64 = 0.001;
+const JOINT_NOISE_M: f64 = 0.001;
 /// Turn (degrees) and shift (millimetres) beyond which poses that several frames lead to are different ones.
-const POSES_APART: (f64, f64) = (3.0, 20.0);
+const POSES_APART_DEG_MM: (f64, f64) = (3.0, 20.0);
 /// Distance at which a point counts as plainly off, metres.
-const COST_LIMIT: f64 = 0.04;
+const PLAINLY_OFF_M: f64 = 0.04;
 /// A coarse pose that costs this many times the best one is not refined.
-const HOPELESS: f64 = 2.5;
+const MAX_COST_RATIO: f64 = 2.5;
 
 /// The ranking by confirmed scores, and the pose of the first.
 type Confirmed = (ConfirmedRanking, Result<PoseEstimate, PoseError>);
 
 /// A best score below this says that a draw may have missed the part.
-const MISSED_BELOW: f64 = 0.1;
+const MISSED_MAX_SCORE: f64 = 0.1;
 /// It is drawn again only for references on which a start cost less than this: 0.6 is a good fit, and where nothing is
 /// enrolled they cost more.
-const NEARLY: f64 = 1.3;
+const PIECE_MAX_START_COST: f64 = 1.3;
 /// Nor is it drawn again where one cost less than this: that draw found where the piece fits, and what speaks against the
 /// part there is not the draw's doing.
-const WELL_LAID: f64 = 0.25;
+const PIECE_GOOD_START_COST: f64 = 0.25;
 
 /// Orders the matches by their confirmed scores, and gives the pose of the first.
 ///
@@ -209,8 +209,13 @@ pub fn confirm(
     let best = tried.first().map_or(0.0, |first| first.score);
     let costs = tried.iter().map(|tried| tried.piece_cost);
     let least_cost = costs.fold(f64::INFINITY, f64::min);
-    if may_draw_again && best < MISSED_BELOW && (WELL_LAID..NEARLY).contains(&least_cost) {
-        let nearly = tried.iter().filter(|tried| tried.piece_cost < NEARLY);
+    if may_draw_again
+        && best < MISSED_MAX_SCORE
+        && (PIECE_GOOD_START_COST..PIECE_MAX_START_COST).contains(&least_cost)
+    {
+        let nearly = tried
+            .iter()
+            .filter(|tried| tried.piece_cost < PIECE_MAX_START_COST);
         let nearly: Vec<&MatchEntry> = nearly.map(|tried| tried.entry).collect();
         seen.draw_again(params.seed + 1);
         let mut again = seen.examine(&nearly, references, least_score);
@@ -230,7 +235,7 @@ pub fn confirm(
     {
         let reference = &references[index];
         // Rival poses matter only for a candidate that may be accepted.
-        if candidate.evidence.score() > SURE {
+        if candidate.evidence.score() > REFINE_FULLY_MIN_SCORE {
             seen.weigh_turned(reference, candidate);
         }
         candidate.scale = seen.scale(reference, candidate);
@@ -294,7 +299,7 @@ impl PreparedScene<'_> {
         let candidates = self.in_parallel(entries.len(), |number| {
             let first = trials[number].first()?;
             // What is far off already will not win: it is scored where it is.
-            let is_worth_more = first.is_piece || first.cost < HOPELESS * least;
+            let is_worth_more = first.is_piece || first.cost < MAX_COST_RATIO * least;
             let levels: &[Level] = if is_worth_more { &SECOND } else { &[] };
             let reference = &references[entries[number].reference];
             self.best_candidate(reference, &trials[number], levels)
@@ -324,17 +329,17 @@ impl PreparedScene<'_> {
     /// accepted.
     fn finish(&self, tried: &mut [Tried<'_>], references: &[Reference], least_score: f64) {
         let hopeless = if self.is_piece {
-            HOPELESS_PIECE
+            REFINE_PIECE_MIN_SCORE
         } else {
-            HOPELESS_SCORE
+            REFINE_MIN_SCORE
         };
-        let least = (least_score / MOST_GAINED).max(hopeless);
-        self.refine_above(tried, least, MOST_GAINED, |tried, candidate| {
-            let is_in_doubt = !candidate.is_settled && tried.score < SURE;
+        let least = (least_score / MAX_SCORE_GAIN).max(hopeless);
+        self.refine_above(tried, least, MAX_SCORE_GAIN, |tried, candidate| {
+            let is_in_doubt = !candidate.is_settled && tried.score < REFINE_FULLY_MIN_SCORE;
             is_in_doubt.then(|| self.settled(&references[tried.entry.reference], candidate))?
         });
-        let least = ACCEPTABLE / MOST_GAINED_LATER;
-        self.refine_above(tried, least, MOST_GAINED_LATER, |tried, candidate| {
+        let least = DEFAULT_MIN_SCORE / MAX_LATER_SCORE_GAIN;
+        self.refine_above(tried, least, MAX_LATER_SCORE_GAIN, |tried, candidate| {
             let is_unfinished = candidate.uncertainty.is_none();
             is_unfinished.then(|| self.finished(&references[tried.entry.reference], candidate))?
         });
@@ -387,10 +392,10 @@ impl PreparedScene<'_> {
         refined: impl Fn(&Tried<'_>, &ReferenceCandidate) -> Option<ReferenceCandidate> + Sync,
     ) {
         let best = tried.first().map_or(0.0, |first| first.score);
-        let least_of_others = if best * most_gained < ACCEPTABLE {
+        let least_of_others = if best * most_gained < DEFAULT_MIN_SCORE {
             f64::INFINITY
         } else {
-            (best / most_gained).max(NO_RUNNER_UP)
+            (best / most_gained).max(RUNNER_UP_MIN_SCORE)
         };
         let refined = self.in_parallel(tried.len(), |place| {
             let least = if place == 0 { least } else { least_of_others };
@@ -457,17 +462,17 @@ fn odds(score: f64) -> f64 {
 }
 
 /// Poses that score less are not refined.
-const HOPELESS_SCORE: f64 = 1e-4;
+const REFINE_MIN_SCORE: f64 = 1e-4;
 /// The same for a piece, which below 0.05 counts as unlike every enrolled part; for a whole part, lower scores count, too.
-const HOPELESS_PIECE: f64 = 0.05 / MOST_GAINED;
+const REFINE_PIECE_MIN_SCORE: f64 = 0.05 / MAX_SCORE_GAIN;
 /// The default score of acceptance. If the best pose cannot reach it, the others are not refined.
-const ACCEPTABLE: f64 = 0.9;
+const DEFAULT_MIN_SCORE: f64 = 0.9;
 /// Poses that score more skip the intermediate level and are refined to the end at once.
-const SURE: f64 = 0.5;
+const REFINE_FULLY_MIN_SCORE: f64 = 0.5;
 /// Poses behind the first that score less are not refined: they do not become the first.
-const NO_RUNNER_UP: f64 = 0.005;
+const RUNNER_UP_MIN_SCORE: f64 = 0.005;
 /// The last refinement makes no score grow by more than this factor: at most 22 in 657 candidates of five suites.
-const MOST_GAINED: f64 = 25.0;
+const MAX_SCORE_GAIN: f64 = 25.0;
 /// The same after its first level: of 419 scores above 0.05 one grew 6.1-fold, the others by less, and of 254 below it none
 /// reached 0.12.
-const MOST_GAINED_LATER: f64 = 6.0;
+const MAX_LATER_SCORE_GAIN: f64 = 6.0;

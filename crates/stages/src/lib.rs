@@ -7,7 +7,8 @@
 //!
 //! - [`mod@reference`] prepares an enrolled part for `rank` and `pose`; [`shape_summary`] rules out most references of a large
 //!   library; [`correlation`] is the signal processing of `rank`.
-//! - [`confirm`] scores the best references by surface, outline and openings; [`locate`] runs `pose` as the paper does.
+//! - [`paper`] is the paper's own method of matching and pose; [`locate`] estimates the pose of a scene's part with it.
+//! - [`confirm`] scores the best references by surface, outline and openings.
 //! - [`scan`] combines several frames; [`stand_off`] is the distance of the nozzle, computed where it is shown.
 //! - [`descriptors`] are those of other systems, for comparison.
 
@@ -19,6 +20,7 @@ pub mod field_of_view;
 #[cfg(any(test, feature = "fixtures"))]
 pub mod fixtures;
 pub mod locate;
+pub mod paper;
 pub mod pose;
 pub mod project;
 pub mod rack;

@@ -203,14 +203,17 @@ impl Place {
         self.parts.is_empty() || self.entries(reference).next().is_some()
     }
 
+    /// True if a part may only have certain orientations there.
+    pub fn limits_turn(&self, reference: &Reference) -> bool {
+        let mut parts = self.entries(reference);
+        parts.any(|part| part.angles_rad.is_some())
+    }
+
     /// How far a part is turned from the nearest orientation that it may have there; 0 if it may have any. `None` if that is
     /// known of other references of the part only.
     pub fn turn(&self, reference: &Reference, camera_from_part: &RigidTransform) -> Option<Turn> {
         let oriented = |part: &&PlacedPart| part.angles_rad.is_some();
-        if self
-            .entries(reference)
-            .all(|part| part.angles_rad.is_none())
-        {
+        if !self.limits_turn(reference) {
             return Some(Turn {
                 found: Radians(0.0),
                 limit: self.max_turn.limits()[0],

@@ -19,12 +19,13 @@ use self::{
     border::{BorderPoint, ReferenceBorder},
     sides::ReferenceSide,
     view::ViewSource,
-    viewpoints::{VIEW_DISTANCE, viewpoints},
+    viewpoints::{VIEW_DISTANCE_M, viewpoints},
 };
 pub use self::{view::ReferenceView, view_cut::ViewCut, viewpoints::seen_around};
 use crate::{
     contour::{Contour, ContourParams, lift_oriented},
-    correlation::{LiteralReference, RaySpectra},
+    correlation::RaySpectra,
+    paper::LiteralReference,
     pose::{PoseError, PreparedTarget, edge_points::EdgePoints, refine::AlignmentTarget},
     project::{PlaneImage, ProjectParams},
     rank::EXHAUSTIVE_UP_TO,
@@ -81,7 +82,7 @@ pub enum ReferenceError {
 texts::described!(ReferenceError: "reference" by "error");
 
 /// Maximum extent of a car part, metres; anything larger is a file in millimetres or a whole scene.
-const MAX_EXTENT: f64 = 5.0;
+const MAX_EXTENT_M: f64 = 5.0;
 
 /// An enrolled part, prepared for ranking and pose.
 #[derive(Clone, Debug)]
@@ -119,12 +120,12 @@ pub struct Reference {
 /// Number of points kept of a view's outline and openings: about one per 1.5 cm around a door.
 const NUM_EDGES: usize = 256;
 /// Cell size of the nearest-point field, metres: two to three times the spacing of a reference cloud.
-const FIELD_CELL: f32 = 0.02;
+const FIELD_CELL_M: f32 = 0.02;
 /// Distance from the part up to which the field answers, metres: more than the error of a placement by outline.
-const FIELD_BAND: f32 = 0.06;
+const FIELD_BAND_M: f32 = 0.06;
 
 /// Spacing of the points of a reference cloud, metres; enrolment thins to this.
-pub const SPACING: f64 = 0.008;
+pub const SPACING_M: f64 = 0.008;
 
 impl Reference {
     /// Returns the middle of the extent, part space, metres; `None` for a cloud without points.
@@ -152,10 +153,10 @@ impl Reference {
         let no_outline = ReferenceError::NoOutline { num_points };
         let (low, high) = cloud.bounds().ok_or(no_outline)?;
         let extent = f64::from((high - low).amax());
-        if !(extent <= MAX_EXTENT) {
+        if !(extent <= MAX_EXTENT_M) {
             return Err(ReferenceError::TooLarge {
                 found: Metres(extent),
-                limit: Metres(MAX_EXTENT),
+                limit: Metres(MAX_EXTENT_M),
             });
         }
         let viewpoints = viewpoints(&cloud, coverage).ok_or(no_outline)?;
@@ -248,13 +249,13 @@ impl Reference {
                 let outline = self.outline_of(view);
                 let is_edge = |point: &&BorderPoint| {
                     let towards = view.viewpoint - point.at.cast();
-                    point.normal.cast().dot(&towards) >= LEAST_FACING_AT_EDGE * towards.norm()
+                    point.normal.cast().dot(&towards) >= EDGE_MIN_COSINE * towards.norm()
                 };
                 let edges = outline.iter().filter(is_edge);
                 let edges: Vec<Point3<f32>> = edges.map(|edge| edge.at).collect();
                 EdgePoints::new(&edges, NUM_EDGES)
             }),
-            spacing: SPACING,
+            spacing: SPACING_M,
         })
     }
 
@@ -313,7 +314,7 @@ impl Reference {
         };
         let point = |(at, along): (Point3<f64>, Vector3<f64>)| {
             let at = part_from_plane * at;
-            if self.cut.depth_inside(&at) < AT_CUT {
+            if self.cut.depth_inside(&at) < AT_CUT_M {
                 return None;
             }
             let nearest = field.nearest(&at.cast());
@@ -343,7 +344,7 @@ impl Reference {
 
     /// Returns the nearest-point field around the cloud.
     pub fn field(&self) -> &NearestField {
-        let new = || NearestField::new(&self.cloud.points, FIELD_CELL, FIELD_BAND);
+        let new = || NearestField::new(&self.cloud.points, FIELD_CELL_M, FIELD_BAND_M);
         self.field.get_or_init(new)
     }
 
@@ -412,7 +413,7 @@ impl Reference {
         contour: &Contour,
         signature: FanSignature,
     ) -> Self {
-        let from_the_front = Point3::new(0.0, 0.0, VIEW_DISTANCE);
+        let from_the_front = Point3::new(0.0, 0.0, VIEW_DISTANCE_M);
         let view = ReferenceView::flat(from_the_front, plane, contour, signature);
         Self::of_views(name, Arc::default(), vec![view])
     }
@@ -420,7 +421,7 @@ impl Reference {
 
 /// Minimum cosine at which the surface is seen at a true edge; below it a rounded surface turns away, and its outline
 /// moves over the surface with the viewpoint.
-const LEAST_FACING_AT_EDGE: f64 = 0.5;
+const EDGE_MIN_COSINE: f64 = 0.5;
 
 /// A border this close to the cut-off is due to the field of view, metres.
-const AT_CUT: f64 = 0.02;
+const AT_CUT_M: f64 = 0.02;

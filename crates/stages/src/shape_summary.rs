@@ -12,9 +12,9 @@ const NUM_FREQUENCIES: usize = 16;
 /// Number of rings; the last has no end.
 const NUM_RINGS: usize = 24;
 /// Width of a ring, metres.
-const RING_WIDTH: f64 = 0.05;
+const RING_WIDTH_M: f64 = 0.05;
 /// Spacing of the pixels that are counted, metres.
-const SPACING: f64 = 0.02;
+const SPACING_M: f64 = 0.02;
 
 /// Summary of a shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,11 +84,11 @@ impl ShapeSummary {
 }
 
 fn rings(plane: &PlaneImage, signature: &FanSignature) -> [f32; NUM_RINGS] {
-    let step = ((SPACING / plane.pixel.0).round() as usize).max(1);
+    let step = ((SPACING_M / plane.pixel.0).round() as usize).max(1);
     let area_each = (step as f64 * plane.pixel.0).powi(2) as f32;
     // In widths of a ring.
-    let pixel = plane.pixel.0 / RING_WIDTH;
-    let corner = (plane.plane_point(0.0, 0.0) - signature.centroid) / RING_WIDTH;
+    let pixel = plane.pixel.0 / RING_WIDTH_M;
+    let corner = (plane.plane_point(0.0, 0.0) - signature.centroid) / RING_WIDTH_M;
     let mut rings = [0.0; NUM_RINGS];
     let rows = plane.image.pixels.chunks_exact(plane.image.width.max(1));
     for (row, pixels) in rows.enumerate().step_by(step) {

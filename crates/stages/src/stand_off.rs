@@ -122,7 +122,7 @@ pub enum StandOffError {
 texts::described!(StandOffError: "stand-off" by "kind");
 
 /// Minimum cosine between normal and line of sight: flatter surfaces are not painted from the camera's side.
-const LEAST_SEEN: f64 = 0.3;
+const MIN_SEEN_COSINE: f64 = 0.3;
 
 /// Computes the stand-off of the path taught over `reference`, with the part at `camera_from_part`.
 pub fn stand_off(
@@ -139,7 +139,7 @@ pub fn stand_off(
     let sees = |p: &Point3<f32>, normal: &Vector3<f32>| {
         let at = camera_from_part * p.cast::<f64>();
         let facing = -(camera_from_part * normal.cast::<f64>()).dot(&at.coords);
-        facing > LEAST_SEEN * at.coords.norm()
+        facing > MIN_SEEN_COSINE * at.coords.norm()
     };
     let seen: Vec<(&Point3<f32>, &Vector3<f32>)> = cloud
         .points

@@ -6,16 +6,17 @@ use std::{
 };
 
 use super::{
-    Camera, Inspected, NoFrame, PartFinder, Subject, inspected::inspections_of, motion::time_of,
+    Camera, Inspected, NoFrame, PartFinder, Subject, finder::numbered_place,
+    inspected::inspections_of, motion::time_of,
 };
 use capture::Captured;
 use inspection::{
     library::Library,
-    pipeline::{Inspection, NamedRecipe, Unwatched, run_all},
+    pipeline::{Inspection, NamedRecipe, Recipe, Unwatched, run_all},
 };
 use records::history::Traceability;
 use robot::RobotFrame;
-use serve::{ExpectedNumbers, Found, FrameParts, VerdictCode};
+use serve::{AskedOrder, ExpectedNumbers, Found, FrameFacts, FrameParts, VerdictCode};
 use stages::scene::SceneCloud;
 
 /// What triggers are answered with.
@@ -60,6 +61,24 @@ impl Answered {
             part.on_line = found.on_line.filter(|_| found.pose.is_some());
         }
         parts
+    }
+}
+
+/// What a trigger is traced by that names an order: a serial number is of the present order, unless another one is named.
+/// Without either, `own`.
+pub fn traced(asked: &AskedOrder, own: &Traceability) -> Traceability {
+    if !asked.is_given() {
+        return own.clone();
+    }
+    let AskedOrder { order, serial } = asked.clone();
+    Traceability {
+        order: if order.is_empty() {
+            own.order.clone()
+        } else {
+            order
+        },
+        serial,
+        operator: own.operator.clone(),
     }
 }
 
@@ -138,14 +157,21 @@ impl Answering<'_> {
 impl Answering<'_> {
     /// The results for the parts of a frame of this time, and for the expected ones that are missing.
     pub(super) fn found(&self, parts: &[Inspected<'_>], captured_at: Instant) -> FrameParts {
-        let expected = &parts[0].recipe.expected;
+        let Recipe { expected, rack, .. } = &**parts[0].recipe;
         let all = parts.iter();
         let mut all: Vec<Found> = all
             .map(|part| self.finder.found(part, captured_at))
             .collect();
         let missing = expected.missing(&inspections_of(parts)).into_iter();
-        let missing = missing.map(|part| self.finder.missing(part, self.library, &all[0]));
+        let missing = missing.map(|part| self.finder.missing(part, rack, self.library, &all[0]));
         let missing: Vec<Found> = missing.collect();
+        let empty_places = Inspected::empty_places(parts).into_iter();
+        let empty_places = empty_places.filter_map(|name| numbered_place(rack, Some(name)));
+        let facts = FrameFacts {
+            rack: Some(rack.name.clone()).filter(|name| !name.is_empty()),
+            empty_places: (!rack.places.is_empty()).then(|| empty_places.collect()),
+            missing: (!expected.is_empty()).then(|| missing.iter().map(Into::into).collect()),
+        };
         if !missing.is_empty() {
             // Where nothing can be recognised, this is what is missing.
             all.retain(|found| found.verdict != VerdictCode::NoPart);
@@ -154,6 +180,7 @@ impl Answering<'_> {
         FrameParts {
             first: all.next().expect("an inspection has a verdict"),
             others: all.collect(),
+            facts: Arc::new(facts),
         }
     }
 }
@@ -167,7 +194,7 @@ mod tests {
     use capture::SourceSpec;
     use geometry::{oriented_box::OrientedBox, rigid::RigidTransform, units::Radians};
     use inspection::fixtures::shipped_library;
-    use serve::{Answer, Asked, PoseKind};
+    use serve::{Answer, Asked, MissingPart, PoseKind, RackPlace};
     use stages::{
         rack::{MaxTurn, Place, Rack},
         scene::scene_from_image,
@@ -190,6 +217,25 @@ mod tests {
                 name: "cell 1".into(),
             },
             kind: PoseKind::RobotFromPart,
+        }
+    }
+
+    #[test]
+    fn a_trigger_is_traced_by_what_it_names_and_by_nothing_of_another_part() {
+        let trace = |serial: &str, order: &str| Traceability {
+            serial: serial.into(),
+            order: order.into(),
+            operator: "Ada".into(),
+        };
+        let own = trace("TL-1", "4711");
+        for (order, serial, expected) in [
+            ("", "", trace("TL-1", "4711")),
+            ("4712", "", trace("", "4712")),
+            ("", "TL-2", trace("TL-2", "4711")),
+            ("4712", "TL-2", trace("TL-2", "4712")),
+        ] {
+            let asked = AskedOrder::new(order, serial).expect("plain");
+            assert_eq!(traced(&asked, &own), expected, "{asked:?}");
         }
     }
 
@@ -251,35 +297,55 @@ mod tests {
             parts: Vec::new(),
         };
         Rack {
+            name: "rack A".into(),
             places: vec![place("left hook", 0.0), place("right hook", 9.0)],
             ..Rack::default()
         }
     }
 
-    #[test]
-    fn a_part_that_is_not_expected_is_refused_and_what_is_missing_is_said() {
-        let (library, recipe) = (shipped_library(), NamedRecipe::default());
-        let finder = finder(&library);
-        let source: SourceSpec = "simulated:fender".parse().expect("a source");
-        let camera = Camera::start(&source).expect("started");
-        let number_of = |name: &str| {
-            let mut numbered = finder.parts.iter().zip(&library.references);
+    /// A camera before a simulated fender.
+    struct FenderStation {
+        library: Library,
+        finder: PartFinder,
+        source: SourceSpec,
+        camera: Camera,
+    }
+
+    impl FenderStation {
+        fn new() -> Self {
+            let library = shipped_library();
+            let source: SourceSpec = "simulated:fender".parse().expect("a source");
+            Self {
+                finder: finder(&library),
+                camera: Camera::start(&source).expect("started"),
+                library,
+                source,
+            }
+        }
+
+        fn number_of(&self, name: &str) -> u32 {
+            let mut numbered = self.finder.parts.iter().zip(&self.library.references);
             let part = numbered.find(|(_, reference)| reference.name == name);
             part.expect("enrolled").0.number
-        };
-        let in_rack = recipe.in_rack(two_hooks());
-        let answered_in = |recipe: &NamedRecipe, numbers: &[[u32; 2]]| {
-            let frame = camera.frame_after(&Asked::now(), PATIENCE, || false);
+        }
+
+        /// The answer to a trigger that expects these parts, each with its place.
+        fn answered(
+            &self,
+            recipe: &NamedRecipe,
+            numbers: &[[u32; 2]],
+        ) -> Result<FrameParts, NoFrame> {
+            let frame = self.camera.frame_after(&Asked::now(), PATIENCE, || false);
             let frame = frame.expect("a frame");
-            let subject = Subject::of_capture(&frame, &source, 0);
+            let subject = Subject::of_capture(&frame, &self.source, 0);
             let mut expected = ExpectedNumbers::default();
             for (one, [place, part]) in expected.iter_mut().zip(numbers) {
                 (one.place, one.part) = (*place, *part);
             }
             let answering = Answering {
-                camera: &camera,
-                finder: &finder,
-                library: &library,
+                camera: &self.camera,
+                finder: &self.finder,
+                library: &self.library,
                 recipe,
                 expected,
                 at_most: PATIENCE,
@@ -290,22 +356,34 @@ mod tests {
                 Arc::new(scene_from_image(captured.image))
             });
             answered.map(|answered| answered.found)
-        };
+        }
+    }
+
+    fn shown(found: &FrameParts) -> Vec<(VerdictCode, String, String)> {
+        let parts = found.iter().map(|part| {
+            assert_eq!(part.pose.is_some(), part.verdict == VerdictCode::Accepted);
+            let reason = part.problem.reason.clone();
+            (part.verdict, part.part.clone(), reason)
+        });
+        parts.collect()
+    }
+
+    #[test]
+    fn a_part_that_is_not_expected_is_refused_and_what_is_missing_is_said() {
+        let (station, recipe) = (FenderStation::new(), NamedRecipe::default());
         let answered = |numbers: &[u32]| {
             let numbers: Vec<[u32; 2]> = numbers.iter().map(|&number| [0, number]).collect();
-            answered_in(&recipe, &numbers)
+            station.answered(&recipe, &numbers)
         };
-        let shown = |found: &FrameParts| -> Vec<(VerdictCode, String, String)> {
-            let parts = found.iter().map(|part| {
-                assert_eq!(part.pose.is_some(), part.verdict == VerdictCode::Accepted);
-                let reason = part.problem.reason.clone();
-                (part.verdict, part.part.clone(), reason)
-            });
-            parts.collect()
-        };
-        let (fender, grille) = (number_of("fender"), number_of("grille"));
+        let (fender, grille) = (station.number_of("fender"), station.number_of("grille"));
         let part = |verdict, name: &str, reason: &str| (verdict, name.into(), reason.into());
         let accepted = part(VerdictCode::Accepted, "fender", "");
+        let found = answered(&[]).expect("inspected");
+        assert_eq!(shown(&found), std::slice::from_ref(&accepted));
+        assert_eq!(
+            (&found.first.place, &*found.facts),
+            (&None, &FrameFacts::default())
+        );
         let found = answered(&[fender]).expect("inspected");
         assert_eq!(shown(&found), std::slice::from_ref(&accepted));
         let line: Value = serde_json::from_str(&found.first.report).expect("JSON");
@@ -321,11 +399,28 @@ mod tests {
         assert_eq!(shown(&found), [wrong]);
         let unknown = answered(&[99]).expect_err("no such part");
         assert_eq!(unknown.reason(), "unknown_number");
+    }
 
-        // By place and number.
-        let answered = |numbers: &[[u32; 2]]| answered_in(&in_rack, numbers);
+    #[test]
+    fn a_part_hangs_at_its_place_of_the_rack_and_what_is_missing_at_another() {
+        let station = FenderStation::new();
+        let in_rack = NamedRecipe::default().in_rack(two_hooks());
+        let (fender, grille) = (station.number_of("fender"), station.number_of("grille"));
+        let accepted = (VerdictCode::Accepted, "fender".into(), String::new());
+        let answered = |numbers: &[[u32; 2]]| station.answered(&in_rack, numbers);
         let found = answered(&[[1, fender]]).expect("inspected");
         assert_eq!(shown(&found), std::slice::from_ref(&accepted));
+        let hook = |number, name: &str| RackPlace {
+            number,
+            name: name.into(),
+        };
+        assert_eq!(found.first.place, Some(hook(1, "left hook")));
+        let mut facts = FrameFacts {
+            rack: Some("rack A".into()),
+            empty_places: Some(vec![hook(2, "right hook")]),
+            missing: Some(Vec::new()),
+        };
+        assert_eq!(*found.facts, facts);
         let found = answered(&[[1, grille]]).expect("inspected");
         assert_eq!(shown(&found)[0].2, "wrong_part");
         let found = answered(&[[2, fender]]).expect("inspected");
@@ -334,6 +429,13 @@ mod tests {
         assert_eq!(shown(&found)[1].2, "missing");
         let what = "grille is expected at right hook, and does not hang there";
         assert!(found.others[0].problem.message.contains(what));
+        assert_eq!(found.others[0].place, Some(hook(2, "right hook")));
+        facts.missing = Some(vec![MissingPart {
+            part: "grille".into(),
+            number: Some(grille),
+            place: Some(hook(2, "right hook")),
+        }]);
+        assert_eq!(*found.facts, facts);
         let line: Value = serde_json::from_str(&found.first.report).expect("JSON");
         assert_eq!(line["expected"], serde_json::json!(["fender", "grille"]));
         let places = serde_json::json!(["left hook", "right hook"]);

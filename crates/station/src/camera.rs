@@ -29,6 +29,7 @@ use inspection::pipeline::{
     ExpectedError, Inspection,
     live::{MotionState, SteadyParams, refuse_moving, refuse_unless_again},
 };
+use records::orders::{OrderError, OrdersError};
 use serve::{Asked, CameraState, CameraStatus, Problem, Unanswered};
 
 /// Least time between the two frames that must agree, if the scene was still until the first one. More would show slower
@@ -197,9 +198,24 @@ pub enum NoFrame {
     /// The parts cannot be expected: two are at a place.
     #[error(transparent)]
     Expected(#[from] ExpectedError),
+    /// The table of orders does not say what is expected.
+    #[error(transparent)]
+    Order(#[from] OrderError),
+    /// The table of orders cannot be read.
+    #[error(transparent)]
+    Orders(Arc<OrdersError>),
+    /// An order is named, and there is no table of orders.
+    #[error("an order is named, and there is no table of orders")]
+    NoOrders,
     /// The service is ending.
     #[error(transparent)]
     Unanswered(#[from] Unanswered),
+}
+
+impl From<OrdersError> for NoFrame {
+    fn from(error: OrdersError) -> Self {
+        Self::Orders(Arc::new(error))
+    }
 }
 
 impl NoFrame {
@@ -215,6 +231,7 @@ impl NoFrame {
             Self::UnknownNumber { .. } => "unknown_number",
             Self::UnknownPlace { .. } => "unknown_place",
             Self::Expected(_) => "place_twice",
+            Self::Order(_) | Self::Orders(_) | Self::NoOrders => "not_known",
             Self::Unanswered(why) => why.reason(),
         }
     }
@@ -247,6 +264,12 @@ impl Advice for NoFrame {
                     .into()
             }
             Self::Expected(why) => why.advice(),
+            Self::Order(why) => why.advice(),
+            Self::Orders(why) => why.advice(),
+            Self::NoOrders => {
+                "Start serve with --orders, or open the table in the window; or TRIGGER with the numbers of the expected parts"
+                    .into()
+            }
             Self::Unanswered(why) => why.advice(),
         }
     }

@@ -13,7 +13,8 @@ use robot::{
     spray::{BandStatus, OffThePart, carry},
 };
 use serve::{
-    Answer, ExpectedNumber, ExpectedNumbers, Found, PathStep, PoseKind, Problem, VerdictCode,
+    Answer, ExpectedNumber, ExpectedNumbers, Found, PathStep, PoseKind, Problem, RackPlace,
+    VerdictCode,
 };
 use stages::rack::Rack;
 
@@ -60,6 +61,7 @@ impl PartFinder {
             captured: Some(captured),
             part: named.unwrap_or_default().to_owned(),
             number: of_named.map_or(0, |part| part.number),
+            place: numbered_place(&inspected.recipe.rack, inspection.place.as_deref()),
             marks: if is_staged { Answer::SIMULATED } else { 0 },
             ..Found::default()
         };
@@ -138,8 +140,14 @@ impl PartFinder {
         Ok(Expected::new(parts, Some(rack), |_| true)?)
     }
 
-    /// The result for a part that is expected, and does not hang there.
-    pub(super) fn missing(&self, part: &ExpectedPart, library: &Library, like: &Found) -> Found {
+    /// The result for a part that is expected in this rack, and does not hang there.
+    pub(super) fn missing(
+        &self,
+        part: &ExpectedPart,
+        rack: &Rack,
+        library: &Library,
+        like: &Found,
+    ) -> Found {
         let name = &part.name;
         let mut numbered = self.parts.iter().zip(&library.references);
         let numbered = numbered.find(|(_, reference)| reference.name == *name);
@@ -151,6 +159,7 @@ impl PartFinder {
             captured: like.captured,
             part: name.clone(),
             number: numbered.map_or(0, |(part, _)| part.number),
+            place: numbered_place(rack, part.place.as_deref()),
             marks: like.marks & Answer::SIMULATED,
             problem: Problem::new("missing", &what, advice),
             ..Found::default()
@@ -179,6 +188,14 @@ impl PartFinder {
         });
         steps.collect()
     }
+}
+
+/// The place of this name with its number, by its order in the rack.
+pub(super) fn numbered_place(rack: &Rack, name: Option<&str>) -> Option<RackPlace> {
+    let mut places = rack.places.iter().zip(1..);
+    let (place, number) = places.find(|(place, _)| Some(&*place.name) == name)?;
+    let name = place.name.clone();
+    Some(RackPlace { number, name })
 }
 
 /// The name of the place with this number from 1, by its order in the rack.

@@ -9,8 +9,8 @@ use nalgebra::Point3;
 use inspection::pipeline::{
     Inspection, Recipe, Verdict,
     live::{
-        FrameRole, HungFrame, LiveParams, LiveTracker, MotionState, SteadyParams, nothing_there,
-        refuse_moving, refuse_unless_again,
+        FrameRole, HungFrame, LiveParams, LiveTracker, LiveVerdict, MotionState, SteadyParams,
+        nothing_there, refuse_moving, refuse_unless_again,
     },
 };
 use records::history::{HungId, HungSpots, NewEntry};
@@ -25,6 +25,90 @@ pub struct PartFollower<E = NewEntry> {
     own: Vec<Verdict>,
     /// The entries held for parts that may leave before their verdicts count.
     held: Vec<HeldFrame>,
+}
+
+/// An inspected frame of a followed camera.
+#[derive(Clone, Copy)]
+pub struct SeenFrame<'a> {
+    /// The scene that was inspected.
+    pub scene: &'a SceneCloud,
+    /// The camera's time, from any origin.
+    pub at: Duration,
+    /// Identifies the recipe and the library.
+    pub inputs: &'a str,
+}
+
+/// What a frame shows at a spot.
+pub struct SeenPart {
+    /// The inspection, with the verdict of all frames.
+    pub inspection: Inspection,
+    /// Middle of the named part, part space, metres.
+    pub middle: Option<Point3<f64>>,
+    /// Where it is; `None` of an independent capture, and for what is no part of its own.
+    pub spot: Option<usize>,
+    /// The verdict so far.
+    pub verdict: LiveVerdict,
+    /// What the frame is to the part.
+    pub role: FrameRole,
+}
+
+impl SeenPart {
+    /// A part of an independent capture, or one that is not judged yet.
+    pub fn alone(inspection: Inspection, middle: Option<Point3<f64>>) -> Self {
+        Self {
+            inspection,
+            middle,
+            spot: None,
+            verdict: LiveVerdict::Open,
+            role: FrameRole::Nothing,
+        }
+    }
+}
+
+impl<'a> SeenFrame<'a> {
+    /// What the frame shows of a part, for [`HungSpots::see`].
+    pub fn of(&self, part: &'a SeenPart) -> HungFrame<'a> {
+        HungFrame {
+            scene: self.scene,
+            at: self.at,
+            inspection: &part.inspection,
+            verdict: &part.verdict,
+            middle: part.middle,
+            inputs: self.inputs,
+        }
+    }
+
+    /// Judges what the frame shows at every spot, by the frames so far. `found` is what
+    /// [`run_all`](inspection::pipeline::run_all) found, with the frame's own verdicts. Returns it in that order, and the spots
+    /// at which the frame shows nothing. Pass each that has a spot to [`HungSpots::see`] then.
+    pub fn judge<E>(
+        &self,
+        found: Vec<Inspection>,
+        tracker: &mut LiveTracker,
+        spots: &mut HungSpots<E>,
+        recipe: &Recipe,
+        middle: impl Fn(&Inspection) -> Option<Point3<f64>>,
+    ) -> (Vec<SeenPart>, Vec<SeenPart>) {
+        let at_spots = spots.of_frame(&found, self.scene, tracker.stillness(), recipe);
+        let new = |inspection| {
+            let middle = middle(&inspection);
+            SeenPart::alone(inspection, middle)
+        };
+        let mut parts: Vec<SeenPart> = found.into_iter().map(new).collect();
+        let mut absent = Vec::new();
+        for (spot, index) in at_spots.into_iter().enumerate() {
+            let part = if let Some(index) = index {
+                &mut parts[index]
+            } else {
+                absent.push(new(nothing_there()));
+                absent.last_mut().expect("just added")
+            };
+            part.spot = Some(spot);
+            part.verdict = tracker.judge(spot, &mut part.inspection, part.middle, &recipe.accept);
+            part.role = spots.role_of(spot, &self.of(part));
+        }
+        (parts, absent)
+    }
 }
 
 /// The frame whose entry is held for the part at a spot.
@@ -106,43 +190,44 @@ impl<E> PartFollower<E> {
         entry: impl Fn(&Inspection, HungId, bool) -> E,
     ) -> Vec<E> {
         // Frames are counted by their own verdicts.
-        for (part, own) in found.iter_mut().zip(mem::take(&mut self.own)) {
-            part.verdict = own;
+        let own = mem::take(&mut self.own);
+        for (part, own) in found.iter_mut().zip(&own) {
+            part.verdict.clone_from(own);
         }
-        let at_spots = (self.spots).of_frame(&found, scene, self.tracker.stillness(), recipe);
+        let frame = SeenFrame {
+            scene,
+            at: self.at,
+            // Recipe and library do not change between frames.
+            inputs: "",
+        };
+        let (parts, absent) =
+            frame.judge(found, &mut self.tracker, &mut self.spots, recipe, middle);
+        let of_frame = parts
+            .into_iter()
+            .enumerate()
+            .map(|(index, part)| (Some(index), part));
+        let mut parts: Vec<_> = of_frame
+            .chain(absent.into_iter().map(|part| (None, part)))
+            .collect();
+        parts.sort_by_key(|(_, part)| part.spot);
         let mut recorded = Vec::new();
-        for (spot, index) in at_spots.into_iter().enumerate() {
-            let shown = index.map(|index| found[index].clone());
-            let mut inspection = shown.unwrap_or_else(nothing_there);
-            let own = inspection.verdict.clone();
-            let middle = middle(&inspection);
-            let verdict = (self.tracker).judge(spot, &mut inspection, middle, &recipe.accept);
-            let (left, role) = self.spots.see(
-                spot,
-                &HungFrame {
-                    scene,
-                    at: self.at,
-                    inspection: &inspection,
-                    verdict: &verdict,
-                    middle,
-                    // Recipe and library do not change between frames.
-                    inputs: "",
-                },
-            );
+        for (index, mut part) in parts {
+            let Some(spot) = part.spot else { continue };
+            let (left, role) = self.spots.see(spot, &frame.of(&part));
             recorded.extend(left);
             let id = self.spots.at(spot).id().clone();
             match (role, index) {
                 (FrameRole::Nothing, _) | (FrameRole::Best, None) => {}
                 (FrameRole::Best, Some(index)) => {
-                    inspection.verdict = own;
-                    self.refuse(&mut inspection);
-                    self.spots.at(spot).hold(entry(&inspection, id, false));
+                    part.inspection.verdict.clone_from(&own[index]);
+                    self.refuse(&mut part.inspection);
+                    self.spots.at(spot).hold(entry(&part.inspection, id, false));
                     self.held.retain(|held| held.spot != spot);
                     let shows = (self.at, index);
                     self.held.push(HeldFrame { spot, shows });
                 }
                 (FrameRole::First | FrameRole::Again, _) => {
-                    recorded.push(entry(&inspection, id, true));
+                    recorded.push(entry(&part.inspection, id, true));
                 }
             }
         }

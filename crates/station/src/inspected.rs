@@ -239,7 +239,7 @@ impl<'a> Inspected<'a> {
         }
         let all = parts.iter().map(|part| part.inspection_line(trace));
         line.with_parts(all, Self::empty_places(parts))
-            .expecting(expected, Some(&inspections_of(parts)))
+            .held_against(expected, &inspections_of(parts))
             .to_json()
     }
 
@@ -271,7 +271,7 @@ impl<'a> Inspected<'a> {
         let mut line = InspectionLine::of(&subject.scene, inspection)
             .in_robot(robot, inspection, doubts)
             .on_line(self.on_line)
-            .expecting(&recipe.expected, None);
+            .expecting(&recipe.expected, inspection.missing.as_ref());
         line.recipe = Some(recipe.into());
         line.rack = Some(&*recipe.rack.name).filter(|name| !name.is_empty());
         line.trace = Some(trace);

@@ -2,9 +2,9 @@
 //! files for them. Commands, window and server parse, draw and print.
 //!
 //! ```text
-//! frame ─► CameraScenes ─► PartFollower ─► run ─► Inspected ─► line of JSON, entry ─► Recorder ─► history
-//!                                                    │
-//! trigger ─► Camera ─► Answering ────────────────────┴──────► Found (for a robot), RobotFile (if there are no doubts)
+//! frame ─► CameraScenes ─► Station ─► Settled ─► Inspected ─► line of JSON, entry ─► Recorder ─► history
+//!                                                   │
+//! trigger ─► Camera ─► Answering ───────────────────┴───────► Found (for a robot), RobotFile (if there are no doubts)
 //! ```
 //!
 //! Whether a robot may act on a result is decided here alone, so that operator, engineer, robot and files never disagree:
@@ -25,15 +25,17 @@ mod recorder;
 pub mod robot_file;
 mod scenes;
 pub mod servoing;
+mod station;
 
 pub use self::{
-    answer::{Answered, Answering},
+    answer::{Answered, Answering, traced},
     camera::{Camera, NewFrame, NoFrame, camera_status},
     doubt::{ClockAhead, Doubt, age_doubt},
     finder::{NumberedPart, PartFinder},
-    follow::PartFollower,
+    follow::{PartFollower, SeenFrame, SeenPart},
     inspected::{CaptureFacts, Inspected, LibraryNames, ScanFacts, Subject},
     line::{CountLog, Followed, FollowedFrame, LineFollower, LinePose, LineTracker, Moment},
     recorder::{Losses, Recorder},
     scenes::CameraScenes,
+    station::{Following, InspectedScene, SceneToInspect, Settled, Station, StationSetup},
 };

@@ -27,17 +27,16 @@ use geometry::{
     depth_frame::{DepthFrame, Intrinsics},
     statistics::quantile,
 };
-use inspection::{
-    library::LibraryLoad,
-    pipeline::{Inspection, NamedRecipe, Unwatched, run_all},
-};
+use inspection::{library::LibraryLoad, pipeline::NamedRecipe};
 use records::{
-    history::Traceability,
+    history::{NewEntry, Traceability},
     report::{SizeCurve, curves_picture, write_png},
 };
 use simulate::{CellSetup, PartKind, Side, SimulatedObject, frame};
-use stages::{reference::Reference, scene::SceneCloud};
-use station::{CameraScenes, Inspected, PartFollower, Subject};
+use station::{
+    CameraScenes, Following, Inspected, PartFollower, SceneToInspect, Settled, Station,
+    StationSetup, Subject,
+};
 
 /// Number of lines of the table.
 const NUM_STRETCHES: u64 = 20;
@@ -175,70 +174,49 @@ impl DepthSource for SmallCell {
 }
 
 /// Inspects and records the frames.
-struct Follower<'a> {
-    load: &'a LibraryLoad,
-    recipe: NamedRecipe,
+struct Follower {
+    station: Station<NewEntry>,
     scenes: CameraScenes,
-    followed: PartFollower,
     recording: HistoryRecorder,
     source: SourceSpec,
     num_accepted: u64,
     num_in_history: u64,
 }
 
-impl Follower<'_> {
+impl Follower {
     /// Takes in a frame as `inspect --source` does, without printing. Returns the latency.
-    fn take(&mut self, captured: Captured, console: &Console) -> anyhow::Result<Duration> {
+    fn take(&mut self, captured: Captured, console: &Console) -> Duration {
         let arrived = captured.arrived;
-        let subject = Subject::of_capture(&captured, &self.source, 0);
-        let taken_at = captured.taken_at;
-        let scene = Arc::new(self.scenes.next(captured.image));
-        let scene = self.followed.look(scene, taken_at);
-        let (library, recipe) = (&self.load.library, &self.recipe);
-        let mut found = run_all(&scene, library, recipe, &Unwatched)?;
-        self.followed.refuse_if_moving(&mut found);
-        self.num_accepted += u64::from(found[0].verdict.is_accepted());
-        // Nobody prints it here, but making it is part of the work.
-        let parts = found.iter();
-        let parts: Vec<_> = parts
-            .map(|part| record(part, &subject, &scene, recipe))
-            .collect();
-        drop(Inspected::line_of_all(&parts, &Traceability::default()));
-        let middle = |part: &Inspection| part.best_reference(library).and_then(Reference::middle);
-        let entries = self.followed.take(
-            &scene,
-            found.clone(),
-            middle,
-            recipe,
-            |inspection, hung, _| {
-                let inspected = record(inspection, &subject, &scene, recipe);
-                self.recording.entry(&inspected, hung)
-            },
-        );
-        let latency = arrived.elapsed();
-        for entry in entries {
+        let scene = SceneToInspect {
+            path: (&captured.name).into(),
+            subject: Subject::of_capture(&captured, &self.source, 0),
+            captured_at: None,
+            scene: self.scenes.next(captured.image),
+        };
+        let recording = &self.recording;
+        let settled = (self.station).next(scene, |part, hung, _| recording.entry(part, hung));
+        self.settled(settled, console);
+        arrived.elapsed()
+    }
+
+    fn settled(&mut self, settled: Settled<NewEntry>, console: &Console) {
+        for scene in &settled.scenes {
+            self.num_accepted += u64::from(scene.parts[0].verdict.is_accepted());
+            // Nobody prints it here, but making it is part of the work.
+            let parts = self.station.parts(scene);
+            drop(Inspected::line_of_all(&parts, &Traceability::default()));
+        }
+        for entry in settled.recorded {
             self.num_in_history += 1;
             self.recording.add(entry, console);
         }
-        Ok(latency)
     }
-}
 
-/// A part as it is recorded.
-fn record<'a>(
-    inspection: &'a Inspection,
-    subject: &'a Subject,
-    scene: &'a Arc<SceneCloud>,
-    recipe: &'a NamedRecipe,
-) -> Inspected<'a> {
-    Inspected {
-        subject,
-        scene,
-        inspection,
-        recipe,
-        robot: None,
-        is_forced: false,
-        on_line: None,
+    fn end(mut self, console: &Console) {
+        let recording = &self.recording;
+        let settled = (self.station).end(false, |part, hung, _| recording.entry(part, hung));
+        self.settled(settled, console);
+        self.recording.finish(console);
     }
 }
 
@@ -272,11 +250,15 @@ pub(super) fn run(args: &SoakArgs, console: &mut Console) -> anyhow::Result<Outc
             "Set TMPDIR to a folder that can be written",
         ));
     };
-    let mut follower = Follower {
-        load: &load,
+    let setup = StationSetup {
+        library: load.library.clone(),
         recipe,
+        ..StationSetup::default()
+    };
+    let following = Following::Hanging(Box::new(PartFollower::default()));
+    let mut follower = Follower {
+        station: Station::new(setup, following),
         scenes: CameraScenes::default(),
-        followed: PartFollower::default(),
         recording,
         source: SourceSpec::Simulated(SimulatedSpec::default()),
         num_accepted: 0,
@@ -298,16 +280,8 @@ pub(super) fn run(args: &SoakArgs, console: &mut Console) -> anyhow::Result<Outc
         }) as Box<dyn DepthSource>)
     };
     let feed = Feed::start_with(open, BackpressurePolicy::Every, || ()).advised()?;
-    let stretches = stretches(&feed, &mut follower, num_frames, console)?;
-    let Follower {
-        followed,
-        mut recording,
-        ..
-    } = follower;
-    for entry in followed.end() {
-        recording.add(entry, console);
-    }
-    recording.finish(console);
+    let stretches = stretches(&feed, &mut follower, num_frames, console);
+    follower.end(console);
     show(&stretches, console);
     let memory_growth = growth(&stretches);
     if let Some(path) = &args.plot {
@@ -341,17 +315,17 @@ pub(super) fn run(args: &SoakArgs, console: &mut Console) -> anyhow::Result<Outc
 /// Takes in all frames of the feed, and measures each twentieth of them.
 fn stretches(
     feed: &Feed,
-    follower: &mut Follower<'_>,
+    follower: &mut Follower,
     num_frames: u64,
     console: &mut Console,
-) -> anyhow::Result<Vec<Stretch>> {
+) -> Vec<Stretch> {
     let begun = Instant::now();
     console.start_progress(NUM_STRETCHES as usize);
     let mut stretches: Vec<Stretch> = Vec::new();
     let mut latencies = Vec::new();
     let mut num_taken = 0;
     while let Some(FeedItem::Captured(captured)) = feed.wait(Duration::from_mins(1)) {
-        let latency = follower.take(captured, console)?;
+        let latency = follower.take(captured, console);
         latencies.push(latency.as_secs_f64() * 1e3);
         num_taken += 1;
         if num_taken < num_frames * (stretches.len() as u64 + 1) / NUM_STRETCHES {
@@ -372,7 +346,7 @@ fn stretches(
         console.done();
     }
     console.end_progress();
-    Ok(stretches)
+    stretches
 }
 
 /// Returns the relative growth of the memory from the end of the warm-up to the last stretches.

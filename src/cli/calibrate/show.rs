@@ -103,7 +103,7 @@ pub(super) fn calibration(
             console.entry(what, &text);
         }
     };
-    line("cell", &shown.shown_with_identity());
+    line("cell", &shown.frame_name().to_string());
     line("notes", &shown.notes);
     line("mount", shown.camera.mount().describe());
     line("from", &shown.origin.describe());

@@ -12,7 +12,7 @@ use crate::cli::{
 };
 use inspection::{
     library::Truth,
-    pipeline::{RefusalKind, is_like},
+    pipeline::{ExpectedPart, RefusalKind, is_like},
 };
 use records::history::{
     Differences, FrameRecord, History, InspectionDetail, InspectionSummary, Record, Summary,
@@ -286,6 +286,12 @@ fn record_table(from: ReadFrom<'_>, record: &Record) -> Table {
     row("part", summary.part.clone().unwrap_or_default());
     row("place", detail.place().unwrap_or_default());
     row("rack", summary.rack.clone().unwrap_or_default());
+    let words = |parts: &[ExpectedPart]| {
+        let parts = parts.iter().map(ToString::to_string);
+        parts.collect::<Vec<_>>().join(", ")
+    };
+    row("expected", words(detail.expected().parts()));
+    row("missing", words(&detail.missing().unwrap_or_default()));
     if summary.part != detail.nearest && summary.score.is_none_or(|[score, _]| is_like(score)) {
         row("nearest", detail.nearest.clone().unwrap_or_default());
     }

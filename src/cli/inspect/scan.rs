@@ -14,7 +14,7 @@ use inspection::pipeline::{
     scan::{ScanInspection, run_scan},
 };
 use records::history::HungId;
-use robot::RobotFrame;
+use robot::{FrameName, RobotFrame};
 use stages::scan::part::require_two_to_show_part;
 use station::{Inspected, Subject};
 
@@ -37,7 +37,7 @@ pub(super) fn inspect(args: &InspectArgs, console: &mut Console) -> anyhow::Resu
     // The poses of the scan contain the pose of that camera.
     let robot = RobotFrame {
         robot_from_camera: first.base_from_camera,
-        name: "the poses of the scan".into(),
+        name: FrameName::OfScan,
     };
     let scene = match args.scan.as_slice() {
         [one] => one.display().to_string(),

@@ -223,7 +223,6 @@ impl ChosenServices {
         _: &'a LibraryPlace,
         _: &LibraryLoad,
         _: ReferenceParams,
-        _: &Traceability,
         _: &Console,
     ) -> anyhow::Result<Services<'a>> {
         Ok(Services(std::marker::PhantomData))
@@ -233,7 +232,7 @@ impl ChosenServices {
 pub(crate) struct Services<'a>(std::marker::PhantomData<&'a LibraryPlace>);
 
 impl Services<'_> {
-    pub(crate) fn inspected(&self, _: InspectionRecord) {}
+    pub(crate) fn inspected(&self, _: InspectionRecord, _: &Traceability) {}
 
     pub(crate) fn turn(&self, _: CameraStatus, _: &Console) {}
 

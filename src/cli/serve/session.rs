@@ -2,6 +2,7 @@
 
 use std::{
     ops::ControlFlow,
+    path::PathBuf,
     sync::{Arc, mpsc::Receiver},
     time::Duration,
 };
@@ -24,6 +25,7 @@ use inspection::{
 };
 use records::{
     history::{HungId, NewEntry, Traceability},
+    orders::Orders,
     report::{InspectionLine, SCHEMA},
 };
 use serde_json::json;
@@ -35,6 +37,7 @@ use station::{
     Answered, Answering, Camera, CameraScenes, Inspected, LineFollower, NoFrame, PartFinder,
     Subject,
     servoing::{RestWatch, ServoParts, SetupError, SingleMoves},
+    traced,
 };
 
 /// The inspections of a service, on the thread that runs its server.
@@ -47,7 +50,11 @@ pub(super) struct ServeSession<'a> {
     pub(super) finder: PartFinder,
     /// Robots that servo, or why they are not answered.
     pub(super) servoing: Result<SingleMoves, SetupError>,
+    /// The table of orders that triggers may name.
+    pub(super) orders: Option<PathBuf>,
+    /// What triggers are traced by that name no order, and what the last one is.
     pub(super) trace: Traceability,
+    pub(super) traced: Traceability,
     pub(super) scenes: CameraScenes,
     pub(super) source: SourceSpec,
     /// The line that carries the parts, and what is recorded of each.
@@ -73,8 +80,13 @@ pub(super) struct ServeSession<'a> {
 
 impl Inspector for ServeSession<'_> {
     fn inspect(&mut self, asked: &Asked) -> FrameParts {
+        self.traced = traced(&asked.order, &self.trace);
+        let recipe = match self.recipe_for(asked) {
+            Ok(recipe) => recipe,
+            Err(why) => return self.without_frame(&why),
+        };
         if let Some(mut line) = self.line.take() {
-            let found = self.inspect_on_line(asked, &mut line);
+            let found = self.inspect_on_line(asked, &recipe, &mut line);
             self.line = Some(line);
             return found;
         }
@@ -91,14 +103,14 @@ impl Inspector for ServeSession<'_> {
             camera: &self.camera,
             finder: &self.finder,
             library: &self.library,
-            recipe: &self.recipe,
+            recipe: &recipe,
             expected: asked.expected,
             at_most: self.frame_timeout,
             is_ending: &is_ending,
         };
         let (scenes, console) = (&mut self.scenes, &*self.console);
         let scene_of = |captured| Arc::new(scene_of(captured, scenes, console));
-        match answering.answer(captured, subject, &self.trace, scene_of) {
+        match answering.answer(captured, subject, &self.traced, scene_of) {
             Ok(answered) => self.last.insert(answered).found.clone(),
             Err(why) => self.without_frame(&why),
         }
@@ -117,10 +129,10 @@ impl Inspector for ServeSession<'_> {
             let Problem { reason, message } = &answer.problem;
             let source = self.source.to_string();
             let mut line = InspectionLine::failed(&source, reason, message);
-            line.trace = Some(&self.trace);
+            line.trace = Some(&self.traced);
             self.console.line(&line.to_json());
         }
-        self.services.inspected(record);
+        self.services.inspected(record, &self.traced);
     }
 
     fn answered(&mut self) {
@@ -159,6 +171,23 @@ fn entry_of(recording: Option<&HistoryRecorder>, part: &Inspected<'_>) -> Option
 }
 
 impl ServeSession<'_> {
+    /// The recipe with what is expected after a trigger, unless it names parts by their numbers. The table of orders may have
+    /// changed since the last one.
+    fn recipe_for(&self, asked: &Asked) -> Result<NamedRecipe, NoFrame> {
+        let recipe = &self.recipe;
+        if asked.expected.iter().any(|one| one.is_given()) {
+            return Ok(recipe.clone());
+        }
+        let Some(path) = &self.orders else {
+            let is_plain = !asked.order.is_given();
+            return is_plain.then(|| recipe.clone()).ok_or(NoFrame::NoOrders);
+        };
+        let is_enrolled = |name: &str| self.library.has_part(name);
+        let orders = Orders::read(path)?;
+        let expected = orders.expected(&self.traced, Some(&recipe.rack), is_enrolled)?;
+        Ok(recipe.expecting(expected))
+    }
+
     fn next_move(&mut self, request: &ServoRequest, client: u64, asked: &Asked) -> Found {
         let servoing = match &mut self.servoing {
             Ok(servoing) => servoing,
@@ -226,6 +255,7 @@ impl ServeSession<'_> {
     fn inspect_on_line(
         &mut self,
         asked: &Asked,
+        recipe: &NamedRecipe,
         line: &mut LineFollower<Option<NewEntry>>,
     ) -> FrameParts {
         let interrupt = &self.interrupt;
@@ -234,7 +264,7 @@ impl ServeSession<'_> {
             camera: &self.camera,
             finder: &self.finder,
             library: &self.library,
-            recipe: &self.recipe,
+            recipe,
             expected: asked.expected,
             at_most: self.frame_timeout,
             is_ending: &is_ending,
@@ -251,7 +281,7 @@ impl ServeSession<'_> {
         let recording = self.recording.as_ref();
         let entry = |part: &Inspected<'_>| entry_of(recording, part);
         let (answered, recorded) =
-            answering.answer_on_line(asked, line, &self.trace, next, scene_of, entry);
+            answering.answer_on_line(asked, line, &self.traced, next, scene_of, entry);
         self.record(recorded);
         match answered {
             Ok(answered) => self.last.insert(answered).found.clone(),
@@ -325,7 +355,7 @@ impl ServeSession<'_> {
             // Parts on a line are recorded as they pass, whether anything triggers or not.
             if let (Some(recording), None) = (&mut self.recording, &self.line) {
                 // Only the client knows whether it is the same part again.
-                let entry = recording.entry(part, HungId::new());
+                let entry = recording.traced_entry(part, HungId::new(), &self.traced);
                 recording.add(entry, self.console);
             }
         }

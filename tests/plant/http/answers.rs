@@ -7,7 +7,10 @@ use std::{
 
 use partsight::{
     robot::line::OnLine,
-    serve::{CameraState, CameraStatus, Found, FrameParts, Problem, ServerSettings},
+    serve::{
+        CameraState, CameraStatus, Found, FrameFacts, FrameParts, Problem, RackPlace,
+        ServerSettings, VerdictCode,
+    },
 };
 use serde_json::{Value, json};
 
@@ -319,6 +322,7 @@ fn a_part_on_a_line_is_answered_with_where_it_is_there_and_one_without_a_pose_is
             on_line: Some(OnLine::default()),
             ..refused(2)
         }],
+        ..FrameParts::default()
     });
     let mut client = service.client();
     let document = client.get("/v1/openapi.json").json();
@@ -349,6 +353,7 @@ fn all_parts_of_a_frame_come_with_the_first_and_only_the_accepted_ones_have_pose
                 ..accepted(number)
             },
             others: vec![refused(2)],
+            ..FrameParts::default()
         }
     });
     let mut client = service.client();
@@ -388,6 +393,59 @@ fn all_parts_of_a_frame_come_with_the_first_and_only_the_accepted_ones_have_pose
 }
 
 #[test]
+fn before_a_rack_each_part_has_its_place_and_the_frame_what_is_empty_and_missing() {
+    let hook = |number, name: &str| RackPlace {
+        number,
+        name: name.into(),
+    };
+    let service = Service::start(move |number| {
+        let first = Found {
+            place: Some(hook(1, "left hook")),
+            ..accepted(number)
+        };
+        let missing = Found {
+            verdict: VerdictCode::NoPart,
+            number: 0,
+            place: Some(hook(2, "right hook")),
+            ..refused(2)
+        };
+        let facts = FrameFacts {
+            rack: Some("rack A".into()),
+            empty_places: Some(vec![hook(2, "right hook")]),
+            missing: Some(vec![(&missing).into()]),
+        };
+        let (others, facts) = (vec![missing], facts.into());
+        FrameParts {
+            first,
+            others,
+            facts,
+        }
+    });
+    let mut client = service.client();
+    let document = client.get("/v1/openapi.json").json();
+    let [left, right] = [(1, "left hook"), (2, "right hook")]
+        .map(|(number, name)| json!({ "number": number, "name": name }));
+    let triggered = client.trigger();
+    assert_described(&triggered, "POST", "/v1/trigger", &document);
+    for reply in [triggered, client.get("/v1/last")] {
+        let answer = reply.json();
+        assert_eq!(answer["place"], left);
+        let places = [0_usize, 1].map(|part| &answer["parts"][part]["place"]);
+        assert_eq!(places, [&left, &right]);
+        assert_eq!(answer["rack"], "rack A");
+        assert_eq!(answer["empty_places"], json!([right]));
+        let missing = json!([{ "part": "fender", "number": null, "place": right }]);
+        assert_eq!(answer["missing"], missing);
+    }
+    // Without a rack, nothing of it is in the answer.
+    let plain = Service::start(accepted).client().trigger().json();
+    for field in ["place", "rack", "empty_places", "missing"] {
+        assert!(plain.get(field).is_none(), "{plain}");
+        assert!(plain["parts"][0].get(field).is_none(), "{plain}");
+    }
+}
+
+#[test]
 fn a_trigger_may_say_what_is_expected_and_a_body_that_says_something_else_is_refused() {
     let service = Service::start(accepted);
     let mut client = service.client();
@@ -413,6 +471,13 @@ fn a_trigger_may_say_what_is_expected_and_a_body_that_says_something_else_is_ref
         placed("{\"expected\": [3, 5], \"places\": [1]}"),
         plain + 108
     );
+    let ordered = [
+        "{\"order\": \"4711\"}",
+        "{\"order\": \"A 17\", \"serial\": \"TL-1\"}",
+    ];
+    for (body, letters) in ordered.into_iter().zip([4, 8]) {
+        assert_eq!(number(client.trigger_with(body)), plain + 1000 * letters);
+    }
     let num_before = service.num_inspected();
     for body in [
         "{\"expected\": 3}",
@@ -421,6 +486,9 @@ fn a_trigger_may_say_what_is_expected_and_a_body_that_says_something_else_is_ref
         "{\"expected\": [1, 2, 3, 4, 5, 6, 7, 8, 9]}",
         "{\"expect\": [3]}",
         "{\"expected\": [3], \"places\": [1, 2]}",
+        "{\"order\": 4711}",
+        "{\"order\": \"4711\", \"expected\": [3]}",
+        "{\"serial\": \"a\\tb\"}",
         "expected=3",
         "[3]",
     ] {

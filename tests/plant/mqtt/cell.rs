@@ -73,10 +73,10 @@ impl Cell {
                 kind: PoseKind::RobotFromPart,
                 convention: Convention::Kuka,
             },
-            trace: Traceability {
-                order: "A-17".into(),
-                ..Traceability::default()
-            },
+        };
+        let trace = Traceability {
+            order: "A-17".into(),
+            ..Traceability::default()
         };
         let link = Arc::new(MqttLink::start(&access, subject).expect("started"));
         let robot = TcpStream::connect(server.addresses()[0].address).expect("connected");
@@ -84,7 +84,7 @@ impl Cell {
         let server = RunningServer::start(
             server,
             move |number, _| find(number).into(),
-            move |record| inspected.inspected(record),
+            move |record| inspected.inspected(record, &trace),
         );
         Self {
             link,

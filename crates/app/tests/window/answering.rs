@@ -259,6 +259,34 @@ fn a_robot_is_told_the_pose_that_the_window_shows_and_the_history_keeps_it() {
 }
 
 #[test]
+fn a_trigger_may_name_an_order_of_the_table_in_use() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open_with(USUAL, options(folder.path()));
+    let at = turn_on(&mut harness);
+    wait_for(&mut harness, |window| shown_pose(window).is_some());
+    let mut robot = Robot::connect(at);
+    let without = robot.ask("TRIGGER ORDER=4711");
+    assert_eq!([&without[1], &without[18]], ["error", "not_known"]);
+    let path = folder.path().join("orders.csv");
+    fs::write(&path, "order;parts\n4711;fender\n4712;grille\n").expect("written");
+    cause(&mut harness, Action::Chosen(DialogRequest::Orders, path));
+    wait_for(&mut harness, |window| {
+        let mut notices = window.state().notices.iter();
+        notices.any(|notice| notice.what.contains("orders.csv"))
+    });
+    harness.run_steps(4);
+    for (request, verdict, reason) in [
+        ("TRIGGER ORDER=4711 SERIAL=TL-1", "accepted", ""),
+        ("TRIGGER ORDER=4712", "refused", "wrong_part"),
+        ("TRIGGER ORDER=4713", "error", "not_known"),
+        ("TRIGGER", "error", "not_known"),
+    ] {
+        let reply = robot.ask(request);
+        assert_eq!([&reply[1], &reply[18]], [verdict, reason], "{reply:?}");
+    }
+}
+
+#[test]
 fn without_live_a_trigger_is_answered_with_what_to_do_and_with_it_again_with_a_pose() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut harness = open_with(USUAL, options(folder.path()));

@@ -819,13 +819,16 @@ fn statistics_count_the_listed_parts_by_shift_by_part_and_by_reason() {
         } else {
             StoredVerdict::Accepted
         };
-        let entry = records::fixtures::history_entry(seconds, verdict, "fender");
+        let mut entry = records::fixtures::history_entry(seconds, verdict, "fender");
+        entry.record.summary.rack = (seconds < 2).then(|| "rack A".into());
         history.add(&entry, &Retention::default()).expect("written");
     }
     drop(history);
     let mut harness = open_with(SMALL, keeping(folder.path()));
     go_to_history(&mut harness);
     press(&mut harness, "Statistics");
+    harness.get_by_label("By rack");
+    harness.get_by_label("rack A");
     harness.get_by_label_contains(": 9 OK, 3 NOK");
     harness.get_by_label("Fender, left");
     harness.get_by_label("75.0 %");

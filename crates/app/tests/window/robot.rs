@@ -114,7 +114,8 @@ fn numbers_typed_by_hand_are_used_remembered_and_forgotten() {
     type_into(&mut harness, "Name of the cell", "Cell 2");
     press(&mut harness, "Use it");
     let frame = state(&harness).session.robot.clone().expect("a frame");
-    assert!(frame.name.starts_with("Cell 2 ("), "{}", frame.name);
+    let name = frame.name.to_string();
+    assert!(name.starts_with("Cell 2 ("), "{name}");
     assert!(
         (frame.robot_from_camera.translation.vector - Vector3::new(1.2, -0.4, 1.9)).norm() < 1e-9
     );

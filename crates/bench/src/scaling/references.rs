@@ -16,7 +16,7 @@ use inspection::{
 };
 use simulate::{PartKind, Side};
 use stages::{
-    correlation::LiteralReference,
+    paper::LiteralReference,
     rank::Matcher,
     reference::{Reference, ReferenceView},
 };

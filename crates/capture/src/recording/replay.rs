@@ -21,8 +21,8 @@ use crate::{
     spec::{Pace, RecordingSpec},
 };
 use files::{
-    DepthCamera, crc32, depth_png::read_depths, file_name, in_counting_order, open_bytes,
-    read_bytes, written_at,
+    DepthCamera, crc32, file_name, in_counting_order, open_bytes, read_bytes, read_depths,
+    written_at,
 };
 use geometry::rigid::RigidTransform;
 use simulate::FrameTruth;

@@ -1,4 +1,4 @@
-//! Source specifications, as written on the command line and stored in the settings.
+//! Source specifications, as written on the command line, stored in the settings and listed to choose from.
 //!
 //! `KIND[,OPTION=VALUE...][:WHAT]`: everything after the first colon is taken literally, so that a folder's name may
 //! contain anything. In an option's value `%2C`, `%3A` and `%25` stand for comma, colon and per cent sign.
@@ -30,6 +30,7 @@ pub use self::genicam::{GenicamFormat, GenicamSpec};
 use self::options::{Options, escaped};
 pub use self::realsense::RealsenseSpec;
 pub use self::simulated::{CellScene, NUM_ON_RACK, SimulatedPose, SimulatedSpec};
+use super::camera_error::CameraError;
 use super::recording::is_sequence;
 use geometry::error::Advice;
 
@@ -51,6 +52,35 @@ pub enum SourceSpec {
     OpenNi(OpenNiSpec),
     /// A RealSense camera, or a file that librealsense recorded.
     Realsense(RealsenseSpec),
+}
+
+/// A source that can be opened now, or a kind of source and why it cannot.
+#[derive(Debug)]
+pub struct SourceListing {
+    /// Title to show to the operator.
+    pub title: String,
+    /// The source to open; `None` if a person has to act first.
+    pub spec: Option<SourceSpec>,
+    /// Why it cannot be opened.
+    pub error: Option<CameraError>,
+}
+
+impl SourceListing {
+    pub(super) fn openable(title: String, spec: SourceSpec) -> Self {
+        Self {
+            title,
+            spec: Some(spec),
+            error: None,
+        }
+    }
+
+    pub(super) fn unusable(error: CameraError) -> Self {
+        Self {
+            title: error.library.camera.to_owned(),
+            spec: None,
+            error: Some(error),
+        }
+    }
 }
 
 /// A folder of frames to replay.

@@ -1,5 +1,5 @@
 use super::*;
-use crate::{FileContent, crc32, open};
+use crate::{FileContent, crc32, open, read_depths};
 use geometry::distortion::Distortion;
 use geometry::error::Advice as _;
 use geometry::fixtures::small_frame;

@@ -1,13 +1,16 @@
 mod mutations;
 
 use std::fs;
+use std::path::PathBuf;
 
 use nalgebra::Point3;
 use tempfile::TempDir;
 
 use super::*;
-use crate::{Expected, read_text};
+use crate::{Expected, FileWarning, read_text};
+use geometry::error::Advice as _;
 use geometry::fixtures::small_frame;
+use geometry::units::Metres;
 
 /// A folder that holds one file with these bytes.
 fn file(name: &str, bytes: &[u8]) -> (TempDir, PathBuf) {

@@ -18,8 +18,8 @@ pub use self::write::{PointProperty, write_ply, write_ply_with};
 
 use nalgebra::Point3;
 
+use super::content::FileContent;
 use super::error::FileError;
-use super::open::FileContent;
 use super::readings::{normals_from, points_from, tidy};
 use super::scalar::Column;
 use super::source::Source;

@@ -2,7 +2,7 @@
 
 use std::{io, path::PathBuf};
 
-use super::{load::MAX_PARTS, name::PartName, problem::EntryProblem};
+use super::{name::PartName, problem::EntryProblem};
 use files::{FileError, advice_on, words_of};
 use geometry::error::Advice;
 
@@ -46,12 +46,14 @@ pub enum LibraryError {
         source: io::Error,
     },
     /// There are more parts than fit into memory.
-    #[error("{}: the library has {found} parts, and at most {MAX_PARTS} can be used together", path.display())]
+    #[error("{}: the library has {found} parts, and at most {limit} can be used together", path.display())]
     TooManyParts {
         /// The library's folder.
         path: PathBuf,
         /// Number of parts.
         found: usize,
+        /// The most that can be used together.
+        limit: usize,
     },
     /// There is no part with this name.
     #[error("{}: no part named {name}{}", path.display(), listed(available))]

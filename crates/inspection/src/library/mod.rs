@@ -37,6 +37,7 @@ mod simulated;
 mod spray_path;
 mod spray_store;
 mod store;
+mod stored_part;
 mod thumbnail;
 mod trash;
 mod truth;
@@ -51,7 +52,7 @@ pub use self::{
     },
     entry::is_part_file,
     error::LibraryError,
-    load::{LibraryListing, LibraryLoad, StoredPart},
+    load::{LibraryListing, LibraryLoad},
     name::{BadName, PartName},
     numbers::{GivenNumbers, PartNumbers},
     part::{
@@ -66,9 +67,10 @@ pub use self::{
     similarity::{Similarity, likenesses, most_similar},
     simulated::{enrol_part, enrol_standard_parts, enrolled_name, enrolment_pose},
     spray_path::{
-        MAX_PATH_POINTS, MAX_SPEED, PathLineProblem, PathPoint, SprayPath, SprayPathError,
+        MAX_PATH_POINTS, MAX_SPEED_M_S, PathLineProblem, PathPoint, SprayPath, SprayPathError,
     },
     store::{LibraryFolder, Renamed, Restored, Saved},
+    stored_part::StoredPart,
     trash::TrashEntry,
     truth::Truth,
 };

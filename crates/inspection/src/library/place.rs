@@ -10,12 +10,13 @@ use image::RgbaImage;
 use super::{
     entry::{NEW_PREFIX, THUMBNAIL},
     error::LibraryError,
-    load::{LibraryListing, LibraryLoad, StoredPart, list_shipped, load_shipped, read_shipped},
+    load::{LibraryListing, LibraryLoad, list_shipped, load_shipped, read_shipped},
     numbers::{GivenNumbers, PartNumbers},
     problem::EntryProblem,
     shipped::{shipped_entries, shipped_numbers, write_shipped},
     spray_path::{SprayPath, SprayPathError},
     store::LibraryFolder,
+    stored_part::StoredPart,
 };
 use files::{disk, new_folder, read_picture, sync_folder, user_data, write_atomically};
 use stages::reference::ReferenceParams;

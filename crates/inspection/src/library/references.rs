@@ -5,10 +5,10 @@ use std::io;
 use super::{
     entry::{Entry, rewrite_meta},
     error::LibraryError,
-    load::meta_of,
     name::PartName,
     part::PartMeta,
     store::LibraryFolder,
+    stored_part::meta_of,
 };
 
 impl LibraryFolder {

@@ -42,7 +42,7 @@ pub struct PathPoint {
     pub stand_off: Option<Metres>,
     /// True if the gun sprays from this point to the next.
     pub is_gun_on: bool,
-    /// Speed from this point to the next, m/s, above 0 and at most [`MAX_SPEED`]; `None` if the path sets none.
+    /// Speed from this point to the next, m/s, above 0 and at most [`MAX_SPEED_M_S`]; `None` if the path sets none.
     pub speed: Option<f64>,
     /// Direction of the fan's long side, perpendicular to `direction`; `None` for a round jet.
     pub fan: Option<Unit<Vector3<f64>>>,
@@ -67,7 +67,7 @@ const MIN_STAND_OFF_M: f64 = 0.02;
 /// Maximum distance from the origin, metres. Larger than any part or arm: such numbers are in another unit.
 const MAX_DISTANCE_M: f64 = 20.0;
 /// Maximum speed, m/s. Faster than any robot moves a gun: such numbers are in another unit.
-pub const MAX_SPEED: f64 = 5.0;
+pub const MAX_SPEED_M_S: f64 = 5.0;
 
 /// Begins the line that names the part of a path.
 const PART_LINE: &str = "# part: ";
@@ -328,7 +328,7 @@ impl Columns {
                 distance: Metres(distance),
             });
         }
-        if let Some(speed) = speed.filter(|speed| !(*speed > 0.0 && *speed <= MAX_SPEED)) {
+        if let Some(speed) = speed.filter(|speed| !(*speed > 0.0 && *speed <= MAX_SPEED_M_S)) {
             return Err(PathLineProblem::Speed { speed });
         }
         let along = Vector3::new(u, v, w);

@@ -4,7 +4,7 @@
 //! one and becomes valid when `part.toml` names it; then the old one is deleted. At any moment one of them is complete. A
 //! path that is stored again has the same name, so that its file is replaced as a whole.
 
-use std::{fs, io, path::Path};
+use std::{fs, io};
 
 use super::{
     entry::{SPRAY_PREFIX, rewrite_meta},
@@ -12,10 +12,11 @@ use super::{
     name::PartName,
     part::{FileCheck, PartMeta},
     side::Side,
-    spray_path::{MAX_BYTES, SprayPath, SprayPathError},
+    spray_path::{SprayPath, SprayPathError},
     store::LibraryFolder,
+    stored_part::read_spray_path,
 };
-use files::{disk, read_text, replace_file, sync_folder};
+use files::{disk, replace_file, sync_folder};
 
 impl LibraryFolder {
     /// Reads the stored spray path of a part; `None` if none is stored.
@@ -93,35 +94,10 @@ impl LibraryFolder {
     }
 }
 
-/// Reads the spray path in a part's folder, and checks it against `part.toml`.
-pub(super) fn read_spray_path(
-    folder: &Path,
-    meta: &PartMeta,
-) -> Result<Option<SprayPath>, SprayPathError> {
-    let Some(expected) = &meta.spray else {
-        return Ok(None);
-    };
-    let changed = |file: &Path, found: String| SprayPathError::Changed {
-        path: file.to_owned(),
-        found,
-        expected: expected.crc32.clone(),
-    };
-    let Some(file_name) = expected.spray_file_name() else {
-        return Err(changed(folder, "missing".into()));
-    };
-    let file = folder.join(file_name);
-    let text = read_text(&file, MAX_BYTES)?;
-    let path = SprayPath::parse(&text, &file);
-    let num_points = path.as_ref().map_or(0, |path| path.points().len());
-    let found = FileCheck::from_bytes(text.as_bytes(), num_points);
-    if found != *expected {
-        return Err(changed(&file, found.crc32));
-    }
-    path.map(Some)
-}
-
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
     use nalgebra::{Point3, Vector3};
 
     use super::*;

@@ -17,9 +17,9 @@ use super::{
     },
     error::LibraryError,
     install::RenamedFolder,
-    load::{meta_of, problem_of},
     name::PartName,
     part::{FileCheck, Part, PartMeta, PartNaming},
+    stored_part::{meta_of, problem_of},
     trash,
 };
 use files::{disk, new_folder, sync_folder, write_file};

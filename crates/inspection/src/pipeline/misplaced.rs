@@ -84,7 +84,9 @@ impl Inspection {
             }),
             Some(_) => None,
         };
-        self.place = (distance <= 0.0).then_some(name);
+        let is_there = distance <= 0.0;
+        self.place = is_there.then_some(name);
+        self.turn_at_place = turn.filter(|_| is_there && place.limits_turn(reference));
         if let Verdict::Part {
             rejected: rejected @ None,
             ..

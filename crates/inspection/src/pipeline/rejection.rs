@@ -3,7 +3,6 @@
 //! In JSON each is an object with its `kind`. Histories store it, so a kind and its fields must keep their names and
 //! units. The texts of a kind are in `language/*/refusal.ftl` of the crate `texts`, with the fields as variables.
 
-use super::unsound::CAMERA_RANGE;
 use geometry::{
     error::Fault,
     units::{Metres, Radians},
@@ -16,6 +15,9 @@ use stages::{
     signature::SignatureError,
 };
 use texts::{Described, Message};
+
+/// Range of depth cameras. A part outside it results from a wrong unit or damaged numbers.
+pub(super) const CAMERA_RANGE: [Metres; 2] = [Metres(0.1), Metres(20.0)];
 
 /// Score below which an unknown part is like no enrolled one, and the best match is not named.
 const MIN_LIKE_SCORE: f64 = 0.05;

@@ -32,7 +32,7 @@ use stages::{
     },
     pose::{
         PoseError, PoseEstimate, VisibilityShares,
-        quality::{LEAST_FACING, NUM_LOOKED_FOR, VisibilityCounts},
+        quality::{MIN_FACING_COSINE, NUM_LOOKED_FOR, VisibilityCounts},
         refine::AlignmentSource,
     },
     rack::Rack,
@@ -379,7 +379,7 @@ fn seen_together(
     let looks = shots.iter().filter_map(|(shot, camera_from_part)| {
         let at = camera_from_part * point.cast::<f64>();
         let normal = camera_from_part.rotation * normal.cast::<f64>();
-        if -normal.dot(&at.coords) < LEAST_FACING * at.coords.norm() {
+        if -normal.dot(&at.coords) < MIN_FACING_COSINE * at.coords.norm() {
             return None;
         }
         let noise = 3.0 * shot.surface.noise_at_1m.0 * at.z * at.z;

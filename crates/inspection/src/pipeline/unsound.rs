@@ -1,11 +1,13 @@
 //! Refuses parts, however well they fit, in scenes that no depth camera can have seen.
 
-use super::{Inspection, rejection::Rejection, verdict::Verdict};
+use super::{
+    Inspection,
+    rejection::{CAMERA_RANGE, Rejection},
+    verdict::Verdict,
+};
 use geometry::{cloud::MAX_STRAY_SHARE, units::Metres};
 use stages::scene::SceneCloud;
 
-/// Range of depth cameras. A part outside it results from a wrong unit or damaged numbers.
-pub(super) const CAMERA_RANGE: [Metres; 2] = [Metres(0.1), Metres(20.0)];
 /// Share of a part's points that may lie out of range.
 const MAX_OUT_OF_RANGE_SHARE: f64 = 0.01;
 

@@ -71,7 +71,21 @@ fn parts_at_their_places_are_accepted_in_the_order_of_the_places() {
             pose(hung) == pose(before),
             "it is found as without the rack"
         );
+        let turn = hung.turn_at_place.expect("it may only hang as it does");
+        assert!(turn.found.0 < 1e-6 && turn.is_allowed(), "{turn:?}");
     }
+    let mut turned = |angles: Option<[f64; 3]>| {
+        recipe.rack.places[2].parts[0].angles_rad = angles;
+        let hung = run_all(&scene, &library, &recipe, &Unwatched).expect("not cancelled");
+        assert_eq!(shown(&hung, &recipe), "1, 2, 3");
+        hung[2].turn_at_place
+    };
+    let [rx, ry, rz] = places_of(&found, &library).rack.places[2].parts[0]
+        .angles_rad
+        .expect("an orientation");
+    let turn = turned(Some([rx, ry, rz + 0.1])).expect("limited");
+    assert!((turn.found.0 - 0.1).abs() < 1e-6, "{turn:?}");
+    assert_eq!(turned(None), None);
 }
 
 #[test]

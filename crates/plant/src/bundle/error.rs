@@ -4,10 +4,7 @@ use std::{io, path::PathBuf};
 
 use thiserror::Error;
 
-use super::{
-    keys::TrustedKey, local::LocalPart, manifest::MAX_NOTE, store::StoreAddress,
-    store_error::StoreError,
-};
+use super::{keys::TrustedKey, local::LocalPart, store_error::StoreError};
 use files::{FileError, advice_on, words_of};
 use geometry::error::Advice;
 use inspection::library::{EntryProblem, EntryWarning, LibraryError};
@@ -28,8 +25,8 @@ pub enum BundleError {
     /// The store cannot be reached, or refuses.
     #[error("{store}: {doing}: {source}")]
     Store {
-        /// Which.
-        store: StoreAddress,
+        /// Its address.
+        store: String,
         /// What was tried, such as `cannot list the versions`.
         doing: &'static str,
         /// Why.
@@ -40,20 +37,20 @@ pub enum BundleError {
         "{store}: this store does not prevent two publishers from making the same version: it ignores If-None-Match"
     )]
     NoConditionalPut {
-        /// Which.
-        store: StoreAddress,
+        /// Its address.
+        store: String,
     },
     /// The store has no version at all.
     #[error("{store}: no version of a library was published there")]
     NothingPublished {
-        /// Which.
-        store: StoreAddress,
+        /// Its address.
+        store: String,
     },
     /// The store has no version of this number.
     #[error("{store}: no version {wanted}; the newest is {newest}")]
     NoSuchVersion {
-        /// Which.
-        store: StoreAddress,
+        /// Its address.
+        store: String,
         /// The version asked for.
         wanted: u32,
         /// The newest version there.
@@ -62,8 +59,8 @@ pub enum BundleError {
     /// Somebody else has published this version meanwhile.
     #[error("{store}: somebody else has published version {version} in the meantime")]
     VersionTaken {
-        /// Which.
-        store: StoreAddress,
+        /// Its address.
+        store: String,
         /// Its number.
         version: u32,
     },
@@ -138,10 +135,12 @@ pub enum BundleError {
         limit: u64,
     },
     /// The note is no note.
-    #[error("the note has {found} characters, but at most {MAX_NOTE} are allowed")]
+    #[error("the note has {found} characters, but at most {limit} are allowed")]
     LongNote {
         /// Characters given.
         found: usize,
+        /// The most allowed.
+        limit: usize,
     },
     /// The library has a later version than the newest one in the store.
     #[error("version {found} is older than version {installed}, which is installed")]

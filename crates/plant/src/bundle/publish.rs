@@ -26,7 +26,10 @@ pub fn publish(
 ) -> Result<Manifest, BundleError> {
     let found = note.chars().count();
     if found > MAX_NOTE {
-        return Err(BundleError::LongNote { found });
+        return Err(BundleError::LongNote {
+            found,
+            limit: MAX_NOTE,
+        });
     }
     let numbers = library.give_numbers()?;
     let load = library.verify(&ReferenceParams::default())?;
@@ -66,7 +69,7 @@ pub fn publish(
         Ok(manifest)
     } else {
         Err(BundleError::VersionTaken {
-            store: store.address().clone(),
+            store: store.address().to_string(),
             version,
         })
     }

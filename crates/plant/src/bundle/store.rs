@@ -120,7 +120,7 @@ impl BundleStore {
             StoreAddress::S3 { bucket, prefix } => (s3(bucket), Path::from(prefix.as_str())),
         };
         let objects = objects.map_err(|source| BundleError::Store {
-            store: address.clone(),
+            store: address.to_string(),
             doing: "cannot be used",
             source: Box::new(source),
         })?;
@@ -207,7 +207,7 @@ impl BundleStore {
             ) => Ok(()),
             Err(error) => Err(wrong(error)),
             Ok(()) => Err(BundleError::NoConditionalPut {
-                store: self.address.clone(),
+                store: self.address.to_string(),
             }),
         }
     }
@@ -266,7 +266,7 @@ impl BundleStore {
 
     fn wrong(&self, doing: &'static str, error: &object_store::Error) -> BundleError {
         BundleError::Store {
-            store: self.address.clone(),
+            store: self.address.to_string(),
             doing,
             source: Box::new(StoreError::of(error)),
         }

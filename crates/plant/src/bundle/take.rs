@@ -89,7 +89,7 @@ pub fn take(
 ) -> Result<Installed, BundleError> {
     let newest = store.newest()?;
     let newest = newest.ok_or_else(|| BundleError::NothingPublished {
-        store: store.address().clone(),
+        store: store.address().to_string(),
     })?;
     let version = asked.version.unwrap_or(newest);
     let before = TakenBundle::of(library)?;
@@ -170,7 +170,7 @@ fn verified_manifest(
     let name = store.shown(&manifest_name(version));
     let bytes = store.manifest(version)?;
     let bytes = bytes.ok_or_else(|| BundleError::NoSuchVersion {
-        store: store.address().clone(),
+        store: store.address().to_string(),
         wanted: version,
         newest,
     })?;

@@ -1,14 +1,16 @@
 //! Bodies of the answers. Compatible changes only add fields.
 
+use std::iter;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use geometry::rigid::row_major;
-use robot::{Convention, RobotPose, line::OnLine};
+use robot::{Convention, RobotPose};
 use serve::{
-    Answer, CameraState, ExpectedNumber, ExpectedNumbers, LibraryStatus, PathStep, Problem,
-    VerdictCode,
+    Answer, AskedOrder, CameraState, ExpectedNumber, FrameFacts, LibraryStatus, OnLineNow,
+    PathStep, Problem, RackPlace, Request, VerdictCode,
 };
 
 /// What a trigger may say of its frame.
@@ -21,25 +23,34 @@ pub(super) struct TriggerBody {
     /// The number of the place of each, by the order of the rack's file, from 1; 0, or none at its end, for any place.
     #[serde(default)]
     places: Vec<u32>,
+    /// The production order whose parts should hang there, instead of their numbers.
+    #[serde(default)]
+    order: String,
+    /// The serial number of what hangs there, alone or with its order.
+    #[serde(default)]
+    serial: String,
 }
 
 impl TriggerBody {
     /// Reads a body; an empty one expects nothing. `None` if it is something else.
-    pub(super) fn expected_in(body: &[u8]) -> Option<ExpectedNumbers> {
+    pub(super) fn request_in(body: &[u8]) -> Option<Request> {
         let read = |body| serde_json::from_slice::<Self>(body).ok();
-        let Self { expected, places } = match body.trim_ascii() {
+        let Self {
+            expected,
+            places,
+            order,
+            serial,
+        } = match body.trim_ascii() {
             [] => Self::default(),
             body => read(body)?,
         };
         if expected.contains(&0) || places.len() > expected.len() {
             return None;
         }
-        let mut numbers = ExpectedNumbers::default();
-        for (index, part) in expected.into_iter().enumerate() {
-            let place = places.get(index).copied().unwrap_or(0);
-            *numbers.get_mut(index)? = ExpectedNumber { part, place };
-        }
-        Some(numbers)
+        let places = places.into_iter().chain(iter::repeat(0));
+        let parts = expected.into_iter().zip(places);
+        let parts = parts.map(|(part, place)| ExpectedNumber { part, place });
+        Request::expecting(parts)?.of_order(AskedOrder::new(&order, &serial)?)
     }
 }
 
@@ -70,23 +81,17 @@ pub(super) struct AnswerBody {
     index: u32,
     /// How many parts hang in the frame, refused ones included.
     num_parts: u32,
+    /// The place of the rack where it hangs or, if it is missing, is expected; left out if that is no place.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    place: Option<RackPlace>,
     /// How many points the part's spray path has; 0 without a pose.
     points: u32,
     /// The pose in the robot's base frame; null unless the part was accepted and the frame is fresh.
     pose: Option<PoseBody>,
     /// Where the part is on the line of a camera beside one; null without a pose.
-    on_line: Option<OnLineBody>,
+    on_line: Option<OnLineNow>,
     /// Why there is no pose; of the status why the camera gives nothing; null if there is nothing to say.
     problem: Option<Problem>,
-}
-
-/// A part on a line where it has its pose.
-#[derive(Debug, JsonSchema, Serialize)]
-struct OnLineBody {
-    #[serde(flatten)]
-    on_line: OnLine,
-    /// Milliseconds since it was there, at most 16777215.
-    since_ms: u32,
 }
 
 /// A pose in the robot's base frame.
@@ -114,13 +119,13 @@ impl AnswerBody {
             motion_checked: !has(Answer::MOTION_UNCHECKED),
             index: answer.index,
             num_parts: answer.num_parts,
+            place: answer.place.clone(),
             points: answer.points,
             pose: answer.pose.map(|pose| PoseBody {
                 in_convention: convention.write(&pose),
                 transform: row_major(&pose),
             }),
-            on_line: (answer.on_line.zip(answer.on_line_since_ms))
-                .map(|(on_line, since_ms)| OnLineBody { on_line, since_ms }),
+            on_line: answer.on_line_now(),
             problem: (answer.problem != Problem::default()).then(|| answer.problem.clone()),
         }
     }
@@ -147,6 +152,8 @@ pub(super) struct FrameBody {
     answer: AnswerBody,
     /// Every part, from left to right, accepted ones first; empty if nothing recognisable hangs there.
     parts: Vec<AnswerBody>,
+    #[serde(flatten)]
+    facts: FrameFacts,
 }
 
 impl FrameBody {
@@ -155,6 +162,7 @@ impl FrameBody {
         Self {
             answer: AnswerBody::of(&answers[0], convention),
             parts: parts.map(|part| AnswerBody::of(part, convention)).collect(),
+            facts: (*answers[0].facts).clone(),
         }
     }
 }

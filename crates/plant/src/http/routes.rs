@@ -103,7 +103,7 @@ pub(super) fn router(api: Arc<Api>) -> Router {
 }
 
 async fn trigger(State(api): State<Arc<Api>>, body: Bytes) -> Response {
-    let Some(expected) = TriggerBody::expected_in(&body) else {
+    let Some(request) = TriggerBody::request_in(&body) else {
         return api.refuse(Refusal::BadBody);
     };
     let Some(slot) = api.server.slot() else {
@@ -116,7 +116,7 @@ async fn trigger(State(api): State<Arc<Api>>, body: Bytes) -> Response {
     let work = spawn_blocking(move || {
         let is_withdrawn = move || waiting.strong_count() == 0;
         let response =
-            api.answered(|api| api.triggered(&api.server.trigger(expected, is_withdrawn)));
+            api.answered(|api| api.triggered(&api.server.trigger(&request, is_withdrawn)));
         drop(slot);
         response
     });

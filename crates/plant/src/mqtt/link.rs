@@ -55,13 +55,12 @@ pub struct LinkSubject {
     pub library: LibraryMessage,
     /// How poses are written.
     pub pose: PoseFormat,
-    /// Traceability data of the inspections.
-    pub trace: Traceability,
 }
 
 /// A queued inspection.
 struct Waiting {
     record: InspectionRecord,
+    trace: Traceability,
     inspected_at: Timestamp,
     captured_at: Option<Timestamp>,
 }
@@ -173,13 +172,14 @@ impl MqttLink {
         })
     }
 
-    /// Queues an inspection for publication.
-    pub fn inspected(&self, record: InspectionRecord) {
+    /// Queues an inspection for publication, with what it is traced by.
+    pub fn inspected(&self, record: InspectionRecord, trace: &Traceability) {
         let inspected_at = geometry::clock::now();
         let age = record.answer().age_ms;
         let age = age.map(|age| SignedDuration::from_millis(age.into()));
         let waiting = Waiting {
             record,
+            trace: trace.clone(),
             inspected_at,
             captured_at: age.and_then(|age| inspected_at.checked_sub(age).ok()),
         };
@@ -406,6 +406,9 @@ impl Shared {
             motion_checked: !has(Answer::MOTION_UNCHECKED),
             index: answer.index,
             num_parts: answer.num_parts,
+            on_line: answer.on_line_now(),
+            place: answer.place,
+            facts: (*answer.facts).clone(),
             number: (answer.number > 0).then_some(answer.number),
             pose: answer.pose.map(|pose| PoseMessage {
                 transform: kind,
@@ -413,7 +416,7 @@ impl Shared {
             }),
             part: Some(answer.part).filter(|part| !part.is_empty()),
             problem: Some(answer.problem).filter(|problem| !problem.reason.is_empty()),
-            traceability: self.subject.trace.clone(),
+            traceability: waiting.trace.clone(),
         }
     }
 }

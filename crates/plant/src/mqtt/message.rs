@@ -7,7 +7,7 @@ use serde::Serialize;
 use inspection::library::LibraryLoad;
 use records::history::Traceability;
 use robot::RobotPose;
-use serve::{CameraStatus, PoseKind, Problem, VerdictCode};
+use serve::{CameraStatus, FrameFacts, OnLineNow, PoseKind, Problem, RackPlace, VerdictCode};
 
 /// Version of the messages; compatible changes only add fields.
 pub const MESSAGE_SCHEMA: u32 = 1;
@@ -82,6 +82,9 @@ pub struct InspectionMessage {
     pub part: Option<String>,
     /// The number by which robots know the part; null if it has none.
     pub number: Option<u32>,
+    /// The place of the rack where it hangs or, if it is missing, is expected; left out if that is no place.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub place: Option<RackPlace>,
     /// True if the scene is simulated or replayed, or if no camera saw the part when it was enrolled.
     pub simulated: bool,
     /// True if the part may be another model; its pose is only about right.
@@ -90,10 +93,16 @@ pub struct InspectionMessage {
     pub motion_checked: bool,
     /// The pose in the robot's base frame; null unless the verdict is `accepted`.
     pub pose: Option<PoseMessage>,
+    /// Where the part is on the line of a camera beside one; left out without a pose, and without a line.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub on_line: Option<OnLineNow>,
     /// Why there is no pose; null with one.
     pub problem: Option<Problem>,
     /// Serial number, order and operator, as far as they are known.
     pub traceability: Traceability,
+    /// What all parts of the frame show.
+    #[serde(flatten)]
+    pub facts: FrameFacts,
 }
 
 /// A pose in the robot's base frame.
@@ -156,7 +165,7 @@ mod tests {
     use geometry::rigid::from_euler_zyx;
     use records::fixtures::conforms;
     use robot::Convention;
-    use serve::CameraState;
+    use serve::{CameraState, MissingPart};
 
     fn state() -> StateMessage {
         StateMessage {
@@ -194,6 +203,7 @@ mod tests {
             num_parts: 2,
             part: Some("fender".into()),
             number: Some(3),
+            place: None,
             simulated: true,
             motion_checked: true,
             approximate: false,
@@ -201,11 +211,13 @@ mod tests {
                 transform: PoseKind::RobotFromPart,
                 in_convention: Convention::Kuka.write(&pose),
             }),
+            on_line: None,
             problem: None,
             traceability: Traceability {
                 order: "A-17".into(),
                 ..Traceability::default()
             },
+            facts: FrameFacts::default(),
         }
     }
 
@@ -237,7 +249,24 @@ mod tests {
             traceability: Traceability::default(),
             ..accepted()
         };
-        for message in [accepted(), refused] {
+        let left_hook = RackPlace {
+            number: 1,
+            name: "left hook".into(),
+        };
+        let in_rack = InspectionMessage {
+            place: Some(left_hook.clone()),
+            facts: FrameFacts {
+                rack: Some("rack A".into()),
+                empty_places: Some(vec![left_hook.clone()]),
+                missing: Some(vec![MissingPart {
+                    part: "grille".into(),
+                    number: None,
+                    place: Some(left_hook),
+                }]),
+            },
+            ..accepted()
+        };
+        for message in [accepted(), refused, in_rack] {
             let message = value(&message.to_json());
             assert_eq!(holds("InspectionMessage", &message), Ok(()));
             assert_eq!(conforms(&message, &schema, &schema), Ok(()));

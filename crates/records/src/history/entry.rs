@@ -1,6 +1,6 @@
 //! An inspection in the history: before it is written, as a row of a list, and in full.
 
-use std::{io::Cursor, sync::Arc};
+use std::{io::Cursor, iter, sync::Arc};
 
 use image::{
     ImageFormat, RgbImage,
@@ -18,7 +18,8 @@ use geometry::{
 use inspection::{
     library::Truth,
     pipeline::{
-        Expected, Inspection, NamedRecipe, Recipe, RecipeLabel, Refusal, RefusalKind, Verdict,
+        Expected, ExpectedPart, Inspection, NamedRecipe, Recipe, RecipeLabel, Refusal, RefusalKind,
+        Verdict,
     },
 };
 use stages::{pose::PoseEstimate, scan::Shot, scene::SceneCloud};
@@ -441,6 +442,21 @@ impl InspectionDetail {
     /// Returns what was expected in the frame.
     pub fn expected(&self) -> Expected {
         serde_json::from_str(&self.line).unwrap_or_default()
+    }
+
+    /// Returns the expected parts that were missing in the frame; `None` if that is not known, or another row of the frame says it.
+    pub fn missing(&self) -> Option<Vec<ExpectedPart>> {
+        #[derive(serde::Deserialize)]
+        struct Missing {
+            missing: Vec<String>,
+            #[serde(default)]
+            missing_places: Vec<Option<String>>,
+        }
+        let line = serde_json::from_str::<Missing>(&self.line).ok()?;
+        let places = line.missing_places.into_iter().chain(iter::repeat(None));
+        let parts = line.missing.into_iter().zip(places);
+        let parts = parts.map(|(name, place)| ExpectedPart { name, place });
+        Some(parts.collect())
     }
 
     /// Returns the place of the rack at which the part hung; `None` if it hung at none, or there was no rack.

@@ -23,8 +23,8 @@ use super::shots::ShotRecord;
 use capture::Image;
 use files::{
     DepthCamera, FileContent, FileError, StoredOrientation, advice_on, crc32,
-    depth_png::{FOLDER_CAMERA, read_depths, write_camera, write_depths},
-    disk, open_bytes, read_bytes, replace_file, words_of, write_pcd,
+    depth_png::{FOLDER_CAMERA, write_camera, write_depths},
+    disk, open_bytes, read_bytes, read_depths, replace_file, words_of, write_pcd,
 };
 use geometry::{
     cloud::{Grid, PointCloud},

@@ -26,6 +26,8 @@ pub struct PartOutcome {
     pub part: Option<String>,
     /// Why it was not accepted.
     pub reason: Option<RefusalKind>,
+    /// Name of the rack in which it hung, if it has one.
+    pub rack: Option<String>,
 }
 
 impl From<&Record> for PartOutcome {
@@ -37,6 +39,7 @@ impl From<&Record> for PartOutcome {
             is_ok: summary.is_ok(),
             part: summary.part.clone(),
             reason: summary.reason.clone(),
+            rack: summary.rack.clone(),
         }
     }
 }
@@ -45,7 +48,7 @@ impl From<&Record> for PartOutcome {
 pub(super) fn outcomes_query(filter: &Filter) -> (String, Vec<Value>) {
     let (condition, values) = filter.condition();
     let asked = format!(
-        "SELECT number, at, verdict, part, CASE WHEN verdict <> 'accepted' THEN reason_kind END
+        "SELECT number, at, verdict, part, CASE WHEN verdict <> 'accepted' THEN reason_kind END, rack
             FROM inspection WHERE {condition} ORDER BY at, number"
     );
     (asked, values)
@@ -77,6 +80,7 @@ impl History {
                 is_ok: is_ok(verdict, part.as_deref(), labels.get(&number)),
                 part,
                 reason: reason.map(RefusalKind::named),
+                rack: row.get(5)?,
             });
         }
         Ok(outcomes)

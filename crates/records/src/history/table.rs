@@ -7,20 +7,24 @@ use std::{
 
 use super::{entry::Record, error::HistoryError};
 use files::{FileError, write_atomically};
-use inspection::{library::Truth, pipeline::RefusalKind};
+use inspection::{
+    library::Truth,
+    pipeline::{ExpectedPart, RefusalKind},
+};
 use texts::Language;
 
 /// Header line.
 const HEAD: &str = "number,time,scene,source,simulated,verdict,part,nearest,score,margin,reason,total_ms,\
     label,remark,recipe,library,program,parent,reinspections,\
     m00,m01,m02,m03,m10,m11,m12,m13,m20,m21,m22,m23,m30,m31,m32,m33,recipe_name,recipe_changed,\
-    serial,order,operator,reason_kind,robot_doubts,motion_checked,rack";
+    serial,order,operator,reason_kind,robot_doubts,motion_checked,rack,expected,missing";
 
 /// Writes the inspections that `each` passes on into this file, and returns their number. If one cannot be read, the
 /// file stays as it was.
 ///
 /// Times are UTC; `parent` is the number of the inspection that stands for the same part, `reinspections` the number of
-/// re-inspections below it; m00..m33 are `camera_from_part` in row-major order, metres.
+/// re-inspections below it; m00..m33 are `camera_from_part` in row-major order, metres. Of what was expected in a frame, one of its
+/// lines alone says what was missing.
 pub fn write_table(
     path: &Path,
     each: impl FnOnce(&mut dyn FnMut(Record) -> Result<(), HistoryError>) -> Result<(), HistoryError>,
@@ -95,9 +99,16 @@ fn write_row(writer: &mut dyn Write, record: &Record, columns: &str) -> io::Resu
         .motion_checked
         .map_or("", |is| if is { "true" } else { "false" });
     let rack = quoted(summary.rack.as_deref().unwrap_or(""));
+    // As in a table of orders.
+    let cell = |parts: &[ExpectedPart]| {
+        let parts = parts.iter().cloned().map(String::from);
+        quoted(&parts.collect::<Vec<_>>().join("|"))
+    };
+    let expected = cell(detail.expected().parts());
+    let missing = cell(&detail.missing().unwrap_or_default());
     writeln!(
         writer,
-        "{},{},{},{},{},{},{},{},{score},{margin},{},{:.3},{},{},{},{},{},{},{}{pose},{recipe},{serial},{order},{operator},{kind},{doubts},{motion_checked},{rack}{columns}",
+        "{},{},{},{},{},{},{},{},{score},{margin},{},{:.3},{},{},{},{},{},{},{}{pose},{recipe},{serial},{order},{operator},{kind},{doubts},{motion_checked},{rack},{expected},{missing}{columns}",
         summary.number,
         summary.at,
         quoted(&summary.scene.to_string()),

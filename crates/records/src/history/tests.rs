@@ -330,7 +330,8 @@ fn only_an_accepted_part_with_the_label_of_another_is_wrongly_accepted() {
 fn a_part_that_was_reported_as_wrong_does_not_count_as_ok() {
     let (_folder, mut history) = new_history();
     for seconds in 1..=3 {
-        let entry = history_entry(seconds, StoredVerdict::Accepted, "fender");
+        let mut entry = history_entry(seconds, StoredVerdict::Accepted, "fender");
+        entry.record.summary.rack = (seconds > 1).then(|| "rack A".into());
         history.add(&entry, &ALL).expect("written");
     }
     for (number, label) in [(2, "fender"), (3, "grille")] {

@@ -239,3 +239,19 @@ fn a_table_that_is_too_large_is_not_read() {
     let error = Orders::read(&path).expect_err("too long");
     assert!(matches!(error, OrdersError::File(_)), "{error}");
 }
+
+#[test]
+fn what_is_longer_than_any_order_is_refused_before_the_table_is_searched() {
+    let orders = parse("order;serial;parts\n4711;;front_door\n").expect("a table");
+    let long = "9".repeat(Traceability::MAX_LETTERS + 1);
+    for (order, serial) in [
+        (&*long, ""),
+        ("4711", &*long),
+        ("47\n11", ""),
+        ("4711", "a\tb"),
+    ] {
+        let why = expected(&orders, order, serial).expect_err("refused");
+        assert!(why.contains("more than 64 characters"), "{why}");
+    }
+    assert!(expected(&orders, " 4711 ", &long[1..]).is_ok());
+}

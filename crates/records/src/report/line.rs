@@ -5,8 +5,10 @@ use serde::Serialize;
 
 use crate::history::Traceability;
 use geometry::rigid::row_major;
-use inspection::pipeline::{Expected, Inspection, RecipeBlock, Timings, Verdict, places_of};
-use robot::{RobotFrame, line::OnLine};
+use inspection::pipeline::{
+    Expected, ExpectedPart, Inspection, RecipeBlock, Timings, Verdict, places_of,
+};
+use robot::{FrameName, RobotFrame, line::OnLine};
 
 /// Version of the JSON lines.
 pub const SCHEMA: u32 = 1;
@@ -95,18 +97,20 @@ struct ExpectedLine<'a> {
     #[serde(flatten)]
     expected: &'a Expected,
     #[serde(flatten)]
-    of_frame: Option<FrameLine<'a>>,
+    missing: Option<MissingLine<'a>>,
+    /// Whether it does, by all parts of the frame.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    as_expected: Option<bool>,
 }
 
-/// What all parts of the frame show of it.
+/// Expected parts that nothing hangs in place of.
 #[derive(Clone, Debug, Serialize)]
-struct FrameLine<'a> {
-    /// Expected parts that nothing hangs in place of.
+struct MissingLine<'a> {
+    /// Their names.
     missing: Vec<&'a str>,
     /// The place of each; left out if each may hang anywhere.
     #[serde(skip_serializing_if = "Option::is_none")]
     missing_places: Option<Vec<Option<String>>>,
-    as_expected: bool,
 }
 
 /// Additional fields for several frames that were inspected together.
@@ -125,7 +129,7 @@ pub struct ScanLine<'a> {
 /// Poses in the robot's base frame; see [`robot`] for their definitions.
 #[derive(Debug, Serialize)]
 struct RobotLine<'a> {
-    calibration: &'a str,
+    calibration: &'a FrameName,
     robot_from_camera: [f64; 16],
     robot_from_part: [f64; 16],
     robot_offset: [f64; 16],
@@ -259,21 +263,39 @@ impl<'a> InspectionLine<'a> {
         }
     }
 
-    /// Adds what should hang there, if something is expected, and whether it does, by the inspections of all parts of the frame.
+    /// Adds what should hang there, if something is expected, and what is missing, if that is known.
     #[must_use]
-    pub fn expecting(self, expected: &'a Expected, found: Option<&[&Inspection]>) -> Self {
-        let of_frame = found.map(|found| {
-            let missing = expected.missing(found);
-            FrameLine {
+    pub fn expecting(
+        self,
+        expected: &'a Expected,
+        missing: Option<impl IntoIterator<Item = &'a ExpectedPart>>,
+    ) -> Self {
+        let missing = missing.map(|missing| {
+            let missing: Vec<&ExpectedPart> = missing.into_iter().collect();
+            MissingLine {
                 missing_places: places_of(missing.iter().copied()),
                 missing: missing.into_iter().map(|part| &*part.name).collect(),
-                as_expected: expected.is_met(found),
             }
         });
+        let line = ExpectedLine {
+            expected,
+            missing,
+            as_expected: None,
+        };
         Self {
-            expected: (!expected.is_empty()).then_some(ExpectedLine { expected, of_frame }),
+            expected: (!expected.is_empty()).then_some(line),
             ..self
         }
+    }
+
+    /// As [`expecting`](Self::expecting), with whether it hangs there, by the inspections of all parts of the frame.
+    #[must_use]
+    pub fn held_against(self, expected: &'a Expected, found: &[&Inspection]) -> Self {
+        let mut line = self.expecting(expected, Some(expected.missing(found)));
+        if let Some(expectation) = &mut line.expected {
+            expectation.as_expected = Some(expected.is_met(found));
+        }
+        line
     }
 
     /// Adds where the part is on the line that carries it.

@@ -20,11 +20,11 @@
 use std::f64::consts::PI;
 
 use super::{
-    ArmPoint, PlacedArm, PointCheck,
+    ArmPoint, PlacedArm, PointCheck, Way,
     chain::move_time,
     kinematics::Joints,
     problem::PointProblem,
-    way::{Way, WayEnd, apart},
+    way::{WayEnd, apart},
 };
 
 /// Seconds; a corner at 200 mm/s takes as long if the controller rounds it by 5 mm on both sides.

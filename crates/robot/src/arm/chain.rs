@@ -5,8 +5,7 @@ use std::f64::consts::{FRAC_PI_4, PI, TAU};
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
 use super::{
-    Arm,
-    check::ArmPoint,
+    Arm, ArmPoint,
     kinematics::{Joints, Solver},
     way::{MIN_TRAVEL_SPEED_M_S, may_move_by_joints},
 };
@@ -225,9 +224,9 @@ fn joint_time(arm: &Arm, angles: impl Iterator<Item = f64>) -> (f64, f64) {
 /// Returns the seconds of a move; `None` for a turn on the spot, which takes as long as the joints need.
 pub(super) fn move_time(from: &RigidTransform, to: &RigidTransform, speed: f64) -> Option<f64> {
     /// Shorter moves count as standing still, metres.
-    const STANDS: f64 = 1e-4;
+    const STANDSTILL_M: f64 = 1e-4;
     let distance = (to.translation.vector - from.translation.vector).norm();
-    (distance > STANDS).then(|| distance / speed)
+    (distance > STANDSTILL_M).then(|| distance / speed)
 }
 
 /// Finds the cheapest chain of candidates including their collisions; each of its candidates has been tested.

@@ -7,17 +7,18 @@
 use std::ops::Range;
 
 use super::{
-    ArmError, ArmPoint, CheckParams, PlacedArm, PointCheck,
+    ArmError, ArmPoint, CheckParams, PlacedArm, PointCheck, Way,
     chain::{
         Candidate, UPRIGHT, angle_of, candidates_of, free_chain, is_free, nozzle_at, test_all,
         tilts_up_to, turns_of,
     },
     kinematics::Solver,
+    path::num_bad,
     problem::PointProblem,
     rail_plan::rail_positions,
     slowing::slow_moves,
     smooth_tilts::smooth_tilts,
-    way::{Way, WayEnd, way_between},
+    way::{WayEnd, way_between},
 };
 use geometry::parallel::{map_each, num_cores};
 
@@ -107,14 +108,6 @@ fn beside(these: &[bool]) -> Vec<bool> {
     let near = (0..these.len())
         .map(|i| i.saturating_sub(NUM_TILTED_BESIDE)..these.len().min(i + NUM_TILTED_BESIDE + 1));
     near.map(|near| these[near].contains(&true)).collect()
-}
-
-/// Number of points with a problem.
-pub(super) fn num_bad(checked: &[PointCheck]) -> usize {
-    checked
-        .iter()
-        .filter(|point| point.problem.is_some())
-        .count()
 }
 
 /// Whether a check misses fewer points than another, and none that the other reaches.

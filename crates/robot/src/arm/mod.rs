@@ -31,6 +31,7 @@ mod follow;
 mod kinematics;
 mod models;
 mod obstacles;
+mod path;
 mod place;
 mod problem;
 mod rail;
@@ -50,16 +51,16 @@ use crate::Convention;
 use geometry::rigid::RigidTransform;
 
 pub use self::{
-    check::{ArmPoint, CheckParams, PathCheck, PointCheck, check_path},
+    check::check_path,
     error::{ArmError, NotReached},
     film_room::FilmRoom,
     kinematics::{Joints, Singularity},
     models::ARM_NAMES,
     obstacles::{Body, Obstacle, Obstacles},
+    path::{ArmPoint, CheckParams, PathCheck, PointCheck, Way},
     place::{PlaceSuggestion, suggest_base, suggest_rail},
     problem::PointProblem,
     rail::Rail,
-    way::Way,
 };
 
 /// A six-axis arm with a spherical wrist.
@@ -90,7 +91,7 @@ pub struct Arm {
 }
 
 /// Default radius of a gun with its hoses, metres.
-pub const GUN_RADIUS: f64 = 0.05;
+pub const GUN_RADIUS_M: f64 = 0.05;
 
 /// An arm in its cell.
 #[derive(Clone, Debug)]

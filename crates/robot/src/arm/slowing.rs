@@ -8,11 +8,11 @@
 //! ([`FilmRoom`]); if that is not enough, they keep their speeds.
 
 use super::{
-    ArmPoint, CheckParams, FilmRoom, PlacedArm, PointCheck,
+    ArmPoint, CheckParams, FilmRoom, PlacedArm, PointCheck, Way,
     acceleration::{as_passed, check_accelerations, problem_around, problems_of},
     kinematics::Solver,
     problem::PointProblem,
-    way::{MIN_TRAVEL_SPEED_M_S, Way, WayEnd, way_problem},
+    way::{MIN_TRAVEL_SPEED_M_S, WayEnd, way_problem},
 };
 
 /// Relative changes of speed up to this are ignored.

@@ -25,7 +25,7 @@ fn placed(name: &str) -> PlacedArm {
         arm: Arm::named(name).expect("known"),
         robot_from_base: RigidTransform::identity(),
         flange_from_nozzle: RigidTransform::identity(),
-        gun_radius: GUN_RADIUS,
+        gun_radius: GUN_RADIUS_M,
         obstacles: Obstacles::default(),
     }
 }

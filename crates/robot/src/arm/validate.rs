@@ -1,6 +1,6 @@
 //! Refuses an arm, a path or parameters that cannot be checked.
 
-use super::{ArmError, ArmPoint, CheckParams, GUN_RADIUS, PlacedArm, kinematics::Solver};
+use super::{ArmError, ArmPoint, CheckParams, GUN_RADIUS_M, PlacedArm, kinematics::Solver};
 use crate::spray::MOST_TILT;
 use geometry::{rigid::is_finite, units::Metres};
 
@@ -63,7 +63,7 @@ pub(super) fn validate(
         }
     }
     let most = placed.most_gun_radius();
-    if most > 0.0 && placed.gun_radius > most.max(GUN_RADIUS) {
+    if most > 0.0 && placed.gun_radius > most.max(GUN_RADIUS_M) {
         return Err(ArmError::Length {
             what: "the radius of the gun",
             value: Metres(placed.gun_radius),

@@ -1,7 +1,7 @@
 //! The move from one checked point to the next.
 
 use super::{
-    Arm, ArmPoint, PlacedArm, PointCheck,
+    Arm, ArmPoint, PlacedArm, PointCheck, Way,
     chain::move_time,
     kinematics::{Joints, Solver},
     problem::PointProblem,
@@ -9,7 +9,7 @@ use super::{
 use geometry::rigid::RigidTransform;
 
 /// Maximum step in which straight moves are checked, metres and radians.
-const MAX_STEP: [f64; 2] = [0.05, 0.175];
+const MAX_STEP_M_RAD: [f64; 2] = [0.05, 0.175];
 /// Turn of a joint, radians, over which its speed counts as even, apart from the [`unevenness`]: past a singularity a joint
 /// follows an arc tangent, which is nowhere half a percent steeper than on average over so little around its middle.
 const EVEN_TURN_RAD: f64 = 0.2;
@@ -29,20 +29,6 @@ const TIME_TOLERANCE_S: f64 = 1e-6;
 pub(super) const MIN_TRAVEL_SPEED_M_S: f64 = 0.01;
 /// Maximum step in which joint moves are checked, radians.
 const MAX_JOINT_STEP_RAD: f64 = 0.05;
-
-/// How the arm moves to a point.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Way {
-    /// In a straight line, at the speed of the path.
-    #[default]
-    Planned,
-    /// In a straight line with the gun off, at this lower speed, m/s.
-    Slower(f64),
-    /// In a straight line with the gun on, at this lower speed, m/s; the film stays within its tolerance.
-    SlowerSpraying(f64),
-    /// By a joint move with the gun off, for example to change the configuration.
-    Joints,
-}
 
 /// One end of a straight move.
 pub(super) struct WayEnd {
@@ -146,7 +132,7 @@ pub(super) fn way_problem(
     let distance = (to.translation.vector - from.translation.vector).norm();
     let angle = from.rotation.angle_to(&to.rotation);
     let ride = (end.rail - start.rail).abs();
-    let num = (distance.max(ride) / MAX_STEP[0]).max(angle / MAX_STEP[1]);
+    let num = (distance.max(ride) / MAX_STEP_M_RAD[0]).max(angle / MAX_STEP_M_RAD[1]);
     let num = num.ceil().max(1.0);
     let allowed = move_time(from, to, speed);
     let mut problem = rail_problem(&placed.arm, ride, allowed);
@@ -323,7 +309,7 @@ fn arrival_problem(
     at: &Joints,
 ) -> Option<PointProblem> {
     /// Least difference of two solutions that are not singular, radians.
-    const OTHER: f64 = 0.01;
+    const OTHER_MIN_RAD: f64 = 0.01;
     // Several solutions meet at a singularity, which is a problem of its own.
     let ends = [&start.joints, &end.joints];
     if ends
@@ -333,7 +319,7 @@ fn arrival_problem(
         return None;
     }
     let arrives = nearest(solver, &end.nozzle, at)?;
-    if apart(&arrives, &end.joints) < OTHER {
+    if apart(&arrives, &end.joints) < OTHER_MIN_RAD {
         return None;
     }
     let beyond = outside(solver, &arrives).map(|(joint, angle)| PointProblem::JointLimit {

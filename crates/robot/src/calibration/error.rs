@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::FARTHEST;
+use crate::MAX_POSE_DISTANCE_M;
 use files::FileError;
 use geometry::{error::Advice, units::Metres};
 
@@ -29,7 +29,7 @@ pub enum CalibrationError {
         key: &'static str,
     },
     /// No cell is this large: the unit is wrong.
-    #[error("{}: {key} shifts by {:.0} m, expected at most {} m", path.display(), distance.0, FARTHEST)]
+    #[error("{}: {key} shifts by {:.0} m, expected at most {} m", path.display(), distance.0, MAX_POSE_DISTANCE_M)]
     TooFar {
         /// The file.
         path: PathBuf,

@@ -9,7 +9,7 @@ use jiff::Timestamp;
 use serde::Deserialize;
 
 use super::{CalibrationError, CameraPlace, CellCalibration, Origin, numbers_text};
-use crate::{FARTHEST, hand_eye::Mount};
+use crate::{MAX_POSE_DISTANCE_M, hand_eye::Mount};
 use files::{
     FileError, crc32, disk, folder_of, parse_toml, read_text, toml_problem, user_data, write_text,
 };
@@ -215,7 +215,7 @@ fn parse(text: &str, path: &Path) -> Result<ReadCalibration, CalibrationError> {
             }
         })?;
         let distance = Metres(transform.translation.vector.norm());
-        if distance.0 > FARTHEST {
+        if distance.0 > MAX_POSE_DISTANCE_M {
             return Err(CalibrationError::TooFar {
                 path: path.to_owned(),
                 key,

@@ -15,7 +15,7 @@ use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    RobotFrame,
+    FrameName, RobotFrame,
     hand_eye::{CalibrationBounds, HandEye, Mount},
 };
 use files::crc32;
@@ -32,9 +32,6 @@ pub use self::{
 
 /// Least and greatest distance of camera or flange from the origin of the robot's base: no cell is larger, and none sits nearer.
 pub const CELL_DISTANCES: [Metres; 2] = [Metres(0.02), Metres(20.0)];
-
-/// What a calibration without a name is called.
-pub const UNNAMED: &str = "an unnamed calibration";
 
 /// Where the camera of a cell sits, and how that was found.
 #[derive(Clone, Debug, PartialEq)]
@@ -265,7 +262,7 @@ impl CellCalibration {
     pub fn frame(&self, given: Option<&RigidTransform>) -> Result<RobotFrame, NoRobotPose> {
         Ok(RobotFrame {
             robot_from_camera: self.robot_from_camera(given)?,
-            name: self.shown_with_identity(),
+            name: self.frame_name(),
         })
     }
 
@@ -282,13 +279,12 @@ impl CellCalibration {
     }
 
     /// Its name and identity, for people.
-    pub fn shown_with_identity(&self) -> String {
-        let name = if self.name.is_empty() {
-            UNNAMED
-        } else {
-            self.name.as_str()
-        };
-        format!("{name} ({})", self.identity())
+    pub fn frame_name(&self) -> FrameName {
+        let identity = self.identity();
+        match &*self.name {
+            "" => FrameName::Unnamed(identity),
+            name => FrameName::Named(format!("{name} ({identity})")),
+        }
     }
 
     /// Eight hexadecimal digits that identify its transforms: equal for the same camera in the same place.

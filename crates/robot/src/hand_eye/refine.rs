@@ -30,15 +30,15 @@ const SETTLED: f64 = 1e-12;
 /// With fewer pairs the scatter of shifts and turns cannot be separated, and the common ratio is used.
 const LEAST_TO_WEIGH: usize = 6;
 /// The common ratio of the two scatters, metres per radian: a millimetre for a tenth of a degree.
-const COMMON_LEVER: f64 = 0.57;
+const COMMON_LEVER_M_PER_RAD: f64 = 0.57;
 /// Plausible ratios, metres per radian.
-const LEVERS: std::ops::RangeInclusive<f64> = 0.05..=5.0;
+const LEVER_RANGE_M_PER_RAD: std::ops::RangeInclusive<f64> = 0.05..=5.0;
 /// A direction is unconstrained if its eigenvalue of the information is below this share of the largest.
 const HELD: f64 = 1e-10;
 
 /// An outline moves with the view by less than this in 95 of 100 cases, metres for a whole unit of the surface's normal
 /// across the view: measured on the eight simulated parts, without noise and with a Kinect's.
-const OUTLINE_SHIFT: f64 = 0.0025;
+const OUTLINE_SHIFT_M: f64 = 0.0025;
 
 /// The result of a refinement.
 pub(super) struct Refined {
@@ -49,7 +49,7 @@ pub(super) struct Refined {
 /// Refines X and Z, beginning at `start`.
 pub(super) fn refine(equations: &[Equation], start: HandEyeSolution) -> Refined {
     let mut unknowns = start;
-    let mut lever = COMMON_LEVER;
+    let mut lever = COMMON_LEVER_M_PER_RAD;
     for round in 0..ROUNDS {
         unknowns = settle(equations, unknowns, lever);
         if round + 1 < ROUNDS && equations.len() >= LEAST_TO_WEIGH {
@@ -65,9 +65,9 @@ fn lever_of(equations: &[Equation], unknowns: &HandEyeSolution) -> f64 {
     let rms = rms(&off);
     let lever = rms.shift.0 / rms.rotation.0;
     if lever.is_finite() {
-        lever.clamp(*LEVERS.start(), *LEVERS.end())
+        lever.clamp(*LEVER_RANGE_M_PER_RAD.start(), *LEVER_RANGE_M_PER_RAD.end())
     } else {
-        COMMON_LEVER
+        COMMON_LEVER_M_PER_RAD
     }
 }
 
@@ -230,7 +230,7 @@ impl Refined {
             Target::Marker => SVector::zeros(),
             Target::Part { normal } => {
                 let pull = self.pull_of_outline(equations, &normal);
-                (covariance * pull).fixed_rows::<6>(0) * OUTLINE_SHIFT
+                (covariance * pull).fixed_rows::<6>(0) * OUTLINE_SHIFT_M
             }
         };
         let turned = by_outline.fixed_rows::<3>(0).norm();

@@ -21,14 +21,14 @@ const TRIPLES: usize = 100;
 /// Times that the better half is fitted anew.
 const IMPROVEMENTS: usize = 3;
 /// A pair is suspect if it is this many times farther off than the others on average.
-const FACTOR: f64 = 5.0;
+const SUSPECT_MIN_RATIO: f64 = 5.0;
 /// Smaller deviations are never suspect.
 const LEAST: PoseDelta = PoseDelta {
     rotation: Radians(0.002),
     shift: Metres(0.001),
 };
 /// Metres per radian: a millimetre counts as much as a tenth of a degree.
-const LEVER: f64 = 0.57;
+const LEVER_M_PER_RAD: f64 = 0.57;
 
 /// The suspect pairs, and how well the others agree without them.
 #[derive(Clone, Debug, PartialEq)]
@@ -107,12 +107,12 @@ fn picked(equations: &[Equation], indices: &[usize]) -> Vec<Equation> {
     indices.iter().map(|&i| equations[i]).collect()
 }
 
-/// Deviation in metres, with turns converted by [`LEVER`].
+/// Deviation in metres, with turns converted by [`LEVER_M_PER_RAD`].
 fn far(off: &PoseDelta) -> f64 {
-    off.shift.0.hypot(LEVER * off.rotation.0)
+    off.shift.0.hypot(LEVER_M_PER_RAD * off.rotation.0)
 }
 
 fn is_suspect(off: &PoseDelta, scale: f64) -> bool {
     let counts = off.shift.0 > LEAST.shift.0 || off.rotation.0 > LEAST.rotation.0;
-    counts && far(off) > FACTOR * scale
+    counts && far(off) > SUSPECT_MIN_RATIO * scale
 }

@@ -6,7 +6,7 @@
 
 use nalgebra::{Point3, Unit, Vector3};
 
-use super::{Counter, DEFAULT_EXPOSURE, DEFAULT_SLIP, LineCalibration};
+use super::{Counter, DEFAULT_EXPOSURE_S, DEFAULT_SLIP, LineCalibration};
 use geometry::{
     error::Advice,
     rigid::RigidTransform,
@@ -203,7 +203,7 @@ pub fn fit(
         part: String::new(),
         made_at: jiff::Timestamp::UNIX_EPOCH,
         slip: DEFAULT_SLIP,
-        exposure: DEFAULT_EXPOSURE,
+        exposure: DEFAULT_EXPOSURE_S,
         delay: 0.0,
     })
 }

@@ -72,7 +72,7 @@ pub struct OnLine {
 /// Share of the way that an encoder may lose or gain, unless the file says otherwise.
 pub const DEFAULT_SLIP: f64 = 0.005;
 /// Time in which a frame is exposed, unless the file says otherwise, seconds: a frame period of a Kinect.
-pub const DEFAULT_EXPOSURE: f64 = 1.0 / 30.0;
+pub const DEFAULT_EXPOSURE_S: f64 = 1.0 / 30.0;
 
 /// Width of an encoder's counter, which begins again at 0 beyond its greatest count.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

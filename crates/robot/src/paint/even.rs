@@ -23,7 +23,7 @@ use super::{
     travel::keep_clear,
 };
 use geometry::nearest::KdTree;
-use inspection::library::{MAX_PATH_POINTS, MAX_SPEED, PathPoint};
+use inspection::library::{MAX_PATH_POINTS, MAX_SPEED_M_S, PathPoint};
 
 /// Least and greatest dwell of a way: three times and half the coat's speed. Faster ways need so long to change their
 /// speed that their neighbours become uneven.
@@ -98,7 +98,7 @@ pub(super) fn evened(
     let acceleration = coat.acceleration / (speed * speed);
     let fastest = (MAX_FASTER_SPEED_M_S / speed)
         .max(ALLOWED_SPEED_FACTOR)
-        .min(MAX_SPEED / speed);
+        .min(MAX_SPEED_M_S / speed);
     let with_dwells = |points: Vec<PathPoint>, deposits: &[&Deposit], start: &[f64]| {
         let (ways, which) = ways_of(&points, DWELL_RANGE, fastest);
         let mut dwells = vec![1.0; ways.len()];
@@ -173,7 +173,7 @@ fn at_speed(
 ) -> Vec<PathPoint> {
     for (i, point) in points.iter_mut().enumerate() {
         let own = point.speed.map(|own| own * speed / dwell(i));
-        point.speed = own.map(|own| own.min(MAX_SPEED));
+        point.speed = own.map(|own| own.min(MAX_SPEED_M_S));
     }
     points
 }

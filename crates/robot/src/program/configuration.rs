@@ -8,7 +8,6 @@
 //! How a controller counts the joints of an arm from a file is unknown: without a maker, or with another maker's language,
 //! there is no configuration.
 
-use super::RobotLanguage;
 use crate::arm::{Arm, Joints};
 
 /// Joints are rounded to this many steps per degree before they are compared, as fine as poses are written.
@@ -23,21 +22,15 @@ pub(super) struct Posture {
     pub(super) degrees: [f64; 6],
 }
 
-/// Returns the arm's configuration with these joints; `None` if it is not certain.
-pub(super) fn configuration(
-    language: &RobotLanguage,
-    arm: &Arm,
-    joints: &Joints,
-) -> Option<String> {
-    let write = language.configuration?;
-    if arm.maker != Some(language.convention) {
-        return None;
+impl Posture {
+    /// How an arm stands with these joints.
+    pub(super) fn of(arm: &Arm, joints: &Joints) -> Self {
+        let [is_ahead, is_elbow_up, _] = arm.configuration(joints);
+        Self {
+            is_ahead,
+            is_elbow_up,
+            degrees: joints
+                .map(|angle| (angle.to_degrees() * STEPS_PER_DEGREE).round() / STEPS_PER_DEGREE),
+        }
     }
-    let [is_ahead, is_elbow_up, _] = arm.configuration(joints);
-    write(&Posture {
-        is_ahead,
-        is_elbow_up,
-        degrees: joints
-            .map(|angle| (angle.to_degrees() * STEPS_PER_DEGREE).round() / STEPS_PER_DEGREE),
-    })
 }

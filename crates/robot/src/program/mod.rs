@@ -43,12 +43,16 @@ mod tests;
 
 use jiff::Timestamp;
 
-use self::{configuration::configuration, language::ToolName, steps::Step, text::Lines};
-use crate::arm::{PathCheck, PlacedArm, Way};
+use self::language::{Step, ToolName};
+use crate::{
+    FrameName,
+    arm::{PathCheck, PlacedArm, Way},
+};
 use geometry::{
     rigid::{RigidTransform, is_finite},
     units::{Metres, counted},
 };
+use inspection::pipeline::parameters::{DisplayUnit, Kind, Parameters as _};
 
 pub use self::{
     error::ProgramError,
@@ -73,7 +77,7 @@ pub struct ProgramPoint {
 /// Joint speed of the first move, as a share of the maximum.
 const JOINT_SPEED_SHARE: f64 = 0.1;
 /// Acceleration of linear moves where the path has none, m/s²: the default of `URScript`, which is low for any arm.
-const DEFAULT_ACCELERATION: f64 = 1.2;
+const DEFAULT_ACCELERATION_M_S2: f64 = 1.2;
 
 /// A path to be written as a program, and the content of its header.
 #[derive(Clone, Debug)]
@@ -94,8 +98,8 @@ pub struct Program<'a> {
     pub scene: Option<&'a str>,
     /// The part's pose in the robot's base frame.
     pub robot_from_part: RigidTransform,
-    /// Name of the calibration.
-    pub calibration: &'a str,
+    /// Where the robot's frame comes from.
+    pub calibration: &'a FrameName,
     /// True if the scene, or the enrolled part, was simulated.
     pub is_simulated: bool,
     /// Reasons against writing the program, which were overridden.
@@ -112,7 +116,7 @@ const MARK: &str = "Partsight robot program";
 impl Program<'_> {
     /// Acceleration of linear moves, m/s².
     fn line_acceleration(&self) -> f64 {
-        self.acceleration.unwrap_or(DEFAULT_ACCELERATION)
+        self.acceleration.unwrap_or(DEFAULT_ACCELERATION_M_S2)
     }
 
     fn check(&self, language: &'static RobotLanguage, name: &str) -> Result<(), ProgramError> {
@@ -131,7 +135,7 @@ impl Program<'_> {
             });
         }
         let settings = self.settings;
-        settings.params.check_lengths()?;
+        self.check_lengths()?;
         let output = settings.params.gun_output;
         if !language.outputs.contains(&output) {
             return Err(ProgramError::Output { language, output });
@@ -154,6 +158,24 @@ impl Program<'_> {
         }
         self.check_tracking(language)?;
         self.check_path(language)
+    }
+
+    /// Refuses a length of the moves that is out of its range.
+    fn check_lengths(&self) -> Result<(), ProgramError> {
+        let params = &self.settings.params;
+        for row in ProgramParams::ALL {
+            if let Kind::Number(number) = &row.kind
+                && number.unit == DisplayUnit::Millimetres
+                && row.group != ProgramGroup::Arm
+            {
+                let (value, range) = (row.value(params), number.range);
+                if !(range[0]..=range[1]).contains(&value) {
+                    let name = row.key;
+                    return Err(ProgramError::Length { name, value, range });
+                }
+            }
+        }
+        Ok(())
     }
 
     fn check_tracking(&self, language: &'static RobotLanguage) -> Result<(), ProgramError> {
@@ -221,7 +243,7 @@ impl Program<'_> {
         self.reach.is_some_and(|(arm, check)| {
             let all = check.points.iter().chain(check.ends.iter().flatten());
             let mut joints = all.filter_map(|point| point.joints);
-            joints.all(|joints| configuration(language, &arm.arm, &joints).is_some())
+            joints.all(|joints| language.configuration_of(&arm.arm, &joints).is_some())
         })
     }
 

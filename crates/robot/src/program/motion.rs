@@ -11,7 +11,8 @@
 
 use super::{
     Program, ProgramError, RobotLanguage,
-    steps::{Line, Motion, Step, steps_of},
+    language::{Line, Motion, Step},
+    steps::steps_of,
 };
 use geometry::rigid::RigidTransform;
 
@@ -39,7 +40,7 @@ impl MotionPiece {
 }
 
 /// Longest piece, metres: short compared with a jet, within which the speed may change.
-const MAX_PIECE_LENGTH: f64 = 0.004;
+const MAX_PIECE_LENGTH_M: f64 = 0.004;
 /// Fewest pieces of a way: a single one from stop to stop would never end.
 const MIN_PIECES: f64 = 2.0;
 /// Shares of a blend at which its pieces meet.
@@ -178,7 +179,7 @@ impl Run {
         let way = Way::new(&from.to, &to.to);
         let begin = line_to(from).map_or(0.0, |line| line.blend);
         let straight = (way.length - begin - line.blend).max(0.0);
-        let num = (straight / MAX_PIECE_LENGTH).ceil().max(MIN_PIECES);
+        let num = (straight / MAX_PIECE_LENGTH_M).ceil().max(MIN_PIECES);
         for k in 0..num as usize {
             let is_stop = k == 0 && begin <= 0.0;
             let limit = if is_stop { 0.0 } else { f64::INFINITY };

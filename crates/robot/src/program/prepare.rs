@@ -72,7 +72,7 @@ mod tests {
 
     use super::*;
     use crate::{
-        arm::{Arm, Body, GUN_RADIUS, Obstacle, Obstacles, PointProblem},
+        arm::{Arm, Body, GUN_RADIUS_M, Obstacle, Obstacles, PointProblem},
         spray::{BandStatus, CarriedPoint},
     };
     use geometry::{
@@ -107,7 +107,7 @@ mod tests {
             arm: Arm::named("irb4600").expect("known"),
             robot_from_base: RigidTransform::identity(),
             flange_from_nozzle: Isometry3::from_parts(Translation3::new(0.0, 0.0, 0.25), turn),
-            gun_radius: GUN_RADIUS,
+            gun_radius: GUN_RADIUS_M,
             obstacles: Obstacles::default(),
         };
         let frame = RobotFrame {

@@ -8,8 +8,8 @@ use std::{
 
 use super::{
     MARK, Program, ProgramError, RobotLanguage,
-    language::Calls,
-    steps::{self, Step},
+    language::{Calls, Step},
+    steps,
     text::{self, Lines},
 };
 use files::{FileError, crc32, disk, folder_of, open_regular, write_text};
@@ -82,6 +82,18 @@ pub(super) fn beside(path: &Path, name: &str) -> PathBuf {
     file
 }
 
+impl RobotLanguage {
+    /// Finds a language by the file's ending.
+    pub fn from_file(path: &Path) -> Result<&'static Self, ProgramError> {
+        let ending = path.extension().unwrap_or_default();
+        let mut all = Self::ALL.into_iter();
+        all.find(|language| ending.eq_ignore_ascii_case(language.ending))
+            .ok_or_else(|| ProgramError::UnknownEnding {
+                path: path.to_owned(),
+            })
+    }
+}
+
 impl Program<'_> {
     /// Writes the program, whole or not at all, with the file's name as its own. Programs that it calls are written
     /// beside it first; returns their number.
@@ -122,7 +134,7 @@ impl Program<'_> {
         let is_too_long = |calls: &&Calls| whole.num_instructions() > calls.max_instructions;
         let Some(calls) = calls.filter(is_too_long) else {
             return Ok(ProgramTexts {
-                main: whole.finish(language),
+                main: whole.finish(language.line_end),
                 parts: Vec::new(),
             });
         };
@@ -133,7 +145,7 @@ impl Program<'_> {
                 most: calls.max_instructions,
             });
         }
-        let checksum = crc32(whole.finish(language).as_bytes());
+        let checksum = crc32(whole.finish(language.line_end).as_bytes());
         let called = |number: usize| format!("{name}_{checksum:08x}_{number}");
         let header_of = |number: usize, all: usize| {
             let mut header = header.clone();
@@ -167,10 +179,10 @@ impl Program<'_> {
         let texts = texts.map(|(i, (range, name))| {
             let header = header_of(i + 1, ranges.len());
             self.write(language, &steps[range.clone()], &header, name)
-                .finish(language)
+                .finish(language.line_end)
         });
         Ok(ProgramTexts {
-            main: main.finish(language),
+            main: main.finish(language.line_end),
             parts: names.iter().cloned().zip(texts).collect(),
         })
     }

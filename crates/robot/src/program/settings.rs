@@ -2,15 +2,14 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::ProgramError;
-use crate::arm::{Arm, CheckParams, GUN_RADIUS, Obstacles, PlacedArm};
+use crate::arm::{Arm, CheckParams, GUN_RADIUS_M, Obstacles, PlacedArm};
 use geometry::{
     rigid::RigidTransform,
     units::{Metres, Radians},
 };
 use inspection::{
     number_parameter as number,
-    pipeline::parameters::{DisplayUnit, Kind, Parameter, Parameters},
+    pipeline::parameters::{Parameter, Parameters},
 };
 
 /// Settings of the cell and of the moves.
@@ -64,7 +63,7 @@ impl Default for ProgramParams {
     fn default() -> Self {
         Self {
             gun_output: 1,
-            gun_radius: Metres(GUN_RADIUS),
+            gun_radius: Metres(GUN_RADIUS_M),
             clearance: Metres(Obstacles::default().clearance),
             speed: 0.25,
             approach: Metres(0.1),
@@ -108,23 +107,6 @@ impl Parameters for ProgramParams {
 }
 
 impl ProgramParams {
-    /// Refuses a length of the moves that is out of its range.
-    pub(super) fn check_lengths(&self) -> Result<(), ProgramError> {
-        for row in Self::ALL {
-            if let Kind::Number(number) = &row.kind
-                && number.unit == DisplayUnit::Millimetres
-                && row.group != ProgramGroup::Arm
-            {
-                let (value, range) = (row.value(self), number.range);
-                if !(range[0]..=range[1]).contains(&value) {
-                    let name = row.key;
-                    return Err(ProgramError::Length { name, value, range });
-                }
-            }
-        }
-        Ok(())
-    }
-
     /// Places an arm in its cell, with the gun and the clearance of these numbers.
     pub fn place(
         &self,

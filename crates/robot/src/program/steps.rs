@@ -1,68 +1,20 @@
-//! The steps of a program, independent of the language.
+//! Makes the steps of a program, which its language writes.
 
 use std::ops::Range;
 
 use nalgebra::Translation3;
 
 use super::{
-    Program, ProgramPoint, ProgramSettings, RobotLanguage, configuration::configuration,
-    language::Calls,
+    Program, ProgramPoint, ProgramSettings, RobotLanguage,
+    language::{Calls, Line, Motion, Step},
 };
 use crate::arm::{PointCheck, Way};
-use geometry::rigid::RigidTransform;
-
-/// One step of a program.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Step {
-    /// Pose of the nozzle at its end, in the robot's base frame.
-    pub(super) to: RigidTransform,
-    /// Configuration of the arm there, in the controller's notation; none if not checked or not known.
-    pub(super) configuration: Option<String>,
-    /// Position of the rail that moves along the path, metres; none without one.
-    pub(super) rail: Option<f64>,
-    pub(super) motion: Motion,
-}
-
-/// Kind of move.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Motion {
-    /// Joint move, slow, with the gun off; gun state from its end on, if it changes there.
-    Joints(Option<bool>),
-    /// Linear move.
-    Line(Line),
-}
-
-/// A linear move.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Line {
-    /// Speed, m/s.
-    pub(super) speed: f64,
-    /// Blend radius at its end, metres; 0 to stop at the point.
-    pub(super) blend: f64,
-    /// Gun state from its end on, if it changes there.
-    pub(super) gun: Option<bool>,
-}
-
-impl Step {
-    /// Gun state from its end on, if it changes there.
-    pub(super) fn gun(&self) -> Option<bool> {
-        match self.motion {
-            Motion::Joints(gun) => gun,
-            Motion::Line(line) => line.gun,
-        }
-    }
-
-    fn num_instructions(&self, calls: &Calls) -> usize {
-        let is_switch = self.gun().is_some();
-        1 + usize::from(is_switch) * calls.num_switch_instructions
-    }
-}
 
 /// Limit of a blend as a share of the way to the next point, so that two blends do not touch.
 const MAX_BLEND_SHARE: f64 = 0.45;
 
 /// Speed of the first move of a program that follows a line, m/s.
-const TRACKED_APPROACH_SPEED: f64 = 0.1;
+const TRACKED_APPROACH_SPEED_M_S: f64 = 0.1;
 
 /// The move to the approach point. Of a program that follows a line, it is linear too.
 fn first_motion(settings: &ProgramSettings) -> Motion {
@@ -70,7 +22,7 @@ fn first_motion(settings: &ProgramSettings) -> Motion {
         return Motion::Joints(None);
     }
     Motion::Line(Line {
-        speed: TRACKED_APPROACH_SPEED,
+        speed: TRACKED_APPROACH_SPEED_M_S,
         blend: 0.0,
         gun: None,
     })
@@ -89,7 +41,7 @@ pub(super) fn steps_of(program: &Program<'_>, language: &RobotLanguage) -> Vec<S
     let is_named = program.names_configurations(language);
     let stands = |point: Option<&PointCheck>| {
         let (arm, _) = checked.filter(|_| is_named)?;
-        configuration(language, arm, &point?.joints?)
+        language.configuration_of(arm, &point?.joints?)
     };
     let rail = |point: Option<&PointCheck>| {
         let (arm, _) = checked?;

@@ -5,7 +5,7 @@ mod rail;
 pub(super) mod read;
 mod tracking;
 
-use std::path::Path;
+use std::{path::Path, sync::LazyLock};
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use rand::{RngExt as _, SeedableRng as _};
@@ -16,7 +16,7 @@ use super::{
     save::beside,
     *,
 };
-use crate::arm::{Arm, GUN_RADIUS, Joints, Obstacles, PointCheck, Way};
+use crate::arm::{Arm, GUN_RADIUS_M, Joints, Obstacles, PointCheck, Way};
 use geometry::{error::Advice as _, rigid::from_euler_zyx};
 
 fn any_rotation(random: &mut Pcg64) -> UnitQuaternion<f64> {
@@ -54,6 +54,8 @@ fn any_path(seed: u64) -> Vec<ProgramPoint> {
     points.collect()
 }
 
+static CALIBRATION: LazyLock<FrameName> = LazyLock::new(|| "Cell 2 (00112233)".into());
+
 fn program<'a>(points: &'a [ProgramPoint], settings: &'a ProgramSettings) -> Program<'a> {
     Program {
         points,
@@ -64,7 +66,7 @@ fn program<'a>(points: &'a [ProgramPoint], settings: &'a ProgramSettings) -> Pro
         part: "Tür_links",
         scene: Some("door; \"x\".pcd"),
         robot_from_part: from_euler_zyx([0.1, -0.2, 0.3, 1.5, -0.2, 2.0]),
-        calibration: "Cell 2 (00112233)",
+        calibration: &CALIBRATION,
         is_simulated: true,
         doubts: &[],
         unchecked: &[],
@@ -560,7 +562,7 @@ fn reached(arm: Arm, joints: &[Joints]) -> (PlacedArm, PathCheck) {
         arm,
         robot_from_base: RigidTransform::identity(),
         flange_from_nozzle: RigidTransform::translation(0.0, 0.0, 0.25),
-        gun_radius: GUN_RADIUS,
+        gun_radius: GUN_RADIUS_M,
         obstacles: Obstacles::default(),
     };
     let points: Vec<PointCheck> = joints.iter().map(stands).collect();

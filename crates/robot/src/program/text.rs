@@ -1,7 +1,6 @@
 //! Lines of a program, and their numbers.
 
-use super::RobotLanguage;
-use crate::RobotValue;
+use crate::{Convention, RobotValue};
 use geometry::rigid::RigidTransform;
 
 pub(super) use crate::robot_pose::fixed;
@@ -37,8 +36,8 @@ impl Lines {
     }
 
     /// Returns the text, with the controller's line ends.
-    pub(super) fn finish(self, language: &RobotLanguage) -> String {
-        self.text.replace('\n', language.line_end)
+    pub(super) fn finish(self, line_end: &str) -> String {
+        self.text.replace('\n', line_end)
     }
 }
 
@@ -91,8 +90,8 @@ pub(super) fn rail_mm(metres: f64) -> String {
     fixed(1000.0 * metres, 3)
 }
 
-/// Formats a pose in the language's convention: to a micrometre, and 1e-4° or 1e-6 rad.
-pub(super) fn numbers(language: &RobotLanguage, pose: &RigidTransform) -> Vec<String> {
-    let values = language.convention.write(pose).values;
+/// Formats a pose in a convention: to a micrometre, and 1e-4° or 1e-6 rad.
+pub(super) fn numbers(convention: Convention, pose: &RigidTransform) -> Vec<String> {
+    let values = convention.write(pose).values;
     values.iter().map(RobotValue::rounded).collect()
 }

@@ -6,7 +6,7 @@ use jiff::Timestamp;
 use serde::Serialize;
 
 use super::{BandStatus, CarriedPath, MOST_TILT};
-use crate::{Convention, RobotFrame, RobotPose, RobotValue};
+use crate::{Convention, FrameName, RobotFrame, RobotPose, RobotValue};
 use files::{FileError, csv_comment, disk, open_regular, write_text};
 use stages::stand_off::StandOffParams;
 
@@ -75,7 +75,7 @@ struct Json<'a> {
     not_checked: &'a [String],
     frame: &'static str,
     tool: &'static str,
-    calibration: &'a str,
+    calibration: &'a FrameName,
     robot_from_camera: [f64; 16],
     convention: Convention,
     meaning: String,
@@ -154,7 +154,7 @@ impl SprayExport<'_> {
             self.part,
             csv_comment(self.scene),
             self.at,
-            csv_comment(&self.frame.name),
+            csv_comment(&self.frame.name.to_string()),
             self.convention.name(),
             self.convention.meaning(),
             params.nearest.mm(),

@@ -328,16 +328,20 @@ pub fn default_path(reference: &Reference, params: &StandOffParams) -> Option<Sp
 /// its place.
 fn tool_frame(point: &PathPoint) -> RigidTransform {
     /// Cosine of 20°.
-    const ALONG: f64 = 0.94;
+    const ALONG_MIN_COSINE: f64 = 0.94;
     let z = point.direction.into_inner();
     if let Some(fan) = point.fan {
         /// Cosine of 80°: nearer to 90°, the sign could change from point to point.
-        const ACROSS: f64 = 0.17;
-        let sign = if fan.x.abs() > ACROSS { fan.x } else { fan.y };
+        const ACROSS_MAX_COSINE: f64 = 0.17;
+        let sign = if fan.x.abs() > ACROSS_MAX_COSINE {
+            fan.x
+        } else {
+            fan.y
+        };
         let x = fan.into_inner() * sign.signum();
         return framed(point, z, x);
     }
-    let near = if z.x.abs() < ALONG {
+    let near = if z.x.abs() < ALONG_MIN_COSINE {
         Vector3::x()
     } else {
         Vector3::y()

@@ -8,14 +8,14 @@
 //! speed in mm/s, the numbers of the convention, reason, message. Every answer has every field; without a pose the numbers
 //! are empty. Of a part on a line five more follow: its number there, the count, the time since then in ms, the bound in mm and
 //! the speed of the line in mm/s. An answer to `SERVO` has four more: the error that is left in mm and degrees, and its bounds;
-//! empty where there are none.
+//! empty where there are none. With a rack that has places, the number of the part's place is the last field: 0 for none.
 
 use super::{MAX_MESSAGE, plain};
 use crate::answer::{Answer, Request};
 use robot::{Convention, RobotValue};
 
 pub(super) fn write(answer: &Answer, convention: Convention) -> String {
-    let request = answer.request.map_or("NONE", name_of);
+    let request = answer.request.as_ref().map_or("NONE", name_of);
     let speed = answer.speed_mm_s.map(|speed| format!("{speed:.1}"));
     let mut fields = vec![
         request.to_owned(),
@@ -56,6 +56,7 @@ pub(super) fn write(answer: &Answer, convention: Convention) -> String {
             None => fields.extend([const { String::new() }; 4]),
         }
     }
+    fields.extend(answer.place_number().map(|number| number.to_string()));
     let mut line = fields.join(";");
     line.push('\n');
     line
@@ -67,7 +68,7 @@ pub(super) fn figure(figure: f64) -> String {
 }
 
 /// The word for a request.
-pub(super) fn name_of(request: Request) -> &'static str {
+pub(super) fn name_of(request: &Request) -> &'static str {
     request.name().0
 }
 

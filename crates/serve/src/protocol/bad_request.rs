@@ -37,6 +37,15 @@ pub enum BadRequest {
         /// The text found, in printable characters.
         found: String,
     },
+    /// The order or serial number behind the word of a request cannot be read.
+    #[error("not an order or a serial number: {found:?}")]
+    BadOrder {
+        /// The text found, in printable characters.
+        found: String,
+    },
+    /// An order is named, and parts as well.
+    #[error("an order is given, and numbers of parts as well")]
+    OrderAndParts,
     /// The numbers of a robot that servoes are not the pose of its flange.
     #[error("not a pose of the flange: {why}")]
     BadPose {
@@ -92,6 +101,11 @@ impl BadRequest {
         Self::NoNumber { found }
     }
 
+    pub(super) fn bad_order(found: &[u8]) -> Self {
+        let found = shown(found);
+        Self::BadOrder { found }
+    }
+
     pub(super) fn no_real(found: &[u8]) -> Self {
         let why = format!("{:?} is no number", shown(found));
         Self::BadPose { why }
@@ -109,6 +123,7 @@ impl BadRequest {
             Self::Incomplete { .. } => "incomplete",
             Self::Unknown { .. } => "unknown_request",
             Self::NoNumber { .. } => "no_point",
+            Self::BadOrder { .. } | Self::OrderAndParts => "bad_order",
             Self::BadPose { .. } => "bad_pose",
             Self::Magic => "magic",
             Self::Version { .. } => "version",
@@ -132,8 +147,11 @@ impl Advice for BadRequest {
             Self::BadPose { .. } => {
                 "Send SERVO with the number of the part and the pose of the flange, without tool, in the base frame and the convention of this port".into()
             }
+            Self::BadOrder { .. } | Self::OrderAndParts => {
+                "Send the order without numbers of parts, and in double quotes if it has blanks: TRIGGER ORDER=\"A 17\" SERIAL=TL-1".into()
+            }
             Self::Incomplete { .. } => "Send the complete request, with its terminator".into(),
-            Self::NoNumber { .. } => "Send PATH or PART alone, or with the number of a point or a part from 1 and, if need be, the sequence number of a trigger's answer; TRIGGER alone, or with the numbers of the expected parts, each as PART or PLACE=PART".into(),
+            Self::NoNumber { .. } => "Send PATH or PART alone, or with the number of a point or a part from 1 and, if need be, the sequence number of a trigger's answer; TRIGGER alone, or with the numbers of the expected parts, each as PART or PLACE=PART, or with an order, in double quotes if it has blanks".into(),
             Self::Magic => "Begin the frame with the bytes 50 53 52 51".into(),
             Self::Version { found, order } => {
                 let other = match order {

@@ -38,7 +38,8 @@
 //! | 32 | 4 | point |
 //! | 36 | 4 | points |
 //! | 40 | 2 | number of the pose's reals; 0: no pose |
-//! | 42 | 6 | reserved, 0 |
+//! | 42 | 2 | number of the part's place in the rack; 0: none |
+//! | 44 | 4 | reserved, 0 |
 //! | 48 | 8 | speed in mm/s; 0: none |
 //! | 56 | 56 | seven reals: the numbers of the convention, then zeros |
 //! | 112 | 64 | name of the part |
@@ -209,7 +210,8 @@ pub(super) fn write(answer: &Answer, convention: Convention, order: ByteOrder) -
     frame.short(VERSION);
     let more = answer.on_line.map_or(0, |_| ON_LINE_BYTES);
     frame.short((ANSWER_BYTES + more) as u16);
-    frame.short(answer.request.map_or(0, |request| request.name().1));
+    let request = answer.request.as_ref();
+    frame.short(request.map_or(0, |request| request.name().1));
     frame.short(answer.verdict.code());
     frame.long(answer.boot);
     frame.long(answer.sequence);
@@ -220,7 +222,8 @@ pub(super) fn write(answer: &Answer, convention: Convention, order: ByteOrder) -
     frame.long(answer.point);
     frame.long(answer.points);
     frame.short(numbers.len() as u16);
-    frame.zeros(6);
+    frame.short(answer.place_number().unwrap_or(0) as u16);
+    frame.zeros(4);
     frame.real(answer.speed_mm_s.unwrap_or(0.0));
     for i in 0..MAX_NUMBERS {
         frame.real(numbers.get(i).copied().unwrap_or(0.0));
@@ -280,8 +283,8 @@ impl FrameWriter {
     }
 }
 
-/// Encodes a request as a frame; one of a robot that servoes without its pose, so that it is refused.
-pub fn request(request: Request, order: ByteOrder) -> Vec<u8> {
+/// Encodes a request as a frame, without an order; one of a robot that servoes without its pose, so that it is refused.
+pub fn request(request: &Request, order: ByteOrder) -> Vec<u8> {
     let mut frame = FrameWriter {
         bytes: REQUEST_MAGIC.to_vec(),
         order,
@@ -291,7 +294,9 @@ pub fn request(request: Request, order: ByteOrder) -> Vec<u8> {
         Request::Trigger { .. } => numbers.len(),
         _ => 0,
     };
-    if let Request::Trigger { expected, count } = request
+    if let Request::Trigger {
+        expected, count, ..
+    } = request
         && (count.is_some() || expected.iter().any(|one| one.place > 0))
     {
         numbers.resize(MAX_PARTS, 0);
@@ -356,7 +361,7 @@ mod tests {
     fn numbers_that_a_trigger_does_not_announce_are_ignored_and_those_that_it_lacks_are_an_error() {
         let little = ByteOrder::Little;
         // A robot that sends the numbers of its last request for a path again.
-        let mut frame = request(Request::path(7, 41), little);
+        let mut frame = request(&Request::path(7, 41), little);
         frame.truncate(20);
         frame[8] = 1;
         let read = |frame: Vec<u8>| parse(&sealed(frame), little).request.expect("whole");
@@ -387,14 +392,14 @@ mod tests {
             numbers(&most),
         ] {
             for order in ORDERS {
-                let frame = request(wanted, order);
+                let frame = request(&wanted, order);
                 assert_eq!(frame.len(), 80);
-                assert_eq!(parse(&frame, order), Parsed::read(80, Ok(wanted)));
+                assert_eq!(parse(&frame, order), Parsed::read(80, Ok(wanted.clone())));
             }
         }
         // As in the guide; places that are left out are any.
         let little = ByteOrder::Little;
-        let frame = request(numbers(&[(3, 1), (5, 2)]), little);
+        let frame = request(&numbers(&[(3, 1), (5, 2)]), little);
         assert_eq!(frame[6..11], [80, 0, 1, 0, 2]);
         assert_eq!(
             [12, 16, 20, 44, 48, 52].map(|at| frame[at]),
@@ -440,7 +445,7 @@ mod tests {
         };
         let frame = servo_frame(76, 1, flange);
         let wanted = Request::Servo(request);
-        assert_eq!(parse(&frame, little), Parsed::read(76, Ok(wanted)));
+        assert_eq!(parse(&frame, little), Parsed::read(76, Ok(wanted.clone())));
         assert_eq!(parse(&frame[..75], little), Parsed::skipped(0));
         // Six numbers and a zero.
         let kuka = servo_frame(76, 0, [1200.0, -400.0, 1900.0, 0.0, 0.0, 0.0, 0.0]);
@@ -458,7 +463,7 @@ mod tests {
             (servo_frame(76, 0, not_unit), "bad_pose"),
             (servo_frame(76, 0, unknown), "bad_pose"),
             (servo_frame(76, 0, [0.0; 7]), "bad_pose"),
-            (super::request(wanted, little), "length"),
+            (super::request(&wanted, little), "length"),
         ] {
             let read = parse(&frame, little).request.expect("whole");
             assert_eq!(read.expect_err("refused").reason(), reason);
@@ -494,8 +499,8 @@ mod tests {
     fn a_count_stands_behind_the_places_and_what_is_known_of_a_line_behind_the_answer() {
         for wanted in [Request::TRIGGER, expecting(&[3, 5])] {
             for (order, count) in ORDERS.into_iter().zip([0, u32::MAX]) {
-                let wanted = wanted.at_count(Some(count));
-                let frame = request(wanted, order);
+                let wanted = wanted.clone().at_count(Some(count));
+                let frame = request(&wanted, order);
                 assert_eq!(parse(&frame, order), Parsed::read(84, Ok(wanted)));
             }
         }
@@ -538,7 +543,7 @@ mod tests {
                 expecting(&[3]),
                 expecting(&[1, 2, 3, 4, 5, 6, 7, 16_777_215]),
             ] {
-                let frame = request(wanted, order);
+                let frame = request(&wanted, order);
                 let num_bytes = match wanted.numbers().len() {
                     0 | 1 => 20,
                     2 => 24,
@@ -552,7 +557,7 @@ mod tests {
         }
         // As in the guide.
         assert_eq!(
-            request(Request::TRIGGER, ByteOrder::Little)[..16],
+            request(&Request::TRIGGER, ByteOrder::Little)[..16],
             *b"PSRQ\x01\x00\x14\x00\x01\x00\x00\x00\x00\x00\x00\x00"
         );
     }
@@ -564,7 +569,7 @@ mod tests {
             read.expect_err("refused").reason()
         };
         for order in ORDERS {
-            let whole = request(Request::path(3, 0), order);
+            let whole = request(&Request::path(3, 0), order);
             let other = ORDERS[usize::from(order == ByteOrder::Little)];
             assert_eq!(reason(&whole, other), "version");
             // Each byte counts.

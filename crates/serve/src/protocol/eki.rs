@@ -17,7 +17,7 @@ use super::{
     line::{named, number_in, number_of_count, of_name, real_in, words_of},
     plain, servo_request,
 };
-use crate::answer::{Answer, Request};
+use crate::answer::{Answer, AskedOrder, Request};
 use robot::Convention;
 
 /// Maximum length of a request, bytes, with room for an XML declaration and line breaks.
@@ -86,8 +86,31 @@ fn request(bytes: &[u8]) -> Result<Request, BadRequest> {
     };
     let numbered = named(word.as_bytes(), numbers.into_iter());
     let request = numbered.ok_or_else(|| BadRequest::unknown(bytes))??;
-    let count = filled("Count").map(number_of_count).transpose()?;
-    Ok(request.at_count(count))
+    if let Request::Trigger { .. } = request {
+        let count = filled("Count").map(number_of_count).transpose()?;
+        let text = |tag| unescaped(content_of(inner, tag).unwrap_or_default());
+        let order = AskedOrder::new(&text("Order"), &text("Serial"));
+        let order = order.ok_or_else(|| BadRequest::bad_order(bytes))?;
+        let request = request.at_count(count).of_order(order);
+        return request.ok_or(BadRequest::OrderAndParts);
+    }
+    Ok(request)
+}
+
+/// The characters that are written as entities.
+const ENTITIES: [(char, &str); 5] = [
+    ('<', "&lt;"),
+    ('>', "&gt;"),
+    ('"', "&quot;"),
+    ('\'', "&apos;"),
+    ('&', "&amp;"),
+];
+
+fn unescaped(text: &str) -> String {
+    let entities = ENTITIES.iter();
+    entities.fold(text.to_owned(), |text, (letter, entity)| {
+        text.replace(entity, letter.encode_utf8(&mut [0; 4]))
+    })
 }
 
 /// Returns the trimmed text between an element's tags.
@@ -113,7 +136,10 @@ fn attribute<'a>(text: &'a str, tag: &str, name: &str) -> &'a str {
 
 pub(super) fn write(answer: &Answer) -> String {
     let elements = [
-        ("Request", answer.request.map_or("NONE", name_of).to_owned()),
+        (
+            "Request",
+            answer.request.as_ref().map_or("NONE", name_of).to_owned(),
+        ),
         ("Verdict", answer.verdict.name().to_owned()),
         ("Code", answer.verdict.code().to_string()),
         ("Sequence", answer.sequence.to_string()),
@@ -152,7 +178,9 @@ pub(super) fn write(answer: &Answer) -> String {
         let elements = figures.map(|(tag, figure)| format!("<{tag}>{figure}</{tag}>"));
         elements.collect::<String>()
     });
-    let further = [pose, on_line, error].map(Option::unwrap_or_default);
+    let place = answer.place_number();
+    let place = place.map(|number| format!("<Place>{number}</Place>"));
+    let further = [pose, on_line, error, place].map(Option::unwrap_or_default);
     format!(
         "<Partsight>{}{}</Partsight>\n",
         elements.concat(),
@@ -161,9 +189,11 @@ pub(super) fn write(answer: &Answer) -> String {
 }
 
 fn escaped(text: &str) -> String {
-    let text = plain(text, MAX_MESSAGE).replace('&', "&amp;");
-    let text = text.replace('<', "&lt;").replace('>', "&gt;");
-    text.replace('"', "&quot;").replace('\'', "&apos;")
+    // The sign that begins an entity comes first.
+    let entities = ENTITIES.iter().rev();
+    entities.fold(plain(text, MAX_MESSAGE), |text, (letter, entity)| {
+        text.replace(*letter, entity)
+    })
 }
 
 #[cfg(test)]
@@ -304,6 +334,48 @@ mod tests {
         );
         let end = "/><Error>87.5000</Error><ErrorTurn>4.2500</ErrorTurn><Bound>0.0000</Bound><BoundTurn>0.0000</BoundTurn></Partsight>\n";
         assert!(text.ends_with(end), "{text}");
+    }
+
+    #[test]
+    fn a_trigger_may_name_an_order_and_a_serial_number() {
+        let trigger = |rest: &str| format!("<Robot><Request>TRIGGER</Request>{rest}</Robot>");
+        let asked = |order: &str, serial: &str| {
+            let asked = AskedOrder::new(order, serial).expect("plain");
+            Request::TRIGGER.of_order(asked).expect("no parts")
+        };
+        for (rest, request) in [
+            ("<Order>4711</Order>", asked("4711", "")),
+            (
+                "<Order> A 17; 5 </Order><Serial>TL-1</Serial>",
+                asked("A 17; 5", "TL-1"),
+            ),
+            (
+                "<Order>A &amp;lt; &lt;b&gt;</Order>",
+                asked("A &lt; <b>", ""),
+            ),
+            ("<Order></Order><Serial/>", Request::TRIGGER),
+            (
+                "<Serial>TL-1</Serial><Count>7</Count><Expected>0</Expected>",
+                asked("", "TL-1").at_count(Some(7)),
+            ),
+        ] {
+            let text = trigger(rest);
+            assert_eq!(only(&text), Ok(request), "{text}");
+        }
+        for rest in [
+            "<Order>4711</Order><Expected>3</Expected>",
+            "<Order>a\u{7}b</Order>",
+        ] {
+            let text = trigger(rest);
+            assert_eq!(
+                only(&text).expect_err(&text).reason(),
+                "bad_order",
+                "{text}"
+            );
+        }
+        // EKI sends every element with every request.
+        let status = "<Robot><Request>STATUS</Request><Order>4711</Order></Robot>";
+        assert_eq!(only(status), Ok(Request::Status));
     }
 
     #[test]

@@ -1,12 +1,13 @@
 //! A request as a line of text: `TRIGGER` or, if the parts number 3 and 5 are expected, `TRIGGER 3 5` or, at the first and the
 //! second place of the rack, `TRIGGER 1=3 2=5`; `STATUS`, `LAST`, `PATH`, `PATH 3` or, of the inspection number 41,
-//! `PATH 3 41`; `PART` likewise. `ENC=123456` behind `TRIGGER` is the count of a line's encoder.
+//! `PATH 3 41`; `PART` likewise. `ENC=123456` behind `TRIGGER` is the count of a line's encoder. `ORDER=4711`, `SERIAL=TL-1` or both
+//! stand instead of the parts of that order; a text with blanks or semicolons is in double quotes.
 //! `SERVO 3 1450 -310 890 10 20 30`, or `SERVO START 3 …`: of part 3 with the flange there.
 //!
 //! A line ends with LF, CR or both. Case does not matter. Empty lines, and blanks and zeros around a request, are ignored.
 
 use super::{Parsed, bad_request::BadRequest, is_filler, servo_request};
-use crate::answer::{ExpectedNumber, Request};
+use crate::answer::{AskedOrder, ExpectedNumber, Request};
 use robot::Convention;
 
 /// Maximum length of a line, bytes; every request is shorter.
@@ -39,9 +40,13 @@ fn request(line: &[u8], convention: Convention) -> Result<Request, BadRequest> {
     named(word, words).ok_or_else(|| BadRequest::unknown(line))?
 }
 
-/// Splits a text at blanks and semicolons.
+/// Splits a text at blanks and semicolons that are not between double quotes.
 pub(super) fn words_of(text: &[u8]) -> impl Iterator<Item = &[u8]> {
-    let words = text.split(|&byte| is_filler(byte) || byte == b';');
+    let mut is_quoted = false;
+    let words = text.split(move |&byte| {
+        is_quoted ^= byte == b'"';
+        !is_quoted && (is_filler(byte) || byte == b';')
+    });
     words.filter(|word| !word.is_empty())
 }
 
@@ -73,26 +78,33 @@ pub(super) fn named<'a>(
     numbers: impl Iterator<Item = &'a [u8]>,
 ) -> Option<Result<Request, BadRequest>> {
     let request = of_name(word)?;
-    let mut numbers: Vec<&[u8]> = numbers.collect();
-    let mut count = None;
+    let numbers: Vec<&[u8]> = numbers.collect();
     if let Request::Trigger { .. } = request {
-        let counts = numbers.extract_if(.., |word| count_in(word).is_some());
-        count = counts.filter_map(count_in).last();
+        return trigger(numbers).transpose();
     }
-    let count = match count.map(number_of_count).transpose() {
-        Ok(count) => count,
-        Err(why) => return Some(Err(why)),
-    };
     // As many as it takes, whatever they are.
     request.numbered(&vec![0; numbers.len()])?;
-    let numbers = numbers.into_iter();
-    if let Request::Trigger { .. } = request {
-        let parts: Result<Vec<ExpectedNumber>, _> = numbers.map(expected_in).collect();
-        let request = parts.map(Request::expecting).transpose();
-        return request.map(|request| request.map(|request| request.at_count(count)));
-    }
-    let numbers: Result<Vec<u32>, _> = numbers.map(number_in).collect();
+    let numbers: Result<Vec<u32>, _> = numbers.into_iter().map(number_in).collect();
     (numbers.map(|numbers| request.numbered(&numbers))).transpose()
+}
+
+/// Reads what stands behind `TRIGGER`; `None` if it is more parts than a frame can show.
+fn trigger(mut words: Vec<&[u8]>) -> Result<Option<Request>, BadRequest> {
+    let mut taken = |name: &str| {
+        let values = words.extract_if(.., |word| value_of(word, name).is_some());
+        values.filter_map(|word| value_of(word, name)).last()
+    };
+    let [count, order, serial] = ["ENC=", "ORDER=", "SERIAL="].map(&mut taken);
+    let count = count.map(number_of_count).transpose()?;
+    let [order, serial] = [order, serial].map(Option::unwrap_or_default);
+    let asked = AskedOrder::new(text_in(order)?, text_in(serial)?);
+    let asked = asked.ok_or_else(|| BadRequest::bad_order(&[order, serial].concat()))?;
+    let parts = words.into_iter().map(expected_in);
+    let Some(request) = Request::expecting(parts.collect::<Result<Vec<_>, _>>()?) else {
+        return Ok(None);
+    };
+    let request = request.at_count(count).of_order(asked);
+    request.map(Some).ok_or(BadRequest::OrderAndParts)
 }
 
 /// Finds a request by its word, ignoring case; its numbers are 0.
@@ -110,11 +122,21 @@ fn expected_in(text: &[u8]) -> Result<ExpectedNumber, BadRequest> {
     Ok(ExpectedNumber { part, place })
 }
 
-/// The count of `ENC=COUNT`.
-fn count_in(word: &[u8]) -> Option<&[u8]> {
-    const NAME: &[u8] = b"ENC=";
-    let name = word.get(..NAME.len())?;
-    name.eq_ignore_ascii_case(NAME).then(|| &word[NAME.len()..])
+/// The value of a word that begins with this name.
+fn value_of<'a>(word: &'a [u8], name: &str) -> Option<&'a [u8]> {
+    let (found, value) = word.split_at_checked(name.len())?;
+    found.eq_ignore_ascii_case(name.as_bytes()).then_some(value)
+}
+
+/// Reads a text that may be in double quotes.
+fn text_in(value: &[u8]) -> Result<&str, BadRequest> {
+    let inner = match value.strip_prefix(b"\"") {
+        Some(inner) => inner.strip_suffix(b"\""),
+        None => Some(value),
+    };
+    let text = inner.and_then(|inner| std::str::from_utf8(inner).ok());
+    let text = text.filter(|text| !text.contains('"'));
+    text.ok_or_else(|| BadRequest::bad_order(value))
 }
 
 /// Reads a count of a signed or an unsigned counter of up to 32 bits. Some controllers count in reals, such as `7.0`.
@@ -200,6 +222,51 @@ mod tests {
         ] {
             assert_eq!(only(text), Ok(request), "{text:?}");
         }
+    }
+
+    #[test]
+    fn a_trigger_may_name_an_order_and_a_serial_number() {
+        let asked = |order: &str, serial: &str| {
+            let asked = AskedOrder::new(order, serial).expect("plain");
+            Request::TRIGGER.of_order(asked).expect("no parts")
+        };
+        for (text, request) in [
+            ("TRIGGER ORDER=4711\n", asked("4711", "")),
+            (
+                "trigger serial=TL-0042;order=4711\n",
+                asked("4711", "TL-0042"),
+            ),
+            (
+                "TRIGGER SERIAL=TL-1 ENC=7\n",
+                asked("", "TL-1").at_count(Some(7)),
+            ),
+            (
+                "TRIGGER ORDER=\"A 17; left=2\" ENC=7\n",
+                asked("A 17; left=2", "").at_count(Some(7)),
+            ),
+            ("TRIGGER ORDER=Türen=2\n", asked("Türen=2", "")),
+            ("TRIGGER ORDER= SERIAL=\"\"\n", Request::TRIGGER),
+            ("TRIGGER ORDER= 3 5\n", expecting(&[3, 5])),
+            ("TRIGGER ORDER=4711 0\n", asked("4711", "")),
+        ] {
+            assert_eq!(only(text), Ok(request), "{text:?}");
+        }
+        for (text, reason) in [
+            ("TRIGGER ORDER=4711 3\n", "bad_order"),
+            ("TRIGGER ORDER=A 17\n", "bad_order"),
+            ("TRIGGER ORDER=A door\n", "no_point"),
+            ("TRIGGER ORDER=\"A 17\n", "bad_order"),
+            ("TRIGGER ORDER=\"A\"17\n", "bad_order"),
+            ("TRIGGER ORDER=A\"1 7\"\n", "bad_order"),
+            ("TRIGGER SERIAL=\"A\t17\"\n", "bad_order"),
+            ("STATUS ORDER=4711\n", "unknown_request"),
+            ("PATH ORDER=4711\n", "no_point"),
+        ] {
+            assert_eq!(only(text).expect_err(text).reason(), reason, "{text:?}");
+        }
+        let bytes = b"TRIGGER ORDER=\xff\n";
+        let refused = parse(bytes).request.expect("whole");
+        assert_eq!(refused.expect_err("no text").reason(), "bad_order");
     }
 
     #[test]

@@ -183,10 +183,12 @@ fn plain(text: &str, max_letters: usize) -> String {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use proptest::prelude::*;
 
     use super::*;
-    use crate::answer::{CameraState, Problem, VerdictCode};
+    use crate::answer::{CameraState, FrameFacts, Problem, RackPlace, VerdictCode};
 
     /// An answer without a pose whose other fields are as awkward as possible.
     pub(super) fn refused() -> Answer {
@@ -208,6 +210,67 @@ mod tests {
                 ),
             },
             ..Answer::default()
+        }
+    }
+
+    /// The answer before a rack with places, about a part at the one with this number, or at none.
+    fn in_rack(answer: &Answer, number: Option<u32>) -> Answer {
+        let name = String::from("left hook");
+        Answer {
+            place: number.map(|number| RackPlace { number, name }),
+            facts: Arc::new(FrameFacts {
+                empty_places: Some(Vec::new()),
+                ..FrameFacts::default()
+            }),
+            ..answer.clone()
+        }
+    }
+
+    #[test]
+    fn before_a_rack_the_number_of_the_place_is_behind_everything_else() {
+        let pose = geometry::rigid::from_euler_zyx([0.4, -0.2, 1.3, 1.2, -0.4, 1.9]);
+        let accepted = Answer {
+            verdict: VerdictCode::Accepted,
+            pose: Some(pose),
+            problem: Problem::default(),
+            ..refused()
+        };
+        for (answer, place) in [
+            (&accepted, Some(2)),
+            (&refused(), Some(8)),
+            (&refused(), None),
+        ] {
+            let placed = in_rack(answer, place);
+            let number = place.unwrap_or(0);
+            let text = |protocol: Protocol, answer: &Answer| {
+                let convention = protocol.own_convention().unwrap_or(Convention::Abb);
+                String::from_utf8(protocol.write(answer, convention)).expect("text")
+            };
+            let [before, after] = [answer, &placed].map(|one| text(Protocol::Ascii, one));
+            let before = before.trim_end_matches('\n');
+            assert_eq!(after, format!("{before};{number}\n"));
+            let [before, after] = [answer, &placed].map(|one| text(Protocol::Eki, one));
+            let before = before.trim_end_matches("</Partsight>\n");
+            assert_eq!(
+                after,
+                format!("{before}<Place>{number}</Place></Partsight>\n")
+            );
+            let [before, after] = [answer, &placed].map(|one| text(Protocol::UrScript, one));
+            let list = |text: &str| {
+                let (count, rest) = text[1..].split_once(", ").expect("a list");
+                (count.parse::<usize>().expect("a count"), rest.to_owned())
+            };
+            let ((count, rest), more) = (list(&before), list(&after));
+            let rest = rest.trim_end_matches(")\n");
+            assert_eq!(more, (count + 1, format!("{rest}, {number})\n")));
+            for order in [ByteOrder::Little, ByteOrder::Big] {
+                let frame = |answer| Protocol::Binary(order).write(answer, Convention::Abb);
+                let (mut before, after) = (frame(answer), frame(&placed));
+                let end = before.len() - 4;
+                let at = if order == ByteOrder::Little { 42 } else { 43 };
+                before[at] = number as u8;
+                assert_eq!(before[..end], after[..end]);
+            }
         }
     }
 
@@ -275,8 +338,8 @@ mod tests {
                 (Protocol::Ascii, b"PATH 3 41\r\n".to_vec()),
                 (Protocol::UrScript, b"path 3 41\n".to_vec()),
                 (Protocol::Eki, element.to_vec()),
-                (Protocol::Binary(ByteOrder::Little), binary::request(wanted, ByteOrder::Little)),
-                (Protocol::Binary(ByteOrder::Big), binary::request(wanted, ByteOrder::Big)),
+                (Protocol::Binary(ByteOrder::Little), binary::request(&wanted, ByteOrder::Little)),
+                (Protocol::Binary(ByteOrder::Big), binary::request(&wanted, ByteOrder::Big)),
             ];
             for (protocol, bytes) in requests {
                 let cut = cut % bytes.len();
@@ -288,7 +351,7 @@ mod tests {
                 }
                 prop_assert_eq!(begun.request, None, "{} of {}", cut, protocol.name());
                 let whole = parse(&bytes);
-                prop_assert_eq!(whole.request, Some(Ok(wanted)));
+                prop_assert_eq!(whole.request, Some(Ok(wanted.clone())));
             }
         }
     }

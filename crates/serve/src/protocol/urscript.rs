@@ -9,7 +9,7 @@
 //! number there, the count (signed), the time since then in ms, the bound in mm and the speed in mm/s. Without a pose the list
 //! ends earlier and the function returns a smaller count, so that a program cannot take missing numbers for a pose. An answer
 //! to `SERVO` that moves, or is at the target, has four more numbers before the pose: the error that is left in mm and degrees,
-//! and its bounds (0: none).
+//! and its bounds (0: none). With a rack that has places, the number of the part's place is the last one: 0 for none.
 
 use super::ascii::figure;
 use crate::answer::Answer;
@@ -44,6 +44,7 @@ pub(super) fn write(answer: &Answer) -> String {
             ]);
         }
     }
+    numbers.extend(answer.place_number().map(|number| number.to_string()));
     format!("({}, {})\n", numbers.len(), numbers.join(", "))
 }
 

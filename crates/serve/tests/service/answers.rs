@@ -101,6 +101,7 @@ fn several(frame: u32) -> FrameParts {
     FrameParts {
         first: parts.next().expect("one at least"),
         others: parts.collect(),
+        ..FrameParts::default()
     }
 }
 

@@ -132,7 +132,7 @@ mod tests {
     use super::*;
     use geometry::rigid::pose_error;
     use nalgebra::Point3;
-    use robot::arm::{Arm, GUN_RADIUS, Obstacles};
+    use robot::arm::{Arm, GUN_RADIUS_M, Obstacles};
 
     const START: Joints = [0.2, 0.3, 0.1, 0.3, 0.7, -0.2];
 
@@ -141,7 +141,7 @@ mod tests {
             arm: Arm::named("irb4600").expect("built in"),
             robot_from_base: RigidTransform::identity(),
             flange_from_nozzle: RigidTransform::translation(0.0, 0.0, 0.2),
-            gun_radius: GUN_RADIUS,
+            gun_radius: GUN_RADIUS_M,
             obstacles: Obstacles::default(),
         };
         SimulatedArm::new(placed, START, dynamics).expect("finite")

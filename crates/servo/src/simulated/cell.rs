@@ -19,7 +19,7 @@ use inspection::{
     pipeline::{Recipe, Unwatched, run},
 };
 use robot::{
-    arm::{Arm, ArmError, GUN_RADIUS, Joints, Obstacles, PlacedArm},
+    arm::{Arm, ArmError, GUN_RADIUS_M, Joints, Obstacles, PlacedArm},
     calibration::CameraPlace,
     spray::default_path,
 };
@@ -484,7 +484,7 @@ fn placed_arm() -> Result<PlacedArm, ArmError> {
         arm: Arm::named("irb4600")?,
         robot_from_base: RigidTransform::translation(ARM_BACK_M, 0.0, 0.0),
         flange_from_nozzle: flange_from_camera() * camera_from_nozzle,
-        gun_radius: GUN_RADIUS,
+        gun_radius: GUN_RADIUS_M,
         obstacles: Obstacles::default(),
     })
 }
@@ -502,7 +502,7 @@ fn fence(placed: &PlacedArm, calibrated: &RigidTransform, reference: &Reference)
     });
     fence.tools = vec![
         tool(calibrated, 0.06),
-        tool(&placed.flange_from_nozzle, GUN_RADIUS),
+        tool(&placed.flange_from_nozzle, GUN_RADIUS_M),
     ];
     fence.arm = Some(placed.clone());
     fence.part.clone_from(&reference.cloud.points);

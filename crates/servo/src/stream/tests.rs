@@ -13,7 +13,7 @@ use geometry::{
     units::{Metres, Radians},
 };
 use robot::{
-    arm::{Arm, GUN_RADIUS, Obstacles, PlacedArm},
+    arm::{Arm, GUN_RADIUS_M, Obstacles, PlacedArm},
     calibration::CameraPlace,
 };
 
@@ -24,7 +24,7 @@ pub(crate) fn placed() -> PlacedArm {
         arm: Arm::named("irb4600").expect("built in"),
         robot_from_base: RigidTransform::identity(),
         flange_from_nozzle: RigidTransform::translation(0.0, 0.0, 0.2),
-        gun_radius: GUN_RADIUS,
+        gun_radius: GUN_RADIUS_M,
         obstacles: Obstacles::default(),
     }
 }

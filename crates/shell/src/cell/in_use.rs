@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     cell::dialog_state::{RobotAction, RobotDialog, RobotFile, RobotQuestion},
-    language::robot::{calibration_name, convention_meaning},
+    language::robot::convention_meaning,
     session::Session,
 };
 use geometry::rigid::RigidTransform;
@@ -97,7 +97,7 @@ fn confirm(ui: &mut Ui, dialog: &mut RobotDialog, caused: &mut Vec<RobotAction>)
 
 fn figures(ui: &mut Ui, calibration: &CellCalibration) {
     let theme = Theme::of(ui);
-    let name = calibration_name(&calibration.shown_with_identity());
+    let name = described(&calibration.frame_name());
     row(ui, &text!("robot-cell"), &name);
     row(
         ui,

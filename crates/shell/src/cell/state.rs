@@ -424,7 +424,8 @@ mod tests {
         bench.apply(RobotAction::UseTyped);
         assert!(bench.work());
         let frame = bench.shell.session.robot.clone().expect("a frame");
-        assert!(frame.name.starts_with("Cell 2 ("), "{}", frame.name);
+        let name = frame.name.to_string();
+        assert!(name.starts_with("Cell 2 ("), "{name}");
         assert!((frame.robot_from_camera.translation.vector.x - 1.2).abs() < 1e-9);
         assert_eq!(bench.shell.session.cell, RememberedCell::Usual);
 

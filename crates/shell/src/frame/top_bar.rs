@@ -6,7 +6,6 @@ use crate::{
     action::{Action, DialogRequest, Effect},
     cell::{self, RobotAction, RobotCell},
     inspection::{figures::StagePanel, library_cache::LibraryView, source::file_name},
-    language::robot::calibration_name,
     session::{Session, WorkspaceKind},
     source::{
         live::{self, LiveAction},
@@ -15,7 +14,7 @@ use crate::{
     state::State,
 };
 use ui::{
-    language::{Language, keys, text},
+    language::{Language, described, keys, text},
     task::Running,
     theme::{Theme, ThemeChoice, font, space},
     widgets::{NARROW, labelled, shortened, status_label, text_button},
@@ -165,7 +164,7 @@ fn robot_button(ui: &mut Ui, state: &State, robot: &RobotCell, actions: &mut Vec
     let button = with_key(ui, Button::new(&*name), "B", theme.weak_text);
     let says = match (&state.session.robot, robot.in_use()) {
         (Some(frame), _) => {
-            text!("shell-calibrated-by", name = calibration_name(&frame.name))
+            text!("shell-calibrated-by", name = described(&frame.name))
         }
         (None, Some(in_use)) if in_use.is_edited => text!("shell-calibration-edited"),
         (None, Some(_)) => text!("shell-no-flange-pose"),

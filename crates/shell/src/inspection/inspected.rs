@@ -33,7 +33,7 @@ use inspection::{
 };
 use records::history::{HungId, NewEntry, Traceability};
 use robot::{
-    RobotFrame,
+    FrameName, RobotFrame,
     spray::{CarriedPath, OffThePart, carry},
 };
 use stages::{
@@ -304,7 +304,7 @@ pub fn inspect_scan(
         source: fused.title(),
         robot: Some(Arc::new(RobotFrame {
             robot_from_camera: shot.base_from_camera,
-            name: "the poses of the scan".into(),
+            name: FrameName::OfScan,
         })),
         scan: Some(FoundScan {
             fused,

@@ -19,12 +19,27 @@ use inspection::{
     library::{PartMeta, PartName},
     pipeline::{Expected, ExpectedPart},
 };
-use records::history::Traceability;
+use records::{history::Traceability, orders::Orders};
 use stages::{rack::Place, segment::MAX_PARTS};
 use station::Doubt;
 use ui::{language::text, user_error::UserError};
 
 impl Session {
+    /// The table of orders in use, if there is one.
+    pub(crate) fn orders(&self) -> Result<Option<Arc<Orders>>, NotKnown> {
+        let Some(table) = &self.expecting.orders else {
+            return Ok(None);
+        };
+        let unread = || NotKnown::Unread {
+            file: file_name(&table.path),
+        };
+        let content = table.content.as_ref().ok_or_else(unread)?;
+        let orders = content
+            .as_ref()
+            .map_err(|e| NotKnown::Table(Arc::clone(e)))?;
+        Ok(Some(Arc::clone(orders)))
+    }
+
     /// What should hang there for an order and a serial number.
     pub(crate) fn expected_of(&self, trace: &Traceability) -> Result<Expected, NotKnown> {
         // A library that is not loaded yet is not known to lack a part.
@@ -35,9 +50,8 @@ impl Session {
                 parts.any(|part| part.part_name().as_str() == name)
             })
         };
-        let expecting = &self.expecting;
-        let Some(table) = &expecting.orders else {
-            let parts = expecting.chosen.iter();
+        let Some(orders) = self.orders()? else {
+            let parts = self.expecting.chosen.iter();
             let chosen = parts.filter(|part| is_enrolled(&part.name)).cloned();
             let rack = Some(self.rack.in_camera());
             let chosen = Expected::new(chosen.collect(), rack, is_enrolled);
@@ -48,13 +62,6 @@ impl Session {
                 error,
             });
         };
-        let unread = || NotKnown::Unread {
-            file: file_name(&table.path),
-        };
-        let content = table.content.as_ref().ok_or_else(unread)?;
-        let orders = content
-            .as_ref()
-            .map_err(|e| NotKnown::Table(Arc::clone(e)))?;
         let expected = orders.expected(trace, Some(self.rack.in_camera()), is_enrolled);
         expected.map_err(NotKnown::Order)
     }
@@ -270,7 +277,7 @@ mod tests {
         inspection::{inspected::inspected_cell, source::CellChoice},
         session::Shown,
     };
-    use records::{history::HungId, orders::Orders};
+    use records::history::HungId;
 
     #[test]
     fn the_program_starts_with_the_table_of_last_time() {

@@ -16,7 +16,6 @@ use crate::{
     cell::{Cell, CellSetup, PartPose, SimulatedObject},
     part::{PartKind, PartModel, Side},
     rasteriser::SurfaceLabel,
-    sensor::Sensor,
 };
 use geometry::{depth_frame::Intrinsics, distortion::Distortion, mesh::TriangleMesh};
 
@@ -81,6 +80,6 @@ pub(crate) fn arrange<'a>(setup: &CellSetup, part: &'a TriangleMesh) -> Cell<'a>
         camera_from_part,
         meshes,
         planes: walls.planes,
-        sensor: Sensor::Registered(Box::new(sensor)),
+        sensor: Box::new(sensor),
     }
 }

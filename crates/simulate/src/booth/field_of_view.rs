@@ -6,7 +6,7 @@
 use rand::{Rng as _, RngExt as _};
 use rand_pcg::Pcg64;
 
-use crate::sensor::BASELINE;
+use crate::sensor::BASELINE_M;
 use geometry::depth_frame::Intrinsics;
 
 /// The region of the picture in which the sensor delivers readings; `None` for the whole picture.
@@ -17,7 +17,7 @@ struct Borders {
     sides: [Border; 4],
     /// In pixels.
     corner_radius: f64,
-    /// Focal length times baseline: pixels that the left border moves per 1/m beyond [`BORDER_DEPTH`].
+    /// Focal length times baseline: pixels that the left border moves per 1/m beyond [`BORDER_DEPTH_M`].
     focal_baseline: f64,
 }
 
@@ -30,7 +30,7 @@ struct Border {
 }
 
 /// The depth at which the left border is where it was drawn, in metres.
-const BORDER_DEPTH: f64 = 2.2;
+const BORDER_DEPTH_M: f64 = 2.2;
 /// Share of frames that have readings up to the picture's edge.
 const NO_BORDER: f64 = 0.15;
 
@@ -75,7 +75,7 @@ impl FieldOfView {
         Self(Some(Borders {
             sides,
             corner_radius,
-            focal_baseline: camera.fx * BASELINE,
+            focal_baseline: camera.fx * BASELINE_M,
         }))
     }
 
@@ -89,7 +89,7 @@ impl FieldOfView {
             corner_radius,
             focal_baseline,
         } = borders;
-        let moved = focal_baseline * (1.0 / depth - 1.0 / BORDER_DEPTH);
+        let moved = focal_baseline * (1.0 / depth - 1.0 / BORDER_DEPTH_M);
         let aside = left.distance(u, v, v) - moved;
         let aside = aside.min(right.distance(u, v, v));
         let upright = top.distance(u, v, u).min(bottom.distance(u, v, u));

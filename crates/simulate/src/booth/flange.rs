@@ -16,15 +16,15 @@ use geometry::{
 };
 
 /// Depth of the part's middle, in metres.
-const DISTANCE: std::ops::Range<f64> = 0.8..1.5;
+const DISTANCE_M: std::ops::Range<f64> = 0.8..1.5;
 /// Least depth of any point of the part, in metres: the sensor's range begins at half a metre.
-const NEAREST: f64 = 0.52;
+const NEAREST_M: f64 = 0.52;
 /// Share of a cut part that stays in the picture.
 const CUT_SHARE: std::ops::Range<f64> = 0.27..1.0;
 /// Share of frames that show the whole part, if it fits.
 const WHOLE: f64 = 0.25;
 /// Largest rotation of the part about its x and y axes relative to the camera, in radians.
-const TURN: f64 = 0.52;
+const MAX_TURN_RAD: f64 = 0.52;
 
 /// Orientation of camera and part.
 pub(super) struct Flange {
@@ -51,8 +51,8 @@ impl Flange {
         } else {
             drawn_roll(random)
         };
-        let pitch = random.random_range(-TURN..TURN);
-        let yaw = random.random_range(-TURN..TURN);
+        let pitch = random.random_range(-MAX_TURN_RAD..MAX_TURN_RAD);
+        let yaw = random.random_range(-MAX_TURN_RAD..MAX_TURN_RAD);
         let camera_from_part = about(Vector3::z_axis(), roll + mounted)
             * about(Vector3::x_axis(), pitch)
             * about(Vector3::y_axis(), yaw);
@@ -73,7 +73,7 @@ impl Flange {
         random: &mut Pcg64,
     ) -> RigidTransform {
         let nearest = seen.iter().map(|p| p.z).fold(0.0, f64::min);
-        let mut distance = f64::max(random.random_range(DISTANCE), NEAREST - nearest);
+        let mut distance = f64::max(random.random_range(DISTANCE_M), NEAREST_M - nearest);
         let is_whole = random.random_bool(WHOLE);
         let cut_share = random.random_range(CUT_SHARE);
         let wished = if is_whole { 0.999 } else { cut_share };
@@ -96,7 +96,7 @@ impl Flange {
             };
             seen.iter().filter(is_inside).count() as f64 / seen.len().max(1) as f64
         };
-        while distance < DISTANCE.end
+        while distance < DISTANCE_M.end
             && share(&centred(distance)) < CUT_SHARE.start.max(0.9 * wished)
         {
             distance += 0.05;

@@ -20,7 +20,6 @@ mod trestle;
 mod walls;
 
 pub(super) use arrange::{CAMERA, arrange};
-pub(super) use registered_camera::RegisteredCamera;
 
 #[cfg(test)]
 mod tests;

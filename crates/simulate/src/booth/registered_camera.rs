@@ -13,7 +13,7 @@ use super::{field_of_view::FieldOfView, gloss::SpecularDropout};
 use crate::{
     rasteriser::{Rendering, SurfaceLabel},
     sensor::{
-        BASELINE, SensorNoise, SmoothNoise, disparity_sigma, edge_nearness, in_units,
+        BASELINE_M, Sensor, SensorNoise, SmoothNoise, disparity_sigma, edge_nearness, in_units,
         lit_by_projector, sample,
     },
 };
@@ -22,18 +22,18 @@ use geometry::depth_frame::{DepthFrame, Intrinsics};
 /// One unit of the frame, in metres.
 const METRES_PER_UNIT: f64 = 0.001;
 /// Readings outside this range are lost, in metres.
-const RANGE: std::ops::Range<f64> = 0.4..4.0;
+const RANGE_M: std::ops::Range<f64> = 0.4..4.0;
 /// Axial noise at 1 m, in metres.
 const AXIAL_AT_1M: std::ops::Range<f64> = 0.9e-3..1.6e-3;
 /// Share of the axial noise's variance that is uncorrelated between neighbours.
 const WHITE: f64 = 0.06;
 /// Lateral noise in pixels, which moves edges.
-const LATERAL: f32 = 0.5;
+const LATERAL_PIXELS: f32 = 0.5;
 /// Beside a depth discontinuity, pixels whose noise is above this fly.
 const FLIES_ABOVE: f32 = 0.8;
 
 /// A camera with its field of view and its lost patches.
-pub(crate) struct RegisteredCamera {
+pub(super) struct RegisteredCamera {
     field_of_view: FieldOfView,
     gloss: SpecularDropout,
     /// In metres.
@@ -49,53 +49,9 @@ impl RegisteredCamera {
         }
     }
 
-    /// Counts the pixels in the field of view that show `label`.
-    pub(crate) fn num_pixels_in_view(&self, rendering: &Rendering, label: SurfaceLabel) -> usize {
-        let width = rendering.intrinsics.width;
-        let labels = rendering.labels.iter().enumerate();
-        labels
-            .filter(|(pixel, shown)| {
-                **shown == label
-                    && self.field_of_view.contains(
-                        (pixel % width) as f64,
-                        (pixel / width) as f64,
-                        f64::from(rendering.depth[*pixel]),
-                    )
-            })
-            .count()
-    }
-
-    /// Turns a perfect rendering into a frame. Without noise only pixels outside the field of view are lost.
-    pub(crate) fn sense(&self, rendering: &Rendering, noise: &SensorNoise) -> DepthFrame {
-        let mut depth = vec![0; rendering.depth.len()];
-        if noise.multiplier > 0.0 {
-            self.apply_noise(rendering, noise, &mut depth);
-        } else {
-            let perfect = rendering.depth.iter();
-            let perfect = perfect.map(|&z| in_units(f64::from(z), METRES_PER_UNIT));
-            depth.iter_mut().zip(perfect).for_each(|(to, z)| *to = z);
-        }
-        let Intrinsics { width, height, .. } = rendering.intrinsics;
-        for v in 0..height {
-            for u in 0..width {
-                let pixel = v * width + u;
-                let z = f64::from(rendering.depth[pixel]);
-                if !self.field_of_view.contains(u as f64, v as f64, z) {
-                    depth[pixel] = 0;
-                }
-            }
-        }
-        DepthFrame {
-            intrinsics: rendering.intrinsics,
-            metres_per_unit: METRES_PER_UNIT,
-            depth,
-            is_simulated: true,
-        }
-    }
-
     fn apply_noise(&self, rendering: &Rendering, noise: &SensorNoise, depth: &mut [u16]) {
         let camera = &rendering.intrinsics;
-        let focal_baseline = camera.fx * BASELINE;
+        let focal_baseline = camera.fx * BASELINE_M;
         let disparity: Vec<f32> = rendering
             .depth
             .iter()
@@ -107,7 +63,7 @@ impl RegisteredCamera {
         let mut fields: [SmoothNoise; 3] =
             std::array::from_fn(|k| SmoothNoise::new(camera, noise.seed, k + 1));
         let mut rows: [Vec<f32>; 3] = std::array::from_fn(|_| vec![0.0; camera.width]);
-        let lateral = LATERAL * noise.multiplier as f32;
+        let lateral = LATERAL_PIXELS * noise.multiplier as f32;
         let axial_at_1m = self.axial_at_1m * noise.multiplier;
         let loss_scale = noise.multiplier.sqrt().sqrt() as f32;
         for v in 0..camera.height {
@@ -140,11 +96,56 @@ impl RegisteredCamera {
                 let facing = f64::from(rendering.facing[pixel]);
                 let sigma = disparity_sigma(seen, facing, focal_baseline, axial_at_1m);
                 let z = focal_baseline / (seen + f64::from(axial[u]) * sigma);
-                if RANGE.contains(&z) {
+                if RANGE_M.contains(&z) {
                     depth[pixel] = in_units(z, METRES_PER_UNIT);
                 }
             }
         }
+    }
+}
+
+impl Sensor for RegisteredCamera {
+    /// Without noise only pixels outside the field of view are lost.
+    fn sense(&self, rendering: &Rendering, noise: &SensorNoise) -> DepthFrame {
+        let mut depth = vec![0; rendering.depth.len()];
+        if noise.multiplier > 0.0 {
+            self.apply_noise(rendering, noise, &mut depth);
+        } else {
+            let perfect = rendering.depth.iter();
+            let perfect = perfect.map(|&z| in_units(f64::from(z), METRES_PER_UNIT));
+            depth.iter_mut().zip(perfect).for_each(|(to, z)| *to = z);
+        }
+        let Intrinsics { width, height, .. } = rendering.intrinsics;
+        for v in 0..height {
+            for u in 0..width {
+                let pixel = v * width + u;
+                let z = f64::from(rendering.depth[pixel]);
+                if !self.field_of_view.contains(u as f64, v as f64, z) {
+                    depth[pixel] = 0;
+                }
+            }
+        }
+        DepthFrame {
+            intrinsics: rendering.intrinsics,
+            metres_per_unit: METRES_PER_UNIT,
+            depth,
+            is_simulated: true,
+        }
+    }
+
+    fn num_pixels_in_view(&self, rendering: &Rendering, label: SurfaceLabel) -> usize {
+        let width = rendering.intrinsics.width;
+        let labels = rendering.labels.iter().enumerate();
+        labels
+            .filter(|(pixel, shown)| {
+                **shown == label
+                    && self.field_of_view.contains(
+                        (pixel % width) as f64,
+                        (pixel / width) as f64,
+                        f64::from(rendering.depth[*pixel]),
+                    )
+            })
+            .count()
     }
 }
 

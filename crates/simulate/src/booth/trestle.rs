@@ -77,7 +77,7 @@ struct Tube {
 }
 
 /// Longest piece of a tube, in metres: the rasteriser tries every pixel of a triangle's bounding box.
-const PIECE: f64 = 0.12;
+const PIECE_M: f64 = 0.12;
 
 impl Tube {
     fn draw(random: &mut Pcg64) -> Self {
@@ -109,7 +109,7 @@ impl Tube {
         if length < 1e-3 {
             return;
         }
-        let num_pieces = (length / PIECE).ceil() as usize;
+        let num_pieces = (length / PIECE_M).ceil() as usize;
         let path: Vec<Point3<f64>> = (0..=num_pieces)
             .map(|k| from + along * (k as f64 / num_pieces as f64))
             .collect();

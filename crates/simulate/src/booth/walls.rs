@@ -18,15 +18,15 @@ pub(super) struct Walls {
 }
 
 /// Distance of the back wall behind the part, in metres.
-const BEHIND: std::ops::Range<f64> = 0.8..2.0;
+const BEHIND_M: std::ops::Range<f64> = 0.8..2.0;
 /// Largest angle at which a wall counts as facing the camera, in radians.
-const SQUARE: f64 = 0.25;
+const SQUARE_RAD: f64 = 0.25;
 /// Distance of a second wall beside the part, in metres.
-const BESIDE: std::ops::Range<f64> = 0.25..1.0;
+const BESIDE_M: std::ops::Range<f64> = 0.25..1.0;
 /// Longest side of a box's pieces, in metres: the rasteriser tries every pixel of a triangle's bounding box.
-const PIECE: f64 = 0.6;
+const PIECE_M: f64 = 0.6;
 /// Fixtures extend this far from the wall's middle, in metres.
-const REACH: f64 = 2.4;
+const REACH_M: f64 = 2.4;
 
 /// Draws walls around the part with these points (camera space).
 pub(super) fn walls(
@@ -39,7 +39,7 @@ pub(super) fn walls(
     let mut clutter = Assembly::default();
     // Usually facing the camera, sometimes oblique.
     let oblique = if random.random_bool(0.65) {
-        SQUARE
+        SQUARE_RAD
     } else {
         0.8
     };
@@ -48,7 +48,7 @@ pub(super) fn walls(
         part,
         camera_from_world,
         heading,
-        random.random_range(BEHIND),
+        random.random_range(BEHIND_M),
     );
     back.add_fixtures(&mut fixtures, random);
     back.put_before(&mut clutter, &floor, random);
@@ -57,7 +57,7 @@ pub(super) fn walls(
         (floor, SurfaceLabel::Floor),
     ];
     // An oblique wall recedes beyond the sensor's range unless a second wall closes it off.
-    let is_closed_off = heading.abs() > SQUARE;
+    let is_closed_off = heading.abs() > SQUARE_RAD;
     if is_closed_off || random.random_bool(0.4) {
         let receding = -heading.signum();
         let side = if is_closed_off || random.random_bool(0.5) {
@@ -66,7 +66,7 @@ pub(super) fn walls(
             -receding
         };
         let quarter = side * std::f64::consts::FRAC_PI_2;
-        let beside = random.random_range(BESIDE);
+        let beside = random.random_range(BESIDE_M);
         let side = Wall::beyond(part, camera_from_world, heading + quarter, beside);
         if random.random_bool(0.5) {
             side.add_fixtures(&mut fixtures, random);
@@ -124,7 +124,7 @@ impl Wall {
     fn add_box(&self, to: &mut Assembly, middle: [f64; 2], size: [f64; 2], out: [f64; 2]) {
         let z = -f64::midpoint(out[0], out[1]);
         let depth = out[1] - out[0];
-        let num = size.map(|s| (s / PIECE).ceil().max(1.0));
+        let num = size.map(|s| (s / PIECE_M).ceil().max(1.0));
         let [width, height] = [size[0] / num[0], size[1] / num[1]];
         let mut pieces = Assembly::default();
         for row in 0..num[1] as usize {
@@ -158,12 +158,12 @@ impl Wall {
         let width = random.random_range(0.03..0.08);
         let out = random.random_range(0.02..0.05);
         let is_upright = random.random_bool(0.7);
-        let mut place = -REACH + random.random_range(0.0..spacing);
-        while place < REACH {
+        let mut place = -REACH_M + random.random_range(0.0..spacing);
+        while place < REACH_M {
             if is_upright {
-                self.add_block(fixtures, [place, 0.0], [width, 2.0 * REACH], out);
+                self.add_block(fixtures, [place, 0.0], [width, 2.0 * REACH_M], out);
             } else {
-                self.add_block(fixtures, [0.0, place], [2.0 * REACH, width], out);
+                self.add_block(fixtures, [0.0, place], [2.0 * REACH_M, width], out);
             }
             place += spacing;
         }
@@ -235,7 +235,7 @@ impl Wall {
             leaning.add_box(
                 clutter,
                 [0.0, 0.0],
-                [width, 2.0 * REACH],
+                [width, 2.0 * REACH_M],
                 [out, out + width],
             );
         }
@@ -246,7 +246,7 @@ impl Wall {
             self.add_box(
                 clutter,
                 [0.0, down],
-                [2.0 * REACH, height],
+                [2.0 * REACH_M, height],
                 [out, out + 0.05],
             );
             for place in [-1.5, -0.5, 0.5, 1.5] {

@@ -20,23 +20,23 @@ use geometry::rigid::RigidTransform;
 use geometry::units::{Metres, Radians};
 
 /// Gap between neighbours that are apart, in metres.
-const APART: std::ops::Range<f64> = 0.04..0.15;
+const APART_M: std::ops::Range<f64> = 0.04..0.15;
 /// Gap between neighbours that touch, in metres.
-const TOUCHING: std::ops::Range<f64> = 0.0..0.01;
+const TOUCHING_M: std::ops::Range<f64> = 0.0..0.01;
 /// Width of an empty place, in metres.
-const EMPTY: std::ops::Range<f64> = 0.5..0.9;
+const EMPTY_M: std::ops::Range<f64> = 0.5..0.9;
 /// Share of a part that its neighbour hides.
 const HIDDEN: std::ops::Range<f64> = 0.1..0.3;
 /// Clear distance of a part in front of the one that it hides, in metres.
-const IN_FRONT: std::ops::Range<f64> = 0.1..0.3;
+const IN_FRONT_M: std::ops::Range<f64> = 0.1..0.3;
 /// Parts do not hang in one plane: deviation in either direction, in metres.
-const OFF_PLANE: f64 = 0.02;
+const OFF_PLANE_M: f64 = 0.02;
 /// The upper edges are not at one height: how far they hang lower, in metres.
-const LOWER: f64 = 0.06;
+const LOWER_M: f64 = 0.06;
 /// Largest rotation of a part against the rack about each axis.
 const MAX_TURN: Radians = Radians(0.12);
 /// Clear depth is kept this far beside the overlap, too, in metres.
-const STRIP_MARGIN: f64 = 0.05;
+const STRIP_MARGIN_M: f64 = 0.05;
 /// The rack is moved back no farther than this: at 4 m a Kinect's readings end, in metres.
 const LIMIT: Metres = Metres(3.7);
 
@@ -140,7 +140,7 @@ fn draw_bodies(setup: &RackSetup) -> Vec<Body> {
     let mut empty_width = 0.0;
     for (place, &object) in setup.places.iter().enumerate() {
         if object == SimulatedObject::Nothing {
-            empty_width += random.random_range(EMPTY);
+            empty_width += random.random_range(EMPTY_M);
             continue;
         }
         let mesh = object.mesh();
@@ -162,16 +162,16 @@ fn draw_bodies(setup: &RackSetup) -> Vec<Body> {
         let turn = roll * pitch * yaw * on_end;
         let turned = mesh.placed_vertices(|p| turn * p);
         let top = bounds(&turned).map_or(0.0, |(low, _)| low.y);
-        let down = Translation3::new(0.0, random.random_range(0.0..LOWER) - top, 0.0);
+        let down = Translation3::new(0.0, random.random_range(0.0..LOWER_M) - top, 0.0);
         let gap = match setup.spacing {
-            Spacing::Apart | Spacing::Overlapping => random.random_range(APART),
-            Spacing::Touching => random.random_range(TOUCHING),
+            Spacing::Apart | Spacing::Overlapping => random.random_range(APART_M),
+            Spacing::Touching => random.random_range(TOUCHING_M),
         };
-        let depth = random.random_range(-OFF_PLANE..OFF_PLANE);
+        let depth = random.random_range(-OFF_PLANE_M..OFF_PLANE_M);
         let overlap = Overlap {
             is_in_front: random.random_bool(0.5),
             hidden_share: random.random_range(HIDDEN),
-            clear_depth: random.random_range(IN_FRONT),
+            clear_depth: random.random_range(IN_FRONT_M),
         };
         let is_second_of_pair = place > first_pair && (place - first_pair) % 2 == 1;
         let overlaps = setup.spacing == Spacing::Overlapping
@@ -253,7 +253,7 @@ fn pose(bodies: &[Body], shifts: &[Vector3<f64>], setup: &RackSetup) -> RigidTra
 }
 
 /// Distance of the lines of the front view, in metres.
-const LINE: f64 = 0.005;
+const LINE_M: f64 = 0.005;
 
 /// Returns the points at which the edges of the triangles cross horizontal lines of the front view, with the numbers of the
 /// lines.
@@ -264,8 +264,8 @@ fn crossings(mesh: &TriangleMesh, row_from_part: &RigidTransform) -> Vec<(i64, P
         for (a, b) in [(a, b), (b, c), (c, a)] {
             let (a, b) = (points[a as usize], points[b as usize]);
             let (top, bottom) = if a.y <= b.y { (a, b) } else { (b, a) };
-            for line in (top.y / LINE).ceil() as i64..=(bottom.y / LINE).floor() as i64 {
-                let along = (line as f64 * LINE - top.y) / (bottom.y - top.y).max(1e-12);
+            for line in (top.y / LINE_M).ceil() as i64..=(bottom.y / LINE_M).floor() as i64 {
+                let along = (line as f64 * LINE_M - top.y) / (bottom.y - top.y).max(1e-12);
                 crossings.push((line, top + (bottom - top) * along.min(1.0)));
             }
         }
@@ -355,7 +355,7 @@ impl Pair<'_> {
         // Only where they overlap, or come nearest: a part's far end may reach well forward.
         let end = self.left.x_range().1 + self.left_shift.x;
         let start = self.right.x_range().0 + x;
-        let strip = start.min(end) - STRIP_MARGIN..start.max(end) + STRIP_MARGIN;
+        let strip = start.min(end) - STRIP_MARGIN_M..start.max(end) + STRIP_MARGIN_M;
         let left = self.left.depths(self.left_shift, &strip);
         let right = self.right.depths(Vector3::new(x, 0.0, 0.0), &strip);
         let (front, behind) = if self.overlap.is_in_front {

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use nalgebra::{Isometry2, Isometry3, Translation3, Unit, UnitQuaternion, Vector3};
 
 use super::{
-    COST_LIMIT, FIRST, FIRST_OF_A_PIECE, HOPELESS, PreparedScene, SECOND, THIRD,
+    FIRST, FIRST_OF_A_PIECE, MAX_COST_RATIO, PLAINLY_OFF_M, PreparedScene, SECOND, THIRD,
     evidence::{Evidence, facing, facing_view},
     odds,
     piece_search::{PieceSample, Start},
@@ -100,21 +100,21 @@ const POSES_OF_A_PIECE: usize = 3;
 /// fitted as well, and accepted the wrong door.
 const MOST_REFINED: usize = 10;
 /// Where the best start costs more than this, nothing enrolled is there: so few are refined, to say how far off it is.
-const HOPELESS_START: f64 = 1.3;
+const HOPELESS_START_COST: f64 = 1.3;
 const FEW_REFINED: usize = 3;
 /// Where there is a score to beat, starts that cost more than this are not refined: of 14 surfaces accepted in that way,
 /// the best start of the worst cost 0.73.
-const WORTH_REFINING: f64 = 1.0;
+const REFINE_MAX_START_COST: f64 = 1.0;
 /// A reference on which the first pairs of a piece led to nothing cheaper is not looked at again, nor is one on which they
 /// led to something that costs this much more than the best: of 452 accepted pieces that loses three.
-const WORTH_A_SECOND_LOOK: f64 = 1.6;
-const WORSE_FIRST: f64 = 0.8;
+const SECOND_LOOK_MAX_COST: f64 = 1.6;
+const SECOND_LOOK_MAX_EXTRA_COST: f64 = 0.8;
 /// Where there is a score to beat, none is looked at again if the first pairs led to nothing cheaper on any: of 125 surfaces
 /// that beat their score, the worst had 1.0.
-const WORTH_BEATING: f64 = 1.2;
+const SECOND_LOOK_MAX_COST_TO_BEAT: f64 = 1.2;
 /// A start of a piece that costs this much more than the best one is not refined; nor is a pose weighed.
-pub(super) const WORSE_START: f64 = 0.5;
-const WORSE_POSE: f64 = 0.35;
+pub(super) const START_MAX_EXTRA_COST: f64 = 0.5;
+const POSE_MAX_EXTRA_COST: f64 = 0.35;
 /// Points of the part and of the reference on which the first figures are taken.
 const NUM_MEASURED: usize = 500;
 const NUM_LOOKED_FOR: usize = 700;
@@ -130,7 +130,7 @@ impl PreparedScene<'_> {
     ) -> Vec<Vec<PoseTrial>> {
         // What fits badly is of use only to say how far off it is.
         let (most_first, most_cost) = if least_score > 0.0 {
-            (WORTH_A_SECOND_LOOK, WORTH_REFINING)
+            (SECOND_LOOK_MAX_COST, REFINE_MAX_START_COST)
         } else {
             (f64::INFINITY, f64::INFINITY)
         };
@@ -144,28 +144,29 @@ impl PreparedScene<'_> {
             let piece = self.piece_for(reference)?;
             let placed = self.distinct_starts(reference, &entry.placements);
             let placed = placed.into_iter().map(|start| start.1);
-            let limit = f64::min(known() + WORSE_FIRST, most_first);
+            let limit = f64::min(known() + SECOND_LOOK_MAX_EXTRA_COST, most_first);
             let first = self.first_look(piece, reference, placed, limit);
             least.fetch_min(first.cost().to_bits(), Ordering::Relaxed);
             Some(first)
         });
         let least_of_first = known();
-        let cannot_beat_it = least_score > 0.0 && least_of_first >= WORTH_BEATING;
+        let cannot_beat_it = least_score > 0.0 && least_of_first >= SECOND_LOOK_MAX_COST_TO_BEAT;
         let of_references = self.in_parallel(entries.len(), |number| {
             let first = first_looks[number].as_ref();
-            let worth_it = first
-                .filter(|first| !cannot_beat_it && first.cost() < least_of_first + WORSE_FIRST);
+            let worth_it = first.filter(|first| {
+                !cannot_beat_it && first.cost() < least_of_first + SECOND_LOOK_MAX_EXTRA_COST
+            });
             let Some(first) = worth_it else {
                 return Vec::new();
             };
-            if first.cost() >= WORTH_A_SECOND_LOOK {
+            if first.cost() >= SECOND_LOOK_MAX_COST {
                 return first.starts.clone();
             }
             let reference = &references[entries[number].reference];
             let Some(piece) = self.piece_for(reference) else {
                 return Vec::new();
             };
-            let limit = f64::min(known() + WORSE_START, most_cost);
+            let limit = f64::min(known() + START_MAX_EXTRA_COST, most_cost);
             let starts = self.second_look(piece, reference, first, limit);
             if let Some(best) = starts.first() {
                 least.fetch_min(best.cost.to_bits(), Ordering::Relaxed);
@@ -179,12 +180,12 @@ impl PreparedScene<'_> {
             .collect();
         let least = f64::from_bits(least.into_inner());
         starts.sort_by(|a, b| a.1.cost.total_cmp(&b.1.cost));
-        starts.truncate(if least < HOPELESS_START {
+        starts.truncate(if least < HOPELESS_START_COST {
             MOST_REFINED
         } else {
             FEW_REFINED
         });
-        starts.retain(|start| start.1.cost < f64::min(least + WORSE_START, most_cost));
+        starts.retain(|start| start.1.cost < f64::min(least + START_MAX_EXTRA_COST, most_cost));
         let of_pieces = self.in_parallel(starts.len(), |i| {
             let (number, start) = &starts[i];
             let reference = &references[entries[*number].reference];
@@ -211,7 +212,7 @@ impl PreparedScene<'_> {
             let reference = &references[entries[number].reference];
             let piece = self.piece_for(reference)?;
             let best = trials[number].first()?;
-            (best.cost < least + WORSE_POSE).then(|| {
+            (best.cost < least + POSE_MAX_EXTRA_COST).then(|| {
                 let pose = best.refined.target_from_source;
                 let slides = self.slides(piece, reference, &pose, best.cost);
                 let attempt = |start| self.attempt_piece(piece, reference, start);
@@ -226,7 +227,7 @@ impl PreparedScene<'_> {
         }
         let least = least_piece_cost(&trials);
         for trials in &mut trials {
-            trials.retain(|trial| !trial.is_piece || trial.cost < least + WORSE_POSE);
+            trials.retain(|trial| !trial.is_piece || trial.cost < least + POSE_MAX_EXTRA_COST);
         }
         trials
     }
@@ -257,7 +258,7 @@ impl PreparedScene<'_> {
         for trial in trials {
             let pose = &trial.refined.target_from_source;
             let is_apart = |known: &&PoseTrial| {
-                self.is_apart(&known.refined.target_from_source, pose, POSE_APART)
+                self.is_apart(&known.refined.target_from_source, pose, POSE_APART_DEG_MM)
             };
             if different.iter().all(is_apart) {
                 different.push(trial);
@@ -267,7 +268,7 @@ impl PreparedScene<'_> {
             .into_iter()
             .take(num_poses)
             .filter_map(|trial| {
-                let may_win = trial.is_piece || trial.cost < HOPELESS * least;
+                let may_win = trial.is_piece || trial.cost < MAX_COST_RATIO * least;
                 self.finer(reference, trial, if may_win { levels } else { &[] }, piece)
             })
             .collect();
@@ -288,7 +289,7 @@ impl PreparedScene<'_> {
         let mut best = weighed.next()?;
         let pose = best.refined.target_from_source;
         let is_other = |pose_of_other: &RigidTransform| {
-            self.is_apart(&pose, pose_of_other, POSE_APART)
+            self.is_apart(&pose, pose_of_other, POSE_APART_DEG_MM)
                 && self.competes(reference, pose_of_other, &pose)
         };
         // Of a whole part the runner-up says more.
@@ -372,15 +373,15 @@ impl PreparedScene<'_> {
             let turn = UnitQuaternion::from_axis_angle(&axis, std::f64::consts::PI);
             let start = mean * turn * mean.inverse() * pose;
             let view = facing_view(reference, &start);
-            if facing(reference, view, &start) < LEAST_FACING_TURNED {
+            if facing(reference, view, &start) < TURNED_MIN_FACING_COSINE {
                 return None;
             }
             let levels = &FIRST_OF_A_PIECE;
             let trial = self.attempt(reference, view, &start, levels, Some(piece))?;
             let trial = self.finer(reference, &trial, &SECOND, Some(piece))?;
             let other = &trial.refined.target_from_source;
-            let is_other =
-                self.is_apart(pose, other, POSE_APART) && self.competes(reference, other, pose);
+            let is_other = self.is_apart(pose, other, POSE_APART_DEG_MM)
+                && self.competes(reference, other, pose);
             self.weighed(reference, &trial).filter(|_| is_other)
         });
         let turned = turned.into_iter().flatten();
@@ -463,7 +464,8 @@ impl PreparedScene<'_> {
             let centroid = &self.scene.query.signature.centroid;
             let flat = view.scene_plane_from_view_plane(placement.turn, centroid);
             let start = self.start_of(reference, placement.view, &flat.inverse());
-            let is_apart = |s: &(usize, RigidTransform)| self.is_apart(&s.1, &start, START_APART);
+            let is_apart =
+                |s: &(usize, RigidTransform)| self.is_apart(&s.1, &start, START_APART_DEG_MM);
             if starts.iter().all(is_apart) {
                 starts.push((placement.view, start));
             }
@@ -498,7 +500,7 @@ impl PreparedScene<'_> {
             Some(piece) => self
                 .coarse_cost(piece, reference, pose, f64::INFINITY)
                 .unwrap_or(f64::INFINITY),
-            None => cost(&self.source, &target, pose, level, COST_LIMIT),
+            None => cost(&self.source, &target, pose, level, PLAINLY_OFF_M),
         };
         Some(PoseTrial {
             view,
@@ -546,8 +548,8 @@ fn least_piece_cost(trials: &[Vec<PoseTrial>]) -> f64 {
 /// Points of a reference from which its principal axes are taken.
 const NUM_FOR_AXES: usize = 1000;
 /// A half turn is not tried if its views face the camera less than this (cosine).
-const LEAST_FACING_TURNED: f64 = 0.3;
+const TURNED_MIN_FACING_COSINE: f64 = 0.3;
 /// Turn (degrees) and shift (millimetres) below which two starts lead to the same pose.
-const START_APART: (f64, f64) = (8.0, 20.0);
+const START_APART_DEG_MM: (f64, f64) = (8.0, 20.0);
 /// Turn and shift beyond which a refinement would not close, so that two poses are different ones.
-const POSE_APART: (f64, f64) = (10.0, 50.0);
+const POSE_APART_DEG_MM: (f64, f64) = (10.0, 50.0);

@@ -80,24 +80,24 @@ pub struct CloseLook {
 }
 
 /// Distances beyond this count as this, metres.
-const FAR: f64 = 0.04;
+const MAX_DISTANCE_M: f64 = 0.04;
 /// A point this close to where the reference's view ends may lie beyond it, metres.
-const AT_CUT: f64 = 0.015;
+const AT_CUT_M: f64 = 0.015;
 /// An edge this close to the reference's lies on it, metres.
-const ON_EDGE: f64 = 0.02;
+const ON_EDGE_M: f64 = 0.02;
 /// Side of a patch, metres: some 40 points of a door, and less than the radius of anything pressed into a sheet.
-pub(super) const PATCH: f32 = 0.12;
+pub(super) const PATCH_M: f32 = 0.12;
 /// The same of a close look, which takes every reading.
-const CLOSE_PATCH: f32 = 0.03;
+const CLOSE_PATCH_M: f32 = 0.03;
 /// A close look counts larger distances as this, metres.
-const CLOSE_FAR: f64 = 0.01;
+const CLOSE_MAX_DISTANCE_M: f64 = 0.01;
 /// Readings that a close look takes are at most twice this.
 const NUM_CLOSE: usize = 30_000;
 /// Fewer points than this make no mean.
-const LEAST_IN_PATCH: f64 = 6.0;
+const PATCH_MIN_POINTS: f64 = 6.0;
 /// What is left of the noise in the mean over a patch, as measured on parts that were enrolled: neighbouring readings
 /// share theirs.
-const NOISE_LEFT: f64 = 0.3;
+const NOISE_LEFT_SHARE: f64 = 0.3;
 
 impl PreparedScene<'_> {
     /// Takes the figures of one reference at a pose, from the closest points of the first of the part's.
@@ -124,7 +124,7 @@ impl PreparedScene<'_> {
             num_looked_for,
             PIXEL_REACH,
         );
-        let is_beyond = |at: &Point3<f32>| reference.cut.depth_inside(&at.cast()) < AT_CUT;
+        let is_beyond = |at: &Point3<f32>| reference.cut.depth_inside(&at.cast()) < AT_CUT_M;
         let shared = || {
             measured
                 .iter()
@@ -143,13 +143,13 @@ impl PreparedScene<'_> {
         let noise = |p: &Point3<f32>| scene.part.noise_at_1m.0 * f64::from(p.z * p.z);
         let noise_sq = shared_points.iter().map(|p| noise(p).powi(2)).sum::<f64>();
         let noise_sq = noise_sq / shared_points.len().max(1) as f64;
-        let relief_sq = relief(&shared_closest, &target, PATCH).powi(2);
+        let relief_sq = relief(&shared_closest, &target, PATCH_M).powi(2);
         let evidence = Evidence {
             off: 1.0 - fit.overlap,
             missing: sight.map_or(0.0, |sight| missing_share(&sight)),
             hidden: sight.map_or(0.0, |s| s.hidden),
             outside: sight.map_or(0.0, |s| s.outside),
-            relief_m: (relief_sq - NOISE_LEFT * NOISE_LEFT * noise_sq)
+            relief_m: (relief_sq - NOISE_LEFT_SHARE * NOISE_LEFT_SHARE * noise_sq)
                 .max(0.0)
                 .sqrt(),
             outline_m,
@@ -179,12 +179,12 @@ impl PreparedScene<'_> {
         let points: Vec<Point3<f32>> = all.iter().step_by(step).copied().collect();
         let mut closest =
             Correspondence::of_each(&points, &target, target_from_source, Search::Field);
-        closest.retain(|closest| reference.cut.depth_inside(&closest.at.cast()) >= AT_CUT);
+        closest.retain(|closest| reference.cut.depth_inside(&closest.at.cast()) >= AT_CUT_M);
         let distance = |closest: &Correspondence| {
             let distance = closest
                 .target
-                .map_or(CLOSE_FAR, |n| f64::from(n.distance_sq).sqrt());
-            distance.min(CLOSE_FAR)
+                .map_or(CLOSE_MAX_DISTANCE_M, |n| f64::from(n.distance_sq).sqrt());
+            distance.min(CLOSE_MAX_DISTANCE_M)
         };
         let distance: f64 = closest.iter().map(distance).sum();
         let camera_from_target = target_from_source.inverse();
@@ -192,7 +192,7 @@ impl PreparedScene<'_> {
         let every = target.cloud.points.len();
         let sight = look_for(&target, &camera_from_target, scene, tolerance, every, 1)?;
         Some(CloseLook {
-            relief_m: relief(&closest, &target, CLOSE_PATCH),
+            relief_m: relief(&closest, &target, CLOSE_PATCH_M),
             distance_m: distance / closest.len().max(1) as f64,
             missing: missing_share(&sight),
         })
@@ -212,7 +212,7 @@ fn mean_facing(
 ) -> f64 {
     let camera = target_from_source * Point3::origin();
     let cosines = closest.iter().filter_map(|closest| {
-        let near = closest.on_surface(target, FAR * FAR)?;
+        let near = closest.on_surface(target, MAX_DISTANCE_M * MAX_DISTANCE_M)?;
         let ray = closest.at.cast::<f64>() - camera;
         Some(-near.normal.dot(&ray.normalize()))
     });
@@ -227,7 +227,7 @@ pub(super) fn relief(closest: &[Correspondence], target: &AlignmentTarget<'_>, s
     let mut patches: Vec<([i32; 3], f64)> = closest
         .iter()
         .filter_map(|closest| {
-            let near = closest.on_surface(target, FAR * FAR)?;
+            let near = closest.on_surface(target, MAX_DISTANCE_M * MAX_DISTANCE_M)?;
             let patch = closest.at.coords.map(|x| (x / side).floor() as i32);
             Some((patch.into(), near.off))
         })
@@ -236,7 +236,7 @@ pub(super) fn relief(closest: &[Correspondence], target: &AlignmentTarget<'_>, s
     let (mut sum, mut num) = (0.0, 0.0_f64);
     for patch in patches.chunk_by(|a, b| a.0 == b.0) {
         let n = patch.len() as f64;
-        if n >= LEAST_IN_PATCH {
+        if n >= PATCH_MIN_POINTS {
             let mean = patch.iter().map(|p| p.1).sum::<f64>() / n;
             sum += n * mean * mean;
             num += n;
@@ -253,22 +253,24 @@ pub(super) fn outline_distance(
     is_beyond: &dyn Fn(&Point3<f32>) -> bool,
 ) -> (f64, f64) {
     if source.edges.is_empty() || target.edges.is_empty() {
-        return (FAR, 0.0);
+        return (MAX_DISTANCE_M, 0.0);
     }
     let moved = target_from_source.cast::<f32>();
     let (mut num, mut num_on, mut sum) = (0.0_f64, 0.0, 0.0);
     for p in &source.edges {
         let at = moved * p;
         if !is_beyond(&at) {
-            let closest = target.edges.closest(&at, (FAR * FAR) as f32);
-            let off = closest.map_or(FAR, |c| f64::from(c.1).sqrt());
+            let closest = target
+                .edges
+                .closest(&at, (MAX_DISTANCE_M * MAX_DISTANCE_M) as f32);
+            let off = closest.map_or(MAX_DISTANCE_M, |c| f64::from(c.1).sqrt());
             num += 1.0;
-            num_on += if off < ON_EDGE { 1.0 } else { 0.0 };
+            num_on += if off < ON_EDGE_M { 1.0 } else { 0.0 };
             sum += off;
         }
     }
     if num < 1.0 {
-        return (FAR, 0.0);
+        return (MAX_DISTANCE_M, 0.0);
     }
     (sum / num, num_on / source.edges.len() as f64)
 }
@@ -295,18 +297,18 @@ pub(super) fn facing(
 
 /// A part that is seen at more than 61° to its face is not recognised: hardly a point of it says anything, and a strip
 /// of anything fits it.
-const LEAST_FACING: f64 = 0.48;
+const MIN_FACING_COSINE: f64 = 0.48;
 /// Nor is a part of which less than this lies on the reference, square metres: a strip of floor lies well on the end of
 /// a bumper.
-const LEAST_SEEN: f64 = 0.05;
+const MIN_SEEN_M2: f64 = 0.05;
 /// Nor is what shows hardly an edge of its own, metres.
-const LEAST_EDGE: f64 = 0.15;
+const MIN_EDGE_M: f64 = 0.15;
 /// Nor is what lies mostly beyond where the reference's view ended, as a share: its pose rests on a strip.
-const MAX_BEYOND: f64 = 0.6;
+const MAX_BEYOND_SHARE: f64 = 0.6;
 /// Share of the outline that may be cut in the shape of a whole part.
-const MOST_CUT: f64 = 0.1;
+const MAX_CUT_SHARE: f64 = 0.1;
 /// What a perfect fit of a part that is hardly seen scores.
-const HARDLY_SEEN: f64 = 0.4;
+const HARDLY_SEEN_SCORE: f64 = 0.4;
 
 impl Evidence {
     /// What the score is made of: each 0 for a perfect fit, and some 1 where a fit becomes doubtful. Shares beyond 0.4
@@ -322,7 +324,7 @@ impl Evidence {
 
     /// True if so much of the part, or of its reference, is out of sight that its whole shape is not the part's.
     pub fn is_piece(&self) -> bool {
-        self.cut >= MOST_CUT || self.beyond > 0.0
+        self.cut >= MAX_CUT_SHARE || self.beyond > 0.0
     }
 
     /// The probability that a whole part is of the same type as the reference, of whatever make, 0..1; 0 for a piece,
@@ -367,8 +369,8 @@ impl Evidence {
 
     /// True if enough of the part would be in sight to tell it from something else.
     pub fn is_seen(&self) -> bool {
-        self.facing >= LEAST_FACING
-            && self.beyond <= MAX_BEYOND
+        self.facing >= MIN_FACING_COSINE
+            && self.beyond <= MAX_BEYOND_SHARE
             && is_enough(self.seen_m2, self.edge_m)
     }
 
@@ -387,7 +389,7 @@ pub(super) fn most_score(area_m2: f64, own_m: f64) -> f64 {
 }
 
 fn score_of(features: [f64; NUM_FEATURES], is_seen: bool) -> f64 {
-    let most = if is_seen { 1.0 } else { HARDLY_SEEN };
+    let most = if is_seen { 1.0 } else { HARDLY_SEEN_SCORE };
     let weighted = features.into_iter().zip(WEIGHTS);
     let sum: f64 = weighted.map(|(x, weight)| weight * x).sum();
     most / (1.0 + (-(CONSTANT + sum)).exp())
@@ -399,7 +401,7 @@ fn little(seen_m2: f64, edge_m: f64) -> f64 {
 }
 
 fn is_enough(seen_m2: f64, edge_m: f64) -> bool {
-    seen_m2 >= LEAST_SEEN && edge_m >= LEAST_EDGE
+    seen_m2 >= MIN_SEEN_M2 && edge_m >= MIN_EDGE_M
 }
 
 /// The model of the score, as `bench calibration` fits it on the tuning seeds.

@@ -15,7 +15,7 @@ use crate::{pose::refine::refine, reference::Reference};
 use geometry::rigid::RigidTransform;
 
 /// What an outline loses, pixels: half of one by sampling, the rest where readings are lost.
-const LOST: f64 = 1.0;
+const LOST_PIXELS: f64 = 1.0;
 /// With fewer edges, or a smaller share of them, the pose is left as it is.
 const LEAST_EDGES: usize = 40;
 const LEAST_SHARE: f64 = 0.25;
@@ -45,7 +45,7 @@ pub fn by_hidden_sides(
         let away = outwards.dot(&seen.coords.normalize());
         // A pixel is longer on a surface that is seen at an angle.
         let across = (1.0 - away * away).sqrt().max(0.5);
-        let lost = LOST * seen.z / (camera.fx * across);
+        let lost = LOST_PIXELS * seen.z / (camera.fx * across);
         (away >= 0.0).then(|| plane_from_camera * (seen + outwards * lost))
     };
     let oriented = outline.own.iter().zip(&outline.along);

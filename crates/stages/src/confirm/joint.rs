@@ -6,8 +6,8 @@
 use nalgebra::{Isometry3, Point3};
 
 use super::{
-    NOISE_OF_JOINT, POSES_APART, SECOND, Scene, THIRD,
-    evidence::{PATCH, facing, facing_view, outline_distance, relief},
+    JOINT_NOISE_M, POSES_APART_DEG_MM, SECOND, Scene, THIRD,
+    evidence::{PATCH_M, facing, facing_view, outline_distance, relief},
     outline_ends::outline_of,
     prepared_scene::centre_of,
 };
@@ -75,7 +75,7 @@ pub struct JointFit {
 /// Coarse poses that are refined to the end.
 const NUM_REFINED: usize = 3;
 /// Distance at which a point counts as plainly off, metres.
-const COST_LIMIT: f64 = 0.04;
+const PLAINLY_OFF_M: f64 = 0.04;
 
 /// The reference at the different poses that these starts lead to, the cheapest first; starts take the base space into
 /// part space. `estimate` gives what a single frame says of the pose besides.
@@ -94,7 +94,7 @@ pub fn fit_jointly(
         let refined = refine(&part.source, &target, start, &SECOND);
         let pose = refined.target_from_source;
         let level: &Level = &SECOND[0];
-        let cost = cost(&part.source, &target, &pose, level, COST_LIMIT);
+        let cost = cost(&part.source, &target, &pose, level, PLAINLY_OFF_M);
         coarse.push((cost, pose, estimate));
     }
     coarse.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -102,7 +102,8 @@ pub fn fit_jointly(
     for (_, pose, estimate) in coarse {
         let is_apart = |(other, _): &(RigidTransform, &PoseEstimate)| {
             let apart = pose_error(other, &pose, &middle);
-            apart.rotation.degrees() > POSES_APART.0 || apart.shift.mm() > POSES_APART.1
+            apart.rotation.degrees() > POSES_APART_DEG_MM.0
+                || apart.shift.mm() > POSES_APART_DEG_MM.1
         };
         if kept.len() < NUM_REFINED && kept.iter().all(is_apart) {
             kept.push((pose, estimate));
@@ -130,7 +131,7 @@ fn finished(
         noise_at_1m: Metres(0.0),
     };
     let fit: FitQuality = measure_fit(&part.source.surface, &closest, &target, tolerance);
-    let relief_sq = relief(&closest, &target, PATCH).powi(2) - NOISE_OF_JOINT * NOISE_OF_JOINT;
+    let relief_sq = relief(&closest, &target, PATCH_M).powi(2) - JOINT_NOISE_M * JOINT_NOISE_M;
     let num_views = part.cameras.len();
     let bounds = uncertainty(&part.source, &closest, &target, &pose, &THIRD[2], num_views);
     let squarest = part.cameras.iter().map(|camera| {

@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Point3, SymmetricEigen, Vector3};
 use super::Scene;
 
 /// Readings this close are of the same surface, metres.
-const RADIUS: f64 = 0.05;
+const RADIUS_M: f64 = 0.05;
 /// Readings looked at along either side of the window.
 const NUM_ALONG: i64 = 7;
 /// Fewer have no plane.
@@ -32,7 +32,7 @@ impl<'a> LocalNormals<'a> {
     pub(super) fn at(&self, at: &Point3<f64>) -> Option<Vector3<f32>> {
         let camera = self.scene.scene.intrinsics?;
         let (u, v) = camera.pixel_of(at)?;
-        let half = RADIUS * camera.fx / at.z;
+        let half = RADIUS_M * camera.fx / at.z;
         let step = (2.0 * half / NUM_ALONG as f64).max(1.0);
         let (mut num, mut sum, mut sum_sq) = (0_usize, Vector3::zeros(), Matrix3::zeros());
         for row in -NUM_ALONG / 2..=NUM_ALONG / 2 {
@@ -52,7 +52,7 @@ impl<'a> LocalNormals<'a> {
                     continue;
                 }
                 let d: Vector3<f64> = self.scene.scene.cloud.points[i].cast::<f64>() - at;
-                if d.norm_squared() < 4.0 * RADIUS * RADIUS {
+                if d.norm_squared() < 4.0 * RADIUS_M * RADIUS_M {
                     num += 1;
                     sum += d;
                     sum_sq += d * d.transpose();

@@ -20,7 +20,7 @@ const MARGIN: i64 = 4;
 /// An outline that ends so many pixels before that edge ends at it.
 const AT_EDGE: i64 = 4;
 /// What hides is nearer than the part by at least this, metres, plus the noise.
-const STEP_NEARER: f64 = 0.04;
+const STEP_NEARER_M: f64 = 0.04;
 /// Outline points on either side that fix the outwards direction.
 const TANGENT: usize = 4;
 
@@ -153,7 +153,7 @@ impl<'a> PartMask<'a> {
                 num_without_reading += 1;
             } else if !self.is_part[i] {
                 let beyond = f64::from(points[i].z) - at.z;
-                let reach = STEP_NEARER + noise;
+                let reach = STEP_NEARER_M + noise;
                 // The end is not seen either where a stand was removed from the part.
                 let may_go_on = self.is_stand[i] || num_without_reading > BRIDGED_PIXELS;
                 return beyond < if may_go_on { reach } else { -reach };

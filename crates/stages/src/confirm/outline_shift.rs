@@ -21,21 +21,21 @@ use crate::{
 use geometry::{rigid::RigidTransform, units::Metres};
 
 /// Side of the squares that cut the outline into stretches, metres.
-const STRETCH: f64 = 0.15;
+const STRETCH_M: f64 = 0.15;
 /// A stretch with fewer points has no mean.
 const LEAST_IN_STRETCH: usize = 4;
 /// Fewer stretches than this say nothing about a model.
 const LEAST_STRETCHES: usize = 3;
 /// Points further off than this belong to something else, metres.
-const FAR: f64 = 0.04;
+const MAX_DISTANCE_M: f64 = 0.04;
 /// Every so many points of a border are a corner of it: some 12 mm.
 const STEP: usize = 4;
 /// Narrower openings open and close with the distance of the camera, metres.
-const LEAST_WIDTH: f64 = 0.06;
+const MIN_WIDTH_M: f64 = 0.06;
 /// Points of the outline further off the reference's surface than this, beyond the noise, are of another face, metres.
-const ON_SURFACE: f64 = 0.005;
+const ON_SURFACE_M: f64 = 0.005;
 /// Cosine of the angle between the surface and the view from which on an outline is an edge of the part.
-const LEAST_SQUARE: f64 = 0.5;
+const EDGE_MIN_COSINE: f64 = 0.5;
 
 /// How far the stretches of an outline lie off the reference's, metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,7 +59,11 @@ pub(super) fn edges_of_part(
     let camera = target_from_source * Point3::origin();
     let towards = plane_from_part.inverse() * Vector3::z();
     let is_edge = |p: &Point3<f64>| {
-        let near = target.nearest(Search::Field, &p.cast(), (FAR * FAR) as f32)?;
+        let near = target.nearest(
+            Search::Field,
+            &p.cast(),
+            (MAX_DISTANCE_M * MAX_DISTANCE_M) as f32,
+        )?;
         let normal = target
             .cloud
             .normals
@@ -70,13 +74,13 @@ pub(super) fn edges_of_part(
         let above = (p - target.cloud.points[near.index].cast::<f64>()).dot(&normal);
         let noise = noise_at_1m.0 * ray.norm_squared();
         let square = normal.dot(&ray.normalize()).abs();
-        let is_square = square.min(normal.dot(&towards).abs()) >= LEAST_SQUARE;
-        Some(is_square && above.abs() <= ON_SURFACE + noise)
+        let is_square = square.min(normal.dot(&towards).abs()) >= EDGE_MIN_COSINE;
+        Some(is_square && above.abs() <= ON_SURFACE_M + noise)
     };
     let edges = source.edges.iter().filter(|p| {
         let p = target_from_source * p.cast::<f64>();
         // Close to where the view cut the reference off, its border is no edge.
-        cut.depth_inside(&p) >= FAR && is_edge(&p) == Some(true)
+        cut.depth_inside(&p) >= MAX_DISTANCE_M && is_edge(&p) == Some(true)
     });
     edges.copied().collect()
 }
@@ -96,7 +100,7 @@ pub(super) fn outline_shift(
         if let Some((normal, off)) = reference.off(&at) {
             // The two sides of a narrow part are two stretches.
             let side = normal.y.atan2(normal.x) / std::f64::consts::FRAC_PI_2;
-            let square = at / STRETCH;
+            let square = at / STRETCH_M;
             let stretch = [
                 square.x.floor() as i32,
                 square.y.floor() as i32,
@@ -160,7 +164,7 @@ impl Borders {
         let mut pieces = Vec::new();
         let openings = contour.openings.iter();
         let borders = std::iter::once((&contour.outline, true));
-        for (border, is_wide) in borders.chain(openings.map(|o| (o, width(o) >= LEAST_WIDTH))) {
+        for (border, is_wide) in borders.chain(openings.map(|o| (o, width(o) >= MIN_WIDTH_M))) {
             let corners: Vec<Point2<f64>> = border.iter().step_by(STEP).copied().collect();
             let next = corners.iter().cycle().skip(1);
             pieces.extend(corners.iter().zip(next).map(|(from, to)| Piece {
@@ -192,7 +196,7 @@ impl Borders {
         let apart = apart(piece);
         let along = piece.along.try_normalize(1e-9)?;
         let normal = Vector2::new(along.y, -along.x);
-        (piece.is_wide && apart.norm() < FAR).then(|| (normal, apart.dot(&normal)))
+        (piece.is_wide && apart.norm() < MAX_DISTANCE_M).then(|| (normal, apart.dot(&normal)))
     }
 }
 

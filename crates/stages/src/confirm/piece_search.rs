@@ -10,7 +10,7 @@ use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, Translation3, UnitQuaterni
 use rand::{SeedableRng as _, seq::SliceRandom as _};
 use rand_pcg::Pcg64;
 
-use super::{PreparedScene, candidate::WORSE_START};
+use super::{PreparedScene, candidate::START_MAX_EXTRA_COST};
 use crate::reference::{
     Reference,
     border::{BorderPair, BorderPoint, ReferenceBorder, ReferencePair, frame_of},
@@ -32,18 +32,18 @@ const NUM_TRIED: usize = 16;
 /// Points of a reference that are looked for in the scene.
 const NUM_LOOKED_FOR: usize = 60;
 /// How far two distances between border points may differ, metres: the reference's are some 4 cm apart.
-const DISTANCE_OFF: f32 = 0.02;
+const MAX_DISTANCE_DIFFERENCE_M: f32 = 0.02;
 /// How far two angles may differ, radians.
-const ANGLE_OFF: f32 = 0.24;
+const MAX_ANGLE_DIFFERENCE_RAD: f32 = 0.24;
 /// Cosine of the angle between two normals that belong together.
-const NORMAL_OFF: f32 = 0.87;
+const NORMAL_MIN_COSINE: f32 = 0.87;
 /// Distances beyond this count as this, metres.
-const FAR: f32 = 0.045;
+const MAX_DISTANCE_M: f32 = 0.045;
 /// A pose is dropped as soon as more than this share of the points tried so far is off, and one point more: tubes of a
 /// stand are taken for the part at times, and most wrong poses show after three points.
-const MOST_OFF: f32 = 0.4;
+const MAX_OFF_SHARE: f32 = 0.4;
 /// Share of the border tried first that must find the reference's.
-const LEAST_BORDER: f32 = 0.3;
+const MIN_BORDER_SHARE: f32 = 0.3;
 /// One in this many pairs is looked up first, to decide which references are worth the rest.
 const FIRST_SHARE: usize = 3;
 /// Poses of a reference that are scored, and those that the first pairs led to.
@@ -52,23 +52,23 @@ const MOST_SCORED_FIRST: usize = 24;
 /// Poses kept of a reference.
 const MOST_KEPT: usize = 6;
 /// Poses that lie this close, turn (degrees) and shift (millimetres), lead to the same one.
-const SAME: (f64, f64) = (12.0, 45.0);
+const SAME_DEG_MM: (f64, f64) = (12.0, 45.0);
 /// Step along the sheet around a refined pose, metres, and how many are taken each way.
-const SLIDE: f64 = 0.03;
+const SLIDE_M: f64 = 0.03;
 const NUM_SLIDES: i32 = 4;
 /// Other places are tried that cost this much more than the refined pose at most, so many of them.
-const WORSE_SLIDE: f64 = 0.3;
+const SLIDE_MAX_EXTRA_COST: f64 = 0.3;
 const MOST_SLID: usize = 3;
 /// A point this close to where the reference's view ends, metres, may lie beyond it.
-const AT_CUT: f64 = 0.01;
+const AT_CUT_M: f64 = 0.01;
 /// What the camera looks past is farther than the reference by at least this, metres, plus the noise.
-const PAST: f64 = 0.035;
+const PAST_M: f64 = 0.035;
 /// Fewer points than this in both views score nothing.
 const LEAST_SHARED: usize = 6;
 /// What a part costs that lies wholly beyond the reference's view.
-const UNSEEN: f32 = 0.6;
+const UNSEEN_COST: f32 = 0.6;
 /// What a reference costs that the camera looks past altogether.
-const LOOKED_PAST: f32 = 3.0;
+const LOOKED_PAST_COST: f32 = 3.0;
 
 /// A pose of a reference that may be right.
 #[derive(Clone, Copy, Debug)]
@@ -196,7 +196,7 @@ impl PreparedScene<'_> {
     ) -> impl Iterator<Item = Start> {
         poses.filter_map(move |target_from_source| {
             let cost = self.coarse_cost(piece, reference, &target_from_source, limit)?;
-            limit = limit.min(cost + WORSE_START);
+            limit = limit.min(cost + START_MAX_EXTRA_COST);
             Some(Start {
                 cost,
                 target_from_source,
@@ -214,14 +214,14 @@ impl PreparedScene<'_> {
         cost: f64,
     ) -> Vec<Start> {
         let camera_from_plane = self.scene.query.plane.plane_from_camera.inverse();
-        let steps = || (-NUM_SLIDES..=NUM_SLIDES).map(|step| f64::from(step) * SLIDE);
+        let steps = || (-NUM_SLIDES..=NUM_SLIDES).map(|step| f64::from(step) * SLIDE_M);
         let along = steps().flat_map(|x| steps().map(move |y| Vector3::new(x, y, 0.0)));
         let starts = along
             .filter(|along| *along != Vector3::zeros())
             .filter_map(|along| {
                 let shift = Translation3::from(camera_from_plane.rotation * along);
                 let target_from_source = target_from_source * shift;
-                let limit = cost + WORSE_SLIDE;
+                let limit = cost + SLIDE_MAX_EXTRA_COST;
                 let cost = self.coarse_cost(piece, reference, &target_from_source, limit)?;
                 Some(Start {
                     cost,
@@ -237,7 +237,7 @@ impl PreparedScene<'_> {
         let mut kept: Vec<Start> = Vec::with_capacity(most);
         for start in starts {
             let pose = &start.target_from_source;
-            let is_apart = |k: &Start| self.is_apart(&k.target_from_source, pose, SAME);
+            let is_apart = |k: &Start| self.is_apart(&k.target_from_source, pose, SAME_DEG_MM);
             if kept.len() < most && kept.iter().all(is_apart) {
                 kept.push(start);
             }
@@ -257,7 +257,7 @@ impl PreparedScene<'_> {
         let moved = target_from_source.cast::<f32>();
         let is_cut = !reference.cut.is_nothing();
         let is_beyond =
-            |at: &Point3<f32>| is_cut && reference.cut.depth_inside(&at.cast()) < AT_CUT;
+            |at: &Point3<f32>| is_cut && reference.cut.depth_inside(&at.cast()) < AT_CUT_M;
         let field = reference.field();
         let (mut num, mut off) = (0_usize, 0.0_f32);
         for p in &piece.surface {
@@ -274,7 +274,7 @@ impl PreparedScene<'_> {
         let beyond = 1.0 - num as f32 / num_surface as f32;
         let surface = off / num as f32;
         let is_below = |cost: f32| (f64::from(cost) < limit).then_some(cost);
-        let mut cost = is_below(surface + UNSEEN * beyond)?;
+        let mut cost = is_below(surface + UNSEEN_COST * beyond)?;
         let (mut num, mut off) = (0.0_f32, 0.0_f32);
         for p in &piece.border {
             let at = moved * p.at;
@@ -288,7 +288,7 @@ impl PreparedScene<'_> {
         if num > 0.0 {
             cost = is_below(cost + off / num)?;
         }
-        let missing = LOOKED_PAST * self.missing_share(reference, target_from_source);
+        let missing = LOOKED_PAST_COST * self.missing_share(reference, target_from_source);
         is_below(cost + missing).map(f64::from)
     }
 
@@ -325,7 +325,7 @@ impl PreparedScene<'_> {
             if !is_finite(reading) {
                 continue;
             }
-            let reach = PAST + 3.0 * self.tolerance.noise_at_1m.0 * at.z * at.z;
+            let reach = PAST_M + 3.0 * self.tolerance.noise_at_1m.0 * at.z * at.z;
             let beyond = f64::from(reading.z) - at.z;
             if beyond > reach {
                 past += 1.0;
@@ -364,9 +364,14 @@ impl RoughPoses {
     fn add(&mut self, piece: &PieceSample, reference: &Reference, pairs: &[OrientedPair]) {
         for border in reference.borders() {
             for ours in pairs {
-                border.visit_pairs_like(&ours.pair, DISTANCE_OFF, ANGLE_OFF, |theirs| {
-                    try_pose(piece, reference, border, ours, theirs, self);
-                });
+                border.visit_pairs_like(
+                    &ours.pair,
+                    MAX_DISTANCE_DIFFERENCE_M,
+                    MAX_ANGLE_DIFFERENCE_RAD,
+                    |theirs| {
+                        try_pose(piece, reference, border, ours, theirs, self);
+                    },
+                );
             }
         }
         self.keep_best();
@@ -407,8 +412,9 @@ fn try_pose(
     let points = theirs.pair.of.map(|i| &border.points[usize::from(i)]);
     let (onto, their_axes) = theirs.frame(points);
     let turn: Matrix3<f32> = their_axes * ours.axes.transpose();
-    let are_turned_alike = (ours.pair.of.iter().zip(points))
-        .all(|(i, b)| (turn * piece.border[usize::from(*i)].normal).dot(&b.normal) > NORMAL_OFF);
+    let are_turned_alike = (ours.pair.of.iter().zip(points)).all(|(i, b)| {
+        (turn * piece.border[usize::from(*i)].normal).dot(&b.normal) > NORMAL_MIN_COSINE
+    });
     if !are_turned_alike {
         return;
     }
@@ -418,7 +424,7 @@ fn try_pose(
     }
 }
 
-/// Mean squared distance of the first points at a pose, in squares of [`FAR`], surface and border added; `None` as soon
+/// Mean squared distance of the first points at a pose, in squares of [`MAX_DISTANCE_M`], surface and border added; `None` as soon
 /// as too many of them are off, or the sum is beyond `limit`.
 fn early_out_cost(
     piece: &PieceSample,
@@ -431,7 +437,7 @@ fn early_out_cost(
     // Of fewer points the mean is larger.
     const PER_POINT: f32 = 1.0 / NUM_TRIED as f32;
     let is_cut = !reference.cut.is_nothing();
-    let is_beyond = |at: &Point3<f32>| is_cut && reference.cut.depth_inside(&at.cast()) < AT_CUT;
+    let is_beyond = |at: &Point3<f32>| is_cut && reference.cut.depth_inside(&at.cast()) < AT_CUT_M;
     let field = reference.field();
     // Counted as floats: to convert whole numbers takes longer than to look a point up.
     let (mut num, mut num_off, mut sum) = (0.0_f32, 0.0_f32, 0.0_f32);
@@ -444,7 +450,7 @@ fn early_out_cost(
         let off = clipped(field.distance_sq(&at));
         num_off += if off < 1.0 { 0.0 } else { 1.0 };
         sum += off;
-        if num_off > 1.0 + MOST_OFF * num || sum * PER_POINT > limit {
+        if num_off > 1.0 + MAX_OFF_SHARE * num || sum * PER_POINT > limit {
             return None;
         }
     }
@@ -466,9 +472,9 @@ fn early_out_cost(
             return None;
         }
     }
-    (num_on >= LEAST_BORDER * num).then(|| surface + sum / num.max(1.0))
+    (num_on >= MIN_BORDER_SHARE * num).then(|| surface + sum / num.max(1.0))
 }
 
 fn clipped(distance_sq: f32) -> f32 {
-    (distance_sq / (FAR * FAR)).min(1.0)
+    (distance_sq / (MAX_DISTANCE_M * MAX_DISTANCE_M)).min(1.0)
 }

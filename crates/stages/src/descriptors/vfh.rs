@@ -28,7 +28,7 @@ const NUM_VIEW_BINS: usize = 128;
 /// Numbers per row.
 const WIDTH: usize = 4 * NUM_SHAPE_BINS + NUM_VIEW_BINS;
 /// Upper limit of the last distance bin, metres: half a long bumper.
-const FARTHEST: f32 = 1.0;
+const MAX_DISTANCE_M: f32 = 1.0;
 
 /// The histogram of a part as seen by a camera, as one row.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,7 +67,7 @@ pub fn describe_vfh(surface: &DescribedSurface, viewpoint: &Point3<f64>) -> View
                 row[angle * NUM_SHAPE_BINS + bin] += 1.0;
             }
         }
-        let share = (point - centroid).norm() / FARTHEST;
+        let share = (point - centroid).norm() / MAX_DISTANCE_M;
         row[3 * NUM_SHAPE_BINS + bin(2.0 * share - 1.0, 1.0, NUM_SHAPE_BINS)] += 1.0;
         let cosine = towards_camera.dot(normal);
         row[4 * NUM_SHAPE_BINS + bin(cosine, 1.0, NUM_VIEW_BINS)] += 1.0;

@@ -6,10 +6,9 @@ use super::{
     CloudRole, PoseError, PoseEstimate, PoseMethod,
     centred::Centred,
     global::search,
-    icp::{IcpParams, icp},
-    icp_ga::{IcpGaParams, icp_ga},
     prepared::{Measured, PreparedTarget},
 };
+use crate::paper::{IcpGaParams, IcpParams, icp, icp_ga};
 use geometry::{cloud::PointCloud, rigid::RigidTransform, statistics::sample_evenly};
 
 /// Parameters of [`align_with`].

@@ -12,16 +12,16 @@ use geometry::{
 
 /// The finite points of a cloud that can fix a pose, about their own middle.
 #[derive(Clone, Debug)]
-pub(super) struct Centred {
-    pub(super) points: Vec<Point3<f32>>,
+pub(crate) struct Centred {
+    pub(crate) points: Vec<Point3<f32>>,
     middle: Point3<f64>,
-    pub(super) axes: PrincipalAxes,
+    pub(crate) axes: PrincipalAxes,
     /// Standard deviation along the widest axis, metres.
-    pub(super) extent: f64,
+    pub(crate) extent: f64,
 }
 
 impl Centred {
-    pub(super) fn new(which: CloudRole, cloud: &PointCloud) -> Result<Self, PoseError> {
+    pub(crate) fn new(which: CloudRole, cloud: &PointCloud) -> Result<Self, PoseError> {
         let found = cloud.num_finite();
         if found < MIN_POINTS {
             return Err(PoseError::TooFewPoints {
@@ -64,7 +64,7 @@ impl Centred {
     }
 
     /// Takes the cloud's space into that about its middle.
-    pub(super) fn centring(&self) -> RigidTransform {
+    pub(crate) fn centring(&self) -> RigidTransform {
         RigidTransform::translation(-self.middle.x, -self.middle.y, -self.middle.z)
     }
 }

@@ -47,8 +47,8 @@ const ALIKE: f64 = 0.15;
 const TURNABLE: f64 = 0.25;
 /// What a stretch of a border may be off by where both clouds show the whole thing, and where the source may end
 /// elsewhere, metres: on them most bounds hold (`partsight bench registration`).
-const OUTLINE_ERROR_OF_WHOLE: f64 = 0.003;
-const OUTLINE_ERROR_OF_VIEW: f64 = 0.01;
+const OUTLINE_ERROR_OF_WHOLE_M: f64 = 0.003;
+const OUTLINE_ERROR_OF_VIEW_M: f64 = 0.01;
 /// Share of the source that lies on the target where a start along the axes convinces.
 const CONVINCING: f64 = 0.9;
 
@@ -116,7 +116,7 @@ pub(super) fn search(
     let search = GlobalSearch::new(source, prepared, is_cancelled);
     let axes = (&search.axes, &prepared.axes);
     let mut finished = Vec::new();
-    let mut outline_error = OUTLINE_ERROR_OF_VIEW;
+    let mut outline_error = OUTLINE_ERROR_OF_VIEW_M;
     if let Some(start) = start {
         finished = search.finish(search.successive_halving([start])?)?;
     } else {
@@ -139,7 +139,7 @@ pub(super) fn search(
             finished.extend(search.finish(search.successive_halving(elsewhere)?)?);
             finished = search.distinct(finished);
         } else {
-            outline_error = OUTLINE_ERROR_OF_WHOLE;
+            outline_error = OUTLINE_ERROR_OF_WHOLE_M;
         }
     }
     search.refine_best(finished, outline_error)

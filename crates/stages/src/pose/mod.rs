@@ -5,15 +5,12 @@
 //! every method.
 
 mod align;
-mod centred;
+pub(crate) mod centred;
 pub mod closest;
 pub mod displacements;
 pub mod edge_points;
 mod equations;
-pub mod genetic;
 mod global;
-pub mod icp;
-pub mod icp_ga;
 mod prepared;
 pub mod quality;
 pub mod refine;
@@ -35,7 +32,7 @@ pub use self::{
 };
 
 /// Fewer points than this do not fix a pose.
-const MIN_POINTS: usize = 10;
+pub(crate) const MIN_POINTS: usize = 10;
 
 /// How a pose is estimated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]

@@ -50,7 +50,7 @@ const NUM_MEASURED: usize = 2_000;
 pub struct PreparedTarget {
     pub(super) centred: Centred,
     /// Of the coarse likeness, which is evenly dense.
-    pub(super) axes: PrincipalAxes,
+    pub(crate) axes: PrincipalAxes,
     fine: CorrespondenceCache,
     coarse: CorrespondenceCache,
     /// A finer field of nearest points that reaches further than the fine likeness's, for Algorithm 3; made when it is
@@ -132,7 +132,7 @@ impl PreparedTarget {
     }
 
     /// The target with a field that answers further off.
-    pub(super) fn wide_target(&self) -> AlignmentTarget<'_> {
+    pub(crate) fn wide_target(&self) -> AlignmentTarget<'_> {
         let extent = self.extent();
         let field = self.wide.get_or_init(|| {
             let cell = (2.0 * self.spacing()).max(extent / WIDE_CELLS);
@@ -150,12 +150,12 @@ impl PreparedTarget {
     }
 
     /// The same in few points, for what is still far off.
-    pub(super) fn coarse_target(&self) -> AlignmentTarget<'_> {
+    pub(crate) fn coarse_target(&self) -> AlignmentTarget<'_> {
         self.coarse.target()
     }
 
     /// Standard deviation along the widest axis, metres.
-    pub(super) fn extent(&self) -> f64 {
+    pub(crate) fn extent(&self) -> f64 {
         self.centred.extent
     }
 

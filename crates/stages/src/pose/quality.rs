@@ -136,7 +136,7 @@ const FAR_OFF_SQ: f64 = 0.0064;
 /// Points of the target that are looked for at a pose that is the last word.
 pub const NUM_LOOKED_FOR: usize = 2000;
 /// A surface seen at a flatter angle than this (cosine) is often lost by the camera, so its absence is no evidence.
-pub const LEAST_FACING: f64 = 0.3;
+pub const MIN_FACING_COSINE: f64 = 0.3;
 /// Pixels around the expected one that may show the surface: the pose is not perfect and edges are ragged.
 pub const PIXEL_REACH: i64 = 2;
 
@@ -158,7 +158,7 @@ pub fn look_for(
     for (p, normal) in target.cloud.points.iter().zip(normals).step_by(step) {
         let at = camera_from_target * p.cast::<f64>();
         let facing = -(camera_from_target * normal.cast::<f64>()).dot(&at.coords.normalize());
-        if facing < LEAST_FACING {
+        if facing < MIN_FACING_COSINE {
             continue;
         }
         let Some((u, v)) = camera.pixel_of(&at) else {

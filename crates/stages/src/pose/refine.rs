@@ -195,7 +195,7 @@ impl RefinementStep {
     fn next_stretch(&self, twist: &Vector6<f64>) -> f64 {
         let along =
             self.twist.dot(twist) / (self.twist.norm() * twist.norm()).max(f64::MIN_POSITIVE);
-        if along > SAME_WAY {
+        if along > SAME_WAY_MIN_COSINE {
             (2.0 * self.stretch).min(MOST_STRETCHED)
         } else {
             1.0
@@ -204,7 +204,7 @@ impl RefinementStep {
 }
 
 /// Cosine between two steps above which they go the same way.
-const SAME_WAY: f64 = 0.8;
+const SAME_WAY_MIN_COSINE: f64 = 0.8;
 /// No step is stretched further than this.
 const MOST_STRETCHED: f64 = 16.0;
 

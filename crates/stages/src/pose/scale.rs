@@ -85,8 +85,8 @@ type Step = SVector<f64, 7>;
 type Square = SMatrix<f64, 7, 7>;
 
 /// Scales of the weights in the rounds, metres: a part of a metre that is 5 % too large ends 25 mm too far out.
-const ROUNDS: [f64; 5] = [0.04, 0.04, 0.04, 0.03, 0.03];
-const LAST_ROUNDS: [f64; 4] = [0.02; 4];
+const ROUND_SCALES_M: [f64; 5] = [0.04, 0.04, 0.04, 0.03, 0.03];
+const LAST_ROUND_SCALES_M: [f64; 4] = [0.02; 4];
 /// If the last rounds change the scale by more, it depends on which pairs count, and is none.
 const MAX_DRIFT: f64 = 0.01;
 /// By so much the scale comes out too large at the right size: 1.1 % on average in real frames of a fender, 1.3 % of a door, 0.4 % in
@@ -100,15 +100,15 @@ const NUM_SURFACE: usize = 600;
 /// Fewer pairs of edges show no size.
 const MIN_EDGES: usize = 16;
 /// Side of a region of the surface whose pairs share an error, metres. A side of the outline shares one, too.
-const REGION: f64 = 0.5;
+const REGION_M: f64 = 0.5;
 /// Error that a region of the surface shares, metres.
-const SURFACE_ERROR: f64 = 0.003;
+const SURFACE_ERROR_M: f64 = 0.003;
 /// Error that a side of the outline shares, metres: two pixels at 1.2 m.
-const OUTLINE_ERROR: f64 = 0.005;
+const OUTLINE_ERROR_M: f64 = 0.005;
 /// The same from noise, in standard deviations of the depth: noise of 15 mm makes parts up to 6 % larger.
 const NOISE_SHARE: f64 = 1.5;
 /// Sides of the stretches that are left out in turn, of the surface and of the outline, metres.
-const STRETCHES: [f64; 2] = [0.3, 0.2];
+const STRETCHES_M: [f64; 2] = [0.3, 0.2];
 /// Pairs beyond this many scales of the weight count nothing.
 const REACH: f64 = 2.5;
 
@@ -129,12 +129,12 @@ pub fn scale(
         pose: *target_from_source,
         log_scale: 0.0,
     };
-    for weight_scale in ROUNDS {
+    for weight_scale in ROUND_SCALES_M {
         similarity.refine(target, weight_scale)?;
     }
     let before = similarity.log_scale;
     let mut last = None;
-    for weight_scale in LAST_ROUNDS {
+    for weight_scale in LAST_ROUND_SCALES_M {
         last = Some(similarity.refine(target, weight_scale)?);
     }
     let (pairs, sums) = last?;
@@ -153,7 +153,7 @@ pub fn scale(
         // The target is this much larger than the source.
         scale: (-similarity.log_scale - BIAS).exp(),
         deviation: sums
-            .shared_error(&pairs, OUTLINE_ERROR.hypot(NOISE_SHARE * noise))
+            .shared_error(&pairs, OUTLINE_ERROR_M.hypot(NOISE_SHARE * noise))
             .hypot(sums.jackknife(&pairs)?),
     })
 }
@@ -329,12 +329,12 @@ impl Sums {
             return f64::INFINITY;
         };
         let variances = self
-            .grouped(pairs, [REGION, f64::INFINITY])
+            .grouped(pairs, [REGION_M, f64::INFINITY])
             .map(|(is_edge, group)| {
                 let error = if is_edge {
                     outline_error
                 } else {
-                    SURFACE_ERROR
+                    SURFACE_ERROR_M
                 };
                 (hold.solve(&group.lever)[6] * error).powi(2)
             });
@@ -344,7 +344,7 @@ impl Sums {
     /// Standard deviation of the scale by what the stretches disagree about; `None` if it hangs on one of them.
     fn jackknife(&self, pairs: &[Pair]) -> Option<f64> {
         let (mut sum_sq, mut num) = (0.0, 0.0);
-        for (_, group) in self.grouped(pairs, STRETCHES) {
+        for (_, group) in self.grouped(pairs, STRETCHES_M) {
             let without = (self.hold - group.hold).cholesky()?;
             sum_sq += without.solve(&(self.pull - group.pull))[6].powi(2);
             num += 1.0;

@@ -82,7 +82,7 @@ const LOOSE_WITHOUT_OUTLINE: Radians = Radians(0.01);
 /// A motion is unconstrained if more than this share of the stiffness against it is spurious.
 const MAX_SPURIOUS: f64 = 0.5;
 /// Error of the direction of a border found among the points of a cloud, radians.
-const EDGE_TILT: f64 = 0.1;
+const EDGE_TILT_RAD: f64 = 0.1;
 /// The spurious stiffness is estimated from every fourth pair.
 const SPURIOUS_EVERY: usize = 4;
 /// Side of a region of the surface and of the outline, in root mean square distances of the points from their middle.
@@ -92,7 +92,7 @@ const REGION: f64 = 1.2;
 const PATCH: f64 = 0.4;
 const OUTLINE_REGION: f64 = 1.5;
 /// Error of a stretch of an outline that the residuals do not show, metres: most of a pixel at 1.5 m.
-const OUTLINE_ERROR: f64 = 0.0021;
+const OUTLINE_ERROR_M: f64 = 0.0021;
 /// Share of a region's own error that its patches do not show already.
 const REGION_SHARE: f64 = 0.5;
 /// Scatter of turns and shifts divided by that of the model, on parts of other cars in frames of the tuning seeds, with
@@ -110,7 +110,7 @@ pub fn uncertainty(
     level: &Level,
     num_views: usize,
 ) -> Uncertainty {
-    let outline_error = OUTLINE_ERROR / (num_views as f64).sqrt();
+    let outline_error = OUTLINE_ERROR_M / (num_views as f64).sqrt();
     uncertainty_with(
         source,
         closest,
@@ -176,7 +176,8 @@ pub(super) fn uncertainty_with(
         if target.edges.are_pieces() {
             let along = edge.outwards.cross(&edge.normal);
             let change = change(&(at.coords - middle), &along);
-            spurious_stiffness += change * change.transpose() * (weight * EDGE_TILT * EDGE_TILT);
+            spurious_stiffness +=
+                change * change.transpose() * (weight * EDGE_TILT_RAD * EDGE_TILT_RAD);
         }
     }
     let of_regions = surface.spread(0.0) * REGION_SHARE;

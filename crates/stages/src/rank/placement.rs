@@ -143,7 +143,7 @@ fn both_ways_round(
     sorted: &[ImagePlacement],
     num: usize,
 ) -> Vec<ImagePlacement> {
-    const FAR_TURN: f64 = std::f64::consts::FRAC_PI_3;
+    const FAR_TURN_RAD: f64 = std::f64::consts::FRAC_PI_3;
     let attitude = |p: &ImagePlacement| {
         let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), p.turn.0);
         turn * enrolled.views[p.view].plane_from_part.rotation
@@ -152,7 +152,7 @@ fn both_ways_round(
         return Vec::new();
     };
     // The dot product of unit quaternions is the cosine of half the angle between them.
-    let least_near = (FAR_TURN / 2.0).cos();
+    let least_near = (FAR_TURN_RAD / 2.0).cos();
     let (near, far): (Vec<ImagePlacement>, Vec<ImagePlacement>) = sorted
         .iter()
         .partition(|p| attitude(p).coords.dot(&best.coords).abs() > least_near);
@@ -188,7 +188,7 @@ fn highest_apart(correlation: &[Complex<f32>], twice_around: &mut Vec<i32>) -> [
 }
 
 /// Spacing of the points at which two images are compared, metres.
-const OVERLAP_SPACING: f64 = 0.03;
+const OVERLAP_SPACING_M: f64 = 0.03;
 
 /// Set pixels of an image on a coarse grid, with the area of each.
 struct SparsePixels {
@@ -197,7 +197,7 @@ struct SparsePixels {
 }
 
 fn thinned(plane: &PlaneImage) -> SparsePixels {
-    let step = ((OVERLAP_SPACING / plane.pixel.0).round() as usize).max(1);
+    let step = ((OVERLAP_SPACING_M / plane.pixel.0).round() as usize).max(1);
     let image = &plane.image;
     let rows = (0..image.height).step_by(step);
     let places = rows.flat_map(|row| {

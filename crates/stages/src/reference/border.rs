@@ -57,15 +57,15 @@ pub struct ReferenceBorder {
 /// Number of points of a reference's border that are paired: about one per 4 cm for a door.
 const NUM_POINTS: usize = 128;
 /// Minimum distance of a pair, metres: closer pairs do not determine a pose.
-pub const LEAST_DISTANCE: f32 = 0.15;
+pub const MIN_DISTANCE_M: f32 = 0.15;
 /// Distances beyond this share a bin, metres; followed by the width of the distance bins, metres, and the number of
 /// bins of each angle.
-const FARTHEST: f32 = 2.4;
-const DISTANCE_BIN: f32 = 0.04;
+const MAX_DISTANCE_M: f32 = 2.4;
+const DISTANCE_BIN_M: f32 = 0.04;
 const NUM_ANGLES: usize = 24;
 /// Cell size of the nearest-point field and the distance up to which it answers, metres.
-const FIELD_CELL: f32 = 0.02;
-const FIELD_BAND: f32 = 0.06;
+const FIELD_CELL_M: f32 = 0.02;
+const FIELD_BAND_M: f32 = 0.06;
 
 impl ReferenceBorder {
     /// Creates the border from the oriented points of one view's outline, part space. `outlines` are the points at
@@ -81,7 +81,7 @@ impl ReferenceBorder {
                 framed[j * num + i] = pair.map(ReferencePair::reversed);
             }
         }
-        let num_bins = (distance_bin(FARTHEST) + 1) * NUM_ANGLES * NUM_ANGLES;
+        let num_bins = (distance_bin(MAX_DISTANCE_M) + 1) * NUM_ANGLES * NUM_ANGLES;
         let mut bins = vec![0; num_bins + 1];
         let framed: Vec<ReferencePair> = framed.into_iter().flatten().collect();
         for pair in &framed {
@@ -101,7 +101,7 @@ impl ReferenceBorder {
             points,
             pairs,
             bins,
-            field: NearestField::new(outlines, FIELD_CELL, FIELD_BAND),
+            field: NearestField::new(outlines, FIELD_CELL_M, FIELD_BAND_M),
         }
     }
 
@@ -124,7 +124,7 @@ impl ReferenceBorder {
         };
         let distances = distance_bin((pair.distance - distance_off).max(0.0))
             ..=distance_bin(pair.distance + distance_off);
-        let reach = (angle_off / BIN_ANGLE).ceil() as usize;
+        let reach = (angle_off / BIN_ANGLE_RAD).ceil() as usize;
         let middle = angle_bin(pair.angles[0], NUM_ANGLES) + NUM_ANGLES;
         let [first, last] =
             [-angle_off, angle_off].map(|off| angle_bin(pair.angles[1] + off, NUM_ANGLES));
@@ -151,10 +151,10 @@ impl ReferenceBorder {
 }
 
 /// Width of a bin of an angle, radians.
-const BIN_ANGLE: f32 = std::f32::consts::TAU / NUM_ANGLES as f32;
+const BIN_ANGLE_RAD: f32 = std::f32::consts::TAU / NUM_ANGLES as f32;
 
 fn distance_bin(distance: f32) -> usize {
-    (distance.min(FARTHEST) / DISTANCE_BIN) as usize
+    (distance.min(MAX_DISTANCE_M) / DISTANCE_BIN_M) as usize
 }
 
 fn angle_bin(angle: f32, num: usize) -> usize {
@@ -173,7 +173,7 @@ impl BorderPair {
     pub fn of([a, b]: [&BorderPoint; 2], of: [u16; 2]) -> Option<Self> {
         let towards = b.at - a.at;
         let distance = towards.norm();
-        (distance >= LEAST_DISTANCE).then(|| Self {
+        (distance >= MIN_DISTANCE_M).then(|| Self {
             distance,
             angles: [angle(a, &towards), angle(b, &-towards)],
             of,
@@ -193,12 +193,14 @@ impl BorderPair {
 
     /// Returns true if both points lie on one straight border, along which they could slide.
     pub fn is_straight(&self) -> bool {
-        self.angles.iter().all(|a| a.sin().abs() < STRAIGHT)
+        self.angles
+            .iter()
+            .all(|a| a.sin().abs() < STRAIGHT_MAX_SINE)
     }
 }
 
 /// Sine of the angle to the border's direction below which a point lies on it.
-const STRAIGHT: f32 = 0.25;
+const STRAIGHT_MAX_SINE: f32 = 0.25;
 
 impl ReferencePair {
     /// Creates a pair; `None` if the points are too close or face away from each other.

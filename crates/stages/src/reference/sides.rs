@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 
 use nalgebra::Vector3;
 
-use super::{FIELD_BAND, FIELD_CELL, Reference, ReferenceView, viewpoints::visible_from};
+use super::{FIELD_BAND_M, FIELD_CELL_M, Reference, ReferenceView, viewpoints::visible_from};
 use geometry::{cloud::PointCloud, nearest::KdTree, nearest_field::NearestField};
 
 /// What the views of one side show.
@@ -34,7 +34,7 @@ impl ReferenceSide {
 
     /// Returns the nearest-point field, which is built on first use.
     pub(super) fn field(&self) -> &NearestField {
-        let new = || NearestField::new(&self.cloud.points, FIELD_CELL, FIELD_BAND);
+        let new = || NearestField::new(&self.cloud.points, FIELD_CELL_M, FIELD_BAND_M);
         self.field.get_or_init(new)
     }
 }

@@ -11,12 +11,12 @@ const MOST_FOLD: u8 = 6;
 /// Points that are compared.
 const NUM_COMPARED: usize = 1000;
 /// Distance at which a turned point still lies on the reference, metres: nearly twice the spacing of its points.
-const ON_ITSELF: f32 = 0.015;
+const ON_ITSELF_M: f32 = 0.015;
 /// Share of the points that lie there after a turn that changes nothing.
-const LEAST_UNCHANGED: f64 = 0.985;
+const MIN_UNCHANGED_SHARE: f64 = 0.985;
 /// The same by the field, and about an axis that is off by a degree or a centimetre: a wheel with five spokes has 0.93, one
 /// with six 0.97, and the shipped and other car parts have at most 0.79.
-const LEAST_NEARLY: f64 = 0.85;
+const MIN_NEARLY_UNCHANGED_SHARE: f64 = 0.85;
 /// Corrects the axis: first centimetres and degrees.
 const CORRECTION: [Level; 2] = [
     Level {
@@ -37,7 +37,7 @@ const CORRECTION: [Level; 2] = [
     },
 ];
 /// A smaller turn leads to the same pose, radians.
-const LEAST_TURN: f64 = 0.35;
+const MIN_TURN_RAD: f64 = 0.35;
 
 impl Reference {
     /// Returns a turn that lays the reference onto itself, part space; `None` if there is none about a principal axis.
@@ -57,12 +57,14 @@ impl Reference {
             });
             let turns =
                 turns.filter_map(|turn| Some((self.share_on_itself(&turn, Search::Field)?, turn)));
-            let mut nearly: Vec<_> = turns.filter(|(share, _)| *share >= LEAST_NEARLY).collect();
+            let mut nearly: Vec<_> = turns
+                .filter(|(share, _)| *share >= MIN_NEARLY_UNCHANGED_SHARE)
+                .collect();
             nearly.sort_by(|a, b| b.0.total_cmp(&a.0));
             nearly.into_iter().find_map(|(_, turn)| {
                 let turn = self.corrected(&turn)?;
                 let share = self.share_on_itself(&turn, Search::Tree)?;
-                let is_own = share >= LEAST_UNCHANGED && turn.rotation.angle() >= LEAST_TURN;
+                let is_own = share >= MIN_UNCHANGED_SHARE && turn.rotation.angle() >= MIN_TURN_RAD;
                 is_own.then_some(turn)
             })
         })
@@ -91,7 +93,7 @@ impl Reference {
         let is_on = |i: &&usize| {
             let (at, normal) = (motion * self.cloud.points[**i], motion * normals[**i]);
             sides.iter().flatten().any(|side| {
-                let near = side.nearest(search, &at, ON_ITSELF * ON_ITSELF);
+                let near = side.nearest(search, &at, ON_ITSELF_M * ON_ITSELF_M);
                 let normals = side.cloud.normals.as_deref();
                 near.zip(normals)
                     .is_some_and(|(near, normals)| normals[near.index].dot(&normal) > 0.0)

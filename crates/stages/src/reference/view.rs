@@ -20,7 +20,7 @@ use geometry::{
 
 /// Pixel size of the packed image, metres: finer than the spacing of the points looked up in it, at a quarter of the
 /// memory that every inspection reads.
-const PACKED_PIXEL: f64 = 0.01;
+const PACKED_PIXEL_M: f64 = 0.01;
 
 /// The reference as seen from one side.
 #[derive(Clone, Debug)]
@@ -130,7 +130,7 @@ impl ReferenceView {
             deviations: plane.deviations,
             pixels: plane
                 .image
-                .packed((PACKED_PIXEL / plane.pixel.0).round() as usize),
+                .packed((PACKED_PIXEL_M / plane.pixel.0).round() as usize),
             image_area: plane.image.num_set() as f64 * plane.pixel.0.powi(2),
             centroid: signature.centroid,
             details: OnceLock::from(ViewDetails {

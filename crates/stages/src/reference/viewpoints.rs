@@ -7,7 +7,7 @@ use geometry::{cloud::PointCloud, principal::principal_axes, statistics::even_di
 
 /// Rotations of the viewpoint about the part's short and long axis, degrees. The first is the standard view; together
 /// they cover ±30° by ±20°, so that no scene is more than about 15° from a view.
-const TURNS: [[f64; 2]; 9] = [
+const TURNS_DEG: [[f64; 2]; 9] = [
     [0.0, 0.0],
     [25.0, 0.0],
     [-25.0, 0.0],
@@ -20,7 +20,7 @@ const TURNS: [[f64; 2]; 9] = [
 ];
 
 /// Distance of a virtual camera from the part's centre, metres; nearly parallel rays, as for a part that fills the picture.
-pub(super) const VIEW_DISTANCE: f64 = 1.3;
+pub(super) const VIEW_DISTANCE_M: f64 = 1.3;
 
 /// Returns the viewpoints for a cloud, part space.
 pub(super) fn viewpoints(cloud: &PointCloud, coverage: Coverage) -> Option<Vec<Point3<f64>>> {
@@ -43,16 +43,16 @@ pub(super) fn viewpoints(cloud: &PointCloud, coverage: Coverage) -> Option<Vec<P
             let directions = seen_directions(cloud);
             let places = directions
                 .iter()
-                .map(|direction| principal.mean + direction * VIEW_DISTANCE);
+                .map(|direction| principal.mean + direction * VIEW_DISTANCE_M);
             return Some(places.collect()).filter(|places: &Vec<_>| !places.is_empty());
         }
     };
     let around = |front: &Vector3<f64>| {
         let front = *front;
-        TURNS.map(|[about_short, about_long]| {
+        TURNS_DEG.map(|[about_short, about_long]| {
             let turn = UnitQuaternion::from_axis_angle(&short, f64::to_radians(about_short))
                 * UnitQuaternion::from_axis_angle(&long, f64::to_radians(about_long));
-            principal.mean + turn * front * VIEW_DISTANCE
+            principal.mean + turn * front * VIEW_DISTANCE_M
         })
     };
     Some(fronts.iter().flat_map(around).collect())
@@ -65,7 +65,7 @@ const NUM_NORMALS: usize = 2000;
 /// Minimum area visible from a viewpoint, as a share of the largest visible from any direction.
 const LEAST_SHOWN: f64 = 0.55;
 /// Minimum angle between views, radians: no scene is then more than about 15° from one.
-const VIEWS_APART: f64 = 0.40;
+const VIEWS_APART_RAD: f64 = 0.40;
 /// Maximum number of views of a scan.
 const MAX_VIEWS: usize = 24;
 
@@ -91,7 +91,7 @@ fn seen_directions(cloud: &PointCloud) -> Vec<Vector3<f64>> {
         }
         if kept
             .iter()
-            .all(|other| other.angle(&direction) > VIEWS_APART)
+            .all(|other| other.angle(&direction) > VIEWS_APART_RAD)
         {
             kept.push(direction);
         }
@@ -119,9 +119,9 @@ pub fn seen_around(cloud: &PointCloud, coverage: Coverage) -> Vec<(Point3<f64>, 
 }
 
 /// Cell size of the view's depth buffer, metres: larger than the spacing of a reference cloud.
-const CELL: f32 = 0.015;
+const CELL_M: f32 = 0.015;
 /// Depth behind the nearest surface of a cell up to which a point is still visible, metres.
-const CELL_DEPTH: f32 = 0.04;
+const CELL_DEPTH_M: f32 = 0.04;
 
 /// Returns the indices of the points visible to a camera at `viewpoint`, each with the cosine of its viewing angle.
 ///
@@ -142,8 +142,8 @@ pub(super) fn visible_from(
     };
     let right = forward.cross(&helper).normalize();
     let down = forward.cross(&right);
-    let radius = (high - low).norm() / 2.0 + CELL;
-    let side = (2.0 * radius / CELL).ceil() as usize + 1;
+    let radius = (high - low).norm() / 2.0 + CELL_M;
+    let side = (2.0 * radius / CELL_M).ceil() as usize + 1;
     let mut nearest = vec![f32::INFINITY; side * side];
     // A depth camera gets almost no readings from surfaces tilted by more than 80°.
     let is_seen = |i: usize, towards: &Vector3<f32>| {
@@ -153,7 +153,7 @@ pub(super) fn visible_from(
             .map(|normals| normals[i].dot(towards));
         facing.is_none_or(|f| f > 0.0 && f * f > 0.17 * 0.17 * towards.norm_squared())
     };
-    let cell = |along: f32| ((along + radius) * (1.0 / CELL)) as i32 as usize;
+    let cell = |along: f32| ((along + radius) * (1.0 / CELL_M)) as i32 as usize;
     let mut candidates: Vec<(u32, u32, f32)> = Vec::with_capacity(cloud.points.len());
     for (i, p) in cloud
         .finite()
@@ -170,7 +170,7 @@ pub(super) fn visible_from(
         let towards = viewpoint - cloud.points[i];
         let facing = |normals: &Vec<Vector3<f32>>| normals[i].dot(&towards) / towards.norm();
         let facing = cloud.normals.as_ref().map_or(1.0, facing);
-        (depth <= nearest[cell as usize] + CELL_DEPTH).then_some((i, f64::from(facing)))
+        (depth <= nearest[cell as usize] + CELL_DEPTH_M).then_some((i, f64::from(facing)))
     };
     let mut visible = Vec::with_capacity(candidates.len());
     visible.extend(candidates.iter().filter_map(seen));

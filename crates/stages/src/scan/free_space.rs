@@ -36,13 +36,13 @@ pub(super) struct CommonView {
 const NUM_SAMPLES: usize = 16_000;
 /// Everything within this distance must lie behind a violating reading, metres: refined poses are off by millimetres, and
 /// edges are ragged by a pixel or two.
-const ASIDE: f64 = 0.015;
+const ASIDE_M: f64 = 0.015;
 /// It must lie this far behind, metres, plus three standard deviations.
-const BEHIND: f64 = 0.06;
+const BEHIND_M: f64 = 0.06;
 /// Readings whose depths differ by less are on one surface, metres, plus three standard deviations.
-const ON: f64 = 0.02;
+const SAME_SURFACE_M: f64 = 0.02;
 /// Least cosine of the angle at which a reading must be seen: a surface seen edge-on or from behind yields none.
-const LEAST_FACING: f64 = 0.3;
+const MIN_FACING_COSINE: f64 = 0.3;
 /// Violations in the views of 49 pairs and 93 larger scans of real captures with measured poses: at most 8, and 0.09 % of what
 /// two shots see together. With one pose wrong along the surface, all 123 pairs that share an edge and stay 50 mm apart exceed
 /// both limits, and 26 of 46 that stay 20 to 50 mm apart.
@@ -104,17 +104,17 @@ fn seen_at(
 ) -> Option<Place> {
     let at = to_from * from.points()[i].cast::<f64>();
     let normal = to_from.rotation * from.normal(i).cast::<f64>();
-    if -normal.dot(&at.coords) < LEAST_FACING * at.coords.norm() {
+    if -normal.dot(&at.coords) < MIN_FACING_COSINE * at.coords.norm() {
         return None;
     }
     let (column, row) = to.pixel(&at)?;
     let seen = to.reading(column, row)?;
     let noise = 3.0 * to.noise_at_1m.0 * at.z * at.z;
     let behind = f64::from(to.points()[seen].z) - at.z;
-    if behind.abs() < ON + noise {
+    if behind.abs() < SAME_SURFACE_M + noise {
         return Some(Place::Surface);
     }
-    looks_past(to, &at, ASIDE, BEHIND + noise).then_some(Place::Free)
+    looks_past(to, &at, ASIDE_M, BEHIND_M + noise).then_some(Place::Free)
 }
 
 /// Returns about `num` of a shot's readings on a surface, those beside depth discontinuities included.
@@ -155,7 +155,7 @@ pub(super) fn common_views(shots: &[&ScannedShot], num_workers: usize) -> Vec<Co
 }
 
 /// How far [`better_pose`] slides a shot each way: steps of so many metres.
-const STEP: f64 = 0.025;
+const STEP_M: f64 = 0.025;
 const NUM_STEPS: i32 = 12;
 /// Readings that it projects into each other shot, approximately.
 const NUM_SLID: usize = 3000;
@@ -165,7 +165,7 @@ const REACH: Reach = Reach {
     sigmas: 4.0,
 };
 /// Distance from the other surface at which a reading counts little, metres: poses may be off by as much before refinement.
-const FIT: f64 = 0.012;
+const FIT_M: f64 = 0.012;
 /// A violation counts against so many readings that fit.
 const AGAINST: f64 = 20.0;
 
@@ -177,7 +177,7 @@ pub(super) fn better_pose(
     params: &RegisterParams,
 ) -> Option<RigidTransform> {
     let axes = along_part(shots[which])?;
-    let steps = || (-NUM_STEPS..=NUM_STEPS).map(|k| f64::from(k) * STEP);
+    let steps = || (-NUM_STEPS..=NUM_STEPS).map(|k| f64::from(k) * STEP_M);
     let shifts: Vec<Vector3<f64>> = steps()
         .flat_map(|x| steps().map(move |y| axes[0] * x + axes[1] * y))
         .collect();
@@ -236,7 +236,7 @@ fn rate(
     let rate_one = |&i: &u32| {
         let i = i as usize;
         match meet(from, i, to, &to_from, base_from_to, REACH) {
-            ProjectedReading::Pair(pair) => (-(pair.off() / FIT).powi(2)).exp(),
+            ProjectedReading::Pair(pair) => (-(pair.off() / FIT_M).powi(2)).exp(),
             _ if seen_at(from, i, to, &to_from) == Some(Place::Free) => -AGAINST,
             _ => 0.0,
         }

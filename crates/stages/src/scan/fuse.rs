@@ -113,7 +113,7 @@ struct Voxel {
 
 /// Largest distance along the normal between a fused point and its readings, in metres, beyond three standard deviations
 /// of the noise; refined poses agree better than that.
-const TOLERANCE: f64 = 0.006;
+const TOLERANCE_M: f64 = 0.006;
 /// Votes of a shot on whether a point is the part. A rest label weighs half as much as a background label.
 const PART_VOTE: i32 = 2;
 const BACKGROUND_VOTE: i32 = -2;
@@ -314,7 +314,7 @@ fn drawn_to_surface(
         }
         let surface = &shot.surface;
         let noise = surface.noise_at_1m.0 * at.z * at.z;
-        match visibility_at(surface, &at, &normal, TOLERANCE + 3.0 * noise) {
+        match visibility_at(surface, &at, &normal, TOLERANCE_M + 3.0 * noise) {
             Visibility::Here(i) => {
                 num_here += 1;
                 seen_by |= 1 << *number;

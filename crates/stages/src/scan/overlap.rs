@@ -1,7 +1,7 @@
 //! Agreement of shots where they see the same surface.
 //!
 //! A reading is projected into another shot and paired with the reading there. The pair counts if projecting it back leads
-//! to the first reading (mutual nearest readings) and if it is within [`REACH`]. Its distance is measured along the other
+//! to the first reading (mutual nearest readings) and if it is within [`REACH_M`]. Its distance is measured along the other
 //! reading's normal. Readings beside depth discontinuities are left out.
 
 use nalgebra::Point3;
@@ -14,7 +14,7 @@ use super::{
 use geometry::{parallel::map_each, rigid::RigidTransform, units::Metres};
 
 /// Readings further apart than this are not on one surface, in metres.
-pub const REACH: f64 = 0.015;
+pub const REACH_M: f64 = 0.015;
 /// Readings of each of up to 8 shots that are projected into each other shot, approximately; fewer of more shots.
 const NUM_SAMPLES: usize = 4000;
 /// Fewer pairs than this are not an overlap.
@@ -108,7 +108,7 @@ fn distances(
     let from_base = base_from_from.inverse();
     let distance = |&i: &u32| {
         let reach = Reach {
-            least: REACH,
+            least: REACH_M,
             sigmas: 0.0,
         };
         let met = meet(from, i as usize, to, &to_from, base_from_to, reach);

@@ -49,7 +49,7 @@ pub(super) enum ProjectedReading {
 }
 
 /// Least cosine between two normals of one surface, about 45°.
-const SAME_FACING: f32 = 0.7;
+const SAME_FACING_MIN_COSINE: f32 = 0.7;
 
 /// The largest distance between two readings of one surface: the larger of the two limits.
 #[derive(Clone, Copy, Debug)]
@@ -82,7 +82,7 @@ pub(super) fn meet(
     let seen = to.points()[j].cast::<f64>();
     let normal = to.normal(j);
     let own = to_from.rotation * from.normal(i).cast::<f64>();
-    let faces = own.cast::<f32>().dot(&normal) > SAME_FACING;
+    let faces = own.cast::<f32>().dot(&normal) > SAME_FACING_MIN_COSINE;
     let sigma = from.sigma(i).hypot(to.sigma(j));
     let reach = reach.least.max(reach.sigmas * sigma);
     if (seen - at).norm() < reach && faces {

@@ -43,7 +43,7 @@ pub(super) fn voters(shots: &[ScannedShot]) -> Vec<usize> {
 /// Readings of a shot's part that are looked up in other shots, approximately.
 const NUM_LOOKED_UP: usize = 2000;
 /// Largest distance of the same surface in two shots, metres, beyond three standard deviations of the noise.
-const TOLERANCE: f64 = 0.006;
+const TOLERANCE_M: f64 = 0.006;
 
 /// Returns whether the voters take most of what they see of a shot's part for the part.
 fn is_confirmed(which: usize, voters: &[usize], shots: &[ScannedShot]) -> bool {
@@ -58,7 +58,7 @@ fn is_confirmed(which: usize, voters: &[usize], shots: &[ScannedShot]) -> bool {
         for &i in part.indices.iter().step_by(step) {
             let at = to_voter * shot.surface.points()[i as usize].cast::<f64>();
             let normal = to_voter.rotation * shot.surface.normal(i as usize).cast::<f64>();
-            let tolerance = TOLERANCE + 3.0 * voter.surface.noise_at_1m.0 * at.z * at.z;
+            let tolerance = TOLERANCE_M + 3.0 * voter.surface.noise_at_1m.0 * at.z * at.z;
             let seen = visibility_at(&voter.surface, &at, &normal, tolerance);
             let Visibility::Here(seen) = seen else {
                 continue;

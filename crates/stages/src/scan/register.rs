@@ -56,11 +56,11 @@ const REACH: f64 = 3.0;
 /// the rotation.
 const SIGMAS: f64 = 2.0;
 /// Error of a distance from calibration and quantisation, in metres, in addition to the noise.
-const FLOOR: f64 = 0.001;
+const ERROR_FLOOR_M: f64 = 0.001;
 /// This many pairs count as one with an independent error.
 const CORRELATED: f64 = 25.0;
 /// A step that moves no camera by more than this (metres, radians) ends a level.
-const SETTLED: f64 = 2e-6;
+const SETTLED_STEP_M_RAD: f64 = 2e-6;
 
 /// Returns about `num` of the readings that a shot can be registered with, spread over its picture.
 pub fn samples_of(surface: &ShotSurface, num: usize) -> Vec<u32> {
@@ -118,7 +118,7 @@ pub fn register(
             for (pose, step) in poses.iter_mut().zip(&steps) {
                 *pose = moved(pose, step);
             }
-            if steps.iter().all(|step| step.amax() < SETTLED) {
+            if steps.iter().all(|step| step.amax() < SETTLED_STEP_M_RAD) {
                 break;
             }
         }
@@ -232,7 +232,7 @@ fn block_of(own: &RegistrationShot<'_>, other: &RegistrationShot<'_>, scale: f64
         };
         let off = pair.off();
         let robust = (-(off / scale.max(SIGMAS * pair.sigma)).powi(2)).exp();
-        let weight = robust / (CORRELATED * (pair.sigma.powi(2) + FLOOR * FLOOR));
+        let weight = robust / (CORRELATED * (pair.sigma.powi(2) + ERROR_FLOOR_M * ERROR_FLOOR_M));
         // off = n · (to - from); the own shot moves `from`, the other one `to`.
         let row = |at: &Point3<f64>, centre: &Point3<f64>| {
             let lever = (at - centre).cross(&pair.normal);

@@ -62,7 +62,7 @@ enum KeptNormals {
 const NOISE: Metres = Metres(0.0015);
 /// Least standard deviation at 1 m, in metres: no depth camera is calibrated better, so that far points weigh less even if
 /// they scatter little.
-const CALIBRATED: f64 = 0.001;
+const MIN_NOISE_AT_1M: f64 = 0.001;
 /// Window of the fit: pixels between neighbours, and neighbours on each side; 9 × 9 pixels with 25 readings.
 const STEP: i64 = 2;
 const SIDE: i64 = 2;
@@ -146,7 +146,7 @@ impl ShotSurface {
     pub(super) fn sigma(&self, i: usize) -> f64 {
         let z = f64::from(self.points()[i].z);
         let cosine = f64::from(self.cosine(i));
-        self.noise_at_1m.0.max(CALIBRATED) * z * z / cosine.max(0.1)
+        self.noise_at_1m.0.max(MIN_NOISE_AT_1M) * z * z / cosine.max(0.1)
     }
 
     /// Returns column and row of the pixel that shows a camera point; `None` outside the picture.

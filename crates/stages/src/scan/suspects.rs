@@ -166,7 +166,7 @@ const NUM_SAMPLES: usize = 3000;
 /// Fewer readings than this are not evaluated.
 const LEAST: f64 = 60.0;
 /// Two surfaces further apart than this contradict each other: metres, plus three standard deviations.
-const AGREES: f64 = 0.008;
+const AGREES_M: f64 = 0.008;
 /// Readings further apart than this are not on one surface.
 const REACH: Reach = Reach {
     least: 0.06,
@@ -367,7 +367,7 @@ fn count(
         let base_from_to = &to.base_from_camera;
         let met = meet(&from.surface, i, &to.surface, &to_from, base_from_to, REACH);
         let agrees = match met {
-            ProjectedReading::Pair(pair) => pair.off().abs() < AGREES + 3.0 * pair.sigma,
+            ProjectedReading::Pair(pair) => pair.off().abs() < AGREES_M + 3.0 * pair.sigma,
             ProjectedReading::Through => false,
             ProjectedReading::Nothing => continue,
         };

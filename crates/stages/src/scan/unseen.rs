@@ -13,13 +13,13 @@ use super::{
 use geometry::nearest::KdTree;
 
 /// Radius within which neighbours are looked at, in metres: three voxels.
-const REACH: f32 = 0.012;
+const REACH_M: f32 = 0.012;
 /// A gap at least this wide between the directions to the neighbours marks the outline, in radians.
-const GAP: f64 = 2.4;
+const GAP_RAD: f64 = 2.4;
 /// Distances of the probes beyond the outline, in metres.
-const PROBES: [f64; 2] = [0.02, 0.04];
+const PROBES_M: [f64; 2] = [0.02, 0.04];
 /// A surface within this distance of the probe counts as there, in metres.
-const TOLERANCE: f64 = 0.012;
+const TOLERANCE_M: f64 = 0.012;
 /// Approximate number of the part's points that are examined.
 const NUM_POINTS: usize = 8000;
 
@@ -61,12 +61,12 @@ pub fn outline(scan: &Scan) -> Vec<OutlinePoint> {
         let Some(outwards) = outwards(point, normal, points, &tree) else {
             continue;
         };
-        let ends = PROBES.iter().any(|far| {
+        let ends = PROBES_M.iter().any(|far| {
             let probe = point.cast::<f64>() + outwards * *far;
             scan.used().any(|(_, shot)| {
                 let camera_from_base = shot.base_from_camera.inverse();
                 let at = camera_from_base * probe;
-                let seen = visibility_at(&shot.surface, &at, &Vector3::zeros(), TOLERANCE);
+                let seen = visibility_at(&shot.surface, &at, &Vector3::zeros(), TOLERANCE_M);
                 matches!(
                     seen,
                     Visibility::Through | Visibility::Here(_) | Visibility::NoReading
@@ -99,7 +99,7 @@ fn outwards(
     let right = normal.cross(&across).try_normalize(1e-9)?;
     let up = normal.cross(&right);
     let mut angles: Vec<f64> = Vec::new();
-    tree.within(point, REACH, |found| {
+    tree.within(point, REACH_M, |found| {
         let to: Vector3<f64> = (points[found.index] - point).cast();
         if found.distance_sq > 1e-8 {
             angles.push(to.dot(&up).atan2(to.dot(&right)));
@@ -115,5 +115,5 @@ fn outwards(
         .map(|(angle, next)| (*angle, next - angle))
         .max_by(|a, b| a.1.total_cmp(&b.1))?;
     let middle = start + gap / 2.0;
-    (gap > GAP).then(|| right * middle.cos() + up * middle.sin())
+    (gap > GAP_RAD).then(|| right * middle.cos() + up * middle.sin())
 }

@@ -12,11 +12,11 @@ use geometry::{
 /// Minimum number of points for a picture.
 const MIN_PICTURE_POINTS: usize = 1000;
 /// Minimum range of a depth camera, metres.
-const NEAREST_READING: f32 = 0.05;
+const NEAREST_READING_M: f32 = 0.05;
 /// Limit for the picture's width and height at unit distance: a view of about 120°.
 const WIDEST_VIEW: f64 = 3.5;
 /// Minimum number of pixels along each side.
-const LEAST_SIDE: f64 = 7.0;
+const MIN_SIDE_PIXELS: f64 = 7.0;
 /// Points per pixel of the reconstructed picture. A capture exported as bare points lacks only pixels without a
 /// reading, so at 1.4 points per pixel few pixels stay empty.
 const POINTS_PER_PIXEL: f64 = 1.4;
@@ -37,7 +37,7 @@ const SAME_SURFACE: f32 = 0.05;
 /// Exact zeros, which stand for "no reading", are left out, and so are up to [`MAX_STRAY_SHARE`] of stray points.
 pub(super) fn organised(cloud: &PointCloud) -> Option<SceneCloud> {
     let view = View::around(seen(cloud).map(|(_, _, ratios)| ratios));
-    let is_unseen = |p: &Point3<f32>| p.z < NEAREST_READING && *p != Point3::origin();
+    let is_unseen = |p: &Point3<f32>| p.z < NEAREST_READING_M && *p != Point3::origin();
     let num_unseen = cloud.finite().filter(|(_, p)| is_unseen(p)).count();
     let max_stray = (MAX_STRAY_SHARE * view.num_points as f64) as usize;
     if view.num_points < MIN_PICTURE_POINTS || num_unseen > max_stray {
@@ -50,7 +50,7 @@ pub(super) fn organised(cloud: &PointCloud) -> Option<SceneCloud> {
 
 /// Iterates over the points at the range of a camera, with their indices, x/z and y/z.
 fn seen(cloud: &PointCloud) -> impl Iterator<Item = (usize, &Point3<f32>, [f32; 2])> {
-    let at_range = cloud.finite().filter(|(_, p)| p.z >= NEAREST_READING);
+    let at_range = cloud.finite().filter(|(_, p)| p.z >= NEAREST_READING_M);
     at_range.map(|(i, p)| (i, p, [p.x / p.z, p.y / p.z]))
 }
 
@@ -147,7 +147,7 @@ fn picture(cloud: &PointCloud, view: &View) -> Option<SceneCloud> {
     let focal = (num_points as f64 / POINTS_PER_PIXEL / (across * down)).sqrt();
     let sides = [across, down].map(|x| x * focal);
     // This also keeps the number of pixels along the other side below the number of points.
-    if !sides.iter().all(|&side| side >= LEAST_SIDE) {
+    if !sides.iter().all(|&side| side >= MIN_SIDE_PIXELS) {
         return None;
     }
     let [width, height] = sides.map(|side| side as usize + 1);

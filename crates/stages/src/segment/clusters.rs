@@ -229,10 +229,10 @@ fn connect_pixels(
 }
 
 /// Side of a voxel, metres: an unorganised cloud may be far sparser than a picture.
-const VOXEL: f32 = 0.04;
+const VOXEL_M: f32 = 0.04;
 
 fn connect_voxels(points: &[Point3<f32>], labels: &[PointLabel]) -> Vec<Vec<u32>> {
-    let voxel_of = |p: &Point3<f32>| [p.x, p.y, p.z].map(|x| (x / VOXEL).floor() as i64);
+    let voxel_of = |p: &Point3<f32>| [p.x, p.y, p.z].map(|x| (x / VOXEL_M).floor() as i64);
     let mut forest = UnionFind {
         parents: Vec::new(),
     };
@@ -281,11 +281,11 @@ fn describe(scene: &SceneCloud, indices: &[u32], border: Border) -> Cluster {
         let mut voxels: Vec<[i64; 3]> = indices
             .iter()
             .map(|&i| points[i as usize])
-            .map(|p| [p.x, p.y, p.z].map(|x| (x / VOXEL).floor() as i64))
+            .map(|p| [p.x, p.y, p.z].map(|x| (x / VOXEL_M).floor() as i64))
             .collect();
         voxels.sort_unstable();
         voxels.dedup();
-        voxels.len() as f64 * f64::from(VOXEL).powi(2)
+        voxels.len() as f64 * f64::from(VOXEL_M).powi(2)
     };
     Cluster {
         num_points: indices.len(),

@@ -226,12 +226,12 @@ impl Segmentation {
 }
 
 /// Maximum extent of a scene, metres; a file in millimetres appears a thousand times as large.
-const WIDEST_SCENE: f64 = 200.0;
+const MAX_SCENE_EXTENT_M: f64 = 200.0;
 
 fn too_wide(scene: &SceneCloud) -> Option<NoPart> {
     let (low, high) = scene.cloud.bounds()?;
     let extent = f64::from((high - low).amax());
-    (extent > WIDEST_SCENE).then_some(NoPart::TooWide { extent })
+    (extent > MAX_SCENE_EXTENT_M).then_some(NoPart::TooWide { extent })
 }
 
 fn label_readings(points: &[Point3<f32>]) -> Vec<PointLabel> {

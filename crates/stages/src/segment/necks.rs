@@ -10,7 +10,7 @@ use crate::scene::SceneCloud;
 use geometry::cloud::Grid;
 
 /// Half widths of the necks at which a surface is cut, pixels.
-pub(super) const HALF_WIDTHS: [f32; 6] = [0.0, 1.0, 2.0, 4.0, 8.0, 12.0];
+pub(super) const HALF_WIDTHS_PIXELS: [f32; 6] = [0.0, 1.0, 2.0, 4.0, 8.0, 12.0];
 /// Wide places smaller than this are bumps, pixels.
 const MIN_CORE: usize = 100;
 

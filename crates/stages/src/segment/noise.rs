@@ -10,7 +10,7 @@ use geometry::units::Metres;
 
 /// Limits of the estimate, metres at 1 m: a perfect (rendered) scene must not disable the tolerance, nor a warped
 /// one open it wide.
-pub(super) const NOISE_RANGE: [f64; 2] = [0.0003, 0.008];
+pub(super) const NOISE_RANGE_AT_1M: [f64; 2] = [0.0003, 0.008];
 /// Pixels between the three readings: neighbouring pixels share the same noise.
 const STEP: usize = 8;
 /// Step between samples in both directions, pixels; with the two directions about 2 400 samples for a Kinect.
@@ -47,7 +47,9 @@ pub fn noise_of_picture(scene: &SceneCloud) -> Option<Metres> {
     let kept = &squares[..(squares.len() as f64 * KEPT) as usize];
     let variance = kept.iter().sum::<f64>() / kept.len() as f64 / KEPT_VARIANCE;
     Some(Metres(
-        variance.sqrt().clamp(NOISE_RANGE[0], NOISE_RANGE[1]),
+        variance
+            .sqrt()
+            .clamp(NOISE_RANGE_AT_1M[0], NOISE_RANGE_AT_1M[1]),
     ))
 }
 

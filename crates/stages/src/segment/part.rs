@@ -6,7 +6,7 @@ use super::{
     Cluster, MIN_POINTS, NoPart, PointLabel, SegmentParams, Segmentation,
     clusters::{self, Link},
     label_readings,
-    necks::{HALF_WIDTHS, Silhouette},
+    necks::{HALF_WIDTHS_PIXELS, Silhouette},
     noise_of_picture,
     stand::{Bars, Mask, remove_stand},
     strip,
@@ -71,10 +71,10 @@ texts::display!(BackgroundSign);
 /// Number of sides cut off from which a surface is as likely a wall.
 const MOST_CUT: usize = 3;
 /// Area from which a flat surface is as likely a wall, square metres.
-const LARGE: f64 = 0.4;
+const LARGE_M2: f64 = 0.4;
 /// Maximum deviation of a flat surface from its plane, beyond the noise, metres (standard deviation): car body
 /// sheets are curved by centimetres.
-const FLAT: f64 = 0.003;
+const FLAT_M: f64 = 0.003;
 
 impl SegmentedPart {
     /// Returns the reason why the part is more likely background, if there is one.
@@ -90,7 +90,7 @@ impl SegmentedPart {
             });
         }
         let area = surface.area;
-        (area > LARGE && self.is_flat()).then_some(BackgroundSign::Flat { area })
+        (area > LARGE_M2 && self.is_flat()).then_some(BackgroundSign::Flat { area })
     }
 
     fn is_flat(&self) -> bool {
@@ -247,8 +247,8 @@ fn is_of_a_size(cluster: &Cluster, least_area: f64) -> bool {
 /// Least width and depth of a body, metres, and its least width as a share of its length: bars, hooks and strips of a wall are
 /// narrower or flatter, and a stool is not. In 760 simulated and real frames it holds for a bar with hooks that crossed, and for
 /// nothing else that is clutter.
-const BODY_WIDTH: f64 = 0.25;
-const BODY_DEPTH: f64 = 0.12;
+const BODY_WIDTH_M: f64 = 0.25;
+const BODY_DEPTH_M: f64 = 0.12;
 const BODY_WIDTH_SHARE: f64 = 0.5;
 
 /// True if a surface is a body that lies wholly in view: what is as small as clutter beside large parts, and is none.
@@ -267,7 +267,7 @@ fn is_body(scene: &SceneCloud, members: &clusters::Members) -> bool {
         let ends = [0.98, 0.02].map(|share| quantile(along(), share).unwrap_or(0.0));
         ends[0] - ends[1]
     });
-    width >= BODY_WIDTH && depth >= BODY_DEPTH && width >= BODY_WIDTH_SHARE * length
+    width >= BODY_WIDTH_M && depth >= BODY_DEPTH_M && width >= BODY_WIDTH_SHARE * length
 }
 
 /// Minimum area of another surface to be a part, square metres, where the largest one has this area.
@@ -404,7 +404,7 @@ pub fn split(
     let min_area = params.min_part_area;
     let mut known: Vec<Vec<u32>> = Vec::new();
     let splits = picture.into_iter().flat_map(|picture| {
-        HALF_WIDTHS
+        HALF_WIDTHS_PIXELS
             .into_iter()
             .map(move |half_width| picture.cut(half_width))
     });
@@ -452,7 +452,7 @@ pub(super) fn is_flat(
     let depth_sq = points.clone().map(|p| p.z.powi(2)).sum::<f64>();
     let noise = noise_at_1m.0 * depth_sq / points.len().max(1) as f64;
     let principal = principal_axes(points.map(|p| (p, 1.0)));
-    principal.is_some_and(|principal| principal.variances[2].sqrt() < FLAT + noise)
+    principal.is_some_and(|principal| principal.variances[2].sqrt() < FLAT_M + noise)
 }
 
 pub(super) fn select_part(

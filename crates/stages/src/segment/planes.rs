@@ -6,7 +6,7 @@ use rand_pcg::Pcg64;
 
 use super::{
     PointLabel, SegmentParams,
-    noise::{self, NOISE_RANGE},
+    noise::{self, NOISE_RANGE_AT_1M},
     subset::{Neighbourhood, Subset},
 };
 use crate::scene::{PictureEdge, SceneCloud};
@@ -314,5 +314,7 @@ fn measured_noise(subset: &Subset, plane: &Plane, inliers: &[u32]) -> Option<Met
     }
     // 1.4826 converts the median absolute deviation of a normal distribution into its standard deviation.
     let noise = 1.4826 * median(deviations.into_iter())?;
-    Some(Metres(noise.clamp(NOISE_RANGE[0], NOISE_RANGE[1])))
+    Some(Metres(
+        noise.clamp(NOISE_RANGE_AT_1M[0], NOISE_RANGE_AT_1M[1]),
+    ))
 }

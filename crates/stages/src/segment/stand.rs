@@ -15,9 +15,9 @@ use crate::{field_of_view::FieldOfView, scene::SceneCloud};
 use geometry::{cloud::Grid, depth_frame::Intrinsics, plane::Plane};
 
 /// Maximum half width of a tube, metres: stands are made of tubes of 20 to 50 mm.
-const RADIUS: f32 = 0.028;
+const RADIUS_M: f32 = 0.028;
 /// Half width of the gaps that are closed if an opening leaves too little, metres: the slots of a grille.
-const CLOSED: f32 = 0.016;
+const CLOSED_M: f32 = 0.016;
 /// Minimum share of the part that an opening must leave.
 const LEAST_LEFT: f64 = 0.55;
 /// The same if all bars are removed, and the factor by which those may be wider: two tubes side by side, or a tube
@@ -27,11 +27,11 @@ const WIDE: f32 = 1.6;
 /// Pieces left by an opening that are smaller than this share of the largest are feet and joints of the stand.
 const LEAST_PIECE: f64 = 0.2;
 /// A bar that ends within this distance of the body's core is a corner or a tip, metres.
-const TIP: f32 = 0.085;
+const TIP_M: f32 = 0.085;
 /// Distance from the start of a bar within which its surface and that of the body are compared, metres.
-const NEAR: f32 = 0.06;
+const NEAR_M: f32 = 0.06;
 /// Minimum offset of a bar from the surface it touches to belong to a stand, metres.
-const STEP: f64 = 0.0095;
+const STEP_M: f64 = 0.0095;
 /// A strip attached along more than this many times its reach is the folded edge of a sheet.
 const FOLD: f32 = 2.5;
 /// Pixels of the scene per cell of the mask, in each direction.
@@ -96,7 +96,7 @@ impl Mask {
         }
         let mean = (sum / surface.len() as f64) as f32;
         // Give up if half a tube's width is less than a cell.
-        let radius = RADIUS * camera.fx as f32 / mean / CELL as f32;
+        let radius = RADIUS_M * camera.fx as f32 / mean / CELL as f32;
         if surface.is_empty() || !(radius >= 1.0) {
             return None;
         }
@@ -175,8 +175,8 @@ impl Mask {
     /// Returns the cells that belong to a stand; `None` if there are none.
     fn stand(&self, bars: Bars) -> Option<Vec<bool>> {
         let (half_width, tip, least_left) = match bars {
-            Bars::OffSurface => (RADIUS, TIP, LEAST_LEFT),
-            Bars::All | Bars::AllButSlats => (WIDE * RADIUS, WIDE * TIP, LEAST_BARE),
+            Bars::OffSurface => (RADIUS_M, TIP_M, LEAST_LEFT),
+            Bars::All | Bars::AllButSlats => (WIDE * RADIUS_M, WIDE * TIP_M, LEAST_BARE),
         };
         let num = count(&self.is_set);
         let opened = |filled: &[bool]| {
@@ -229,7 +229,7 @@ impl Mask {
         if touching.len() as f32 * size > FOLD * reach {
             return false;
         }
-        let steps = (NEAR / size) as usize;
+        let steps = (NEAR_M / size) as usize;
         let own = self.around(&touching, off, steps);
         let beside = self.around(&touching, body, steps);
         let Some(surface) = Plane::fit(beside.iter().map(|&i| (self.point(i), 1.0))) else {
@@ -237,7 +237,7 @@ impl Mask {
         };
         let sum: Vector3<f64> = own.iter().map(|&i| self.point(i).coords).sum();
         let middle = Point3::from(sum / own.len() as f64);
-        surface.signed_distance(&middle).abs() > STEP
+        surface.signed_distance(&middle).abs() > STEP_M
     }
 
     /// Returns the cells of the core, which is wider than a tube, and the cells of the surface around them.
@@ -258,7 +258,7 @@ impl Mask {
 
     /// Returns the surface with its narrow gaps filled.
     fn closed(&self) -> Vec<bool> {
-        let is_far = |(distance, size): (f32, &f32)| distance * size > CLOSED;
+        let is_far = |(distance, size): (f32, &f32)| distance * size > CLOSED_M;
         let from_set = distances(&self.is_set, self.width);
         let far: Vec<bool> = from_set.into_iter().zip(&self.size).map(is_far).collect();
         let from_far = distances(&far, self.width);

@@ -33,7 +33,7 @@ const LEAST_CONTINUED: f64 = 0.9;
 const LIFTED: f64 = 0.3;
 /// Maximum cosine of the angle between a strip and the plane that it continues: the rim of a sheet that was taken for a
 /// wall is bent less.
-const UPRIGHT: f64 = 0.7;
+const UPRIGHT_MAX_COSINE: f64 = 0.7;
 
 /// The readings on one line of the picture.
 #[derive(Clone, Copy)]
@@ -130,9 +130,9 @@ pub(super) fn is_strip(
                 && continues.is_some_and(|plane| {
                     let own = surface.indices.iter().map(|i| points[*i as usize]);
                     let own = own.map(|p: Point3<f32>| (p.cast(), 1.0));
-                    principal_axes(own.clone())
-                        .is_some_and(|axes| axes.axes.column(2).dot(&plane.normal).abs() < UPRIGHT)
-                        && is_flat(own.map(|p| p.0), noise_at_1m)
+                    principal_axes(own.clone()).is_some_and(|axes| {
+                        axes.axes.column(2).dot(&plane.normal).abs() < UPRIGHT_MAX_COSINE
+                    }) && is_flat(own.map(|p| p.0), noise_at_1m)
                 })
         })
     })

@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use crate::reference::{Reference, SPACING};
+use crate::reference::{Reference, SPACING_M};
 use geometry::{
     cloud::PointCloud,
     nearest::{KdTree, Neighbour},
@@ -13,15 +13,15 @@ use geometry::{
 };
 
 /// Search range on either side of the expected distance, metres.
-const REACH: f32 = 0.4;
+const REACH_M: f32 = 0.4;
 /// Step along a ray, metres: the side of a cell of the nearest-point field.
-const STEP: f32 = 0.02;
+const STEP_M: f32 = 0.02;
 /// Minimum cosine between ray and reversed normal: 80°.
-const LEAST_FACING: f32 = 0.17;
+const MIN_FACING_COSINE: f32 = 0.17;
 /// Maximum distance from the surface to the nearest point of the cloud, metres.
-const BESIDE: f32 = 1.5 * SPACING as f32;
+const BESIDE_M: f32 = 1.5 * SPACING_M as f32;
 /// Radius for estimating the normals of a captured part, which is thinned to the spacing of a reference.
-const SEEN_RADIUS: Metres = Metres(4.0 * SPACING);
+const SEEN_RADIUS: Metres = Metres(4.0 * SPACING_M);
 
 /// A surface of points with unit normals, evenly spaced.
 pub struct ReferenceSurface<'a> {
@@ -60,7 +60,7 @@ pub struct SeenSurface {
 
 impl SeenSurface {
     pub fn of(seen: &PointCloud) -> Self {
-        let points = downsample(seen, Metres(SPACING)).points;
+        let points = downsample(seen, Metres(SPACING_M)).points;
         let tree = KdTree::new(&points);
         let normals = estimate_normals(&points, &tree, SEEN_RADIUS, &Point3::origin());
         Self {
@@ -98,17 +98,17 @@ impl Ray {
         surface: &ReferenceSurface<'_>,
         expected: f32,
     ) -> Option<(f32, Vector3<f32>)> {
-        let num_steps = (2.0 * REACH / STEP) as usize;
+        let num_steps = (2.0 * REACH_M / STEP_M) as usize;
         let mut before: Option<f32> = None;
         let mut best: Option<(f32, Vector3<f32>)> = None;
         for i in 0..=num_steps {
-            let t = expected - REACH + i as f32 * STEP;
+            let t = expected - REACH_M + i as f32 * STEP_M;
             let height = self.height(surface, t);
             if let (Some(above), Some(below)) = (before, height)
                 && above > 0.0
                 && below <= 0.0
             {
-                let t = t - STEP * below / (below - above);
+                let t = t - STEP_M * below / (below - above);
                 let found = self.settled(surface, t);
                 best = [best, found]
                     .into_iter()
@@ -125,7 +125,7 @@ impl Ray {
         let at = self.at(t);
         let nearest = surface.near(&at)?;
         let normal = surface.normals.get(nearest.index)?;
-        let faces = -normal.dot(&self.direction) > LEAST_FACING;
+        let faces = -normal.dot(&self.direction) > MIN_FACING_COSINE;
         faces.then(|| normal.dot(&(at - surface.points[nearest.index])))
     }
 
@@ -137,12 +137,12 @@ impl Ray {
             let nearest = surface.tree.nearest(&self.at(t), f32::INFINITY)?;
             normal = *surface.normals.get(nearest.index)?;
             let slope = normal.dot(&self.direction);
-            if -slope <= LEAST_FACING {
+            if -slope <= MIN_FACING_COSINE {
                 return None;
             }
             t = normal.dot(&(surface.points[nearest.index] - self.mouth)) / slope;
         }
-        let beside = surface.tree.nearest(&self.at(t), BESIDE * BESIDE);
+        let beside = surface.tree.nearest(&self.at(t), BESIDE_M * BESIDE_M);
         beside.map(|_| (t, normal))
     }
 }

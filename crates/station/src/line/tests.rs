@@ -9,7 +9,7 @@ use inspection::{
 };
 use nalgebra::{Translation3, Unit, UnitQuaternion};
 use records::history::Traceability;
-use robot::line::{Counter, DEFAULT_EXPOSURE, OnLine};
+use robot::line::{Counter, DEFAULT_EXPOSURE_S, OnLine};
 use serde_json::Value;
 use serve::{Asked, ExpectedNumbers, PoseKind, VerdictCode};
 use simulate::{
@@ -262,7 +262,7 @@ fn a_line_that_stands_carries_its_parts_nowhere_and_one_too_fast_for_the_exposur
         };
         run.rows(&seen, 4.0).0
     };
-    let standing = run(0.0, DEFAULT_EXPOSURE);
+    let standing = run(0.0, DEFAULT_EXPOSURE_S);
     assert!(matches!(standing[..], [(_, Some(1), None)]), "{standing:?}");
     let fast = run(0.25, 0.01);
     assert!(matches!(fast[..], [(_, Some(1), None)]), "{fast:?}");

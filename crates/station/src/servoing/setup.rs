@@ -17,12 +17,12 @@ use inspection::{
     pipeline::{Expected, ExpectedError, NamedRecipe, Unwatched, run as inspect},
 };
 use robot::{
-    arm::{GUN_RADIUS, PlacedArm},
+    arm::{GUN_RADIUS_M, PlacedArm},
     calibration::CameraPlace,
     spray::{OffThePart, off_the_part},
 };
 use servo::{Fence, Look, ServoParams, StopReason, Target, Task, TaskError, Tool};
-use stages::{reference::Reference, scene::SceneCloud};
+use stages::{rack::Rack, reference::Reference, scene::SceneCloud};
 
 /// Where the part should be, for any part.
 pub enum ServoTarget {
@@ -214,7 +214,8 @@ impl ServoSetup {
     ) -> Result<PreparedTask, SetupError> {
         let (reference, middle) = reference_of(library, name)?;
         let expected = Expected::new(vec![name.into()], None, |_| true)?;
-        let recipe = recipe.expecting(expected);
+        // The boxes of a rack are where the camera does not move.
+        let recipe = recipe.in_rack(Rack::default()).expecting(expected);
         let mut task = Task {
             part: reference.name.clone(),
             reference: name.to_owned(),
@@ -284,7 +285,7 @@ impl ServoSetup {
             });
         };
         if let Some(nozzle) = &self.flange_from_nozzle {
-            keep_clear(nozzle, GUN_RADIUS);
+            keep_clear(nozzle, GUN_RADIUS_M);
         }
         if let CameraPlace::OnFlange {
             flange_from_camera, ..
@@ -307,7 +308,11 @@ mod tests {
     use inspection::fixtures::shipped_library;
     use robot::spray::default_path;
     use simulate::{CellSetup, PartKind, Side, frame};
-    use stages::{scene::scene_from_frame, stand_off::StandOffParams};
+    use stages::{
+        rack::{MaxTurn, Place},
+        scene::scene_from_frame,
+        stand_off::StandOffParams,
+    };
 
     fn setup(target: ServoTarget) -> ServoSetup {
         ServoSetup {
@@ -354,6 +359,29 @@ mod tests {
         assert_eq!(error.kind(), "not_recorded");
         let error = prepare("boat").err().expect("not enrolled");
         assert_eq!(error.kind(), "not_enrolled");
+    }
+
+    #[test]
+    fn a_rack_says_nothing_to_a_camera_that_moves() {
+        let library = shipped_library();
+        let far = Place {
+            name: "far".into(),
+            region: OrientedBox {
+                centre_m: [9.0, 0.0, 2.0],
+                size_m: [0.1; 3],
+                angles_rad: [0.0; 3],
+            },
+            max_turn: MaxTurn::Total(Radians(0.1)),
+            parts: Vec::new(),
+        };
+        let rack = Rack {
+            places: vec![far],
+            ..Rack::default()
+        };
+        let recipe = NamedRecipe::default().in_rack(rack);
+        let seen_as = setup(ServoTarget::SeenAs(vec![scene(PartKind::Fender, 1)]));
+        let prepared = seen_as.prepare("fender", None, &library, &recipe);
+        assert!(prepared.is_ok(), "{:?}", prepared.err());
     }
 
     #[test]

@@ -200,7 +200,7 @@ impl SingleMoves {
         let at_rest = Asked {
             at: asked.at + params.settle,
             by_clock: asked.by_clock + params.settle,
-            ..*asked
+            ..asked.clone()
         };
         let frames = match look(&run.prepared, &at_rest, params.num_final) {
             Ok(frames) => frames,

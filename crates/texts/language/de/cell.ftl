@@ -17,3 +17,7 @@ cell-moving = die Bilder stimmen nicht überein: Das Teil ist in Bild { $frame }
 cell-other-part = nur { PERCENT($overlap, 0) } % dessen, was in Bild { $frame } zu sehen ist, liegen auf dem Teil des Ausgangszustands
     .advice = Das Teil des Ausgangszustands an seinen üblichen Platz hängen, mit nichts davor; hängt es dort, hat sich Kamera oder Teil um mehrere Zentimeter bewegt
 cell-pose = Bild { $frame }: { $why }
+
+cell-calibration = { $name }
+cell-unnamed-calibration = eine Kalibrierung ohne Namen ({ $identity })
+cell-scan-poses = die Posen des Scans

@@ -22,6 +22,8 @@ orders-again = Auftrag und Seriennummer sind die der Zeile { $first }
 
 ## Warum nicht bekannt ist, was ein Auftrag erwartet
 
+order-too-long = Auftrag oder Seriennummer haben mehr als { $limit } Zeichen oder Zeilenumbrüche
+    .advice = Prüfen, was gescannt wurde
 order-not-given = es ist kein Auftrag eingegeben
     .advice = Den Auftrag eingeben oder scannen
 order-unknown-order = Auftrag { $order } steht nicht in der Auftragstabelle

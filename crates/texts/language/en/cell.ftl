@@ -17,3 +17,7 @@ cell-moving = the frames do not agree: the part is { MM($shift_m, 1) } mm and { 
 cell-other-part = only { PERCENT($overlap, 0) } % of what is seen in frame { $frame } lies on the part of the baseline
     .advice = Hang the part that the baseline was taken of, in its usual place, with nothing in front of it; if it does hang there, camera or part moved by several centimetres
 cell-pose = frame { $frame }: { $why }
+
+cell-calibration = { $name }
+cell-unnamed-calibration = an unnamed calibration ({ $identity })
+cell-scan-poses = the poses of the scan

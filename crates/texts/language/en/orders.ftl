@@ -22,6 +22,8 @@ orders-again = the order and serial number are those of line { $first }
 
 ## Why it is not known what an order expects; `command-advice` is for a programmer
 
+order-too-long = the order or the serial number has more than { $limit } characters, or line breaks
+    .advice = Check what was scanned
 order-not-given = no order is given
     .advice = Enter or scan the order
     .command-advice = Give the order

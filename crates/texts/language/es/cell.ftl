@@ -17,3 +17,7 @@ cell-moving = las imágenes no coinciden: en la imagen { $frame } la pieza está
 cell-other-part = solo el { PERCENT($overlap, 0) } % de lo que se ve en la imagen { $frame } está sobre la pieza del estado inicial
     .advice = Colgar la pieza del estado inicial en su sitio habitual, sin nada delante; si está colgada allí, la cámara o la pieza se movió varios centímetros
 cell-pose = imagen { $frame }: { $why }
+
+cell-calibration = { $name }
+cell-unnamed-calibration = una calibración sin nombre ({ $identity })
+cell-scan-poses = las poses del escaneo

@@ -22,6 +22,8 @@ orders-again = la orden y el número de serie son los de la línea { $first }
 
 ## Por qué no se sabe qué espera una orden
 
+order-too-long = la orden o el número de serie tiene más de { $limit } caracteres o saltos de línea
+    .advice = Comprobar lo que se ha escaneado
 order-not-given = no se ha introducido ninguna orden
     .advice = Introducir o escanear la orden
 order-unknown-order = la orden { $order } no está en la tabla de órdenes

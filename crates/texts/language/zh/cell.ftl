@@ -17,3 +17,7 @@ cell-moving = 各帧不一致：第 { $frame } 帧中的零件与第一帧相差
 cell-other-part = 第 { $frame } 帧中所见仅有 { PERCENT($overlap, 0) } % 位于基准的零件上
     .advice = 请将基准的零件挂在其常用位置，前方不要有遮挡；若零件已挂在该处，则相机或零件移动了数厘米
 cell-pose = 第 { $frame } 帧：{ $why }
+
+cell-calibration = { $name }
+cell-unnamed-calibration = 未命名的标定 ({ $identity })
+cell-scan-poses = 扫描的各个位姿

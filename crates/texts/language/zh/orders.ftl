@@ -22,6 +22,8 @@ orders-again = 订单和序列号与第 { $first } 行相同
 
 ## 为何不知道订单的预期
 
+order-too-long = 订单号或序列号超过 { $limit } 个字符，或含有换行符
+    .advice = 检查扫描的内容
 order-not-given = 尚未输入订单
     .advice = 请输入或扫描订单
 order-unknown-order = 订单 { $order } 不在订单表中

@@ -57,7 +57,7 @@ impl Inspections {
             parts: parts.collect(),
             robot: RobotFrame {
                 robot_from_camera: RigidTransform::identity(),
-                name: String::new(),
+                name: "".into(),
             },
             kind: PoseKind::RobotFromPart,
         };
@@ -138,7 +138,7 @@ impl ServedProtocol {
             Protocol::Ascii | Protocol::UrScript => (Framing::Line, lines()),
             Protocol::Binary(order) => {
                 let frames = [Request::Status, Request::TRIGGER];
-                let frames = frames.map(|request| binary_request(request, order));
+                let frames = frames.map(|request| binary_request(&request, order));
                 (Framing::Bytes(ANSWER_BYTES), frames)
             }
             Protocol::Eki => {

@@ -9,7 +9,6 @@ use inspection::library::LibraryLoad;
 use plant::mqtt::{
     BrokerAccess, BrokerAddress, LibraryMessage, LinkNews, LinkSubject, MqttLink, PoseFormat,
 };
-use records::history::Traceability;
 use robot::Convention;
 use serve::PoseKind;
 
@@ -71,7 +70,6 @@ impl ChosenBroker {
         boot: u32,
         kind: PoseKind,
         load: &LibraryLoad,
-        trace: &Traceability,
         console: &Console,
     ) -> anyhow::Result<MqttLink> {
         if let Some(doubt) = self.access.doubt() {
@@ -84,7 +82,6 @@ impl ChosenBroker {
                 kind,
                 convention: self.convention,
             },
-            trace: trace.clone(),
         };
         MqttLink::start(&self.access, subject).advised()
     }

@@ -87,10 +87,11 @@ impl ChosenPublisher {
     ) -> anyhow::Result<Publisher> {
         let Self { broker, finder } = self;
         let recorder = InspectionRecorder::new(ServerSettings::default().max_age);
-        let link = broker.start(recorder.boot(), finder.kind, load, trace, console)?;
+        let link = broker.start(recorder.boot(), finder.kind, load, console)?;
         Ok(Publisher {
             link,
             finder,
+            trace: trace.clone(),
             recorder,
             camera: CameraStatus::default(),
         })
@@ -101,6 +102,7 @@ impl ChosenPublisher {
 pub(crate) struct Publisher {
     link: MqttLink,
     finder: PartFinder,
+    trace: Traceability,
     recorder: InspectionRecorder,
     camera: CameraStatus,
 }
@@ -122,7 +124,7 @@ impl Publisher {
     pub(crate) fn publish(&mut self, found: Found) {
         let records = self.recorder.record(found.into(), self.camera.clone());
         for record in records {
-            self.link.inspected(record);
+            self.link.inspected(record, &self.trace);
         }
     }
 

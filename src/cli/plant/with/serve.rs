@@ -46,7 +46,6 @@ impl<'a> ChosenServices<'a> {
         place: &'a LibraryPlace,
         load: &LibraryLoad,
         params: ReferenceParams,
-        trace: &Traceability,
         console: &Console,
     ) -> anyhow::Result<Services<'a>> {
         let Self {
@@ -56,7 +55,7 @@ impl<'a> ChosenServices<'a> {
             store,
         } = self;
         let kind = numbers.kind();
-        let mqtt = mqtt.map(|mqtt| mqtt.start(server.boot(), kind, load, trace, console));
+        let mqtt = mqtt.map(|mqtt| mqtt.start(server.boot(), kind, load, console));
         let taker =
             store.map(|store| LibraryTaker::start(store, place, params, numbers, server.handle()));
         Ok(Services {
@@ -75,10 +74,10 @@ pub(crate) struct Services<'a> {
 }
 
 impl Services<'_> {
-    /// Publishes an inspection.
-    pub(crate) fn inspected(&self, record: InspectionRecord) {
+    /// Publishes an inspection with what it is traced by.
+    pub(crate) fn inspected(&self, record: InspectionRecord, trace: &Traceability) {
         if let Some(mqtt) = &self.mqtt {
-            mqtt.inspected(record);
+            mqtt.inspected(record, trace);
         }
     }
 

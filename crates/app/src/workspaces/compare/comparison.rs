@@ -11,7 +11,8 @@
 
 use shell::inspection::figures::{PlaneLine, SignatureCurves, closed, plain};
 use stages::{
-    correlation::{CircularCorrelator, RaySpectra, linear_correlation},
+    correlation::{CircularCorrelator, RaySpectra},
+    paper::linear_correlation,
     rank::{ImagePlacement, Matcher, Query},
     reference::{Reference, ReferenceView},
     signature::LiteralSignature,

@@ -1,4 +1,4 @@
-//! Numbers of accepted parts by shift, by part and by reason, among those that match the filter.
+//! Numbers of accepted parts by shift, by part, by rack and by reason, among those that match the filter.
 //!
 //! An empty cell is not a part. A part with several inspections counts once, as in the list.
 
@@ -87,6 +87,8 @@ pub struct Statistics {
     pub shifts: Vec<(Zoned, Tally)>,
     /// By part, the one with the most refusals first; `None` for unknown parts.
     pub parts: Vec<(Option<String>, Tally)>,
+    /// By the name of the rack; empty if no part hung in one that has a name.
+    pub racks: BTreeMap<String, Tally>,
     /// By reason, the most frequent first.
     pub reasons: Vec<(ReasonGroup, usize)>,
     /// The source that the parts hung in front of, as in the count of the shift; `None` if those of all sources are counted.
@@ -159,6 +161,10 @@ pub(super) fn count(
             *reasons.entry(reason).or_default() += 1;
         }
         parts.entry(title).or_default().add(outcome.is_ok);
+        if let Some(rack) = &outcome.rack {
+            let tally = found.racks.entry(rack.clone()).or_default();
+            tally.add(outcome.is_ok);
+        }
     }
     found.parts = parts.into_iter().collect();
     found
@@ -213,6 +219,15 @@ pub(super) fn ui(ui: &mut Ui, view: &StatisticsView, units: UnitSystem) {
         }
         heading(ui, &text!("history-by-part"));
         by_part(ui, &found.parts);
+        if !found.racks.is_empty() {
+            heading(ui, &text!("history-by-rack"));
+            let racks = found.racks.iter();
+            by_name(
+                ui,
+                &text!("rack-heading"),
+                racks.map(|(name, tally)| (name.clone(), tally)),
+            );
+        }
         if !found.reasons.is_empty() {
             heading(ui, &text!("history-by-reason"));
         }
@@ -229,16 +244,26 @@ pub(super) fn ui(ui: &mut Ui, view: &StatisticsView, units: UnitSystem) {
     });
 }
 
-/// Draws a row for each part. A long title is shortened, so that the figures beside it stay in sight.
+/// Draws a row for each part.
 fn by_part(ui: &mut Ui, parts: &[(Option<String>, Tally)]) {
+    // Translate when drawing: the language may have changed since counting.
+    let unknown = || described(&StoredVerdict::Unknown);
+    let titled = |part: &Option<String>| part.clone().unwrap_or_else(unknown);
+    let parts = parts.iter().map(|(part, tally)| (titled(part), tally));
+    by_name(ui, &text!("shell-part"), parts);
+}
+
+/// Draws a row for each title, below the name of their column. A long title is shortened, so that the figures beside it stay in
+/// sight.
+fn by_name<'a>(ui: &mut Ui, column: &str, rows: impl Iterator<Item = (String, &'a Tally)>) {
     let room = ui.available_width() * MAX_TITLE_SHARE;
     let font = TextStyle::Body.resolve(ui.style());
-    Grid::new("by part")
+    Grid::new(("by name", column))
         .num_columns(4)
         .spacing(vec2(24.0, 4.0))
         .show(ui, |ui| {
             for name in [
-                text!("shell-part"),
+                column.to_owned(),
                 text!("operator-ok"),
                 text!("operator-not-ok"),
                 text!("history-ok-share"),
@@ -246,10 +271,7 @@ fn by_part(ui: &mut Ui, parts: &[(Option<String>, Tally)]) {
                 ui.label(RichText::new(name).small().weak());
             }
             ui.end_row();
-            for (title, tally) in parts {
-                // Translate when drawing: the language may have changed since counting.
-                let unknown = || described(&StoredVerdict::Unknown);
-                let title = title.clone().unwrap_or_else(unknown);
+            for (title, tally) in rows {
                 let shown = fitted_middle(ui.painter(), &title, &font, room);
                 let is_whole = shown == title;
                 let label = ui.label(shown);
@@ -366,6 +388,7 @@ mod tests {
             is_ok: verdict == StoredVerdict::Accepted,
             part: Some(part.to_owned()),
             reason,
+            rack: None,
         }
     }
 
@@ -409,6 +432,30 @@ mod tests {
                 (Some("Door, left".into()), door),
                 (Some("fender".into()), fender)
             ]
+        );
+    }
+
+    #[test]
+    fn parts_of_racks_that_have_a_name_are_counted_by_rack() {
+        let (ok, not_ok) = (StoredVerdict::Accepted, StoredVerdict::Rejected);
+        let in_rack = |rack: &str, verdict| PartOutcome {
+            rack: Some(rack.into()),
+            ..outcome("07:00:00", verdict, "door", None)
+        };
+        let found = counted(&[
+            in_rack("B", ok),
+            in_rack("A", ok),
+            outcome("07:00:00", ok, "door", None),
+            in_rack("A", not_ok),
+            in_rack("C", StoredVerdict::NoPart),
+        ]);
+        let tally = |num_ok, num_not_ok| Tally { num_ok, num_not_ok };
+        let racks = [("A".into(), tally(1, 1)), ("B".into(), tally(1, 0))];
+        assert_eq!(found.racks, BTreeMap::from(racks));
+        assert!(
+            counted(&[outcome("07:00:00", ok, "door", None)])
+                .racks
+                .is_empty()
         );
     }
 

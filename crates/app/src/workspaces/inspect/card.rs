@@ -357,6 +357,11 @@ fn offset(ui: &mut Ui, inspected: &Inspected, pose: &PoseEstimate, units: UnitSy
         let other = inspected.library.title_of(other);
         ui.weak(text!("inspect-measured-from", part = other));
     }
+    if let Some(turn) = inspected.inspection.turn_at_place {
+        let [found, limit] = [turn.found, turn.limit].map(|angle| units.angle(angle.0));
+        let allowed = text!("rack-turn-of", found = found, limit = limit);
+        row(ui, &text!("rack-turn"), &allowed);
+    }
     let note = text!("inspect-offset-note");
     ui.label(RichText::new(note).small().weak());
 }

@@ -6,9 +6,7 @@ use super::{action::InspectAction, hold::Hold};
 use geometry::rigid::RigidTransform;
 use robot::{Convention, RobotPose, RobotValue, Unit};
 use shell::{
-    inspection::inspected::Inspected,
-    language::robot::{calibration_name, convention_meaning},
-    session::Session,
+    inspection::inspected::Inspected, language::robot::convention_meaning, session::Session,
 };
 use ui::{
     language::{described, text},
@@ -37,7 +35,7 @@ pub(super) fn numbered(session: &Session, inspected: &Inspected) -> Option<Numbe
     let (name, frame, transform) = if let Ok(robot) = Hold::robot_of_files(session, inspected) {
         (
             "robot_from_part",
-            text!("inspect-robot-frame", name = calibration_name(&robot.name)),
+            text!("inspect-robot-frame", name = described(&robot.name)),
             robot.robot_from_part(&camera_from_part),
         )
     } else {

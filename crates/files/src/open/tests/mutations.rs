@@ -7,10 +7,9 @@ use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64;
 
 use super::*;
-use crate::{
-    MAX_POINTS, depth_png::read_depths, gltf, pcd, ply, table_rows, write_pcd, write_ply, write_xyz,
-};
+use crate::{MAX_POINTS, gltf, pcd, ply, read_depths, table_rows, write_pcd, write_ply, write_xyz};
 use geometry::cloud::Grid;
+use geometry::depth_frame::DepthFrame;
 use geometry::fixtures::small_frame;
 
 /// Changed files in total; they take about a second in a test build.

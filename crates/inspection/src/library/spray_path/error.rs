@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::{MAX_PATH_POINTS, MAX_SPEED};
+use super::{MAX_PATH_POINTS, MAX_SPEED_M_S};
 use crate::library::{LibraryError, PartName};
 use files::{FileError, shortened};
 use geometry::{error::Advice, units::Metres};
@@ -115,7 +115,7 @@ pub enum PathLineProblem {
         cell: String,
     },
     /// The speed is not positive, or faster than any robot.
-    #[error("a speed of {:.0} mm/s, expected more than 0 and at most {:.0}", speed * 1000.0, MAX_SPEED * 1000.0)]
+    #[error("a speed of {:.0} mm/s, expected more than 0 and at most {:.0}", speed * 1000.0, MAX_SPEED_M_S * 1000.0)]
     Speed {
         /// The value, m/s.
         speed: f64,

@@ -329,7 +329,7 @@ impl RobotBlock {
             convention,
             convention_title: convention.title(),
             convention_meaning: convention.meaning(),
-            calibration: robot.map(|robot| robot.name.clone()),
+            calibration: robot.map(|robot| robot.name.to_string()),
             robot_from_camera: robot.map(|robot| {
                 TransformBlock::of(
                     ["robot_from_camera", "where the camera stands, by the cell's calibration"],

@@ -199,9 +199,9 @@ fn gun_and_arm_are_capsules_from_joint_to_joint_up_to_the_mouth() {
             // Its round end touches the mouth from behind.
             let mouth = solver.forward(&joints).expect("finite").translation.vector;
             let mouth = Point3::from(mouth);
-            assert!(((mouth - gun.axis.to).norm() - GUN_RADIUS).abs() < 1e-9);
+            assert!(((mouth - gun.axis.to).norm() - GUN_RADIUS_M).abs() < 1e-9);
             let length = (mouth - flange).norm();
-            assert!((gun.axis.length() + GUN_RADIUS - length).abs() < 1e-9);
+            assert!((gun.axis.length() + GUN_RADIUS_M - length).abs() < 1e-9);
         }
     }
 }

@@ -13,12 +13,11 @@
 //!   moves on. Threads beside moves are used for communication only. Whether pose and outputs can be used in one during a
 //!   `movel`, which waits for its end, is not documented, and over ROS such a move was reported to block the pose.
 
-use super::{RobotLanguage, ToolName};
+use super::{Motion, RobotLanguage, Step, ToolName};
 use crate::{
     Convention,
     program::{
         JOINT_SPEED_SHARE, Program,
-        steps::{Motion, Step},
         text::{self, Lines},
     },
 };
@@ -52,11 +51,12 @@ pub(in crate::program) static DRL: RobotLanguage = RobotLanguage {
 };
 
 /// Joint speed limit of the arms, rad/s.
-const MAX_JOINT_SPEED: f64 = std::f64::consts::PI;
+const MAX_JOINT_SPEED_RAD_S: f64 = std::f64::consts::PI;
 
 fn write(program: &Program<'_>, steps: &[Step], comments: &[String], _name: &str) -> Lines {
     let settings = program.settings;
-    let pose = |pose: &RigidTransform| format!("posx({})", text::numbers(&DRL, pose).join(", "));
+    let pose =
+        |pose: &RigidTransform| format!("posx({})", text::numbers(DRL.convention, pose).join(", "));
     let gun = |is_on: bool| {
         let state = if is_on { "ON" } else { "OFF" };
         format!(
@@ -74,7 +74,7 @@ fn write(program: &Program<'_>, steps: &[Step], comments: &[String], _name: &str
     for step in steps {
         match step.motion {
             Motion::Joints(_) => {
-                let speed = (JOINT_SPEED_SHARE * MAX_JOINT_SPEED).to_degrees();
+                let speed = (JOINT_SPEED_SHARE * MAX_JOINT_SPEED_RAD_S).to_degrees();
                 lines.instruct(format!(
                     "movejx({}, vel={}, acc={}, ref=DR_BASE, sol=get_current_solution_space())",
                     pose(&step.to),

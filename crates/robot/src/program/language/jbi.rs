@@ -12,13 +12,12 @@
 
 use jiff::tz::TimeZone;
 
-use super::{Calls, RobotLanguage, ToolName};
+use super::{Calls, Motion, RobotLanguage, Step, ToolName};
 use crate::{
     Convention,
     program::{
         JOINT_SPEED_SHARE, Program,
         configuration::Posture,
-        steps::{Motion, Step},
         text::{self, Lines},
     },
 };
@@ -86,7 +85,7 @@ fn write(program: &Program<'_>, steps: &[Step], comments: &[String], name: &str)
             ));
             current = Some(configuration);
         }
-        let numbers = text::numbers(&JBI, &step.to);
+        let numbers = text::numbers(JBI.convention, &step.to);
         lines.add(format!("C{i:05}={}", numbers.join(",")));
     }
     for (i, step) in steps.iter().enumerate() {

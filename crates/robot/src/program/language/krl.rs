@@ -7,13 +7,12 @@
 //! Configuration: status and turn. `S` bit 0: wrist behind axis 1; bit 1: elbow up; bit 2: A5 < 0. `T` bits 0 to 5: axis 1
 //! to 6 < 0. The same book, "Status and Turn".
 
-use super::{RobotLanguage, ToolName};
+use super::{Motion, RobotLanguage, Step, ToolName};
 use crate::{
     Convention,
     program::{
         JOINT_SPEED_SHARE, Program,
         configuration::Posture,
-        steps::{Motion, Step},
         text::{self, Lines},
     },
 };
@@ -122,7 +121,7 @@ fn write(program: &Program<'_>, steps: &[Step], comments: &[String], name: &str)
 
 /// Formats a pose with the arm's configuration and the rail's position.
 fn frame(pose: &RigidTransform, configuration: Option<&str>, rail: Option<f64>) -> String {
-    let numbers = text::numbers(&KRL, pose);
+    let numbers = text::numbers(KRL.convention, pose);
     let named = ["X", "Y", "Z", "A", "B", "C"].iter().zip(numbers);
     let named = named.map(|(name, number)| format!("{name} {number}"));
     let rail = rail.map(|rail| format!("E1 {}", text::rail_mm(rail)));

@@ -15,13 +15,12 @@
 
 use jiff::tz::TimeZone;
 
-use super::{Calls, RobotLanguage, ToolName, Tracking};
+use super::{Calls, Motion, RobotLanguage, Step, ToolName, Tracking};
 use crate::{
     Convention,
     program::{
         JOINT_SPEED_SHARE, Program, TrackingFrame,
         configuration::Posture,
-        steps::{Motion, Step},
         text::{self, Lines},
     },
 };
@@ -97,7 +96,7 @@ fn write(program: &Program<'_>, steps: &[Step], comments: &[String], name: &str)
                 add("L ", &format!("P[{number}] {speed}mm/sec {end}{gun}"));
             }
         }
-        let numbers = text::numbers(&LS, &program.in_frame(&step.to));
+        let numbers = text::numbers(LS.convention, &program.in_frame(&step.to));
         let [x, y, z, w, p, r] = numbers.as_slice() else {
             continue;
         };

@@ -1,5 +1,6 @@
-//! The controllers' languages. Each is one file with a table of what it is, can and allows, its writer and, for the tests,
-//! its reader. A new one is a file like them and an entry in [`RobotLanguage::ALL`].
+//! The controllers' languages, and the steps of a program that they write. Each language is one file with a table of what it
+//! is, can and allows, its writer and, for the tests, its reader. A new one is a file like them and an entry in
+//! [`RobotLanguage::ALL`].
 
 mod drl;
 mod jbi;
@@ -8,12 +9,16 @@ mod ls;
 mod rapid;
 mod urscript;
 
-use std::{fmt, ops::RangeInclusive, path::Path};
+use std::{fmt, ops::RangeInclusive};
 
 #[cfg(test)]
 pub(super) use self::{drl::DRL, jbi::JBI, krl::KRL, ls::LS, rapid::RAPID, urscript::URSCRIPT};
-use super::{Lines, Program, ProgramError, configuration::Posture, steps::Step};
-use crate::Convention;
+use super::{Program, configuration::Posture, text::Lines};
+use crate::{
+    Convention,
+    arm::{Arm, Joints},
+};
+use geometry::rigid::RigidTransform;
 
 /// A controller's language.
 pub struct RobotLanguage {
@@ -113,6 +118,53 @@ pub(super) struct Calls {
     pub(super) write: fn(&Program<'_>, &[String], &[String], &str) -> Lines,
 }
 
+/// One step of a program.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Step {
+    /// Pose of the nozzle at its end, in the robot's base frame.
+    pub(super) to: RigidTransform,
+    /// Configuration of the arm there, in the controller's notation; none if not checked or not known.
+    pub(super) configuration: Option<String>,
+    /// Position of the rail that moves along the path, metres; none without one.
+    pub(super) rail: Option<f64>,
+    pub(super) motion: Motion,
+}
+
+/// Kind of move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Motion {
+    /// Joint move, slow, with the gun off; gun state from its end on, if it changes there.
+    Joints(Option<bool>),
+    /// Linear move.
+    Line(Line),
+}
+
+/// A linear move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Line {
+    /// Speed, m/s.
+    pub(super) speed: f64,
+    /// Blend radius at its end, metres; 0 to stop at the point.
+    pub(super) blend: f64,
+    /// Gun state from its end on, if it changes there.
+    pub(super) gun: Option<bool>,
+}
+
+impl Step {
+    /// Gun state from its end on, if it changes there.
+    pub(super) fn gun(&self) -> Option<bool> {
+        match self.motion {
+            Motion::Joints(gun) => gun,
+            Motion::Line(line) => line.gun,
+        }
+    }
+
+    pub(super) fn num_instructions(&self, calls: &Calls) -> usize {
+        let is_switch = self.gun().is_some();
+        1 + usize::from(is_switch) * calls.num_switch_instructions
+    }
+}
+
 impl RobotLanguage {
     /// Every language; the first is the default.
     pub const ALL: [&'static Self; 6] = [
@@ -140,14 +192,13 @@ impl RobotLanguage {
         Self::ALL.into_iter().find(|language| language.name == name)
     }
 
-    /// Finds a language by the file's ending.
-    pub fn from_file(path: &Path) -> Result<&'static Self, ProgramError> {
-        let ending = path.extension().unwrap_or_default();
-        let mut all = Self::ALL.into_iter();
-        all.find(|language| ending.eq_ignore_ascii_case(language.ending))
-            .ok_or_else(|| ProgramError::UnknownEnding {
-                path: path.to_owned(),
-            })
+    /// The configuration of an arm with these joints in the controller's notation; `None` if it is not certain.
+    pub(super) fn configuration_of(&self, arm: &Arm, joints: &Joints) -> Option<String> {
+        let write = self.configuration?;
+        if arm.maker != Some(self.convention) {
+            return None;
+        }
+        write(&Posture::of(arm, joints))
     }
 
     /// True for a reserved word, and for a name that every controller already has.

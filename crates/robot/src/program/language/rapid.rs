@@ -11,13 +11,12 @@
 //! Configuration: confdata. cfx 4: wrist behind axis 1; 2: wrist behind the lower arm; 1: axis 5 < 0. cf1, cf4 and cf6 are
 //! quarter turns. The same book, "confdata".
 
-use super::{RobotLanguage, ToolName, Tracking};
+use super::{Motion, RobotLanguage, Step, ToolName, Tracking};
 use crate::{
     Convention,
     program::{
         JOINT_SPEED_SHARE, Program, TrackingFrame,
         configuration::Posture,
-        steps::{Motion, Step},
         text::{self, Lines},
     },
 };
@@ -65,7 +64,7 @@ const TRACKED_FRAME: &str = "wPartsight";
 /// Speed of linear external axes in v1000, mm/s; used if no rail moves.
 const DEFAULT_RAIL_SPEED_MM_S: f64 = 5000.0;
 /// Least limit that `PathAccLim` takes, m/s².
-const MIN_ACCELERATION: f64 = 0.1;
+const MIN_ACCELERATION_M_S2: f64 = 0.1;
 
 fn write(program: &Program<'_>, steps: &[Step], comments: &[String], name: &str) -> Lines {
     let settings = program.settings;
@@ -114,7 +113,7 @@ fn write(program: &Program<'_>, steps: &[Step], comments: &[String], name: &str)
     });
     lines.add("    ConfL\\Off;");
     if let Some(acceleration) = program.acceleration {
-        let limit = text::fixed(acceleration.max(MIN_ACCELERATION), 3);
+        let limit = text::fixed(acceleration.max(MIN_ACCELERATION_M_S2), 3);
         lines.add(format!(
             "    PathAccLim TRUE\\AccMax:={limit},TRUE\\DecelMax:={limit};"
         ));
@@ -173,7 +172,7 @@ fn write(program: &Program<'_>, steps: &[Step], comments: &[String], name: &str)
 }
 
 fn pose(pose: &RigidTransform) -> String {
-    let numbers = text::numbers(&RAPID, pose);
+    let numbers = text::numbers(RAPID.convention, pose);
     format!(
         "[[{}],[{}]]",
         numbers[..3].join(","),

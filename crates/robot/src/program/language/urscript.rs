@@ -11,12 +11,11 @@
 
 use nalgebra::Vector3;
 
-use super::{RobotLanguage, ToolName, Tracking};
+use super::{Motion, RobotLanguage, Step, ToolName, Tracking};
 use crate::{
     Convention,
     program::{
         JOINT_SPEED_SHARE, Program,
-        steps::{Motion, Step},
         text::{self, Lines},
     },
 };
@@ -57,11 +56,13 @@ const WORDS: &str = "False True and break continue def elif else end global halt
     stop_conveyor_tracking encoder_get_tick_count encoder_unwind_delta_tick_count pose_trans count ticks_per_meter way \
     frame";
 /// Joint speed limit of the arms, rad/s.
-const MAX_JOINT_SPEED: f64 = std::f64::consts::PI;
+const MAX_JOINT_SPEED_RAD_S: f64 = std::f64::consts::PI;
 
 fn write(program: &Program<'_>, steps: &[Step], comments: &[String], name: &str) -> Lines {
     let settings = program.settings;
-    let pose = |pose: &RigidTransform| format!("p[{}]", text::numbers(&URSCRIPT, pose).join(", "));
+    let pose = |pose: &RigidTransform| {
+        format!("p[{}]", text::numbers(URSCRIPT.convention, pose).join(", "))
+    };
     let gun = |is_on: bool| {
         let state = if is_on { "True" } else { "False" };
         format!(
@@ -104,7 +105,7 @@ fn write(program: &Program<'_>, steps: &[Step], comments: &[String], name: &str)
     for step in steps {
         match step.motion {
             Motion::Joints(_) => {
-                let speed = text::fixed(JOINT_SPEED_SHARE * MAX_JOINT_SPEED, 3);
+                let speed = text::fixed(JOINT_SPEED_SHARE * MAX_JOINT_SPEED_RAD_S, 3);
                 lines.instruct(format!("  movej({}, a=0.5, v={speed})", target(&step.to)));
             }
             Motion::Line(line) => {

@@ -32,6 +32,7 @@ use inspection::{
 };
 use records::{
     history::{HungId, SpotIds, Traceability, Writer},
+    orders::Orders,
     report::segmentation_picture,
 };
 use robot::RobotFrame;
@@ -41,7 +42,9 @@ use serve::{
     VerdictCode,
 };
 use stages::scene::{EmptyCell, SceneCloud};
-use station::{Answered, Answering, Camera, NewFrame, NoFrame, NumberedPart, PartFinder, Subject};
+use station::{
+    Answered, Answering, Camera, NewFrame, NoFrame, NumberedPart, PartFinder, Subject, traced,
+};
 use ui::{
     language::{Message, described, text},
     task::{TaskContext, TaskError},
@@ -86,6 +89,8 @@ pub(super) struct AnswerInputs {
     recipe: Arc<NamedRecipe>,
     /// What should hang there, unless the trigger says it.
     expected: Result<Expected, NotKnown>,
+    /// The table of the orders that triggers may name.
+    orders: Result<Option<Arc<Orders>>, NotKnown>,
     empty_cell: Option<Arc<EmptyCell>>,
     robot: Arc<RobotFrame>,
     pose: PoseKind,
@@ -99,10 +104,37 @@ impl AnswerInputs {
             followed: followed.flatten(),
             recipe: session.recipe_in_rack(session.rack.in_camera(), Expected::default()),
             expected: session.expected_now(),
+            orders: session.orders(),
             empty_cell: session.empty_cell.clone(),
             robot,
             pose: session.answering.pose,
             trace: session.trace.clone(),
+        }
+    }
+}
+
+impl AnswerInputs {
+    /// What should hang there after a trigger: what its order says, else what the window does. Of one that numbers parts, these
+    /// count later.
+    fn expected_by(
+        &self,
+        asked: &Asked,
+        trace: &Traceability,
+        is_enrolled: impl Fn(&str) -> bool,
+    ) -> Result<Expected, Problem> {
+        let not_known = |why: &NotKnown| {
+            let UserError { what, advice } = why.in_english();
+            Problem::new("not_known", &what, &advice)
+        };
+        if asked.order.is_given() {
+            let orders = self.orders.as_ref().map_err(not_known)?;
+            let orders = orders.as_ref().ok_or(&NoFrame::NoOrders)?;
+            let expected = orders.expected(trace, Some(&self.recipe.rack), is_enrolled);
+            return expected.map_err(|error| not_known(&NotKnown::Order(error)));
+        }
+        match &self.expected {
+            Err(why) if !asked.expected.iter().any(|one| one.is_given()) => Err(not_known(why)),
+            expected => Ok(expected.clone().unwrap_or_default()),
         }
     }
 }
@@ -295,13 +327,15 @@ impl Inspector for AnsweringSession<'_> {
             answer: Answer::default(),
         });
         let inputs = self.follow();
-        let is_given = asked.expected.iter().any(|one| one.is_given());
-        let expected = match &inputs.expected {
-            Err(why) if !is_given => {
-                let UserError { what, advice } = why.in_english();
-                return Found::error(Problem::new("not_known", &what, &advice)).into();
-            }
-            expected => expected.clone().unwrap_or_default(),
+        let trace = traced(&asked.order, &inputs.trace.remembered());
+        let loaded = self.library_cache.get();
+        let is_enrolled = |name: &str| {
+            let mut parts = loaded.shown.parts.iter();
+            parts.any(|part| part.part_name().as_str() == name)
+        };
+        let expected = match inputs.expected_by(asked, &trace, is_enrolled) {
+            Ok(expected) => expected,
+            Err(problem) => return Found::error(problem).into(),
         };
         let is_ending = || self.is_ending();
         let captured = match self.camera.frame_after(asked, FRAME_TIMEOUT, is_ending) {
@@ -321,7 +355,6 @@ impl Inspector for AnsweringSession<'_> {
         let num_dropped = self.camera.feed_status().num_dropped;
         let origin = Origin::of_capture(&captured, spec, num_dropped);
         let subject = origin.subject(source);
-        let loaded = self.library_cache.get();
         self.know(&loaded, &inputs);
         let recipe = &inputs.recipe.expecting(expected);
         let fitted = loaded.fitting(recipe, &Unwatched);
@@ -334,7 +367,6 @@ impl Inspector for AnsweringSession<'_> {
             at_most: FRAME_TIMEOUT,
             is_ending: &|| self.is_ending(),
         };
-        let trace = inputs.trace.remembered();
         let scene_of = |captured| self.scene_of(captured, &inputs);
         let answered = match answering.answer(captured, subject, &trace, scene_of) {
             Ok(answered) => answered,

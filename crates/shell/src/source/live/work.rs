@@ -7,8 +7,6 @@ use std::{
     time::{Duration, Instant},
 };
 
-use nalgebra::Point3;
-
 use super::parts::{FollowedParts, assign_as_before};
 use crate::{
     inspection::{
@@ -25,16 +23,12 @@ use inspection::{
     library::Library,
     pipeline::{
         self, Inspection, NamedRecipe, ProgressObserver, Verdict,
-        live::{
-            FrameRole, HungFrame, LiveParams, LiveTracker, LiveVerdict, MotionState, nothing_there,
-        },
+        live::{FrameRole, LiveParams, LiveTracker, LiveVerdict, MotionState},
     },
 };
 use records::history::{NewEntry, Traceability};
-use stages::{
-    reference::Reference,
-    scene::{EmptyCell, SceneCloud},
-};
+use stages::{reference::Reference, scene::EmptyCell};
+use station::{SeenFrame, SeenPart};
 use ui::{
     task::{TaskContext, TaskError},
     user_error::UserError,
@@ -242,56 +236,6 @@ struct LiveSession<'a> {
     sent: Option<LiveStatus>,
 }
 
-/// An inspected frame.
-struct SeenFrame<'a> {
-    scene: &'a SceneCloud,
-    /// The camera's time.
-    at: Duration,
-    /// Identifies the recipe and the library.
-    inputs: &'a str,
-}
-
-impl<'a> SeenFrame<'a> {
-    fn of(&self, part: &'a SeenPart) -> HungFrame<'a> {
-        HungFrame {
-            scene: self.scene,
-            at: self.at,
-            inspection: &part.inspection,
-            verdict: &part.standing,
-            middle: part.middle,
-            inputs: self.inputs,
-        }
-    }
-}
-
-/// What a frame shows at a spot.
-struct SeenPart {
-    inspection: Inspection,
-    /// Middle of the named part, part space, metres.
-    middle: Option<Point3<f64>>,
-    /// Where it is; `None` of an independent capture, and for what is no part of its own.
-    spot: Option<usize>,
-    standing: LiveVerdict,
-    role: FrameRole,
-}
-
-impl SeenPart {
-    fn new(inspection: Inspection, library: &Library) -> Self {
-        let best = inspection.best_reference(library);
-        Self {
-            middle: best.and_then(Reference::middle),
-            inspection,
-            spot: None,
-            standing: LiveVerdict::Open,
-            role: FrameRole::Nothing,
-        }
-    }
-
-    fn shows_part(&self) -> bool {
-        matches!(self.inspection.verdict, Verdict::Part { .. })
-    }
-}
-
 /// Passes cancellation on but no stages: frames come too fast to read them.
 struct SilentContext<'a>(&'a TaskContext<LiveAnswer>);
 
@@ -471,7 +415,7 @@ impl<'a> LiveSession<'a> {
                 inspection: part.inspection.clone(),
                 followed: self.watch.as_ref().map(|watch| LiveFrameContext {
                     stillness: watch.stillness(),
-                    standing: part.standing.clone(),
+                    standing: part.verdict.clone(),
                 }),
                 source: self.request.spec.to_string(),
                 robot: self.library_cache.robot(),
@@ -495,34 +439,24 @@ impl<'a> LiveSession<'a> {
         library: &Library,
     ) -> Vec<SeenPart> {
         let recipe = &self.request.recipe;
+        let middle = |part: &Inspection| {
+            let best = part.best_reference(library);
+            best.and_then(Reference::middle)
+        };
         let Some(watch) = &mut self.watch else {
             // Captures are independent, and what each shows are hung parts of their own.
             let alone = |inspection| SeenPart {
                 role: FrameRole::First,
-                ..SeenPart::new(inspection, library)
+                ..SeenPart::alone(inspection, None)
             };
             return found.into_iter().map(alone).collect();
         };
         let mut followed = lock(&self.request.parts);
-        let at_spots = (followed.spots).of_frame(&found, frame.scene, watch.stillness(), recipe);
-        let new = |inspection| SeenPart::new(inspection, library);
-        let mut parts: Vec<SeenPart> = found.into_iter().map(new).collect();
-        let mut absent = Vec::new();
-        for (spot, index) in at_spots.into_iter().enumerate() {
-            let part = if let Some(index) = index {
-                &mut parts[index]
-            } else {
-                absent.push(new(nothing_there()));
-                absent.last_mut().expect("just added")
-            };
-            part.spot = Some(spot);
-            part.standing = watch.judge(spot, &mut part.inspection, part.middle, &recipe.accept);
-            part.role = followed.spots.role_of(spot, &frame.of(part));
-        }
+        let (parts, absent) = frame.judge(found, watch, &mut followed.spots, recipe, middle);
         drop(followed);
         self.standing = parts
             .first()
-            .map_or(LiveVerdict::Open, |part| part.standing.clone());
+            .map_or(LiveVerdict::Open, |part| part.verdict.clone());
         self.stillness = Some(watch.stillness());
         for part in parts.iter().chain(&absent) {
             if part.role == FrameRole::Nothing {
@@ -560,9 +494,9 @@ impl<'a> LiveSession<'a> {
                 None => inspected.hung().clone(),
             };
             let trace = match (part.role, part.spot) {
-                (FrameRole::First, Some(_)) => Some(self.request.trace.take(part.shows_part())),
+                (FrameRole::First, Some(_)) => Some(self.request.trace.take(shows_part(part))),
                 (FrameRole::First, None) => {
-                    let shows_any = parts.iter().any(SeenPart::shows_part);
+                    let shows_any = parts.iter().any(shows_part);
                     let take = || self.request.trace.take(shows_any);
                     Some(of_capture.get_or_insert_with(take).clone())
                 }
@@ -645,6 +579,10 @@ impl<'a> LiveSession<'a> {
             self.context.latest(LiveAnswer::Stands(Box::new(update)));
         }
     }
+}
+
+fn shows_part(part: &SeenPart) -> bool {
+    matches!(part.inspection.verdict, Verdict::Part { .. })
 }
 
 /// Time of the camera's clock, from an arbitrary origin.

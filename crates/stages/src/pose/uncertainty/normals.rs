@@ -10,7 +10,7 @@ use geometry::statistics::median;
 const NORMAL_NEIGHBOURS: f64 = 28.0;
 const NORMAL_RADIUS: f64 = 3.0;
 /// No normal is known better than this, radians.
-const LEAST_TILT: f64 = 0.005;
+const MIN_TILT_RAD: f64 = 0.005;
 /// Points whose neighbours are looked at.
 const NUM_ASKED: usize = 200;
 /// The median of a squared normal variable of variance 1.
@@ -47,5 +47,5 @@ pub(super) fn tilt_sq(pairs: &[Pair], target: &AlignmentTarget<'_>) -> f64 {
     let beside_sq = pairs.iter().map(|p| p.weight * p.beside_sq).sum::<f64>() / weight_sum;
     4.0 * noise_sq / (NORMAL_NEIGHBOURS * radius * radius)
         + median(bends_sq.into_iter()).unwrap_or(0.0) * beside_sq
-        + LEAST_TILT * LEAST_TILT
+        + MIN_TILT_RAD * MIN_TILT_RAD
 }

@@ -6,7 +6,7 @@
 
 use nalgebra::Point3;
 
-use super::{Iteration, Phase, PoseError, Stopped, refine::Refined};
+use crate::pose::{Iteration, Phase, PoseError, Stopped, refine::Refined};
 use geometry::{
     nearest::KdTree,
     rigid::{RigidTransform, fit_rigid},
@@ -43,7 +43,7 @@ impl Default for IcpParams {
 }
 
 /// Aligns the source to the target's points from a start.
-pub fn icp(
+pub(crate) fn icp(
     source: &[Point3<f32>],
     target: &[Point3<f32>],
     target_tree: &KdTree,

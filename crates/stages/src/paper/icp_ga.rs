@@ -25,11 +25,12 @@ use rand::{SeedableRng as _, seq::SliceRandom as _};
 use rand_pcg::Pcg64;
 
 use super::{
-    Iteration, MIN_POINTS, Phase, PoseError, RunnerUp, Stopped,
-    centred::Centred,
     genetic::{Genes, minimise},
     icp::icp,
-    prepared::PreparedTarget,
+};
+use crate::pose::{
+    Iteration, MIN_POINTS, Phase, PoseError, PreparedTarget, RunnerUp, Stopped,
+    centred::Centred,
     refine::{AlignmentTarget, Refined},
 };
 use geometry::rigid::{RigidTransform, from_euler_zyx, pose_error};
@@ -43,7 +44,7 @@ const LOST_ABOVE: f64 = 0.05;
 /// The vicinity is at least this many spacings wide: that far ICP may hold on to the wrong neighbours.
 const LEAST_SPACINGS: f64 = 2.0;
 /// Poses elsewhere are at least this far turned from where ICP ended: within it, ICP would end there again.
-const CLOSED_TURN: f64 = 0.35;
+const CLOSED_TURN_RAD: f64 = 0.35;
 /// A point out of the field's reach counts as this far off, in extents of the target.
 const FAR_OFF: f64 = 0.5;
 /// Poses less apart than this are the same solution, degrees and extents of the target.
@@ -52,7 +53,7 @@ const SAME_SHIFT: f64 = 0.1;
 
 /// Aligns the source to the target from a start. The iterations are those of ICP and the generations of the genetic
 /// algorithm, in order. Also returns the best other pose that ICP ended at, if there is one.
-pub(super) fn icp_ga(
+pub(crate) fn icp_ga(
     source: &Centred,
     target: &PreparedTarget,
     start: &RigidTransform,
@@ -278,7 +279,7 @@ impl<'a> Search<'a> {
         let is_closed = |pose: &RigidTransform| {
             search_region == SearchRegion::Elsewhere
                 && self.valleys.iter().any(|valley| {
-                    valley.target_from_source.rotation.angle_to(&pose.rotation) < CLOSED_TURN
+                    valley.target_from_source.rotation.angle_to(&pose.rotation) < CLOSED_TURN_RAD
                 })
         };
         // Eq. (12), as far as it takes to know that it is above the bound.

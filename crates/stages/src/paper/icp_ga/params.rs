@@ -1,6 +1,6 @@
 //! Parameters of Algorithm 3.
 
-use crate::pose::{genetic::GeneticParams, icp::IcpParams};
+use crate::paper::{GeneticParams, IcpParams};
 use geometry::units::Radians;
 
 /// Parameters of ICP-GA.

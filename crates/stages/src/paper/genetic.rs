@@ -19,7 +19,7 @@ use rand::RngExt as _;
 use rand_pcg::Pcg64;
 
 /// Three angles in radians, -π..π, then three lengths in metres.
-pub type Genes = [f64; 6];
+pub(super) type Genes = [f64; 6];
 
 /// The first three genes are angles.
 const NUM_ANGLES: usize = 3;
@@ -70,11 +70,11 @@ const BEYOND: f64 = 0.25;
 
 /// Genes and what they cost.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Individual {
+pub(super) struct Individual {
     /// The genes.
-    pub genes: Genes,
+    pub(super) genes: Genes,
     /// Their cost; may be infinite.
-    pub cost: f64,
+    pub(super) cost: f64,
 }
 
 /// Searches for the genes of least cost, each within `range` of zero either way; an angle may leave it by half turns.
@@ -82,7 +82,7 @@ pub struct Individual {
 /// The population begins with `first`, then evenly over the range. `cost` is given genes and a bound, and may answer
 /// infinity as soon as it knows that the cost is above the bound. `after_generation` is shown the best so far, and may
 /// end the search.
-pub fn minimise(
+pub(super) fn minimise(
     first: &[Genes],
     range: &Genes,
     params: &GeneticParams,

@@ -1,0 +1,350 @@
+//! Inspects scene after scene, and returns those whose verdicts count, with what to record of them.
+
+use std::{
+    collections::VecDeque,
+    mem,
+    path::PathBuf,
+    sync::Arc,
+    time::{Duration, Instant},
+};
+
+use nalgebra::Point3;
+
+use super::{Followed, Inspected, LineTracker, Moment, PartFollower, Subject};
+use inspection::{
+    library::Library,
+    pipeline::{Inspection, NamedRecipe, Unwatched, live::refuse_moving, run_all},
+};
+use records::history::HungId;
+use robot::RobotFrame;
+use stages::{reference::Reference, scene::SceneCloud};
+
+/// Inspects files, or what a source delivers. `E` is what is recorded of a part.
+pub struct Station<E> {
+    setup: StationSetup,
+    following: Following<E>,
+    /// Scenes of a followed source whose verdicts may still change, in order.
+    waiting: VecDeque<InspectedScene>,
+}
+
+/// What scenes are inspected with.
+#[derive(Clone, Debug, Default)]
+pub struct StationSetup {
+    /// The enrolled parts.
+    pub library: Library,
+    /// All parameters.
+    pub recipe: NamedRecipe,
+    /// Position of the camera in the robot's base frame, if the cell is calibrated.
+    pub robot: Option<RobotFrame>,
+    /// True to give a robot the pose of an accepted part despite doubts.
+    pub is_forced: bool,
+}
+
+/// How scenes belong together.
+pub enum Following<E> {
+    /// Each shows parts of its own.
+    Independent,
+    /// They show the parts that hang there, one after the other.
+    Hanging(Box<PartFollower<E>>),
+    /// They show the parts that a line carries past.
+    Line(Box<LineTracker<E>>),
+}
+
+/// A scene to inspect.
+pub struct SceneToInspect {
+    /// Its file, or the name of the capture.
+    pub path: PathBuf,
+    /// The scene.
+    pub scene: SceneCloud,
+    /// What the history calls it.
+    pub subject: Subject,
+    /// When a source captured it.
+    pub captured_at: Option<Instant>,
+}
+
+/// An inspected scene.
+pub struct InspectedScene {
+    /// Its file, or the name of the capture.
+    pub path: PathBuf,
+    /// What the history calls it.
+    pub subject: Subject,
+    /// Its parts in the order of [`run_all`], at least one.
+    pub parts: Vec<Inspection>,
+    /// What is known of each on a line; empty without one.
+    pub followed: Vec<Followed>,
+    /// The scene that was inspected.
+    pub scene: Arc<SceneCloud>,
+    /// When a source captured it.
+    captured_at: Option<Instant>,
+    /// The same by the camera, of a source whose parts hang there.
+    at: Duration,
+}
+
+/// What counts now.
+pub struct Settled<E> {
+    /// Scenes to show, in order.
+    pub scenes: Vec<InspectedScene>,
+    /// What to record.
+    pub recorded: Vec<E>,
+}
+
+impl StationSetup {
+    /// A part of a scene as it is recorded under that name.
+    fn part<'a>(
+        &'a self,
+        scene: &'a InspectedScene,
+        subject: &'a Subject,
+        inspection: &'a Inspection,
+    ) -> Inspected<'a> {
+        Inspected {
+            subject,
+            scene: &scene.scene,
+            inspection,
+            recipe: &self.recipe,
+            robot: self.robot.as_ref(),
+            is_forced: self.is_forced,
+            on_line: None,
+        }
+    }
+
+    /// Middle of the named part, part space, metres.
+    fn middle_of(&self, inspection: &Inspection) -> Option<Point3<f64>> {
+        let reference = inspection.best_reference(&self.library);
+        reference.and_then(Reference::middle)
+    }
+}
+
+impl<E> Station<E> {
+    /// A station that has inspected nothing.
+    pub fn new(setup: StationSetup, following: Following<E>) -> Self {
+        Self {
+            setup,
+            following,
+            waiting: VecDeque::new(),
+        }
+    }
+
+    /// What scenes are inspected with.
+    pub fn setup(&self) -> &StationSetup {
+        &self.setup
+    }
+
+    /// True if scenes wait for a later one, which shows whether their parts hang still.
+    pub fn is_waiting(&self) -> bool {
+        !self.waiting.is_empty()
+    }
+
+    /// The parts of a scene as they are recorded.
+    pub fn parts<'a>(&'a self, scene: &'a InspectedScene) -> Vec<Inspected<'a>> {
+        let parts = scene.parts.iter().enumerate().map(|(index, inspection)| {
+            let followed = scene.followed.get(index);
+            let on_line = match &self.following {
+                Following::Line(line) => followed.and_then(|part| part.on_line(line.line())),
+                Following::Independent | Following::Hanging(_) => None,
+            };
+            Inspected {
+                on_line,
+                ..self.setup.part(scene, &scene.subject, inspection)
+            }
+        });
+        parts.collect()
+    }
+
+    /// Inspects the next scene. Where parts hang one after the other, its verdicts may only count with a later one. `entry`
+    /// gets a part to record, which hung part it is, and when it was captured.
+    pub fn next(
+        &mut self,
+        scene: SceneToInspect,
+        entry: impl Fn(&Inspected<'_>, HungId, Option<Instant>) -> E,
+    ) -> Settled<E> {
+        let mut scene = self.inspected(scene);
+        let setup = &self.setup;
+        let captured_at = scene.captured_at;
+        match &mut self.following {
+            Following::Independent => {
+                let recorded = scene.parts.iter().map(|part| {
+                    let part = setup.part(&scene, &scene.subject, part);
+                    entry(&part, HungId::new(), captured_at)
+                });
+                Settled {
+                    recorded: recorded.collect(),
+                    scenes: vec![scene],
+                }
+            }
+            Following::Line(line) => {
+                let capture = scene.subject.capture.as_ref();
+                let at = capture.map(|capture| line.exposed_at(capture.taken_at));
+                let moment = Moment {
+                    at: at.unwrap_or_default(),
+                    count: None,
+                };
+                let mut parts = mem::take(&mut scene.parts);
+                let (followed, recorded) = line.see(
+                    moment,
+                    &mut parts,
+                    |part| setup.middle_of(part),
+                    |_, part, on_line| {
+                        let part = Inspected {
+                            on_line,
+                            ..setup.part(&scene, &scene.subject, part)
+                        };
+                        entry(&part, HungId::new(), captured_at)
+                    },
+                );
+                (scene.parts, scene.followed) = (parts, followed);
+                Settled {
+                    scenes: vec![scene],
+                    recorded,
+                }
+            }
+            Following::Hanging(_) => {
+                // Earlier ones first: a part that they show may be recorded now.
+                let mut scenes = self.settle(&scene.parts, &entry);
+                let recorded = self.follow(&scene, &entry);
+                let last = scene.parts.clone();
+                self.waiting.push_back(scene);
+                scenes.extend(self.settle(&last, &entry));
+                Settled { scenes, recorded }
+            }
+        }
+    }
+
+    /// Inspects a scene that only shows whether the parts of earlier ones hang still.
+    pub fn check(
+        &mut self,
+        scene: SceneToInspect,
+        entry: impl Fn(&Inspected<'_>, HungId, Option<Instant>) -> E,
+    ) -> Settled<E> {
+        let scene = self.inspected(scene);
+        Settled {
+            scenes: self.settle(&scene.parts, &entry),
+            recorded: Vec::new(),
+        }
+    }
+
+    /// Ends the source. Before a camera, a part that is not known to hang still is refused; of a recording, it stays unknown.
+    pub fn end(
+        &mut self,
+        is_replayed: bool,
+        entry: impl Fn(&Inspected<'_>, HungId, Option<Instant>) -> E,
+    ) -> Settled<E> {
+        let mut scenes = Vec::from(mem::take(&mut self.waiting));
+        for scene in &mut scenes {
+            if is_replayed {
+                scene.subject.is_motion_unchecked = true;
+            } else {
+                for part in &mut scene.parts {
+                    refuse_moving(part);
+                }
+            }
+            self.has_settled(scene, &entry);
+        }
+        let recorded = match mem::replace(&mut self.following, Following::Independent) {
+            Following::Independent => Vec::new(),
+            Following::Hanging(follower) => follower.end(),
+            Following::Line(line) => line.end(),
+        };
+        Settled { scenes, recorded }
+    }
+
+    fn inspected(&mut self, scene: SceneToInspect) -> InspectedScene {
+        let SceneToInspect {
+            path,
+            scene,
+            subject,
+            captured_at,
+        } = scene;
+        let mut scene = Arc::new(scene);
+        if let (Following::Hanging(follower), Some(capture)) =
+            (&mut self.following, &subject.capture)
+        {
+            scene = follower.look(scene, capture.taken_at);
+        }
+        let StationSetup {
+            library, recipe, ..
+        } = &self.setup;
+        let mut parts = run_all(&scene, library, recipe, &Unwatched).expect("not cancelled");
+        let mut at = Duration::ZERO;
+        if let Following::Hanging(follower) = &mut self.following {
+            follower.refuse_if_moving(&mut parts);
+            at = follower.at();
+        }
+        InspectedScene {
+            path,
+            subject,
+            parts,
+            followed: Vec::new(),
+            scene,
+            captured_at,
+            at,
+        }
+    }
+
+    /// Returns the waiting scenes whose verdicts count now that the last scene had these inspections.
+    fn settle(
+        &mut self,
+        last: &[Inspection],
+        entry: &impl Fn(&Inspected<'_>, HungId, Option<Instant>) -> E,
+    ) -> Vec<InspectedScene> {
+        let mut settled = Vec::new();
+        while let (Some(scene), Following::Hanging(follower)) =
+            (self.waiting.front_mut(), &self.following)
+        {
+            let mut accepted = (scene.parts.iter_mut()).filter(|part| part.verdict.is_accepted());
+            let is_settled = accepted.all(|part| {
+                let middle = self.setup.middle_of(part);
+                follower.settle(part, scene.at, last, middle)
+            });
+            if !is_settled {
+                break;
+            }
+            let Some(scene) = self.waiting.pop_front() else {
+                break;
+            };
+            self.has_settled(&scene, entry);
+            settled.push(scene);
+        }
+        settled
+    }
+
+    /// If this scene is recorded because its part leaves, then with the verdict that it has now.
+    fn has_settled(
+        &mut self,
+        scene: &InspectedScene,
+        entry: &impl Fn(&Inspected<'_>, HungId, Option<Instant>) -> E,
+    ) {
+        if let Following::Hanging(follower) = &mut self.following {
+            let setup = &self.setup;
+            follower.settled(scene.at, |index, hung| {
+                let part = setup.part(scene, &scene.subject, &scene.parts[index]);
+                entry(&part, hung, scene.captured_at)
+            });
+        }
+    }
+
+    /// Returns what to record of the parts that the scenes up to this one show.
+    fn follow(
+        &mut self,
+        scene: &InspectedScene,
+        entry: &impl Fn(&Inspected<'_>, HungId, Option<Instant>) -> E,
+    ) -> Vec<E> {
+        let Following::Hanging(follower) = &mut self.following else {
+            return Vec::new();
+        };
+        let setup = &self.setup;
+        follower.take(
+            &scene.scene,
+            scene.parts.clone(),
+            |part| setup.middle_of(part),
+            &setup.recipe,
+            |inspection, hung, is_still| {
+                let subject = Subject {
+                    is_motion_unchecked: !is_still,
+                    ..scene.subject.clone()
+                };
+                let part = setup.part(scene, &subject, inspection);
+                entry(&part, hung, scene.captured_at)
+            },
+        )
+    }
+}
