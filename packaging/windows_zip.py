@@ -20,7 +20,7 @@ DOCUMENTS = "usr/share/doc/partsight/"
 
 
 def build() -> Path:
-    subprocess.run(["cargo", "build", "--release", "--locked", "--target", TARGET], cwd=ROOT, check=True)
+    subprocess.run(["cargo", "build", "--release", "--locked", "-p", "partsight", "--target", TARGET], cwd=ROOT, check=True)
     return ROOT / "target" / TARGET / "release" / "partsight.exe"
 
 

@@ -6,7 +6,6 @@ use std::{
     time::Duration,
 };
 
-use bench::EvaluationReport;
 use partsight::{
     Inspection, Metres, Radians, SceneCloud, Timings,
     cases::{
@@ -15,6 +14,7 @@ use partsight::{
     },
     files::FileError,
     geometry::rigid::{PoseDelta, row_major},
+    report::EvaluationReport,
     run,
     stages::pose::PoseEstimate,
 };

@@ -10,14 +10,14 @@ use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 
 use files::{advice_on, visible, words_of};
 use geometry::error::Advice;
-pub(super) use records::report::TextTable as Table;
+pub use records::report::TextTable as Table;
 
 /// Both outputs of a call. Control characters in files and their names are shown as text, so that the terminal does not
 /// interpret them.
 ///
 /// A reader that goes away (`| head`) does not stop the work on files: the rest is not shown, and the exit code stays the
 /// same. After any other error, such as a full disk, the next line is tried again.
-pub(super) struct Console {
+pub struct Console {
     out: io::Stdout,
     /// The rest of a line that was written only in part.
     rest: Vec<u8>,
@@ -58,7 +58,7 @@ impl Console {
     }
 
     /// Writes one or several lines of the answer.
-    pub(super) fn line(&mut self, text: &dyn Display) {
+    pub fn line(&mut self, text: &dyn Display) {
         if !self.is_read {
             return;
         }
@@ -95,7 +95,7 @@ impl Console {
     }
 
     /// Writes a message next to the answer, on one line.
-    pub(super) fn note(&self, text: &dyn Display) {
+    pub fn note(&self, text: &dyn Display) {
         let text = text.to_string();
         // Ignore a closed stderr.
         self.progress
@@ -138,7 +138,7 @@ impl Console {
     }
 
     /// Starts a progress bar, on a terminal.
-    pub(super) fn start_progress(&mut self, num_inputs: usize) {
+    pub fn start_progress(&mut self, num_inputs: usize) {
         if num_inputs > MANY && io::stderr().is_terminal() {
             self.progress.finish_and_clear();
             let style = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg}  {eta} left");
@@ -160,18 +160,18 @@ impl Console {
     }
 
     /// Shows the input that begins now.
-    pub(super) fn begin(&self, next: &dyn Display) {
+    pub fn begin(&self, next: &dyn Display) {
         self.progress
             .set_message(visible(&next.to_string()).into_owned());
     }
 
     /// Counts an input as done.
-    pub(super) fn done(&self) {
+    pub fn done(&self) {
         self.progress.inc(1);
     }
 
     /// Removes the progress bar.
-    pub(super) fn end_progress(&self) {
+    pub fn end_progress(&self) {
         self.progress.finish_and_clear();
     }
 
@@ -229,7 +229,7 @@ pub(super) fn advice_of(error: &anyhow::Error) -> Option<&str> {
 }
 
 /// Attaches the advice of an error for its way up.
-pub(super) trait Advised<T> {
+pub trait Advised<T> {
     fn advised(self) -> anyhow::Result<T>;
 }
 
@@ -246,10 +246,7 @@ impl<T, E: std::error::Error + Advice + Send + Sync + 'static> Advised<T> for Re
 }
 
 /// Creates an error of the command line, with its advice.
-pub(super) fn advised_error(
-    message: impl Into<String>,
-    advice: impl Into<String>,
-) -> anyhow::Error {
+pub fn advised_error(message: impl Into<String>, advice: impl Into<String>) -> anyhow::Error {
     anyhow::Error::new(AdvisedError {
         message: message.into(),
         advice: advice.into(),
@@ -282,7 +279,7 @@ pub(super) fn in_columns(numbers: &[f64]) -> String {
 
 impl Console {
     /// Prints a table, line by line.
-    pub(super) fn table(&mut self, table: &Table) {
+    pub fn table(&mut self, table: &Table) {
         for line in table.lines() {
             self.line(&line);
         }

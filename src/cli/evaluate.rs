@@ -11,14 +11,13 @@ use super::{
     recipe::RecipeChoice,
     write_json,
 };
-use bench::EvaluationReport;
 use geometry::parallel::num_cores;
 use records::{
     cases::{
         CaseChange, CaseFolder, CaseJudge, Changes, EarlierRun, Evaluation, FoundVerdict,
         RecipeRecord, evaluate,
     },
-    report::{evaluation_picture, write_png},
+    report::{EvaluationReport, evaluation_picture, write_png},
 };
 
 /// Inspect recorded cases with known truth: accuracy, confusion matrix, calibration, times

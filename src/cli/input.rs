@@ -28,7 +28,7 @@ use texts::Message;
 
 /// Why a command cannot use a file.
 #[derive(Debug, thiserror::Error)]
-pub(super) enum InputError {
+pub enum InputError {
     #[error(transparent)]
     File(#[from] FileError),
     #[error(transparent)]
@@ -55,10 +55,10 @@ impl Advice for InputError {
 }
 
 /// A value of an option: its name, its line in `--help`, and what it stands for.
-pub(super) type Choice<T> = (&'static str, &'static str, T);
+pub type Choice<T> = (&'static str, &'static str, T);
 
 /// Parses the name of one of `choices`.
-pub(super) fn choice<T: Copy + Send + Sync + 'static>(
+pub fn choice<T: Copy + Send + Sync + 'static>(
     choices: &'static [Choice<T>],
 ) -> impl TypedValueParser<Value = T> {
     let names = choices
@@ -142,7 +142,7 @@ pub(super) fn warn_of(path: &Path, warnings: &[CaptureWarning], console: &Consol
 }
 
 /// A captured scene and the warnings about its file.
-pub(super) type OpenedScene = Result<(SceneCloud, Vec<CaptureWarning>), InputError>;
+pub type OpenedScene = Result<(SceneCloud, Vec<CaptureWarning>), InputError>;
 
 /// Scenes as they are opened, with the paths of their files.
 pub(super) type Scenes<'a> = mpsc::IntoIter<(&'a Path, OpenedScene)>;
@@ -165,7 +165,7 @@ pub(super) fn open_ahead<T>(files: &[PathBuf], work: impl FnOnce(Scenes<'_>) -> 
 }
 
 /// Opens a captured scene.
-pub(super) fn open_scene(path: &Path) -> OpenedScene {
+pub fn open_scene(path: &Path) -> OpenedScene {
     let (image, warnings) = read_image(path)?;
     Ok((scene_from_image(image), warnings))
 }

@@ -1,21 +1,20 @@
 //! The command line, one file per subcommand.
 //!
 //! Results go to standard output, everything else to standard error. The exit code is part of the interface: see
-//! [`Outcome`].
+//! [`Outcome`]. `partsight-bench` uses what is public here.
 
 mod align;
-mod bench;
 mod calibrate;
 mod capture;
 mod cell;
-mod console;
+pub mod console;
 mod enrol;
 mod evaluate;
 mod expect;
 mod first_look;
 mod follow;
 mod history;
-mod input;
+pub mod input;
 mod inspect;
 mod interrupt;
 mod library;
@@ -25,7 +24,7 @@ mod path;
 mod plant;
 mod program;
 mod rack;
-mod recipe;
+pub mod recipe;
 mod recipes;
 mod record;
 mod report;
@@ -107,7 +106,6 @@ enum Command {
     Serve(serve::ServeArgs),
     Servo(servo::ServoArgs),
     Simulate(simulate::SimulateArgs),
-    Bench(bench::BenchArgs),
     Evaluate(evaluate::EvaluateArgs),
     History(history::HistoryArgs),
 }
@@ -125,7 +123,7 @@ pub enum Outcome {
 
 impl Outcome {
     /// Returns the outcome of a call that ran.
-    fn accepted_if(is_accepted: bool) -> Self {
+    pub fn accepted_if(is_accepted: bool) -> Self {
         if is_accepted {
             Self::Accepted
         } else {
@@ -144,56 +142,79 @@ impl From<Outcome> for ExitCode {
     }
 }
 
-/// Runs the command, and shows an error with its advice.
+/// Runs the command, or opens the window.
 pub fn run(cli: Cli) -> Outcome {
+    let Cli {
+        command,
+        library,
+        open,
+    } = cli;
+    match command {
+        None => answered(|console| window(&LibraryChoice { library }, open, console)),
+        Some(_) if library.is_some() => answered(|_| {
+            Err(advised_error(
+                "--library must come after the command",
+                "Put it after the command, for example partsight inspect FILE --library DIR",
+            ))
+        }),
+        Some(_) if open.is_some() => answered(|_| {
+            Err(advised_error(
+                "--open is for the window, not for a command",
+                "Leave the command out to open the window, or --open to run the command",
+            ))
+        }),
+        Some(command) => run_command(|console| command.run(console)),
+    }
+}
+
+impl Command {
+    fn run(self, console: &mut Console) -> anyhow::Result<Outcome> {
+        match self {
+            Self::Inspect(args) => inspect::run(args, console),
+            Self::Report(args) => report::run(&args, console),
+            Self::Capture(args) => capture::run(&args, console),
+            Self::Scan(args) => scan::run(&args, console),
+            Self::Enrol(args) => enrol::run(args, console),
+            Self::Library(args) => library::run(&args, console),
+            Self::Path(args) => path::run(&args, console),
+            Self::Recipe(args) => recipes::run(&args, console),
+            Self::Align(args) => align::run(&args, console),
+            Self::Calibrate(args) => calibrate::run(&args, console),
+            Self::Cell(args) => cell::run(&args, console),
+            Self::Rack(args) => rack::run(&args, console),
+            Self::Serve(args) => serve::run(&args, console),
+            Self::Servo(args) => servo::run(&args, console),
+            Self::Simulate(args) => simulate::run(&args, console),
+            Self::Evaluate(args) => evaluate::run(&args, console),
+            Self::History(args) => history::run(&args, console),
+        }
+    }
+}
+
+/// Runs a command; shows that it works, if it takes long, and an error with its advice.
+pub fn run_command(
+    command: impl FnOnce(&mut Console) -> anyhow::Result<Outcome> + Send,
+) -> Outcome {
+    let work = || {
+        answered(|console| {
+            console.start_waiting();
+            command(console)
+        })
+    };
     // MinGW's mathematical functions compute with the x87, and Windows gives the first thread another precision than all
     // others: a command that shared its work among several would depend on which of them did what. The window computes
     // nothing on the first thread, and its event loop needs it.
-    if cfg!(all(windows, target_env = "gnu")) && cli.command.is_some() {
-        let ended = thread::spawn(|| run_here(cli)).join();
+    if cfg!(all(windows, target_env = "gnu")) {
+        let ended = thread::scope(|scope| scope.spawn(work).join());
         return ended.unwrap_or_else(|panic| resume_unwind(panic));
     }
-    run_here(cli)
+    work()
 }
 
-fn run_here(cli: Cli) -> Outcome {
+/// Shows an error with its advice.
+fn answered(work: impl FnOnce(&mut Console) -> anyhow::Result<Outcome>) -> Outcome {
     let mut console = Console::new();
-    if cli.command.is_some() {
-        console.start_waiting();
-    }
-    let ran = match cli.command {
-        Some(_) if cli.library.is_some() => Err(advised_error(
-            "--library must come after the command",
-            "Put it after the command, for example partsight inspect FILE --library DIR",
-        )),
-        Some(_) if cli.open.is_some() => Err(advised_error(
-            "--open is for the window, not for a command",
-            "Leave the command out to open the window, or --open to run the command",
-        )),
-        None => {
-            let library = cli.library;
-            window(&LibraryChoice { library }, cli.open, &mut console)
-        }
-        Some(Command::Inspect(args)) => inspect::run(args, &mut console),
-        Some(Command::Report(args)) => report::run(&args, &mut console),
-        Some(Command::Capture(args)) => capture::run(&args, &mut console),
-        Some(Command::Scan(args)) => scan::run(&args, &mut console),
-        Some(Command::Enrol(args)) => enrol::run(args, &mut console),
-        Some(Command::Library(args)) => library::run(&args, &mut console),
-        Some(Command::Path(args)) => path::run(&args, &mut console),
-        Some(Command::Recipe(args)) => recipes::run(&args, &mut console),
-        Some(Command::Align(args)) => align::run(&args, &mut console),
-        Some(Command::Calibrate(args)) => calibrate::run(&args, &mut console),
-        Some(Command::Cell(args)) => cell::run(&args, &mut console),
-        Some(Command::Rack(args)) => rack::run(&args, &mut console),
-        Some(Command::Serve(args)) => serve::run(&args, &mut console),
-        Some(Command::Servo(args)) => servo::run(&args, &mut console),
-        Some(Command::Simulate(args)) => simulate::run(&args, &mut console),
-        Some(Command::Bench(args)) => bench::run(&args, &mut console),
-        Some(Command::Evaluate(args)) => evaluate::run(&args, &mut console),
-        Some(Command::History(args)) => history::run(&args, &mut console),
-    };
-    let outcome = ran.unwrap_or_else(|error| {
+    let outcome = work(&mut console).unwrap_or_else(|error| {
         console.error(&error);
         Outcome::CouldNotRun
     });
@@ -268,7 +289,7 @@ fn window(
 
 /// Which library.
 #[derive(Debug, Args)]
-struct LibraryChoice {
+pub struct LibraryChoice {
     /// Folder of the library; default: your own, which starts with the shipped parts
     #[arg(long, value_name = "DIR", global = true)]
     library: Option<PathBuf>,
@@ -320,7 +341,7 @@ impl LibraryChoice {
     }
 
     /// Loads the library; one without parts is an error.
-    fn load_some(
+    pub fn load_some(
         &self,
         params: &ReferenceParams,
         console: &mut Console,
@@ -355,7 +376,7 @@ fn read_part(place: &LibraryPlace, name: &PartName) -> anyhow::Result<StoredPart
 }
 
 /// Writes a file of indented JSON.
-fn write_json(path: &Path, content: &impl Serialize) -> anyhow::Result<()> {
+pub fn write_json(path: &Path, content: &impl Serialize) -> anyhow::Result<()> {
     write_atomically(path, |writer| {
         serde_json::to_writer_pretty(&mut *writer, content)?;
         writeln!(writer)

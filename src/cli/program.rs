@@ -15,15 +15,16 @@ use inspection::pipeline::parameters::{DisplayUnit, Kind, Parameter, Parameters 
 use robot::{
     WrittenPose,
     arm::{Arm, Obstacles, PlacedArm, Rail},
-    program::{ProgramGroup, ProgramParams, ProgramSettings, RobotLanguage, TrackingFrame},
+    program::{
+        ProgramGroup, ProgramParams, ProgramSettings, RobotLanguage, ToolName, TrackingFrame,
+    },
 };
 use station::robot_file::{RobotFile, RobotFileContent};
 
 /// Tool, gun and arm of a program; the command names its file `program`.
 #[derive(Debug, Args)]
 pub(super) struct ProgramOptions {
-    /// The tool on the controller: a number for KUKA, FANUC and Yaskawa, a name for Doosan and, without --nozzle, for ABB
-    #[arg(long, value_name = "TOOL", requires = "program")]
+    #[arg(long, value_name = "TOOL", requires = "program", help = tool_help())]
     tool: Option<String>,
     /// Pose of the nozzle on the flange, with z in its direction: `kuka X Y Z A B C`, or the 16 numbers of a matrix
     #[arg(long, value_name = "POSE", value_parser = parse_nozzle_pose, allow_hyphen_values = true, requires = "program")]
@@ -45,14 +46,38 @@ pub(super) struct ProgramOptions {
 /// The line that a program follows.
 #[derive(Debug, Args)]
 struct TrackingChoice {
-    /// Follow a line that carries the part: the number of the conveyor on an ABB controller (CNV1 is 1), of the tracking
-    /// schedule on a FANUC, of the encoder on a Universal Robots. The reach of an arm is not checked then
-    #[arg(long, value_name = "N", requires_all = ["program", "tracking_frame"], conflicts_with = "arm")]
+    #[arg(long, value_name = "N", requires_all = ["program", "tracking_frame"], conflicts_with = "arm", help = tracking_help())]
     tracking: Option<u8>,
     /// Pose of the frame that the line moves, in the calibration's frame, while the part is where the path is: for `inspect`
     /// at the count of the capture, for `path export` as the part passes its standard position. x is the direction of the line
     #[arg(long, value_name = "POSE", value_parser = parse_robot_pose, allow_hyphen_values = true, requires = "tracking")]
     tracking_frame: Option<WrittenPose>,
+}
+
+fn tool_help() -> String {
+    let of = |is_so: fn(ToolName) -> bool| {
+        let languages = RobotLanguage::ALL.into_iter();
+        let makers = languages.filter(|language| is_so(language.tool));
+        any_of(&makers.map(|language| language.maker).collect::<Vec<_>>())
+    };
+    format!(
+        "The tool on the controller: a number for {}, a name for {} and, without --nozzle, for {}",
+        of(|tool| matches!(tool, ToolName::Number(_))),
+        of(|tool| tool == ToolName::Name),
+        of(|tool| tool == ToolName::NameOrNozzle)
+    )
+}
+
+fn tracking_help() -> String {
+    let languages = RobotLanguage::ALL.into_iter();
+    let lines = languages.filter_map(|language| {
+        let what = language.tracking.as_ref()?.what;
+        Some(format!("the {what} ({})", language.maker))
+    });
+    format!(
+        "Follow a line that carries the part: the number of {} on the controller. The reach of an arm is not checked then",
+        any_of(&lines.collect::<Vec<_>>())
+    )
 }
 
 impl TrackingChoice {

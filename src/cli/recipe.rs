@@ -65,7 +65,7 @@ impl RecipeChoice {
 
 /// A recipe, and parameters that are given another value.
 #[derive(Clone, Debug, Default, Args)]
-pub(super) struct RecipeSource {
+pub struct RecipeSource {
     /// Recipe, by name (partsight recipe list) or as a file; default: your default recipe
     #[arg(long, value_name = "NAME|FILE")]
     recipe: Option<String>,
@@ -83,7 +83,7 @@ impl RecipeSource {
     }
 
     /// Returns the recipe; by default the built-in one, even if the user has another default.
-    pub(super) fn recipe_or_built_in(&self) -> anyhow::Result<NamedRecipe> {
+    pub fn recipe_or_built_in(&self) -> anyhow::Result<NamedRecipe> {
         let file = open_named(Some(self.recipe.as_deref().unwrap_or(BUILT_IN)))?;
         Ok(self.changed(&file, |_| ()))
     }
@@ -127,7 +127,7 @@ pub(super) fn open_named(given: Option<&str>) -> anyhow::Result<RecipeFile> {
 }
 
 /// Shows the name of the recipe, unless it is the built-in one.
-pub(super) fn show_recipe(recipe: &NamedRecipe, console: &mut Console) {
+pub fn show_recipe(recipe: &NamedRecipe, console: &mut Console) {
     if recipe.label != RecipeLabel::default() {
         let text = format!("{}, {}", recipe.label, recipe.identity());
         console.entry("recipe", &text);

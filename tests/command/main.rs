@@ -3,7 +3,6 @@
 #![allow(clippy::disallowed_methods, reason = "tests change files")]
 
 mod align;
-mod bench;
 mod calibrate;
 mod cell;
 mod docs;
@@ -34,3 +33,6 @@ mod simulate;
 mod sources;
 mod system;
 mod workplace;
+
+/// The tested program.
+const PROGRAM: &str = env!("CARGO_BIN_EXE_partsight");

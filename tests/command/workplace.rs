@@ -51,7 +51,7 @@ impl Workplace {
     }
 
     pub(crate) fn command(&self, args: &[&str]) -> Command {
-        self.command_of(env!("CARGO_BIN_EXE_partsight"), args)
+        self.command_of(crate::PROGRAM, args)
     }
 
     pub(crate) fn run(&self, args: &[&str]) -> Ran {

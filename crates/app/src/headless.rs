@@ -1,11 +1,8 @@
 //! The window without a display, drawn frame by frame into a texture as on a desktop.
 //!
 //! A frame does everything that it does on a desktop: the panels run, their shapes become triangles, buffers are filled, the
-//! passes are recorded and submitted. Only presenting the picture is left out. Used to measure the cost of frames and to test
-//! that they do no unnecessary work.
-
-mod cost;
-mod live_cost;
+//! passes are recorded and submitted. Only presenting the picture is left out. Used to measure the cost of frames (crate
+//! `bench`) and to test that they do no unnecessary work.
 
 use std::{thread, time::Instant};
 
@@ -18,40 +15,15 @@ use eframe::{
 };
 use egui::{Event, FullOutput, RawInput, Rect, Vec2};
 
-pub use self::{
-    cost::{FrameCost, WindowCost, window_cost},
-    live_cost::{LiveSample, live_stretches},
-};
 use super::{
     window::{Window, WindowOptions},
     workspaces::inspect::WorkCounts,
 };
-use bench::ProcessorWatch;
 use shell::{action::Action, context::ShellContext, workspace::Workspace};
 use ui::viewport::ViewError;
 
-/// Size of the measured windows, logical pixels.
-const SIZE: [u32; 2] = [1440, 900];
 /// Format of the target texture.
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
-
-/// Whether the next frame may begin while the device still draws this one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Pace {
-    /// The next frame may begin, so that the cost of the processor is measured apart from that of the device.
-    Ahead,
-    /// The next frame waits, as with a display that takes one picture after the other.
-    InStep,
-}
-
-/// How long a frame took.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FrameTime {
-    /// Processor time of the window's thread, seconds; elapsed time if the system does not report it.
-    pub busy: f64,
-    /// Time from its start until the next frame may start, seconds.
-    pub whole: f64,
-}
 
 /// A window without a display.
 pub struct HeadlessWindow {
@@ -128,7 +100,7 @@ impl HeadlessWindow {
     }
 
     /// Number of the result in front.
-    fn generation(&self) -> Option<u64> {
+    pub fn generation(&self) -> Option<u64> {
         let shown = self.window.state().session.shown.as_ref();
         shown.map(|shown| shown.generation)
     }
@@ -142,7 +114,7 @@ impl HeadlessWindow {
     pub fn settle(&mut self) -> bool {
         let begun = Instant::now();
         loop {
-            self.frame(Vec::new(), Pace::InStep);
+            self.frame(Vec::new());
             if self.window.is_idle() {
                 break;
             }
@@ -152,7 +124,7 @@ impl HeadlessWindow {
             thread::sleep(std::time::Duration::from_millis(5));
         }
         for _ in 0..3 {
-            self.frame(Vec::new(), Pace::InStep);
+            self.frame(Vec::new());
         }
         true
     }
@@ -170,18 +142,11 @@ impl HeadlessWindow {
         self.window.with(&self.ctx, act)
     }
 
-    /// Draws one frame with these input events.
-    pub fn frame(&mut self, events: Vec<Event>, pace: Pace) -> FrameTime {
-        let (begun, watch) = (Instant::now(), ProcessorWatch::start());
+    /// Draws one frame with these input events, and waits until the device has drawn it, as with a display that takes one
+    /// picture after the other.
+    pub fn frame(&mut self, events: Vec<Event>) {
         self.draw(events);
-        let busy = watch.elapsed().as_secs_f64();
-        if pace == Pace::InStep {
-            self.wait();
-        }
-        FrameTime {
-            busy,
-            whole: begun.elapsed().as_secs_f64(),
-        }
+        self.wait();
     }
 
     /// Waits until the device has drawn everything.
@@ -190,7 +155,8 @@ impl HeadlessWindow {
         let _ = self.device.poll(wgpu::PollType::wait_indefinitely());
     }
 
-    fn draw(&mut self, events: Vec<Event>) {
+    /// Draws one frame with these input events; the device may still draw it afterwards.
+    pub fn draw(&mut self, events: Vec<Event>) {
         let [width, height] = self.size;
         let input = RawInput {
             screen_rect: Some(Rect::from_min_size(

@@ -1,6 +1,16 @@
 //! The whole inspection: every stage in order, every intermediate result kept, each stage timed.
 //!
 //! The window, the command line and the tests are three callers of [`run`].
+//!
+//! If the first surface is not accepted, it tries, one after the other:
+//!
+//! 1. up to three more surfaces;
+//! 2. the mirror image;
+//! 3. the first surface as a piece of a larger part, even if its outline looks whole: a clamp changes an outline;
+//! 4. the surface without bars that may belong to a stand;
+//! 5. where several parts may hang, the surface's pieces, cut where its picture is narrow.
+//!
+//! It does so only with the default matcher and the pose method `global`; the paper's methods know one surface.
 
 mod ahead;
 mod expected;

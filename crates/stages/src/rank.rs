@@ -51,7 +51,7 @@ pub struct RankParams {
     /// allow the highest scores come first. Raising it costs time where nothing scores high.
     pub num_compared: usize,
     /// Minimum number of references to rank on all cores instead of one, 1..100 000. Lowering it costs time where
-    /// starting the threads takes longer than ranking. `partsight bench scaling` finds the crossover; on two cores, two
+    /// starting the threads takes longer than ranking. `partsight-bench scaling` finds the crossover; on two cores, two
     /// workers paid off from 16 references and four from 32; below that, only a tenth of a millisecond is at stake.
     pub parallel_from: usize,
 }

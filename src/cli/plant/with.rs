@@ -13,7 +13,7 @@ pub(crate) use self::{
     bundle::{LibraryCommand, run as library, taken_version, version_of},
     database::{ChosenDatabase, HistorySender, HistoryToChoice},
     history::{FromChoice, HistoryCommand, overview, run as history},
-    http::{BenchHttp, HttpArgs},
+    http::HttpArgs,
     mqtt::MqttChoice,
     publish::{ChosenPublisher, PublishArgs, Publisher},
     serve::{ChosenServices, Services},

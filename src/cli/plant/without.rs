@@ -1,6 +1,6 @@
 //! No interfaces of a plant: no options, no subcommands, and nothing that could run.
 
-use std::{net::SocketAddr, path::PathBuf, time::Instant};
+use std::{path::PathBuf, time::Instant};
 
 use clap::{ArgMatches, Args, Command, FromArgMatches, Subcommand, error::ErrorKind};
 
@@ -16,7 +16,7 @@ use geometry::error::Fault;
 use inspection::library::{LibraryLoad, LibraryPlace};
 use records::history::{History, HistoryEvent, Traceability};
 use robot::RobotFrame;
-use serve::{CameraStatus, Found, InspectionRecord, Server, ServerHandle};
+use serve::{CameraStatus, Found, InspectionRecord, Server};
 use stages::reference::ReferenceParams;
 use station::{Inspected, NumberedPart};
 
@@ -211,7 +211,7 @@ impl ChosenServices {
         if http.is_wanted() {
             return Err(advised_error(
                 "this build has no HTTP",
-                "Build it with the feature plant: cargo build --release --features plant",
+                "Build it with the feature plant: cargo build --release -p partsight --features plant",
             ));
         }
         Ok(Self)
@@ -241,16 +241,4 @@ impl Services<'_> {
     }
 
     pub(crate) fn end(self, _: &Console) {}
-}
-
-pub(crate) enum BenchHttp {}
-
-impl BenchHttp {
-    pub(crate) fn start(_: ServerHandle) -> anyhow::Result<Option<Self>> {
-        Ok(None)
-    }
-
-    pub(crate) fn address(&self) -> SocketAddr {
-        match *self {}
-    }
 }

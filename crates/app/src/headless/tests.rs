@@ -42,15 +42,15 @@ fn a_frame_in_which_nothing_changed_uploads_prepares_and_draws_nothing() {
     let before = window.counts();
     assert!(before.uploads > 0 && before.pictures > 0 && before.made > 0);
     for _ in 0..20 {
-        window.frame(Vec::new(), Pace::InStep);
+        window.frame(Vec::new());
     }
     assert_eq!(window.counts(), before);
 
     // With the pointer over it, the view takes keys.
     let over = Pos2::new(500.0, 400.0);
-    window.frame(vec![Event::PointerMoved(over)], Pace::InStep);
-    window.frame(press(Key::ArrowLeft), Pace::InStep);
-    window.frame(Vec::new(), Pace::InStep);
+    window.frame(vec![Event::PointerMoved(over)]);
+    window.frame(press(Key::ArrowLeft));
+    window.frame(Vec::new());
     let turned = window.counts();
     assert!(turned.pictures > before.pictures, "the view did not turn");
     // Rotating redraws without uploading anything.
@@ -61,13 +61,13 @@ fn a_frame_in_which_nothing_changed_uploads_prepares_and_draws_nothing() {
 fn another_choice_of_lines_uploads_lines_alone_and_once() {
     let Some(mut window) = open() else { return };
     let before = window.counts();
-    window.frame(press(Key::N), Pace::InStep);
-    window.frame(Vec::new(), Pace::InStep);
+    window.frame(press(Key::N));
+    window.frame(Vec::new());
     let after = window.counts();
     assert_eq!(after.made, before.made + 1);
     assert_eq!(after.uploads, before.uploads + 1, "the nozzle alone");
     for _ in 0..5 {
-        window.frame(Vec::new(), Pace::InStep);
+        window.frame(Vec::new());
     }
     assert_eq!(window.counts(), after);
 }
@@ -101,7 +101,7 @@ fn says(window: &HeadlessWindow, text: &str) -> bool {
 fn a_device_that_refuses_something_is_said_in_words_and_the_rest_works() {
     let Some(mut window) = open() else { return };
     window.ctx.enable_accesskit();
-    window.frame(Vec::new(), Pace::InStep);
+    window.frame(Vec::new());
     assert!(!says(&window, "No 3-D view") && says(&window, "Front door, left"));
     // More than any device has.
     let _refused = window.device.create_buffer(&wgpu::BufferDescriptor {
@@ -110,11 +110,11 @@ fn a_device_that_refuses_something_is_said_in_words_and_the_rest_works() {
         usage: wgpu::BufferUsages::STORAGE,
         mapped_at_creation: false,
     });
-    window.frame(Vec::new(), Pace::InStep);
+    window.frame(Vec::new());
     assert!(says(&window, "No 3-D view") && says(&window, "reported an error"));
     assert!(says(&window, "Front door, left") && !window.closes);
     // The next part is still captured and inspected.
-    window.frame(press(Key::Space), Pace::InStep);
+    window.frame(press(Key::Space));
     assert!(window.settle());
     assert!(says(&window, "Simulated frame 2"), "{:?}", window.says);
 }
@@ -124,7 +124,7 @@ fn a_window_whose_device_is_gone_closes_instead_of_breaking_off() {
     let Some(mut window) = open() else { return };
     window.device.destroy();
     for _ in 0..3 {
-        window.frame(Vec::new(), Pace::InStep);
+        window.frame(Vec::new());
     }
     assert!(window.closes);
     let gpu = window.window().gpu().as_ref().expect("a device once");
@@ -141,18 +141,18 @@ fn turning_draws_less_on_a_slow_device_and_everything_at_rest() {
         pressed,
         modifiers: Modifiers::NONE,
     };
-    window.frame(vec![Event::PointerMoved(from), button(true)], Pace::InStep);
+    window.frame(vec![Event::PointerMoved(from), button(true)]);
     for i in 1..=12 {
         let to = from + Vec2::new(8.0 * i as f32, 0.0);
-        window.frame(vec![Event::PointerMoved(to)], Pace::InStep);
+        window.frame(vec![Event::PointerMoved(to)]);
         // Slow on any machine, so that the test does not depend on this one's speed.
         thread::sleep(std::time::Duration::from_millis(70));
     }
     assert!(window.window().detail_of_view() < 1.0, "all of it is drawn");
-    window.frame(vec![button(false)], Pace::InStep);
+    window.frame(vec![button(false)]);
     thread::sleep(std::time::Duration::from_millis(300));
     let before = window.counts().pictures;
-    window.frame(Vec::new(), Pace::InStep);
+    window.frame(Vec::new());
     assert!((window.window().detail_of_view() - 1.0).abs() < 1e-6);
     assert_eq!(window.counts().pictures, before + 1, "drawn in full");
 }

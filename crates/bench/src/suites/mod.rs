@@ -25,7 +25,7 @@ pub use self::{
     run::{ConfusionEntry, InspectedFrame, SuiteResult, run_suite},
 };
 use geometry::{depth_frame::DepthFrame, rigid::RigidTransform};
-pub use inspection::library::{enrol_part, enrol_standard_parts, enrolled_name, enrolment_pose};
+pub use inspection::library::{enrol_part, enrolled_name, enrolment_pose};
 use simulate::{
     CellSetup, Clutter, FIRST_OTHER_MAKE, FrameTruth, ObjectKind, PartKind, PartPose, PoseRange,
     RackKind, RackSetup, SensorNoise, Side, SimulatedObject, Stand, SurfaceLabel, frame,

@@ -71,6 +71,7 @@ mod judge;
 mod meta;
 mod past;
 mod record;
+mod stage_times;
 mod store;
 mod trade_off;
 
@@ -87,6 +88,7 @@ pub use self::{
         CaseRecord, EarlierRun, EvaluationRecord, PoseErrors, PoseOff, RECORD_SCHEMA, RecipeRecord,
         RecordError,
     },
+    stage_times::{StageTimes, stage_times},
     store::{CaseFolder, CaseList, KeptCase, PackedCase},
     trade_off::{ThresholdCounts, TradeOff},
 };

@@ -27,6 +27,7 @@ use super::{
     confusion::Tally,
     evaluation::Evaluation,
     judge::{CaseAnswer, CaseOutcome, CaseResult, FoundVerdict, Truth},
+    stage_times::StageTimes,
     trade_off::TradeOff,
 };
 use files::{FileError, parse_json, read_bytes};
@@ -39,9 +40,9 @@ use inspection::pipeline::{
 /// The schema that is written; newer ones are refused.
 pub const RECORD_SCHEMA: u32 = 1;
 
-/// A run over all cases, to be written. `T` is the type of the stage times.
+/// A run over all cases, to be written.
 #[derive(Debug, Serialize)]
-pub struct EvaluationRecord<'a, T> {
+pub struct EvaluationRecord<'a> {
     schema: u32,
     #[serde(flatten)]
     recipe: &'a RecipeRecord,
@@ -53,7 +54,7 @@ pub struct EvaluationRecord<'a, T> {
     calibration: &'a Calibration,
     trade_off: &'a TradeOff,
     pose_errors: PoseErrors,
-    times_ms: T,
+    times_ms: &'a [StageTimes],
     cases: Vec<CaseRecord>,
     damaged: Vec<String>,
 }
@@ -187,13 +188,13 @@ impl From<&CaseResult> for CaseRecord {
     }
 }
 
-impl<'a, T> EvaluationRecord<'a, T> {
+impl<'a> EvaluationRecord<'a> {
     /// Describes an evaluation with this recipe on `num_threads` threads.
     pub fn of(
         evaluation: &'a Evaluation,
         recipe: &'a RecipeRecord,
         num_threads: usize,
-        times_ms: T,
+        times_ms: &'a [StageTimes],
     ) -> Self {
         let Evaluation {
             results,

@@ -1,6 +1,6 @@
 //! Results of an inspection: a line of JSON for machines, pictures of its stages and the pose report for people.
 //!
-//! The line and text tables are always available; pictures and reports need the feature `cli`.
+//! The line, text tables and the text of `evaluate` are always available; pictures and pose reports need the feature `cli`.
 
 #[cfg(feature = "cli")]
 mod canvas;
@@ -10,6 +10,7 @@ mod chart;
 mod curves;
 #[cfg(feature = "cli")]
 mod evaluation;
+mod evaluation_report;
 #[cfg(feature = "cli")]
 mod film;
 #[cfg(feature = "cli")]
@@ -37,6 +38,7 @@ pub use self::{
     runner_up_picture::runner_up_picture,
 };
 pub use self::{
+    evaluation_report::EvaluationReport,
     line::{CaptureLine, InspectionLine, SCHEMA, ScanLine, TimingsLine},
     text_table::TextTable,
 };

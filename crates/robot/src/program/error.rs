@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::{RobotLanguage, language::ToolName};
+use super::{RobotLanguage, ToolName};
 use files::FileError;
 use geometry::{error::Advice, units::any_of};
 

@@ -43,7 +43,7 @@ mod tests;
 
 use jiff::Timestamp;
 
-use self::language::{Step, ToolName};
+use self::language::Step;
 use crate::{
     FrameName,
     arm::{PathCheck, PlacedArm, Way},
@@ -56,7 +56,7 @@ use inspection::pipeline::parameters::{DisplayUnit, Kind, Parameters as _};
 
 pub use self::{
     error::ProgramError,
-    language::RobotLanguage,
+    language::{RobotLanguage, ToolName},
     motion::MotionPiece,
     prepare::{arm_points, check_reach, program_points},
     save::{ProgramTexts, remove_previous_program},

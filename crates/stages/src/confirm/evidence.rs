@@ -1,7 +1,7 @@
 //! The evidence for and against a reference at its pose, and the score that follows from it.
 //!
 //! The score is a logistic model: the probability that the part hangs there, at the pose found. Its weights are fitted
-//! to simulated frames (`partsight bench calibration`, tuning seeds). Every reference that was examined is one sample, so
+//! to simulated frames (`partsight-bench calibration`, tuning seeds). Every reference that was examined is one sample, so
 //! a box counts against each part that it resembles.
 //!
 //! Only what both views show is compared: a region of the reference beyond the picture, or of the scene beyond where the
@@ -404,7 +404,7 @@ fn is_enough(seen_m2: f64, edge_m: f64) -> bool {
     seen_m2 >= MIN_SEEN_M2 && edge_m >= MIN_EDGE_M
 }
 
-/// The model of the score, as `bench calibration` fits it on the tuning seeds.
+/// The model of the score, as `partsight-bench calibration` fits it on the tuning seeds.
 const CONSTANT: f64 = 5.67;
 const WEIGHTS: [f64; NUM_FEATURES] = [-0.58, -7.29, -4.35, -4.88];
 

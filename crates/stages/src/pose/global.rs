@@ -46,7 +46,7 @@ const ALIKE: f64 = 0.15;
 /// Principal variances that differ by less than this share leave their axes free to turn into each other.
 const TURNABLE: f64 = 0.25;
 /// What a stretch of a border may be off by where both clouds show the whole thing, and where the source may end
-/// elsewhere, metres: on them most bounds hold (`partsight bench registration`).
+/// elsewhere, metres: on them most bounds hold (`partsight-bench registration`).
 const OUTLINE_ERROR_OF_WHOLE_M: f64 = 0.003;
 const OUTLINE_ERROR_OF_VIEW_M: f64 = 0.01;
 /// Share of the source that lies on the target where a start along the axes convinces.

@@ -96,7 +96,7 @@ const OUTLINE_ERROR_M: f64 = 0.0021;
 /// Share of a region's own error that its patches do not show already.
 const REGION_SHARE: f64 = 0.5;
 /// Scatter of turns and shifts divided by that of the model, on parts of other cars in frames of the tuning seeds, with
-/// every kind of camera (`partsight bench bounds --seed 3000000`).
+/// every kind of camera (`partsight-bench bounds --seed 3000000`).
 const TURN_FACTOR: f64 = 1.1;
 const SHIFT_FACTOR: f64 = 1.55;
 

@@ -82,26 +82,3 @@ pub(super) fn start(
     }
     Ok(Some(http))
 }
-
-/// HTTP beside the other protocols of `bench serve`.
-pub(crate) struct BenchHttp(HttpServer);
-
-impl BenchHttp {
-    /// Starts to answer at any port.
-    pub(crate) fn start(server: ServerHandle) -> anyhow::Result<Option<Self>> {
-        let settings = HttpSettings {
-            address: parse_address("0").advised()?,
-            convention: Convention::Kuka,
-            tokens: Tokens::default(),
-            tls: None,
-        };
-        HttpServer::start(settings, server)
-            .advised()
-            .map(|http| Some(Self(http)))
-    }
-
-    /// Its address.
-    pub(crate) fn address(&self) -> SocketAddr {
-        self.0.address()
-    }
-}

@@ -16,6 +16,7 @@ mod pictures;
 mod recipe_menu;
 mod recipe_panel;
 mod recipes;
+pub mod scaling;
 mod scaling_plot;
 mod schedule;
 mod score_plots;

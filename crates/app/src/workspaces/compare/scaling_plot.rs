@@ -3,8 +3,7 @@
 use egui::{Button, RichText, Sense, Ui, WidgetInfo, vec2};
 use egui_plot::{Line, LineStyle};
 
-use super::{CompareAction, CompareState};
-use bench::scaling::Scaling;
+use super::{CompareAction, CompareState, scaling::Scaling};
 use ui::{
     language::text,
     plot::{Axes, Axis, legend, range_of},

@@ -9,11 +9,11 @@ use std::{
 use super::{
     action::{CompareAction, CompareFile, RecipeAction},
     kept_recipes::KeptRecipes,
+    scaling::Scaling,
     schedule::{Job, JobKind, StudyNeed, no_cases},
     study::CaseStudy,
     work::{CaseDone, CaseEdit, CaseRun, CompareResult, RunChanges},
 };
-use bench::scaling::Scaling;
 use inspection::{
     library::PartName,
     pipeline::{NamedRecipe, Recipe, RecipeFile, parameters::Parameter},

@@ -7,8 +7,14 @@ use std::{
 
 use jiff::Timestamp;
 
-use super::{keeping::keep_case, matrix::Matrix, schedule::Job, state::Cases, study::CaseStudy};
-use bench::scaling::{Scaling, ScalingError, ScalingRow, scaling, sizes};
+use super::{
+    keeping::keep_case,
+    matrix::Matrix,
+    scaling::{Scaling, ScalingError, ScalingRow, scaling, sizes},
+    schedule::Job,
+    state::Cases,
+    study::CaseStudy,
+};
 use files::file_name;
 use inspection::pipeline::NamedRecipe;
 use records::{

@@ -33,7 +33,7 @@ pub struct RobotLanguage {
     /// Convention of its poses.
     pub convention: Convention,
     /// How it names the tool whose origin is the nozzle's mouth.
-    pub(super) tool: ToolName,
+    pub tool: ToolName,
     /// Slowest and fastest speed, m/s.
     pub(super) speeds: [f64; 2],
     /// Numbers of its digital outputs.
@@ -54,7 +54,7 @@ pub struct RobotLanguage {
     /// Whether case matters in them.
     pub(super) is_case_sensitive: bool,
     /// How its programs follow a line; none if that is not known.
-    pub(super) tracking: Option<Tracking>,
+    pub tracking: Option<Tracking>,
     /// How a path that is too long for one program is cut; none if programs are unlimited.
     pub(super) calls: Option<Calls>,
     /// Most letters of a comment, without the sign that begins it.
@@ -70,7 +70,7 @@ pub struct RobotLanguage {
 
 /// How a language names the tool.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum ToolName {
+pub enum ToolName {
     /// By a number from 1 to this one.
     Number(u8),
     /// By a name.
@@ -101,9 +101,9 @@ impl ToolName {
 }
 
 /// What moves the frame that follows a line.
-pub(super) struct Tracking {
+pub struct Tracking {
     /// Its name, before its number.
-    pub(super) what: &'static str,
+    pub what: &'static str,
     /// Its numbers.
     pub(super) numbers: RangeInclusive<u8>,
 }

@@ -1,18 +1,18 @@
-//! `partsight bench line`: simulated lines whose parts pass the camera.
+//! `partsight-bench line`: simulated lines whose parts pass the camera.
 
 use clap::Args;
 
 use super::{JsonFile, write_results};
-use crate::cli::{
-    Outcome,
-    console::{Advised as _, Console, Table},
-};
-use bench::{
+use crate::{
     line::{LATER_S, LaterPose, LineCase, LinePartCase, PARTS_PER_LINE, line_cases},
     suites::MEASURING_SEED,
 };
 use geometry::statistics::quantile;
 use inspection::library::{EnrolParams, enrol_standard_parts};
+use partsight::cli::{
+    Outcome,
+    console::{Advised as _, Console, Table},
+};
 
 /// Default number of lines.
 const NUM_LINES: u64 = 20;

@@ -1,13 +1,13 @@
-//! `partsight bench history`: times queries of a long history.
+//! `partsight-bench history`: times queries of a long history.
 
 use serde::Serialize;
 
 use super::{JsonFile, write_json};
-use crate::cli::{
+use crate::history::{HistoryTime, history_times};
+use partsight::cli::{
     Outcome,
     console::{Advised as _, Console, Table},
 };
-use bench::{HistoryTime, history_times};
 
 /// Number of rows of the history.
 const NUM_ROWS: usize = 100_000;

@@ -1,16 +1,16 @@
-//! `partsight bench calibration`: fits the score's model on simulated frames, and shows how much each piece of evidence
+//! `partsight-bench calibration`: fits the score's model on simulated frames, and shows how much each piece of evidence
 //! contributes.
 
 use serde::Serialize;
 
 use super::{FrameChoice, recognition::Frames, write_json};
-use crate::cli::{
-    Outcome,
-    console::{Console, Table},
-};
-use bench::{
+use crate::{
     calibration::{Model, Question, Sample, bands, samples},
     suites::{Suite, SuiteResult, TUNING_SEED},
+};
+use partsight::cli::{
+    Outcome,
+    console::{Console, Table},
 };
 
 /// The file that `--json` writes.

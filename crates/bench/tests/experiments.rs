@@ -1,16 +1,47 @@
-//! `partsight bench`: its measurements and pictures.
+//! The program `partsight-bench`: its measurements and pictures.
 
-use std::fs;
+#![allow(clippy::disallowed_methods, reason = "tests change files")]
 
+#[allow(dead_code, reason = "the tests of the commands use the rest")]
+#[path = "../../../tests/command/workplace.rs"]
+mod workplace;
+
+use std::{fs, path::Path};
+
+use bench::cli::Cli;
+use clap::Parser as _;
 use serde_json::Value;
 
-use crate::workplace::Workplace;
+use self::workplace::Workplace;
+use files::write_depth_png;
+use simulate::{CellSetup, PartKind, Side, frame};
+
+/// The tested program.
+const PROGRAM: &str = env!("CARGO_BIN_EXE_partsight-bench");
+
+#[test]
+fn every_command_of_the_guide_is_one() {
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/guide/parameters.md");
+    let text = fs::read_to_string(page).expect("text");
+    let calls = text
+        .lines()
+        .filter_map(|line| line.split_once("-p partsight-bench -- "));
+    let mut num_commands = 0;
+    for (_, call) in calls {
+        num_commands += 1;
+        let words = call.split(" #").next().unwrap_or("").split_whitespace();
+        if let Err(error) = Cli::try_parse_from(["partsight-bench"].into_iter().chain(words)) {
+            panic!("{call}\n{error}");
+        }
+    }
+    assert!(num_commands > 2, "{num_commands} commands");
+}
 
 #[test]
 fn table_1_is_shown_and_written_for_the_parts_asked_for() {
     let place = Workplace::new();
     let ran = place.accepted(&[
-        "bench", "table1", "--part", "grille", "--json", "t.json", "--csv", "t.csv",
+        "table1", "--part", "grille", "--json", "t.json", "--csv", "t.csv",
     ]);
     assert!(ran.out.contains("icp-ga  5/5"), "{}", ran.out);
     let text = fs::read_to_string(place.path("t.json")).expect("written");
@@ -26,7 +57,7 @@ fn table_1_is_shown_and_written_for_the_parts_asked_for() {
     }
     let rows = fs::read_to_string(place.path("t.csv")).expect("written");
     assert_eq!(rows.lines().count(), 16);
-    let unknown = place.run(&["bench", "table1", "--part", "wing"]);
+    let unknown = place.run(&["table1", "--part", "wing"]);
     assert_eq!(unknown.code, 2);
     assert!(unknown.err.contains("no part wing"), "{}", unknown.err);
 }
@@ -35,7 +66,6 @@ fn table_1_is_shown_and_written_for_the_parts_asked_for() {
 fn recognition_is_measured_beside_the_other_systems_and_its_worst_confusions_are_drawn() {
     let place = Workplace::new();
     let ran = place.accepted(&[
-        "bench",
         "recognition",
         "--suite",
         "standard",
@@ -94,7 +124,7 @@ fn recognition_is_measured_beside_the_other_systems_and_its_worst_confusions_are
     let num_contenders = drawn.filter(|name| name.ends_with(".contenders.png"));
     assert_eq!(num_contenders.count(), 8);
 
-    let gone = place.run(&["bench", "speed", "--only-ours"]);
+    let gone = place.run(&["speed", "--only-ours"]);
     assert_eq!(gone.code, 2);
     assert!(
         gone.err.contains("unexpected argument '--only-ours'"),
@@ -106,7 +136,7 @@ fn recognition_is_measured_beside_the_other_systems_and_its_worst_confusions_are
 #[test]
 fn racks_are_measured_part_by_part() {
     let place = Workplace::new();
-    let racks = ["bench", "recognition", "--suite", "rack", "--poses", "1"];
+    let racks = ["recognition", "--suite", "rack", "--poses", "1"];
     let ran = place.accepted(&[&racks[..], &["--only-ours", "--json", "r.json"]].concat());
     let text = fs::read_to_string(place.path("r.json")).expect("written");
     let file: Value = serde_json::from_str(&text).expect("JSON");
@@ -133,7 +163,7 @@ fn racks_are_measured_part_by_part() {
 #[test]
 fn whole_inspections_are_timed_by_set_and_compared_with_an_earlier_run() {
     let place = Workplace::new();
-    let one = ["bench", "speed", "--poses", "1"];
+    let one = ["speed", "--poses", "1"];
     place.accepted(&[&one[..], &["--suite", "placed", "--json", "before.json"]].concat());
     let text = fs::read_to_string(place.path("before.json")).expect("written");
     let mut before: Value = serde_json::from_str(&text).expect("JSON");
@@ -156,14 +186,15 @@ fn whole_inspections_are_timed_by_set_and_compared_with_an_earlier_run() {
     assert_eq!(row("placed")[8], "0.00", "{}", ran.out);
     assert_eq!(row("standard")[8..], ["-", "-", "-"], "{}", ran.out);
 
-    place.accepted(&["simulate", "--part", "fender", "--out", "frame.ply"]);
-    let ran = place.accepted(&["bench", "speed", "--files", "frame.ply", "frame.ply"]);
+    let fender = CellSetup::with_part(PartKind::Fender, Side::Left, 0, 1);
+    write_depth_png(&place.path("frame.png"), &frame(&fender).frame).expect("written");
+    let ran = place.accepted(&["speed", "--files", "frame.png", "frame.png"]);
     assert!(ran.out.starts_with("2 files"), "{}", ran.out);
     // A folder with a scene and something else.
     fs::create_dir_all(place.path("frames/none")).expect("made");
-    fs::copy(place.path("frame.ply"), place.path("frames/frame.ply")).expect("copied");
+    write_depth_png(&place.path("frames/frame.png"), &frame(&fender).frame).expect("written");
     fs::write(place.path("frames/about.md"), "").expect("written");
-    let ran = place.accepted(&["bench", "speed", "--files", "frames", "frame.ply"]);
+    let ran = place.accepted(&["speed", "--files", "frames", "frame.png"]);
     assert!(ran.out.starts_with("2 files"), "{}", ran.out);
 
     fs::write(place.path("note.txt"), "{}").expect("written");
@@ -172,11 +203,11 @@ fn whole_inspections_are_timed_by_set_and_compared_with_an_earlier_run() {
         (&["--files", "frames/none"], "no scene in it"),
         (&["--compare", "note.txt"], "is no measurement of speed"),
         (
-            &["--files", "frame.ply", "--poses", "2"],
+            &["--files", "frame.png", "--poses", "2"],
             "cannot be used with",
         ),
     ] {
-        let ran = place.run(&[&["bench", "speed"][..], wrong].concat());
+        let ran = place.run(&[&["speed"][..], wrong].concat());
         assert_eq!(ran.code, 2, "{}", ran.err);
         assert!(ran.err.contains(why), "{}", ran.err);
     }
@@ -185,11 +216,11 @@ fn whole_inspections_are_timed_by_set_and_compared_with_an_earlier_run() {
 #[test]
 fn protocols_are_timed_beside_bare_exchanges_and_direct_calls() {
     let place = Workplace::new();
-    let ran = place.accepted(&["bench", "serve", "--poses", "1", "--json", "s.json"]);
+    let ran = place.accepted(&["serve", "--poses", "1", "--json", "s.json"]);
     let text = fs::read_to_string(place.path("s.json")).expect("written");
     let file: Value = serde_json::from_str(&text).expect("JSON");
     let mut protocols = vec!["ascii", "binary", "eki", "urscript"];
-    if place.has_plant() {
+    if cfg!(feature = "plant") {
         protocols.push("http");
     }
     let rows = |list: &str| {

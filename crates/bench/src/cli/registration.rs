@@ -1,4 +1,4 @@
-//! `partsight bench registration`: poses of clouds that share no point.
+//! `partsight-bench registration`: poses of clouds that share no point.
 
 use std::path::PathBuf;
 
@@ -6,12 +6,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::{FrameChoice, NUM_POSES, bounds::opened, write_json};
-use crate::cli::{
-    Outcome,
-    console::{Console, Table},
-    input::{Choice, choice},
-};
-use bench::{
+use crate::{
     registration::{
         Attempt, Condition, NUM_POINTS, Registration, RegistrationPart, RegistrationSetup,
         ablation, register_all,
@@ -19,6 +14,11 @@ use bench::{
     suites::MEASURING_SEED,
 };
 use geometry::statistics::quantile;
+use partsight::cli::{
+    Outcome,
+    console::{Console, Table},
+    input::{Choice, choice},
+};
 use stages::pose::{AlignParams, PoseMethod};
 
 /// The file that `--json` writes.

@@ -1,11 +1,12 @@
-//! `partsight bench window`: processor time of a frame of the window.
+//! `partsight-bench window`: processor time of a frame of the window.
 
 use super::{JsonFile, write_results};
-use crate::cli::{
+use crate::window_cost::window_cost;
+use app::WindowOptions;
+use partsight::cli::{
     Outcome,
     console::{Advised as _, Console, Table},
 };
-use app::{WindowOptions, headless::window_cost};
 
 /// Number of frames measured of each kind.
 const NUM_FRAMES: usize = 120;

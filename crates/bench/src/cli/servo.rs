@@ -1,20 +1,20 @@
-//! `partsight bench servo`: simulated runs of visual servoing.
+//! `partsight-bench servo`: simulated runs of visual servoing.
 
 use std::collections::BTreeMap;
 
 use clap::Args;
 
 use super::{JsonFile, write_results};
-use crate::cli::{
-    Outcome,
-    console::{Advised as _, Console, Table},
-};
-use bench::{
+use crate::{
     servo::{ServoCase, ServoRun, ServoSuite, servo_cases, servo_params},
     suites::MEASURING_SEED,
 };
 use geometry::statistics::quantile;
 use inspection::library::{EnrolParams, enrol_standard_parts};
+use partsight::cli::{
+    Outcome,
+    console::{Advised as _, Console, Table},
+};
 
 /// Default number of undisturbed runs.
 const NUM_RUNS: u64 = 64;

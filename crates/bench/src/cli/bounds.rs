@@ -1,4 +1,4 @@
-//! `partsight bench bounds` and `bench sheets`: measure whether pose errors stay within their bounds.
+//! `partsight-bench bounds` and `partsight-bench sheets`: measure whether pose errors stay within their bounds.
 
 use std::{
     borrow::Borrow,
@@ -9,11 +9,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::{FrameChoice, JsonFile, NUM_POSES, write_results};
-use crate::cli::{
-    Outcome,
-    console::{Advised as _, Console, Table, advised_error},
-};
-use bench::{
+use crate::{
     bounds::{
         BoundsCase, BoundsLibrary, Condition, PoseAgainstTruth, SheetForm, THICKNESSES, View,
         bounds_cases,
@@ -22,6 +18,10 @@ use bench::{
 };
 use files::{FileContent, open};
 use geometry::{mesh::TriangleMesh, statistics::quantile};
+use partsight::cli::{
+    Outcome,
+    console::{Advised as _, Console, Table, advised_error},
+};
 
 #[derive(Debug, Serialize)]
 struct CaseLine {
@@ -141,7 +141,7 @@ pub(super) fn opened(path: &Path) -> anyhow::Result<(String, TriangleMesh)> {
 const NUM_SHEET_POSES: u64 = 3;
 const SHEET_VIEWS: [View; 2] = [View::Whole, View::Cut];
 
-/// Runs `partsight bench sheets`: panels of every thickness, enrolled in every form that they may be stored in.
+/// Runs `partsight-bench sheets`: panels of every thickness, enrolled in every form that they may be stored in.
 pub(super) fn run_sheets(args: &FrameChoice, console: &mut Console) -> anyhow::Result<Outcome> {
     let first_seed = args.seed.unwrap_or(MEASURING_SEED);
     let num_poses = args.poses.unwrap_or(NUM_SHEET_POSES);

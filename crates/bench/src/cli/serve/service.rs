@@ -13,14 +13,16 @@ use std::{
 
 use anyhow::Context as _;
 
-use super::client::{Client, Framing, busy_rate};
-use crate::cli::{console::Advised as _, plant::BenchHttp};
-use bench::suites::enrol_standard_parts;
+use super::{
+    client::{Client, Framing, busy_rate},
+    http::{self, HttpServer},
+};
 use geometry::{depth_frame::DepthFrame, error::lock, rigid::RigidTransform};
 use inspection::{
-    library::{EnrolParams, Library},
+    library::{EnrolParams, Library, enrol_standard_parts},
     pipeline::{self, NamedRecipe, Unwatched},
 };
+use partsight::cli::console::Advised as _;
 use records::history::Traceability;
 use robot::{Convention, RobotFrame};
 use serve::{
@@ -188,7 +190,7 @@ pub(super) struct Service {
     pub(super) protocols: Vec<ServedProtocol>,
     num_inspected: Arc<AtomicU64>,
     is_ending: Arc<AtomicBool>,
-    _http: Option<BenchHttp>,
+    _http: Option<HttpServer>,
     thread: Option<JoinHandle<()>>,
 }
 
@@ -218,7 +220,7 @@ impl Service {
             |_| (),
         );
         let mut server = server.advised()?;
-        let http = BenchHttp::start(server.handle())?;
+        let http = http::start(server.handle())?;
         let protocols = server.addresses().iter().map(|at| ServedProtocol::of(*at));
         let over_http = http
             .as_ref()

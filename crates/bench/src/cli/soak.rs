@@ -1,4 +1,4 @@
-//! `partsight bench soak`: runs very many frames through everything that `inspect --source` does, and checks whether
+//! `partsight-bench soak`: runs very many frames through everything that `inspect --source` does, and checks whether
 //! memory, threads or handles keep growing.
 
 use std::{
@@ -13,12 +13,7 @@ use jiff::{SignedDuration, Timestamp};
 use serde::Serialize;
 
 use super::{JsonFile, write_json};
-use crate::cli::{
-    LibraryChoice, Outcome,
-    console::{Advised as _, Console, Table, advised_error},
-    record::{HistoryChoice, HistoryRecorder},
-};
-use bench::ProcessUsage;
+use crate::process_usage::ProcessUsage;
 use capture::{
     BackpressurePolicy, CaptureError, Captured, DepthSource, Feed, FeedItem, Image, NextCapture,
     SimulatedSpec, SourceSpec,
@@ -28,14 +23,18 @@ use geometry::{
     statistics::quantile,
 };
 use inspection::{library::LibraryLoad, pipeline::NamedRecipe};
+use partsight::cli::{
+    LibraryChoice, Outcome,
+    console::{Advised as _, Console, Table, advised_error},
+};
 use records::{
-    history::{NewEntry, Traceability},
-    report::{SizeCurve, curves_picture, write_png},
+    history::{HistoryEvent, HungId, NewEntry, Traceability},
+    report::{SizeCurve, curves_picture, segmentation_picture, write_png},
 };
 use simulate::{CellSetup, PartKind, Side, SimulatedObject, frame};
 use station::{
-    CameraScenes, Following, Inspected, PartFollower, SceneToInspect, Settled, Station,
-    StationSetup, Subject,
+    CameraScenes, Following, Inspected, LibraryNames, PartFollower, Recorder, SceneToInspect,
+    Settled, Station, StationSetup, Subject,
 };
 
 /// Number of lines of the table.
@@ -176,8 +175,9 @@ impl DepthSource for SmallCell {
 /// Inspects and records the frames.
 struct Follower {
     station: Station<NewEntry>,
+    identity: String,
     scenes: CameraScenes,
-    recording: HistoryRecorder,
+    recorder: Recorder,
     source: SourceSpec,
     num_accepted: u64,
     num_in_history: u64,
@@ -185,7 +185,7 @@ struct Follower {
 
 impl Follower {
     /// Takes in a frame as `inspect --source` does, without printing. Returns the latency.
-    fn take(&mut self, captured: Captured, console: &Console) -> Duration {
+    fn take(&mut self, captured: Captured) -> anyhow::Result<Duration> {
         let arrived = captured.arrived;
         let scene = SceneToInspect {
             path: (&captured.name).into(),
@@ -193,13 +193,15 @@ impl Follower {
             captured_at: None,
             scene: self.scenes.next(captured.image),
         };
-        let recording = &self.recording;
-        let settled = (self.station).next(scene, |part, hung, _| recording.entry(part, hung));
-        self.settled(settled, console);
-        arrived.elapsed()
+        let identity = &self.identity;
+        let entry = |part: &Inspected<'_>, hung, _| entry_of(part, hung, identity);
+        let settled = self.station.next(scene, entry);
+        self.settled(settled);
+        check(&self.recorder)?;
+        Ok(arrived.elapsed())
     }
 
-    fn settled(&mut self, settled: Settled<NewEntry>, console: &Console) {
+    fn settled(&mut self, settled: Settled<NewEntry>) {
         for scene in &settled.scenes {
             self.num_accepted += u64::from(scene.parts[0].verdict.is_accepted());
             // Nobody prints it here, but making it is part of the work.
@@ -208,16 +210,26 @@ impl Follower {
         }
         for entry in settled.recorded {
             self.num_in_history += 1;
-            self.recording.add(entry, console);
+            self.recorder.add(entry);
         }
     }
 
-    fn end(mut self, console: &Console) {
-        let recording = &self.recording;
-        let settled = (self.station).end(false, |part, hung, _| recording.entry(part, hung));
-        self.settled(settled, console);
-        self.recording.finish(console);
+    /// Records the last part.
+    fn end(&mut self) {
+        let identity = &self.identity;
+        let entry = |part: &Inspected<'_>, hung, _| entry_of(part, hung, identity);
+        let settled = self.station.end(false, entry);
+        self.settled(settled);
     }
+}
+
+fn entry_of(part: &Inspected<'_>, hung: HungId, identity: &str) -> NewEntry {
+    let names = LibraryNames {
+        identity,
+        title_of: &str::to_owned,
+    };
+    let picture = segmentation_picture(part.scene, &part.inspection.segmentation);
+    part.entry(hung, Traceability::default(), names, picture.as_ref())
 }
 
 #[derive(Debug, Args)]
@@ -240,16 +252,7 @@ pub(super) fn run(args: &SoakArgs, console: &mut Console) -> anyhow::Result<Outc
         .library
         .load_some(&recipe.reference_params(), console)?;
     let folder = tempfile::tempdir()?;
-    let place = HistoryChoice {
-        history: Some(folder.path().to_owned()),
-    };
-    let recording = HistoryRecorder::start(&place, &load, &Traceability::default(), None, console)?;
-    let Some(recording) = recording else {
-        return Err(advised_error(
-            "the history of the experiment cannot be written",
-            "Set TMPDIR to a folder that can be written",
-        ));
-    };
+    let recorder = Recorder::start(folder.path().to_owned())?;
     let setup = StationSetup {
         library: load.library.clone(),
         recipe,
@@ -259,7 +262,8 @@ pub(super) fn run(args: &SoakArgs, console: &mut Console) -> anyhow::Result<Outc
     let mut follower = Follower {
         station: Station::new(setup, following),
         scenes: CameraScenes::default(),
-        recording,
+        recorder,
+        identity: load.identity(),
         source: SourceSpec::Simulated(SimulatedSpec::default()),
         num_accepted: 0,
         num_in_history: 0,
@@ -280,8 +284,8 @@ pub(super) fn run(args: &SoakArgs, console: &mut Console) -> anyhow::Result<Outc
         }) as Box<dyn DepthSource>)
     };
     let feed = Feed::start_with(open, BackpressurePolicy::Every, || ()).advised()?;
-    let stretches = stretches(&feed, &mut follower, num_frames, console);
-    follower.end(console);
+    let stretches = stretches(&feed, &mut follower, num_frames, console)?;
+    end(follower, console)?;
     show(&stretches, console);
     let memory_growth = growth(&stretches);
     if let Some(path) = &args.plot {
@@ -312,6 +316,32 @@ pub(super) fn run(args: &SoakArgs, console: &mut Console) -> anyhow::Result<Outc
     Ok(Outcome::accepted_if(grown <= MOST_GROWTH))
 }
 
+/// Takes the news of the history, which would pile up; an error if it cannot be written.
+fn check(recorder: &Recorder) -> anyhow::Result<()> {
+    for news in recorder.take_news() {
+        if let HistoryEvent::Failed { what, advice } = news {
+            return Err(advised_error(what, advice));
+        }
+    }
+    Ok(())
+}
+
+/// Records the last part, and waits until everything is written.
+fn end(mut follower: Follower, console: &Console) -> anyhow::Result<()> {
+    follower.end();
+    let Follower { recorder, .. } = follower;
+    recorder.finish();
+    check(&recorder)?;
+    let losses = recorder.losses();
+    let num = losses.num_unwritten + losses.num_slow + losses.num_bare;
+    if num > 0 {
+        console.note(&format_args!(
+            "warning: {num} inspections are not, or without frames, in the history: the disk is too slow"
+        ));
+    }
+    Ok(())
+}
+
 /// Takes in all frames of the feed, and measures each twentieth of them.
 fn stretches(
     feed: &Feed,
@@ -325,7 +355,7 @@ fn stretches(
     let mut latencies = Vec::new();
     let mut num_taken = 0;
     while let Some(FeedItem::Captured(captured)) = feed.wait(Duration::from_mins(1)) {
-        let latency = follower.take(captured, console);
+        let latency = follower.take(captured)?;
         latencies.push(latency.as_secs_f64() * 1e3);
         num_taken += 1;
         if num_taken < num_frames * (stretches.len() as u64 + 1) / NUM_STRETCHES {

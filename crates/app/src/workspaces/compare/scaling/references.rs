@@ -9,9 +9,8 @@ use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64;
 
 use super::ScalingError;
-use crate::suites::enrol_part;
 use inspection::{
-    library::EnrolParams,
+    library::{EnrolParams, enrol_part},
     pipeline::{Cancelled, ProgressObserver},
 };
 use simulate::{PartKind, Side};

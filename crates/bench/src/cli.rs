@@ -1,11 +1,10 @@
-//! `partsight bench`: measures recognition rate, pose error and speed on simulated frames.
+//! The command line of `partsight-bench`, one file per experiment.
 
 mod bounds;
 mod calibration;
 mod confusions;
 mod history;
 mod line;
-#[cfg(feature = "window")]
 mod live;
 mod paint;
 mod recognition;
@@ -17,7 +16,6 @@ mod soak;
 mod speed;
 mod systems;
 mod table1;
-#[cfg(feature = "window")]
 mod window;
 
 use std::{
@@ -26,51 +24,55 @@ use std::{
 };
 
 use anyhow::Context as _;
-use clap::{Args, Subcommand};
+use clap::{Args, Parser, Subcommand};
 use serde::Serialize;
 
-use super::{Outcome, console::Console};
+use partsight::cli::{self, Outcome, console::Console, run_command};
 use stages::rank::Matcher;
 
-/// Measure recognition, pose and speed on simulated frames with known truth
-#[derive(Debug, Args)]
-#[command(after_help = "\
+/// Measures recognition, pose and speed on simulated frames with known truth.
+#[derive(Debug, Parser)]
+#[command(
+    name = "partsight-bench",
+    version,
+    after_help = "\
 Examples:
-  partsight bench
-  partsight bench speed --suite all --json before.json
-  partsight bench speed --suite all --compare before.json
-  partsight bench speed --files frames/*.png
-  partsight bench recognition --json recognition.json
-  partsight bench recognition --suite placed --poses 50
-  partsight bench recognition --only-ours --set accept.min_score=0.95
-  partsight bench recognition --suite rack --poses 50 --only-ours
-  partsight bench recognition --suite hard --poses 20 --seed 3000000 --only-ours --pictures why/
-  partsight bench calibration
-  partsight bench table1 --csv table1.csv
-  partsight bench table1 --part fender --part grille
-  partsight bench registration --poses 125
-  partsight bench registration --condition resampled --condition outside --mesh car.gltf#Door_FL
-  partsight bench bounds --poses 10
-  partsight bench bounds --mesh car.gltf#Door_FL --mesh car.gltf#Trunk_Lid
-  partsight bench scaling --plot scaling.png
-  partsight bench window
-  partsight bench live --minutes 10
-  partsight bench history
-  partsight bench paint --plots films
-  partsight bench paint --coat primer
-  partsight bench serve --json serve.json
-  partsight bench servo --runs 200 --json servo.json
-  partsight bench line --runs 50 --json line.json
-  partsight bench soak --frames 1000000 --plot soak.png
+  partsight-bench
+  partsight-bench speed --suite all --json before.json
+  partsight-bench speed --suite all --compare before.json
+  partsight-bench speed --files frames/*.png
+  partsight-bench recognition --json recognition.json
+  partsight-bench recognition --suite placed --poses 50
+  partsight-bench recognition --only-ours --set accept.min_score=0.95
+  partsight-bench recognition --suite rack --poses 50 --only-ours
+  partsight-bench recognition --suite hard --poses 20 --seed 3000000 --only-ours --pictures why/
+  partsight-bench calibration
+  partsight-bench table1 --csv table1.csv
+  partsight-bench table1 --part fender --part grille
+  partsight-bench registration --poses 125
+  partsight-bench registration --condition resampled --condition outside --mesh car.gltf#Door_FL
+  partsight-bench bounds --poses 10
+  partsight-bench bounds --mesh car.gltf#Door_FL --mesh car.gltf#Trunk_Lid
+  partsight-bench scaling --plot scaling.png
+  partsight-bench window
+  partsight-bench live --minutes 10
+  partsight-bench history
+  partsight-bench paint --plots films
+  partsight-bench paint --coat primer
+  partsight-bench serve --json serve.json
+  partsight-bench servo --runs 200 --json servo.json
+  partsight-bench line --runs 50 --json line.json
+  partsight-bench soak --frames 1000000 --plot soak.png
 
 Each part is enrolled from one frontal capture of the standard car, then seen in sets of simulated frames. Without a
 name: a few frames of each part, to time the stages. table1 needs no frames: each part of the library is put where T1..T5
 of the paper put it, and found again by ICP, ICP-GA and the global method. Times are those of this machine under its
-present load.")]
+present load."
+)]
 #[command(args_conflicts_with_subcommands = true)]
-pub(super) struct BenchArgs {
+pub struct Cli {
     #[command(subcommand)]
-    bench: Option<Bench>,
+    experiment: Option<Experiment>,
     #[command(flatten)]
     speed: speed::SpeedArgs,
 }
@@ -97,7 +99,7 @@ struct FrameChoice {
 }
 
 #[derive(Debug, Subcommand)]
-enum Bench {
+enum Experiment {
     /// The time of each stage beside its budget
     Speed(speed::SpeedArgs),
     /// Right, accepted and well placed, and the left half of the paper's Table I: time and right answers of the paper's matcher, FPFH, SHOT, spin images and VFH on the same frames
@@ -114,10 +116,8 @@ enum Bench {
     Sheets(FrameChoice),
     /// Ranking by 1, 2, 4 and 8 workers over a growing number of references: from how many on do several pay off?
     Scaling(scaling::ScalingArgs),
-    #[cfg(feature = "window")]
     /// Processor time of a frame of the window, at rest, turning and live; needs no display
     Window(JsonFile),
-    #[cfg(feature = "window")]
     /// The simulated line followed for minutes: rate, latency, the window's thread, memory; needs no display
     Live(live::LiveArgs),
     /// A history of 100 000 inspections: how long a page of any filter takes, and writing one more
@@ -137,32 +137,40 @@ enum Bench {
 /// Default number of poses per part.
 const NUM_POSES: u64 = 25;
 
-pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
-    match &args.bench {
-        None => speed::run(&args.speed, console),
-        Some(Bench::Speed(args)) => speed::run(args, console),
-        Some(Bench::Recognition(args)) => recognition::run(args, console),
-        Some(Bench::Calibration(args)) => calibration::run(args, console),
-        Some(Bench::Table1(args)) => table1::run(args, console),
-        Some(Bench::Registration(args)) => registration::run(args, console),
-        Some(Bench::Bounds(args)) => bounds::run(args, console),
-        Some(Bench::Sheets(args)) => bounds::run_sheets(args, console),
-        Some(Bench::Scaling(args)) => scaling::run(args, console),
-        #[cfg(feature = "window")]
-        Some(Bench::Window(args)) => window::run(args, console),
-        #[cfg(feature = "window")]
-        Some(Bench::Live(args)) => live::run(args, console),
-        Some(Bench::History(args)) => history::run(args, console),
-        Some(Bench::Paint(args)) => paint::run(args, console),
-        Some(Bench::Serve(args)) => serve::run(args, console),
-        Some(Bench::Servo(args)) => servo::run(args, console),
-        Some(Bench::Line(args)) => line::run(args, console),
-        Some(Bench::Soak(args)) => soak::run(args, console),
+/// Runs the experiment; without a name: times the stages.
+pub fn run(cli: &Cli) -> Outcome {
+    run_command(|console| match &cli.experiment {
+        None => speed::run(&cli.speed, console),
+        Some(experiment) => experiment.run(console),
+    })
+}
+
+impl Experiment {
+    fn run(&self, console: &mut Console) -> anyhow::Result<Outcome> {
+        match self {
+            Self::Speed(args) => speed::run(args, console),
+            Self::Recognition(args) => recognition::run(args, console),
+            Self::Calibration(args) => calibration::run(args, console),
+            Self::Table1(args) => table1::run(args, console),
+            Self::Registration(args) => registration::run(args, console),
+            Self::Bounds(args) => bounds::run(args, console),
+            Self::Sheets(args) => bounds::run_sheets(args, console),
+            Self::Scaling(args) => scaling::run(args, console),
+            Self::Window(args) => window::run(args, console),
+            Self::Live(args) => live::run(args, console),
+            Self::History(args) => history::run(args, console),
+            Self::Paint(args) => paint::run(args, console),
+            Self::Serve(args) => serve::run(args, console),
+            Self::Servo(args) => servo::run(args, console),
+            Self::Line(args) => line::run(args, console),
+            Self::Soak(args) => soak::run(args, console),
+        }
     }
 }
 
+/// Writes results to a file.
 fn write_json(path: &Path, file: &impl Serialize) -> anyhow::Result<()> {
-    super::write_json(path, file).with_context(|| format!("{} was not written", path.display()))
+    cli::write_json(path, file).with_context(|| format!("{} was not written", path.display()))
 }
 
 /// Writes results on simulated parts to a file, under this name.

@@ -1,4 +1,4 @@
-//! `partsight bench recognition`: recognition rate, acceptance and false accepts on sets of simulated frames, then the
+//! `partsight-bench recognition`: recognition rate, acceptance and false accepts on sets of simulated frames, then the
 //! paper's matcher and the other systems of its Table I on the same frames.
 
 use std::path::PathBuf;
@@ -9,13 +9,7 @@ use serde::Serialize;
 use super::{
     FrameChoice, calibration::show_bands, confusions::Pictures, systems::SystemsTable, write_json,
 };
-use crate::cli::{
-    Outcome,
-    console::{Advised as _, Console, Table},
-    input::{Choice, choice},
-    recipe::{RecipeSource, show_recipe},
-};
-use bench::{
+use crate::{
     suites::{
         ExpectationFigures, InspectedFrame, MEASURING_SEED, NearestMistake, RackFigures, Suite,
         SuiteCase, SuiteFigures, SuiteFrame, SuiteLibraries, SuiteResult, add_expected_racks,
@@ -26,6 +20,12 @@ use bench::{
 use inspection::{
     library::EnrolParams,
     pipeline::{Recipe, RecipeBlock, parameters::changed_settings},
+};
+use partsight::cli::{
+    Outcome,
+    console::{Advised as _, Console, Table},
+    input::{Choice, choice},
+    recipe::{RecipeSource, show_recipe},
 };
 
 /// The suites of racks.

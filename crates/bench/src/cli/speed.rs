@@ -1,4 +1,4 @@
-//! `partsight bench speed`: stage times compared with their budgets, and times of whole inspections per set, compared
+//! `partsight-bench speed`: stage times compared with their budgets, and times of whole inspections per set, compared
 //! with an earlier run.
 
 use std::{
@@ -15,16 +15,17 @@ use super::{
     recognition::{Frames, SUITES},
     write_json,
 };
-use crate::cli::{
-    LibraryChoice, Outcome,
-    console::{Advised as _, Console, Table, advised_error},
-    input::{choice, open_scene},
-};
-use bench::{SetTimes, StageTimes, stage_times, suites::Suite};
+use crate::{speed::SetTimes, suites::Suite};
 use capture::may_be_capture;
 use files::read_limited;
 use geometry::parallel::on_one_core;
 use inspection::pipeline::{Recipe, Timings, Unwatched, run as inspect};
+use partsight::cli::{
+    LibraryChoice, Outcome,
+    console::{Advised as _, Console, Table, advised_error},
+    input::{choice, open_scene},
+};
+use records::cases::{StageTimes, stage_times};
 
 /// The file that `--json` writes.
 #[derive(Debug, Serialize)]
@@ -120,7 +121,7 @@ fn read_earlier(path: &Path) -> anyhow::Result<EarlierSpeed> {
         .map_err(|error| {
             advised_error(
                 format!("{error:#}"),
-                "Give a file that partsight bench speed --json FILE wrote",
+                "Give a file that partsight-bench speed --json FILE wrote",
             )
         })
 }

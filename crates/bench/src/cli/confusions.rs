@@ -3,9 +3,9 @@
 
 use std::path::Path;
 
-use crate::cli::console::Advised as _;
-use bench::suites::{NearestMistake, Suite, SuiteCase};
+use crate::suites::{NearestMistake, Suite, SuiteCase};
 use inspection::{library::Library, pipeline::Inspection};
+use partsight::cli::console::Advised as _;
 use records::report::{
     InspectionLine, Picture, ReportError, ReportFolder, runner_up_picture, stage_pictures,
 };

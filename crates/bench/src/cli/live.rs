@@ -1,18 +1,19 @@
-//! `partsight bench live`: the window following the simulated line for minutes.
+//! `partsight-bench live`: the window following the simulated line for minutes.
 
 use std::time::Duration;
 
 use clap::Args;
 
 use super::{JsonFile, write_results};
-use crate::cli::{
+use crate::live_cost::live_stretches;
+use partsight::cli::{
     Outcome,
     console::{Advised as _, Console, Table},
 };
-use app::headless::live_stretches;
 
 /// Duration of one line of the table.
 const STRETCH: Duration = Duration::from_secs(30);
+
 #[derive(Debug, Args)]
 pub(super) struct LiveArgs {
     #[command(flatten)]

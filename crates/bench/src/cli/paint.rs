@@ -1,4 +1,4 @@
-//! `partsight bench paint`: spray paths and films of the library's parts, and of parts enrolled from frames.
+//! `partsight-bench paint`: spray paths and films of the library's parts, and of parts enrolled from frames.
 
 use std::path::{Path, PathBuf};
 
@@ -6,14 +6,14 @@ use clap::Args;
 use serde::Serialize;
 
 use super::{JsonFile, write_json};
-use crate::cli::{
+use crate::paint::{PaintedPart, paint_part, seen_from_side};
+use files::disk;
+use inspection::library::{EnrolParams, PartDescription, PartName, Side, enrol_captured};
+use partsight::cli::{
     LibraryChoice, Outcome,
     console::{Advised as _, Console, Table},
     input::open_scene,
 };
-use bench::paint::{PaintedPart, paint_part, seen_from_side};
-use files::disk;
-use inspection::library::{EnrolParams, PartDescription, PartName, Side, enrol_captured};
 use records::report::{FilmPicture, film_picture, write_png};
 use robot::paint::{Coat, CoatFolder, PaintSurface};
 use stages::reference::{Coverage, Reference, ReferenceParams};

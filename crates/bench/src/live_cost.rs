@@ -2,15 +2,18 @@
 //! blocked.
 
 use std::{
-    fs, thread,
+    thread,
     time::{Duration, Instant},
 };
 
 use serde::Serialize;
 
-use super::{HeadlessWindow, Pace, SIZE};
-use crate::window::WindowOptions;
-use bench::cpu_wait_seconds;
+use crate::{
+    process_usage::ProcessUsage,
+    processor_time::{ProcessorWatch, cpu_wait_seconds},
+    window_cost::SIZE,
+};
+use app::{WindowOptions, headless::HeadlessWindow};
 use geometry::statistics::quantile;
 use shell::{
     action::Action,
@@ -76,7 +79,7 @@ pub fn live_stretches(
             busy_p95_ms: share(0.95),
             longest_ms: longest.whole_s * 1e3,
             longest_waited_ms: longest.waited_s.map(|waited| waited * 1e3),
-            memory_mb: memory_mb(),
+            memory_mb: ProcessUsage::now().map(|usage| usage.memory_mb),
         };
         before = now;
         observer(&found);
@@ -110,8 +113,9 @@ fn draw_until(window: &mut HeadlessWindow, end: Instant) -> (Vec<f64>, UiThreadT
     while Instant::now() < end {
         let before = window.generation();
         let waited_before = cpu_wait_seconds();
-        let began = Instant::now();
-        let time = window.frame(Vec::new(), Pace::Ahead);
+        let (began, watch) = (Instant::now(), ProcessorWatch::start());
+        window.draw(Vec::new());
+        let busy_s = watch.elapsed().as_secs_f64();
         let whole_s = began.elapsed().as_secs_f64();
         if whole_s > longest.whole_s {
             let waited = cpu_wait_seconds().zip(waited_before);
@@ -119,19 +123,11 @@ fn draw_until(window: &mut HeadlessWindow, end: Instant) -> (Vec<f64>, UiThreadT
             longest = UiThreadTime { whole_s, waited_s };
         }
         if window.generation() != before {
-            busy.push(time.busy * 1e3);
+            busy.push(busy_s * 1e3);
         }
         // Not measured: keeps the queue of a slow device from filling the memory.
         window.wait();
         thread::sleep(TICK.saturating_sub(began.elapsed()));
     }
     (busy, longest)
-}
-
-/// Returns the resident memory of this process, megabytes.
-fn memory_mb() -> Option<f64> {
-    let status = fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find(|line| line.starts_with("VmRSS:"))?;
-    let kilobytes: f64 = line.split_whitespace().nth(1)?.parse().ok()?;
-    Some(kilobytes / 1024.0)
 }

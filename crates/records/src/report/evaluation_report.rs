@@ -2,16 +2,13 @@
 
 use std::fmt::Display;
 
-use super::speed::{StageTimes, stage_times};
+use super::TextTable;
+use crate::cases::{
+    Calibration, CaseAnswer, CaseOutcome, Confusion, Evaluation, EvaluationRecord, PoseErrors,
+    RecipeRecord, StageTimes, Tally, stage_times,
+};
 use files::visible;
 use inspection::pipeline::Timings;
-use records::{
-    cases::{
-        Calibration, CaseAnswer, CaseOutcome, Confusion, Evaluation, EvaluationRecord, PoseErrors,
-        RecipeRecord, Tally,
-    },
-    report::TextTable,
-};
 use texts::Message;
 
 /// An evaluation with its recipe and stage times.
@@ -36,13 +33,8 @@ impl<'a> EvaluationReport<'a> {
     }
 
     /// Returns what `evaluate --json` writes.
-    pub fn record(&self) -> EvaluationRecord<'_, &[StageTimes]> {
-        EvaluationRecord::of(
-            self.evaluation,
-            self.recipe,
-            self.num_threads,
-            self.times.as_slice(),
-        )
+    pub fn record(&self) -> EvaluationRecord<'_> {
+        EvaluationRecord::of(self.evaluation, self.recipe, self.num_threads, &self.times)
     }
 }
 

@@ -8,18 +8,39 @@ use std::{
 use egui::{Event, Modifiers, PointerButton, Pos2, Vec2};
 use serde::Serialize;
 
-use super::{FrameTime, HeadlessWindow, Pace, SIZE};
-use crate::{
-    window::WindowOptions,
+use crate::processor_time::{ProcessorWatch, process_seconds};
+use app::{
+    WindowOptions,
+    headless::HeadlessWindow,
     workspaces::{
         align::{AlignAction, AlignWorkspace},
         enrol::{EnrolAction, EnrolWorkspace},
     },
 };
-use bench::process_seconds;
 use geometry::statistics::quantile;
 use shell::{action::Action, session::WorkspaceKind, source::live::LiveAction};
 use ui::viewport::ViewError;
+
+/// Size of the measured windows, logical pixels.
+pub(crate) const SIZE: [u32; 2] = [1440, 900];
+
+/// Whether the next frame may begin while the device still draws this one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Pace {
+    /// The next frame may begin, so that the cost of the processor is measured apart from that of the device.
+    Ahead,
+    /// The next frame waits, as with a display that takes one picture after the other.
+    InStep,
+}
+
+/// How long a frame took.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct FrameTime {
+    /// Processor time of the window's thread, seconds; elapsed time if the system does not report it.
+    busy: f64,
+    /// Time from its start until the next frame may start, seconds.
+    whole: f64,
+}
 
 /// Times over many frames, milliseconds.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -78,17 +99,14 @@ pub fn window_cost(num_frames: usize, options: WindowOptions) -> Result<WindowCo
         ("Inspect, turning", Pace::Ahead),
         ("Inspect, turning, each frame waited for", Pace::InStep),
     ] {
-        window.frame(
-            vec![Event::PointerMoved(middle), button(true)],
-            Pace::InStep,
-        );
+        window.frame(vec![Event::PointerMoved(middle), button(true)]);
         // The pointer swings back and forth.
         let hand = |i: usize| {
             let swing = (i as f32 * 0.12).sin() * 260.0;
             vec![Event::PointerMoved(middle + Vec2::new(swing, swing * 0.3))]
         };
         costs.push(frames(what, &mut window, num_frames, pace, hand));
-        window.frame(vec![button(false)], Pace::InStep);
+        window.frame(vec![button(false)]);
     }
     costs.push(live(&mut window, num_frames));
     costs.extend(other_workspaces(&mut window, num_frames));
@@ -110,7 +128,7 @@ fn live(window: &mut HeadlessWindow, num_frames: usize) -> FrameCost {
         |window, _| {
             let (before, began) = (window.generation(), Instant::now());
             loop {
-                let time = window.frame(Vec::new(), Pace::Ahead);
+                let time = timed(window, Vec::new(), Pace::Ahead);
                 if window.generation() != before || began.elapsed().as_secs() > 10 {
                     return time;
                 }
@@ -159,6 +177,20 @@ fn other_workspaces(window: &mut HeadlessWindow, num_frames: usize) -> Vec<Frame
     measured.collect()
 }
 
+/// Draws a frame and measures it.
+fn timed(window: &mut HeadlessWindow, events: Vec<Event>, pace: Pace) -> FrameTime {
+    let (begun, watch) = (Instant::now(), ProcessorWatch::start());
+    window.draw(events);
+    let busy = watch.elapsed().as_secs_f64();
+    if pace == Pace::InStep {
+        window.wait();
+    }
+    FrameTime {
+        busy,
+        whole: begun.elapsed().as_secs_f64(),
+    }
+}
+
 fn frames(
     what: &'static str,
     window: &mut HeadlessWindow,
@@ -167,7 +199,7 @@ fn frames(
     events: impl Fn(usize) -> Vec<Event>,
 ) -> FrameCost {
     measured(what, window, num_frames, pace, |window, i| {
-        window.frame(events(i), pace)
+        timed(window, events(i), pace)
     })
 }
 

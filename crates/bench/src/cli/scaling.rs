@@ -1,4 +1,4 @@
-//! `partsight bench scaling`: serial and parallel ranking, the paper's Fig. 7(a) and (b).
+//! `partsight-bench scaling`: serial and parallel ranking, the paper's Fig. 7(a) and (b).
 
 use std::path::PathBuf;
 
@@ -6,12 +6,12 @@ use anyhow::Context as _;
 use clap::Args;
 
 use super::{JsonFile, name_of, write_results};
-use crate::cli::{
+use app::workspaces::compare::scaling::{MOST, Scaling, scaling, sizes};
+use inspection::pipeline::Unwatched;
+use partsight::cli::{
     Outcome,
     console::{Advised as _, Console, Table},
 };
-use bench::scaling::{Scaling, scaling, sizes};
-use inspection::pipeline::Unwatched;
 use records::report::{SizeCurve, curves_picture, stacked, write_png};
 use stages::rank::{Matcher, RankParams};
 
@@ -23,7 +23,7 @@ pub(super) struct ScalingArgs {
     #[arg(long, value_name = "PNG")]
     plot: Option<PathBuf>,
     /// Maximum number of references; ten thousand take less than 3 GB
-    #[arg(long, value_name = "N", default_value_t = bench::scaling::MOST as u64, value_parser = clap::value_parser!(u64).range(8..=100_000))]
+    #[arg(long, value_name = "N", default_value_t = MOST as u64, value_parser = clap::value_parser!(u64).range(8..=100_000))]
     most: u64,
 }
 

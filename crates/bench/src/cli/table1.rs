@@ -1,4 +1,4 @@
-//! `partsight bench table1`: the right half of the paper's Table I.
+//! `partsight-bench table1`: the right half of the paper's Table I.
 
 use std::{fmt::Write as _, path::PathBuf};
 
@@ -7,14 +7,14 @@ use clap::Args;
 use serde::Serialize;
 
 use super::{JsonFile, write_json};
-use crate::cli::{
-    LibraryChoice, Outcome,
-    console::{Advised as _, Console, Table, advised_error},
-};
-use bench::table1::{Attempt, Row, table1};
+use crate::table1::{Attempt, Row, table1};
 use files::write_text;
 use geometry::statistics::quantile;
 use inspection::library::Library;
+use partsight::cli::{
+    LibraryChoice, Outcome,
+    console::{Advised as _, Console, Table, advised_error},
+};
 use stages::{
     pose::{PoseMethod, displacements::DISPLACEMENTS},
     reference::ReferenceParams,

@@ -2,8 +2,7 @@
 
 use serde::Serialize;
 
-use crate::cli::console::{Console, Table};
-use bench::{
+use crate::{
     suites::Suite,
     systems::{
         PAPER_COLUMNS, PAPER_MEAN_OF_OTHERS, PAPER_MEAN_OF_OWN, PAPER_SECONDS, Preparation, System,
@@ -11,6 +10,7 @@ use bench::{
     },
 };
 use geometry::statistics::quantile;
+use partsight::cli::console::{Console, Table};
 use simulate::PartKind;
 
 /// Results of the systems, as `--json` writes them.

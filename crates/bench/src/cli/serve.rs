@@ -1,4 +1,4 @@
-//! `partsight bench serve`: the overhead of each protocol over a bare exchange of equally many bytes, and of serving
+//! `partsight-bench serve`: the overhead of each protocol over a bare exchange of equally many bytes, and of serving
 //! over a direct inspection.
 //!
 //! Server and clients run on this computer, so no network is measured. The compared sides take turns, so that both see
@@ -6,6 +6,7 @@
 //! the next one.
 
 mod client;
+mod http;
 mod service;
 
 use std::{
@@ -21,12 +22,12 @@ use self::{
     service::{Inspections, ServedProtocol, Service},
 };
 use super::{FrameChoice, write_json};
-use crate::cli::{
+use crate::suites::{MEASURING_SEED, Suite};
+use geometry::statistics::quantile;
+use partsight::cli::{
     Outcome,
     console::{Console, Table, advised_error},
 };
-use bench::suites::{MEASURING_SEED, Suite};
-use geometry::statistics::quantile;
 
 /// Default number of poses per part; each frame is triggered once in every protocol.
 const NUM_POSES: u64 = 25;
