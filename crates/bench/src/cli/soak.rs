@@ -348,7 +348,7 @@ fn stretches(
     follower: &mut Follower,
     num_frames: u64,
     console: &mut Console,
-) -> Vec<Stretch> {
+) -> anyhow::Result<Vec<Stretch>> {
     let begun = Instant::now();
     console.start_progress(NUM_STRETCHES as usize);
     let mut stretches: Vec<Stretch> = Vec::new();
@@ -376,7 +376,7 @@ fn stretches(
         console.done();
     }
     console.end_progress();
-    stretches
+    Ok(stretches)
 }
 
 /// Returns the relative growth of the memory from the end of the warm-up to the last stretches.

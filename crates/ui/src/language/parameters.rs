@@ -152,7 +152,7 @@ pub(super) fn message_ids() -> Vec<String> {
             let help = is_shown.then(|| help_id(parameter));
             let options = match &parameter.kind {
                 Kind::Choice(choice) => choice.options,
-                _ => &[],
+                Kind::Number(_) => &[],
             };
             let options = options.iter().filter_map(|option| option_id(option));
             let options = options.map(str::to_owned);
